@@ -162,16 +162,16 @@ struct frame {
 
 static void open_stores(struct bench *b, struct frame *f, enum way way)
 {
-    mxg_shader_info info = {sizeof info};
-    mxg_result_info(f->bind.result, &info);
+    mxg_storage storage = {sizeof storage};
+    mxg_result_storage(f->bind.result, &storage);
     struct passes_setup setup = {.context = b->context,
                                  .options = b->options,
                                  .scene = &b->scene,
                                  .canvas = f->canvas,
-                                 .words = info.stored_words,
-                                 .classes = info.stored_classes,
+                                 .words = storage.words,
+                                 .classes = storage.classes,
                                  .shown = UINT32_MAX};
-    bool good = way == WAY_STORED ? draw_store(f->canvas, info.stored_words) != NULL
+    bool good = way == WAY_STORED ? draw_store(f->canvas, storage.words) != NULL
                                   : passes_open(&setup, &f->passes);
     if (!good)
         bench_fail("no passes: %s", way == WAY_STORED ? b->gpu.reason : f->passes.reason);

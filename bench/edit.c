@@ -85,9 +85,9 @@ static void change(mxg_edit *edit, const mxg_document *from, unsigned kind, unsi
     snprintf(shader_name, sizeof shader_name, "S%u", at);
     snprintf(graph_name, sizeof graph_name, "G%u", at);
     snprintf(new_name, sizeof new_name, "New%u", i);
-    mxg_element shader = mxg_edit_find_element(edit, shader_name),
-                graph = mxg_edit_find_element(edit, graph_name),
-                material = mxg_edit_find_element(edit, name), made;
+    mxg_element shader = mxg_edit_find_element(edit, 0, shader_name),
+                graph = mxg_edit_find_element(edit, 0, graph_name),
+                material = mxg_edit_find_element(edit, 0, name), made;
     switch (kind) {
     case 0: mxg_edit_set_numbers(edit, shader, "base", NULL, &value, 1); break;
     case 1: mxg_edit_set_numbers(edit, shader, "coat_roughness", "float", &value, 1); break;
@@ -102,14 +102,15 @@ static void change(mxg_edit *edit, const mxg_document *from, unsigned kind, unsi
         break;
     case 5: mxg_edit_rename_element(edit, i % 2 ? material : shader, new_name); break;
     case 6: mxg_edit_rename_element(edit, graph, new_name); break;
-    case 7: mxg_edit_remove_element(edit, mxg_edit_find_child(edit, shader, "coat")); break;
+    case 7: mxg_edit_remove_element(edit, mxg_edit_find_element(edit, shader, "coat")); break;
     case 8: mxg_edit_move_element(edit, graph, 0, i % 2 ? shader : 0); break;
     default:
-        mxg_edit_copy_element(edit, 0, from, mxg_document_find_element(from, shader_name),
+        mxg_edit_copy_element(edit, 0, from, mxg_document_find_element(from, 0, shader_name),
                               new_name);
     }
-    if (mxg_edit_error(edit)[0]) {
-        fprintf(stderr, "%s: %s\n", kinds[kind], mxg_edit_error(edit));
+    char reason[256];
+    if (mxg_edit_error(edit, reason, sizeof reason)) {
+        fprintf(stderr, "%s: %s\n", kinds[kind], reason);
         exit(1);
     }
 }
@@ -135,6 +136,7 @@ static void measure(mxg_context *context, mxg_library *library, const mxg_docume
         change(edit, document ? document : from, kind, i, count);
         if (mxg_edit_commit(edit, &next) != MXG_OK)
             exit(1);
+        mxg_edit_destroy(edit);
         mxg_document_destroy(document);
         document = next;
         double time = microseconds() - start;

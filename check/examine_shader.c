@@ -229,17 +229,16 @@ static void add_compile_message(struct examiner *examiner, const mxg_result *res
                                 const char *element)
 {
     static const char *const stages[MXG_NUM_STAGES] = {"vertex", "pixel"};
-    const char *file = NULL, *path = NULL;
-    uint32_t line = 0, column = 0;
+    mxg_place at = {sizeof at};
     bool placed = message->line
-                  && mxg_result_source_place(result, message->stage, message->line, &file, &line,
-                                             &column, &path)
-                  && file;
-    if (!placed)
-        file = examiner->document->file;
-    char *text = cli_format("'%s', %s, %s stage, line %u: %s", path && *path ? path : element,
-                            shader->target, stages[message->stage], message->line, message->text);
-    char *place = placed ? cli_format("%s:%u:%u", file, line, column) : cli_format("%s", file),
+                  && mxg_result_source_place(result, message->stage, message->line, &at) == MXG_OK
+                  && at.file;
+    const char *file = placed ? at.file : examiner->document->file;
+    char *text =
+        cli_format("'%s', %s, %s stage, line %u: %s", at.path && *at.path ? at.path : element,
+                   shader->target, stages[message->stage], message->line, message->text);
+    char *place =
+             placed ? cli_format("%s:%u:%u", file, at.line, at.column) : cli_format("%s", file),
          *rendered = NULL;
     size_t size = 0;
     FILE *out = open_memstream(&rendered, &size);
@@ -255,8 +254,8 @@ static void add_compile_message(struct examiner *examiner, const mxg_result *res
                                        .id = "shader-invalid",
                                        .text = text,
                                        .file = file,
-                                       .line = placed ? line : 0,
-                                       .column = placed ? column : 0,
+                                       .line = placed ? at.line : 0,
+                                       .column = placed ? at.column : 0,
                                        .element = element,
                                        .target = shader->target,
                                        .rendered = rendered});

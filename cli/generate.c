@@ -121,7 +121,9 @@ void generate_write_cuts(struct generate *gen, const mxg_document *document, con
 {
     mxg_result *result = NULL;
     mxg_shader_info info = {sizeof info};
-    if (!gen->is_deferred || mxg_result_info(stored, &info) != MXG_OK || !info.stored_words
+    mxg_storage storage = {sizeof storage};
+    if (!gen->is_deferred || mxg_result_info(stored, &info) != MXG_OK
+        || mxg_result_storage(stored, &storage) != MXG_OK || !storage.words
         || info.alpha != MXG_ALPHA_MASK || gen->is_file)
         return;
     mxg_options_set(gen->cli.options, "role", "depth");
@@ -190,10 +192,14 @@ static struct arg_list find_elements(const struct generate *gen, const mxg_docum
     mxg_renderable renderable = {sizeof renderable};
     for (size_t i = 0; i < gen->elements.len; ++i) {
         const char *path = gen->elements.items[i];
-        uint32_t count = 0;
-        for (; mxg_document_look_material(document, path, count, &renderable) == MXG_OK; ++count)
-            add_once(&list, &known, renderable.path);
-        if (count == 0)
+        bool is_look = false;
+        for (uint32_t k = 0; k < mxg_document_num_renderables(document); ++k)
+            if (mxg_document_has_assignment(document, path, k)) {
+                mxg_document_renderable(document, k, &renderable);
+                add_once(&list, &known, renderable.path);
+                is_look = true;
+            }
+        if (!is_look)
             add_once(&list, &known, path);
     }
     for (uint32_t i = 0; !gen->elements.len && i < mxg_document_num_renderables(document); ++i) {

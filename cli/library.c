@@ -58,11 +58,11 @@ static void pack(struct cli *cli, const struct library_args *args)
 
 static void expand(struct cli *cli, const struct library_args *args)
 {
-    const char *text;
     size_t size;
     const mxg_diagnostics *losses = mxg_library_losses(cli->library);
-    mxg_status status = losses ? mxg_library_xml(cli->library, &text, &size) : MXG_ERROR_MEMORY;
-    if (report_status(&cli->report, status) && write_output(cli, args->output, text, size))
+    const char *text = mxg_library_xml(cli->library, &size);
+    if (report_status(&cli->report, losses && text ? MXG_OK : MXG_ERROR_MEMORY)
+        && write_output(cli, args->output, text, size))
         report_list(&cli->report, losses);
 }
 

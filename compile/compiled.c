@@ -119,6 +119,8 @@ static bool compile_function(const char *target, const mxg_result *result,
     static const char of_surface[] = "host_color.xyz = s.color; host_color.w = s.alpha;",
                       of_payload[] = "host_color.x = float(s.word_0);";
     const char *source = mxg_result_source(result, MXG_STAGE_PIXEL, NULL);
+    mxg_storage storage = MXG_INIT(mxg_storage);
+    mxg_result_storage(result, &storage);
     enum { MAX_ARGUMENTS = 8192 };
     size_t capacity = strlen(source) + 3 * MAX_ARGUMENTS;
     char *text = malloc(capacity), *declared = malloc(MAX_ARGUMENTS),
@@ -135,7 +137,7 @@ static bool compile_function(const char *target, const mxg_result *result,
                  "    %s\n}\n",
                  host->head, source, host->output, host->vec3, host->vec3, host->vec3, host->main,
                  declared, info->function_type, info->function, given,
-                 info->stored_words ? of_payload : of_surface);
+                 storage.words ? of_payload : of_surface);
         good = compile_program(target, (const char *const[MXG_NUM_STAGES]){NULL, text}, out);
         unsigned head = count_lines(host->head);
         for (size_t i = 0; i < out->num_messages; ++i)

@@ -57,18 +57,15 @@ static void print_message(struct check *check, const mxg_result *result, const c
                           const char *target, const struct compile_message *message)
 {
     static const char *const stages[MXG_NUM_STAGES] = {"vertex", "pixel"};
-    const char *file = NULL, *path = NULL;
-    uint32_t line = 0, column = 0;
+    mxg_place at = {sizeof at};
     if (message->line
-        && mxg_result_source_place(result, message->stage, message->line, &file, &line, &column,
-                                   &path)
-        && file)
-        fprintf(stderr, "%s:%u:%u: ", file, line, column);
+        && mxg_result_source_place(result, message->stage, message->line, &at) == MXG_OK && at.file)
+        fprintf(stderr, "%s:%u:%u: ", at.file, at.line, at.column);
     else
         fprintf(stderr, "%s: ", check->input);
     bool is_error = message->severity == MXG_SEVERITY_ERROR;
-    fprintf(stderr, "%s: '%s', %s, %s stage", is_error ? "error" : "warning", path ? path : element,
-            target, stages[message->stage]);
+    fprintf(stderr, "%s: '%s', %s, %s stage", is_error ? "error" : "warning",
+            at.path ? at.path : element, target, stages[message->stage]);
     if (message->line)
         fprintf(stderr, ", line %u", message->line);
     fprintf(stderr, ": %s [shader-invalid]\n", message->text);
@@ -191,11 +188,13 @@ static void check_document(struct check *check)
          document && next_word(&targets, target, sizeof target);) {
         for (const char *interfaces = check->interfaces;
              next_word(&interfaces, interface, sizeof interface);) {
-            if (mxg_options_set(check->cli.options, "interface", interface) == MXG_OK)
+            if (mxg_options_set(check->cli.options, "interface", interface) == MXG_OK) {
                 check_elements(check, document, target, interface);
-            else
-                report_error(&check->cli.report, "bad-option", "%s",
-                             mxg_options_error(check->cli.options));
+                continue;
+            }
+            char *reason = cli_option_error(check->cli.options);
+            report_error(&check->cli.report, "bad-option", "%s", reason);
+            free(reason);
         }
     }
     mxg_bindings_destroy(check->bindings);

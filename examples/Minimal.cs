@@ -33,7 +33,7 @@ static class Minimal
     [DllImport(Library)] static extern IntPtr mxg_result_source(IntPtr result, int stage, out UIntPtr size);
     [DllImport(Library)] static extern void mxg_result_destroy(IntPtr result);
     [DllImport(Library)] static extern uint mxg_diagnostics_num_items(IntPtr list);
-    [DllImport(Library)] static extern UIntPtr mxg_diagnostics_format(IntPtr list, uint index, byte[] source, UIntPtr sourceSize,
+    [DllImport(Library)] static extern UIntPtr mxg_diagnostics_format(IntPtr list, uint index, byte[] line, UIntPtr lineSize,
         [MarshalAs(UnmanagedType.I1)] bool colour, byte[] buffer, UIntPtr capacity);
 
     // Texts of mxgen are UTF-8.

@@ -35,19 +35,22 @@ int main(void)
     mxg_library *library = mxg_library_builtin(context);
     mxg_edit_create(context, library, NULL, "copper", &edit);
     build(edit);
-    if (mxg_edit_error(edit)[0])
-        fprintf(stderr, "%s\n", mxg_edit_error(edit));
+    char reason[256];
+    if (mxg_edit_error(edit, reason, sizeof reason))
+        fprintf(stderr, "%s\n", reason);
     if (mxg_edit_commit(edit, &copper) != MXG_OK)
         return 1;
+    mxg_edit_destroy(edit);
     print(copper);
 
     /* The first document stays as it is. Elements keep their numbers. */
     mxg_edit_create(context, library, copper, NULL, &edit);
-    mxg_edit_set_value(edit, mxg_document_find_element(copper, "SR"), "specular_roughness", NULL,
+    mxg_edit_set_value(edit, mxg_document_find_element(copper, 0, "SR"), "specular_roughness", NULL,
                        "0.1");
-    mxg_edit_remove_element(edit, mxg_document_find_element(copper, "Spots"));
+    mxg_edit_remove_element(edit, mxg_document_find_element(copper, 0, "Spots"));
     if (mxg_edit_commit(edit, &polished) != MXG_OK)
         return 1;
+    mxg_edit_destroy(edit);
     print(polished);
     mxg_document_destroy(copper);
     mxg_document_destroy(polished);

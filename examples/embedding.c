@@ -46,9 +46,11 @@ static mxg_status build(struct host *h)
     mxg_edit_set_value(edit, shader, "metalness", "float", "1");
     mxg_edit_connect_input(edit, shader, "base_color", wood, NULL);
     mxg_edit_connect_input(edit, material, "surfaceshader", shader, NULL);
-    if (mxg_edit_error(edit)[0])
-        fprintf(stderr, "%s\n", mxg_edit_error(edit));
+    char reason[256];
+    if (mxg_edit_error(edit, reason, sizeof reason))
+        fprintf(stderr, "%s\n", reason);
     status = mxg_edit_commit(edit, &h->document);
+    mxg_edit_destroy(edit);
     print_diagnostics(mxg_document_diagnostics(h->document));
     return status;
 }
@@ -155,28 +157,34 @@ static bool pack_light(const mxg_result *result, void *bytes, size_t size)
         return false;
     for (uint32_t member = 0; member < light.num_members; ++member) {
         mxg_variable v = MXG_INIT(mxg_variable);
-        uint32_t variable;
-        if (mxg_result_light_member(result, 0, member, &variable)
-            && mxg_result_variable(result, variable, &v) == MXG_OK
-            && strcmp(v.name, "direction") == 0)
+        uint32_t variable = mxg_result_light_member(result, 0, member);
+        if (mxg_result_variable(result, variable, &v) == MXG_OK && strcmp(v.name, "direction") == 0)
             return mxg_result_pack_value(result, variable, 0, down, 3, bytes, size) == MXG_OK;
     }
     return false;
 }
 
+static size_t size_of(const mxg_result *result, mxg_block block)
+{
+    mxg_block_info info = MXG_INIT(mxg_block_info);
+    mxg_result_block(result, block, &info);
+    return info.byte_size;
+}
+
 static bool upload(struct host *h)
 {
     free(h->uniforms);
-    h->uniforms_size = mxg_result_pack_block(h->program, MXG_BLOCK_PUBLIC_UNIFORMS, NULL, 0);
+    h->uniforms_size = size_of(h->program, MXG_BLOCK_PUBLIC_UNIFORMS);
     h->uniforms = malloc(h->uniforms_size);
     if (!h->uniforms)
         return false;
-    mxg_result_pack_block(h->program, MXG_BLOCK_PUBLIC_UNIFORMS, h->uniforms, h->uniforms_size);
-    size_t size = mxg_result_pack_block(h->program, MXG_BLOCK_LIGHT_DATA, NULL, 0);
+    mxg_result_pack_block(h->program, NULL, MXG_BLOCK_PUBLIC_UNIFORMS, h->uniforms,
+                          h->uniforms_size);
+    size_t size = size_of(h->program, MXG_BLOCK_LIGHT_DATA);
     void *lights = malloc(size);
     if (!lights)
         return false;
-    mxg_result_pack_block(h->program, MXG_BLOCK_LIGHT_DATA, lights, size);
+    mxg_result_pack_block(h->program, NULL, MXG_BLOCK_LIGHT_DATA, lights, size);
     bool good = pack_light(h->program, lights, size);
     free(lights);
     return good;
@@ -196,7 +204,8 @@ static bool follow(struct host *h, mxg_document *next)
     }
     mxg_change change = mxg_result_change(h->program, result, changed, 8, &num);
     if (change == MXG_CHANGE_VALUES) {
-        mxg_result_pack_block(result, MXG_BLOCK_PUBLIC_UNIFORMS, h->uniforms, h->uniforms_size);
+        mxg_result_pack_block(result, NULL, MXG_BLOCK_PUBLIC_UNIFORMS, h->uniforms,
+                              h->uniforms_size);
     } else if (change == MXG_CHANGE_SHADER) {
         mxg_result_destroy(result);
         generate(h, next, false, &result); /* cannot fail now, except for memory */
@@ -214,14 +223,12 @@ static bool follow(struct host *h, mxg_document *next)
 static bool set_number(struct host *h, const char *node, const char *input, float value)
 {
     char path[256];
-    uint32_t variable;
     snprintf(path, sizeof path, "%s/%s", node, input);
     switch (mxg_result_input_state(h->program, path)) {
     case MXG_INPUT_UNIFORM:
-        return mxg_result_find_variable(h->program, path, &variable)
-               && mxg_result_pack_value(h->program, variable, 0, &value, 1, h->uniforms,
-                                        h->uniforms_size)
-                      == MXG_OK;
+        return mxg_result_pack_value(h->program, mxg_result_find_variable(h->program, path), 0,
+                                     &value, 1, h->uniforms, h->uniforms_size)
+               == MXG_OK;
     case MXG_INPUT_COMPILED: break; /* the document changes */
     case MXG_INPUT_CONNECTED: printf("%s is connected\n", path); return false;
     case MXG_INPUT_UNUSED: return true;
@@ -231,8 +238,10 @@ static bool set_number(struct host *h, const char *node, const char *input, floa
     mxg_document *next;
     if (mxg_edit_create(h->context, h->library, h->document, NULL, &edit) != MXG_OK)
         return false;
-    mxg_edit_set_numbers(edit, mxg_edit_find_element(edit, node), input, NULL, &value, 1);
-    return mxg_edit_commit(edit, &next) == MXG_OK && follow(h, next);
+    mxg_edit_set_numbers(edit, mxg_edit_find_element(edit, 0, node), input, NULL, &value, 1);
+    mxg_status status = mxg_edit_commit(edit, &next);
+    mxg_edit_destroy(edit);
+    return status == MXG_OK && follow(h, next);
 }
 
 static void list_compiled(const mxg_result *result)
@@ -252,17 +261,18 @@ static bool edit_document(struct host *h, const char *node, const char *input, c
     mxg_document *next = NULL;
     if (mxg_edit_create(h->context, h->library, h->document, NULL, &edit) != MXG_OK)
         return false;
-    if (mxg_edit_set_value(edit, mxg_edit_find_element(edit, node), input, type, value) != MXG_OK) {
-        fprintf(stderr, "%s\n", mxg_edit_error(edit));
-        mxg_edit_destroy(edit);
-        return false;
-    }
-    if (mxg_edit_commit(edit, &next) != MXG_OK) {
+    char reason[256];
+    mxg_edit_set_value(edit, mxg_edit_find_element(edit, 0, node), input, type, value);
+    bool good = !mxg_edit_error(edit, reason, sizeof reason);
+    if (!good)
+        fprintf(stderr, "%s\n", reason);
+    else if (mxg_edit_commit(edit, &next) != MXG_OK) {
         print_diagnostics(mxg_document_diagnostics(next));
         mxg_document_destroy(next);
-        return false;
+        good = false;
     }
-    return follow(h, next);
+    mxg_edit_destroy(edit);
+    return good && follow(h, next);
 }
 
 /* ---- Errors ---- */
@@ -290,7 +300,7 @@ static bool run(struct host *h)
     if (build(h) != MXG_OK || generate(h, h->document, false, &h->program) != MXG_OK)
         return false;
     list_materials(h->document);
-    list_inputs(h->document, mxg_document_find_element(h->document, "SR"));
+    list_inputs(h->document, mxg_document_find_element(h->document, 0, "SR"));
     compile(h->program);
     print_bindings(h->program);
     explain_private_uniforms();

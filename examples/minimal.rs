@@ -34,7 +34,7 @@ extern "C" {
     fn mxg_result_source(result: *const Result, stage: i32, size: *mut usize) -> *const c_char;
     fn mxg_result_destroy(result: *mut Result);
     fn mxg_diagnostics_num_items(list: *const Diagnostics) -> u32;
-    fn mxg_diagnostics_format(list: *const Diagnostics, index: u32, source: *const c_char, source_size: usize, colour: bool,
+    fn mxg_diagnostics_format(list: *const Diagnostics, index: u32, line: *const c_char, line_size: usize, colour: bool,
                               buffer: *mut c_char, capacity: usize) -> usize;
 }
 

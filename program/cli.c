@@ -114,7 +114,8 @@ static bool create_context(struct cli *cli)
     desc.num_source_paths = cli->source_paths.len;
     desc.node_codes = cli->plugins.codes;
     desc.num_node_codes = cli->plugins.num_codes;
-    desc.read_texels = cli_read_texels;
+    const mxg_texel_reader texels = {.read_texels = cli_read_texels};
+    desc.texels = &texels;
     char *warnings = warnings_join(&cli->warnings);
     desc.warnings = warnings;
     mxg_status status = mxg_context_create(&desc, &cli->context);
@@ -169,7 +170,9 @@ static bool apply_settings(struct cli *cli)
     for (size_t i = 0; i < cli->parser.num_settings; ++i) {
         const struct arg_setting *setting = &cli->parser.settings[i];
         if (mxg_options_set(cli->options, setting->key, setting->value) != MXG_OK) {
-            fprintf(stderr, "mxgen: %s\n", mxg_options_error(cli->options));
+            char *reason = cli_option_error(cli->options);
+            fprintf(stderr, "mxgen: %s\n", reason);
+            free(reason);
             return false;
         }
     }
@@ -410,6 +413,14 @@ char *cli_beside(const char *from, const char *file)
 {
     int folder = file[0] == '/' ? 0 : (int)(files_base_name(from) - from);
     return cli_format("%.*s%s", folder, from, file);
+}
+
+char *cli_option_error(const mxg_options *options)
+{
+    size_t size = mxg_options_error(options, NULL, 0) + 1;
+    char *text = memory_alloc(size);
+    mxg_options_error(options, text, size);
+    return text;
 }
 
 char *cli_format(const char *format, ...)

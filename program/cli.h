@@ -125,5 +125,7 @@ cli_format(const char *format, ...);
  * is exhausted.
  */
 char *cli_copy(const char *text, size_t len);
+/* Why the last option was not set. The caller frees it. */
+char *cli_option_error(const mxg_options *options);
 
 #endif

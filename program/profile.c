@@ -2,6 +2,7 @@
 #include "program/profile.h"
 
 #include "program/args.h"
+#include "program/cli.h"
 #include "program/files.h"
 #include "program/toml.h"
 
@@ -23,10 +24,13 @@ static bool read_lines(mxg_options *options, const char *name, const char *text)
     bool good = true;
     while (good && toml_next(&toml)) {
         const char *value = toml.kind == TOML_PAIR ? toml_text(&store, toml.value) : NULL;
-        if (!value)
+        if (!value) {
             good = complain(name, &toml, "a line is a comment, or an option, '=' and a value");
-        else if (mxg_options_set(options, toml.name.text, value) != MXG_OK)
-            good = complain(name, &toml, mxg_options_error(options));
+        } else if (mxg_options_set(options, toml.name.text, value) != MXG_OK) {
+            char *reason = cli_option_error(options);
+            good = complain(name, &toml, reason);
+            free(reason);
+        }
     }
     store_finish(&store);
     return good;

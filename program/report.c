@@ -109,13 +109,13 @@ static void render(struct report *report, const mxg_diagnostics *list, uint32_t 
     size_t size = 0, room = report->capacity - report->len;
     const char *line =
         diagnostic->file && diagnostic->line ? find_line(report, diagnostic->line, &size) : NULL;
-    size_t len = mxg_diagnostics_format_line(list, index, line, size, report->colour,
-                                             room ? report->text + report->len : NULL, room);
+    size_t len = mxg_diagnostics_format(list, index, line, size, report->colour,
+                                        room ? report->text + report->len : NULL, room);
     if (!reserve(report, len + 2))
         return;
     if (len >= room)
-        mxg_diagnostics_format_line(list, index, line, size, report->colour,
-                                    report->text + report->len, report->capacity - report->len);
+        mxg_diagnostics_format(list, index, line, size, report->colour, report->text + report->len,
+                               report->capacity - report->len);
     report->len += len;
     if (len && report->text[report->len - 1] != '\n')
         report->text[report->len++] = '\n';

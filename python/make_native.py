@@ -12,7 +12,7 @@ import cffi
 
 COMMENT = re.compile(r"/\*.*?\*/|//[^\n]*", re.DOTALL)
 CPLUSPLUS = re.compile(r"^#ifdef __cplusplus\n.*?^#endif$", re.MULTILINE | re.DOTALL)
-NUMBER = re.compile(r"^#define (MXG_\w+) \d+$", re.MULTILINE)
+NUMBER = re.compile(r"^#define (MXG_\w+) (?:\d+|0x[0-9a-f]+u)$", re.MULTILINE)
 DIRECTIVE = re.compile(r"^#(?:[^\n]*\\\n)*[^\n]*$", re.MULTILINE)
 CALLBACK = re.compile(r"^ +(\w+) \(\*(\w+)\)\(([^)]*)\)[;,]", re.MULTILINE)
 
@@ -25,7 +25,6 @@ def read_declarations(path):
 
 
 def main(headers, output):
-    # document.h uses types of mxgen.h, and mxgen.h no type of document.h.
     declarations = "\n".join(read_declarations(pathlib.Path(header)) for header in headers)
     found = {f"{result} callback_{name}({' '.join(parameters.split())});\n" for result, name, parameters in CALLBACK.findall(declarations)}
     callbacks = "".join(sorted(found)) # two parameters of one name and type share a function

@@ -546,7 +546,9 @@ bool bind_shader(struct bind *bind)
     mxg_shader_info info = get_info(bind);
     bind->draw.blend = info.alpha == MXG_ALPHA_BLEND && !bind->is_opaque;
     bind->draw.blends_twice = bind->draw.blend && bind_has_semantic(bind->result, "transmittance");
-    bind->draw.stores_layers = info.stored_words > STORED_TARGETS;
+    mxg_storage storage = {sizeof storage};
+    mxg_result_storage(bind->result, &storage);
+    bind->draw.stores_layers = storage.words > STORED_TARGETS;
     bind->max_lights = info.num_lights;
     return make_objects(bind) && check_values(bind) && make_blocks(bind) && bind_textures(bind)
            && bind_attributes(bind) && bind_scene(bind);

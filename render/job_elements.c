@@ -60,22 +60,21 @@ static void add_elements(struct job *job, struct items *list, const mxg_document
                          const char *path)
 {
     mxg_renderable renderable = {sizeof renderable};
-    uint32_t i = 0;
-    if (job->options.look) {
-        for (; mxg_document_look_material(document, job->options.look, i, &renderable) == MXG_OK;
-             ++i)
-            add_item(list, document, path, renderable.path);
-        if (i == 0)
-            report_error(&job->cli.report, "no-look",
-                         "'%s' has no look '%s' that assigns a material", path, job->options.look);
-        return;
-    }
-    for (; i < mxg_document_num_renderables(document); ++i) {
+    const char *look = job->options.look, *element = job->options.element;
+    uint32_t num = mxg_document_num_renderables(document);
+    size_t before = list->len;
+    for (uint32_t i = 0; i < num; ++i) {
         mxg_document_renderable(document, i, &renderable);
-        if (!job->options.element || strcmp(job->options.element, renderable.path) == 0)
+        if (look ? mxg_document_has_assignment(document, look, i)
+                 : !element || strcmp(element, renderable.path) == 0)
             add_item(list, document, path, renderable.path);
     }
-    if (i == 0 || (list->len == 0 && job->options.element)) /* generation reports the error */
+    if (look && list->len == before)
+        report_error(&job->cli.report, "no-look", "'%s' has no look '%s' that assigns a material",
+                     path, look);
+    if (look)
+        return;
+    if (num == 0 || (list->len == 0 && job->options.element)) /* generation reports the error */
         add_item(list, document, path, job->options.element);
 }
 

@@ -68,9 +68,9 @@ static bool is_needed(const struct passes_setup *setup, const mxg_result *pass)
 {
     if (!mxg_result_source(pass, MXG_STAGE_PIXEL, NULL))
         return false;
-    mxg_shader_info info = {sizeof info};
-    mxg_result_info(pass, &info);
-    return !info.stored_classes || info.stored_classes & setup->classes;
+    mxg_storage storage = {sizeof storage};
+    mxg_result_storage(pass, &storage);
+    return !storage.classes || storage.classes & setup->classes;
 }
 
 /* Makes pass `index` of the library, if it is needed. */

@@ -86,15 +86,12 @@ static void find_missing(struct missing *missing, mxg_context *context,
     for (uint32_t i = 0; i < mxg_diagnostics_num_items(list); ++i) {
         mxg_diagnostic diagnostic = {sizeof diagnostic};
         mxg_diagnostics_item(list, i, &diagnostic);
-        const char *begin = strchr(diagnostic.message, '\''),
-                   *end = strrchr(diagnostic.message, '\'');
-        if (strcmp(diagnostic.id, "missing-texture") != 0 || !begin || end == begin)
+        if (strcmp(diagnostic.id, "missing-texture") != 0)
             continue;
-        char *file = cli_copy(begin + 1, (size_t)(end - begin - 1));
         bool is_first;
-        struct name_entry *entry = names_add(&missing->files, file, &is_first);
+        struct name_entry *entry =
+            names_add(&missing->files, mxg_diagnostics_argument(list, i, 0), &is_first);
         entry->value = is_first ? i : entry->value;
-        free(file);
     }
 }
 
@@ -178,9 +175,8 @@ static const char *closest_input(const mxg_result *result, const char *path)
 static const char *advice_on_value(const struct painter *painter, const struct part *part)
 {
     for (size_t i = 0; i < painter->num_values; ++i) {
-        uint32_t index;
         const char *path = painter->values[i].path;
-        if (!mxg_result_find_variable(part->result, path, &index))
+        if (mxg_result_find_variable(part->result, path) == MXG_NONE)
             return closest_input(part->result, path);
     }
     return NULL;
@@ -269,8 +265,10 @@ static bool make_cuts(struct painting *painting)
     struct part *part = &painting->parts[painting->num_parts - 1];
     mxg_options *options = painting->painter->cli->options;
     mxg_shader_info info = {sizeof info};
+    mxg_storage storage = {sizeof storage};
     mxg_result_info(part->result, &info);
-    if (!info.stored_words)
+    mxg_result_storage(part->result, &storage);
+    if (!storage.words)
         return true;
     part->bind->draw.role = DRAW_STORES;
     part->bind->draw.has_holes = info.alpha == MXG_ALPHA_MASK;
@@ -303,10 +301,10 @@ static bool open_passes(struct painting *painting)
                                  .shown = painter->shown};
     struct bind **binds = calloc(painting->num_parts, sizeof *binds);
     for (size_t i = 0; binds && i < painting->num_parts; ++i) {
-        mxg_shader_info info = {sizeof info};
-        mxg_result_info(painting->parts[i].result, &info);
-        setup.words = info.stored_words > setup.words ? info.stored_words : setup.words;
-        setup.classes |= info.stored_classes;
+        mxg_storage storage = {sizeof storage};
+        mxg_result_storage(painting->parts[i].result, &storage);
+        setup.words = storage.words > setup.words ? storage.words : setup.words;
+        setup.classes |= storage.classes;
         binds[i] = painting->parts[i].bind;
     }
     setup.binds = binds;

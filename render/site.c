@@ -39,7 +39,9 @@ static char *subject_of(const struct site *site, uint32_t primitive, const char 
 {
     mxg_property at = {sizeof at};
     char *path = site_path(site->scene, primitive), *subject;
-    if (property && mxg_scene_find_property(site->scene, primitive, property, &at))
+    uint32_t index =
+        property ? mxg_scene_find_property(site->scene, primitive, property) : MXG_NONE;
+    if (mxg_scene_property(site->scene, primitive, index, &at) == MXG_OK)
         subject = cli_format("'%s.%s' (%s:%u:%u)", path, property, at.file, at.line, at.column);
     else if (mxg_scene_property(site->scene, primitive, 0, &at) == MXG_OK)
         subject = cli_format("'%s' (%s:%u)", path, at.file, at.line);

@@ -30,15 +30,19 @@ struct lamp {
 
 /* ---- Properties ---- */
 
+static bool has_property(const struct lamp *lamp, const char *name)
+{
+    return mxg_scene_find_property(lamp->site->scene, lamp->primitive, name) != MXG_NONE;
+}
+
 /* The name in a file: older ones have no "inputs:" in front. */
 static bool find_input(const struct lamp *lamp, const char *input, char name[64])
 {
-    mxg_property found = {sizeof found};
     snprintf(name, 64, "inputs:%s", input);
-    if (mxg_scene_find_property(lamp->site->scene, lamp->primitive, name, &found))
+    if (has_property(lamp, name))
         return true;
     snprintf(name, 64, "%s", input);
-    return mxg_scene_find_property(lamp->site->scene, lamp->primitive, name, &found);
+    return has_property(lamp, name);
 }
 
 static double input(const struct lamp *lamp, const char *name, double otherwise)
@@ -283,14 +287,12 @@ static void add_dome_1(struct lamp *lamp)
 static bool is_other_light(const struct lamp *lamp, const char *type)
 {
     static const char *const ends[] = {"Light", "LightFilter"};
-    mxg_property found = {sizeof found};
     for (size_t i = 0; i < sizeof ends / sizeof *ends; ++i) {
         size_t len = strlen(type), end = strlen(ends[i]);
         if (len >= end && strcmp(type + len - end, ends[i]) == 0)
             return true;
     }
-    return mxg_scene_find_property(lamp->site->scene, lamp->primitive, "inputs:intensity", &found)
-           || mxg_scene_find_property(lamp->site->scene, lamp->primitive, "light:shaderId", &found);
+    return has_property(lamp, "inputs:intensity") || has_property(lamp, "light:shaderId");
 }
 
 void usd_add_light(struct site *site, uint32_t primitive, const char *type, struct matrix world)

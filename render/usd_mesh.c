@@ -64,11 +64,13 @@ static void read_normals(struct usd_mesh *mesh)
     struct site *site = mesh->site;
     const char *name = "primvars:normals";
     mxg_property property = {sizeof property};
-    if (!mxg_scene_find_property(site->scene, mesh->primitive, name, &property)) {
+    uint32_t index = mxg_scene_find_property(site->scene, mesh->primitive, name);
+    if (index == MXG_NONE) {
         name = "normals";
-        if (!mxg_scene_find_property(site->scene, mesh->primitive, name, &property))
-            return;
+        index = mxg_scene_find_property(site->scene, mesh->primitive, name);
     }
+    if (mxg_scene_property(site->scene, mesh->primitive, index, &property) != MXG_OK)
+        return;
     mesh->normals = usd_numbers(site, mesh->primitive, name, &mesh->num_normals);
     mesh->num_normals /= 3;
     size_t len = property.interpolation_len;

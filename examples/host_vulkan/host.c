@@ -165,7 +165,7 @@ static void fill_block(struct host *h, uint32_t index, uint32_t number)
     unsigned char *bytes = h->uniforms.bytes + ball->offsets[number];
     mxg_block_info block = MXG_INIT(mxg_block_info);
     mxg_result_block(ball->result, uniform_blocks[number], &block);
-    mxg_result_pack_block(ball->result, uniform_blocks[number], bytes, block.byte_size);
+    mxg_result_pack_block(ball->result, NULL, uniform_blocks[number], bytes, block.byte_size);
     for (uint32_t i = 0; i < block.num_variables; ++i) {
         mxg_variable v = MXG_INIT(mxg_variable);
         float values[16];
@@ -339,7 +339,7 @@ static struct use write_uniforms(struct host *h, const char *path, const float *
         use.connected |= state == MXG_INPUT_CONNECTED;
         if (state == MXG_INPUT_COMPILED)
             use.type = compiled_type(ball->result, path);
-        if (!mxg_result_find_variable(ball->result, path, &index)
+        if ((index = mxg_result_find_variable(ball->result, path)) == MXG_NONE
             || mxg_result_variable(ball->result, index, &v) != MXG_OK || num != v.num_values)
             continue;
         use.type = v.document_type;
@@ -354,12 +354,14 @@ static struct use write_uniforms(struct host *h, const char *path, const float *
 static bool end_edit(struct host *h, mxg_edit *edit, bool only_uniforms)
 {
     mxg_document *next;
-    if (mxg_edit_error(edit)[0]) {
-        fprintf(stderr, "%s\n", mxg_edit_error(edit));
+    char reason[256];
+    if (mxg_edit_error(edit, reason, sizeof reason)) {
+        fprintf(stderr, "%s\n", reason);
         mxg_edit_destroy(edit);
         return false;
     }
     mxg_status status = mxg_edit_commit(edit, &next);
+    mxg_edit_destroy(edit);
     print_diagnostics(mxg_document_diagnostics(next));
     if (status != MXG_OK) {
         mxg_document_destroy(next);
@@ -386,7 +388,7 @@ static bool set(struct host *h, const char *node, const char *input, const float
     }
     if (mxg_edit_create(h->context, h->library, h->document, NULL, &edit) != MXG_OK)
         return false;
-    mxg_edit_set_numbers(edit, mxg_edit_find_element(edit, node), input, use.type, values, num);
+    mxg_edit_set_numbers(edit, mxg_edit_find_element(edit, 0, node), input, use.type, values, num);
     return end_edit(h, edit, !use.compiled);
 }
 
@@ -395,8 +397,8 @@ static bool connect_input(struct host *h, const char *node, const char *input, c
     mxg_edit *edit;
     if (mxg_edit_create(h->context, h->library, h->document, NULL, &edit) != MXG_OK)
         return false;
-    mxg_edit_connect_input(edit, mxg_edit_find_element(edit, node), input,
-                           mxg_edit_find_element(edit, from), NULL);
+    mxg_edit_connect_input(edit, mxg_edit_find_element(edit, 0, node), input,
+                           mxg_edit_find_element(edit, 0, from), NULL);
     return end_edit(h, edit, false);
 }
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Documents as objects: their text, their elements, and edits. mxgen.h includes this header; the
- * rules at its top apply here, too.
+ * Documents as objects: their text, their elements, and edits.
  */
+#include <mxgen/mxgen.h>
+
 #ifndef MXGEN_DOCUMENT_H
 #define MXGEN_DOCUMENT_H
-
-#include <mxgen/mxgen.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -22,18 +21,15 @@ extern "C" {
  */
 typedef uint32_t mxg_element;
 
-/* <materialx> */
-MXG_API mxg_element mxg_document_root(const mxg_document *document);
-/* By path: "NG_marble1/out". */
-MXG_API mxg_element mxg_document_find_element(const mxg_document *document, const char *path);
-MXG_API mxg_element mxg_document_find_child(const mxg_document *document, mxg_element parent,
-                                            const char *name);
 /*
- * Writes the path as far as it fits, and a NUL; returns its length, or 0 for the root and for no
- * element.
+ * By path below an element, "NG_marble1/out"; "" is the element itself, and `below` 0 is the root,
+ * <materialx>.
  */
+MXG_API mxg_element mxg_document_find_element(const mxg_document *document, mxg_element below,
+                                              const char *path);
+/* The length is 0 for the root and for no element. */
 MXG_API size_t mxg_document_element_path(const mxg_document *document, mxg_element element,
-                                         char *out, size_t capacity);
+                                         char *buffer, size_t capacity);
 
 typedef struct mxg_element_info {
     size_t size;                           /* in */
@@ -55,9 +51,9 @@ typedef struct mxg_attribute {
 } mxg_attribute;
 MXG_API mxg_status mxg_document_attribute(const mxg_document *document, mxg_element element,
                                           uint32_t index, mxg_attribute *out);
-/* The value of an attribute by name ("name" included); NULL if it is absent. */
-MXG_API const char *mxg_document_find_attribute(const mxg_document *document, mxg_element element,
-                                                const char *name);
+/* The index of an attribute; MXG_NONE: it is absent. */
+MXG_API uint32_t mxg_document_find_attribute(const mxg_document *document, mxg_element element,
+                                             const char *name);
 
 /* The value of an input, output, token or other element with `value`. */
 typedef struct mxg_value {
@@ -95,11 +91,10 @@ MXG_API mxg_status mxg_document_connection(const mxg_document *document, mxg_ele
 
 /*
  * The definition of a node, or of the nodegraph that implements it. The index counts through the
- * library and the document: mxg_document_nodedef. false: there is none, or it does not fit; the
+ * library and the document: mxg_document_nodedef. MXG_NONE: there is none, or it does not fit; the
  * diagnostics of mxg_validate give the reason.
  */
-MXG_API bool mxg_document_find_nodedef(const mxg_document *document, mxg_element element,
-                                       uint32_t *out_nodedef);
+MXG_API uint32_t mxg_document_find_nodedef(const mxg_document *document, mxg_element element);
 /* Like mxg_library_nodedef and its neighbours, with the definitions of the document as well. */
 MXG_API uint32_t mxg_document_num_nodedefs(const mxg_document *document);
 MXG_API mxg_status mxg_document_nodedef(const mxg_document *document, uint32_t index,
@@ -130,6 +125,7 @@ MXG_API const char *mxg_document_xml(const mxg_document *document, size_t *out_s
  *     mxg_element material = mxg_edit_add_element(edit, 0, "surfacematerial", "Gold", "material");
  *     mxg_edit_connect_input(edit, material, "surfaceshader", shader, NULL);
  *     mxg_edit_commit(edit, &doc);
+ *     mxg_edit_destroy(edit);
  *
  * An edit that fails changes nothing, returns MXG_ERROR_ARGUMENT (or 0 for an element), and
  * mxg_edit_error gives the reason. The calls check what they can check alone: names, places in the
@@ -147,9 +143,9 @@ typedef struct mxg_edit mxg_edit;
 MXG_API mxg_status mxg_edit_create(mxg_context *context, mxg_library *library,
                                    const mxg_document *from, const char *name, mxg_edit **out_edit);
 
-/* Elements of the edit, as it is now. */
-MXG_API mxg_element mxg_edit_find_element(const mxg_edit *edit, const char *path);
-MXG_API mxg_element mxg_edit_find_child(const mxg_edit *edit, mxg_element parent, const char *name);
+/* An element of the edit, as it is now. */
+MXG_API mxg_element mxg_edit_find_element(const mxg_edit *edit, mxg_element below,
+                                          const char *path);
 
 /*
  * Appends an element; parent 0 is the root. `name` and `type` may be NULL. A name must be valid and
@@ -194,16 +190,15 @@ MXG_API mxg_element mxg_edit_copy_element(mxg_edit *edit, mxg_element parent,
                                           const mxg_document *document, mxg_element element,
                                           const char *name);
 
-/* The reason of the last failure; "" if no call failed. Valid until the next call. */
-MXG_API const char *mxg_edit_error(const mxg_edit *edit);
+/* The reason of the last failure; length 0 if no call failed. */
+MXG_API size_t mxg_edit_error(const mxg_edit *edit, char *buffer, size_t capacity);
 
 /*
- * Makes the document and frees the edit, in every case. *out_document is set whenever memory
+ * Makes the document, which ends the edit: further calls fail. *out_document is set whenever memory
  * allows, also with MXG_ERROR_DOCUMENT. Diagnostics name an element that the edit added by its
  * path, because it has no line.
  */
 MXG_API mxg_status mxg_edit_commit(mxg_edit *edit, mxg_document **out_document);
-/* Frees the edit. Accepts NULL. */
 MXG_API void mxg_edit_destroy(mxg_edit *edit);
 
 /* ---- Text for text ---- */

@@ -15,10 +15,10 @@
  * The definition itself, with its inputs and outputs, is a <nodedef> of a library or document.
  * docs/nodes.md explains an example.
  */
+#include <mxgen/mxgen.h>
+
 #ifndef MXGEN_NODE_H
 #define MXGEN_NODE_H
-
-#include <mxgen/mxgen.h>
 
 #ifdef __cplusplus
 extern "C" {

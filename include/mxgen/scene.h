@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Slots: several materials on one primitive of a scene (docs/slots.md of the project). mxgen.h
- * includes this header; the rules at its top apply here, too.
+ * Slots: several materials on one primitive of a scene (docs/slots.md of the project).
  */
+#include <mxgen/mxgen.h>
+
 #ifndef MXGEN_SCENE_H
 #define MXGEN_SCENE_H
-
-#include <mxgen/mxgen.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -15,8 +14,7 @@ extern "C" {
 /* ---- Names of slots ---- */
 
 /*
- * Slot names in USD: "050::010" is "_050:_:_010". Writes at most `capacity` bytes including a NUL;
- * returns the full length without the NUL, or 0 if the input is no name.
+ * Slot names in USD: "050::010" is "_050:_:_010". Length 0: the input is no name.
  */
 MXG_API size_t mxg_slot_encode(const char *name, char *buffer, size_t capacity);
 MXG_API size_t mxg_slot_decode(const char *identifiers, char *buffer, size_t capacity);
@@ -36,7 +34,7 @@ MXG_API void mxg_scene_destroy(mxg_scene *scene);
 /*
  * Adds primitives by their paths, "/set/table", and those above them. MXG_ERROR_DOCUMENT if a path
  * is none; the others are added. A change of a scene, also by the functions below, makes its
- * bindings say nothing any more (0, UINT32_MAX, MXG_ERROR_ARGUMENT): call mxg_bindings_create
+ * bindings say nothing any more (0, MXG_NONE, MXG_ERROR_ARGUMENT): call mxg_bindings_create
  * again, which needs little time with member `previous` of mxg_bindings_desc.
  */
 MXG_API mxg_status mxg_scene_add_paths(mxg_scene *scene, const char *const *paths,
@@ -44,7 +42,7 @@ MXG_API mxg_status mxg_scene_add_paths(mxg_scene *scene, const char *const *path
 
 typedef struct mxg_primitive {
     size_t size; /* in */
-    /* of mxg_scene_primitive; UINT32_MAX: none */
+    /* of mxg_scene_primitive; MXG_NONE: none */
     uint32_t parent, first_child, next_sibling;
     const char *name; /* name_len bytes, without a NUL */
     size_t name_len;
@@ -54,9 +52,9 @@ typedef struct mxg_primitive {
 
 /*
  * The same as mxg_scene_add_paths, from a callback, which gives one primitive in each call and
- * returns false at the end: `parent` (UINT32_MAX: none), `name`, which may be a path below the
+ * returns false at the end: `parent` (MXG_NONE: none), `name`, which may be a path below the
  * parent, "b/c", and `type`; the texts live until the next call. `last` is the number of the
- * primitive before, also if the scene had it already; UINT32_MAX: there is none, or it was faulty.
+ * primitive before, also if the scene had it already; MXG_NONE: there is none, or it was faulty.
  * The callback must not use the scene.
  */
 MXG_API mxg_status mxg_scene_add_primitives(mxg_scene *scene,
@@ -75,9 +73,9 @@ MXG_API mxg_status mxg_scene_remove_primitives(mxg_scene *scene, const uint32_t 
  */
 MXG_API uint32_t mxg_scene_num_primitives(const mxg_scene *scene);
 MXG_API mxg_status mxg_scene_primitive(const mxg_scene *scene, uint32_t index, mxg_primitive *out);
-/* The number of a primitive; UINT32_MAX: there is none of this path. */
+/* The number of a primitive; MXG_NONE: there is none of this path. */
 MXG_API uint32_t mxg_scene_find_primitive(const mxg_scene *scene, const char *path);
-/* Writes a path like mxg_slot_encode. */
+/* Length 0: there is no such primitive. */
 MXG_API size_t mxg_scene_primitive_path(const mxg_scene *scene, uint32_t index, char *buffer,
                                         size_t capacity);
 
@@ -86,7 +84,7 @@ MXG_API size_t mxg_scene_primitive_path(const mxg_scene *scene, uint32_t index, 
 /*
  * Binds a material to a slot of a primitive, or a nodegraph or a material to an override; ""
  * removes what the primitive would inherit. It replaces the direct bindings of the slot there, also
- * those of a file. Primitive UINT32_MAX is the whole scene. Bindings of a scene count as earlier
+ * those of a file. Primitive MXG_NONE is the whole scene. Bindings of a scene count as earlier
  * than those of a look. MXG_ERROR_DOCUMENT if the slot's name is none; mxg_bindings_create finds
  * the material.
  */
@@ -105,7 +103,7 @@ typedef struct mxg_slot_binding {
     const char *file;     /* "": from mxg_scene_set_binding */
     uint32_t line;
 } mxg_slot_binding;
-/* The bindings that stand at a primitive (UINT32_MAX: the whole scene). Texts live until a change.
+/* The bindings that stand at a primitive (MXG_NONE: the whole scene). Texts live until a change.
  */
 MXG_API uint32_t mxg_scene_num_bindings(const mxg_scene *scene, uint32_t primitive);
 MXG_API mxg_status mxg_scene_binding(const mxg_scene *scene, uint32_t primitive, uint32_t index,
@@ -131,9 +129,9 @@ typedef struct mxg_property {
 MXG_API uint32_t mxg_scene_num_properties(const mxg_scene *scene, uint32_t primitive);
 MXG_API mxg_status mxg_scene_property(const mxg_scene *scene, uint32_t primitive, uint32_t index,
                                       mxg_property *out);
-/* false: the primitive has no property of this name. */
-MXG_API bool mxg_scene_find_property(const mxg_scene *scene, uint32_t primitive, const char *name,
-                                     mxg_property *out);
+/* MXG_NONE: the primitive has no property of this name. */
+MXG_API uint32_t mxg_scene_find_property(const mxg_scene *scene, uint32_t primitive,
+                                         const char *name);
 /*
  * The numbers of a property in a row; true is 1. Writes at most `capacity` of them, and returns
  * how many there are.
@@ -141,12 +139,12 @@ MXG_API bool mxg_scene_find_property(const mxg_scene *scene, uint32_t primitive,
 MXG_API size_t mxg_scene_property_numbers(const mxg_scene *scene, uint32_t primitive,
                                           const char *name, double *out, size_t capacity);
 /*
- * Word `index` of a property: a string or token without quotes, or a path. Writes like
- * mxg_slot_encode; 0: there is none.
+ * Word `index` of a property: a string or token without quotes, or a path. Length 0: there
+ * is none.
  */
 MXG_API size_t mxg_scene_property_word(const mxg_scene *scene, uint32_t primitive, const char *name,
                                        uint32_t index, char *buffer, size_t capacity);
-/* The primitive that word `index` of a relationship names; UINT32_MAX: none. */
+/* The primitive that word `index` of a relationship names; MXG_NONE: none. */
 MXG_API uint32_t mxg_scene_property_target(const mxg_scene *scene, uint32_t primitive,
                                            const char *name, uint32_t index);
 /* 'Y' or 'Z'. */
@@ -216,7 +214,7 @@ typedef struct mxg_layer {
     const char *material; /* the material, or the nodegraph if is_nodegraph */
     bool is_nodegraph;
     const char *product;       /* MXG_LAYER_PRODUCT: "mask"; else "" */
-    uint32_t from;             /* the primitive where the assignment stands; UINT32_MAX: "/" */
+    uint32_t from;             /* the primitive where the assignment stands; MXG_NONE: "/" */
     const char *look, *assign; /* the assignment; "" if it has no name */
     const char *file;          /* of the assignment */
     uint32_t line;
@@ -226,12 +224,12 @@ typedef struct mxg_layer {
 MXG_API uint32_t mxg_bindings_num_layers(const mxg_bindings *bindings, uint32_t primitive);
 MXG_API mxg_status mxg_bindings_layer(const mxg_bindings *bindings, uint32_t primitive,
                                       uint32_t index, mxg_layer *out);
-/* Primitives with equal layers have the same stack. UINT32_MAX: there is no such primitive. */
+/* Primitives with equal layers have the same stack. MXG_NONE: there is no such primitive. */
 MXG_API uint32_t mxg_bindings_num_stacks(const mxg_bindings *bindings);
 MXG_API uint32_t mxg_bindings_stack(const mxg_bindings *bindings, uint32_t primitive);
 /*
- * The name of a stack, which follows from its content: "stack_8a5f7a0f9c2f6f0e". Writes like
- * mxg_slot_encode. mxg_generate makes its shader: members `bindings` and `stack` of
+ * The name of a stack, which follows from its content: "stack_8a5f7a0f9c2f6f0e".
+ * mxg_generate makes its shader: members `bindings` and `stack` of
  * mxg_generate_desc. Stacks whose shaders have one topology can share a program.
  */
 MXG_API size_t mxg_bindings_stack_name(const mxg_bindings *bindings, uint32_t stack, char *buffer,
@@ -252,7 +250,7 @@ typedef struct mxg_fact {
     const char *name, *type, *value; /* as in the document */
     /* the renderer that a property is for; the geometry that sees a visibility; "": all */
     const char *target;
-    uint32_t from; /* the primitive where it stands; UINT32_MAX: "/" */
+    uint32_t from; /* the primitive where it stands; MXG_NONE: "/" */
     const char *file;
     uint32_t line;
 } mxg_fact;

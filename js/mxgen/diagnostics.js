@@ -11,8 +11,10 @@ export class Diagnostics {
         this.#owner = owner;
         this.#list = list;
         const native = owner._native;
-        this.items = Object.freeze(native.records("mxg_diagnostic", native.lib.mxg_diagnostics_num_items(list),
-                                                  (index, out) => native.lib.mxg_diagnostics_item(list, index, out)));
+        const found = native.records("mxg_diagnostic", native.lib.mxg_diagnostics_num_items(list),
+                                     (index, out) => native.lib.mxg_diagnostics_item(list, index, out));
+        this.items = Object.freeze(found.map(({ numArguments, ...item }, index) => ({ ...item,
+            arguments: Array.from({ length: numArguments }, (_, argument) => native.text(native.lib.mxg_diagnostics_argument(list, index, argument))) })));
         this.errors = native.lib.mxg_diagnostics_num_errors(list);
         this.warnings = this.items.filter(item => item.severity === "warning").length;
     }
@@ -30,7 +32,8 @@ export class Diagnostics {
         const native = this.#owner._native;
         this.#owner._handle; // throws after `destroy`
         return native.using(() => {
-            const bytes = source === null ? null : new TextEncoder().encode(source), text = bytes ? native.newBytes(bytes) : 0;
+            const line = source?.split("\n")[this.items[index]?.line - 1]?.replace(/\r$/, "");
+            const bytes = line === undefined ? null : new TextEncoder().encode(line), text = bytes ? native.newBytes(bytes) : 0;
             return native.sizedText((out, capacity) => native.lib.mxg_diagnostics_format(this.#list, index, text, bytes?.length ?? 0, colour, out,
                                                                                         capacity));
         });

@@ -4,7 +4,7 @@
 import { Diagnostics } from "./diagnostics.js";
 import { ArgumentError, DocumentError, OutOfMemoryError } from "./errors.js";
 import { readNodeDef } from "./library.js";
-import { expect, numberOf, Owner, STATUS } from "./native.js";
+import { expect, NONE, numberOf, Owner, STATUS } from "./native.js";
 import { Bindings, Scene } from "./scene.js";
 import { Shader, withOptions } from "./shader.js";
 
@@ -78,7 +78,10 @@ export class Element {
     /** The element of a name directly below; null: there is none. */
     child(name) {
         const native = this.document._native;
-        return native.using(() => this.#element(this.#lib.mxg_document_find_child(this.document._pointer, this.number, native.newText(name, "name"))));
+        return native.using(() => {
+            const path = native.newText(name, "name");
+            return this.#element(name && this.#lib.mxg_document_find_element(this.document._pointer, this.number, path));
+        });
     }
 
     /** The element and all elements below, in the order of the document. */
@@ -93,8 +96,14 @@ export class Element {
     /** The text of an attribute ("name" included); null if it is absent. */
     get(attribute) {
         const native = this.document._native;
-        return native.using(() => native.text(this.#lib.mxg_document_find_attribute(this.document._pointer, this.number,
-                                                                                    native.newText(attribute, "attribute"))));
+        return native.using(() => {
+            const name = native.newText(attribute, "attribute");
+            if (attribute === "name")
+                return this.name || null;
+            const index = this.#lib.mxg_document_find_attribute(this.document._pointer, this.number, name);
+            const found = native.record("mxg_attribute", out => this.#lib.mxg_document_attribute(this.document._pointer, this.number, index, out));
+            return found && found.value;
+        });
     }
 
     /** The attributes without the name, in the order of the document. */
@@ -144,11 +153,8 @@ export class Element {
     /** The definition of a node, or of the nodegraph that implements it; null: there is none, or it does not fit. */
     get definition() {
         const native = this.document._native;
-        const index = native.using(() => {
-            const out = native.space(4);
-            return this.#lib.mxg_document_find_nodedef(this.document._pointer, this.number, out) ? native.pointer(out) : null;
-        });
-        return index === null ? null : readNodeDef(this.document, index, this.#lib.mxg_document_nodedef, this.#lib.mxg_document_port);
+        const index = this.#lib.mxg_document_find_nodedef(this.document._pointer, this.number) >>> 0;
+        return index === NONE ? null : readNodeDef(this.document, index, this.#lib.mxg_document_nodedef, this.#lib.mxg_document_port);
     }
 
     /** Whether both are the same element of the same document. */
@@ -181,12 +187,12 @@ export class Document extends Owner {
 
     /** <materialx>. The tree is the one that generation sees: after includes, templates and the upgrade to 1.39. */
     get root() {
-        return new Element(this, this._native.lib.mxg_document_root(this._pointer));
+        return new Element(this, this._native.lib.mxg_document_find_element(this._pointer, 0, 0));
     }
 
     /** An element by path: "NG_marble1/out"; null: there is none. */
     find(path) {
-        const number = this._native.using(() => this._native.lib.mxg_document_find_element(this._pointer, this._native.newText(path, "path")));
+        const number = this._native.using(() => this._native.lib.mxg_document_find_element(this._pointer, 0, this._native.newText(path, "path")));
         return number ? new Element(this, number) : null;
     }
 
@@ -204,13 +210,10 @@ export class Document extends Owner {
 
     /** The materials that a look or a look group assigns; empty if `look` is not the path of a look. */
     lookMaterials(look) {
-        const native = this._native, found = [];
+        const native = this._native;
         return native.using(() => {
             const path = native.newText(look, "look");
-            for (let one; (one = native.record("mxg_renderable",
-                    out => native.lib.mxg_document_look_material(this._pointer, path, found.length, out)));)
-                found.push(one);
-            return found;
+            return this.renderables.filter((_, index) => native.lib.mxg_document_has_assignment(this._pointer, path, index));
         });
     }
 

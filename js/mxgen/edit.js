@@ -31,7 +31,10 @@ export class Draft {
     /** The element of a name directly below; null: there is none. */
     child(name) {
         const native = this.edit._native;
-        const number = native.using(() => native.lib.mxg_edit_find_child(this.edit._pointer, this.number, native.newText(name, "name")));
+        const number = native.using(() => {
+            const path = native.newText(name, "name");
+            return name && native.lib.mxg_edit_find_element(this.edit._pointer, this.number, path);
+        });
         return number ? new Draft(this.edit, number) : null;
     }
 
@@ -115,7 +118,7 @@ export class Edit extends Owner {
     }
 
     #reason(pointer) {
-        return this._native.text(this._native.lib.mxg_edit_error(pointer));
+        return this._native.sizedText((out, capacity) => this._native.lib.mxg_edit_error(pointer, out, capacity));
     }
 
     _change(work) {
@@ -150,7 +153,7 @@ export class Edit extends Owner {
                 throw new ArgumentError("the edit comes from another document");
             return new Draft(this, path.number);
         }
-        const native = this._native, number = native.using(() => native.lib.mxg_edit_find_element(this._pointer, native.newText(path, "path")));
+        const native = this._native, number = native.using(() => native.lib.mxg_edit_find_element(this._pointer, 0, native.newText(path, "path")));
         return number ? new Draft(this, number) : null;
     }
 
@@ -174,10 +177,7 @@ export class Edit extends Owner {
             native.using(() => {
                 const out = native.space(4);
                 try {
-                    status = this.#context._turn(() => {
-                        handle.forget(); // mxg_edit_commit frees the edit in every case
-                        return native.lib.mxg_edit_commit(pointer, out);
-                    });
+                    status = this.#context._turn(() => native.lib.mxg_edit_commit(pointer, out));
                 } finally {
                     if (native.pointer(out))
                         made = new Handle(native.pointer(out), native.lib.mxg_document_destroy, [this.#context._handle, this.#library._handle]);

@@ -605,11 +605,16 @@ export interface ShaderInfo {
     /** with role=function: the names of the function and of the struct that it returns; otherwise "" */
     function: string;
     functionType: string;
-    /** words of 32 bits that a material of the deferred pipeline stores; 0: the shader lights itself */
-    storedWords: number;
+}
+
+/** What a shader stores for the passes of the deferred pipeline, or what a pass reads. */
+export interface Storage {
+    /** of 32 bits per pixel, at most, or of the payload; 0: the shader lights itself */
+    words: number;
+    /** equal in all materials and passes that fit together */
     layout: number;
     /** classes of pixels, as bits, that a material may store or a lighting pass lights */
-    storedClasses: number;
+    classes: number;
 }
 
 /** An input whose value is compiled in. */
@@ -668,6 +673,7 @@ export class Shader extends Owner {
     readonly files: string[];
     readonly diagnostics: Diagnostics;
     readonly info: ShaderInfo;
+    readonly storage: Storage | null;
     readonly passInfo: PassInfo | null;
     readonly variables: Variable[];
     findVariable(path: string): Variable | null;
@@ -698,6 +704,8 @@ export interface Diagnostic {
     length: number;
     /** for a note: the index of its error or warning; otherwise its own index */
     parent: number;
+    /** what the format of the kind leaves open, as texts in its order */
+    arguments: string[];
     path: string;
 }
 

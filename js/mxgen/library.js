@@ -68,12 +68,21 @@ export class Library extends Owner {
 
     /** The library image, for `Context.loadLibrary(…, { standalone: true })`. The library must be standalone. */
     image() {
-        return this.#made(this._native.lib.mxg_library_image);
+        const native = this._native;
+        return native.using(() => {
+            const data = native.space(4), size = native.space(4), status = native.lib.mxg_library_image(this._pointer, data, size);
+            if (status !== 0)
+                throw native.errorOf(status, status === 2 ? "the library must be standalone" : "");
+            return native.bytes(native.pointer(data), native.pointer(size)).slice();
+        });
     }
 
     /** The library as a plain MaterialX document with all templates expanded. */
     expand() {
-        return new TextDecoder().decode(this.#made(this._native.lib.mxg_library_xml));
+        const text = this._native.text(this._native.lib.mxg_library_xml(this._pointer, 0));
+        if (text === null)
+            throw this._native.errorOf(3);
+        return text;
     }
 
     /** What `expand` cannot say in graphs for other tools: a warning for each input. */
@@ -82,15 +91,5 @@ export class Library extends Owner {
         if (!losses)
             throw this._native.errorOf(3);
         return new Diagnostics(this, losses);
-    }
-
-    #made(make) {
-        const native = this._native;
-        return native.using(() => {
-            const data = native.space(4), size = native.space(4), status = make(this._pointer, data, size);
-            if (status !== 0)
-                throw native.errorOf(status, status === 2 ? "the library must be standalone" : "");
-            return native.bytes(native.pointer(data), native.pointer(size)).slice();
-        });
     }
 }

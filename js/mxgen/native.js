@@ -7,6 +7,8 @@ import { ENUMS, STRUCTS } from "./layout.js";
 const encoder = new TextEncoder();
 const decoder = new TextDecoder();
 const STATUS = ENUMS.mxg_status;
+/** An index that is none. */
+export const NONE = 0xffffffff;
 const NAMES = Object.fromEntries(Object.entries(ENUMS).map(
     ([type, values]) => [type, Object.fromEntries(Object.entries(values).map(([name, value]) => [value, name]))]));
 const WASI_NOT_SUPPORTED = 52; // ENOSYS
@@ -337,11 +339,6 @@ export class Handle {
         this.#parents = parents;
         for (const parent of parents)
             parent.#owners++;
-    }
-
-    /** C ends the object itself. */
-    forget() {
-        this.#destroy = () => {};
     }
 
     /** Ends the share of one owner. */

@@ -3,9 +3,8 @@
 
 import { Diagnostics } from "./diagnostics.js";
 import { ArgumentError, DocumentError } from "./errors.js";
-import { expect, numberOf, Owner, STATUS } from "./native.js";
+import { expect, NONE, numberOf, Owner, STATUS } from "./native.js";
 
-const NONE = 0xffffffff;
 
 /** The text of mxg_slot_encode or mxg_slot_decode. */
 export function slotText(native, name, text, what) {
@@ -81,9 +80,8 @@ export class Primitive {
     property(name) {
         const native = this.#native;
         return native.using(() => {
-            const key = native.newText(name, "name");
-            return native.record("mxg_property", out => native.lib.mxg_scene_find_property(this.scene._pointer, this.number, key, out)
-                                                            ? STATUS.ok : STATUS.errorArgument);
+            const index = native.lib.mxg_scene_find_property(this.scene._pointer, this.number, native.newText(name, "name"));
+            return native.record("mxg_property", out => native.lib.mxg_scene_property(this.scene._pointer, this.number, index, out));
         });
     }
 
@@ -91,7 +89,8 @@ export class Primitive {
     numbers(name) {
         const native = this.#native;
         return native.using(() => {
-            const key = native.newText(name, "name"), read = (out, capacity) => native.lib.mxg_scene_property_numbers(this.scene._pointer, this.number, key, out, capacity);
+            const key = native.newText(name, "name");
+            const read = (out, capacity) => native.lib.mxg_scene_property_numbers(this.scene._pointer, this.number, key, out, capacity);
             const count = read(0, 0), out = native.space(count * 8);
             read(out, count);
             return Array.from({ length: count }, (_, index) => native.view.getFloat64(out + index * 8, true));
@@ -103,8 +102,8 @@ export class Primitive {
         const native = this.#native, found = [];
         return native.using(() => {
             const key = native.newText(name, "name");
-            for (let word; (word = native.sizedText((out, capacity) => native.lib.mxg_scene_property_word(this.scene._pointer, this.number, key, found.length, out,
-                                                                                                capacity)));)
+            const read = (out, capacity) => native.lib.mxg_scene_property_word(this.scene._pointer, this.number, key, found.length, out, capacity);
+            for (let word; (word = native.sizedText(read));)
                 found.push(word);
             return found;
         });

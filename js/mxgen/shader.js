@@ -4,7 +4,7 @@
 import { Diagnostics } from "./diagnostics.js";
 import { Document } from "./document.js";
 import { ArgumentError, OutOfMemoryError } from "./errors.js";
-import { expect, kindOf, nameOf, numberOf, Owner, STATUS } from "./native.js";
+import { expect, kindOf, nameOf, NONE, numberOf, Owner, STATUS } from "./native.js";
 
 const STAGES = ["vertex", "pixel"];
 
@@ -40,13 +40,8 @@ export class Shader extends Owner {
     /** The place in the document that produced a line (from 1) of a stage's source; null: none. */
     sourcePlace(stage, line) {
         const native = this._native;
-        return native.using(() => {
-            const [file, row, column, path] = [0, 1, 2, 3].map(() => native.space(4));
-            if (!native.lib.mxg_result_source_place(this._pointer, numberOf("mxg_stage", stage, "stage"), line, file, row, column, path))
-                return null;
-            return { file: native.text(native.pointer(file)), line: native.pointer(row), column: native.pointer(column),
-                     path: native.text(native.pointer(path)) ?? "" };
-        });
+        const number = numberOf("mxg_stage", stage, "stage");
+        return native.record("mxg_place", out => native.lib.mxg_result_source_place(this._pointer, number, line, out));
     }
 
     /** The path of the node that produced a line, also of a node inside a definition; null: none. */
@@ -84,6 +79,11 @@ export class Shader extends Owner {
         return info;
     }
 
+    /** What the shader stores for the passes of the deferred pipeline; null after `onlyDiagnostics`. */
+    get storage() {
+        return this._native.record("mxg_storage", out => this._native.lib.mxg_result_storage(this._pointer, out));
+    }
+
     /** How the pass of the deferred pipeline runs; null for a shader that is none. */
     get passInfo() {
         return this._native.record("mxg_pass", out => this._native.lib.mxg_result_pass(this._pointer, out));
@@ -109,10 +109,8 @@ export class Shader extends Owner {
     /** The variable for a document path; null: the input is unused or compiled in. */
     findVariable(path) {
         const native = this._native;
-        return native.using(() => {
-            const index = native.space(4);
-            return native.lib.mxg_result_find_variable(this._pointer, native.newText(path, "path"), index) ? this.#variable(native.pointer(index)) : null;
-        });
+        const index = native.using(() => native.lib.mxg_result_find_variable(this._pointer, native.newText(path, "path"))) >>> 0;
+        return index === NONE ? null : this.#variable(index);
     }
 
     #index(variable) {
@@ -164,17 +162,17 @@ export class Shader extends Owner {
 
     /** The buffer of a block of uniforms with the default values, ready for upload. */
     pack(block) {
-        return this.#filled(block, () => {});
+        return this.#packed(0, block, status => this._native.check(status));
     }
 
-    /** The buffer of a block with its defaults, after `change` has written into it. */
-    #filled(block, change) {
+    /** The values of a native document, or 0: those of the shader. `check` sees the status. */
+    #packed(document, block, check) {
         const native = this._native, number = numberOf("mxg_block", block, "block");
         return native.using(() => {
-            const size = native.lib.mxg_result_pack_block(this._pointer, number, 0, 0), data = native.space(size);
-            native.lib.mxg_result_pack_block(this._pointer, number, data, size);
+            const info = native.record("mxg_block_info", out => native.lib.mxg_result_block(this._pointer, number, out));
+            const size = info?.byteSize ?? 0, data = native.space(size);
             if (size)
-                change(number, data, size);
+                check(native.lib.mxg_result_pack_block(this._pointer, document, number, data, size));
             return native.bytes(data, size).slice();
         });
     }
@@ -185,8 +183,7 @@ export class Shader extends Owner {
      */
     packFrom(document, block) {
         expect(document, Document, "document");
-        return this.#filled(block, (number, data, size) => {
-            const status = this._native.lib.mxg_document_pack_block(document._pointer, this._pointer, number, data, size);
+        return this.#packed(document._pointer, block, status => {
             if (status === STATUS.errorDocument)
                 throw new ArgumentError("an input of the block has no value in the document");
             this._native.check(status, status === STATUS.errorArgument ? "the document has another library" : "");
@@ -212,10 +209,10 @@ export class Shader extends Owner {
         return native.records("mxg_light_type", lib.mxg_result_num_light_types(this._pointer),
                               (index, out) => lib.mxg_result_light_type(this._pointer, index, out)).map(({ numMembers, ...light }, index) => ({
             ...light,
-            members: Array.from({ length: numMembers }, (_, member) => native.using(() => {
-                const out = native.space(4);
-                return lib.mxg_result_light_member(this._pointer, index, member, out) ? this.#variable(native.pointer(out)) : null;
-            })),
+            members: Array.from({ length: numMembers }, (_, member) => {
+                const variable = lib.mxg_result_light_member(this._pointer, index, member) >>> 0;
+                return variable === NONE ? null : this.#variable(variable);
+            }),
         }));
     }
 
@@ -247,7 +244,7 @@ export function withOptions(context, values, use) {
     return native.using(() => {
         const out = native.space(4);
         native.check(context._turn(pointer => lib.mxg_options_create(pointer, out)));
-        const options = native.pointer(out);
+        const options = native.pointer(out), reason = () => native.sizedText((buffer, capacity) => lib.mxg_options_error(options, buffer, capacity));
         try {
             for (const [key, value] of Object.entries(values))
                 for (const item of Array.isArray(value) ? value : [value]) {
@@ -255,7 +252,7 @@ export function withOptions(context, values, use) {
                         throw new TypeError(`option '${key}' must be a boolean, number, string or an array of strings, not ${kindOf(item)}`);
                     const status = lib.mxg_options_set(options, native.newText(key, "the key of an option"),
                                                        native.newText(String(item), `option '${key}'`));
-                    native.check(status, status === STATUS.errorArgument ? native.text(lib.mxg_options_error(options)) : "");
+                    native.check(status, status === STATUS.errorArgument ? reason() : "");
                 }
             return use(options);
         } finally {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /* The callbacks as C functions, whose addresses a mxg_context_desc can hold. */
-#include <mxgen/scene.h>
+#include <mxgen/mxgen.h>
 
 #include "native/host.h"
 
@@ -24,8 +24,8 @@ mxg_status mxgen_js_context(mxg_context_desc *desc, void *host, bool lists_folde
     desc->resolver = &resolver;
     desc->cancel = cancels ? host_cancel : NULL;
     desc->cancel_user_data = host;
-    desc->read_texels = reads_texels ? host_read_texels : NULL;
-    desc->texels_user_data = host;
+    const mxg_texel_reader reader = {host, host_read_texels};
+    desc->texels = reads_texels ? &reader : NULL;
     return mxg_context_create(desc, out_context);
 }
 

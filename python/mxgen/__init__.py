@@ -18,7 +18,7 @@ from .error import ArgumentError, CancelledError, DocumentError, EditError, Erro
 from .scene import (Bindings, BindingsFormat, Fact, FactKind, Layer, LayerKind, NewPrimitive, Primitive, Property, Scene, SlotBinding,
                     Stack, decode_slot, encode_slot)
 from .shader import (Alpha, Block, BlockInfo, Change, CompiledInput, InputState, LightType, OptionValue, Part, PassInfo, Place, Semantic,
-                     Shader, ShaderInfo, Stage, Tile, Variable, View, semantics)
+                     Shader, ShaderInfo, Stage, Storage, Tile, Variable, View, semantics)
 
 __version__ = library_version()
 
@@ -28,5 +28,5 @@ __all__ = ["Alpha", "ArgumentError", "Bindings", "BindingsFormat", "Block", "Blo
            "Layer", "LayerKind", "Library", "LightType", "ListFolder", "NewPrimitive", "NewValue", "NodeDef", "Option", "OptionType",
            "OptionValue", "OutOfMemoryError", "Part", "PassInfo", "PassMember", "PassResource", "Place", "Port", "Primitive", "Property",
            "ReadTexels", "Renderable", "Resolver", "Rewriting", "Rewritten", "Scene", "Semantic", "Severity", "Shader", "ShaderInfo", "SlotBinding",
-           "Stack", "Stage", "Target", "Tile", "Value", "Variable", "View", "color_difference", "decode_slot", "diagnostic_kinds", "encode_slot",
+           "Stack", "Stage", "Storage", "Target", "Tile", "Value", "Variable", "View", "color_difference", "decode_slot", "diagnostic_kinds", "encode_slot",
            "equal", "library_version", "option_applies", "options", "pass_resources", "semantics", "targets"]

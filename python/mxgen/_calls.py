@@ -90,7 +90,6 @@ _ERRORS: dict[int, type[Error]] = {
     lib.MXG_ERROR_ARGUMENT: ArgumentError,
     lib.MXG_ERROR_MEMORY: OutOfMemoryError,
     lib.MXG_ERROR_CANCELLED: CancelledError,
-    lib.MXG_ERROR_INTERNAL: InternalError,
 }
 
 
@@ -115,10 +114,6 @@ class Handle:
         self._further_owners: list[None] = []
         for parent in parents:
             parent._further_owners.append(None)
-
-    def forget(self) -> None:
-        """C ends the object itself."""
-        self._destroy = lambda _pointer: None
 
     def release(self) -> None:
         """Ends the share of one owner."""

@@ -161,7 +161,7 @@ def callback_cancel(user_data: Any) -> bool:
 
 @ffi.def_extern(error=False, onerror=_keep_exception)
 def callback_read_texels(user_data: Any, origin: Any, file: Any, layer: Any, size: int, out_texels: Any) -> bool:
-    """mxg_context_desc.read_texels"""
+    """mxg_texel_reader.read_texels"""
     host = _host_of(user_data)
     assert host.read_texels is not None
     texels = None if host.raised is not None else host.read_texels(py_text(origin), py_text(file), py_text(layer), size)
@@ -213,8 +213,9 @@ class Context(Native):
             desc.cancel = lib.callback_cancel
             desc.cancel_user_data = self._host_handle
         if read_texels is not None:
-            desc.read_texels = lib.callback_read_texels
-            desc.texels_user_data = self._host_handle
+            reader = ffi.new("mxg_texel_reader *", {"user_data": self._host_handle, "read_texels": lib.callback_read_texels})
+            keep.append(reader)
+            desc.texels = reader
         if warnings is not None:
             desc.warnings = keep_text(c_text(warnings, "warnings"), keep)
         if isinstance(include_roots, str):

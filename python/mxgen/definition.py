@@ -137,14 +137,17 @@ class Library(Native):
     def image(self) -> bytes:
         """The library image, for `Context.load_library(..., standalone=True)`. The library must be standalone."""
         data, size = ffi.new("const void **"), ffi.new("size_t *")
-        self._read(lib.mxg_library_image, data, size)
+        status = lib.mxg_library_image(self._handle.pointer, data, size)
+        if status != lib.MXG_OK:
+            raise error_of(status, "the library must be standalone" if status == lib.MXG_ERROR_ARGUMENT else "")
         return bytes(ffi.buffer(data[0], size[0]))
 
     def expand(self) -> str:
         """The library as a plain MaterialX document with all templates expanded."""
-        text, size = ffi.new("const char **"), ffi.new("size_t *")
-        self._read(lib.mxg_library_xml, text, size)
-        return py_text(text[0])
+        text = lib.mxg_library_xml(self._handle.pointer, ffi.NULL)
+        if not text:
+            raise error_of(lib.MXG_ERROR_MEMORY)
+        return py_text(text)
 
     @property
     def losses(self) -> Diagnostics:
@@ -153,8 +156,3 @@ class Library(Native):
         if losses == ffi.NULL:
             raise error_of(lib.MXG_ERROR_MEMORY)
         return Diagnostics(losses, self)
-
-    def _read(self, function: Callable[..., int], data: Any, size: Any) -> None:
-        status = function(self._handle.pointer, data, size)
-        if status != lib.MXG_OK:
-            raise error_of(status, "the library must be standalone" if status == lib.MXG_ERROR_ARGUMENT else "")

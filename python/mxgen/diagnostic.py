@@ -18,6 +18,12 @@ class Severity(enum.IntEnum):
     NOTE = lib.MXG_SEVERITY_NOTE
 
 
+def _line_of(source: str, number: int) -> str | None:
+    """A line of a text, from 1, without its end."""
+    lines = source.split("\n", number)
+    return lines[number - 1].removesuffix("\r") if 0 < number <= len(lines) else None
+
+
 @dataclass(frozen=True)
 class Diagnostic:
     """One diagnostic."""
@@ -35,6 +41,8 @@ class Diagnostic:
     length: int
     #: for a note: the index of its error or warning; otherwise its own index
     parent: int
+    #: what the format of the kind (`DiagnosticKind.message`) leaves open, as texts in its order
+    arguments: tuple[str, ...]
     #: the path of an element that an edit added and that has no line; otherwise ""
     path: str
     _list: Diagnostics = field(repr=False, compare=False)
@@ -58,12 +66,11 @@ class Diagnostic:
         for name, text in ("source", source), ("line", line):
             if text is not None and not isinstance(text, str):
                 raise TypeError(f"{name} must be str, not {type(text).__name__}")
-        function = lib.mxg_diagnostics_format_line if line is not None else lib.mxg_diagnostics_format
-        shown = line if line is not None else source
+        shown = _line_of(source, self.line) if source is not None else line
         data = ffi.NULL if shown is None else shown.encode("utf-8", "surrogateescape")
         size = 0 if shown is None else len(data)
         native = self._list._pointer
-        return sized_text(lambda out, capacity: function(native, self._index, data, size, bool(colour), out, capacity))
+        return sized_text(lambda out, capacity: lib.mxg_diagnostics_format(native, self._index, data, size, bool(colour), out, capacity))
 
     def __str__(self) -> str:
         return self.format().rstrip("\n")
@@ -92,6 +99,8 @@ class Diagnostics(Sequence[Diagnostic]):
         values = record("mxg_diagnostic", lib.mxg_diagnostics_item, self._pointer, place)
         assert values is not None
         values["severity"] = Severity(values["severity"])
+        values["arguments"] = tuple(py_text(lib.mxg_diagnostics_argument(self._pointer, place, argument))
+                                    for argument in range(values.pop("num_arguments")))
         return Diagnostic(**values, _list=self, _index=place)
 
     @property
@@ -126,7 +135,7 @@ class DiagnosticKind:
     message: str
     cause: str
     cure: str
-    #: an example as a diff (include/mxgen/mxgen.h describes the format); "": no example
+    #: an example as a diff (include/mxgen/catalogue.h describes the format); "": no example
     example: str
 
 

@@ -122,7 +122,8 @@ class Element:
 
     def child(self, name: str) -> Element | None:
         """The element of a name directly below."""
-        return self._element(lib.mxg_document_find_child(self.document._handle.pointer, self.number, c_text(name, "name")))
+        path = c_text(name, "name")
+        return self._element(lib.mxg_document_find_element(self.document._handle.pointer, self.number, path) if path else 0)
 
     def children_of(self, category: str) -> Iterator[Element]:
         """The elements of a category directly below."""
@@ -150,8 +151,13 @@ class Element:
 
     def get(self, attribute: str) -> str | None:
         """The text of an attribute ("name" included); None if it is absent."""
-        text = lib.mxg_document_find_attribute(self.document._handle.pointer, self.number, c_text(attribute, "attribute"))
-        return py_text(text) if text else None
+        key = c_text(attribute, "attribute")
+        if attribute == "name":
+            return self.name or None
+        pointer = self.document._handle.pointer
+        values = record("mxg_attribute", lib.mxg_document_attribute, pointer, self.number,
+                        lib.mxg_document_find_attribute(pointer, self.number, key))
+        return None if values is None else str(values["value"])
 
     @property
     def attributes(self) -> Mapping[str, str]:
@@ -212,10 +218,10 @@ class Element:
     def definition(self) -> NodeDef | None:
         """The definition of a node, or of the nodegraph that implements it; None: there is none, or it does not fit. The
         diagnostics of `Document.validate` give the reason."""
-        index = ffi.new("uint32_t *")
-        if not lib.mxg_document_find_nodedef(self.document._handle.pointer, self.number, index):
+        index = lib.mxg_document_find_nodedef(self.document._handle.pointer, self.number)
+        if index == lib.MXG_NONE:
             return None
-        return read_nodedef(self.document, index[0], lib.mxg_document_nodedef, lib.mxg_document_port)
+        return read_nodedef(self.document, index, lib.mxg_document_nodedef, lib.mxg_document_port)
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Element) and other.document is self.document and other.number == self.number
@@ -253,11 +259,11 @@ class Document(Native):
     @property
     def root(self) -> Element:
         """<materialx>. The tree is the one that generation sees: after includes, templates and the upgrade to 1.39."""
-        return Element(self, lib.mxg_document_root(self._handle.pointer))
+        return Element(self, lib.mxg_document_find_element(self._handle.pointer, 0, b""))
 
     def find(self, path: str) -> Element | None:
         """An element by path: "NG_marble1/out"."""
-        number = lib.mxg_document_find_element(self._handle.pointer, c_text(path, "path"))
+        number = lib.mxg_document_find_element(self._handle.pointer, 0, c_text(path, "path"))
         return Element(self, number) if number else None
 
     def __getitem__(self, path: str) -> Element:
@@ -288,10 +294,8 @@ class Document(Native):
     def look_materials(self, look: str) -> tuple[Renderable, ...]:
         """The materials that a look or a look group assigns; empty if `look` is not the path of a look."""
         path = c_text(look, "look")
-        found: list[Renderable] = []
-        while (values := record("mxg_renderable", lib.mxg_document_look_material, self._handle.pointer, path, len(found))):
-            found.append(Renderable(**values))
-        return tuple(found)
+        return tuple(renderable for index, renderable in enumerate(self.renderables)
+                     if lib.mxg_document_has_assignment(self._handle.pointer, path, index))
 
     @property
     def nodedefs(self) -> tuple[NodeDef, ...]:

@@ -7,7 +7,7 @@ from numbers import Real
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Union
 
-from ._calls import Handle, Native, c_text, error_of, ffi, lib, py_text
+from ._calls import Handle, Native, c_text, error_of, ffi, lib, sized_text
 from .definition import Library
 from .document import Document, Element
 from .error import DocumentError, EditError, Error
@@ -17,6 +17,10 @@ if TYPE_CHECKING:
 
 #: A value for an input: the text of any type, or a number, a boolean, or the components of a colour, vector or matrix.
 NewValue = Union[bool, int, float, str, Sequence[float]]
+
+
+def _reason_of(pointer: Any) -> str:
+    return sized_text(lambda out, capacity: lib.mxg_edit_error(pointer, out, capacity))
 
 
 class Draft:
@@ -36,7 +40,8 @@ class Draft:
 
     def child(self, name: str) -> Draft | None:
         """The element of a name directly below."""
-        number = lib.mxg_edit_find_child(self.edit._pointer(), self.number, c_text(name, "name"))
+        path = c_text(name, "name")
+        number = lib.mxg_edit_find_element(self.edit._pointer(), self.number, path) if path else 0
         return Draft(self.edit, number) if number else None
 
     def set(self, attribute: str, value: str | None) -> Draft:
@@ -128,7 +133,7 @@ class Edit(Native):
         pointer = self._pointer()
         with self._context._turn():
             status = function(pointer, *arguments)
-            reason = py_text(lib.mxg_edit_error(pointer)) if status == lib.MXG_ERROR_ARGUMENT else ""
+            reason = _reason_of(pointer) if status == lib.MXG_ERROR_ARGUMENT else ""
         if status == lib.MXG_ERROR_ARGUMENT:
             raise EditError(reason or "the edit is impossible")
         if status != lib.MXG_OK:
@@ -138,7 +143,7 @@ class Edit(Native):
         pointer = self._pointer()
         with self._context._turn():
             number = function(pointer, *arguments)
-            reason = "" if number else py_text(lib.mxg_edit_error(pointer))
+            reason = "" if number else _reason_of(pointer)
         if not number:
             raise EditError(reason) if reason else error_of(lib.MXG_ERROR_MEMORY)
         return Draft(self, number)
@@ -153,7 +158,7 @@ class Edit(Native):
 
     def find(self, path: str) -> Draft | None:
         """An element by path, as the edit is now."""
-        number = lib.mxg_edit_find_element(self._pointer(), c_text(path, "path"))
+        number = lib.mxg_edit_find_element(self._pointer(), 0, c_text(path, "path"))
         return Draft(self, number) if number else None
 
     def __getitem__(self, path: str | Element) -> Draft:
@@ -186,7 +191,6 @@ class Edit(Native):
         made = None
         try:
             with self._context._turn():
-                handle.forget() # mxg_edit_commit frees the edit in every case
                 status = lib.mxg_edit_commit(pointer, out)
                 if out[0]:
                     made = Handle(out[0], lib.mxg_document_destroy, (self._context._handle, self._library._handle))

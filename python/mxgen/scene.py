@@ -126,8 +126,9 @@ class Primitive:
     def property(self, name: str) -> Property | None:
         """The property of a name; None: there is none."""
         out = ffi.new("mxg_property *", {"size": ffi.sizeof("mxg_property")})
-        there = lib.mxg_scene_find_property(self.scene._handle.pointer, self.number, c_text(name, "name"), out)
-        return _read_property(out) if there else None
+        pointer = self.scene._handle.pointer
+        index = lib.mxg_scene_find_property(pointer, self.number, c_text(name, "name"))
+        return _read_property(out) if lib.mxg_scene_property(pointer, self.number, index, out) == lib.MXG_OK else None
 
     def numbers(self, name: str) -> tuple[float, ...]:
         """The numbers of a property in a row; true is 1. Empty: there are none."""

@@ -290,12 +290,17 @@ class ShaderInfo:
     #: with role=function, the names of the function and of the struct that it returns; else ""
     function: str
     function_type: str
-    #: words of 32 bits per pixel, at most, that the material pass of the deferred pipeline stores; 0: the shader lights itself
-    stored_words: int
-    #: of stored words: equal in all materials and passes that fit together
+
+@dataclass(frozen=True)
+class Storage:
+    """What a shader stores for the passes of the deferred pipeline, or what a pass reads."""
+
+    #: of 32 bits per pixel, at most, or of the payload; 0: the shader lights itself
+    words: int
+    #: of the words: equal in all materials and passes that fit together
     layout: int
     #: classes of pixels, as bits, that a material may store or a lighting pass lights
-    stored_classes: int
+    classes: int
 
 
 @dataclass(frozen=True)
@@ -350,10 +355,8 @@ class Shader(Native):
 
     def source_place(self, stage: Stage, line: int) -> Place | None:
         """The place in the document that produced a line (from 1)."""
-        file, row, column, path = ffi.new("const char **"), ffi.new("uint32_t *"), ffi.new("uint32_t *"), ffi.new("const char **")
-        if not lib.mxg_result_source_place(self._handle.pointer, Stage(stage), line, file, row, column, path):
-            return None
-        return Place(py_text(file[0]) if file[0] else None, row[0], column[0], py_text(path[0]) if path[0] else "")
+        values = record("mxg_place", lib.mxg_result_source_place, self._handle.pointer, Stage(stage), line)
+        return None if values is None else Place(**values)
 
     def source_path(self, stage: Stage, line: int) -> str | None:
         """The path of the node that produced a line, also of a node inside a definition: "SR_gold/coat_bsdf"."""
@@ -393,6 +396,14 @@ class Shader(Native):
         return ShaderInfo(**values)
 
     @property
+    def storage(self) -> Storage:
+        """What the shader stores for the passes of the deferred pipeline. Raises ArgumentError with `only_diagnostics`."""
+        values = record("mxg_storage", lib.mxg_result_storage, self._handle.pointer)
+        if values is None:
+            raise ArgumentError("the call made diagnostics only")
+        return Storage(**values)
+
+    @property
     def pass_info(self) -> PassInfo | None:
         """How the pass runs; None for a shader that is none."""
         values = record("mxg_pass", lib.mxg_result_pass, self._handle.pointer)
@@ -412,10 +423,8 @@ class Shader(Native):
 
     def find_variable(self, path: str) -> Variable | None:
         """The variable for a document path; None: the input is unused or compiled in."""
-        index = ffi.new("uint32_t *")
-        if not lib.mxg_result_find_variable(self._handle.pointer, c_text(path, "path"), index):
-            return None
-        return self._variable(index[0])
+        index = lib.mxg_result_find_variable(self._handle.pointer, c_text(path, "path"))
+        return None if index == lib.MXG_NONE else self._variable(index)
 
     @property
     def compiled_inputs(self) -> tuple[CompiledInput, ...]:
@@ -449,22 +458,24 @@ class Shader(Native):
 
     def pack(self, block: Block) -> bytearray:
         """The buffer of a block of uniforms with the default values, ready for upload."""
-        size = lib.mxg_result_pack_block(self._handle.pointer, Block(block), ffi.NULL, 0)
-        data = bytearray(size)
-        if size:
-            lib.mxg_result_pack_block(self._handle.pointer, Block(block), ffi.from_buffer(data), size)
+        data, status = self._packed(ffi.NULL, block)
+        assert status == lib.MXG_OK
         return data
+
+    def _packed(self, document: Any, block: Block) -> tuple[bytearray, int]:
+        """The values of a native document, or NULL: those of the shader."""
+        values = record("mxg_block_info", lib.mxg_result_block, self._handle.pointer, Block(block))
+        data = bytearray(0 if values is None else values["byte_size"])
+        if not data:
+            return data, int(lib.MXG_OK)
+        return data, lib.mxg_result_pack_block(self._handle.pointer, document, Block(block), ffi.from_buffer(data), len(data))
 
     def pack_from(self, document: Document, block: Block) -> bytearray:
         """The buffer of a block with the values of another document, for example after an edit of inputs that are uniforms.
 
         Generates nothing. Raises ValueError if an input of the block has no value there, for example because it is connected.
         """
-        data = self.pack(block)
-        if not data:
-            return data
-        status = lib.mxg_document_pack_block(document._handle.pointer, self._handle.pointer, Block(block), ffi.from_buffer(data),
-                                         len(data))
+        data, status = self._packed(document._handle.pointer, block)
         if status == lib.MXG_ERROR_DOCUMENT:
             raise ValueError("an input of the block has no value in the document")
         if status != lib.MXG_OK:
@@ -497,8 +508,8 @@ class Shader(Native):
         return tuple(found)
 
     def _light_member(self, light: int, member: int) -> Variable | None:
-        index = ffi.new("uint32_t *")
-        return self._variable(index[0]) if lib.mxg_result_light_member(self._handle.pointer, light, member, index) else None
+        index = lib.mxg_result_light_member(self._handle.pointer, light, member)
+        return None if index == lib.MXG_NONE else self._variable(index)
 
     @property
     def reflection_json(self) -> str:
@@ -540,7 +551,7 @@ class _Options(Native):
     def set(self, key: str, value: str) -> None:
         status = lib.mxg_options_set(self._handle.pointer, c_text(key, "the key of an option"), c_text(value, f"option '{key}'"))
         if status == lib.MXG_ERROR_ARGUMENT:
-            raise ArgumentError(py_text(lib.mxg_options_error(self._handle.pointer)))
+            raise ArgumentError(sized_text(lambda out, capacity: lib.mxg_options_error(self._handle.pointer, out, capacity)))
         if status != lib.MXG_OK:
             raise error_of(status)
 

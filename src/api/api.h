@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Declarations that the files of the api room share: the objects behind mxgen.h.
+ * Declarations that the files of the api room share: the objects behind the public headers.
  *
  * Every object owns its memory, because any thread may drop the last reference. Work on an object
  * runs inside object_run, which catches a lack of memory (base/mem.h). Afterwards the object is
@@ -114,9 +114,7 @@ struct mxg_context {
     mxg_resolver resolver;
     bool (*cancel)(void *user_data);
     void *cancel_user_data;
-    bool (*read_texels)(void *user_data, const char *from, const char *file, const char *layer,
-                        uint32_t size, float *out_texels);
-    void *texels_user_data;
+    mxg_texel_reader texels;
     struct xml_limits xml_limits;
     uint32_t max_nodes, max_output_mib, max_errors;
     struct diag_policy policy;

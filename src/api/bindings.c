@@ -132,7 +132,7 @@ static mxg_layer describe(const struct bindings *b, prim_id prim, const struct b
         .material = str_text(doc->strings, doc_element(doc, a->target)->name),
         .is_nodegraph = a->kind == ASSIGN_GRAPH,
         .product = item->kind == ITEM_PRODUCT ? bind_product_names[item->product] : "",
-        .from = from ? from - 1 : UINT32_MAX,
+        .from = from ? from - 1 : MXG_NONE,
         .look = a->look ? str_text(doc->strings, doc_element(doc, a->look)->name) : "",
         .assign = a->binding ? b->scene->bindings.items[a->binding - 1].label
                              : str_text(doc->strings, doc_element(doc, a->element)->name),
@@ -165,7 +165,7 @@ uint32_t mxg_bindings_num_resolved_primitives(const mxg_bindings *bindings)
 uint32_t mxg_bindings_stack(const mxg_bindings *bindings, uint32_t primitive)
 {
     const struct bind_state *state = state_of(bindings, primitive);
-    return state ? state->stack : UINT32_MAX;
+    return state ? state->stack : MXG_NONE;
 }
 
 size_t mxg_bindings_stack_name(const mxg_bindings *bindings, uint32_t stack, char *buffer,
@@ -214,7 +214,7 @@ mxg_status mxg_bindings_fact(const mxg_bindings *bindings, uint32_t primitive, u
         .value = str_text(doc->strings,
                           doc_attr_value(doc, fact, is_visibility ? STR_visible : STR_value)),
         .target = bind_fact_target(doc, fact),
-        .from = from ? from - 1 : UINT32_MAX,
+        .from = from ? from - 1 : MXG_NONE,
         .file = place.file,
         .line = place.line,
     };

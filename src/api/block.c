@@ -51,14 +51,15 @@ void block_write_words(const struct shader_variable *v, const union ir_word *wor
                sizeof *words);
 }
 
-size_t mxg_result_pack_block(const mxg_result *result, mxg_block block, void *bytes,
-                             size_t capacity)
+size_t block_size(const mxg_result *result, mxg_block block)
 {
     const struct shader_buffer *buffer = buffer_of(result, block);
-    if (!buffer)
-        return 0;
-    if (!bytes || capacity < buffer->size)
-        return buffer->size;
+    return buffer ? buffer->size : 0;
+}
+
+void block_pack(const mxg_result *result, mxg_block block, void *bytes)
+{
+    const struct shader_buffer *buffer = buffer_of(result, block);
     memset(bytes, 0, buffer->size);
     const struct shader *shader = &result->shader;
     for (uint32_t i = shader->first_of_block[block];
@@ -68,7 +69,6 @@ size_t mxg_result_pack_block(const mxg_result *result, mxg_block block, void *by
         if (v->has_default && v->value.type == v->type && !v->array_length)
             block_write_words(v, v->value.w, (char *)bytes + v->offset);
     }
-    return buffer->size;
 }
 
 static union ir_word word_of(ir_type_id scalar, float number)
@@ -141,22 +141,17 @@ mxg_status mxg_result_light_type(const mxg_result *result, uint32_t index, mxg_l
     return struct_write(out, &full, sizeof full);
 }
 
-bool mxg_result_light_member(const mxg_result *result, uint32_t index, uint32_t member,
-                             uint32_t *out_variable)
+uint32_t mxg_result_light_member(const mxg_result *result, uint32_t light, uint32_t member)
 {
-    if (index >= mxg_result_num_light_types(result)
-        || member >= result->shader.lights.items[index].num_members)
-        return false;
+    if (light >= mxg_result_num_light_types(result)
+        || member >= result->shader.lights.items[light].num_members)
+        return MXG_NONE;
     const struct shader *shader = &result->shader;
     uint32_t wanted =
-        shader->light_members.items[shader->lights.items[index].first_member + member];
+        shader->light_members.items[shader->lights.items[light].first_member + member];
     for (uint32_t i = shader->first_of_block[BLOCK_LIGHT_DATA];
-         i < shader->first_of_block[BLOCK_LIGHT_DATA + 1]; i++) {
-        if (shader->interface.items[i] != wanted)
-            continue;
-        if (out_variable)
-            *out_variable = i;
-        return true;
-    }
-    return false;
+         i < shader->first_of_block[BLOCK_LIGHT_DATA + 1]; i++)
+        if (shader->interface.items[i] == wanted)
+            return i;
+    return MXG_NONE;
 }

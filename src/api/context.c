@@ -21,7 +21,6 @@ const char *mxg_status_string(mxg_status status)
     case MXG_ERROR_ARGUMENT: return "bad argument";
     case MXG_ERROR_MEMORY: return "out of memory";
     case MXG_ERROR_CANCELLED: return "cancelled";
-    case MXG_ERROR_INTERNAL: return "internal error";
     default: return "unknown status";
     }
 }
@@ -93,8 +92,8 @@ mxg_status mxg_context_create(const mxg_context_desc *desc, mxg_context **out_co
     context->policy = policy;
     context->cancel = d.cancel;
     context->cancel_user_data = d.cancel_user_data;
-    context->read_texels = d.read_texels;
-    context->texels_user_data = d.texels_user_data;
+    if (d.texels)
+        context->texels = *d.texels;
     context->xml_limits = (struct xml_limits){.max_depth = d.max_depth,
                                               .max_include_depth = d.max_include_depth,
                                               .max_includes = d.max_includes,

@@ -35,8 +35,17 @@ mxg_status mxg_diagnostics_item(const mxg_diagnostics *list, uint32_t index, mxg
         .column = diag->place.column,
         .length = diag->place.length,
         .parent = diag->parent,
+        .num_arguments = diag->num_arguments,
     };
     return struct_write(out, &full, sizeof full);
+}
+
+const char *mxg_diagnostics_argument(const mxg_diagnostics *list, uint32_t item, uint32_t index)
+{
+    if (item >= mxg_diagnostics_num_items(list))
+        return NULL;
+    const struct diag *diag = &list->list.items.items[item];
+    return index < diag->num_arguments ? diag->arguments[index] : NULL;
 }
 
 uint32_t mxg_catalogue_num_diagnostic_kinds(void)
@@ -61,11 +70,9 @@ mxg_status mxg_catalogue_diagnostic_kind(uint32_t index, mxg_diagnostic_kind *ou
 }
 
 struct format_job {
-    void (*render)(const struct diag *diag, const char *source, size_t source_len, bool colour,
-                   struct text *out);
     const struct diag *diag;
-    const char *source;
-    size_t source_size;
+    const char *line;
+    size_t line_size;
     bool colour;
     struct text text;
 };
@@ -73,42 +80,29 @@ struct format_job {
 static void run_job(void *arg)
 {
     struct format_job *job = arg;
-    job->render(job->diag, job->source, job->source_size, job->colour, &job->text);
+    diag_render(job->diag, job->line, job->line_size, job->colour, &job->text);
 }
 
 /* Formats the text in memory of its own, because other threads may read the same list. */
-static size_t format(const mxg_diagnostics *list, uint32_t index, struct format_job *job,
-                     char *buffer, size_t capacity)
+size_t mxg_diagnostics_format(const mxg_diagnostics *list, uint32_t index, const char *line,
+                              size_t line_size, bool colour, char *buffer, size_t capacity)
 {
     text_copy("", 0, buffer, capacity);
     if (index >= mxg_diagnostics_num_items(list))
         return 0;
     struct object scratch = {.size = 0};
     object_init(&scratch, list->owner->context, 0);
-    job->diag = &list->list.items.items[index];
-    text_init(&job->text, &scratch.arena);
+    struct format_job job = {.diag = &list->list.items.items[index],
+                             .line = line,
+                             .line_size = line_size,
+                             .colour = colour};
+    text_init(&job.text, &scratch.arena);
     size_t len = 0;
-    if (object_run(&scratch, run_job, job) == MXG_OK)
-        len = text_copy(job->text.data, job->text.len, buffer, capacity);
+    if (object_run(&scratch, run_job, &job) == MXG_OK)
+        len = text_copy(job.text.data, job.text.len, buffer, capacity);
     arena_finish(&scratch.arena);
     atomic_fetch_sub(&scratch.context->used, scratch.counted);
     return len;
-}
-
-size_t mxg_diagnostics_format(const mxg_diagnostics *list, uint32_t index, const char *source,
-                              size_t source_size, bool colour, char *buffer, size_t capacity)
-{
-    struct format_job job = {
-        .render = diag_render_text, .source = source, .source_size = source_size, .colour = colour};
-    return format(list, index, &job, buffer, capacity);
-}
-
-size_t mxg_diagnostics_format_line(const mxg_diagnostics *list, uint32_t index, const char *line,
-                                   size_t line_size, bool colour, char *buffer, size_t capacity)
-{
-    struct format_job job = {
-        .render = diag_render_line, .source = line, .source_size = line_size, .colour = colour};
-    return format(list, index, &job, buffer, capacity);
 }
 
 const mxg_diagnostics *mxg_library_diagnostics(const mxg_library *library)

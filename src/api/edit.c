@@ -8,9 +8,9 @@
 #include <stdarg.h>
 
 struct mxg_edit {
-    struct object object; /* owns the texts of errors; holds the document */
-    mxg_document *document;
-    bool is_unchecked; /* it has elements that no call below checked and indexed */
+    struct object object;   /* owns the texts of errors; holds the document */
+    mxg_document *document; /* NULL: the edit has made it */
+    bool is_unchecked;      /* it has elements that no call below checked and indexed */
     struct text error;
 };
 
@@ -128,9 +128,12 @@ static elem_id in_tree(const mxg_edit *edit, mxg_element element)
     return doc_has_element(tree_of(edit), element) ? element : 0;
 }
 
-mxg_element mxg_edit_find_element(const mxg_edit *edit, const char *path)
+mxg_element mxg_edit_find_element(const mxg_edit *edit, mxg_element below, const char *path)
 {
-    return edit && path ? in_tree(edit, doc_find(tree_of(edit), path, strlen(path))) : 0;
+    if (!edit || !edit->document || !path)
+        return 0;
+    elem_id start = below ? in_tree(edit, below) : tree_of(edit)->root;
+    return start ? doc_find_below(tree_of(edit), start, path, strlen(path)) : 0;
 }
 
 static elem_id child_of(const mxg_edit *edit, elem_id parent, const char *name)
@@ -139,17 +142,10 @@ static elem_id child_of(const mxg_edit *edit, elem_id parent, const char *name)
     return doc_child(doc, parent, str_find(doc->strings, name, strlen(name)));
 }
 
-mxg_element mxg_edit_find_child(const mxg_edit *edit, mxg_element parent, const char *name)
+size_t mxg_edit_error(const mxg_edit *edit, char *buffer, size_t capacity)
 {
-    if (!edit || !name)
-        return 0;
-    elem_id element = parent ? in_tree(edit, parent) : tree_of(edit)->root;
-    return element ? child_of(edit, element, name) : 0;
-}
-
-const char *mxg_edit_error(const mxg_edit *edit)
-{
-    return edit && edit->error.len ? edit->error.data : "";
+    return edit ? text_copy(edit->error.data, edit->error.len, buffer, capacity)
+                : text_copy("", 0, buffer, capacity);
 }
 
 /* ---- One change ---- */
@@ -197,6 +193,10 @@ fail(struct change *change, const char *format, ...)
 
 static mxg_status run(struct change *change, void (*work)(void *arg))
 {
+    if (!change->edit->document) {
+        fail(change, "the edit has made its document");
+        return MXG_ERROR_ARGUMENT;
+    }
     mxg_status status = object_run(&change->edit->document->object, work, change);
     return status == MXG_OK && change->failed ? MXG_ERROR_ARGUMENT : status;
 }
@@ -690,10 +690,8 @@ mxg_status mxg_edit_commit(mxg_edit *edit, mxg_document **out_document)
 {
     if (out_document)
         *out_document = NULL;
-    if (!edit || !out_document) {
-        mxg_edit_destroy(edit);
+    if (!edit || !edit->document || !out_document)
         return MXG_ERROR_ARGUMENT;
-    }
     struct end_job job = {.document = edit->document, .is_unchecked = edit->is_unchecked};
     struct object *object = &edit->document->object;
     const mxg_document *origin = edit->document->origin;
@@ -707,7 +705,7 @@ mxg_status mxg_edit_commit(mxg_edit *edit, mxg_document **out_document)
         *out_document = edit->document;
         status = object_status(object);
     }
-    mxg_edit_destroy(edit);
+    edit->document = NULL;
     return status;
 }
 

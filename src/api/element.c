@@ -286,17 +286,13 @@ elem_id document_find_element(const struct mxg_document *document, const char *p
     return element;
 }
 
-mxg_status mxg_document_look_material(const mxg_document *document, const char *look,
-                                      uint32_t index, mxg_renderable *out)
+bool mxg_document_has_assignment(const mxg_document *document, const char *look, uint32_t index)
 {
-    if (!document || !look)
-        return MXG_ERROR_ARGUMENT;
+    if (!look || index >= mxg_document_num_renderables(document))
+        return false;
     struct search s = {document, &document->layer.doc, NULL};
     elem_id element = find_own(&s, look, strlen(look));
     enum element_kind kind = element ? doc_element(s.doc, element)->kind : KIND_NODE;
-    bool is_look = kind == KIND_LOOK || kind == KIND_LOOKGROUP;
-    for (uint32_t i = 0; is_look && i < document->renderables.num; i++)
-        if (assigns(&s, element, renderable_at(document, i), 0) && index-- == 0)
-            return mxg_document_renderable(document, i, out);
-    return MXG_ERROR_ARGUMENT;
+    return (kind == KIND_LOOK || kind == KIND_LOOKGROUP)
+           && assigns(&s, element, renderable_at(document, index), 0);
 }

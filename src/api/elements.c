@@ -20,25 +20,12 @@ static const char *text_of(const mxg_document *document, str_id id)
     return str_text(tree_of(document)->strings, id);
 }
 
-mxg_element mxg_document_root(const mxg_document *document)
+mxg_element mxg_document_find_element(const mxg_document *document, mxg_element below,
+                                      const char *path)
 {
-    return document ? tree_of(document)->root : 0;
-}
-
-mxg_element mxg_document_find_element(const mxg_document *document, const char *path)
-{
-    return document && path ? in_tree(document, doc_find(tree_of(document), path, strlen(path)))
-                            : 0;
-}
-
-mxg_element mxg_document_find_child(const mxg_document *document, mxg_element parent,
-                                    const char *name)
-{
-    elem_id element = in_tree(document, parent);
-    if (!element || !name)
-        return 0;
-    const struct document *doc = tree_of(document);
-    return doc_child(doc, element, str_find(doc->strings, name, strlen(name)));
+    const struct document *doc = document && path ? tree_of(document) : NULL;
+    elem_id start = !doc ? 0 : below ? in_tree(document, below) : doc->root;
+    return start ? doc_find_below(doc, start, path, strlen(path)) : 0;
 }
 
 struct path_job {
@@ -57,14 +44,14 @@ static void write_path(void *arg, struct arena *scratch)
     job->len = text_copy(path.data, path.len, job->out, job->capacity);
 }
 
-size_t mxg_document_element_path(const mxg_document *document, mxg_element element, char *out,
+size_t mxg_document_element_path(const mxg_document *document, mxg_element element, char *buffer,
                                  size_t capacity)
 {
-    text_copy("", 0, out, capacity);
+    text_copy("", 0, buffer, capacity);
     if (!in_tree(document, element))
         return 0;
     struct path_job job = {
-        .doc = tree_of(document), .element = element, .out = out, .capacity = capacity};
+        .doc = tree_of(document), .element = element, .out = buffer, .capacity = capacity};
     mxg_status status = context_run(document->object.context, write_path, &job);
     return status == MXG_OK ? job.len : 0;
 }
@@ -103,19 +90,15 @@ mxg_status mxg_document_attribute(const mxg_document *document, mxg_element elem
     return struct_write(out, &full, sizeof full);
 }
 
-const char *mxg_document_find_attribute(const mxg_document *document, mxg_element element,
-                                        const char *name)
+uint32_t mxg_document_find_attribute(const mxg_document *document, mxg_element element,
+                                     const char *name)
 {
     if (!in_tree(document, element) || !name)
-        return NULL;
+        return MXG_NONE;
     const struct document *doc = tree_of(document);
     str_id id = str_find(doc->strings, name, strlen(name));
-    if (id == STR_name) {
-        str_id value = doc_element(doc, element)->name;
-        return value ? text_of(document, value) : NULL;
-    }
     const struct attribute *attr = id ? doc_attr(doc, element, id) : NULL;
-    return attr ? text_of(document, attr->value) : NULL;
+    return attr ? (uint32_t)(attr - doc_attrs(doc, element)) : MXG_NONE;
 }
 
 /* ---- Values ---- */
@@ -213,16 +196,13 @@ static void match(void *arg, struct arena *scratch)
         job->nodedef = library_implemented_nodedef(lib, job->element);
 }
 
-bool mxg_document_find_nodedef(const mxg_document *document, mxg_element element,
-                               uint32_t *out_nodedef)
+uint32_t mxg_document_find_nodedef(const mxg_document *document, mxg_element element)
 {
     struct match_job job = {document, element, LIBRARY_NONE};
-    if (!in_tree(document, element) || !out_nodedef
-        || context_run(document->object.context, match, &job) != MXG_OK
-        || job.nodedef == LIBRARY_NONE)
-        return false;
-    *out_nodedef = job.nodedef;
-    return true;
+    bool found = in_tree(document, element)
+                 && context_run(document->object.context, match, &job) == MXG_OK
+                 && job.nodedef != LIBRARY_NONE;
+    return found ? job.nodedef : MXG_NONE;
 }
 
 uint32_t mxg_document_num_nodedefs(const mxg_document *document)

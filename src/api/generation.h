@@ -40,9 +40,9 @@ struct mxg_result {
     struct stage_source stages[NUM_STAGES];
     struct network network;  /* option `network`: replaces `shader`; arena NULL: no network */
     VEC(const char *) files; /* files read during the generation */
-    const char *
-        *origin_paths; /* paths by origin of the graph; filled on demand during generation */
-    uint64_t options;  /* a hash of the options */
+    /* paths by origin of the graph; filled on demand during generation */
+    const char **origin_paths;
+    uint64_t options;               /* a hash of the options */
     struct deferred_layout storage; /* of a material that stores, and of a pass */
     enum deferred_pass pass;        /* of a role that is one */
     bool has_shader;                /* the generation succeeded */
@@ -168,7 +168,6 @@ _Static_assert((int)NUM_RESULT_TEXTS <= OBJECT_MAX_TEXTS, "an object has room fo
 
 /* storage.c: shader_reflect_options.more; user_data is the mxg_result. */
 void result_storage(void *user_data, struct json *json);
-uint32_t result_classes(const mxg_result *result); /* mxg_shader_info.stored_classes */
 
 /* reflection.c: the user interface data of a variable; user_data is the mxg_result. */
 void result_ui(void *user_data, const struct shader_variable *variable, struct shader_ui *out);
@@ -178,7 +177,11 @@ void result_input_ui(const mxg_result *result, elem_id element, elem_id definiti
 /* A hash: equal for shaders that can share a program. false: out of memory. */
 bool result_topology(const mxg_result *result, uint64_t *out_topology);
 
-/* block.c: writes a value to its place in a buffer. */
+/* block.c: the bytes of a block; 0: it is in no buffer. */
+size_t block_size(const mxg_result *result, mxg_block block);
+/* Fills the buffer of a block, which has `block_size` bytes, with the values of the result. */
+void block_pack(const mxg_result *result, mxg_block block, void *bytes);
+/* Writes a value to its place in a buffer. */
 void block_write_words(const struct shader_variable *v, const union ir_word *words, char *to);
 
 /* result_inputs.c: shader_reflect_options.compiled; user_data is the mxg_result. */

@@ -81,7 +81,7 @@ static void read_path(struct load *load, const char *path)
     struct diag_list *diags = &load->library->object.diagnostics.list;
     if (is_image(path)) {
         refuse_image(load, path,
-                     "an image has no base library: name it first, with --no-builtin-library");
+                     "an image has no base library: name it first, without the built-in library");
         return;
     }
     if (!folder_exists(path)) {
@@ -286,16 +286,13 @@ mxg_status mxg_library_image(mxg_library *library, const void **out_data, size_t
     return MXG_OK;
 }
 
-mxg_status mxg_library_xml(mxg_library *library, const char **out_text, size_t *out_size)
+const char *mxg_library_xml(mxg_library *library, size_t *out_size)
 {
-    if (!library || !out_text || !out_size)
-        return MXG_ERROR_ARGUMENT;
-    const struct made_text *made = object_text(&library->object, TEXT_EXPANDED, write_expanded);
-    if (!made)
-        return MXG_ERROR_MEMORY;
-    *out_text = made->data;
-    *out_size = made->size;
-    return MXG_OK;
+    const struct made_text *made =
+        library ? object_text(&library->object, TEXT_EXPANDED, write_expanded) : NULL;
+    if (out_size)
+        *out_size = made ? made->size : 0;
+    return made ? made->data : NULL;
 }
 
 const mxg_diagnostics *mxg_library_losses(mxg_library *library)

@@ -330,7 +330,8 @@ mxg_status mxg_options_set(mxg_options *options, const char *key, const char *va
     return status == MXG_OK && !setting.good ? MXG_ERROR_ARGUMENT : status;
 }
 
-const char *mxg_options_error(const mxg_options *options)
+size_t mxg_options_error(const mxg_options *options, char *buffer, size_t capacity)
 {
-    return options ? options->error : NULL;
+    const char *error = options && options->error ? options->error : "";
+    return text_copy(error, strlen(error), buffer, capacity);
 }

@@ -197,18 +197,14 @@ size_t mxg_result_texture_file(const mxg_result *result, uint32_t variable, uint
                       capacity);
 }
 
-bool mxg_result_find_variable(const mxg_result *result, const char *path, uint32_t *out_index)
+uint32_t mxg_result_find_variable(const mxg_result *result, const char *path)
 {
     uint32_t count = mxg_result_num_variables(result);
     str_id id = count && path ? str_find(&result->strings, path, strlen(path)) : 0;
-    for (uint32_t i = 0; id && i < count; i++) {
-        if (result_variable(result, i)->path != id)
-            continue;
-        if (out_index)
-            *out_index = i;
-        return true;
-    }
-    return false;
+    for (uint32_t i = 0; id && i < count; i++)
+        if (result_variable(result, i)->path == id)
+            return i;
+    return MXG_NONE;
 }
 
 /* ---- The shader as a whole ---- */
@@ -273,11 +269,6 @@ mxg_status mxg_result_info(const mxg_result *result, mxg_shader_info *out)
         .function = shader->function,
         .function_type = shader->function_type,
         .lit = shader->lit,
-        .stored_words = shader->stored_words,
-        .layout = role_is_pass(shader->role) || shader->stored_words
-                      ? deferred_layout_number(&result->storage)
-                      : 0,
-        .stored_classes = result_classes(result),
     };
     /* only the topology is expensive */
     if (out && out->size > offsetof(mxg_shader_info, topology)

@@ -131,8 +131,8 @@ static bool find_input(const mxg_result *result, const char *path, struct found_
         return false;
     *out = (struct found_input){.node = node,
                                 .element = doc_child_of_kind(doc, node, KIND_INPUT, name)};
-    uint32_t nodedef;
-    if (!mxg_document_find_nodedef(result->document, node, &nodedef))
+    uint32_t nodedef = mxg_document_find_nodedef(result->document, node);
+    if (nodedef == MXG_NONE)
         return kind == KIND_NODEGRAPH && out->element;
     int index = library_find_input(&result->document->layer, nodedef, name);
     if (index >= 0)
@@ -166,7 +166,6 @@ static bool is_connected(const mxg_result *result, const struct found_input *inp
 mxg_input_state mxg_result_input_state(const mxg_result *result, const char *path)
 {
     struct found_input input;
-    uint32_t variable;
     if (!result || !path || !result->has_shader || result->network.arena)
         return MXG_INPUT_UNKNOWN;
     path += *path == '/';
@@ -174,7 +173,7 @@ mxg_input_state mxg_result_input_state(const mxg_result *result, const char *pat
         return MXG_INPUT_UNKNOWN;
     if (is_compiled(result, &input))
         return MXG_INPUT_COMPILED;
-    if (mxg_result_find_variable(result, path, &variable))
+    if (mxg_result_find_variable(result, path) != MXG_NONE)
         return MXG_INPUT_UNIFORM;
     return is_connected(result, &input) ? MXG_INPUT_CONNECTED : MXG_INPUT_UNUSED;
 }

@@ -97,7 +97,7 @@ static bool is_inside(const struct mxg_context *context, const char *path)
 const char *sandbox_texture_fault(const struct mxg_context *context, const char *path)
 {
     return context->sandbox && !is_inside(context, path)
-               ? "it is outside the folders that documents may read; see --sandbox"
+               ? "it is outside the folders that documents may read"
                : NULL;
 }
 

@@ -139,7 +139,7 @@ const mxg_diagnostics *mxg_scene_diagnostics(const mxg_scene *scene)
 /* Inside, 0 is the root; the numbers of the interface leave it out. */
 static uint32_t number_of(prim_id prim)
 {
-    return prim ? prim - 1 : UINT32_MAX;
+    return prim ? prim - 1 : MXG_NONE;
 }
 
 struct addition {
@@ -185,7 +185,7 @@ static prim_id add_given(mxg_scene *scene, const mxg_primitive *given)
     struct diag_list *diags = &scene->object.diagnostics.list;
     struct text_word name = {given->name ? given->name : "", given->name_len},
                      type = {given->type ? given->type : "", given->type_len};
-    bool is_known = given->parent == UINT32_MAX || has_primitive(scene, given->parent);
+    bool is_known = given->parent == MXG_NONE || has_primitive(scene, given->parent);
     if (!is_known)
         diag_add(diags, DIAG_ID_bad_path, (struct diag_place){0},
                  arena_strndup(diags->arena, name.bytes, name.len),
@@ -203,7 +203,7 @@ static void add_each(void *arg)
     struct addition *a = arg;
     prim_id last = 0;
     for (;;) {
-        mxg_primitive given = {.size = sizeof given, .parent = UINT32_MAX};
+        mxg_primitive given = {.size = sizeof given, .parent = MXG_NONE};
         if (!a->next(a->user_data, number_of(last), &given))
             return;
         last = add_given(a->scene, &given);
@@ -283,7 +283,7 @@ mxg_status mxg_scene_primitive(const mxg_scene *scene, uint32_t index, mxg_primi
 
 uint32_t mxg_scene_find_primitive(const mxg_scene *scene, const char *path)
 {
-    return scene && path ? number_of(scene_find(&scene->scene, path, strlen(path))) : UINT32_MAX;
+    return scene && path ? number_of(scene_find(&scene->scene, path, strlen(path))) : MXG_NONE;
 }
 
 size_t mxg_scene_primitive_path(const mxg_scene *scene, uint32_t index, char *buffer,

@@ -23,10 +23,10 @@ static void change_binding(void *arg)
         scene_unbind(&change->scene->scene, change->prim, &slot);
 }
 
-/* UINT32_MAX is the whole scene, the root inside. */
+/* MXG_NONE is the whole scene, the root inside. */
 static bool is_place(const mxg_scene *scene, uint32_t primitive)
 {
-    return primitive == UINT32_MAX || has_primitive(scene, primitive);
+    return primitive == MXG_NONE || has_primitive(scene, primitive);
 }
 
 static mxg_status run_change(struct binding_change change, uint32_t primitive)

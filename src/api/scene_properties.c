@@ -42,51 +42,58 @@ static bool is_hidden(const struct scene *scene, prim_id prim, uint32_t source,
     return false;
 }
 
-/* Property `index` of a primitive, or NULL with their number. */
+/*
+ * Property `index` of a primitive, or the one that is `wanted`, with its index; NULL with their
+ * number.
+ */
 static const struct usda_property *find(const struct scene *scene, prim_id prim, uint32_t index,
-                                        uint32_t *out_num)
+                                        const struct usda_property *wanted, uint32_t *out_num)
 {
-    const struct usda_property *all = scene->layer.properties.items;
-    uint32_t num = 0;
+    const struct usda_property *all = scene->layer.properties.items, *found = NULL;
+    *out_num = 0;
     for (uint32_t i = scene_source(scene, prim); i; i = scene->sources.items[i - 1].next)
-        for (uint32_t k = prim_of(scene, i)->first_property; k; k = all[k].next)
-            if (!is_hidden(scene, prim, i, all[k].name) && num++ == index)
-                return &all[k];
-    if (out_num)
-        *out_num = num;
-    return NULL;
+        for (uint32_t k = prim_of(scene, i)->first_property; k && !found; k = all[k].next) {
+            if (is_hidden(scene, prim, i, all[k].name))
+                continue;
+            if (*out_num == index || &all[k] == wanted)
+                found = &all[k];
+            else
+                ++*out_num;
+        }
+    return found;
 }
 
 uint32_t mxg_scene_num_properties(const mxg_scene *scene, uint32_t primitive)
 {
     uint32_t num = 0;
     if (has_primitive(scene, primitive))
-        find(&scene->scene, primitive + 1, UINT32_MAX, &num);
+        find(&scene->scene, primitive + 1, MXG_NONE, NULL, &num);
     return num;
 }
 
 mxg_status mxg_scene_property(const mxg_scene *scene, uint32_t primitive, uint32_t index,
                               mxg_property *out)
 {
-    const struct usda_property *found =
-        has_primitive(scene, primitive) ? find(&scene->scene, primitive + 1, index, NULL) : NULL;
+    uint32_t num;
+    const struct usda_property *found = has_primitive(scene, primitive)
+                                            ? find(&scene->scene, primitive + 1, index, NULL, &num)
+                                            : NULL;
     if (!found)
         return MXG_ERROR_ARGUMENT;
     mxg_property full = describe(&scene->scene, found);
     return struct_write(out, &full, sizeof full);
 }
 
-bool mxg_scene_find_property(const mxg_scene *scene, uint32_t primitive, const char *name,
-                             mxg_property *out)
+uint32_t mxg_scene_find_property(const mxg_scene *scene, uint32_t primitive, const char *name)
 {
-    const struct usda_property *found =
+    const struct usda_property *wanted =
         has_primitive(scene, primitive) && name
             ? scene_property(&scene->scene, primitive + 1, name, NULL)
             : NULL;
-    if (!found)
-        return false;
-    mxg_property full = describe(&scene->scene, found);
-    return struct_write(out, &full, sizeof full) == MXG_OK;
+    uint32_t index = MXG_NONE;
+    if (wanted)
+        find(&scene->scene, primitive + 1, MXG_NONE, wanted, &index);
+    return index;
 }
 
 /* The value of a property; len 0: none. */
@@ -137,7 +144,7 @@ uint32_t mxg_scene_property_target(const mxg_scene *scene, uint32_t primitive, c
     prim_id found = find_word(value_of(scene, primitive, name, &source), index, &path)
                         ? scene_target(&scene->scene, source, path)
                         : 0;
-    return found ? found - 1 : UINT32_MAX;
+    return found ? found - 1 : MXG_NONE;
 }
 
 char mxg_scene_up_axis(const mxg_scene *scene)

@@ -65,25 +65,19 @@ static elem_id document_element(const mxg_result *result, uint32_t origin)
     return origin ? origins[origin].element : 0;
 }
 
-bool mxg_result_source_place(const mxg_result *result, mxg_stage stage, uint32_t line,
-                             const char **out_file, uint32_t *out_line, uint32_t *out_column,
-                             const char **out_path)
+mxg_status mxg_result_source_place(const mxg_result *result, mxg_stage stage, uint32_t line,
+                                   mxg_place *out)
 {
     uint32_t origin =
         result && (unsigned)stage < NUM_STAGES ? origin_of_line(result, stage, line) : 0;
     elem_id element = origin ? document_element(result, origin) : 0;
     if (!element)
-        return false;
+        return MXG_ERROR_ARGUMENT;
     struct diag_place place = doc_place(&result->document->layer.doc, element);
-    if (out_file)
-        *out_file = place.file;
-    if (out_line)
-        *out_line = place.line;
-    if (out_column)
-        *out_column = place.column;
-    if (out_path)
-        *out_path = result->origin_paths[origin] ? result->origin_paths[origin] : "";
-    return true;
+    const char *path = result->origin_paths[origin];
+    mxg_place full = {
+        .file = place.file, .line = place.line, .column = place.column, .path = path ? path : ""};
+    return struct_write(out, &full, sizeof full);
 }
 
 enum { MAX_NAMES = 64 }; /* in a path; names of outer elements beyond this number are missing */

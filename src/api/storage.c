@@ -5,6 +5,31 @@
 
 #include <string.h>
 
+static bool is_pass(const mxg_result *result)
+{
+    return role_is_pass(result->shader.role);
+}
+
+static uint32_t classes_of(const mxg_result *result)
+{
+    if (!is_pass(result))
+        return result->shader.stored_classes;
+    enum deferred_class lit = deferred_pass_class(result->pass);
+    return lit == CLASS_EMPTY || !deferred_is_indirect(result->pass) ? 0 : 1u << lit;
+}
+
+mxg_status mxg_result_storage(const mxg_result *result, mxg_storage *out)
+{
+    if (!result || !result->has_shader)
+        return MXG_ERROR_ARGUMENT;
+    uint32_t words = result->shader.stored_words;
+    mxg_storage full = {.words = words,
+                        .layout =
+                            is_pass(result) || words ? deferred_layout_number(&result->storage) : 0,
+                        .classes = classes_of(result)};
+    return struct_write(out, &full, sizeof full);
+}
+
 uint32_t mxg_catalogue_num_pass_resources(void)
 {
     return NUM_RESOURCES;
@@ -43,11 +68,6 @@ mxg_status mxg_catalogue_pass_member(uint32_t resource, uint32_t index, mxg_pass
                             .per = m->per ? m->per : "",
                             .is_nested = m->is_nested};
     return struct_write(out, &full, sizeof full);
-}
-
-static bool is_pass(const mxg_result *result)
-{
-    return role_is_pass(result->shader.role);
 }
 
 mxg_status mxg_result_pass(const mxg_result *result, mxg_pass *out)
@@ -133,14 +153,6 @@ static const char *name_of(const mxg_result *result)
     if (is_pass(result))
         return deferred_pass_name(result->pass);
     return result->storage.is_payload ? "payload" : "material";
-}
-
-uint32_t result_classes(const mxg_result *result)
-{
-    if (!is_pass(result))
-        return result->shader.stored_classes;
-    enum deferred_class lit = deferred_pass_class(result->pass);
-    return lit == CLASS_EMPTY || !deferred_is_indirect(result->pass) ? 0 : 1u << lit;
 }
 
 /* The classes of a material by name. */

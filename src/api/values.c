@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* The values of a document for a program that another document made. */
+/* The values of a program as bytes: its own, and those of another document. */
 #include "api/generation.h"
 
 /* The element of a path in the document itself, without the layers below. */
@@ -55,20 +55,17 @@ static bool read_value(const mxg_result *program, const struct document *doc,
            && out->type == v->type;
 }
 
-mxg_status mxg_document_pack_block(const mxg_document *document, const mxg_result *program,
-                                   mxg_block block, void *bytes, size_t capacity)
+/* Writes the values of the document, if it has all. */
+static mxg_status pack_values(const mxg_result *program, const mxg_document *document,
+                              mxg_block block, void *bytes)
 {
-    size_t size = program ? mxg_result_pack_block(program, block, NULL, 0) : 0;
-    if (!document || !size || !bytes || capacity < size
-        || document->layer.base != program->document->layer.base)
-        return MXG_ERROR_ARGUMENT;
     const struct shader *shader = &program->shader;
     const struct document *doc = &document->layer.doc;
     struct ir_value value;
     for (unsigned writes = 0; writes < 2;
          writes++) { /* first a test, so that all or nothing is written */
         if (writes)
-            mxg_result_pack_block(program, block, bytes, capacity);
+            block_pack(program, block, bytes);
         for (uint32_t i = shader->first_of_block[block]; i < shader->first_of_block[block + 1];
              i++) {
             const struct shader_variable *v = result_variable(program, i);
@@ -80,5 +77,18 @@ mxg_status mxg_document_pack_block(const mxg_document *document, const mxg_resul
                 block_write_words(v, value.w, (char *)bytes + v->offset);
         }
     }
+    return MXG_OK;
+}
+
+mxg_status mxg_result_pack_block(const mxg_result *result, const mxg_document *document,
+                                 mxg_block block, void *bytes, size_t capacity)
+{
+    size_t size = result ? block_size(result, block) : 0;
+    if (!size || !bytes || capacity < size
+        || (document && document->layer.base != result->document->layer.base))
+        return MXG_ERROR_ARGUMENT;
+    if (document)
+        return pack_values(result, document, block, bytes);
+    block_pack(result, block, bytes);
     return MXG_OK;
 }

@@ -136,18 +136,20 @@ static const struct deferred_resource resources[NUM_RESOURCES] = {
                        .format = "std430",
                        MEMBERS(rays),
                        .doc = "a ray for each pixel"},
-    [RESOURCE_SCATTERED] = {.name = "scattered",
-                            .kind = "image2DArray",
-                            .format = "rgba16f",
-                            .layers = 2,
-                            .doc = "with --sss diffusion: light that enters bodies over their "
-                                   "albedo, and other light of the same pixels"},
-    [RESOURCE_BELOW] = {.name = "below",
-                        .kind = "image2DArray",
-                        .format = "rgba16f",
-                        .layers = 2,
-                        .doc = "with --rough-refraction blur: light from below rough interfaces "
-                               "with the width of its blur, and other light of the same pixels"},
+    [RESOURCE_SCATTERED] =
+        {.name = "scattered",
+         .kind = "image2DArray",
+         .format = "rgba16f",
+         .layers = 2,
+         .doc = "with the option 'sss' diffusion: light that enters bodies over their "
+                "albedo, and other light of the same pixels"},
+    [RESOURCE_BELOW] =
+        {.name = "below",
+         .kind = "image2DArray",
+         .format = "rgba16f",
+         .layers = 2,
+         .doc = "with the option 'rough-refraction' blur: light from below rough interfaces "
+                "with the width of its blur, and other light of the same pixels"},
 };
 
 const struct deferred_resource *deferred_resource(enum deferred_binding binding)

@@ -62,6 +62,30 @@ static const char *format_message(struct arena *arena, const char *format, va_li
     return message;
 }
 
+/* What a format leaves open, as texts: strings, and numbers in decimal. */
+static const char *const *keep_arguments(struct arena *arena, const char *format, va_list args,
+                                         uint32_t *out_num)
+{
+    uint32_t num = 0;
+    for (const char *at = format; (at = strchr(at, '%')) != NULL; at++)
+        num++;
+    const char **texts = num ? ARENA_ARRAY(arena, const char *, num) : NULL;
+    *out_num = 0;
+    for (const char *at = format; (at = strchr(at, '%')) != NULL; at++) {
+        char number[16];
+        const char *text = number;
+        if (at[1] == 's')
+            text = va_arg(args, const char *);
+        else if (at[1] == 'u')
+            snprintf(number, sizeof number, "%u", va_arg(args, unsigned));
+        else
+            snprintf(number, sizeof number, "%d", va_arg(args, int));
+        texts[(*out_num)++] = arena_strndup(arena, text, strlen(text));
+    }
+    assert(*out_num == num);
+    return texts;
+}
+
 /* Consecutive diagnostics often share a file. */
 static const char *keep_file(const struct diag_list *list, const char *file)
 {
@@ -95,24 +119,20 @@ bool diag_is_shown(const struct diag_list *list, enum diag_id id)
     return severity_in(list, id) < DIAG_REMARK;
 }
 
-static void append(struct diag_list *list, enum diag_id id, struct diag_place place,
-                   const char *message)
+/* Adds a diagnostic whose texts the list has. Sets its severity, parent and place. */
+static void append(struct diag_list *list, struct diag diag)
 {
-    enum diag_severity severity = severity_in(list, id);
-    assert(severity != DIAG_IGNORED);
-    bool is_note = severity == DIAG_NOTE && list->items.len > 0;
+    diag.severity = severity_in(list, diag.id);
+    assert(diag.severity != DIAG_IGNORED);
+    bool is_note = diag.severity == DIAG_NOTE && list->items.len > 0;
     if (!is_note)
         list->last = list->items.len;
-    place.file = keep_file(list, place.file);
-    if (place.path)
-        place.path = arena_strndup(list->arena, place.path, strlen(place.path));
-    vec_push(list->arena, &list->items,
-             (struct diag){.id = id,
-                           .severity = severity,
-                           .message = message,
-                           .place = place,
-                           .parent = list->last});
-    if (id == DIAG_ID_include_missing && !list->cause)
+    diag.parent = list->last;
+    diag.place.file = keep_file(list, diag.place.file);
+    if (diag.place.path)
+        diag.place.path = arena_strndup(list->arena, diag.place.path, strlen(diag.place.path));
+    vec_push(list->arena, &list->items, diag);
+    if (diag.id == DIAG_ID_include_missing && !list->cause)
         list->cause = list->items.len;
     assert(list->last < list->items.len);
     if (!is_note && list->trace)
@@ -139,7 +159,11 @@ static bool is_consequence(const struct diag_list *list, enum diag_id id)
     return false;
 }
 
-enum { CONSEQUENCES_SIZE = 128 };
+/* The texts of the note that counts, which each consequence changes. */
+struct diag_note {
+    char message[128], number[16];
+    const char *arguments[3];
+};
 
 /* Adds the note behind the notes of the cause. */
 static void insert_note(struct diag_list *list)
@@ -147,10 +171,12 @@ static void insert_note(struct diag_list *list)
     uint32_t cause = list->cause - 1, at = cause + 1;
     while (at < list->items.len && list->items.items[at].parent == cause)
         at++;
-    list->consequences = arena_alloc(list->arena, CONSEQUENCES_SIZE);
+    list->note = arena_alloc(list->arena, sizeof *list->note);
     struct diag note = {.id = DIAG_ID_consequences,
                         .severity = DIAG_NOTE,
-                        .message = list->consequences,
+                        .message = list->note->message,
+                        .arguments = list->note->arguments,
+                        .num_arguments = 3,
                         .place = list->items.items[cause].place,
                         .parent = cause};
     vec_push(list->arena, &list->items, note);
@@ -166,14 +192,18 @@ static void count_consequence(struct diag_list *list)
 {
     if (!list->cause)
         diag_repeat(list, list->cause_below);
-    if (!list->consequences && list->cause)
+    if (!list->note && list->cause)
         insert_note(list);
-    if (!list->consequences) /* beyond the limit of errors */
+    struct diag_note *note = list->note;
+    if (!note) /* beyond the limit of errors */
         return;
-    list->num_consequences++;
-    snprintf(list->consequences, CONSEQUENCES_SIZE, catalogue[DIAG_ID_consequences].format,
-             list->num_consequences, list->num_consequences == 1 ? "" : "s",
-             list->num_consequences == 1 ? "it is" : "they are");
+    bool is_one = ++list->num_consequences == 1;
+    const char *const arguments[] = {note->number, is_one ? "" : "s",
+                                     is_one ? "it is" : "they are"};
+    snprintf(note->number, sizeof note->number, "%u", (unsigned)list->num_consequences);
+    memcpy(note->arguments, arguments, sizeof arguments);
+    snprintf(note->message, sizeof note->message, catalogue[DIAG_ID_consequences].format,
+             list->num_consequences, arguments[1], arguments[2]);
     list->muted_notes = true;
 }
 
@@ -203,10 +233,16 @@ void diag_add(struct diag_list *list, enum diag_id id, struct diag_place place, 
     if (is_consequence(list, id)) {
         count_consequence(list);
     } else if (is_kept(list, severity)) {
-        va_list args;
+        struct diag diag = {.id = id, .place = place};
+        const char *format = catalogue[id].format;
+        va_list args, again;
         va_start(args, place);
-        append(list, id, place, format_message(list->arena, catalogue[id].format, args));
+        va_copy(again, args);
+        diag.message = format_message(list->arena, format, args);
+        diag.arguments = keep_arguments(list->arena, format, again, &diag.num_arguments);
+        va_end(again);
         va_end(args);
+        append(list, diag);
     } else if (severity == DIAG_ERROR && list->num_errors == list->max_errors + 1) {
         list->muted_notes = false;
         diag_add(list, DIAG_ID_too_many_errors, (struct diag_place){0}, list->max_errors);
@@ -216,9 +252,17 @@ void diag_add(struct diag_list *list, enum diag_id id, struct diag_place place, 
 
 void diag_repeat(struct diag_list *list, const struct diag *diag)
 {
-    if (is_consequence(list, diag->id))
+    if (is_consequence(list, diag->id)) {
         count_consequence(list);
-    else if (is_kept(list, severity_in(list, diag->id)))
-        append(list, diag->id, diag->place,
-               arena_strndup(list->arena, diag->message, strlen(diag->message)));
+        return;
+    }
+    if (!is_kept(list, severity_in(list, diag->id)))
+        return;
+    struct diag copy = *diag;
+    const char **texts = ARENA_ARRAY(list->arena, const char *, diag->num_arguments + 1);
+    for (uint32_t i = 0; i < diag->num_arguments; i++)
+        texts[i] = arena_strndup(list->arena, diag->arguments[i], strlen(diag->arguments[i]));
+    copy.arguments = texts;
+    copy.message = arena_strndup(list->arena, diag->message, strlen(diag->message));
+    append(list, copy);
 }

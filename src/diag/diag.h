@@ -38,7 +38,9 @@ struct diag_place {
 struct diag {
     enum diag_id id;
     enum diag_severity severity;
-    const char *message; /* one line, without the location */
+    const char *message;          /* one line, without the location */
+    const char *const *arguments; /* texts of what the format of the id leaves open, in its order */
+    uint32_t num_arguments;
     struct diag_place place;
     /* for a note: index of the diagnostic that it explains; otherwise its own index */
     uint32_t parent;
@@ -71,7 +73,7 @@ struct diag_list {
      */
     const struct diag *cause_below;
     uint32_t num_consequences; /* errors that follow from the cause */
-    char *consequences;        /* message of the note; NULL: there is no note yet */
+    struct diag_note *note;    /* that says so; NULL: there is none yet */
     uint32_t last;             /* index of the last diagnostic that is not a note */
     bool muted_notes;          /* the last diagnostic was dropped, so its notes are dropped, too */
 };
@@ -114,7 +116,7 @@ const char *diag_severity_text(enum diag_severity severity); /* "error" … */
 /* An entry of explain.def. Missing texts are "", not NULL. */
 struct diag_explanation {
     const char *cause, *cure;
-    const char *example; /* see mxg_diagnostic_kind in mxgen.h */
+    const char *example; /* see mxg_diagnostic_kind in catalogue.h */
 };
 const struct diag_explanation *diag_explain(enum diag_id id);
 
@@ -123,15 +125,11 @@ const struct diag_explanation *diag_explain(enum diag_id id);
  *     file:line:col: error: message [id]
  *         <source line>
  *         ^~~~
- * `source`, the text of the file, may be NULL; long lines are cut around the column. Replaces
- * control characters except tabs. Notes have no id. `colour` adds terminal escapes.
+ * `line`, the source line without its end, may be NULL; a long one is cut around the column.
+ * Replaces control characters except tabs. Notes have no id. `colour` adds terminal escapes.
  */
-void diag_render_text(const struct diag *diag, const char *source, size_t source_len, bool colour,
-                      struct text *out);
-
-/* The same, if the caller has only the source line (without its line end; NULL: unknown). */
-void diag_render_line(const struct diag *diag, const char *line, size_t line_len, bool colour,
-                      struct text *out);
+void diag_render(const struct diag *diag, const char *line, size_t line_len, bool colour,
+                 struct text *out);
 
 /*
  * A suggestion " (did you mean 'x'?)" for an unknown word: the best candidate, the first of

@@ -40,23 +40,6 @@ struct line {
     size_t len;
 };
 
-static struct line find_line(const char *source, size_t source_len, uint32_t number)
-{
-    const char *end = source + source_len;
-    while (number > 1 && source) {
-        source = source < end ? memchr(source, '\n', (size_t)(end - source)) : NULL;
-        source = source ? source + 1 : NULL;
-        number--;
-    }
-    if (!source)
-        return (struct line){0};
-    const char *stop = source < end ? memchr(source, '\n', (size_t)(end - source)) : NULL;
-    size_t len = (size_t)((stop ? stop : end) - source);
-    if (len && source[len - 1] == '\r')
-        len--;
-    return (struct line){source, len};
-}
-
 static bool begins_code_point(char byte)
 {
     return (byte & 0xc0) != 0x80;
@@ -156,8 +139,8 @@ static void render_place(const struct diag_place *place, struct text *out)
     text_char(out, ' ');
 }
 
-void diag_render_line(const struct diag *diag, const char *line, size_t line_len, bool colour,
-                      struct text *out)
+void diag_render(const struct diag *diag, const char *line, size_t line_len, bool colour,
+                 struct text *out)
 {
     paint(out, colour, bold);
     render_place(&diag->place, out);
@@ -170,12 +153,4 @@ void diag_render_line(const struct diag *diag, const char *line, size_t line_len
     text_char(out, '\n');
     if (line && diag->place.line && diag->place.column)
         render_source(&diag->place, (struct line){line, line_len}, colour, out);
-}
-
-void diag_render_text(const struct diag *diag, const char *source, size_t source_len, bool colour,
-                      struct text *out)
-{
-    struct line line = source && diag->place.line ? find_line(source, source_len, diag->place.line)
-                                                  : (struct line){0};
-    diag_render_line(diag, line.text, line.len, colour, out);
 }

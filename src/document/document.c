@@ -680,9 +680,11 @@ static str_id qualified(const struct document *doc, const char *name, size_t len
     return str_find(doc->strings, text, prefix + 1 + len);
 }
 
-static elem_id find_in_layer(const struct document *doc, const char *path, size_t len)
+elem_id doc_find_below(const struct document *doc, elem_id below, const char *path, size_t len)
 {
-    elem_id element = doc->root;
+    elem_id element = below;
+    while (len && *path == '/')
+        path++, len--;
     for (size_t at = 0; at < len && element;) {
         const char *slash = memchr(path + at, '/', len - at);
         size_t end = slash ? (size_t)(slash - path) : len;
@@ -701,7 +703,7 @@ elem_id doc_find(const struct document *doc, const char *path, size_t len)
         path++, len--;
     elem_id found = 0;
     for (; doc && !found && len; doc = doc->base)
-        found = find_in_layer(doc, path, len);
+        found = doc_find_below(doc, doc->root, path, len);
     return found;
 }
 

@@ -354,6 +354,8 @@ elem_id doc_top_level(const struct document *doc, enum element_kind kind, str_id
  * first, then the layers below. The first name may omit the namespace of the root.
  */
 elem_id doc_find(const struct document *doc, const char *path, size_t len);
+/* The same below an element of this layer; an empty path is the element. 0: none. */
+elem_id doc_find_below(const struct document *doc, elem_id below, const char *path, size_t len);
 void doc_path(const struct document *doc, elem_id element, char separator, struct text *out);
 
 enum element_kind doc_kind_of(str_id category);

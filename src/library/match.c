@@ -237,7 +237,7 @@ static const char *advice_on_removed(const char *name, struct arena *arena)
 /* One advice is enough. */
 static const char *advice(const char *suggestion)
 {
-    return *suggestion ? suggestion : "; no loaded library defines it; '--library' adds a library";
+    return *suggestion ? suggestion : "; no loaded library defines it";
 }
 
 static void report_unknown_node(const struct library *lib, elem_id node, struct diag_list *diags)

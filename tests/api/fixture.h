@@ -48,6 +48,15 @@ static inline void *heap_realloc(void *user_data, void *block, size_t old_size, 
     return header + 1;
 }
 
+/* ---- Edits ---- */
+
+static inline mxg_status commit(mxg_edit *edit, mxg_document **out_document)
+{
+    mxg_status status = mxg_edit_commit(edit, out_document);
+    mxg_edit_destroy(edit);
+    return status;
+}
+
 /* ---- Files in memory ---- */
 
 struct memory_file {

@@ -235,7 +235,7 @@ static void test_own_blocks(void)
     REQUIRE_EQ(frame.binding, 4);
     REQUIRE_EQ(shot.byte_size, 16);
     float bytes[4] = {0};
-    REQUIRE_EQ(mxg_result_pack_block(h.result, MXG_BLOCK_OWN_1, bytes, sizeof bytes), 16);
+    REQUIRE_EQ(mxg_result_pack_block(h.result, NULL, MXG_BLOCK_OWN_1, bytes, sizeof bytes), MXG_OK);
     REQUIRE(bytes[0] == 2 && bytes[2] == 2 && bytes[3] == 4);
     mxg_variable v = MXG_INIT(mxg_variable);
     REQUIRE_EQ(mxg_result_variable(h.result, shot.first_variable + 1, &v), MXG_OK);

@@ -9,6 +9,13 @@
 
 #include <stdlib.h>
 
+static mxg_status commit(mxg_edit *edit, mxg_document **out_document)
+{
+    mxg_status status = mxg_edit_commit(edit, out_document);
+    mxg_edit_destroy(edit);
+    return status;
+}
+
 static size_t used, allocated;
 
 static void *count_realloc(void *user_data, void *block, size_t old_size, size_t new_size)
@@ -106,8 +113,8 @@ enum edit_kind {
 static void make_edit(mxg_edit *edit, const mxg_document *from, enum edit_kind kind)
 {
     const float value = 0.25f;
-    mxg_element shader = mxg_edit_find_element(edit, "S1"),
-                material = mxg_edit_find_element(edit, "M1"), node;
+    mxg_element shader = mxg_edit_find_element(edit, 0, "S1"),
+                material = mxg_edit_find_element(edit, 0, "M1"), node;
     switch (kind) {
     case VALUE: mxg_edit_set_numbers(edit, shader, "base", NULL, &value, 1); break;
     case NEW_INPUT: mxg_edit_set_numbers(edit, shader, "coat", "float", &value, 1); break;
@@ -119,19 +126,19 @@ static void make_edit(mxg_edit *edit, const mxg_document *from, enum edit_kind k
     case NAME_OF_NODE: mxg_edit_rename_element(edit, shader, "Shader"); break;
     case NAME_OF_MATERIAL: mxg_edit_rename_element(edit, material, "Material"); break;
     case NAME_OF_GRAPH:
-        mxg_edit_rename_element(edit, mxg_edit_find_element(edit, "G1"), "Graph");
+        mxg_edit_rename_element(edit, mxg_edit_find_element(edit, 0, "G1"), "Graph");
         break;
-    case REMOVAL: mxg_edit_remove_element(edit, mxg_edit_find_element(edit, "S1/base")); break;
+    case REMOVAL: mxg_edit_remove_element(edit, mxg_edit_find_element(edit, 0, "S1/base")); break;
     case REMOVED_MATERIAL: mxg_edit_remove_element(edit, material); break;
     case MOVE: mxg_edit_move_element(edit, material, 0, shader); break;
     case COPY:
-        mxg_edit_copy_element(edit, 0, from, mxg_document_find_element(from, "S2"), "Copy");
+        mxg_edit_copy_element(edit, 0, from, mxg_document_find_element(from, 0, "S2"), "Copy");
         break;
     default:
         node = mxg_edit_add_element(edit, 0, "constant", "Grey", "float");
         mxg_edit_connect_input(edit, shader, "base", node, NULL);
     }
-    REQUIRE_STR(mxg_edit_error(edit), "");
+    REQUIRE_EQ(mxg_edit_error(edit, NULL, 0), 0);
 }
 
 /* The bytes that a document takes beside the one that it comes from. */
@@ -142,7 +149,7 @@ static size_t bytes_of_edit(struct world *w, const mxg_document *from, enum edit
     size_t before = used;
     REQUIRE(mxg_edit_create(w->context, w->library, from, NULL, &edit) == MXG_OK);
     make_edit(edit, from, kind);
-    REQUIRE(mxg_edit_commit(edit, &next) == MXG_OK);
+    REQUIRE(commit(edit, &next) == MXG_OK);
     size_t bytes = used - before;
     mxg_document_destroy(next);
     REQUIRE_EQ(used, before);
@@ -187,8 +194,8 @@ static void test_series(void)
         const float value = 0.001f * (float)i;
         snprintf(name, sizeof name, "S%u", i);
         mxg_edit_create(w.context, w.library, document, NULL, &edit);
-        mxg_edit_set_numbers(edit, mxg_edit_find_element(edit, name), "base", NULL, &value, 1);
-        REQUIRE(mxg_edit_commit(edit, &next) == MXG_OK);
+        mxg_edit_set_numbers(edit, mxg_edit_find_element(edit, 0, name), "base", NULL, &value, 1);
+        REQUIRE(commit(edit, &next) == MXG_OK);
         if (document != first)
             mxg_document_destroy(document);
         document = next;
@@ -212,8 +219,8 @@ static void test_slider(void)
         mxg_document *next;
         const float value = 0.001f * (float)(i % 100);
         mxg_edit_create(w.context, w.library, document, NULL, &edit);
-        mxg_edit_set_numbers(edit, mxg_edit_find_element(edit, "S7"), "base", NULL, &value, 1);
-        REQUIRE(mxg_edit_commit(edit, &next) == MXG_OK);
+        mxg_edit_set_numbers(edit, mxg_edit_find_element(edit, 0, "S7"), "base", NULL, &value, 1);
+        REQUIRE(commit(edit, &next) == MXG_OK);
         mxg_document_destroy(document); /* its elements live on */
         document = next;
         first = i == 0 ? used - before : first;
@@ -238,10 +245,10 @@ static void make_change(mxg_edit *edit, const mxg_document *from, unsigned *rand
     const float value = 0.001f * (float)(next_random(random) % 1000);
     snprintf(name, sizeof name, "S%u", next_random(random) % 20);
     snprintf(other, sizeof other, "N%u", next_random(random) % 30);
-    mxg_element shader = mxg_edit_find_element(edit, name),
-                node = mxg_edit_find_element(edit, other), graph, two;
+    mxg_element shader = mxg_edit_find_element(edit, 0, name),
+                node = mxg_edit_find_element(edit, 0, other), graph, two;
     snprintf(name, sizeof name, "G%u", next_random(random) % 20);
-    graph = mxg_edit_find_element(edit, name);
+    graph = mxg_edit_find_element(edit, 0, name);
     snprintf(name, sizeof name, "S%u", next_random(random) % 20);
     switch (next_random(random) % 22) {
     case 0:
@@ -250,25 +257,25 @@ static void make_change(mxg_edit *edit, const mxg_document *from, unsigned *rand
     case 3: mxg_edit_set_numbers(edit, shader, "coat", "float", &value, 1); break;
     case 4: mxg_edit_add_element(edit, 0, "constant", other, "float"); break;
     case 5: mxg_edit_connect_input(edit, shader, "specular", node, NULL); break;
-    case 6: mxg_edit_remove_element(edit, mxg_edit_find_child(edit, shader, "coat")); break;
+    case 6: mxg_edit_remove_element(edit, mxg_edit_find_element(edit, shader, "coat")); break;
     case 7: mxg_edit_set_attribute(edit, shader, "doc", "changed"); break;
     case 8: mxg_edit_set_attribute(edit, shader, "doc", NULL); break;
     case 9: mxg_edit_move_element(edit, node, 0, shader); break;
     case 10: mxg_edit_rename_element(edit, node, "N99"); break;
     case 11:
-        mxg_edit_copy_element(edit, 0, from, mxg_document_find_element(from, name), other);
+        mxg_edit_copy_element(edit, 0, from, mxg_document_find_element(from, 0, name), other);
         break;
     case 12: mxg_edit_remove_element(edit, shader); break;
     case 13: mxg_edit_rename_element(edit, graph, other); break;
     case 14: mxg_edit_rename_element(edit, shader, other); break;
     case 15:
-        two = mxg_edit_find_child(edit, graph, "two");
-        mxg_edit_rename_element(edit, two ? two : mxg_edit_find_child(edit, graph, "second"),
+        two = mxg_edit_find_element(edit, graph, "two");
+        mxg_edit_rename_element(edit, two ? two : mxg_edit_find_element(edit, graph, "second"),
                                 two ? "second" : "two");
         break;
     case 16:
-        two = mxg_edit_find_child(edit, graph, "out");
-        mxg_edit_rename_element(edit, two ? two : mxg_edit_find_child(edit, graph, "result"),
+        two = mxg_edit_find_element(edit, graph, "out");
+        mxg_edit_rename_element(edit, two ? two : mxg_edit_find_element(edit, graph, "result"),
                                 two ? "result" : "out");
         break;
     case 17: mxg_edit_move_element(edit, graph, 0, shader); break;
@@ -297,7 +304,7 @@ static void compare_renderables(const mxg_document *a, const mxg_document *b)
 
 static void compare_elements(const mxg_document *a, const mxg_document *b)
 {
-    mxg_element x = mxg_document_root(a), y = mxg_document_root(b);
+    mxg_element x = mxg_document_find_element(a, 0, ""), y = mxg_document_find_element(b, 0, "");
     mxg_element_info p = MXG_INIT(mxg_element_info), q = MXG_INIT(mxg_element_info);
     mxg_document_element(a, x, &p);
     mxg_document_element(b, y, &q);
@@ -306,7 +313,7 @@ static void compare_elements(const mxg_document *a, const mxg_document *b)
         mxg_document_element(b, y, &q);
         REQUIRE_STR(p.name, q.name);
         REQUIRE_EQ(p.num_attributes, q.num_attributes);
-        REQUIRE_EQ(mxg_document_find_element(a, p.name), x);
+        REQUIRE_EQ(mxg_document_find_element(a, 0, p.name), x);
     }
     REQUIRE(!x && !y);
 }
@@ -346,7 +353,7 @@ static void test_sequences(void)
             mxg_edit_create(w.context, w.library, document, NULL, &edit);
             for (unsigned k = next_random(&random) % 4; k > 0; --k)
                 make_change(edit, document, &random);
-            mxg_edit_commit(edit, &next);
+            commit(edit, &next);
             if (!REQUIRE(next))
                 break;
             if (i % 5 == 0)
@@ -374,12 +381,12 @@ static mxg_document *edited(struct world *w, const mxg_document *from, const cha
     mxg_document *next = NULL;
     mxg_edit_create(w->context, w->library, from, NULL, &edit);
     if (value)
-        mxg_edit_set_value(edit, mxg_edit_find_element(edit, "S1"), input, type, value);
+        mxg_edit_set_value(edit, mxg_edit_find_element(edit, 0, "S1"), input, type, value);
     else
-        mxg_edit_connect_input(edit, mxg_edit_find_element(edit, "S1"), input,
+        mxg_edit_connect_input(edit, mxg_edit_find_element(edit, 0, "S1"), input,
                                mxg_edit_add_element(edit, 0, "constant", "Grey", type), NULL);
-    REQUIRE_STR(mxg_edit_error(edit), "");
-    mxg_edit_commit(edit, &next);
+    REQUIRE_EQ(mxg_edit_error(edit, NULL, 0), 0);
+    commit(edit, &next);
     return next;
 }
 
@@ -403,18 +410,19 @@ static void test_values(void)
     mxg_document *document = many_materials(&w, 20, true);
     mxg_result *program = generate(&w, document);
     unsigned char now[2048], expected[2048];
-    size_t size = mxg_result_pack_block(program, MXG_BLOCK_PUBLIC_UNIFORMS, NULL, 0);
+    mxg_block_info block = MXG_INIT(mxg_block_info);
+    mxg_result_block(program, MXG_BLOCK_PUBLIC_UNIFORMS, &block);
+    size_t size = block.byte_size;
     REQUIRE(size > 0 && size <= sizeof now);
     for (size_t i = 0; i < sizeof edits / sizeof *edits; ++i) {
         mxg_document *next = edited(&w, document, edits[i][0], edits[i][1], edits[i][2]);
         mxg_result *after = generate(&w, next);
         REQUIRE_EQ(mxg_result_change(program, after, NULL, 0, NULL), MXG_CHANGE_VALUES);
-        mxg_result_pack_block(after, MXG_BLOCK_PUBLIC_UNIFORMS, expected, sizeof expected);
-        mxg_result_pack_block(program, MXG_BLOCK_PUBLIC_UNIFORMS, now, sizeof now);
+        mxg_result_pack_block(after, NULL, MXG_BLOCK_PUBLIC_UNIFORMS, expected, sizeof expected);
+        mxg_result_pack_block(program, NULL, MXG_BLOCK_PUBLIC_UNIFORMS, now, sizeof now);
         REQUIRE(memcmp(now, expected, size) != 0);
-        REQUIRE_EQ(
-            mxg_document_pack_block(next, program, MXG_BLOCK_PUBLIC_UNIFORMS, now, sizeof now),
-            MXG_OK);
+        REQUIRE_EQ(mxg_result_pack_block(program, next, MXG_BLOCK_PUBLIC_UNIFORMS, now, sizeof now),
+                   MXG_OK);
         REQUIRE(memcmp(now, expected, size) == 0);
         mxg_result_destroy(after);
         mxg_document_destroy(next);
@@ -422,20 +430,20 @@ static void test_values(void)
     mxg_document *connected = edited(&w, document, "base", "float", NULL);
     memset(now, 7, sizeof now);
     REQUIRE_EQ(
-        mxg_document_pack_block(connected, program, MXG_BLOCK_PUBLIC_UNIFORMS, now, sizeof now),
+        mxg_result_pack_block(program, connected, MXG_BLOCK_PUBLIC_UNIFORMS, now, sizeof now),
         MXG_ERROR_DOCUMENT);
     REQUIRE_EQ(now[0], 7);
-    REQUIRE_EQ(mxg_document_pack_block(document, program, MXG_BLOCK_TEXTURES, now, sizeof now),
+    REQUIRE_EQ(mxg_result_pack_block(program, document, MXG_BLOCK_TEXTURES, now, sizeof now),
                MXG_ERROR_ARGUMENT);
-    REQUIRE_EQ(mxg_document_pack_block(document, program, MXG_BLOCK_PUBLIC_UNIFORMS, now, size - 1),
+    REQUIRE_EQ(mxg_result_pack_block(program, document, MXG_BLOCK_PUBLIC_UNIFORMS, now, size - 1),
                MXG_ERROR_ARGUMENT);
-    REQUIRE_EQ(mxg_document_pack_block(NULL, program, MXG_BLOCK_PUBLIC_UNIFORMS, now, size),
+    REQUIRE_EQ(mxg_result_pack_block(NULL, document, MXG_BLOCK_PUBLIC_UNIFORMS, now, size),
                MXG_ERROR_ARGUMENT);
     static const char other[] = "<materialx version='1.39'/>";
     mxg_document *empty = parse(&w, other, sizeof other - 1);
-    REQUIRE_EQ(mxg_document_pack_block(empty, program, MXG_BLOCK_PUBLIC_UNIFORMS, now, sizeof now),
+    REQUIRE_EQ(mxg_result_pack_block(program, empty, MXG_BLOCK_PUBLIC_UNIFORMS, now, sizeof now),
                MXG_ERROR_DOCUMENT);
-    REQUIRE_EQ(mxg_document_pack_block(empty, program, MXG_BLOCK_PRIVATE_UNIFORMS, now, sizeof now),
+    REQUIRE_EQ(mxg_result_pack_block(program, empty, MXG_BLOCK_PRIVATE_UNIFORMS, now, sizeof now),
                MXG_OK);
     mxg_document_destroy(empty);
     mxg_document_destroy(connected);

@@ -61,7 +61,7 @@ static float base_of(mxg_context *context, const mxg_document *document)
     desc.target = "vulkan";
     desc.element = "M";
     if (mxg_generate(context, document, &desc, &result) == MXG_OK
-        && mxg_result_find_variable(result, "S/base", &index)
+        && (index = mxg_result_find_variable(result, "S/base")) != MXG_NONE
         && mxg_result_variable(result, index, &variable) == MXG_OK)
         found = variable.values[0];
     mxg_result_destroy(result);
@@ -85,9 +85,9 @@ static void *work(void *arg)
         float value = (float)(worker->number * worker->num_edits + i);
         bool is_good = mxg_edit_create(context, worker->library, from, NULL, &edit) == MXG_OK;
         is_good &=
-            mxg_edit_set_numbers(edit, mxg_edit_find_element(edit, "S"), "base", NULL, &value, 1)
+            mxg_edit_set_numbers(edit, mxg_edit_find_element(edit, 0, "S"), "base", NULL, &value, 1)
             == MXG_OK;
-        is_good &= mxg_edit_commit(edit, &next) == MXG_OK;
+        is_good &= commit(edit, &next) == MXG_OK;
         is_good &= base_of(context, next) == value;
         worker->num_wrong += !is_good;
         mxg_document_destroy(last);

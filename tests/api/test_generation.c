@@ -80,27 +80,25 @@ static void test_places(const struct bench *b)
     bool found = false, inside = false;
     uint32_t line = 1;
     for (const char *c = source; *c; line += *c++ == '\n') {
-        const char *file = NULL, *path = NULL;
-        uint32_t at_line = 0, at_column = 0;
+        mxg_place at = {sizeof at};
         if ((c != source && c[-1] != '\n')
-            || !mxg_result_source_place(result, MXG_STAGE_PIXEL, line, &file, &at_line, &at_column,
-                                        &path))
+            || mxg_result_source_place(result, MXG_STAGE_PIXEL, line, &at) != MXG_OK)
             continue;
-        REQUIRE(file && path && at_line && at_column);
+        REQUIRE(at.file && at.path && at.line && at.column);
         char node[64];
         size_t len = mxg_result_source_path(result, MXG_STAGE_PIXEL, line, node, sizeof node);
         /* the same, or inside of it */
-        REQUIRE(len == strlen(node) && strncmp(node, path, strlen(path)) == 0);
+        REQUIRE(len == strlen(node) && strncmp(node, at.path, strlen(at.path)) == 0);
         inside = inside || strncmp(node, "S/", 2) == 0;
         found = found
-                || (strcmp(path, "G/t") == 0 && at_line == 8 && at_column == 5
-                    && strcmp(file, "main.mtlx") == 0);
+                || (strcmp(at.path, "G/t") == 0 && at.line == 8 && at.column == 5
+                    && strcmp(at.file, "main.mtlx") == 0);
     }
     REQUIRE(found && inside);
     char cut[2];
     REQUIRE_EQ(mxg_result_source_path(result, MXG_STAGE_PIXEL, 1, cut, sizeof cut), 0);
-    /* "#version" */
-    REQUIRE(!mxg_result_source_place(result, MXG_STAGE_PIXEL, 1, NULL, NULL, NULL, NULL));
+    mxg_place none = {sizeof none};
+    REQUIRE_EQ(mxg_result_source_place(result, MXG_STAGE_PIXEL, 1, &none), MXG_ERROR_ARGUMENT);
     mxg_result_destroy(result);
 }
 
@@ -110,7 +108,7 @@ static void test_variables(const struct bench *b)
 {
     mxg_result *result = generate(b, "vulkan", NULL, MXG_OK);
     uint32_t index = 0;
-    REQUIRE(mxg_result_find_variable(result, "S/coat", &index));
+    REQUIRE((index = mxg_result_find_variable(result, "S/coat")) != MXG_NONE);
     mxg_variable coat = {sizeof coat};
     REQUIRE_EQ(mxg_result_variable(result, index, &coat), MXG_OK);
     REQUIRE_STR(coat.path, "S/coat");
@@ -120,19 +118,19 @@ static void test_variables(const struct bench *b)
     REQUIRE(coat.block == MXG_BLOCK_PUBLIC_UNIFORMS && coat.num_values == 1
             && coat.values[0] == 0.5f && coat.byte_size == 4);
     REQUIRE_EQ(coat.stages, 1u << MXG_STAGE_PIXEL);
-    REQUIRE(mxg_result_find_variable(result, "G/scale", &index));
+    REQUIRE((index = mxg_result_find_variable(result, "G/scale")) != MXG_NONE);
     mxg_variable scale = {sizeof scale};
     REQUIRE_EQ(mxg_result_variable(result, index, &scale), MXG_OK);
     REQUIRE_STR(scale.uiname, "Scale");
-    REQUIRE(mxg_result_find_variable(result, "G/i/file", &index));
+    REQUIRE((index = mxg_result_find_variable(result, "G/i/file")) != MXG_NONE);
     mxg_variable texture = {sizeof texture};
     REQUIRE_EQ(mxg_result_variable(result, index, &texture), MXG_OK);
     REQUIRE_STR(texture.file, "wood.png");
     REQUIRE_STR(texture.type, "sampler2D");
     REQUIRE_EQ(texture.block, MXG_BLOCK_TEXTURES);
-    REQUIRE(!mxg_result_find_variable(result, "S/base_color", &index)); /* connected */
-    REQUIRE(!mxg_result_find_variable(result, "S/none", NULL)
-            && !mxg_result_find_variable(result, NULL, NULL));
+    REQUIRE((index = mxg_result_find_variable(result, "S/base_color")) == MXG_NONE); /* connected */
+    REQUIRE(mxg_result_find_variable(result, "S/none") == MXG_NONE
+            && mxg_result_find_variable(result, NULL) == MXG_NONE);
     size_t size = 0;
     const char *json = mxg_result_reflection_json(result, &size);
     REQUIRE(json && strlen(json) == size && strstr(json, "\"S/coat\""));
@@ -185,9 +183,9 @@ static void test_user_interface(void)
     mxg_result *result = generate(&b, "glsl", "G", MXG_OK);
     uint32_t index = 0;
     mxg_variable mode = MXG_INIT(mxg_variable), width = MXG_INIT(mxg_variable);
-    REQUIRE(mxg_result_find_variable(result, "G/mode", &index));
+    REQUIRE((index = mxg_result_find_variable(result, "G/mode")) != MXG_NONE);
     REQUIRE_EQ(mxg_result_variable(result, index, &mode), MXG_OK);
-    REQUIRE(mxg_result_find_variable(result, "G/width", &index));
+    REQUIRE((index = mxg_result_find_variable(result, "G/width")) != MXG_NONE);
     REQUIRE_EQ(mxg_result_variable(result, index, &width), MXG_OK);
     REQUIRE_STR(width.unit, "meter");
     REQUIRE_STR(width.unittype, "distance");
@@ -243,7 +241,8 @@ static void test_without_source(struct bench *b)
     REQUIRE_EQ(mxg_diagnostics_num_items(mxg_result_diagnostics(facts)),
                mxg_diagnostics_num_items(mxg_result_diagnostics(whole)));
     REQUIRE_EQ(mxg_result_source_path(facts, MXG_STAGE_PIXEL, 1, NULL, 0), 0);
-    REQUIRE(!mxg_result_source_place(facts, MXG_STAGE_PIXEL, 1, NULL, NULL, NULL, NULL));
+    mxg_place none = {sizeof none};
+    REQUIRE_EQ(mxg_result_source_place(facts, MXG_STAGE_PIXEL, 1, &none), MXG_ERROR_ARGUMENT);
     mxg_result_destroy(whole);
     mxg_result_destroy(facts);
 }
@@ -277,7 +276,7 @@ static void test_interfaces(struct bench *b)
 {
     mxg_options_set(b->options, "interface", "reduced");
     mxg_result *result = generate(b, "glsl", NULL, MXG_OK);
-    REQUIRE(!mxg_result_find_variable(result, "S/coat", NULL));
+    REQUIRE(mxg_result_find_variable(result, "S/coat") == MXG_NONE);
     bool found = false;
     for (uint32_t i = 0; i < mxg_result_num_compiled_inputs(result); i++) {
         mxg_compiled_input input = {sizeof input};
@@ -290,8 +289,8 @@ static void test_interfaces(struct bench *b)
     mxg_result_destroy(result);
     mxg_options_set(b->options, "uniform", "S/c*t");
     result = generate(b, "glsl", NULL, MXG_OK);
-    REQUIRE(mxg_result_find_variable(result, "S/coat", NULL)
-            && !mxg_result_find_variable(result, "S/base", NULL));
+    REQUIRE(mxg_result_find_variable(result, "S/coat") != MXG_NONE
+            && mxg_result_find_variable(result, "S/base") == MXG_NONE);
     REQUIRE_EQ(mxg_diagnostics_num_items(mxg_result_diagnostics(result)), 0);
     mxg_result_destroy(result);
 }
@@ -415,14 +414,11 @@ static void test_elements(void)
     struct bench b;
     bench_open(&b, elements);
     REQUIRE_EQ(mxg_document_num_renderables(b.document), 1); /* M */
-    mxg_renderable material = {sizeof material};
-    REQUIRE(mxg_document_look_material(b.document, "L", 0, &material) == MXG_OK
-            && strcmp(material.path, "M") == 0);
-    REQUIRE(mxg_document_look_material(b.document, "all", 0, &material) == MXG_OK
-            && strcmp(material.path, "M") == 0);
-    REQUIRE_EQ(mxg_document_look_material(b.document, "night", 0, &material), MXG_ERROR_ARGUMENT);
-    REQUIRE_EQ(mxg_document_look_material(b.document, "L", 1, &material), MXG_ERROR_ARGUMENT);
-    REQUIRE_EQ(mxg_document_look_material(b.document, "M", 0, &material), MXG_ERROR_ARGUMENT);
+    REQUIRE(mxg_document_has_assignment(b.document, "L", 0));
+    REQUIRE(mxg_document_has_assignment(b.document, "all", 0));
+    REQUIRE(!mxg_document_has_assignment(b.document, "night", 0));
+    REQUIRE(!mxg_document_has_assignment(b.document, "L", 1));
+    REQUIRE(!mxg_document_has_assignment(b.document, "M", 0));
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         mxg_result *result =
             generate(&b, "glsl", cases[i].path, cases[i].fault ? MXG_ERROR_DOCUMENT : MXG_OK);

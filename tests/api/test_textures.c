@@ -79,8 +79,8 @@ static void shoot(struct shot *shot, const char *body, bool lists, const char *o
     resolver.list_folder = lists ? list_maps : NULL;
     mxg_context_desc context = MXG_CONTEXT_DESC_INIT;
     context.resolver = &resolver;
-    context.read_texels = read_texels;
-    context.texels_user_data = &shot->asked;
+    const mxg_texel_reader reader = {&shot->asked, read_texels};
+    context.texels = &reader;
     REQUIRE_EQ(mxg_context_create(&context, &shot->context), MXG_OK);
     shot->library = mxg_library_builtin(shot->context);
     REQUIRE_EQ(mxg_document_parse(shot->context, shot->library, "test.mtlx", text, strlen(text),
@@ -106,7 +106,7 @@ static uint32_t find(const struct shot *shot, const char *path, mxg_variable *ou
 {
     uint32_t index = UINT32_MAX;
     *out = (mxg_variable){sizeof *out};
-    REQUIRE(mxg_result_find_variable(shot->result, path, &index));
+    REQUIRE((index = mxg_result_find_variable(shot->result, path)) != MXG_NONE);
     REQUIRE_EQ(mxg_result_variable(shot->result, index, out), MXG_OK);
     return index;
 }

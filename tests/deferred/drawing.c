@@ -133,13 +133,15 @@ static void read_info(struct drawing *d, bool *out_has_holes)
 {
     mxg_shader_info info = {sizeof info};
     struct bind *bind = &d->binds[d->count - 1];
+    mxg_storage storage = {sizeof storage};
     mxg_result_info(bind->result, &info);
-    *out_has_holes = info.stored_words && info.alpha == MXG_ALPHA_MASK;
-    d->layout = info.layout;
-    d->stored_classes |= info.stored_classes;
-    if (info.stored_words > d->stored_words)
-        d->stored_words = info.stored_words;
-    if (info.stored_words)
+    mxg_result_storage(bind->result, &storage);
+    *out_has_holes = storage.words && info.alpha == MXG_ALPHA_MASK;
+    d->layout = storage.layout;
+    d->stored_classes |= storage.classes;
+    if (storage.words > d->stored_words)
+        d->stored_words = storage.words;
+    if (storage.words)
         bind->draw.role = DRAW_STORES;
     bind->draw.has_holes = *out_has_holes;
 }

@@ -156,9 +156,9 @@ static void test_payload(struct bench *b, const char *element, int expected)
     struct drawing forward = {0}, rays = {0};
     mxg_options_set(b->options, "max-slabs", "1");
     if (drawing_open(b, element, NULL, UINT32_MAX, &forward) && draw_rays(b, element, &rays)) {
-        mxg_shader_info info = {sizeof info};
-        mxg_result_info(rays.results[0], &info);
-        REQUIRE_EQ(info.stored_words, PAYLOAD_WORDS);
+        mxg_storage storage = {sizeof storage};
+        mxg_result_storage(rays.results[0], &storage);
+        REQUIRE_EQ(storage.words, PAYLOAD_WORDS);
         check_payload(&rays);
         size_t differing = 0;
         for (size_t i = 0; i < PIXELS; ++i) {

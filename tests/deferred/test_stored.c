@@ -28,9 +28,9 @@ static uint32_t num_lighting(const struct passes *passes)
 {
     uint32_t num = 0;
     for (uint32_t i = 0; i < passes->num_parts; ++i) {
-        mxg_shader_info info = {sizeof info};
-        mxg_result_info(passes->parts[i].result, &info);
-        num += info.stored_classes != 0;
+        mxg_storage storage = {sizeof storage};
+        mxg_result_storage(passes->parts[i].result, &storage);
+        num += storage.classes != 0;
     }
     return num;
 }

@@ -186,7 +186,9 @@ static void apply_options(struct case_ *c, const char *line, mxg_context_desc *l
             for (uint32_t i = 0; i < mxg_library_num_files(c->library); ++i)
                 read_expectations(c, mxg_library_file(c->library, i));
         } else if (mxg_options_set(c->options, key, value) != MXG_OK) {
-            fault(c, mxg_options_error(c->options), NULL);
+            char reason[256];
+            mxg_options_error(c->options, reason, sizeof reason);
+            fault(c, reason, NULL);
         }
     }
 }

@@ -104,8 +104,8 @@ static void set_option(struct machine *m, unsigned slot, unsigned argument)
     mxg_catalogue_option(argument, &option);
     mxg_options_set(m->options[slot], argument & 128 ? name_of(argument) : option.key,
                     name_of(argument / 2));
-    if (m->options[slot])
-        mxg_options_error(m->options[slot]);
+    char reason[40];
+    mxg_options_error(m->options[slot], reason, argument % sizeof reason);
 }
 
 static void generate(struct machine *m, unsigned slot, unsigned argument)
@@ -139,15 +139,15 @@ static void read_result(struct machine *m, unsigned slot, unsigned argument)
     mxg_shader_info info = {sizeof info};
     mxg_compiled_input input = {sizeof input};
     mxg_diagnostic diagnostic = {sizeof diagnostic};
-    const char *file, *path;
-    uint32_t line, column;
+    mxg_place place = {sizeof place};
+    mxg_storage storage = {sizeof storage};
     char text[80];
     mxg_result_source(result, (mxg_stage)(argument % 3), NULL);
     mxg_result_closure_path(result, argument, text, argument % sizeof text);
-    mxg_result_source_place(result, (mxg_stage)(argument % 3), argument, &file, &line, &column,
-                            &path);
+    mxg_result_source_place(result, (mxg_stage)(argument % 3), argument, &place);
+    mxg_result_storage(result, &storage);
     mxg_result_variable(result, argument, &variable);
-    mxg_result_find_variable(result, name_of(argument), &line);
+    mxg_result_find_variable(result, name_of(argument));
     mxg_result_compiled_input(result, argument, &input);
     mxg_result_info(result, &info);
     mxg_result_reflection_json(result, NULL);
@@ -162,7 +162,7 @@ static void read_document(struct machine *m, unsigned slot, unsigned argument)
     mxg_renderable renderable = {sizeof renderable};
     mxg_document_file(document, argument);
     mxg_document_renderable(document, argument, &renderable);
-    mxg_document_look_material(document, name_of(argument), argument / 32, &renderable);
+    mxg_document_has_assignment(document, name_of(argument), argument / 32);
     mxg_diagnostics_num_errors(mxg_document_diagnostics(document));
 }
 
@@ -170,7 +170,6 @@ static void read_library(struct machine *m, unsigned slot, unsigned argument)
 {
     mxg_library *library = m->libraries[slot];
     const void *data;
-    const char *text;
     size_t size;
     mxg_nodedef def = {sizeof def};
     mxg_port port = {sizeof port};
@@ -180,7 +179,7 @@ static void read_library(struct machine *m, unsigned slot, unsigned argument)
     mxg_library_has_implementation(library, argument * 7, name_of(argument));
     mxg_library_image(library, &data, &size);
     if (argument > 250)
-        mxg_library_xml(library, &text, &size);
+        mxg_library_xml(library, &size);
 }
 
 static void begin_edit(struct machine *m, unsigned slot, unsigned argument)
@@ -211,8 +210,8 @@ static void change_edit(struct machine *m, unsigned slot, unsigned argument)
     static const char *const paths[] = {"S", "M", "G", "G/m", "G/i", "new", "L", ""};
     mxg_edit *edit = m->edits[slot];
     const float values[] = {0.5f, 0.25f, 1.0f};
-    mxg_element element = mxg_edit_find_element(edit, paths[argument % 8]),
-                other = mxg_edit_find_element(edit, paths[argument / 8 % 8]);
+    mxg_element element = mxg_edit_find_element(edit, 0, paths[argument % 8]),
+                other = mxg_edit_find_element(edit, 0, paths[argument / 8 % 8]);
     switch (argument / 16 % 8) {
     case 0: mxg_edit_set_numbers(edit, element, "base", "float", values, 1 + argument % 2); break;
     case 1:
@@ -228,8 +227,8 @@ static void change_edit(struct machine *m, unsigned slot, unsigned argument)
         break;
     default: change_names(edit, element, other, argument);
     }
-    if (edit)
-        mxg_edit_error(edit);
+    char reason[40];
+    mxg_edit_error(edit, reason, argument % sizeof reason);
 }
 
 static void end_edit(struct machine *m, unsigned slot, unsigned argument)
@@ -237,7 +236,10 @@ static void end_edit(struct machine *m, unsigned slot, unsigned argument)
     mxg_document_destroy(m->documents[slot]);
     m->documents[slot] = NULL;
     mxg_edit_commit(m->edits[argument % NUM_SLOTS], argument & 128 ? NULL : &m->documents[slot]);
-    m->edits[argument % NUM_SLOTS] = NULL;
+    if (argument % 3) {
+        mxg_edit_destroy(m->edits[argument % NUM_SLOTS]);
+        m->edits[argument % NUM_SLOTS] = NULL;
+    }
 }
 
 /* The text of a document reads as an equal one. */
@@ -248,12 +250,13 @@ static void read_elements(struct machine *m, unsigned slot, unsigned argument)
     mxg_value value = {sizeof value};
     mxg_connection connection = {sizeof connection};
     char path[40];
-    uint32_t nodedef;
-    mxg_element element = mxg_document_root(document) + argument;
+    mxg_element element = mxg_document_find_element(document, 0, "") + argument;
     mxg_document_element(document, element, &info);
     mxg_document_value(document, element, &value);
     mxg_document_connection(document, element, &connection);
-    mxg_document_find_nodedef(document, element, &nodedef);
+    mxg_document_find_nodedef(document, element);
+    mxg_document_find_attribute(document, element, name_of(argument));
+    mxg_document_find_element(document, element, name_of(argument));
     mxg_document_element_path(document, element, path, argument % sizeof path);
     mxg_document_xml(document, NULL);
 }
@@ -265,9 +268,9 @@ static void pack_values(struct machine *m, unsigned slot, unsigned argument)
     mxg_block block = (mxg_block)(argument / 4 % 8);
     mxg_block_info info = {sizeof info};
     mxg_result_block(result, block, &info);
-    mxg_result_pack_block(result, block, bytes, sizeof bytes - argument);
-    mxg_document_pack_block(m->documents[argument / 32 % NUM_SLOTS], result, block, bytes,
-                            sizeof bytes - argument % 2 * 1000);
+    mxg_result_pack_block(result, NULL, block, bytes, sizeof bytes - argument);
+    mxg_result_pack_block(result, m->documents[argument / 32 % NUM_SLOTS], block, bytes,
+                          sizeof bytes - argument % 2 * 1000);
     mxg_result_change(result, other, NULL, 0, NULL);
     mxg_result_input_state(result, name_of(argument));
 }

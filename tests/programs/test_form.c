@@ -153,7 +153,7 @@ static void add_block(struct draw *draw, const mxg_result *result, mxg_block num
     if (!block.byte_size)
         return;
     unsigned char *bytes = malloc(block.byte_size);
-    mxg_result_pack_block(result, number, bytes, block.byte_size);
+    mxg_result_pack_block(result, NULL, number, bytes, block.byte_size);
     for (uint32_t i = 0; i < block.num_variables; ++i)
         (number == MXG_BLOCK_LIGHT_DATA ? set_light : set_value)(result, block.first_variable + i,
                                                                  bytes, block.byte_size);

@@ -59,7 +59,7 @@ def check_calls():
 
 
 def check_library():
-    headers = "".join((ROOT / "include/mxgen" / name).read_text(encoding="utf-8") for name in ("mxgen.h", "document.h", "scene.h"))
+    headers = "".join(path.read_text(encoding="utf-8") for path in (ROOT / "include/mxgen").glob("*.h") if path.name != "node.h")
     declared = set(re.findall(r"MXG_API [^;]*?\b(mxg_\w+)\(", headers))
     package = "".join(path.read_text(encoding="utf-8") for path in (ROOT / "python/mxgen").glob("*.py"))
     for name in sorted(declared - NOT_USED):

@@ -250,11 +250,12 @@ class Passes(unittest.TestCase):
         self.assertIn("u_lightData[1]", passes["light_simple"].pixel)
         document = context.load(common.EXAMPLES / "deferred.mtlx")
         stored = document.generate("vulkan", "Lacquered", options={"role": "deferred", "interface": "reduced"})
-        self.assertEqual(stored.info.stored_words, 10)
-        self.assertEqual(stored.info.stored_classes & passes["light_complex"].info.stored_classes, passes["light_complex"].info.stored_classes)
-        self.assertEqual(stored.info.stored_classes & passes["light_special"].info.stored_classes, 0)
-        self.assertEqual(stored.info.layout, passes["show"].info.layout)
-        self.assertEqual(document.generate("vulkan", "Plain").info.stored_words, 0)
+        self.assertEqual(stored.storage.words, 10)
+        lit = passes["light_complex"].storage.classes
+        self.assertEqual(stored.storage.classes & lit, lit)
+        self.assertEqual(stored.storage.classes & passes["light_special"].storage.classes, 0)
+        self.assertEqual(stored.storage.layout, passes["show"].storage.layout)
+        self.assertEqual(document.generate("vulkan", "Plain").storage.words, 0)
         self.assertEqual([(one.name, one.kind) for one in mxgen.pass_resources()][:2], [("words", "image2DArray"), ("word0", "image2D")])
         with self.assertRaises(mxgen.DocumentError):
             context.passes("hlsl")
@@ -305,15 +306,15 @@ class Catalogues(unittest.TestCase):
             mxgen.color_difference(grey, (1.0, 1.0))
 
     def test_records_have_every_member(self):
-        omitted = {"mxg_part": {"source_size"}, "mxg_light_type": {"num_members"}}
+        omitted = {"mxg_part": {"source_size"}, "mxg_light_type": {"num_members"}, "mxg_diagnostic": {"num_arguments"}}
         for cls, ctype in ((mxgen.Target, "mxg_target"), (mxgen.Option, "mxg_option"), (mxgen.DiagnosticKind, "mxg_diagnostic_kind"),
                            (mxgen.Diagnostic, "mxg_diagnostic"), (mxgen.Port, "mxg_port"), (mxgen.NodeDef, "mxg_nodedef"),
                            (mxgen.Variable, "mxg_variable"), (mxgen.Tile, "mxg_tile"), (mxgen.Part, "mxg_part"),
-                           (mxgen.CompiledInput, "mxg_compiled_input"), (mxgen.ShaderInfo, "mxg_shader_info"),
+                           (mxgen.CompiledInput, "mxg_compiled_input"), (mxgen.ShaderInfo, "mxg_shader_info"), (mxgen.Storage, "mxg_storage"),
                            (mxgen.Renderable, "mxg_renderable"),
                            (mxgen.Semantic, "mxg_semantic"), (mxgen.BlockInfo, "mxg_block_info"), (mxgen.LightType, "mxg_light_type"), (mxgen.Connection, "mxg_connection")):
             native = {name for name, _ in ffi.typeof(ctype).fields} - {"size"} - omitted.get(ctype, set())
-            self.assertEqual({field.name for field in fields(cls) if not field.name.startswith("_")} - {"members"}, native, ctype)
+            self.assertEqual({field.name for field in fields(cls) if not field.name.startswith("_")} - {"members", "arguments"}, native, ctype)
 
     def test_enumerations_have_every_member(self):
         for cls, ctype in ((mxgen.Severity, "mxg_severity"), (mxgen.Stage, "mxg_stage"), (mxgen.Block, "mxg_block"),
@@ -333,6 +334,10 @@ class DiagnosticObjects(unittest.TestCase):
         first = found[0]
         self.assertEqual((first.severity, first.file, first.line), (mxgen.Severity.ERROR, "broken.mtlx", 4))
         self.assertTrue(str(first).startswith("broken.mtlx:4:"))
+        kind = next(kind for kind in mxgen.diagnostic_kinds() if kind.id == first.id)
+        self.assertEqual(kind.message.replace("%u", "%s") % first.arguments, first.message)
+        self.assertIsNone(mxgen.diagnostic._line_of(common.BROKEN, 10000))
+        self.assertEqual(first.format("no such line"), first.format())
         line = common.BROKEN.splitlines()[3]
         self.assertEqual(first.format(common.BROKEN), first.format(line=line))
         self.assertIn("^", first.format(line=line))

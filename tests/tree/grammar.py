@@ -15,8 +15,8 @@ FUNCTION = re.compile(r"MXG_API\s+([\w\s]+?[\s*]+)(mxg_\w+)\(((?:[^()]|\([^()]*\
 OBJECT = re.compile(r"typedef struct (mxg_\w+) \1;")
 MEMBER = re.compile(r"\b(num_\w+)\b[^;()]*;")
 
-# The makers of objects, and the verbs. A verb of the second list also stands alone: it then acts on the object itself.
-MAKERS = "create load parse import builtin ref commit".split()
+# The makers of objects, and the verbs. A verb of the third list also stands alone: it then acts on the object itself.
+MAKERS = "create load parse import builtin ref".split()
 VERBS = "add connect copy move pack remove rename report require set write".split()
 ALONE = "commit destroy format ref set unref write".split()
 # Verbs of no object: they take a context and make a result.
@@ -24,8 +24,9 @@ ACTIONS = "generate inspect rewrite validate".split()
 # What needs no object: a catalogue of all that a version of mxgen has, and values.
 CATALOGUE = "catalogue"
 VALUES = {"color": ["difference"], "slot": ["decode", "encode"], "status": ["string"], "version": ["string"]}
-# Numbers of things that no getter gives.
+# Numbers of things that no getter gives, and things of two numbers: inputs and outputs.
 COUNTS = {"mxg_bindings_num_resolved_primitives", "mxg_diagnostics_num_errors"}
+PARTS = {"port"}
 
 
 class Function:
@@ -84,8 +85,9 @@ def check_getter(function, kind, words, functions, members):
     if any(re.fullmatch(r"uint32_t index", parameter) for parameter in function.parameters):
         counts = [name for name in functions if name.startswith(f"mxg_{kind}_num_") and noun.startswith(singular(name.split("_num_")[1]))]
         counts += [name for name in members if noun.startswith(singular(name[4:]) or " ") or noun.endswith(singular(name[4:]) or " ")]
-        function.check(counts or noun == "port" or noun == "look_material" , "nothing gives the number of these")
-    function.check(not function.takes(-1, r"mxg_(?!ref)\w+ \* out") or function.result in ("mxg_status", "bool"), "a getter of a struct returns mxg_status")
+        function.check(counts or noun in PARTS, "nothing gives the number of these")
+    fills = function.takes(-1, r"mxg_\w+ \* out")
+    function.check(not fills or function.result == "mxg_status" or kind == "build", "a getter of a struct returns mxg_status")
 
 
 def check_object(function, kind, words, functions, members):
@@ -103,21 +105,32 @@ def check_object(function, kind, words, functions, members):
         function.check(function.result == "bool", "it answers with a bool")
     elif verb in VERBS or verb in ALONE:
         function.check(nouns or verb in ALONE, f"'{verb}' what?")
-    elif verb != "find":
+    elif verb == "find":
+        function.check(function.result in ("uint32_t", "mxg_element"), "it gives a number")
+    else:
         check_getter(function, kind, words, functions, members)
 
 
 def check_text(function):
     """A text that is made for the call goes to the caller's buffer."""
-    if "size_t capacity" in function.parameters and "char * buffer" in function.parameters:
+    if any(re.fullmatch(r"char \* \w+", parameter) for parameter in function.parameters):
         function.check(function.parameters[-2:] == ["char * buffer", "size_t capacity"] and function.result == "size_t",
                        "buffer and capacity stand last, and the result is the length")
+    if function.name.endswith("_error") and function.name.count("_") == 2:
+        function.check("char * buffer" in function.parameters, "the reason goes to a buffer")
 
 
 def check_action(function, words):
     function.check(words[0] in ACTIONS, f"'{words[0]}' is neither an object nor an action")
     good = function.takes(0, r"mxg_context \* context") and function.takes(-1, r"mxg_result \* \* out_result")
     function.check(good and function.result == "mxg_status", "an action takes a context and makes a result")
+
+
+def check_layout():
+    """A declaration stays on its line: a comment that is too long for it stands above, or the formatter breaks behind the type."""
+    for header in sorted((ROOT / "include/mxgen").glob("*.h")):
+        broken = re.search(r"^ +(?:const )?(?:struct |enum )?\w+(?: \*)*$", COMMENT.sub("", header.read_text(encoding="utf-8")), re.MULTILINE)
+        check(not broken, f"{header.name}: '{broken and broken.group().strip()}' is alone on a line; put the comment above the declaration")
 
 
 def main():
@@ -136,6 +149,7 @@ def main():
             if words:
                 check_object(function, kind, words, functions, members)
     check(len(functions) > 150, f"the headers declare {len(functions)} functions only")
+    check_layout()
     print(f"{len(functions)} functions of {len(objects)} objects")
     finish("grammar")
 

@@ -244,7 +244,7 @@ static void test_options(void)
                    settings[i].good ? MXG_OK : MXG_ERROR_ARGUMENT);
         REQUIRE_EQ(value->is_set, settings[i].good);
         REQUIRE_EQ(value->number, settings[i].number);
-        REQUIRE_EQ(mxg_options_error(options) != NULL, !settings[i].good);
+        REQUIRE_EQ(mxg_options_error(options, NULL, 0) > 0, !settings[i].good);
         mxg_options_destroy(options);
     }
     destroy_context(context, &heap);

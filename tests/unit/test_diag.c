@@ -12,12 +12,29 @@ static struct diag_place at(uint32_t line, uint32_t column, uint32_t length)
     return (struct diag_place){"wood.mtlx", line, column, length};
 }
 
-static const char *render(const struct diag *diag, const char *source, bool colour)
+static const char *render(const struct diag *diag, const char *line, bool colour)
 {
     struct text text;
     text_init(&text, &arena);
-    diag_render_text(diag, source, source ? strlen(source) : 0, colour, &text);
+    diag_render(diag, line, line ? strlen(line) : 0, colour, &text);
     return text_cstr(&text);
+}
+
+static bool has_flag(const char *text)
+{
+    for (const char *at = text; (at = strstr(at, "--")) != NULL; at += 2)
+        if (at[2] >= 'a' && at[2] <= 'z' && (at - text < 7 || memcmp(at - 7, "usdcat ", 7) != 0))
+            return true;
+    return false;
+}
+
+/* A host has no command line: messages of the library name options by their keys. */
+static void check_flags(const char *id, enum diag_id i)
+{
+    const struct diag_explanation *explanation = diag_explain(i);
+    if (!REQUIRE(!has_flag(diag_id_format(i)) && !has_flag(explanation->cause)
+                 && !has_flag(explanation->cure)))
+        printf("    %s names a flag\n", id);
 }
 
 /*
@@ -38,6 +55,8 @@ static void test_catalogue(void)
         for (unsigned k = 0; k < i; k++)
             REQUIRE(strcmp(id, diag_id_text((enum diag_id)k)) != 0);
         REQUIRE(formats[i][0] != '\0' && !strchr(formats[i], '\n'));
+        if (i < DIAG_ID_output_failed || i >= DIAG_ID_xml_not_xml) /* the others: of the programs */
+            check_flags(id, (enum diag_id)i);
         for (const char *p = strchr(formats[i], '%'); p; p = strchr(p + 1, '%'))
             if (!REQUIRE(strchr("sud", p[1]) && p[1]))
                 printf("    %s\n", formats[i]);
@@ -60,6 +79,10 @@ static void test_list(void)
     REQUIRE_EQ(list.num_errors, 1);
     const struct diag *items = list.items.items;
     REQUIRE_STR(items[0].message, "unknown node <mux> (did you mean 'mix'?)");
+    REQUIRE_EQ(items[0].num_arguments, 2);
+    REQUIRE_STR(items[0].arguments[0], "mux");
+    REQUIRE_STR(items[0].arguments[1], " (did you mean 'mix'?)");
+    REQUIRE_EQ(items[3].num_arguments, 0);
     REQUIRE_STR(items[0].place.file, "wood.mtlx");
     REQUIRE_EQ(items[0].severity, DIAG_ERROR);
     REQUIRE_EQ(items[1].severity, DIAG_NOTE);
@@ -69,6 +92,33 @@ static void test_list(void)
     REQUIRE_EQ(items[3].severity, DIAG_WARNING);
     REQUIRE_EQ(items[4].severity, DIAG_REMARK);
     REQUIRE_EQ(items[4].parent, 4);
+}
+
+/* Numbers are texts, and a copy has its own. */
+static void test_arguments(void)
+{
+    struct arena other;
+    struct diag_list list, copies;
+    arena_init(&other, &mem);
+    diag_list_init(&list, &other);
+    diag_list_init(&copies, &arena);
+    diag_add(&list, DIAG_ID_index_out_of_range, at(1, 1, 0), -3, 4u, 3u);
+    diag_repeat(&copies, &list.items.items[0]);
+    arena_finish(&other);
+    const struct diag *copy = &copies.items.items[0];
+    REQUIRE_EQ(copy->num_arguments, 3);
+    REQUIRE_STR(copy->arguments[0], "-3");
+    REQUIRE_STR(copy->arguments[1], "4");
+    REQUIRE_STR(copy->arguments[2], "3");
+    /* a note that counts tells the newest number */
+    diag_add(&copies, DIAG_ID_include_missing, at(1, 1, 0), "base.mtlx", "no such file");
+    diag_add(&copies, DIAG_ID_unknown_node, at(2, 1, 0), "a", "");
+    diag_add(&copies, DIAG_ID_unknown_node, at(3, 1, 0), "b", "");
+    const struct diag *note = &copies.items.items[2];
+    REQUIRE_EQ(note->id, DIAG_ID_consequences);
+    REQUIRE_EQ(note->num_arguments, 3);
+    REQUIRE_STR(note->arguments[0], "2");
+    REQUIRE_STR(note->arguments[1], "s");
 }
 
 /*
@@ -97,38 +147,35 @@ static void test_text(void)
 {
     struct diag diag = {
         .id = DIAG_ID_unknown_node, .message = "unknown node <mux>", .place = at(2, 3, 4)};
-    static const char source[] = "<materialx>\n  <mux name='a'/>\r\n</materialx>";
-    REQUIRE_STR(render(&diag, source, false),
+    static const char root[] = "<materialx>", line[] = "  <mux name='a'/>", end[] = "</materialx>";
+    REQUIRE_STR(render(&diag, line, false),
                 "wood.mtlx:2:3: error: unknown node <mux> [unknown-node]\n"
                 "      <mux name='a'/>\n"
                 "      ^~~~\n");
     REQUIRE_STR(render(&diag, NULL, false),
                 "wood.mtlx:2:3: error: unknown node <mux> [unknown-node]\n");
     diag.place = at(1, 1, 0);
-    REQUIRE_STR(render(&diag, source, false),
+    REQUIRE_STR(render(&diag, root, false),
                 "wood.mtlx:1:1: error: unknown node <mux> [unknown-node]\n"
                 "    <materialx>\n"
                 "    ^\n");
-    REQUIRE_STR(render(&diag, source, true),
+    REQUIRE_STR(render(&diag, root, true),
                 "\x1b[1mwood.mtlx:1:1: \x1b[1;31merror: \x1b[0munknown node <mux> [unknown-node]\n"
                 "    <materialx>\n"
                 "    \x1b[1;32m^\x1b[0m\n");
     diag.place = at(0, 0, 0);
-    REQUIRE_STR(render(&diag, source, false),
+    REQUIRE_STR(render(&diag, root, false),
                 "wood.mtlx: error: unknown node <mux> [unknown-node]\n");
     diag.place = (struct diag_place){0};
-    REQUIRE_STR(render(&diag, source, false), "error: unknown node <mux> [unknown-node]\n");
-    diag.place = at(9, 1, 1); /* the source is another one */
-    REQUIRE_STR(render(&diag, source, false),
-                "wood.mtlx:9:1: error: unknown node <mux> [unknown-node]\n");
+    REQUIRE_STR(render(&diag, root, false), "error: unknown node <mux> [unknown-node]\n");
     diag.place = at(1, 80, 1);
-    REQUIRE_STR(render(&diag, source, false),
+    REQUIRE_STR(render(&diag, root, false),
                 "wood.mtlx:1:80: error: unknown node <mux> [unknown-node]\n");
     diag.severity = DIAG_NOTE;
     diag.place = at(3, 12, 9); /* the underline ends with the line */
-    REQUIRE_STR(render(&diag, source, false), "wood.mtlx:3:12: note: unknown node <mux>\n"
-                                              "    </materialx>\n"
-                                              "               ^\n");
+    REQUIRE_STR(render(&diag, end, false), "wood.mtlx:3:12: note: unknown node <mux>\n"
+                                           "    </materialx>\n"
+                                           "               ^\n");
 }
 
 /*
@@ -236,6 +283,7 @@ int main(void)
     arena_init(&arena, &mem);
     test_catalogue();
     test_list();
+    test_arguments();
     test_limit();
     test_text();
     test_columns();
