@@ -2,7 +2,7 @@
 /*
  * Fits the directional albedo and the mean direction of Chan's diffuse lobe (2018, "Material
  * Advances in Call of Duty: WWII") for mx_chan_share and mx_chan_axis in
- * libraries/slabs/slab.glsl. Prints the constants of the functions.
+ * libraries/slabs/chan.glsl. Prints the constants of the functions.
  */
 #include "fit.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
  * Walks at random through plane layers that scatter evenly, and fits the light that they reflect
- * and let through, for mx_medium_layer in libraries/slabs/slab.glsl. Prints the constants of the
+ * and let through, for mx_medium_layer in libraries/slabs/medium.glsl. Prints the constants of the
  * function.
  */
 #include "fit.h"

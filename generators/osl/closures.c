@@ -176,7 +176,7 @@ static ir_ref blended(struct osl_tree *t, ir_ref slots)
         return sum;
     t->shader->transparent = true;
     ir_ref through = osl_transparent(t);
-    return osl_sum(t, sum, osl_scaled(t, through, closure_one_minus(g, alpha)));
+    return osl_sum(t, sum, osl_scaled(t, through, ir_one_minus(g, alpha)));
 }
 
 /* ---- Effects ---- */

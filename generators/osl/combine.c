@@ -83,7 +83,7 @@ ir_ref osl_mixed(struct osl_tree *t, ir_ref bg, ir_ref fg, ir_ref mix)
     if (!bg)
         return osl_scaled(t, fg, mix);
     if (!fg)
-        return osl_scaled(t, bg, closure_one_minus(t->graph, mix));
+        return osl_scaled(t, bg, ir_one_minus(t->graph, mix));
     ir_ref factor = factor_over(t, bg, fg);
     if (factor) /* the closure once, mixed between 1 and the factor */
         return osl_scaled(t, bg,

@@ -4,6 +4,9 @@
  */
 #include "generators/osl/tree.h"
 
+#include "ir/arithmetic.h"
+#include "shader/formula.h"
+
 #include <assert.h>
 
 /* ---- The table ---- */
@@ -208,11 +211,8 @@ static ir_ref scattered(const struct leaf *leaf, ir_ref tint, enum side side)
 }
 
 /*
- * The input color82 changes Schlick's curve F at 82 degrees (Hoffman 2019, "Fresnel Equations
- * Considered Harmful"). OSL closures lack this colour. So the code chooses a colour at 90 degrees
- * for which the plain curve has the same reflectance at 82 degrees, with q = (6/7)^exponent:
- *
- *     F'(82) = color82 · F(82)    color90' = color90 - (1 - color82) · F(82) / q
+ * The input color82 bends Schlick's curve. OSL closures lack this colour, so the colour at 90
+ * degrees changes.
  */
 static ir_ref bent_edge(const struct leaf *leaf, ir_ref color90)
 {
@@ -220,13 +220,8 @@ static ir_ref bent_edge(const struct leaf *leaf, ir_ref color90)
     ir_ref color82 = leaf->inputs[INPUT_color82], color0 = leaf->inputs[INPUT_color0];
     if (ir_const_is(g, color82, 1.0f))
         return color90;
-    ir_ref q = ir_op2(g, IR_POW, ir_const_float(g, 6.0f / 7.0f), leaf->inputs[INPUT_exponent]);
-    /* a statement of its own: C leaves the order of arguments open, and operands follow this order
-     */
-    ir_ref curve = ir_op3(g, IR_MIX, color0, color90, q);
-    ir_ref at82 = ir_op2(g, IR_MUL, closure_one_minus(g, color82), curve);
-    ir_ref edge = ir_op2(g, IR_SUB, color90, ir_op2(g, IR_DIV, at82, q));
-    return ir_op2(g, IR_MAX, edge, ir_const_float(g, 0.0f));
+    return FORMULA(leaf->tree->shader, "mx_rise_edge", color0, color82, color90,
+                   leaf->inputs[INPUT_exponent]);
 }
 
 /* True for componentwise ops that have the same meaning for scalars. */
@@ -356,6 +351,21 @@ static ir_ref side_call(struct leaf *leaf, const struct row *row, enum side side
                     list.len);
 }
 
+/* The increase of the reflectance of a leaf at a cosine. */
+static ir_ref rise(const struct leaf *leaf, ir_ref cosine)
+{
+    struct shader *shader = leaf->tree->shader;
+    struct ir_graph *g = shader->graph;
+    const ir_ref *in = leaf->inputs;
+    ir_ref edge = in[INPUT_color90] ? in[INPUT_color90] : ir_white(g),
+           exponent = in[INPUT_exponent] ? in[INPUT_exponent] : ir_const_float(g, 5.0f);
+    if (in[INPUT_color0])
+        return FORMULA(shader, "mx_rise_schlick", in[INPUT_color0], edge, exponent, cosine);
+    if (in[INPUT_extinction])
+        return FORMULA(shader, "mx_rise_conductor", in[INPUT_ior], in[INPUT_extinction], cosine);
+    return FORMULA(shader, "mx_rise_dielectric", in[INPUT_ior], cosine);
+}
+
 /*
  * Light meets retroreflecting facets head-on at every angle to the surface. This factor is the
  * increase of reflectance at that angle.
@@ -365,13 +375,7 @@ static ir_ref turned_factor(const struct leaf *leaf)
     struct ir_graph *g = leaf->tree->graph;
     ir_ref view = closure_view(leaf->tree->shader, leaf->tree->host);
     ir_ref cosine = ir_op1(g, IR_ABS, ir_op2(g, IR_DOT, leaf->inputs[INPUT_normal], view));
-    struct osl_interface interface = {.color0 = leaf->inputs[INPUT_color0],
-                                      .color90 = leaf->inputs[INPUT_color90],
-                                      .exponent = leaf->inputs[INPUT_exponent],
-                                      .ior = leaf->inputs[INPUT_ior],
-                                      .extinction = leaf->inputs[INPUT_extinction]};
-    ir_ref more =
-        osl_fresnel_rise(g, &interface, ir_op2(g, IR_MIN, cosine, ir_const_float(g, 1.0f)));
+    ir_ref more = rise(leaf, ir_op2(g, IR_MIN, cosine, ir_const_float(g, 1.0f)));
     ir_ref one = ir_const_splat(g, ir_type_of(g, more), 1.0f);
     return ir_build(g, IR_SELECT, ir_type_of(g, more), 0, (ir_ref[]){leaf->turned, more, one}, 3);
 }

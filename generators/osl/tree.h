@@ -36,16 +36,6 @@ ir_ref osl_sum(struct osl_tree *tree, ir_ref a, ir_ref b);
 ir_ref osl_mixed(struct osl_tree *tree, ir_ref bg, ir_ref fg, ir_ref mix);
 ir_ref osl_layered(struct osl_tree *tree, ir_ref top, ir_ref base);
 
-/*
- * fresnel.c: an interface with Schlick's colours, as a conductor (`extinction`), or as a
- * dielectric; 0: absent input.
- */
-struct osl_interface {
-    ir_ref color0, color90, exponent, ior, extinction;
-};
-/* The reflectance at a cosine, divided by the reflectance at normal incidence. */
-ir_ref osl_fresnel_rise(struct ir_graph *graph, const struct osl_interface *of, ir_ref cosine);
-
 /* leaves.c: the closure of a LEAF node; 0, and tree->unknown, if it has none. */
 ir_ref osl_leaf(struct osl_tree *tree, ir_ref leaf);
 

@@ -128,7 +128,7 @@ struct closure_aovs closure_aovs_mixed(struct ir_graph *g, struct closure_aovs b
     if (!bg.num && !fg.num)
         return bg;
     assert(bg.num == fg.num);
-    bg = closure_aovs_scaled(g, bg, closure_one_minus(g, mix));
+    bg = closure_aovs_scaled(g, bg, ir_one_minus(g, mix));
     fg = closure_aovs_scaled(g, fg, mix);
     return closure_aovs_sum(g, bg, fg);
 }
@@ -139,7 +139,7 @@ struct closure_aovs closure_aovs_coated(struct ir_graph *g, struct closure_aovs 
     if (!base.num || !top.num)
         return base;
     assert(base.num == top.num);
-    struct closure_aovs below = closure_aovs_scaled(g, base, closure_one_minus(g, presence));
+    struct closure_aovs below = closure_aovs_scaled(g, base, ir_one_minus(g, presence));
     base = copy_of(g, base);
     for (uint32_t i = 0; i < base.num; i++)
         if (top.items[i].value)

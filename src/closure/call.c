@@ -4,7 +4,10 @@
  * point that the function takes.
  */
 #include "closure/closure_priv.h"
+
+#include "ir/arithmetic.h"
 #include "lower/lower.h"
+#include "shader/formula.h"
 
 #include <assert.h>
 
@@ -149,11 +152,11 @@ static ir_ref unit_throughput(struct shader *shader, const struct closure_host *
     if (host->spreads && may_scatter(shader, host, leaf)) {
         ir_ref way = ir_const_float(g, CLOSURE_MEAN_WAY),
                ways = ir_construct(g, IR_TYPE_VEC3, &way, 1);
-        return ir_op2(g, IR_MUL, through, ir_op2(g, IR_POW, decay, ways));
+        return ir_mul(g, through, ir_op2(g, IR_POW, decay, ways));
     }
     *out_decay = decay;
     for (unsigned i = 0; i < host->way; i++)
-        through = ir_op2(g, IR_MUL, through, decay);
+        through = ir_mul(g, through, decay);
     return through;
 }
 
@@ -164,20 +167,18 @@ ir_ref closure_leaf_throughput(struct shader *shader, const struct closure_host 
     assert(ir_get(g, leaf)->op == IR_LEAF && host->way <= 2);
     *out_decay = 0;
     if (ir_type_of(g, leaf) == IR_TYPE_VDF) /* a volume fills the space and is no surface */
-        return ir_const_splat(g, IR_TYPE_VEC3, 1.0f);
+        return ir_white(g);
     ir_ref through = unit_throughput(shader, host, leaf, out_decay);
     ir_ref weight = ir_arg(g, leaf, 0);
     if (!through && host->occludes)
-        return ir_const_splat(g, IR_TYPE_VEC3, 0.0f);
+        return ir_black(g);
     if (!through) /* opaque: its weight is a coverage */
-        return closure_one_minus(g, ir_convert(g, IR_TYPE_VEC3, weight));
+        return ir_one_minus(g, ir_convert(g, IR_TYPE_VEC3, weight));
     if (ir_const_is(g, weight, 1.0f))
         return through;
     if (*out_decay)
         *out_decay = CLOSURE_MIXED;
-    /* 1 - w (1 - T) */
-    ir_ref stopped = ir_op2(g, IR_MUL, closure_one_minus(g, through), weight);
-    return closure_one_minus(g, stopped);
+    return FORMULA(shader, "mx_weighted_throughput", through, weight);
 }
 
 void closure_name(struct shader *shader, ir_ref value, ir_ref closure, const char *role)

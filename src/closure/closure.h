@@ -6,6 +6,7 @@
 #ifndef MXG_CLOSURE_CLOSURE_H
 #define MXG_CLOSURE_CLOSURE_H
 
+#include "ir/arithmetic.h"
 #include "shader/verbatim.h"
 
 /*
@@ -277,9 +278,6 @@ ir_ref closure_occlusion(struct shader *shader, bool flips_v);
 
 /* displacement.c: how far a displacement shader moves a point; 0: nothing moves. */
 ir_ref closure_offset(struct shader *shader, ir_ref displacement);
-
-/* 1 - a */
-ir_ref closure_one_minus(struct ir_graph *graph, ir_ref a);
 
 /* Writes the leaves and weights as text: `mxgen inspect --closures`. */
 void closure_describe(struct shader *shader, const struct closure_host *host, ir_ref root,

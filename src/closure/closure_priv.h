@@ -276,9 +276,7 @@ ir_ref closure_differentials(struct shader *shader, ir_ref root);
 /* alpha.c: the possible values of an alpha that is not constant 1. */
 enum shader_alpha closure_alpha(struct shader *shader, ir_ref alpha);
 
-/* product.c: a · b; 0 stands for 1. */
-ir_ref closure_mul(struct ir_graph *graph, ir_ref a, ir_ref b);
-/* closure_mul with the loop-invariant factors first. */
+/* product.c: ir_product with the loop-invariant factors first. */
 ir_ref closure_product(struct ir_graph *graph, ir_ref value, ir_ref weight);
 /* guard.c: finds the parts that need a branch. in_loop: considers only code inside the loop. */
 void closure_find_guarded(struct shader *shader, struct closure_parts *list, bool in_loop);

@@ -15,6 +15,9 @@
  */
 #include "closure/closure_priv.h"
 
+#include "ir/arithmetic.h"
+#include "shader/formula.h"
+
 #include <assert.h>
 
 static ir_ref stream(struct shader *shader, str_id name)
@@ -31,29 +34,16 @@ static ir_ref offset_of_shader(struct shader *shader, ir_ref displacement, ir_re
     struct ir_graph *g = shader->graph;
     if (ir_const_is(g, displacement, 0.0f) || ir_const_is(g, scale, 0.0f))
         return 0;
-    ir_ref amount = ir_op2(g, IR_MUL, displacement, scale);
-    ir_ref normal = ir_op1(g, IR_NORMALIZE, stream(shader, STR_normalWorld));
+    ir_ref amount = ir_mul(g, displacement, scale), normal = stream(shader, STR_normalWorld);
     if (ir_type_of(g, amount) == IR_TYPE_FLOAT)
-        return ir_op2(g, IR_MUL, normal, amount);
-    assert(ir_type_of(g, amount) == IR_TYPE_VEC3);
-    ir_ref tangent = ir_op1(g, IR_NORMALIZE, stream(shader, STR_tangentWorld));
-    ir_ref axes[3] = {tangent, ir_op2(g, IR_CROSS, normal, tangent), normal}, sum = 0;
-    for (unsigned i = 0; i < 3; i++) {
-        ir_ref part = ir_op2(g, IR_MUL, axes[i], ir_component(g, amount, i));
-        sum = sum ? ir_op2(g, IR_ADD, sum, part) : part;
-    }
-    return sum;
+        return FORMULA(shader, "mx_displacement", amount, normal);
+    return FORMULA(shader, "mx_displacement", amount, normal, stream(shader, STR_tangentWorld));
 }
 
 static ir_ref mixed(struct ir_graph *g, ir_ref bg, ir_ref fg, ir_ref mix)
 {
-    ir_ref nothing = ir_const_splat(g, IR_TYPE_VEC3, 0.0f);
-    return bg || fg ? ir_op3(g, IR_MIX, bg ? bg : nothing, fg ? fg : nothing, mix) : 0;
-}
-
-static ir_ref sum(struct ir_graph *g, ir_ref a, ir_ref b)
-{
-    return a && b ? ir_op2(g, IR_ADD, a, b) : a ? a : b;
+    ir_ref nothing = ir_black(g);
+    return bg || fg ? ir_mix(g, bg ? bg : nothing, fg ? fg : nothing, mix) : 0;
 }
 
 /* Operands precede their node, so one pass finds nested mixes. */
@@ -76,34 +66,22 @@ ir_ref closure_offset(struct shader *shader, ir_ref root)
             known[ref] =
                 mixed(g, known[ir_arg(g, ref, 0)], known[ir_arg(g, ref, 1)], ir_arg(g, ref, 2));
         else if (node.op == IR_CLOSURE_ADD)
-            known[ref] = sum(g, known[ir_arg(g, ref, 0)], known[ir_arg(g, ref, 1)]);
+            known[ref] = ir_sum(g, known[ir_arg(g, ref, 0)], known[ir_arg(g, ref, 1)]);
         else if (node.op == IR_CLOSURE_SCALE && known[ir_arg(g, ref, 0)])
-            known[ref] = ir_op2(g, IR_MUL, known[ir_arg(g, ref, 0)], ir_arg(g, ref, 1));
+            known[ref] = ir_mul(g, known[ir_arg(g, ref, 0)], ir_arg(g, ref, 1));
         ir_pop_origin(g);
     }
     assert(!known[root] || ir_type_of(g, known[root]) == IR_TYPE_VEC3);
     return known[root];
 }
 
-/* The normal of the facet that adjacent pixels span, on the side of `normal`. */
-static ir_ref facet(struct shader *shader, ir_ref point, ir_ref normal)
-{
-    struct ir_graph *g = shader->graph;
-    ir_ref dx = ir_op1(g, IR_DFDX, point), dy = ir_op1(g, IR_DFDY, point),
-           across = ir_op2(g, IR_CROSS, dx, dy);
-    ir_ref unit = ir_op1(g, IR_NORMALIZE, across);
-    return ir_op3(g, IR_FACEFORWARD, unit, ir_op1(g, IR_NEG, normal), unit);
-}
-
 static ir_ref bent_normal(struct shader *shader, ir_ref before, ir_ref after)
 {
-    struct ir_graph *g = shader->graph;
-    ir_push_name(g, STR_facet);
-    ir_ref normal = ir_op1(g, IR_NORMALIZE, stream(shader, STR_normalWorld));
-    ir_ref moved = facet(shader, after, normal), rest = facet(shader, before, normal);
-    ir_ref bend = ir_op2(g, IR_SUB, moved, rest);
-    ir_pop_origin(g);
-    return ir_op1(g, IR_NORMALIZE, ir_op2(g, IR_ADD, normal, bend));
+    ir_push_name(shader->graph, STR_facet);
+    ir_ref normal =
+        FORMULA(shader, "mx_displaced_normal", before, after, stream(shader, STR_normalWorld));
+    ir_pop_origin(shader->graph);
+    return normal;
 }
 
 static void move_vertices(struct shader *shader, ir_ref point)
@@ -139,7 +117,7 @@ static ir_ref view_from(struct shader *shader, ir_ref point)
     struct ir_graph *g = shader->graph;
     ir_ref viewer =
         shader_read(shader, shader_private_uniform(shader, STR_u_viewPosition, IR_TYPE_VEC3, 0));
-    return ir_op1(g, IR_NORMALIZE, ir_op2(g, IR_SUB, viewer, point));
+    return ir_op1(g, IR_NORMALIZE, ir_sub(g, viewer, point));
 }
 
 /* The surface with the normal after displacement; moved 0: that of the stream. */
@@ -181,7 +159,7 @@ ir_ref closure_displace(struct shader *shader, const struct closure_host *host, 
     struct closure_point *point = host->point;
     ir_ref before = stream(shader, STR_positionWorld);
     ir_push_name(g, STR_P);
-    point->position = ir_op2(g, IR_ADD, before, offset);
+    point->position = ir_add(g, before, offset);
     ir_change_name(g, STR_N);
     bool has_rays = shader->role->derivatives == DERIVATIVES_OF_RAYS;
     point->normal = has_rays ? ir_op1(g, IR_NORMALIZE, stream(shader, STR_normalMoved))

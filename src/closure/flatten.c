@@ -14,6 +14,9 @@
  */
 #include "closure/closure_priv.h"
 
+#include "ir/arithmetic.h"
+#include "shader/formula.h"
+
 #include "base/hash.h"
 #include "base/table.h"
 
@@ -222,7 +225,7 @@ static void add_way_in(struct flattener *f)
 /* s·c as one value, so that weights can be added. */
 static ir_ref combined(struct ir_graph *g, struct weight w)
 {
-    return ir_convert(g, IR_TYPE_VEC3, w.color ? closure_mul(g, w.color, w.scalar) : w.scalar);
+    return ir_convert(g, IR_TYPE_VEC3, w.color ? ir_product(g, w.color, w.scalar) : w.scalar);
 }
 
 static ir_ref sum_of_weights(struct ir_graph *g, struct weight a, struct weight b)
@@ -260,9 +263,9 @@ static void add_scaled(struct flattener *f, ir_ref ref, struct weight w, ir_ref 
     bool is_scalar = ir_type_of(g, factor) == IR_TYPE_FLOAT;
     assert(is_scalar || ir_type_of(g, factor) == IR_TYPE_VEC3);
     if (is_scalar)
-        w.scalar = closure_mul(g, w.scalar, factor);
+        w.scalar = ir_product(g, w.scalar, factor);
     else if (!ir_const_is(g, factor, 1.0f))
-        w.color = closure_mul(g, w.color, factor);
+        w.color = ir_product(g, w.color, factor);
     if (ref && !ir_const_is(g, factor, 1.0f))
         closure_name(f->shader, is_scalar ? w.scalar : w.color, ref, "weight");
     add_weight(f, ref, w);
@@ -281,10 +284,10 @@ ir_ref closure_transmittance(struct shader *shader, const struct closure_host *h
         ir_ref absorption = closure_call(shader, host, leaf->leaf, LEAF_ABSORPTION, NULL);
         if (!absorption)
             continue;
-        absorption = closure_mul(g, absorption, closure_mul(g, leaf->color, leaf->scalar));
-        sum = sum ? ir_op2(g, IR_ADD, sum, absorption) : absorption;
+        absorption = ir_product(g, absorption, ir_product(g, leaf->color, leaf->scalar));
+        sum = ir_sum(g, sum, absorption);
     }
-    return sum ? ir_op1(g, IR_EXP, ir_op1(g, IR_NEG, sum)) : 0;
+    return sum ? FORMULA(shader, "mx_transmittance", ir_convert(g, IR_TYPE_VEC3, sum)) : 0;
 }
 
 static void spread(struct flattener *f, ir_ref ref, struct weight w)
@@ -297,7 +300,7 @@ static void spread(struct flattener *f, ir_ref ref, struct weight w)
     if (op == IR_LAYER) {
         /* a volume behind changes only refracted light */
         if (b && ir_type_of(g, b) == IR_TYPE_VDF)
-            w.medium = closure_mul(g, w.medium, closure_transmittance(f->shader, f->host, b));
+            w.medium = ir_product(g, w.medium, closure_transmittance(f->shader, f->host, b));
         else if (b) {
             struct weight below = w;
             below.decay = closure_both_decays(g, w.decay, decay_of(f, a));
@@ -306,7 +309,7 @@ static void spread(struct flattener *f, ir_ref ref, struct weight w)
         add_weight(f, a, w);
     } else if (op == IR_CLOSURE_MIX) {
         ir_ref mix = ir_arg(g, ref, 2);
-        add_scaled(f, a, w, closure_one_minus(g, mix));
+        add_scaled(f, a, w, ir_one_minus(g, mix));
         add_scaled(f, b, w, mix);
     } else if (op == IR_CLOSURE_ADD) {
         add_weight(f, a, w);
@@ -363,7 +366,7 @@ static void take_leaf(struct flattener *f, ir_ref ref, struct weight w, struct c
         add_scaled(f, base, w, closure_call(f->shader, f->host, ref, LEAF_FACTOR, NULL));
         return;
     }
-    ir_ref scalar = closure_mul(g, w.scalar, ir_arg(g, ref, 0));
+    ir_ref scalar = ir_product(g, w.scalar, ir_arg(g, ref, 0));
     closure_name(f->shader, scalar, ref, "weight");
     if (ir_const_is(g, scalar, 0.0f))
         return;

@@ -11,7 +11,10 @@
  * variable is the number.
  */
 #include "closure/closure_priv.h"
+
+#include "ir/arithmetic.h"
 #include "lower/lower.h"
+#include "shader/formula.h"
 
 #include <assert.h>
 
@@ -83,7 +86,7 @@ static ir_ref emission(struct shader *shader, const struct closure_host *host, i
         const struct closure_leaf *leaf = &list.leaves.items[i];
         ir_ref value = closure_call(shader, &at_light, leaf->leaf, LEAF_EMISSION, NULL);
         value = value ? ir_convert(g, IR_TYPE_VEC3,
-                                   closure_mul(g, value, closure_mul(g, leaf->color, leaf->scalar)))
+                                   ir_product(g, value, ir_product(g, leaf->color, leaf->scalar)))
                       : 0;
         sum = value && sum ? ir_op2(g, IR_ADD, sum, value) : value ? value : sum;
     }
@@ -94,13 +97,12 @@ static ir_ref emission(struct shader *shader, const struct closure_host *host, i
 static ir_ref to_light(struct shader *shader, const struct closure_host *host, uint32_t position)
 {
     ir_ref at = member(shader, position);
-    return ir_op2(shader->graph, IR_SUB, at, closure_position(shader, host));
+    return ir_sub(shader->graph, at, closure_position(shader, host));
 }
 
 /*
  * A light made of nodes: its EDF at u_lightData[i].position, facing u_lightData[i].direction.
  *
- *     intensity = edf · intensity · 2^exposure / distance²
  */
 static void sample_emitter(struct shader *shader, const struct closure_host *host,
                            const struct shader_light *light, ir_ref *results)
@@ -108,17 +110,17 @@ static void sample_emitter(struct shader *shader, const struct closure_host *hos
     struct ir_graph *g = shader->graph;
     ir_ref facing = ir_op1(g, IR_NORMALIZE, member(shader, light->direction));
     ir_ref away = to_light(shader, host, light->position);
-    ir_ref distance = ir_op1(g, IR_LENGTH, away), square = ir_op2(g, IR_MUL, distance, distance);
+    ir_ref distance = ir_op1(g, IR_LENGTH, away);
     ir_ref normal = shader_stream(shader, STR_normalWorld, IR_TYPE_VEC3);
     ir_ref root =
         ir_replace(g, light->shader, normal, member(shader, light->direction), shader->arena);
-    results[0] = ir_op2(g, IR_DIV, away, distance);
+    results[0] = ir_div(g, away, distance);
     ir_ref emitted = ir_arg(g, root, 0) ? emission(shader, host, ir_arg(g, root, 0), facing,
                                                    ir_op1(g, IR_NEG, results[0]))
                                         : 0;
-    ir_ref scale = ir_op2(g, IR_MUL, ir_arg(g, root, 1), ir_op1(g, IR_EXP2, ir_arg(g, root, 2)));
-    results[1] = emitted ? ir_op2(g, IR_MUL, emitted, ir_op2(g, IR_DIV, scale, square))
-                         : ir_const_splat(g, IR_TYPE_VEC3, 0.0f);
+    results[1] = emitted ? FORMULA(shader, "mx_light_of_emitter", emitted, ir_arg(g, root, 1),
+                                   ir_arg(g, root, 2), distance)
+                         : ir_black(g);
 }
 
 /*
@@ -262,7 +264,7 @@ static void choose_light(struct shader *shader, struct one_light *lights, uint32
     for (uint32_t i = 1; i < num; i++)
         choose(shader, out, EFFECT_END, 0, 0);
     out->direction = read_variable(shader, direction);
-    out->intensity = closure_mul(g, color, read_variable(shader, intensity));
+    out->intensity = ir_product(g, color, read_variable(shader, intensity));
 }
 
 void closure_sample_light(struct shader *shader, const struct closure_host *host,

@@ -14,6 +14,8 @@
  */
 #include "closure/emitter.h"
 
+#include "ir/arithmetic.h"
+
 #include <assert.h>
 
 void emitter_effect(struct emitter *e, enum effect_kind kind, uint32_t index, ir_ref value)
@@ -21,13 +23,6 @@ void emitter_effect(struct emitter *e, enum effect_kind kind, uint32_t index, ir
     value = closure_in_loop(&e->copies, value);
     shader_effect(e->shader, STAGE_PIXEL,
                   (struct effect){.kind = (uint8_t)kind, .index = index, .value = value});
-}
-
-static ir_ref add(struct emitter *e, ir_ref a, ir_ref b)
-{
-    if (!a || !b)
-        return a ? a : b;
-    return ir_op2(e->graph, IR_ADD, a, b);
 }
 
 ir_ref emitter_vec3(struct emitter *e, ir_ref value)
@@ -42,7 +37,7 @@ static ir_ref weight_along(struct emitter *e, const struct closure_leaf *leaf, i
         return closure_weight(e->shader, leaf, way);
     return ir_const_is(e->graph, leaf->scalar, 1.0f)
                ? leaf->color
-               : closure_mul(e->graph, leaf->color, leaf->scalar);
+               : ir_product(e->graph, leaf->color, leaf->scalar);
 }
 
 /* value · weight; 0 if the product vanishes. way: of the light, if media lie above. */
@@ -129,7 +124,7 @@ static void accumulate_parts(struct emitter *e, const char *section,
     struct ir_graph *g = e->graph;
     ir_ref sum = 0;
     for (uint32_t i = 0; i < count; i++)
-        sum = add(e, sum, parts[i].value);
+        sum = ir_sum(g, sum, parts[i].value);
     comment_leaves(e, section, parts, count);
     if (guard) {
         ir_ref condition = ir_op2(g, IR_GT, guard, ir_const_float(g, 0.0f));
@@ -273,8 +268,8 @@ static bool add_through(struct emitter *e, const struct closure_leaf *leaf)
     if (!value)
         return false;
     ir_ref way = leaf->decay ? closure_environment_way(e->shader, e->host, leaf->leaf) : 0;
-    value = weighted(e, leaf, closure_mul(e->graph, value, leaf->medium), way);
-    e->through = add(e, e->through, value ? emitter_vec3(e, value) : 0);
+    value = weighted(e, leaf, ir_product(e->graph, value, leaf->medium), way);
+    e->through = ir_sum(e->graph, e->through, value ? emitter_vec3(e, value) : 0);
     return value != 0;
 }
 
@@ -302,7 +297,7 @@ static void find_surrounding_parts(struct emitter *e, ir_ref bsdf, const struct 
             emitted[i] |= add_through(e, other);
         else if (refracted)
             emitted[i] |=
-                add_surrounding_part(e, behind, i, closure_mul(e->graph, refracted, other->medium));
+                add_surrounding_part(e, behind, i, ir_product(e->graph, refracted, other->medium));
     }
 }
 
@@ -463,7 +458,7 @@ static ir_ref emission_of(struct emitter *e, const struct closure_list *list)
         value = weighted(e, &list->leaves.items[i], value, at_rest);
         if (value)
             shader_add_closure(e->shader, list->leaves.items[i].leaf);
-        sum = add(e, sum, value);
+        sum = ir_sum(e->graph, sum, value);
     }
     return sum;
 }
@@ -486,8 +481,8 @@ void emitter_flatten(struct emitter *e, const struct closure_surface *s, struct 
     if (host.above)
         closure_put_under(e->shader, &host, host.above, out);
     e->lit.base = s->unlit ? emitter_vec3(e, s->unlit) : 0;
-    e->lit.base = add(e, e->lit.base, emitter_emission(e, s->edf));
-    e->lit.base = add(e, e->lit.base, emission_of(e, out));
+    e->lit.base = ir_sum(e->graph, e->lit.base, emitter_emission(e, s->edf));
+    e->lit.base = ir_sum(e->graph, e->lit.base, emission_of(e, out));
 }
 
 void emitter_light_surface(struct emitter *e, const struct closure_surface *s)

@@ -29,6 +29,9 @@
  */
 #include "closure/scatter.h"
 
+#include "ir/arithmetic.h"
+#include "shader/formula.h"
+
 #include <assert.h>
 
 /* ---- Values of levels ---- */
@@ -68,13 +71,12 @@ static ir_ref *new_values(struct closure_scatter *s)
 
 static ir_ref has_extinction(struct closure_scatter *s, const struct closure_level *level)
 {
-    ir_ref sum = scatter_op2(s, IR_DOT, level->extinction, scatter_grey(s, 1.0f));
-    return scatter_op2(s, IR_GT, sum, scatter_number(s, 0.0f));
+    return FORMULA(s->shader, "mx_is_medium", level->extinction);
 }
 
 static ir_ref attenuation(struct closure_scatter *s, ir_ref depth, ir_ref slope)
 {
-    return ir_op1(s->graph, IR_EXP, ir_op1(s->graph, IR_NEG, scatter_op2(s, IR_MUL, depth, slope)));
+    return FORMULA(s->shader, "mx_transmittance", ir_mul(s->graph, depth, slope));
 }
 
 static ir_ref throughput(struct closure_scatter *s, ir_ref leaf)
@@ -135,8 +137,7 @@ static struct choice choose(struct closure_scatter *s, const struct closure_leve
 {
     struct choice c = {.lobe = share_of_lobe(s, level->leaf)};
     c.through = level->refracts ? scatter_grey(s, 0.0f) : throughput(s, level->leaf);
-    c.passes = scatter_mean_of(s, c.through);
-    c.passes = scatter_op2(s, IR_MAX, c.passes, scatter_number(s, 0.0f));
+    c.passes = FORMULA(s->shader, "mx_brightness", c.through);
     c.all = scatter_op2(s, IR_ADD, c.lobe, c.passes);
     closure_name(s->shader, c.lobe, level->leaf, "chance");
     closure_name(s->shader, c.passes, level->leaf, "passing");
@@ -159,7 +160,7 @@ static ir_ref lobe_response(struct closure_scatter *s, const struct closure_leve
         scatters(s, leaf) ? closure_call(s->shader, s->host, leaf, LEAF_EVAL, &direction) : 0;
     if (!value)
         return black;
-    value = closure_mul(s->graph, ir_convert(s->graph, IR_TYPE_VEC3, value), level->scale);
+    value = ir_product(s->graph, ir_convert(s->graph, IR_TYPE_VEC3, value), level->scale);
     if (level->refracts)
         value = where(s, scatter_is_in_front(s, direction), value, black);
     if (!solid_angle)
@@ -251,7 +252,7 @@ static void sample_lobe(struct closure_scatter *s, const struct closure_level *l
     if (level->refracts)
         scatter_take_side(s, results[0], level->solid, &density);
     scatter_effect(s, EFFECT_ASSIGN, s->parts[0].weight,
-                   closure_mul(s->graph, weight, level->scale));
+                   ir_product(s->graph, weight, level->scale));
     scatter_effect(s, EFFECT_ASSIGN, s->density, density);
     scatter_effect(s, EFFECT_END, 0, 0);
 }

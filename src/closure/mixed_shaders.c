@@ -27,7 +27,7 @@ ir_ref closure_surface_through(struct ir_graph *g, const struct closure_surface 
 {
     if (s->through)
         return s->through;
-    ir_ref rest = s->alpha ? closure_one_minus(g, s->alpha) : ir_const_float(g, 0.0f);
+    ir_ref rest = s->alpha ? ir_one_minus(g, s->alpha) : ir_const_float(g, 0.0f);
     return ir_convert(g, IR_TYPE_VEC3, rest);
 }
 
@@ -106,8 +106,7 @@ static struct closure_surface unlit_surface(struct ir_graph *g, ir_ref emitted, 
     ir_ref through =
         ir_op2(g, IR_DOT, color_of(g, transmitted), ir_const_splat(g, IR_TYPE_VEC3, 1.0f / 3.0f));
     return (struct closure_surface){.unlit = ir_op2(g, IR_MUL, emitted, opacity),
-                                    .alpha =
-                                        ir_op2(g, IR_MUL, opacity, closure_one_minus(g, through)),
+                                    .alpha = ir_op2(g, IR_MUL, opacity, ir_one_minus(g, through)),
                                     .premultiplied = true};
 }
 
@@ -225,7 +224,7 @@ static ir_ref through_of_stack(const struct surfaces *s, ir_ref slots,
         struct ir_slot slot = ir_slot(g, slots, i);
         if (!slot.surface || ir_slot_is_vertical(g, &slot))
             continue;
-        ir_ref held = closure_one_minus(g, closure_surface_through(g, &layers[i]));
+        ir_ref held = ir_one_minus(g, closure_surface_through(g, &layers[i]));
         through = ir_op2(g, IR_SUB, through, ir_op2(g, IR_MUL, held, slot.weight));
     }
     return through;
@@ -275,8 +274,8 @@ static ir_ref through_of_leaf(const struct surfaces *s, ir_ref ref,
                              : ir_const_splat(g, IR_TYPE_VEC3, 1.0f);
     if (ir_get(g, ref)->op != IR_SURFACE_UNLIT)
         return 0;
-    ir_ref opacity = args[2], held = closure_one_minus(g, color_of(g, args[1]));
-    return closure_one_minus(g, ir_op2(g, IR_MUL, held, opacity));
+    ir_ref opacity = args[2], held = ir_one_minus(g, color_of(g, args[1]));
+    return ir_one_minus(g, ir_op2(g, IR_MUL, held, opacity));
 }
 
 /* A surface without other surfaces. */

@@ -10,14 +10,12 @@
  */
 #include "closure/closure_priv.h"
 
+#include "ir/arithmetic.h"
+#include "shader/formula.h"
+
 static ir_ref uniform(struct shader *shader, str_id name, ir_type_id type)
 {
     return shader_read(shader, shader_private_uniform(shader, name, type, 0));
-}
-
-static ir_ref number(struct ir_graph *g, float value)
-{
-    return ir_const_float(g, value);
 }
 
 static ir_ref texel(struct ir_graph *g, ir_ref map, ir_ref uv, unsigned channel)
@@ -31,32 +29,22 @@ ir_ref closure_occlusion(struct shader *shader, bool flips_v)
     struct ir_graph *g = shader->graph;
     ir_ref uv = shader_stream(shader, str_intern_z(shader->strings, "texcoord_0"), IR_TYPE_VEC2);
     if (flips_v) {
-        ir_ref parts[2] = {ir_component(g, uv, 0),
-                           ir_op2(g, IR_SUB, number(g, 1.0f), ir_component(g, uv, 1))};
+        ir_ref parts[2] = {ir_component(g, uv, 0), ir_one_minus(g, ir_component(g, uv, 1))};
         uv = ir_construct(g, IR_TYPE_VEC2, parts, 2);
     }
     ir_ref open = texel(g, uniform(shader, STR_u_ambOccMap, IR_TYPE_SAMPLER), uv, 0);
-    return ir_op3(g, IR_MIX, number(g, 1.0f), open,
+    return ir_mix(g, ir_const_float(g, 1.0f), open,
                   uniform(shader, STR_u_ambOccGain, IR_TYPE_FLOAT));
 }
 
 ir_ref closure_shadow(struct shader *shader, const struct closure_host *host)
 {
     struct ir_graph *g = shader->graph;
-    ir_ref parts[2] = {closure_position(shader, host), number(g, 1.0f)};
-    ir_ref product[2] = {uniform(shader, STR_u_shadowMatrix, IR_TYPE_MAT4),
-                         ir_construct(g, IR_TYPE_VEC4, parts, 2)};
-    ir_ref clip = ir_build(g, IR_MUL, IR_TYPE_VEC4, 0, product, 2);
-    ir_ref place = ir_swizzle(g, clip, (const uint8_t[]){0, 1, 2}, 3);
-    place = ir_op2(g, IR_DIV, place, ir_component(g, clip, 3));
-    place = ir_op2(g, IR_ADD, ir_op2(g, IR_MUL, place, number(g, 0.5f)), number(g, 0.5f));
+    ir_ref point = closure_position(shader, host),
+           to_map = uniform(shader, STR_u_shadowMatrix, IR_TYPE_MAT4);
+    ir_ref place = FORMULA(shader, "mx_shadow_place", to_map, point);
     ir_ref map = uniform(shader, STR_u_shadowMap, IR_TYPE_SAMPLER),
            uv = ir_swizzle(g, place, (const uint8_t[]){0, 1}, 2), mean = texel(g, map, uv, 0),
            square = texel(g, map, uv, 1), depth = ir_component(g, place, 2);
-    ir_ref variance = ir_op2(g, IR_MAX, ir_op2(g, IR_SUB, square, ir_op2(g, IR_MUL, mean, mean)),
-                             number(g, 0.00001f));
-    ir_ref behind = ir_op2(g, IR_SUB, depth, mean);
-    ir_ref bound =
-        ir_op2(g, IR_DIV, variance, ir_op2(g, IR_ADD, variance, ir_op2(g, IR_MUL, behind, behind)));
-    return ir_op3(g, IR_SELECT, ir_op2(g, IR_LE, depth, mean), number(g, 1.0f), bound);
+    return FORMULA(shader, "mx_shadow_lit", depth, mean, square);
 }

@@ -45,7 +45,7 @@ ir_ref closure_through(struct shader *shader, const struct closure_host *host, i
         || only_reflects(shader, host, leaf))
         return 0;
     ir_ref decay, throughput = closure_leaf_throughput(shader, host, leaf, &decay);
-    return closure_mul(shader->graph, throughput, operand_of(shader, host, leaf, "tint"));
+    return ir_product(shader->graph, throughput, operand_of(shader, host, leaf, "tint"));
 }
 
 static void write_value(struct shader *shader, str_id name, ir_ref value)
@@ -59,7 +59,7 @@ static void write_value(struct shader *shader, str_id name, ir_ref value)
 static void write_second_source(struct shader *shader, ir_ref through, ir_ref alpha)
 {
     struct ir_graph *g = shader->graph;
-    ir_ref rest = closure_one_minus(g, alpha);
+    ir_ref rest = ir_one_minus(g, alpha);
     through = through ? through : ir_convert(g, IR_TYPE_VEC3, rest);
     ir_ref parts[2] = {through, rest};
     bool is_member = shader->role->is_in_host_file;

@@ -110,7 +110,7 @@ void closure_choose(struct shader *shader, const struct closure_host *host, ir_r
         struct ir_slot slot = ir_slot(g, slots, i);
         if (!is_choice(g, &slot))
             continue;
-        ir_ref share = closure_mul(g, slot.weight, layers[i].alpha ? layers[i].alpha : one);
+        ir_ref share = ir_product(g, slot.weight, layers[i].alpha ? layers[i].alpha : one);
         ir_ref high = ir_op2(g, IR_ADD, low, share);
         bool takes_rest = is_opaque && is_last(g, slots, i);
         struct closure_choice choice = {.layer = closure_picked(g, layers[i]),

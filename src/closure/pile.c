@@ -14,6 +14,9 @@
  */
 #include "closure/scatter.h"
 
+#include "ir/arithmetic.h"
+#include "shader/formula.h"
+
 enum { MAX_LEVELS = 48, MAX_STEPS = 1024 }; /* steps: a closure may have several parents */
 
 static const char share_has_colors[] = "a share of its tree has colours",
@@ -44,9 +47,7 @@ static bool is_float(const struct ir_graph *g, ir_ref value)
 
 static ir_ref limited(struct ir_graph *g, ir_ref chance)
 {
-    ir_type_id type = ir_type_of(g, chance);
-    return ir_op3(g, IR_CLAMP, chance, ir_const_splat(g, type, 0.0f),
-                  ir_const_splat(g, type, 1.0f));
+    return ir_saturate(g, chance);
 }
 
 /* True with this chance; the number becomes another one, which a chance above 1 would crowd. */
@@ -57,10 +58,7 @@ static ir_ref draw(struct finder *f, ir_ref chance)
     if (ir_const_is(g, chance, 0.0f) || ir_const_is(g, chance, 1.0f))
         return ir_const_bool(g, ir_const_is(g, chance, 1.0f));
     ir_ref is_it = ir_op2(g, IR_LT, f->number, chance);
-    ir_ref low = ir_op2(g, IR_DIV, f->number, chance), high = ir_op2(g, IR_SUB, f->number, chance);
-    high = ir_op2(g, IR_DIV, high, closure_one_minus(g, chance));
-    ir_ref number = ir_op3(g, IR_SELECT, is_it, low, high);
-    f->number = ir_op2(g, IR_MIN, number, ir_const_float(g, 0.9999999f));
+    f->number = FORMULA(f->shader, "mx_rest_of_number", f->number, chance);
     return is_it;
 }
 
@@ -205,7 +203,7 @@ static void open_operands(struct finder *f, struct operand of, struct operand ou
     out[1].ref = ir_arg(f->graph, of.ref, 0);
     if (node.op == IR_LAYER && out[0].ref && ir_type_of(f->graph, out[0].ref) == IR_TYPE_VDF) {
         ir_ref medium = closure_transmittance(f->shader, f->host, out[0].ref);
-        out[1].medium = closure_mul(f->graph, of.medium, medium);
+        out[1].medium = ir_product(f->graph, of.medium, medium);
         out[0].ref = 0;
     } else if (node.op == IR_LAYER) {
         out[1].is_last = of.is_last && !out[0].ref;

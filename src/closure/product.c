@@ -10,19 +10,6 @@
 
 #include <assert.h>
 
-ir_ref closure_mul(struct ir_graph *g, ir_ref a, ir_ref b)
-{
-    if (!a || !b)
-        return a ? a : b;
-    return ir_op2(g, IR_MUL, a, b);
-}
-
-ir_ref closure_one_minus(struct ir_graph *g, ir_ref a)
-{
-    ir_ref one = ir_const_splat(g, ir_type_of(g, a), 1.0f);
-    return ir_op2(g, IR_SUB, one, a);
-}
-
 enum { VARIES = 1, IS_VECTOR = 2, NUM_KINDS = 4, MAX_FACTORS = 16 };
 
 /* by kind, each kind in the order of its nodes, so that equal products are equal nodes */
@@ -88,7 +75,7 @@ static void gather(const struct ir_graph *g, struct factors *f, ir_ref value)
 static ir_ref product_of(struct ir_graph *g, const struct factors *f, unsigned kind, ir_ref product)
 {
     for (unsigned i = 0; i < f->counts[kind]; i++)
-        product = closure_mul(g, product, f->items[kind][i]);
+        product = ir_product(g, product, f->items[kind][i]);
     return product;
 }
 
@@ -101,11 +88,11 @@ ir_ref closure_product(struct ir_graph *g, ir_ref value, ir_ref weight)
     insert(g, &f, is_splat(g, weight) ? ir_arg(g, weight, 0) : weight);
     assert(f.counts[0] + f.counts[1] + f.counts[2] + f.counts[3] + 1 == f.count);
     ir_ref constant = product_of(g, &f, IS_VECTOR, 0);
-    constant = closure_mul(g, constant, product_of(g, &f, 0, 0));
+    constant = ir_product(g, constant, product_of(g, &f, 0, 0));
     bool is_number = constant && ir_type_of(g, constant) == IR_TYPE_FLOAT;
     /* numbers before vectors, the last one first: Fresnel's factor is often one number in three */
     ir_ref product = product_of(g, &f, VARIES, is_number ? constant : 0);
     for (unsigned i = f.counts[VARIES | IS_VECTOR]; i-- > 0;)
-        product = closure_mul(g, product, f.items[VARIES | IS_VECTOR][i]);
-    return is_number ? product : closure_mul(g, product, constant);
+        product = ir_product(g, product, f.items[VARIES | IS_VECTOR][i]);
+    return is_number ? product : ir_product(g, product, constant);
 }

@@ -34,6 +34,9 @@
  */
 #include "closure/scatter.h"
 
+#include "ir/arithmetic.h"
+#include "shader/formula.h"
+
 #include <assert.h>
 
 void scatter_effect(struct closure_scatter *s, enum effect_kind kind, uint32_t index, ir_ref value)
@@ -84,27 +87,23 @@ ir_ref scatter_named(struct closure_scatter *s, ir_ref value, const char *name)
 
 ir_ref scatter_mean_of(struct closure_scatter *s, ir_ref color)
 {
-    return scatter_op2(s, IR_DOT, color, scatter_grey(s, 1.0f / 3.0f));
+    return FORMULA(s->shader, "mx_mean", color);
 }
 
 ir_ref scatter_likely(struct closure_scatter *s, ir_ref albedo)
 {
-    ir_type_id type = ir_type_of(s->graph, albedo);
-    albedo = scatter_op2(s, IR_MUL, albedo, ir_const_splat(s->graph, type, 0.9f));
-    return scatter_op2(s, IR_ADD, albedo, ir_const_splat(s->graph, type, 0.1f));
+    return FORMULA(s->shader, "mx_sampled_share", albedo);
 }
 
 ir_ref scatter_balanced(struct closure_scatter *s, ir_ref value, ir_ref density, ir_ref solid_angle)
 {
-    ir_ref both = scatter_op2(s, IR_MUL, density, solid_angle);
-    both = scatter_op2(s, IR_ADD, scatter_number(s, 1.0f), both);
-    return scatter_op2(s, IR_DIV, value, both);
+    return FORMULA(s->shader, "mx_balanced", value, density, solid_angle);
 }
 
 /* The weight for light on a way through the media above. */
 static ir_ref weight_along(struct closure_scatter *s, const struct closure_leaf *leaf, ir_ref way)
 {
-    ir_ref weight = closure_mul(s->graph, closure_weight(s->shader, leaf, way), s->scale);
+    ir_ref weight = ir_product(s->graph, closure_weight(s->shader, leaf, way), s->scale);
     return ir_convert(s->graph, IR_TYPE_VEC3, weight);
 }
 
@@ -142,20 +141,16 @@ static ir_ref share_of(struct closure_scatter *s, const struct closure_leaf *lea
         light = scatter_op2(s, IR_MUL, light,
                             scatter_likely(s, ir_convert(s->graph, IR_TYPE_VEC3, albedo)));
     assert(ir_type_of(s->graph, light) == IR_TYPE_VEC3);
-    ir_ref mean = scatter_mean_of(s, light);
-    mean = scatter_op2(s, IR_MAX, mean, scatter_number(s, 0.0f));
-    closure_name(s->shader, mean, leaf->leaf, "share");
-    return mean;
+    ir_ref share = FORMULA(s->shader, "mx_brightness", light);
+    closure_name(s->shader, share, leaf->leaf, "share");
+    return share;
 }
 
 /* True if the light from L comes from the visible side. */
 ir_ref scatter_is_in_front(struct closure_scatter *s, ir_ref direction)
 {
     ir_ref normal = closure_normal(s->shader, s->host), view = closure_view(s->shader, s->host);
-    ir_ref of_view = scatter_op2(s, IR_DOT, normal, view),
-           of_light = scatter_op2(s, IR_DOT, normal, direction);
-    ir_ref product = scatter_op2(s, IR_MUL, of_view, of_light);
-    return scatter_op2(s, IR_GT, product, scatter_number(s, 0.0f));
+    return FORMULA(s->shader, "mx_is_in_front", normal, view, direction);
 }
 
 /* The medium behind a leaf, of the first part that has one; 0: none. */
@@ -326,9 +321,8 @@ static ir_ref lit_parts(struct closure_scatter *s, const struct closure_light *l
         most = most ? scatter_op2(s, IR_MAX, most, s->parts[p].lit) : s->parts[p].lit;
     }
     scatter_named(s, most, "lit");
-    ir_ref mean = scatter_mean_of(s, most);
-    mean = scatter_op2(s, IR_MAX, mean, scatter_number(s, 0.0f));
-    return scatter_named(s, mean, "brightness");
+    ir_ref brightness = FORMULA(s->shader, "mx_brightness", most);
+    return scatter_named(s, brightness, "brightness");
 }
 
 /* The choice of a light: locals. */
@@ -483,8 +477,7 @@ static ir_ref scale_of(struct closure_scatter *s, ir_ref alpha)
 {
     if (closure_is_opaque(s->graph, alpha))
         return 0;
-    ir_ref least = scatter_op2(s, IR_MAX, alpha, scatter_number(s, 1e-6f));
-    return scatter_op2(s, IR_DIV, scatter_number(s, 1.0f), least);
+    return FORMULA(s->shader, "mx_scale_of_coverage", alpha);
 }
 
 void closure_scatter_layer(struct closure_scatter *s, const struct closure_scatter_layer *layer)
@@ -499,7 +492,7 @@ void closure_scatter_layer(struct closure_scatter *s, const struct closure_scatt
     s->pile = layer->pile;
     ir_ref scale = s->pile ? 0 : s->scale; /* light of a pile is not lit by chance */
     s->emission = layer->emission ? ir_convert(s->graph, IR_TYPE_VEC3,
-                                               closure_mul(s->graph, layer->emission, scale))
+                                               ir_product(s->graph, layer->emission, scale))
                                   : scatter_grey(s, 0.0f);
     if (s->pile) {
         matter_sample(s);

@@ -6,6 +6,9 @@
  */
 #include "closure/emitter.h"
 
+#include "ir/arithmetic.h"
+#include "shader/formula.h"
+
 #include <assert.h>
 
 static ir_ref encoded(struct emitter *e, ir_ref color)
@@ -38,10 +41,9 @@ static ir_ref output_alpha(struct emitter *e, const struct closure_surface *s)
     struct ir_graph *g = e->graph;
     if (!e->through)
         return s->alpha;
-    ir_ref mean = ir_op2(g, IR_DOT, e->through, ir_const_splat(g, IR_TYPE_VEC3, 1.0f / 3.0f));
-    ir_ref rest = closure_one_minus(
-        g, ir_op3(g, IR_CLAMP, mean, ir_const_float(g, 0.0f), ir_const_float(g, 1.0f)));
-    return s->alpha ? ir_op2(g, IR_MUL, s->alpha, rest) : rest;
+    ir_ref mean = FORMULA(e->shader, "mx_mean", e->through);
+    ir_ref rest = ir_one_minus(g, ir_saturate(g, mean));
+    return ir_product(g, s->alpha, rest);
 }
 
 /* What the surface lets through, with the transmitted part. 0: 1 - alpha of the output. */
@@ -54,8 +56,7 @@ static ir_ref output_through(struct emitter *e, const struct closure_surface *s)
     ir_ref through = closure_surface_through(g, s);
     if (!e->through)
         return through;
-    ir_ref zero = ir_const_float(g, 0.0f), most = ir_const_float(g, 1.0f);
-    return ir_op3(g, IR_MIX, ir_op3(g, IR_CLAMP, e->through, zero, most), one, through);
+    return ir_mix(g, ir_saturate(g, e->through), one, through);
 }
 
 /*

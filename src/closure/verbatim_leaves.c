@@ -12,6 +12,9 @@
  */
 #include "closure/closure_priv.h"
 
+#include "ir/arithmetic.h"
+#include "shader/formula.h"
+
 #include <assert.h>
 
 const struct source_leaf *closure_source(const struct shader *shader, ir_ref leaf)
@@ -62,11 +65,6 @@ struct call {
     unsigned num_args;
 };
 
-static ir_ref splat(struct call *c, float value)
-{
-    return ir_const_splat(c->graph, IR_TYPE_VEC3, value);
-}
-
 static void put(struct call *c, ir_ref arg)
 {
     c->args[c->num_args++] = arg;
@@ -74,7 +72,7 @@ static void put(struct call *c, ir_ref arg)
 
 static ir_ref light_of(struct call *c)
 {
-    return c->context == SOURCE_REFLECTION && c->light ? *c->light : splat(c, 0.0f);
+    return c->context == SOURCE_REFLECTION && c->light ? *c->light : ir_black(c->graph);
 }
 
 static void put_closure_data(struct call *c)
@@ -140,7 +138,7 @@ static ir_type_id operand_struct(struct call *c, const struct source_leaf *sourc
 
 static struct closure_value nothing(struct call *c)
 {
-    return (struct closure_value){splat(c, 0.0f), splat(c, 1.0f)};
+    return (struct closure_value){ir_black(c->graph), ir_white(c->graph)};
 }
 
 struct closure_value closure_call_with(struct shader *shader, const struct closure_host *host,
@@ -206,7 +204,6 @@ static const struct closure_value *operands_of(struct shader *shader,
 ir_ref closure_call_source(struct shader *shader, const struct closure_host *host, ir_ref leaf,
                            enum leaf_function which, const ir_ref *light)
 {
-    struct ir_graph *g = shader->graph;
     if (!closure_has(shader, host, leaf, which))
         return 0;
     struct closure_host at = *host;
@@ -221,7 +218,6 @@ ir_ref closure_call_source(struct shader *shader, const struct closure_host *hos
         return value.throughput;
     if (which != LEAF_ABSORPTION)
         return value.response;
-    /* a throughput over the unit of length is exp(-absorption), Beer's law */
-    ir_ref least = ir_const_float(g, 1e-6f);
-    return ir_op1(g, IR_NEG, ir_op1(g, IR_LOG, ir_op2(g, IR_MAX, value.throughput, least)));
+    /* a throughput over the unit of length is a transmittance */
+    return FORMULA(shader, "mx_absorption", value.throughput);
 }

@@ -15,13 +15,10 @@
  */
 #include "closure/closure_priv.h"
 
-#include <assert.h>
+#include "ir/arithmetic.h"
+#include "shader/formula.h"
 
-/*
- * Below this optical depth (1 - exp(-τ)) / τ is 1 within 0.05 %, and rounding would lose the
- * difference from 1.
- */
-static const float thin = 1e-3f;
+#include <assert.h>
 
 struct parts { /* each 0 where absent */
     ir_ref vdf, edf;
@@ -51,25 +48,20 @@ static struct parts parts_of(struct shader *shader, ir_ref root)
     return known[root];
 }
 
-static ir_ref splat(struct ir_graph *g, float value)
-{
-    return ir_const_splat(g, IR_TYPE_VEC3, value);
-}
-
 /* σa + σs of all leaves. */
 static ir_ref extinction(struct shader *shader, const struct closure_host *host,
                          const struct closure_list *list)
 {
     static const enum leaf_function coefficients[] = {LEAF_ABSORPTION, LEAF_SCATTERING};
     struct ir_graph *g = shader->graph;
-    ir_ref sum = splat(g, 0.0f);
+    ir_ref sum = ir_black(g);
     for (uint32_t i = 0; i < list->leaves.len; i++) {
         const struct closure_leaf *leaf = &list->leaves.items[i];
         for (size_t k = 0; k < sizeof coefficients / sizeof *coefficients; k++) {
             ir_ref value = closure_call(shader, host, leaf->leaf, coefficients[k], NULL);
             if (value)
-                sum = ir_op2(g, IR_ADD, sum,
-                             closure_mul(g, value, closure_mul(g, leaf->color, leaf->scalar)));
+                sum =
+                    ir_add(g, sum, ir_product(g, value, ir_product(g, leaf->color, leaf->scalar)));
         }
     }
     assert(ir_type_of(g, sum) == IR_TYPE_VEC3);
@@ -88,25 +80,20 @@ void closure_volume(struct shader *shader, const struct closure_host *host, ir_r
         shader_read(shader, shader_private_uniform(shader, STR_u_volumeDepth, IR_TYPE_FLOAT, 0));
     /* statements fix the order of the nodes; C leaves the order of arguments open */
     ir_ref view = closure_view(shader, host), normal = closure_normal(shader, host);
-    ir_ref facing = ir_op2(g, IR_DOT, normal, view);
-    ir_ref depth = ir_op2(g, IR_MUL, diameter, ir_op2(g, IR_MAX, facing, ir_const_float(g, 0.0f)));
+    ir_ref depth = FORMULA(shader, "mx_volume_depth", diameter, normal, view);
     ir_change_name(g, STR_optical_depth);
-    ir_ref optical = ir_op2(g, IR_MUL, extinction(shader, host, &out->scattering), depth);
+    ir_ref optical = ir_mul(g, extinction(shader, host, &out->scattering), depth);
     ir_change_name(g, STR_lost);
-    ir_ref lost = ir_op2(g, IR_SUB, splat(g, 1.0f), ir_op1(g, IR_EXP, ir_op1(g, IR_NEG, optical)));
+    ir_ref lost = FORMULA(shader, "mx_volume_lost", optical);
     ir_change_name(g, STR_path);
-    ir_ref gathered = ir_op2(g, IR_DIV, lost, ir_op2(g, IR_MAX, optical, splat(g, thin)));
-    gathered =
-        ir_op3(g, IR_MIX, splat(g, 1.0f), gathered, ir_op2(g, IR_STEP, splat(g, thin), optical));
-    out->path = ir_op2(g, IR_MUL, gathered, depth);
+    out->path = FORMULA(shader, "mx_volume_path", depth, optical, lost);
     ir_change_name(g, STR_alpha);
-    out->alpha = ir_op2(g, IR_DOT, lost, splat(g, 1.0f / 3.0f));
+    out->alpha = FORMULA(shader, "mx_mean", lost);
     ir_pop_origin(g);
     assert(ir_type_of(g, out->path) == IR_TYPE_VEC3 && ir_type_of(g, out->alpha) == IR_TYPE_FLOAT);
     for (uint32_t i = 0; i < out->scattering.leaves.len; i++) {
         struct closure_leaf *leaf = &out->scattering.leaves.items[i];
-        leaf->color = leaf->color
-                          ? ir_op2(g, IR_MUL, ir_convert(g, IR_TYPE_VEC3, leaf->color), out->path)
-                          : out->path;
+        leaf->color = leaf->color ? ir_mul(g, ir_convert(g, IR_TYPE_VEC3, leaf->color), out->path)
+                                  : out->path;
     }
 }

@@ -12,22 +12,21 @@
  */
 #include "closure/closure_priv.h"
 
+#include "ir/arithmetic.h"
+#include "shader/formula.h"
+
 #include <assert.h>
 
 ir_ref closure_both_decays(struct ir_graph *g, ir_ref a, ir_ref b)
 {
     if (!a || !b)
         return a ? a : b;
-    return a == CLOSURE_MIXED || b == CLOSURE_MIXED ? CLOSURE_MIXED : ir_op2(g, IR_MUL, a, b);
+    return a == CLOSURE_MIXED || b == CLOSURE_MIXED ? CLOSURE_MIXED : ir_mul(g, a, b);
 }
 
 ir_ref closure_way(struct shader *shader, const struct closure_host *host, ir_ref direction)
 {
-    struct ir_graph *g = shader->graph;
-    ir_ref cosine = ir_op2(g, IR_DOT, closure_normal(shader, host), direction);
-    ir_ref square = ir_op2(g, IR_MUL, cosine, cosine);
-    ir_ref root = ir_op1(g, IR_RSQRT, ir_op2(g, IR_ADD, ir_const_float(g, 1.25f), square));
-    return ir_op2(g, IR_MUL, ir_const_float(g, 1.5f), root);
+    return FORMULA(shader, "mx_closure_way", closure_normal(shader, host), direction);
 }
 
 ir_ref closure_environment_way(struct shader *shader, const struct closure_host *host, ir_ref leaf)
@@ -39,24 +38,24 @@ ir_ref closure_environment_way(struct shader *shader, const struct closure_host 
 
 static ir_ref white_or(struct ir_graph *g, ir_ref color)
 {
-    return color ? ir_convert(g, IR_TYPE_VEC3, color) : ir_const_splat(g, IR_TYPE_VEC3, 1.0f);
+    return color ? ir_convert(g, IR_TYPE_VEC3, color) : ir_white(g);
 }
 
 ir_ref closure_weight(struct shader *shader, const struct closure_leaf *leaf, ir_ref way)
 {
     struct ir_graph *g = shader->graph;
     if (!leaf->decay)
-        return closure_mul(g, leaf->color, leaf->scalar);
+        return ir_product(g, leaf->color, leaf->scalar);
     assert(leaf->decay != CLOSURE_MIXED);
     ir_ref color = leaf->color;
     if (!ir_const_is(g, way, 0.0f)) {
         ir_ref ways = ir_construct(g, IR_TYPE_VEC3, &way, 1);
-        color = closure_mul(g, color, ir_op2(g, IR_POW, leaf->decay, ways));
+        color = ir_product(g, color, ir_op2(g, IR_POW, leaf->decay, ways));
     }
     color = white_or(g, color);
     if (leaf->steady)
-        color = ir_op2(g, IR_ADD, leaf->steady, color);
-    return closure_mul(g, color, leaf->scalar);
+        color = ir_add(g, leaf->steady, color);
+    return ir_product(g, color, leaf->scalar);
 }
 
 /* The same leaf in another list; NULL: it has no weight there. */
@@ -75,32 +74,28 @@ static const struct closure_leaf *same_leaf(const struct closure_list *list,
 static ir_ref color_over(struct ir_graph *g, const struct closure_leaf *leaf, ir_ref scalar)
 {
     if (!leaf)
-        return ir_const_splat(g, IR_TYPE_VEC3, 0.0f);
+        return ir_black(g);
     return leaf->scalar == scalar ? white_or(g, leaf->color)
-                                  : white_or(g, closure_mul(g, leaf->color, leaf->scalar));
+                                  : white_or(g, ir_product(g, leaf->color, leaf->scalar));
 }
 
 void closure_fit_decay(struct shader *shader, struct closure_leaf *leaf,
                        const struct closure_leaf *const at[2])
 {
     struct ir_graph *g = shader->graph;
-    ir_ref one = ir_const_float(g, 1.0f), zero = ir_const_float(g, 0.0f);
+    ir_ref one = ir_const_float(g, 1.0f);
     for (unsigned i = 0; i < 2; i++)
         if (at[i] && at[i]->scalar != leaf->scalar) {
-            leaf->color = closure_mul(g, leaf->color, leaf->scalar);
+            leaf->color = ir_product(g, leaf->color, leaf->scalar);
             leaf->scalar = one;
         }
     ir_ref at_rest = white_or(g, leaf->color), once = color_over(g, at[0], leaf->scalar),
            twice = color_over(g, at[1], leaf->scalar);
-    ir_ref first = ir_op2(g, IR_SUB, at_rest, once), second = ir_op2(g, IR_SUB, once, twice);
-    /* where media hardly absorb, the limit keeps the quotient near the slope */
-    ir_ref least = ir_const_float(g, 1e-6f), most = ir_const_float(g, 0.999f);
-    ir_ref decay = ir_op2(g, IR_DIV, second, ir_op2(g, IR_MAX, first, least));
-    decay = ir_op3(g, IR_CLAMP, decay, zero, most);
-    ir_ref share = ir_op2(g, IR_DIV, first, closure_one_minus(g, decay));
+    ir_ref decay = FORMULA(shader, "mx_decay", at_rest, once, twice);
+    ir_ref share = FORMULA(shader, "mx_decaying", at_rest, once, decay);
     closure_name(shader, decay, leaf->leaf, "decay");
     leaf->decay = decay;
-    leaf->steady = ir_op2(g, IR_SUB, at_rest, share);
+    leaf->steady = ir_sub(g, at_rest, share);
     leaf->color = share;
     closure_name(shader, leaf->steady, leaf->leaf, "steady");
 }
@@ -125,15 +120,15 @@ void closure_put_under(struct shader *shader, const struct closure_host *host,
     struct ir_graph *g = shader->graph;
     ir_ref nothing = ir_const_float(g, 0.0f), way = ir_const_float(g, CLOSURE_MEAN_WAY);
     ir_ref spreads = ir_op2(g, IR_GT, above->spreads, nothing);
-    ir_ref ways = ir_construct(g, IR_TYPE_VEC3, &way, 1), one = ir_const_splat(g, IR_TYPE_VEC3, 1);
-    ir_ref mean = ir_op2(g, IR_MUL, above->color, ir_op2(g, IR_POW, above->decay, ways));
+    ir_ref ways = ir_construct(g, IR_TYPE_VEC3, &way, 1), one = ir_white(g);
+    ir_ref mean = ir_mul(g, above->color, ir_op2(g, IR_POW, above->decay, ways));
     for (uint32_t i = 0; i < list->leaves.len; i++) {
         struct closure_leaf *leaf = &list->leaves.items[i];
         assert(!leaf->decay && !leaf->steady);
         bool mirrors = !closure_has(shader, host, leaf->leaf, LEAF_WAY);
         ir_ref color = mirrors ? ir_op3(g, IR_SELECT, spreads, mean, above->color) : above->color;
         leaf->decay = mirrors ? ir_op3(g, IR_SELECT, spreads, one, above->decay) : above->decay;
-        leaf->steady = closure_mul(g, leaf->color, above->steady);
-        leaf->color = closure_mul(g, leaf->color, color);
+        leaf->steady = ir_product(g, leaf->color, above->steady);
+        leaf->color = ir_product(g, leaf->color, color);
     }
 }

@@ -17,6 +17,9 @@
  */
 #include "build/recorder.h"
 
+#include "ir/arithmetic.h"
+#include "shader/formula.h"
+
 enum { POINTS = 3, TAPS = POINTS * POINTS, MAX_MOVED = 2000 };
 enum { KERNEL_BOX, KERNEL_GAUSSIAN };
 
@@ -61,7 +64,7 @@ static void set_offsets(struct blur *blur, const struct kernel *kernel, ir_ref x
         for (int axis = 0; axis < 2; axis++) {
             int step = (axis == 0 ? tap % POINTS : tap / POINTS) - 1;
             blur->offsets[tap][axis] =
-                ir_op2(g, IR_MUL, axis == 0 ? x : y, ir_const_float(g, (float)step * kernel->node));
+                ir_mul(g, axis == 0 ? x : y, ir_const_float(g, (float)step * kernel->node));
         }
 }
 
@@ -87,7 +90,7 @@ static void move_texcoord(struct blur *blur, ir_ref ref)
     for (int tap = 0; tap < TAPS; tap++) {
         ir_ref parts[3] = {blur->offsets[tap][0], blur->offsets[tap][1], ir_const_float(g, 0.0f)};
         ir_ref offset = ir_construct(g, type, parts, ir_type_info(type)->components);
-        moved_of(blur, ref)[tap] = ir_op2(g, IR_ADD, ref, offset);
+        moved_of(blur, ref)[tap] = ir_add(g, ref, offset);
     }
 }
 
@@ -97,26 +100,20 @@ static void move_stream(struct blur *blur, ir_ref ref)
 {
     struct ir_graph *g = blur->b->graph;
     ir_ref right = ir_op1(g, IR_DFDX, ref), down = ir_op1(g, IR_DFDY, ref);
-    down = ir_op2(g, IR_SUB, down, ir_op2(g, IR_MUL, right, blur->skew));
+    down = ir_sub(g, down, ir_mul(g, right, blur->skew));
     for (int tap = 0; tap < TAPS; tap++) {
-        ir_ref x = ir_op2(g, IR_MUL, right, blur->offsets[tap][0]),
-               y = ir_op2(g, IR_MUL, down, blur->offsets[tap][1]);
-        moved_of(blur, ref)[tap] = ir_op2(g, IR_ADD, ref, ir_op2(g, IR_ADD, x, y));
+        ir_ref x = ir_mul(g, right, blur->offsets[tap][0]),
+               y = ir_mul(g, down, blur->offsets[tap][1]);
+        moved_of(blur, ref)[tap] = ir_add(g, ref, ir_add(g, x, y));
     }
 }
 
-/*
- * Half the change of the coordinates between the outer nodes along an axis, plus their change on
- * the screen.
- */
+/* The width of a read along an axis whose outer nodes are these taps. */
 static ir_ref footprint(struct blur *blur, ir_ref uv, enum ir_op derivative, int before, int behind)
 {
-    struct ir_graph *g = blur->b->graph;
     const ir_ref *taps = moved_of(blur, uv);
-    ir_ref apart = ir_op2(g, IR_SUB, taps[behind], taps[before]);
-    ir_ref half = ir_op1(g, IR_ABS, ir_op2(g, IR_MUL, apart, ir_const_float(g, 0.5f)));
-    ir_ref screen = ir_op1(g, IR_ABS, ir_op1(g, derivative, uv));
-    return ir_op2(g, IR_ADD, screen, half);
+    ir_ref screen = ir_op1(blur->b->graph, derivative, uv);
+    return FORMULA(blur->b->shader, "mx_blur_footprint", taps[before], taps[behind], screen);
 }
 
 static void move_texture(struct blur *blur, ir_ref ref)
@@ -203,8 +200,8 @@ static ir_ref sum(struct blur *blur, const struct kernel *kernel)
     for (int tap = 0; tap < TAPS; tap++) {
         float x = tap % POINTS == 1 ? kernel->middle : kernel->side,
               y = tap / POINTS == 1 ? kernel->middle : kernel->side;
-        ir_ref part = ir_op2(g, IR_MUL, moved_of(blur, blur->in)[tap], ir_const_float(g, x * y));
-        total = total ? ir_op2(g, IR_ADD, total, part) : part;
+        ir_ref part = ir_mul(g, moved_of(blur, blur->in)[tap], ir_const_float(g, x * y));
+        total = total ? ir_add(g, total, part) : part;
     }
     return total;
 }
@@ -249,23 +246,17 @@ ir_ref build_blur(struct builder *b, ir_ref in, ir_ref size, ir_ref filtertype, 
     return mean(&blur, kernel, node);
 }
 
-/* Over the length of a vector that may be 0. */
-static ir_ref over_length(struct ir_graph *g, ir_ref a, ir_ref vector)
-{
-    ir_ref least = ir_const_float(g, 1e-12f), square = ir_op2(g, IR_DOT, vector, vector);
-    return ir_op2(g, IR_MUL, a, ir_op1(g, IR_RSQRT, ir_op2(g, IR_MAX, square, least)));
-}
-
 ir_ref build_blur_around(struct builder *b, ir_ref in, ir_ref position, ir_ref deviation)
 {
     struct ir_graph *g = b->graph;
     const struct kernel *kernel = &kernels[KERNEL_GAUSSIAN];
     struct blur blur = {.b = b, .in = in};
     ir_ref right = ir_op1(g, IR_DFDX, position), down = ir_op1(g, IR_DFDY, position);
-    blur.skew = over_length(g, over_length(g, ir_op2(g, IR_DOT, right, down), right), right);
-    down = ir_op2(g, IR_SUB, down, ir_op2(g, IR_MUL, right, blur.skew));
-    ir_ref size = ir_op2(g, IR_MUL, deviation, ir_const_float(g, 6.0f));
-    ir_ref x = over_length(g, size, right), y = over_length(g, size, down);
+    blur.skew = FORMULA(b->shader, "mx_blur_skew", right, down);
+    down = ir_sub(g, down, ir_mul(g, right, blur.skew));
+    ir_ref size = ir_scaled(g, deviation, 6.0f);
+    ir_ref x = FORMULA(b->shader, "mx_blur_over_length", size, right),
+           y = FORMULA(b->shader, "mx_blur_over_length", size, down);
     set_offsets(&blur, kernel, x, y);
     return mean(&blur, kernel, build_element_origin(g)->element);
 }

@@ -3,6 +3,7 @@
 #include "library/index_priv.h"
 
 #include "base/hash.h"
+#include "library/formulas.h"
 
 #include <assert.h>
 
@@ -291,6 +292,8 @@ void library_index(struct library *lib, const struct lang_reader *reader, struct
     diag_list_init(lib->deferred, ix.arena);
     uint32_t *info = vec_extend(ix.arena, &lib->element_info, doc_num_elements(&lib->doc));
     memset(info, 0, doc_num_elements(&lib->doc) * sizeof *info);
+    if (!lib->base)
+        library_add_formulas(&lib->unit);
     for_each(&ix, KIND_TYPEDEF, add_typedef);
     for_each(&ix, KIND_NODEDEF, add_nodedef);
     make_node_table(&ix);

@@ -11,7 +11,9 @@
  * displacement.
  */
 #include "build/build_priv.h"
+
 #include "closure/closure.h"
+#include "ir/arithmetic.h"
 
 enum { MODE_BITS = 2, MODE_MASK = 3 };
 
@@ -29,26 +31,6 @@ int build_mode(const char *word)
         if (strcmp(mode_words[i], word) == 0)
             return (int)i;
     return -1;
-}
-
-static ir_ref number(struct builder *b, float value)
-{
-    return ir_const_float(b->graph, value);
-}
-
-static ir_ref times(struct builder *b, ir_ref x, ir_ref y)
-{
-    return x && y ? ir_op2(b->graph, IR_MUL, x, y) : x ? x : y;
-}
-
-static ir_ref one_minus(struct builder *b, ir_ref x)
-{
-    return ir_op2(b->graph, IR_SUB, number(b, 1.0f), x);
-}
-
-static ir_ref clamped(struct builder *b, ir_ref x)
-{
-    return ir_op3(b->graph, IR_CLAMP, x, number(b, 0.0f), number(b, 1.0f));
 }
 
 /* "050_mask" */
@@ -87,13 +69,13 @@ static void find_presence(struct builder *b, struct build_part *part, const stru
                           unsigned side, bool walks)
 {
     ir_ref surface = part->sides[side] ? part->sides[side] : part->sides[0];
-    ir_ref opacity = surface ? clamped(b, alpha_of(b, surface, walks)) : 0;
-    ir_ref presence = times(b, part->mask, opacity);
-    part->presence = presence ? presence : number(b, 1.0f);
-    part->hides = surface ? part->presence : number(b, 0.0f);
+    ir_ref opacity = surface ? ir_saturate(b->graph, alpha_of(b, surface, walks)) : 0;
+    ir_ref presence = ir_product(b->graph, part->mask, opacity);
+    part->presence = presence ? presence : ir_const_float(b->graph, 1.0f);
+    part->hides = surface ? part->presence : ir_const_float(b->graph, 0.0f);
     name_value(b, part->presence, part, "presence");
     if (part->is_vertical && base) /* a coat is where its base is */
-        part->presence = times(b, part->presence, base->presence);
+        part->presence = ir_product(b->graph, part->presence, base->presence);
 }
 
 static void find_presences(struct builder *b, struct build_part *parts, uint32_t num, unsigned side)
@@ -108,9 +90,9 @@ static void find_presences(struct builder *b, struct build_part *parts, uint32_t
 
 static ir_ref shape_of(struct builder *b, const struct build_part *parts, uint32_t num)
 {
-    ir_ref shape = number(b, 1.0f);
+    ir_ref shape = ir_const_float(b->graph, 1.0f);
     for (uint32_t i = 0; i < num; i++)
-        shape = times(b, shape, parts[i].cutout);
+        shape = ir_product(b->graph, shape, parts[i].cutout);
     return shape;
 }
 
@@ -149,7 +131,7 @@ static void put_slot(struct builder *b, const struct build_part *part, unsigned 
     unsigned mode = part->normal_mode + (part->is_vertical ? IR_SLOT_VERTICAL : 0u);
     args[0] = part->sides[side] ? part->sides[side] : part->sides[0];
     args[1] = weight;
-    args[2] = part->mask ? part->mask : number(b, 1.0f);
+    args[2] = part->mask ? part->mask : ir_const_float(b->graph, 1.0f);
     args[3] = part->presence;
     args[4] = part->normal;
     args[5] = ir_const_int(b->graph, (int32_t)mode);
@@ -157,20 +139,20 @@ static void put_slot(struct builder *b, const struct build_part *part, unsigned 
 
 static ir_ref compose_side(struct builder *b, struct build_part *parts, uint32_t num, unsigned side)
 {
-    ir_ref shape = shape_of(b, parts, num), through = number(b, 1.0f);
+    ir_ref shape = shape_of(b, parts, num), through = ir_const_float(b->graph, 1.0f);
     const uint32_t num_args = IR_SLOTS_FIRST + num * IR_SLOT_OPERANDS;
     ir_ref *args = ARENA_ARRAY(b->arena, ir_ref, num_args);
     find_presences(b, parts, num, side);
     for (uint32_t i = num; i-- > 0;) {
-        ir_ref mask = parts[i].mask ? parts[i].mask : number(b, 1.0f), weight = mask;
+        ir_ref mask = parts[i].mask ? parts[i].mask : ir_const_float(b->graph, 1.0f), weight = mask;
         if (!parts[i].is_vertical) {
-            weight = times(b, times(b, mask, through), shape);
-            through = times(b, through, one_minus(b, parts[i].hides));
+            weight = ir_product(b->graph, ir_product(b->graph, mask, through), shape);
+            through = ir_product(b->graph, through, ir_one_minus(b->graph, parts[i].hides));
             name_value(b, weight, &parts[i], "weight");
         }
         put_slot(b, &parts[i], side, weight, args + IR_SLOTS_FIRST + i * IR_SLOT_OPERANDS);
     }
-    args[0] = times(b, one_minus(b, through), shape);
+    args[0] = ir_product(b->graph, ir_one_minus(b->graph, through), shape);
     args[1] = shape;
     return ir_build(b->graph, IR_SLOTS, IR_TYPE_SURFACE, 0, args, num_args);
 }
@@ -244,8 +226,8 @@ struct build_part build_part_of(struct builder *b, ir_ref material)
     if (material && ir_get(g, material)->op == IR_SUBSTANCE) {
         uint32_t modes = ir_get(g, material)->attr;
         part.normal = ir_arg(g, material, 1);
-        part.mask = ir_arg(g, material, 2) ? clamped(b, ir_arg(g, material, 2)) : 0;
-        part.cutout = ir_arg(g, material, 3) ? clamped(b, ir_arg(g, material, 3)) : 0;
+        part.mask = ir_arg(g, material, 2) ? ir_saturate(b->graph, ir_arg(g, material, 2)) : 0;
+        part.cutout = ir_arg(g, material, 3) ? ir_saturate(b->graph, ir_arg(g, material, 3)) : 0;
         part.displacement_mode = (enum ir_slot_mode)(modes & MODE_MASK);
         part.normal_mode = (enum ir_slot_mode)(modes >> MODE_BITS);
         material = ir_arg(g, material, 0);

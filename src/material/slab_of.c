@@ -5,6 +5,8 @@
  */
 #include "build/build_priv.h"
 
+#include "shader/formula.h"
+
 static uint32_t definition_for(struct builder *b, const struct family *family)
 {
     struct text name;
@@ -145,9 +147,7 @@ static ir_ref mean_roughness(struct builder *b, ir_ref leaf)
     ir_ref roughness = operand_of(b, leaf, "roughness");
     if (!roughness || ir_type_of(g, roughness) != IR_TYPE_VEC2)
         return roughness && ir_type_of(g, roughness) == IR_TYPE_FLOAT ? roughness : 0;
-    ir_ref x = ir_component(g, roughness, 0), y = ir_component(g, roughness, 1);
-    ir_ref area = ir_op2(g, IR_MAX, ir_op2(g, IR_MUL, x, y), ir_const_float(g, 0.0f));
-    return ir_op1(g, IR_SQRT, ir_op1(g, IR_SQRT, area));
+    return FORMULA(b->shader, "mx_blend_roughness", roughness);
 }
 
 ir_ref build_slab_like(struct builder *b, ir_ref leaf, ir_ref albedo)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slabs/estimate.h"
 
+#include "ir/arithmetic.h"
+
 #include "lower/lower.h"
 #include "slabs/difference.h"
 
@@ -147,11 +149,6 @@ static ir_ref global(void *user_data, struct ir_graph *g, const struct lang_unit
 
 /* ---- Light ---- */
 
-static ir_ref mul(struct ir_graph *g, ir_ref a, ir_ref b)
-{
-    return ir_op2(g, IR_MUL, a, b);
-}
-
 /* What one lobe sends to the viewer: of the environment, of the light, and its own. */
 static ir_ref light_of(struct eye *eye, const struct closure_host *host,
                        const struct closure_leaf *leaf)
@@ -159,21 +156,21 @@ static ir_ref light_of(struct eye *eye, const struct closure_host *host,
     struct shader *shader = eye->shader;
     struct ir_graph *g = shader->graph;
     ir_ref zero = ir_const_float(g, 0.0f), mean = ir_const_float(g, CLOSURE_MEAN_WAY);
-    ir_ref sum = ir_const_splat(g, IR_TYPE_VEC3, 0.0f);
+    ir_ref sum = ir_black(g);
     ir_ref albedo = closure_call(shader, host, leaf->leaf, LEAF_ALBEDO, NULL),
            value = closure_call(shader, host, leaf->leaf, LEAF_EVAL, &eye->light),
            glow = closure_call(shader, host, leaf->leaf, LEAF_EMISSION, NULL);
     if (albedo) {
-        ir_ref even = mul(g, albedo, closure_weight(shader, leaf, mean));
-        sum = ir_op2(g, IR_ADD, sum, mul(g, even, ir_const_float(g, AMBIENT)));
+        ir_ref even = ir_mul(g, albedo, closure_weight(shader, leaf, mean));
+        sum = ir_add(g, sum, ir_scaled(g, even, AMBIENT));
     }
     if (value) {
         ir_ref way = closure_way(shader, host, eye->light);
-        ir_ref lit = mul(g, value, closure_weight(shader, leaf, way));
-        sum = ir_op2(g, IR_ADD, sum, mul(g, lit, ir_const_float(g, RADIANCE)));
+        ir_ref lit = ir_mul(g, value, closure_weight(shader, leaf, way));
+        sum = ir_add(g, sum, ir_scaled(g, lit, RADIANCE));
     }
     if (glow)
-        sum = ir_op2(g, IR_ADD, sum, mul(g, glow, closure_weight(shader, leaf, zero)));
+        sum = ir_add(g, sum, ir_mul(g, glow, closure_weight(shader, leaf, zero)));
     return ir_convert(g, IR_TYPE_VEC3, sum);
 }
 
@@ -204,14 +201,14 @@ static ir_ref color_of(struct eye *eye, ir_ref lobes, bool shows_behind)
     struct seen seen;
     struct closure_list list;
     see(eye, &seen);
-    ir_ref none = ir_const_float(g, 0.0f), sum = ir_const_splat(g, IR_TYPE_VEC3, 0.0f);
+    ir_ref none = ir_const_float(g, 0.0f), sum = ir_black(g);
     if (shows_behind) {
         sum = closure_throughput(eye->shader, &seen.host, lobes, none);
-        sum = mul(g, sum, ir_const_float(g, BACKGROUND));
+        sum = ir_scaled(g, sum, BACKGROUND);
     }
     closure_flatten(eye->shader, &seen.host, lobes, &list);
     for (uint32_t i = 0; i < list.leaves.len; i++)
-        sum = ir_op2(g, IR_ADD, sum, light_of(eye, &seen.host, &list.leaves.items[i]));
+        sum = ir_add(g, sum, light_of(eye, &seen.host, &list.leaves.items[i]));
     return sum;
 }
 

@@ -17,6 +17,8 @@
  */
 #include "slabs/joined_surfaces.h"
 
+#include "ir/arithmetic.h"
+
 struct piece {
     ir_ref bsdf;
     ir_ref edf;       /* for a budget; light that walks has it on the bsdf */
@@ -43,17 +45,6 @@ static bool is_no(const struct ir_graph *g, ir_ref flag)
 static ir_ref one_or(const struct joiner *j, ir_ref opacity)
 {
     return opacity ? opacity : ir_const_float(j->graph, 1.0f);
-}
-
-static ir_ref product(const struct joiner *j, ir_ref a, ir_ref b)
-{
-    return a && b ? ir_op2(j->graph, IR_MUL, a, b) : a ? a : b;
-}
-
-static ir_ref clamped(const struct joiner *j, ir_ref opacity)
-{
-    ir_ref none = ir_const_float(j->graph, 0.0f), whole = ir_const_float(j->graph, 1.0f);
-    return ir_op3(j->graph, IR_CLAMP, opacity, none, whole);
 }
 
 /* ---- Trees ---- */
@@ -188,7 +179,7 @@ static struct piece mix_of(const struct joiner *j, ir_ref ref)
         ir_ref behind = one_or(j, bg.opacity), before = one_or(j, fg.opacity);
         opacity = ir_op3(g, IR_MIX, behind, before, mix);
         ir_ref some = ir_op2(g, IR_MAX, opacity, ir_const_float(g, 1e-6f));
-        share = ir_op2(g, IR_DIV, product(j, mix, fg.opacity), some);
+        share = ir_op2(g, IR_DIV, ir_product(j->graph, mix, fg.opacity), some);
     }
     struct piece out = beside(j, &bg, &fg, share);
     out.opacity = opacity;
@@ -208,7 +199,7 @@ static ir_ref thickness_of(const struct joiner *j, const struct piece *coat)
 static void put_coat(const struct joiner *j, struct piece *base, const struct piece *coat,
                      ir_ref mask)
 {
-    ir_ref share = product(j, mask, coat->opacity);
+    ir_ref share = ir_product(j->graph, mask, coat->opacity);
     if (base->bsdf && coat->bsdf) {
         ir_ref top = mixed(j, 0, coat->bsdf, share), thickness = thickness_of(j, coat);
         base->bsdf = layered(j, top, base->bsdf, thickness);
@@ -256,11 +247,12 @@ static void put_layer(const struct joiner *j, struct piece *below, struct piece 
         return;
     }
     layer = alone(j, layer);
-    ir_ref presence = product(j, mask, layer.opacity ? clamped(j, layer.opacity) : 0);
+    ir_ref presence =
+        ir_product(j->graph, mask, layer.opacity ? ir_saturate(j->graph, layer.opacity) : 0);
     if (below->aovs) {
-        ir_ref missing = closure_one_minus(g, one_or(j, below->opacity));
-        missing = ir_op2(g, IR_MUL, missing, closure_one_minus(g, presence));
-        ir_ref coverage = closure_one_minus(g, missing), least = ir_const_float(g, 1e-6f);
+        ir_ref missing = ir_one_minus(g, one_or(j, below->opacity));
+        missing = ir_op2(g, IR_MUL, missing, ir_one_minus(g, presence));
+        ir_ref coverage = ir_one_minus(g, missing), least = ir_const_float(g, 1e-6f);
         ir_ref share = ir_op2(g, IR_DIV, presence, ir_op2(g, IR_MAX, coverage, least));
         layer = beside(j, below, &layer, share);
         presence = coverage;
@@ -282,7 +274,7 @@ static struct piece stack_of(const struct joiner *j, ir_ref slots)
         ir_pop_origin(j->graph);
     }
     below.aovs = below.aovs ? below.aovs : new_aovs(j);
-    below.opacity = product(j, below.opacity, ir_arg(j->graph, slots, 1));
+    below.opacity = ir_product(j->graph, below.opacity, ir_arg(j->graph, slots, 1));
     return below;
 }
 

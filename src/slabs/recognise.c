@@ -10,6 +10,8 @@
  */
 #include "slabs/recognise.h"
 
+#include "shader/formula.h"
+
 #include <assert.h>
 
 struct recogniser {
@@ -96,24 +98,17 @@ static ir_ref one_piece(struct ir_graph *g, ir_ref top, ir_ref base)
 /* ---- Coats ---- */
 
 /*
- * The path of a medium that lets `color` through a layer on both ways, with the mean way in and
- * out. docs/slabs.md, "Ways".
+ * A coat with the colour that its base is multiplied by, with the mean way in and out:
+ * docs/slabs.md, "Ways".
  */
-static ir_ref path_of_color(struct ir_graph *g, ir_ref color)
+static ir_ref colored(const struct recogniser *r, ir_ref coat, ir_ref color)
 {
-    ir_ref least = ir_const_float(g, 1e-4f), most = ir_const_float(g, 0.99999f);
-    ir_ref through = ir_op3(g, IR_CLAMP, ir_convert(g, IR_TYPE_VEC3, color), least, most);
-    ir_ref length =
-        ir_const_splat(g, IR_TYPE_VEC3, -2.0f * CLOSURE_MEAN_WAY * SLABS_LAYER_THICKNESS);
-    return ir_op2(g, IR_DIV, length, ir_op1(g, IR_LOG, through));
-}
-
-/* A coat with the colour that its base is multiplied by. */
-static ir_ref colored(struct ir_graph *g, ir_ref coat, ir_ref color)
-{
-    ir_ref in[NUM_SLAB_OPERANDS];
+    struct ir_graph *g = r->graph;
+    ir_ref in[NUM_SLAB_OPERANDS], thickness = ir_const_float(g, SLABS_LAYER_THICKNESS),
+                                  ways = ir_const_float(g, 2.0f * CLOSURE_MEAN_WAY);
     memcpy(in, ir_args(g, coat), sizeof in);
-    in[SLAB_mean_free_path] = path_of_color(g, color);
+    in[SLAB_mean_free_path] =
+        FORMULA(r->shader, "mx_blend_path_of", ir_convert(g, IR_TYPE_VEC3, color), thickness, ways);
     return ir_build(g, IR_SLAB, IR_TYPE_BSDF, ir_get(g, coat)->attr, in, NUM_SLAB_OPERANDS);
 }
 
@@ -136,7 +131,7 @@ static ir_ref recognised_layer(const struct recogniser *r, ir_ref top, ir_ref ba
     uint8_t op = base ? ir_get(g, base)->op : 0;
     if (op == IR_CLOSURE_SCALE && is_slab(g, top) && is_clear(g, top)) {
         ir_ref matter = ir_arg(g, base, 0);
-        return layer(g, colored(g, top, ir_arg(g, base, 1)), matter);
+        return layer(g, colored(r, top, ir_arg(g, base, 1)), matter);
     }
     piece = base && slabs_is_layer(g, base) ? one_piece(g, top, ir_arg(g, base, 0)) : 0;
     if (!piece)

@@ -13,6 +13,9 @@
  * both.
  */
 #include "slabs/slabs.h"
+
+#include "ir/arithmetic.h"
+#include "shader/formula.h"
 #include "slabs/spread.h"
 
 #include "base/hash.h"
@@ -259,7 +262,7 @@ static ir_ref slab_at(struct walk *w, ir_ref slab, const struct where *where)
     for (int i = 0; i < NUM_SLAB_OPERANDS; i++)
         if (has_mean((enum slab_operand)i))
             inputs[i] = seen_at(w, inputs[i], where);
-    slab_widen(g, where->spread, inputs);
+    slab_widen(w->shader, where->spread, inputs);
     bool walks = where->is_body && w->host->walks;
     struct slab_place place = {.thickness = where->thickness,
                                .below = ir_const_splat(g, IR_TYPE_VEC3, 0.0f),
@@ -287,21 +290,16 @@ static ir_ref layered(struct walk *w, ir_ref top, ir_ref base)
     return ir_build(w->graph, IR_LAYER, IR_TYPE_BSDF, 0, args, 2);
 }
 
-static ir_ref sum_of(struct ir_graph *g, ir_ref a, ir_ref b)
-{
-    return a && b ? ir_op2(g, IR_ADD, a, b) : a ? a : b;
-}
-
 /* Goes through an interface and then a thickness: a shear, place += thickness * slope. */
 static struct way way_below(struct ir_graph *g, struct way way, ir_ref slope, ir_ref thickness)
 {
-    way.slope = sum_of(g, way.slope, slope);
+    way.slope = ir_sum(g, way.slope, slope);
     if (!way.slope)
         return way;
     ir_ref step = ir_op2(g, IR_MUL, thickness, way.slope), before = way.both;
-    way.both = sum_of(g, before, step);
-    ir_ref twice = sum_of(g, before, way.both);
-    way.place = sum_of(g, way.place, ir_op2(g, IR_MUL, thickness, twice));
+    way.both = ir_sum(g, before, step);
+    ir_ref twice = ir_sum(g, before, way.both);
+    way.place = ir_sum(g, way.place, ir_op2(g, IR_MUL, thickness, twice));
     return way;
 }
 
@@ -312,7 +310,7 @@ static bool visit_layer(struct walk *w, ir_ref ref, struct where where, ir_ref *
     ir_ref top = ir_arg(g, ref, 0), base = ir_arg(g, ref, 1);
     ir_ref thickness = seen_at(w, slabs_layer_thickness(g, ref), &where);
     struct where below = where;
-    below.spread = sum_of(g, where.spread, top ? w->spreads[top] : 0);
+    below.spread = ir_sum(g, where.spread, top ? w->spreads[top] : 0);
     below.way = way_below(g, where.way, top ? w->slopes[top] : 0, thickness);
     if (!visited(w, base, below, &base))
         return false;
@@ -390,8 +388,7 @@ static ir_ref opacity_of(struct walk *w, ir_ref lobes)
     struct ir_graph *g = w->graph;
     ir_ref through =
         closure_throughput(w->shader, w->host->closures, lobes, ir_const_float(g, 0.0f));
-    ir_ref mean = ir_op2(g, IR_DOT, through, ir_const_splat(g, IR_TYPE_VEC3, 1.0f / 3.0f));
-    return closure_one_minus(g, mean);
+    return ir_one_minus(g, FORMULA(w->shader, "mx_mean", through));
 }
 
 /* Where the closures of a surface lie. */
@@ -457,14 +454,14 @@ static ir_ref variance_of_operator(struct walk *w, ir_ref ref, const ir_ref *var
         return a;
     ir_ref b = ir_arg(g, ref, 1) ? variances[ir_arg(g, ref, 1)] : 0;
     if (node.op != IR_CLOSURE_MIX || (!a && !b))
-        return sum_of(g, a, b);
+        return ir_sum(g, a, b);
     ir_ref nothing = ir_const_float(g, 0.0f);
     return ir_op3(g, IR_MIX, a ? a : nothing, b ? b : nothing, ir_arg(g, ref, 2));
 }
 
 /* The variances of all nodes: `of_slab` says those of slabs with a feature. */
 static ir_ref *find_variances(struct walk *w, enum slab_feature feature,
-                              ir_ref (*of_slab)(struct ir_graph *graph, const ir_ref *inputs))
+                              ir_ref (*of_slab)(struct shader *shader, const ir_ref *inputs))
 {
     ir_ref *variances = ARENA_ARRAY(w->shader->arena, ir_ref, w->num_nodes);
     for (ir_ref ref = 1; ref < w->num_nodes; ref++) {
@@ -475,7 +472,7 @@ static ir_ref *find_variances(struct walk *w, enum slab_feature feature,
         if (node.op == IR_SLAB && !(node.attr & 1u << feature)) {
             ir_ref in[NUM_SLAB_OPERANDS];
             memcpy(in, ir_args(w->graph, ref), sizeof in);
-            variances[ref] = of_slab(w->graph, in);
+            variances[ref] = of_slab(w->shader, in);
         } else if (node.type == IR_TYPE_BSDF && (is_layer || is_operator(&node))) {
             variances[ref] = variance_of_operator(w, ref, variances);
         }

@@ -6,11 +6,6 @@
 #include "bind/drive.h"
 #include "build/build_priv.h"
 
-static ir_ref number(struct builder *b, float value)
-{
-    return ir_const_float(b->graph, value);
-}
-
 /* ---- Layers ---- */
 
 /* The value that drives an input that a material does not have; 0: nothing does. */
@@ -82,7 +77,7 @@ static void add_matte(struct builder *b, elem_id node, ir_ref *material)
                           .node = node,
                           .name = str_intern(b->shader->strings, name.data, name.len),
                           .type = STR_float,
-                          .value = number(b, 1.0f)};
+                          .value = ir_const_float(b->graph, 1.0f)};
     build_add_aov(b, &use, material);
 }
 
@@ -123,7 +118,7 @@ static ir_ref default_substance(struct builder *b)
         args[i] = ports[i].name == color ? ir_const_splat(b->graph, IR_TYPE_VEC3, 0.8f)
                                          : build_default(b, &ports[i]);
     build_apply(b, nodedef, build_doc(b)->root, args, &bsdf);
-    ir_ref surface[4] = {bsdf, 0, number(b, 1.0f), ir_const_bool(b->graph, false)};
+    ir_ref surface[4] = {bsdf, 0, ir_const_float(b->graph, 1.0f), ir_const_bool(b->graph, false)};
     ir_ref material[4] = {ir_build(b->graph, IR_SURFACE_SHADER, IR_TYPE_SURFACE, 0, surface, 4), 0,
                           0, 0};
     return ir_build(b->graph, IR_MATERIAL, IR_TYPE_MATERIAL, 0, material, 4);

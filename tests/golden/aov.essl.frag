@@ -36,14 +36,14 @@ void main()
 {
     vec3 color = vec3(0.1, 0.2, 0.3);
     // lights
-    vec3 direction = normalize(vd_normalWorld);
-    vec3 P = direction * vd_texcoord_0.x + vd_positionWorld;
-    vec3 facet_direction = normalize(cross(dFdx(P), dFdy(P)));
-    vec3 facet_facing = faceforward(facet_direction, -direction, facet_direction);
-    vec3 facet_direction_2 = normalize(cross(dFdx(vd_positionWorld), dFdy(vd_positionWorld)));
-    vec3 N = normalize(direction + (facet_facing - faceforward(facet_direction_2, -direction, facet_direction_2)));
+    vec3 Ng = normalize(vd_normalWorld);
+    vec3 P = Ng * vd_texcoord_0.x + vd_positionWorld;
+    vec3 facet = normalize(cross(dFdx(P), dFdy(P)));
+    vec3 facet_normal = faceforward(facet, -Ng, facet);
+    vec3 facet_2 = normalize(cross(dFdx(vd_positionWorld), dFdy(vd_positionWorld)));
+    vec3 displaced_normal = normalize(Ng + (facet_normal - faceforward(facet_2, -Ng, facet_2)));
     // SR/base
-    vec3 diffuse_facing = faceforward(N, -normalize(u_viewPosition - P), N);
+    vec3 diffuse_facing = faceforward(displaced_normal, -normalize(u_viewPosition - P), displaced_normal);
     // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         vec3 L;

@@ -59,14 +59,14 @@ void main()
 {
     vec3 color = vec3(0.1, 0.2, 0.3);
     // lights
-    vec3 direction = normalize(vd.normalWorld);
-    vec3 P = direction * vd.texcoord_0.x + vd.positionWorld;
-    vec3 facet_direction = normalize(cross(dFdx(P), dFdy(P)));
-    vec3 facet_facing = faceforward(facet_direction, -direction, facet_direction);
-    vec3 facet_direction_2 = normalize(cross(dFdx(vd.positionWorld), dFdy(vd.positionWorld)));
-    vec3 N = normalize(direction + (facet_facing - faceforward(facet_direction_2, -direction, facet_direction_2)));
+    vec3 Ng = normalize(vd.normalWorld);
+    vec3 P = Ng * vd.texcoord_0.x + vd.positionWorld;
+    vec3 facet = normalize(cross(dFdx(P), dFdy(P)));
+    vec3 facet_normal = faceforward(facet, -Ng, facet);
+    vec3 facet_2 = normalize(cross(dFdx(vd.positionWorld), dFdy(vd.positionWorld)));
+    vec3 displaced_normal = normalize(Ng + (facet_normal - faceforward(facet_2, -Ng, facet_2)));
     // SR/base
-    vec3 diffuse_N = faceforward(N, -normalize(u_viewPosition - P), N);
+    vec3 N = faceforward(displaced_normal, -normalize(u_viewPosition - P), displaced_normal);
     // SR
     const vec3 base_constant = vec3(0.8, 0.1, 0.1);
     // from the last light, so that drivers do not unroll the loop
@@ -92,10 +92,10 @@ void main()
             }
         }
         // diffuse
-        color += u_lightData[i].color * (intensity * (max(dot(L, diffuse_N), 1e-8) * 0.31830987 * base_constant));
+        color += u_lightData[i].color * (intensity * (max(dot(L, N), 1e-8) * 0.31830987 * base_constant));
     }
     // environment: diffuse
-    vec3 diffuse_response = textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * diffuse_N)), 0.0).xyz
+    vec3 diffuse_response = textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * N)), 0.0).xyz
         * u_envLightIntensity * base_constant;
     color += diffuse_response;
     vec3 color_2 = vec3(0.0);
@@ -124,7 +124,7 @@ void main()
             }
         }
         // diffuse (2)
-        color_2 += u_lightData[i].color * (intensity * (max(dot(diffuse_N, L), 1e-8) * 0.31830987 * base_constant));
+        color_2 += u_lightData[i].color * (intensity * (max(dot(N, L), 1e-8) * 0.31830987 * base_constant));
     }
     // environment: diffuse (2)
     color_2 += diffuse_response;

@@ -46,14 +46,14 @@ void main(
 {
     float3 color = float3(0.1, 0.2, 0.3);
     // lights
-    float3 direction = normalize(vd.normalWorld);
-    float3 P = direction * vd.texcoord_0.x + vd.positionWorld;
-    float3 facet_direction = normalize(cross(ddx(P), ddy(P)));
-    float3 facet_facing = faceforward(facet_direction, -direction, facet_direction);
-    float3 facet_direction_2 = normalize(cross(ddx(vd.positionWorld), ddy(vd.positionWorld)));
-    float3 N = normalize(direction + (facet_facing - faceforward(facet_direction_2, -direction, facet_direction_2)));
+    float3 Ng = normalize(vd.normalWorld);
+    float3 P = Ng * vd.texcoord_0.x + vd.positionWorld;
+    float3 facet = normalize(cross(ddx(P), ddy(P)));
+    float3 facet_normal = faceforward(facet, -Ng, facet);
+    float3 facet_2 = normalize(cross(ddx(vd.positionWorld), ddy(vd.positionWorld)));
+    float3 displaced_normal = normalize(Ng + (facet_normal - faceforward(facet_2, -Ng, facet_2)));
     // SR/base
-    float3 diffuse_facing = faceforward(N, -normalize(u_viewPosition - P), N);
+    float3 diffuse_facing = faceforward(displaced_normal, -normalize(u_viewPosition - P), displaced_normal);
     // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         float3 L;

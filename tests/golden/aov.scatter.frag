@@ -72,8 +72,8 @@ void scatter()
     out4 = vec4(medium, 0.0);
     float diffuse_n_dot_l = dot(diffuse_N, vd.lightWorld.xyz);
     float sum = vd.lightWorld.w * (max(diffuse_n_dot_l, 0.0) / 3.1415927) + 1.0;
-    vec3 ratio = max(diffuse_n_dot_l, 1e-8) * 0.31830987 * base_constant / sum;
-    out5 = vec4(ratio, 0.0);
+    vec3 balanced = max(diffuse_n_dot_l, 1e-8) * 0.31830987 * base_constant / sum;
+    out5 = vec4(balanced, 0.0);
     aov_diffuse = vec3(0.0);
     aov_glow = vec3(0.1, 0.2, 0.3);
     aov_base_albedo = base_constant;
@@ -83,5 +83,5 @@ void scatter()
     aov_id = 7;
     aov_normal = normalize(vd.normalObject);
     aov_weight_diffuse = weight_2;
-    aov_response_diffuse = ratio;
+    aov_response_diffuse = balanced;
 }

@@ -31,8 +31,8 @@ void main()
     vd_texcoord_0 = i_texcoord_0;
     vd_tangentWorld = normalize((u_worldMatrix * vec4(i_tangent, 0.0)).xyz);
     vd_positionWorld = (u_worldMatrix * vec4(i_position, 1.0)).xyz;
-    vec3 direction = normalize(vd_normalWorld);
+    vec3 Ng = normalize(vd_normalWorld);
     float both = textureLod(height_file, vd_texcoord_0, 0.0).x * mx_line(vd_texcoord_0);
-    vec3 D1_sum = normalize(vd_tangentWorld) * 0.1 + direction * both;
-    gl_Position = u_viewProjectionMatrix * vec4(mix(D1_sum, direction * (both * 0.5), D_mix) + vd_positionWorld, 1.0);
+    vec3 displacement = normalize(vd_tangentWorld) * 0.1 + Ng * both;
+    gl_Position = u_viewProjectionMatrix * vec4(mix(displacement, Ng * (both * 0.5), D_mix) + vd_positionWorld, 1.0);
 }

@@ -56,16 +56,16 @@ void main(
 {
     float3 color = float3(0.0, 0.0, 0.0);
     // environment: bsdf
-    float3 direction = normalize(vd.normalWorld);
+    float3 Ng = normalize(vd.normalWorld);
     float both = height_file.Sample(height_file_sampler, vd.texcoord_0).x * mx_line(vd.texcoord_0);
-    float3 D1_sum = normalize(vd.tangentWorld) * 0.1 + direction * both;
-    float3 P_sum = lerp(D1_sum, direction * (both * 0.5), 0.25) + vd.positionWorld;
-    float3 facet_direction = normalize(cross(ddx(P_sum), ddy(P_sum)));
-    float3 facet_facing = faceforward(facet_direction, -direction, facet_direction);
-    float3 facet_direction_2 = normalize(cross(ddx(vd.positionWorld), ddy(vd.positionWorld)));
-    float3 N = normalize(direction + (facet_facing - faceforward(facet_direction_2, -direction, facet_direction_2)));
+    float3 displacement = normalize(vd.tangentWorld) * 0.1 + Ng * both;
+    float3 P = lerp(displacement, Ng * (both * 0.5), 0.25) + vd.positionWorld;
+    float3 facet = normalize(cross(ddx(P), ddy(P)));
+    float3 facet_normal = faceforward(facet, -Ng, facet);
+    float3 facet_2 = normalize(cross(ddx(vd.positionWorld), ddy(vd.positionWorld)));
+    float3 displaced_normal = normalize(Ng + (facet_normal - faceforward(facet_2, -Ng, facet_2)));
     color += u_envIrradiance.SampleLevel(u_envIrradiance_sampler,
-        mx_map_point(normalize(mul(faceforward(N, -normalize(u_viewPosition - P_sum), N), (float3x3)u_envMatrix))),
-        0.0).xyz * (u_envLightIntensity * 0.18);
+        mx_map_point(normalize(mul(faceforward(displaced_normal, -normalize(u_viewPosition - P), displaced_normal),
+        (float3x3)u_envMatrix))), 0.0).xyz * (u_envLightIntensity * 0.18);
     out1 = float4(color, 1.0);
 }

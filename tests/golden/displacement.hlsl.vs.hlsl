@@ -38,9 +38,9 @@ void main(
     vd.texcoord_0 = i_texcoord_0;
     vd.tangentWorld = normalize(mul(float4(i_tangent, 0.0), u_worldMatrix).xyz);
     vd.positionWorld = mul(float4(i_position, 1.0), u_worldMatrix).xyz;
-    float3 direction = normalize(vd.normalWorld);
+    float3 Ng = normalize(vd.normalWorld);
     float both = height_file.SampleLevel(height_file_sampler, vd.texcoord_0, 0.0).x * mx_line(vd.texcoord_0);
-    float3 D1_sum = normalize(vd.tangentWorld) * 0.1 + direction * both;
-    vd.position = mul(float4(lerp(D1_sum, direction * (both * 0.5), 0.25) + vd.positionWorld, 1.0),
+    float3 displacement = normalize(vd.tangentWorld) * 0.1 + Ng * both;
+    vd.position = mul(float4(lerp(displacement, Ng * (both * 0.5), 0.25) + vd.positionWorld, 1.0),
         u_viewProjectionMatrix);
 }

@@ -51,16 +51,17 @@ void main()
 {
     vec3 color = vec3(0.0);
     // environment: bsdf
-    vec3 direction = normalize(vd.normalWorld);
+    vec3 Ng = normalize(vd.normalWorld);
     float both = texture(height_file, vd.texcoord_0).x * mx_line(vd.texcoord_0);
-    vec3 D1_sum = normalize(vd.tangentWorld) * 0.1 + direction * both;
-    vec3 P_sum = mix(D1_sum, direction * (both * 0.5), 0.25) + vd.positionWorld;
-    vec3 facet_direction = normalize(cross(dFdx(P_sum), dFdy(P_sum)));
-    vec3 facet_facing = faceforward(facet_direction, -direction, facet_direction);
-    vec3 facet_direction_2 = normalize(cross(dFdx(vd.positionWorld), dFdy(vd.positionWorld)));
-    vec3 N = normalize(direction + (facet_facing - faceforward(facet_direction_2, -direction, facet_direction_2)));
+    vec3 displacement = normalize(vd.tangentWorld) * 0.1 + Ng * both;
+    vec3 P = mix(displacement, Ng * (both * 0.5), 0.25) + vd.positionWorld;
+    vec3 facet = normalize(cross(dFdx(P), dFdy(P)));
+    vec3 facet_normal = faceforward(facet, -Ng, facet);
+    vec3 facet_2 = normalize(cross(dFdx(vd.positionWorld), dFdy(vd.positionWorld)));
+    vec3 displaced_normal = normalize(Ng + (facet_normal - faceforward(facet_2, -Ng, facet_2)));
     color += textureLod(u_envIrradiance,
-        mx_map_point(normalize(mat3(u_envMatrix) * faceforward(N, -normalize(u_viewPosition - P_sum), N))), 0.0).xyz
+        mx_map_point(normalize(mat3(u_envMatrix)
+        * faceforward(displaced_normal, -normalize(u_viewPosition - P), displaced_normal))), 0.0).xyz
         * (u_envLightIntensity * 0.18);
     out1 = vec4(color, 1.0);
 }

@@ -34,8 +34,8 @@ void main()
     vd.texcoord_0 = i_texcoord_0;
     vd.tangentWorld = normalize((u_worldMatrix * vec4(i_tangent, 0.0)).xyz);
     vd.positionWorld = (u_worldMatrix * vec4(i_position, 1.0)).xyz;
-    vec3 direction = normalize(vd.normalWorld);
+    vec3 Ng = normalize(vd.normalWorld);
     float both = textureLod(height_file, vd.texcoord_0, 0.0).x * mx_line(vd.texcoord_0);
-    vec3 D1_sum = normalize(vd.tangentWorld) * 0.1 + direction * both;
-    gl_Position = u_viewProjectionMatrix * vec4(mix(D1_sum, direction * (both * 0.5), 0.25) + vd.positionWorld, 1.0);
+    vec3 displacement = normalize(vd.tangentWorld) * 0.1 + Ng * both;
+    gl_Position = u_viewProjectionMatrix * vec4(mix(displacement, Ng * (both * 0.5), 0.25) + vd.positionWorld, 1.0);
 }

@@ -102,8 +102,8 @@ void scatter()
     float diffuse_sum = ab.x + ab.y * max(dot(vd.viewWorld, vd.lightWorld.xyz) - cos_v * diffuse_cos_l, 0.0)
         / max(diffuse_cos_l, cos_v);
     float sum = vd.lightWorld.w * (scaled_diffuse_share * (max(diffuse_n_dot_l, 0.0) / 3.1415927)) + 1.0;
-    float ratio = LightData_2 * (diffuse_cos_l * 0.31830987 * 0.18 * diffuse_sum) / sum;
-    out5 = vec4(ratio, ratio, ratio, 0.0);
+    float balanced = LightData_2 * (diffuse_cos_l * 0.31830987 * 0.18 * diffuse_sum) / sum;
+    out5 = vec4(balanced, balanced, balanced, 0.0);
     float chance = fract(vd.random.w * 4096.0);
     float sum_2 = 0.0;
     vec3 light = vec3(0.0);
@@ -122,14 +122,14 @@ void scatter()
         } else {
             vec3 to_light = normalize(d);
             L_4 = to_light;
-            float ratio_2 = u_lightData[i].intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
+            float ratio = u_lightData[i].intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
             if (light_type == 2) {
-                intensity = ratio_2;
+                intensity = ratio;
             } else {
                 float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
                 intensity = light_type == 3
                     ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,
-                    -dot(u_lightData[i].direction, to_light)) * ratio_2 : 0.0;
+                    -dot(u_lightData[i].direction, to_light)) * ratio : 0.0;
             }
         }
         float diffuse_cos_l_2 = max(dot(diffuse_N, L_4), 1e-8);
@@ -145,8 +145,8 @@ void scatter()
             light = lit / brightness;
         }
         if (brightness > 0.0) {
-            float ratio_3 = (sum_2 * chance - brightness) / (sum_2 - brightness);
-            chance = sum_2 * chance < brightness ? sum_2 * chance / brightness : ratio_3;
+            float ratio = (sum_2 * chance - brightness) / (sum_2 - brightness);
+            chance = sum_2 * chance < brightness ? sum_2 * chance / brightness : ratio;
         }
     }
     out6 = vec4(L_3, distance_);

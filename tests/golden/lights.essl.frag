@@ -33,13 +33,13 @@ void main()
         vec3 L;
         vec3 intensity;
         vec3 d = u_lightData[i].position - vd_positionWorld;
-        float magnitude_d = length(d);
+        float way = length(d);
         if (u_lightData[i].type == 1) {
-            L = d / magnitude_d;
-            intensity = u_lightData[i].tint * (u_lightData[i].power / (magnitude_d * magnitude_d));
+            L = d / way;
+            intensity = u_lightData[i].tint * (u_lightData[i].power / (way * way));
         } else {
             L = normalize(d);
-            float point_light_ratio = u_lightData[i].intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
+            float point_light_ratio = u_lightData[i].intensity / pow(way + 1.0, u_lightData[i].decay_rate);
             intensity = u_lightData[i].color * (u_lightData[i].type == 2 ? point_light_ratio : 0.0);
         }
         // bsdf

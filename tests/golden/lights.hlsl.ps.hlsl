@@ -39,14 +39,14 @@ void main(
         float3 L;
         float3 intensity;
         float3 difference = u_lightData[i].position - vd.positionWorld;
-        float magnitude = length(difference);
-        L = difference / magnitude;
+        float way = length(difference);
+        L = difference / way;
         if (u_lightData[i].type == 2) {
             float3 conical_edf_emission = smoothstep(0.8660254, 0.9848077,
-                dot(normalize(u_lightData[i].direction), -(difference / magnitude))) * float3(1.0, 0.5, 0.2);
-            intensity = conical_edf_emission * (60.0 / (magnitude * magnitude));
+                dot(normalize(u_lightData[i].direction), -(difference / way))) * float3(1.0, 0.5, 0.2);
+            intensity = conical_edf_emission * (60.0 / (way * way));
         } else {
-            float bulb_ratio = u_lightData[i].power / (magnitude * magnitude);
+            float bulb_ratio = u_lightData[i].power / (way * way);
             intensity = u_lightData[i].tint * (u_lightData[i].type == 4 ? bulb_ratio : 0.0);
         }
         // bsdf

@@ -185,9 +185,9 @@ void scatter()
             reflection_pdf);
         L = reflection_L;
         weight = reflection_weight * (sum / reflection_share);
-        bool is_above = shading_normal_dot_lobe_view * dot(shading_normal, reflection_L) > 0.0;
-        inside = is_above ? 0.0 : 1.0;
-        density = is_above ? reflection_pdf * (reflection_share / sum) : 0.0;
+        bool is_in_front = shading_normal_dot_lobe_view * dot(shading_normal, reflection_L) > 0.0;
+        inside = is_in_front ? 0.0 : 1.0;
+        density = is_in_front ? reflection_pdf * (reflection_share / sum) : 0.0;
     }
     pick += -reflection_share;
     vec3 N = faceforward(shading_normal, -vd.viewWorld, shading_normal);
@@ -211,8 +211,8 @@ void scatter()
     mat3 frame = mx_frame(N, tangent);
     float sum_2 = vd.lightWorld.w * (reflection_share / sum
         * mx_ggx_pdf(shading_normal, tangent, vd.viewWorld, vd.lightWorld.xyz)) + 1.0;
-    vec3 ratio = fresnel * (ggx_compensation * mx_ggx_smith_lobe(frame, vd.viewWorld, vd.lightWorld.xyz)) / sum_2;
-    vec3 choice = shading_normal_dot_lobe_view * dot(shading_normal, vd.lightWorld.xyz) > 0.0 ? ratio : vec3(0.0);
+    vec3 balanced = fresnel * (ggx_compensation * mx_ggx_smith_lobe(frame, vd.viewWorld, vd.lightWorld.xyz)) / sum_2;
+    vec3 choice = shading_normal_dot_lobe_view * dot(shading_normal, vd.lightWorld.xyz) > 0.0 ? balanced : vec3(0.0);
     float n_dot_l = dot(N, vd.lightWorld.xyz);
     float sum_3 = vd.lightWorld.w * (diffuse_share / sum * (max(n_dot_l, 0.0) / 3.1415927)) + 1.0;
     out5 = vec4(choice + reflection_throughput * (max(n_dot_l, 1e-8) * 0.31830987 * 0.18) / sum_3, 0.0);
@@ -234,20 +234,20 @@ void scatter()
         } else {
             vec3 to_light = normalize(d);
             L_4 = to_light;
-            float ratio_2 = u_lightData[i].intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
+            float ratio = u_lightData[i].intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
             if (light_type == 2) {
-                intensity = ratio_2;
+                intensity = ratio;
             } else {
                 float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
                 intensity = light_type == 3
                     ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,
-                    -dot(u_lightData[i].direction, to_light)) * ratio_2 : 0.0;
+                    -dot(u_lightData[i].direction, to_light)) * ratio : 0.0;
             }
         }
         vec3 reflection_product_2 = ggx_compensation
             * mx_fresnel_schlick(sqrt(clamp(dot(vd.viewWorld, L_4) * 0.5 + 0.500001, 0.0, 1.0)));
-        bool is_above = shading_normal_dot_lobe_view * dot(shading_normal, L_4) > 0.0;
-        vec3 product = reflection_product_2 * (is_above ? mx_ggx_smith_lobe(frame, vd.viewWorld, L_4) : 0.0);
+        bool is_in_front = shading_normal_dot_lobe_view * dot(shading_normal, L_4) > 0.0;
+        vec3 product = reflection_product_2 * (is_in_front ? mx_ggx_smith_lobe(frame, vd.viewWorld, L_4) : 0.0);
         vec3 sum_5 = product + reflection_throughput * (max(dot(N, L_4), 1e-8) * 0.31830987 * 0.18);
         vec3 lit = u_lightData[i].color * intensity * sum_5;
         float brightness = max(dot(lit, vec3(0.33333334)), 0.0);
@@ -258,8 +258,8 @@ void scatter()
             light = lit / brightness;
         }
         if (brightness > 0.0) {
-            float ratio_3 = (sum_4 * chance - brightness) / (sum_4 - brightness);
-            chance = sum_4 * chance < brightness ? sum_4 * chance / brightness : ratio_3;
+            float ratio = (sum_4 * chance - brightness) / (sum_4 - brightness);
+            chance = sum_4 * chance < brightness ? sum_4 * chance / brightness : ratio;
         }
     }
     out6 = vec4(L_3, distance_);

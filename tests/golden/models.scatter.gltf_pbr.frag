@@ -180,9 +180,9 @@ void scatter()
             metal_bare_pdf);
         L = metal_bare_L;
         weight = metal_bare_weight * scaled_metal_bare_share;
-        bool is_above = axis_dot_lobe_view * dot(axis, metal_bare_L) > 0.0;
-        inside = is_above ? 0.0 : 1.0;
-        density = is_above ? metal_bare_pdf * scaled_metal_bare_share : 0.0;
+        bool is_in_front = axis_dot_lobe_view * dot(axis, metal_bare_L) > 0.0;
+        inside = is_in_front ? 0.0 : 1.0;
+        density = is_in_front ? metal_bare_pdf * scaled_metal_bare_share : 0.0;
     }
     pick += -metal_bare_share;
     out1 = vec4(0.0, 0.0, 0.0, 1.0);
@@ -193,8 +193,8 @@ void scatter()
     mat3 frame = mx_frame(faceforward(axis, -vd.viewWorld, axis), specular_tangent);
     float sum = vd.lightWorld.w * (scaled_metal_bare_share
         * mx_ggx_pdf(axis, specular_tangent, vd.viewWorld, vd.lightWorld.xyz)) + 1.0;
-    vec3 ratio = fresnel * (ggx_compensation * mx_ggx_smith_lobe(frame, vd.viewWorld, vd.lightWorld.xyz)) / sum;
-    out5 = vec4(axis_dot_lobe_view * dot(axis, vd.lightWorld.xyz) > 0.0 ? ratio : vec3(0.0), 0.0);
+    vec3 balanced = fresnel * (ggx_compensation * mx_ggx_smith_lobe(frame, vd.viewWorld, vd.lightWorld.xyz)) / sum;
+    out5 = vec4(axis_dot_lobe_view * dot(axis, vd.lightWorld.xyz) > 0.0 ? balanced : vec3(0.0), 0.0);
     float chance = fract(vd.random.w * 4096.0);
     float sum_2 = 0.0;
     vec3 light = vec3(0.0);
@@ -213,20 +213,20 @@ void scatter()
         } else {
             vec3 to_light = normalize(d);
             L_3 = to_light;
-            float ratio_2 = u_lightData[i].intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
+            float ratio = u_lightData[i].intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
             if (light_type == 2) {
-                intensity = ratio_2;
+                intensity = ratio;
             } else {
                 float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
                 intensity = light_type == 3
                     ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,
-                    -dot(u_lightData[i].direction, to_light)) * ratio_2 : 0.0;
+                    -dot(u_lightData[i].direction, to_light)) * ratio : 0.0;
             }
         }
         vec3 metal_bare_product = ggx_compensation
             * mx_fresnel_schlick(sqrt(clamp(dot(vd.viewWorld, L_3) * 0.5 + 0.500001, 0.0, 1.0)));
-        bool is_above = axis_dot_lobe_view * dot(axis, L_3) > 0.0;
-        vec3 product = metal_bare_product * (is_above ? mx_ggx_smith_lobe(frame, vd.viewWorld, L_3) : 0.0);
+        bool is_in_front = axis_dot_lobe_view * dot(axis, L_3) > 0.0;
+        vec3 product = metal_bare_product * (is_in_front ? mx_ggx_smith_lobe(frame, vd.viewWorld, L_3) : 0.0);
         vec3 lit = u_lightData[i].color * intensity * product;
         float brightness = max(dot(lit, vec3(0.33333334)), 0.0);
         sum_2 += brightness;
@@ -236,8 +236,8 @@ void scatter()
             light = lit / brightness;
         }
         if (brightness > 0.0) {
-            float ratio_3 = (sum_2 * chance - brightness) / (sum_2 - brightness);
-            chance = sum_2 * chance < brightness ? sum_2 * chance / brightness : ratio_3;
+            float ratio = (sum_2 * chance - brightness) / (sum_2 - brightness);
+            chance = sum_2 * chance < brightness ? sum_2 * chance / brightness : ratio;
         }
     }
     out6 = vec4(L_2, distance_);

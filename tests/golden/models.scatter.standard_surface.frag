@@ -208,9 +208,9 @@ void scatter()
             reflection_pdf);
         L = reflection_L;
         weight = reflection_weight * (sum / reflection_share);
-        bool is_above = axis_dot_lobe_view * dot(axis, reflection_L) > 0.0;
-        inside = is_above ? 0.0 : 1.0;
-        density = is_above ? reflection_pdf * (reflection_share / sum) : 0.0;
+        bool is_in_front = axis_dot_lobe_view * dot(axis, reflection_L) > 0.0;
+        inside = is_in_front ? 0.0 : 1.0;
+        density = is_in_front ? reflection_pdf * (reflection_share / sum) : 0.0;
     }
     pick += -reflection_share;
     vec3 N = faceforward(axis, -vd.viewWorld, axis);
@@ -236,11 +236,11 @@ void scatter()
     mat3 frame = mx_frame(N, coat_tangent);
     float sum_2 = vd.lightWorld.w * (reflection_share / sum
         * mx_ggx_pdf(axis, coat_tangent, vd.viewWorld, vd.lightWorld.xyz, eta)) + 1.0;
-    vec3 vector = vec3(reflection_product * mx_ggx_smith_lobe(frame, vd.viewWorld, vd.lightWorld.xyz) / sum_2);
+    vec3 balanced = vec3(reflection_product * mx_ggx_smith_lobe(frame, vd.viewWorld, vd.lightWorld.xyz) / sum_2);
     float n_dot_l = dot(N, vd.lightWorld.xyz);
     float sum_3 = vd.lightWorld.w * (diffuse_share / sum * (max(n_dot_l, 0.0) / 3.1415927)) + 1.0;
-    float ratio = (1.0 - dielectric_bsdf_albedo) * (max(n_dot_l, 1e-8) * 0.31830987 * 0.8) / sum_3;
-    out5 = vec4((axis_dot_lobe_view * dot(axis, vd.lightWorld.xyz) > 0.0 ? vector : vec3(0.0)) + ratio, 0.0);
+    float balanced_2 = (1.0 - dielectric_bsdf_albedo) * (max(n_dot_l, 1e-8) * 0.31830987 * 0.8) / sum_3;
+    out5 = vec4((axis_dot_lobe_view * dot(axis, vd.lightWorld.xyz) > 0.0 ? balanced : vec3(0.0)) + balanced_2, 0.0);
     float chance = fract(vd.random.w * 4096.0);
     float sum_4 = 0.0;
     vec3 light = vec3(0.0);
@@ -259,14 +259,14 @@ void scatter()
         } else {
             vec3 to_light = normalize(d);
             L_4 = to_light;
-            float ratio_2 = u_lightData[i].intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
+            float ratio = u_lightData[i].intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
             if (light_type == 2) {
-                intensity = ratio_2;
+                intensity = ratio;
             } else {
                 float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
                 intensity = light_type == 3
                     ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,
-                    -dot(u_lightData[i].direction, to_light)) * ratio_2 : 0.0;
+                    -dot(u_lightData[i].direction, to_light)) * ratio : 0.0;
             }
         }
         float reflection_product_2 = ggx_compensation
@@ -283,8 +283,8 @@ void scatter()
             light = lit / brightness;
         }
         if (brightness > 0.0) {
-            float ratio_3 = (sum_4 * chance - brightness) / (sum_4 - brightness);
-            chance = sum_4 * chance < brightness ? sum_4 * chance / brightness : ratio_3;
+            float ratio = (sum_4 * chance - brightness) / (sum_4 - brightness);
+            chance = sum_4 * chance < brightness ? sum_4 * chance / brightness : ratio;
         }
     }
     out6 = vec4(L_3, distance_);

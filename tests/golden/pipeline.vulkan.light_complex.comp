@@ -462,7 +462,7 @@ void surface()
     vec3 power = pow(vd.geomprop_decay, vec3(1.145898));
     vec3 choice = vd.geomprop_spreads > 0.0 ? vd.geomprop_color * power : vd.geomprop_color;
     vec3 choice_2 = vd.geomprop_spreads > 0.0 ? vec3(1.0) : vd.geomprop_decay;
-    vec3 N_direction = normalize(vd.normalWorld);
+    vec3 N = normalize(vd.normalWorld);
     vec3 fresnel_f0 = max(vd.geomprop_f0, 0.0);
     vec3 grazing = mx_slab_grazing(vd.geomprop_f0, vd.geomprop_f90);
     vec3 blend = mix(fresnel_f0, grazing, 0.04761905);
@@ -511,7 +511,7 @@ void surface()
         }
         // fuzz
         vec3 light_color = u_lightData[i].color;
-        float cosine = dot(L, N_direction);
+        float cosine = dot(L, N);
         vec3 power_2 = pow(choice_2, vec3(inversesqrt(cosine * cosine + 1.25) * 1.5));
         if (vd.geomprop_fuzz_amount > 0.0) {
             float fuzz_sheen_zeltner = mx_sheen_zeltner(Nf, V, L, limited_cos_v, r);
@@ -534,7 +534,7 @@ void surface()
                 * (reflection_scale * (fresnel * (mx_ggx_smith_lobe(alpha, frame, V, L) * (reflection_weight * sum)))));
     }
     // environment: fuzz
-    float cosine = dot(V, N_direction);
+    float cosine = dot(V, N);
     vec3 power_3 = pow(choice_2, vec3(inversesqrt(cosine * cosine + 1.25) * 1.5));
     vec3 part = textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * Nf)), 0.0).xyz;
     if (vd.geomprop_fuzz_amount > 0.0)
@@ -603,7 +603,7 @@ void surface()
             }
         }
         // subsurface
-        float cosine_2 = dot(N_direction, L);
+        float cosine_2 = dot(N, L);
         vec3 fuzz_vector = vec3(inversesqrt(cosine_2 * cosine_2 + 1.25) * 1.5);
         if (is_thick > 0.0) {
             vec3 subsurface_product = is_thick * (product + inside_weight * choice * pow(choice_2, fuzz_vector));

@@ -642,10 +642,10 @@ void main()
         * (coat_medium_throughput_2 * vec3(0.9512294, 0.967216, 0.9753099)), 0.5);
     vec3 milk_mark_decay = clamp((drops_throughput_2 - drops_throughput_3)
         / max(drops_throughput - drops_throughput_2, 1e-6), 0.0, 0.999);
-    vec3 ratio = (drops_throughput - drops_throughput_2) / (vec3(1.0) - milk_mark_decay);
+    vec3 decaying = (drops_throughput - drops_throughput_2) / (vec3(1.0) - milk_mark_decay);
     stored = mx_store_closure(stored, vec3(0.8, 0.9, 0.95), vec3(0.04), vec3(1.0), 0.5007194, 0.0, N, vec3(0.0), 0.5,
-        0.0, 0.0, vec3(1.0), 0.5007194, vec3(5.0), 0.0, 0.0, 0.0, vec2(0.0), 0.0, 0.0, 0.0, drops_throughput - ratio,
-        ratio, milk_mark_decay, 0.0);
+        0.0, 0.0, vec3(1.0), 0.5007194, vec3(5.0), 0.0, 0.0, 0.0, vec2(0.0), 0.0, 0.0, 0.0, drops_throughput - decaying,
+        decaying, milk_mark_decay, 0.0);
     vec2 milk_reflection_albedo = mx_ggx_albedo_fit(0.25071993, 0.25071993 / (cos_v + 0.25071993), cos_v);
     float milk_reflection_ggx_compensation = (1.0 / milk_reflection_albedo.x - 1.0) * 0.08571428 + 1.0;
     float milk_reflection_throughput = max(1.0 - mix(0.04, 1.0, milk_reflection_albedo.y) * milk_reflection_albedo.x
@@ -664,10 +664,10 @@ void main()
     vec3 difference = milky_metal_weight_2 - milk_reflection_throughput
         * (milk_medium_throughput_2 * vec3(0.9081714, 0.9090508, 0.9092436)) * drops_throughput_3;
     vec3 metal_mark_decay = clamp(difference / max(milky_metal_weight - milky_metal_weight_2, 1e-6), 0.0, 0.999);
-    vec3 ratio_2 = (milky_metal_weight - milky_metal_weight_2) / (vec3(1.0) - metal_mark_decay);
+    vec3 decaying_2 = (milky_metal_weight - milky_metal_weight_2) / (vec3(1.0) - metal_mark_decay);
     stored = mx_store_closure(stored, vec3(0.0), vec3(0.9, 0.6, 0.3), vec3(1.0), 0.54668933, 0.0, N, vec3(0.0), 0.5,
         0.0, 0.0, vec3(1.0), 0.54668933, vec3(0.0), 0.0, 0.0, 0.0, vec2(0.0), 0.0, 0.0, 0.0, milky_metal_weight
-        - ratio_2, ratio_2, metal_mark_decay, 0.0);
+        - decaying_2, decaying_2, metal_mark_decay, 0.0);
     stored = mx_finish_closures(stored);
-    out1 = vec4((ratio + (drops_throughput - ratio)) * vec3(0.0, 0.1, 0.0), 1.0);
+    out1 = vec4((decaying + (drops_throughput - decaying)) * vec3(0.0, 0.1, 0.0), 1.0);
 }

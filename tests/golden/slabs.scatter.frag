@@ -223,12 +223,12 @@ void scatter()
     inside = 2.0;
     weight = vec3(1.0);
     bool enters = vd.matter.x < 0.0;
-    bool drops_is_below = vd.matter.y < 0.5;
-    float level = enters ? drops_is_below ? 0.0 : 2.0 : vd.matter.x;
+    bool is_below_number = vd.matter.y < 0.5;
+    float level = enters ? is_below_number ? 0.0 : 2.0 : vd.matter.x;
     vec3 N = normalize(vd.normalWorld);
     // metal
-    float c = dot(N, vd.viewWorld);
-    float cos_v = max(abs(c), 1e-8);
+    float cosine = dot(N, vd.viewWorld);
+    float cos_v = max(abs(cosine), 1e-8);
     // coat
     vec2 coat_reflection_albedo = mx_ggx_albedo_fit(0.01, 0.01 / (cos_v + 0.01), cos_v);
     float coat_reflection_ggx_compensation = (1.0 / coat_reflection_albedo.x - 1.0) * 0.08571428 + 1.0;
@@ -254,14 +254,14 @@ void scatter()
     }
     bool is_level_1 = level == 1.0;
     // milk
-    float way = inversesqrt(c * c + 1.25) * 1.5;
+    float closure_way = inversesqrt(cosine * cosine + 1.25) * 1.5;
     vec3 N_2 = faceforward(N, -vd.viewWorld, N);
     mat3 any_frame = mx_frame(N_2, abs(N_2.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0));
     vec2 product = sqrt(vd.random.x) * cos((vd.random.y - vec2(0.0, 0.25)) * 6.2831855);
     vec3 L_2 = any_frame * vec3(product, sqrt(1.0 - vd.random.x));
     float pdf = max(dot(N_2, L_2), 0.0) / 3.1415927;
     if (is_level_1) {
-        vec3 coat_medium_throughput = exp(way * vec3(-0.05, -0.033333335, -0.025));
+        vec3 coat_medium_throughput = exp(closure_way * vec3(-0.05, -0.033333335, -0.025));
         float coat_medium_passing = max(dot(coat_medium_throughput, vec3(0.33333334)), 0.0);
         weight = coat_medium_throughput * ((coat_medium_passing + 0.1) / coat_medium_passing);
         if (vd.random.w * (coat_medium_passing + 0.1) < 0.1) {
@@ -302,7 +302,7 @@ void scatter()
         * metal_reflection_ggx_compensation;
     if (is_level_4) {
         vec3 milk_medium_transmitted;
-        vec3 milk_medium = mx_medium_layer(way, milk_medium_transmitted);
+        vec3 milk_medium = mx_medium_layer(closure_way, milk_medium_transmitted);
         vec3 milk_medium_throughput = milk_medium_transmitted
             / (vec3(1.0) - min(metal_reflection_slab_reflection_bsdf_albedo
             * vec3(0.10193972, 0.102937125, 0.103155464), 0.999));
@@ -348,31 +348,31 @@ void scatter()
     out2 = vec4(L, inside);
     out3 = vec4(weight, density);
     out4 = vec4(medium, 0.0);
-    float cosine = sqrt(clamp(dot(vd.viewWorld, vd.lightWorld.xyz) * 0.5 + 0.500001, 0.0, 1.0));
-    vec3 fresnel = mx_fresnel_schlick(cosine, vec3(0.04));
+    float cosine_2 = sqrt(clamp(dot(vd.viewWorld, vd.lightWorld.xyz) * 0.5 + 0.500001, 0.0, 1.0));
+    vec3 fresnel = mx_fresnel_schlick(cosine_2, vec3(0.04));
     mat3 frame = mx_frame(N_2, X);
     float sum = vd.lightWorld.w * (coat_reflection_chance / coat_reflection_chances
         * mx_ggx_pdf(vec2(0.01), N, X, vd.viewWorld, vd.lightWorld.xyz)) + 1.0;
-    vec3 ratio = fresnel * (coat_reflection_ggx_compensation
+    vec3 balanced = fresnel * (coat_reflection_ggx_compensation
         * mx_ggx_smith_lobe(vec2(0.01), frame, vd.viewWorld, vd.lightWorld.xyz)) / sum;
-    float c_2 = dot(N, vd.lightWorld.xyz);
-    float way_2 = inversesqrt(c_2 * c_2 + 1.25) * 1.5;
+    float cosine_3 = dot(N, vd.lightWorld.xyz);
+    float closure_way_2 = inversesqrt(cosine_3 * cosine_3 + 1.25) * 1.5;
     const vec3 coat_medium_constant = vec3(0.05, 0.033333335, 0.025);
-    vec3 extinction_above = drops_is_below ? coat_medium_constant : vec3(0.0);
+    vec3 extinction_above = is_below_number ? coat_medium_constant : vec3(0.0);
     float sum_2 = vd.lightWorld.w * (milk_reflection_chance / milk_reflection_chances
         * mx_ggx_pdf(vec2(0.25071993), N, X, vd.viewWorld, vd.lightWorld.xyz)) + 1.0;
-    vec3 ratio_2 = fresnel * (milk_reflection_ggx_compensation
+    vec3 balanced_2 = fresnel * (milk_reflection_ggx_compensation
         * mx_ggx_smith_lobe(vec2(0.25071993), frame, vd.viewWorld, vd.lightWorld.xyz)) / sum_2;
     float metal_reflection_ggx_smith_lobe = mx_ggx_smith_lobe(vec2(0.29886922), frame, vd.viewWorld, vd.lightWorld.xyz);
     float sum_3 = vd.lightWorld.w * (metal_reflection_chance / metal_reflection_chances
         * mx_ggx_pdf(vec2(0.29886922), N, X, vd.viewWorld, vd.lightWorld.xyz)) + 1.0;
-    vec3 ratio_3 = metal_reflection_ggx_compensation * mx_fresnel_schlick(cosine, metal_constant)
+    vec3 balanced_3 = metal_reflection_ggx_compensation * mx_fresnel_schlick(cosine_2, metal_constant)
         * metal_reflection_ggx_smith_lobe / sum_3;
-    vec3 choice = is_level_4 ? vec3(1.0) : level == 5.0 ? ratio_3 * exp(-(way_2 * (extinction_above + vec3(0.2))))
-        : vec3(0.0);
-    vec3 choice_2 = is_level_1 ? vec3(1.0) : level == 2.0 ? vec3(0.0) : level == 3.0 ? exp(-(way_2 * extinction_above))
-        * ratio_2 : choice;
-    out5 = vec4(level == 0.0 ? ratio : choice_2, 0.0);
+    vec3 choice = is_level_4 ? vec3(1.0) : level == 5.0 ? balanced_3
+        * exp(-(closure_way_2 * (extinction_above + vec3(0.2)))) : vec3(0.0);
+    vec3 choice_2 = is_level_1 ? vec3(1.0) : level == 2.0 ? vec3(0.0) : level == 3.0
+        ? exp(-(closure_way_2 * extinction_above)) * balanced_2 : choice;
+    out5 = vec4(level == 0.0 ? balanced : choice_2, 0.0);
     float chance = fract(vd.random.w * 4096.0);
     float sum_4 = 0.0;
     vec3 light = vec3(0.0);
@@ -391,32 +391,32 @@ void scatter()
         } else {
             vec3 to_light = normalize(d);
             L_4 = to_light;
-            float ratio_4 = u_lightData[i].intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
+            float ratio = u_lightData[i].intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
             if (light_type == 2) {
-                intensity = ratio_4;
+                intensity = ratio;
             } else {
                 float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
                 intensity = light_type == 3
                     ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,
-                    -dot(u_lightData[i].direction, to_light)) * ratio_4 : 0.0;
+                    -dot(u_lightData[i].direction, to_light)) * ratio : 0.0;
             }
         }
-        float cosine_2 = sqrt(clamp(dot(vd.viewWorld, L_4) * 0.5 + 0.500001, 0.0, 1.0));
-        vec3 fresnel_2 = mx_fresnel_schlick(cosine_2, vec3(0.04));
+        float cosine_4 = sqrt(clamp(dot(vd.viewWorld, L_4) * 0.5 + 0.500001, 0.0, 1.0));
+        vec3 fresnel_2 = mx_fresnel_schlick(cosine_4, vec3(0.04));
         vec3 coat_reflection_slab_reflection_bsdf_eval = coat_reflection_ggx_compensation * fresnel_2
             * mx_ggx_smith_lobe(vec2(0.01), frame, vd.viewWorld, L_4);
-        float c_3 = dot(N, L_4);
-        float way_3 = inversesqrt(c_3 * c_3 + 1.25) * 1.5;
+        float cosine_5 = dot(N, L_4);
+        float closure_way_3 = inversesqrt(cosine_5 * cosine_5 + 1.25) * 1.5;
         vec3 milk_reflection_slab_reflection_bsdf_eval = milk_reflection_ggx_compensation * fresnel_2
             * mx_ggx_smith_lobe(vec2(0.25071993), frame, vd.viewWorld, L_4);
         vec3 metal_reflection_product = metal_reflection_ggx_compensation
-            * mx_fresnel_schlick(cosine_2, metal_constant);
+            * mx_fresnel_schlick(cosine_4, metal_constant);
         vec3 metal_reflection_slab_reflection_bsdf_eval = metal_reflection_product
             * mx_ggx_smith_lobe(vec2(0.29886922), frame, vd.viewWorld, L_4);
         vec3 choice_3 = is_level_4 ? vec3(1.0) : level == 5.0 ? metal_reflection_slab_reflection_bsdf_eval
-            * exp(-((extinction_above + vec3(0.2)) * way_3)) : vec3(0.0);
+            * exp(-((extinction_above + vec3(0.2)) * closure_way_3)) : vec3(0.0);
         vec3 choice_4 = is_level_1 ? vec3(1.0) : level == 2.0 ? vec3(0.0) : level == 3.0
-            ? exp(-(extinction_above * way_3)) * milk_reflection_slab_reflection_bsdf_eval : choice_3;
+            ? exp(-(extinction_above * closure_way_3)) * milk_reflection_slab_reflection_bsdf_eval : choice_3;
         vec3 lit = u_lightData[i].color * intensity
             * (level == 0.0 ? coat_reflection_slab_reflection_bsdf_eval : choice_4);
         float brightness = max(dot(lit, vec3(0.33333334)), 0.0);
@@ -427,8 +427,8 @@ void scatter()
             light = lit / brightness;
         }
         if (brightness > 0.0) {
-            float ratio_5 = (sum_4 * chance - brightness) / (sum_4 - brightness);
-            chance = sum_4 * chance < brightness ? sum_4 * chance / brightness : ratio_5;
+            float ratio = (sum_4 * chance - brightness) / (sum_4 - brightness);
+            chance = sum_4 * chance < brightness ? sum_4 * chance / brightness : ratio;
         }
     }
     out6 = vec4(L_3, distance_);
@@ -436,13 +436,13 @@ void scatter()
     out9 = vec4(is_level_1 ? vec3(0.0) : is_level_4 ? vec3(0.19811778, 0.19958141, 0.19990106) : vec3(0.0), 0.0);
     float choice_5 = level < 2.0 ? 2.0 : level < 3.0 ? 3.0 : level < 4.0 ? 4.0 : level < 5.0 ? 5.0 : level < 6.0 ? 6.0
         : -1.0;
-    float choice_6 = drops_is_below && level < 1.0 ? 1.0 : choice_5;
-    float next_level = drops_is_below && level < 0.0 ? 0.0 : choice_6;
+    float choice_6 = is_below_number && level < 1.0 ? 1.0 : choice_5;
+    float next_level = is_below_number && level < 0.0 ? 0.0 : choice_6;
     out10 = vec4(is_level_1 ? coat_medium_constant : is_level_4 ? vec3(0.2) : vec3(0.0), next_level);
-    vec3 choice_7 = drops_is_below ? (enters ? coat_reflection_throughput : vec3(1.0))
-        * exp(-(way * coat_medium_constant)) : vec3(1.0);
-    vec3 product_2 = choice_7 * (enters ? milk_reflection_throughput : vec3(1.0)) * exp(-vec3(way * 0.2));
-    float medium_above = level > 4.0 ? 4.0 : drops_is_below && level > 1.0 ? 1.0 : -1.0;
+    vec3 choice_7 = is_below_number ? (enters ? coat_reflection_throughput : vec3(1.0))
+        * exp(-(closure_way * coat_medium_constant)) : vec3(1.0);
+    vec3 product_2 = choice_7 * (enters ? milk_reflection_throughput : vec3(1.0)) * exp(-vec3(closure_way * 0.2));
+    float medium_above = level > 4.0 ? 4.0 : is_below_number && level > 1.0 ? 1.0 : -1.0;
     out11 = vec4(product_2 * (enters ? metal_reflection_throughput : vec3(1.0)) * (enters ? vec3(0.0) : vec3(1.0)),
         medium_above);
     out12 = vec4(0.0, 0.0, 0.0, -2.0);

@@ -255,16 +255,16 @@ void main()
     vec3 N = normalize(vd.normalWorld);
     vec3 V = normalize(u_viewPosition - vd.positionWorld);
     // metal
-    float c = dot(N, V);
-    float cos_v = max(abs(c), 1e-8);
+    float cosine = dot(N, V);
+    float cos_v = max(abs(cosine), 1e-8);
     // coat
     vec2 coat_reflection_albedo = mx_ggx_albedo_fit(0.01, 0.01 / (cos_v + 0.01), cos_v);
     float coat_reflection_scale = (1.0 / coat_reflection_albedo.x - 1.0) * 0.08571428 + 1.0;
     float coat_reflection_throughput = max(1.0 - mix(0.04, 1.0, coat_reflection_albedo.y) * coat_reflection_albedo.x
         * coat_reflection_scale, 0.0);
     // milk
-    float way = inversesqrt(c * c + 1.25) * 1.5;
-    vec3 coat_medium_throughput = exp(way * vec3(-0.05, -0.033333335, -0.025));
+    float closure_way = inversesqrt(cosine * cosine + 1.25) * 1.5;
+    vec3 coat_medium_throughput = exp(closure_way * vec3(-0.05, -0.033333335, -0.025));
     vec3 drops_throughput = mix(vec3(1.0), coat_reflection_throughput * coat_medium_throughput, 0.5);
     vec3 coat_medium_throughput_2 = coat_medium_throughput * vec3(0.9512294, 0.967216, 0.9753099);
     vec3 drops_throughput_2 = mix(vec3(1.0), coat_reflection_throughput * coat_medium_throughput_2, 0.5);
@@ -272,15 +272,15 @@ void main()
         * (coat_medium_throughput_2 * vec3(0.9512294, 0.967216, 0.9753099)), 0.5);
     vec3 milk_reflection_decay = clamp((drops_throughput_2 - drops_throughput_3)
         / max(drops_throughput - drops_throughput_2, 1e-6), 0.0, 0.999);
-    vec3 ratio = (drops_throughput - drops_throughput_2) / (vec3(1.0) - milk_reflection_decay);
-    vec3 milk_reflection_steady = drops_throughput - ratio;
-    vec3 color = (ratio + milk_reflection_steady) * vec3(0.0, 0.1, 0.0);
+    vec3 decaying = (drops_throughput - drops_throughput_2) / (vec3(1.0) - milk_reflection_decay);
+    vec3 milk_reflection_steady = drops_throughput - decaying;
+    vec3 color = (decaying + milk_reflection_steady) * vec3(0.0, 0.1, 0.0);
     // lights
     vec3 N_2 = faceforward(N, -V, N);
     float scaled_cos_v = cos_v * cos_v;
     mx_GgxLobe coat_reflection_vector = mx_GgxLobe(N_2, cos_v, vec3(0.0), vec2(0.01),
         sqrt(scaled_cos_v * 0.9999 + 0.00010000001));
-    vec3 slab_medium_bsdf_albedo = mx_medium_reflected(way);
+    vec3 slab_medium_bsdf_albedo = mx_medium_reflected(closure_way);
     vec3 scaled_slab_medium_bsdf_albedo = slab_medium_bsdf_albedo / vec3(0.10193972, 0.102937125, 0.103155464);
     vec2 milk_reflection_albedo = mx_ggx_albedo_fit(0.25071993, 0.25071993 / (cos_v + 0.25071993), cos_v);
     float milk_reflection_scale = (1.0 / milk_reflection_albedo.x - 1.0) * 0.08571428 + 1.0;
@@ -290,8 +290,8 @@ void main()
         * drops_throughput_2;
     vec3 milk_medium_decay = clamp((milk_reflection_throughput * drops_throughput_2 - milk_reflection_throughput
         * drops_throughput_3) / max(milk_medium_difference, 1e-6), 0.0, 0.999);
-    vec3 milk_medium_ratio = milk_medium_difference / (vec3(1.0) - milk_medium_decay);
-    vec3 milk_medium_steady = milk_reflection_throughput * drops_throughput - milk_medium_ratio;
+    vec3 milk_medium_decaying = milk_medium_difference / (vec3(1.0) - milk_medium_decay);
+    vec3 milk_medium_steady = milk_reflection_throughput * drops_throughput - milk_medium_decaying;
     vec2 metal_reflection_albedo = mx_ggx_albedo_fit(0.29886922, 0.29886922 / (cos_v + 0.29886922), cos_v);
     vec3 metal_reflection_scale = (1.0 / metal_reflection_albedo.x - 1.0) * vec3(0.9047619, 0.61904764, 0.33333334)
         + vec3(1.0);
@@ -299,7 +299,7 @@ void main()
     mx_GgxLobe metal_reflection_vector = mx_GgxLobe(N_2, cos_v, vec3(0.0), vec2(0.29886922),
         sqrt(scaled_cos_v * 0.9106772 + 0.08932281));
     vec3 milk_medium_transmitted;
-    vec3 milk_medium = mx_medium_layer(way, milk_medium_transmitted);
+    vec3 milk_medium = mx_medium_layer(closure_way, milk_medium_transmitted);
     vec3 milk_bare_throughput = milk_reflection_throughput
         * (milk_medium_transmitted / (vec3(1.0)
         - min(mix(metal_constant, vec3(1.0), metal_reflection_albedo.y) * metal_reflection_albedo.x
@@ -309,8 +309,8 @@ void main()
         * milk_bare_throughput;
     vec3 metal_reflection_decay = clamp((drops_throughput_2 * milk_bare_throughput - drops_throughput_3
         * milk_bare_throughput) / max(metal_reflection_difference, 1e-6), 0.0, 0.999);
-    vec3 metal_reflection_ratio = metal_reflection_difference / (vec3(1.0) - metal_reflection_decay);
-    vec3 metal_reflection_steady = drops_throughput * milk_bare_throughput - metal_reflection_ratio;
+    vec3 metal_reflection_decaying = metal_reflection_difference / (vec3(1.0) - metal_reflection_decay);
+    vec3 metal_reflection_steady = drops_throughput * milk_bare_throughput - metal_reflection_decaying;
     mx_GgxLobe milk_reflection_vector = mx_GgxLobe(N_2, cos_v, vec3(0.0), vec2(0.25071993),
         sqrt(scaled_cos_v * 0.9371395 + 0.0628605));
     // from the last light, so that drivers do not unroll the loop
@@ -325,43 +325,45 @@ void main()
             vec3 d = u_lightData[i].position - vd.positionWorld;
             vec3 to_light = normalize(d);
             L = to_light;
-            float ratio_2 = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+            float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
             if (light_type == 2) {
-                intensity = ratio_2;
+                intensity = ratio;
             } else {
                 float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
                 intensity = light_type == 3
                     ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,
-                    -dot(u_lightData[i].direction, to_light)) * ratio_2 : 0.0;
+                    -dot(u_lightData[i].direction, to_light)) * ratio : 0.0;
             }
         }
         // metal_reflection, milk_reflection, milk_medium, coat_reflection
-        float cosine = sqrt(clamp(dot(V, L) * 0.5 + 0.500001, 0.0, 1.0));
-        vec3 fresnel = mx_fresnel_schlick(cosine, vec3(0.04));
-        float c_2 = dot(N, L);
-        float way_2 = inversesqrt(c_2 * c_2 + 1.25) * 1.5;
-        vec3 milk_medium_weight = milk_medium_steady + milk_medium_ratio * pow(milk_medium_decay, vec3(way_2));
+        float cosine_2 = sqrt(clamp(dot(V, L) * 0.5 + 0.500001, 0.0, 1.0));
+        vec3 fresnel = mx_fresnel_schlick(cosine_2, vec3(0.04));
+        float cosine_3 = dot(N, L);
+        float closure_way_2 = inversesqrt(cosine_3 * cosine_3 + 1.25) * 1.5;
+        vec3 milk_medium_weight = milk_medium_steady + milk_medium_decaying
+            * pow(milk_medium_decay, vec3(closure_way_2));
         vec3 milk_medium_response = scaled_slab_medium_bsdf_albedo
-            * (mx_medium_reflected(way_2) * (max(dot(L, N_2), 0.0) / 3.1415927 * milk_medium_weight));
-        vec3 metal_reflection_weight = metal_reflection_steady + metal_reflection_ratio
-            * pow(metal_reflection_decay, vec3(way_2));
+            * (mx_medium_reflected(closure_way_2) * (max(dot(L, N_2), 0.0) / 3.1415927 * milk_medium_weight));
+        vec3 metal_reflection_weight = metal_reflection_steady + metal_reflection_decaying
+            * pow(metal_reflection_decay, vec3(closure_way_2));
         vec3 metal_reflection_product = mx_ggx_light_2(metal_reflection_vector, V, L) * metal_reflection_weight;
-        vec3 milk_reflection_weight = milk_reflection_steady + ratio * pow(milk_reflection_decay, vec3(way_2));
+        vec3 milk_reflection_weight = milk_reflection_steady + decaying
+            * pow(milk_reflection_decay, vec3(closure_way_2));
         vec3 milk_reflection_response = fresnel
             * (milk_reflection_weight * (milk_reflection_scale * mx_ggx_light_2(milk_reflection_vector, V, L)));
         vec3 sum = milk_medium_response + (metal_reflection_scale
-            * (mx_fresnel_schlick(cosine, metal_constant) * metal_reflection_product) + milk_reflection_response);
+            * (mx_fresnel_schlick(cosine_2, metal_constant) * metal_reflection_product) + milk_reflection_response);
         color += u_lightData[i].color * (intensity
             * (fresnel * (mx_ggx_light(coat_reflection_vector, V, L) * (coat_reflection_scale * 0.5)) + sum));
     }
     // environment: milk_medium
     vec3 milk_medium_product = slab_medium_bsdf_albedo
         * textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * N_2)), 0.0).xyz;
-    color += u_envLightIntensity * ((milk_medium_steady + milk_medium_ratio * pow(milk_medium_decay, vec3(1.145898)))
+    color += u_envLightIntensity * ((milk_medium_steady + milk_medium_decaying * pow(milk_medium_decay, vec3(1.145898)))
         * milk_medium_product);
     // environment: metal_reflection
     vec3 metal_reflection_product = metal_reflection_scale
-        * (metal_reflection_steady + metal_reflection_ratio * pow(metal_reflection_decay, vec3(way)));
+        * (metal_reflection_steady + metal_reflection_decaying * pow(metal_reflection_decay, vec3(closure_way)));
     mx_GgxSamples metal_reflection_ggx_samples = mx_ggx_samples(vec2(0.29886922), N, V);
     vec2 turn = vec2(1.0, 0.0);
     for (int i = 0; i < u_envRadianceSamples; ++i) {
@@ -372,7 +374,7 @@ void main()
     }
     // environment: milk_reflection
     vec3 milk_reflection_product = milk_reflection_scale
-        * (milk_reflection_steady + ratio * pow(milk_reflection_decay, vec3(way)));
+        * (milk_reflection_steady + decaying * pow(milk_reflection_decay, vec3(closure_way)));
     mx_GgxSamples milk_reflection_ggx_samples = mx_ggx_samples(vec2(0.25071993), N, V);
     vec2 turn_2 = vec2(1.0, 0.0);
     for (int i = 0; i < u_envRadianceSamples; ++i) {

@@ -32,12 +32,11 @@ void main()
     vd.normalWorld = normalize((u_worldInverseTransposeMatrix * vec4(i_normal, 0.0)).xyz);
     vd.tangentWorld = normalize((u_worldMatrix * vec4(i_tangent, 0.0)).xyz);
     vd.positionWorld = (u_worldMatrix * vec4(i_position, 1.0)).xyz;
-    vec3 lift1_direction = normalize(vd.tangentWorld);
+    vec3 X = normalize(vd.tangentWorld);
     displacementshader lift1;
     lift(0.5, lift1);
-    vec3 lift1_product = lift1.offset * lift1.scale;
-    vec3 direction = normalize(vd.normalWorld);
+    vec3 offset = lift1.offset * lift1.scale;
+    vec3 Ng = normalize(vd.normalWorld);
     gl_Position = u_viewProjectionMatrix
-        * vec4(lift1_direction * lift1_product.x + cross(direction, lift1_direction) * lift1_product.y + direction
-        * lift1_product.z + vd.positionWorld, 1.0);
+        * vec4(X * offset.x + cross(Ng, X) * offset.y + Ng * offset.z + vd.positionWorld, 1.0);
 }

@@ -25,16 +25,15 @@ out vec4 out1;
 void main()
 {
     vec3 V = normalize(u_viewPosition - vd.positionWorld);
-    float depth_product = u_volumeDepth * max(dot(V, normalize(vd.normalWorld)), 0.0);
+    float volume_depth = u_volumeDepth * max(dot(V, normalize(vd.normalWorld)), 0.0);
     float both_weight = 1.0 - vd.texcoord_0.x;
     vec3 optical_depth_sum = both_weight * vec3(0.3, 0.5, 0.9) + both_weight * 1.2;
-    vec3 optical_depth_product = depth_product * (optical_depth_sum + both_weight * vec3(2.0, 1.0, 0.5));
-    vec3 lost_difference = vec3(1.0) - exp(-optical_depth_product);
-    vec3 path_blend = mix(vec3(1.0), lost_difference / max(optical_depth_product, vec3(0.001)),
-        step(vec3(0.001), optical_depth_product));
-    vec3 color = depth_product * path_blend * (vd.texcoord_0.x * vec3(0.2, 0.06, 0.01));
+    vec3 optical_depth = volume_depth * (optical_depth_sum + both_weight * vec3(2.0, 1.0, 0.5));
+    vec3 volume_lost = vec3(1.0) - exp(-optical_depth);
+    vec3 path_blend = mix(vec3(1.0), volume_lost / max(optical_depth, 0.001), step(vec3(0.001), optical_depth));
+    vec3 color = volume_depth * path_blend * (vd.texcoord_0.x * vec3(0.2, 0.06, 0.01));
     // lights
-    vec3 smoke_product = path_blend * (both_weight * depth_product * 1.2);
+    vec3 smoke_product = path_blend * (both_weight * volume_depth * 1.2);
     // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         vec3 L;
@@ -61,5 +60,5 @@ void main()
         float smoke_d = dot(V, L) * 0.8 + 1.16;
         color += u_lightData[i].color * (intensity * (0.84 / (smoke_d * 12.566371 * sqrt(smoke_d)) * smoke_product));
     }
-    out1 = vec4(color, dot(lost_difference, vec3(0.33333334)));
+    out1 = vec4(color, dot(volume_lost, vec3(0.33333334)));
 }

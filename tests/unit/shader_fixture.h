@@ -4,6 +4,7 @@
 #define MXG_TESTS_SHADER_FIXTURE_H
 
 #include "base/trap.h"
+#include "library/formulas.h"
 #include "one_file.h"
 #include "spell/target.h"
 
@@ -37,6 +38,7 @@ static inline void fixture_open(struct fixture *f, const char *source)
     strpool_init(&f->strings, &f->arena, NULL);
     ir_graph_init(&f->graph, &f->arena, &f->strings);
     lang_unit_init(&f->unit, &f->arena, &f->strings, NULL);
+    library_add_formulas(&f->unit);
     shader_init(&f->shader, &roles[ROLE_raster], &f->arena, &f->strings, &f->graph, &f->unit);
     f->shader.name = word(f, "Gold");
     f->shader.element_type = word(f, "surfacematerial");

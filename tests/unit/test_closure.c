@@ -186,7 +186,7 @@ static void write_value(struct text *out, const struct ir_value *v)
 static ir_ref total(struct scene *s, const struct closure_leaf *leaf)
 {
     ir_ref scalar = ir_convert(&s->base.graph, IR_TYPE_VEC3, leaf->scalar);
-    return closure_mul(&s->base.graph, leaf->color, scalar);
+    return ir_product(&s->base.graph, leaf->color, scalar);
 }
 
 static bool is_zero(const struct ir_value *v)
@@ -570,13 +570,13 @@ static void test_product(void)
     scene_open(&s, true);
     struct ir_graph *g = &s.base.graph;
     ir_ref tint = color(&s, 0.5f, 0.25f, 1), shade = num(&s, 0.5f), weight = num(&s, 4);
-    ir_ref value = closure_mul(g, closure_mul(g, tint, shade), color(&s, 2, 2, 3));
+    ir_ref value = ir_product(g, ir_product(g, tint, shade), color(&s, 2, 2, 3));
     struct ir_value product = evaluate(&s, closure_product(g, value, weight));
     REQUIRE(product.w[0].f == 2 && product.w[1].f == 1 && product.w[2].f == 6);
     REQUIRE_EQ(closure_product(g, value, 0), value);
-    REQUIRE_EQ(closure_mul(g, 0, tint), tint);
-    REQUIRE_EQ(closure_mul(g, tint, 0), tint);
-    struct ir_value rest = evaluate(&s, closure_one_minus(g, tint));
+    REQUIRE_EQ(ir_product(g, 0, tint), tint);
+    REQUIRE_EQ(ir_product(g, tint, 0), tint);
+    struct ir_value rest = evaluate(&s, ir_one_minus(g, tint));
     REQUIRE(rest.w[0].f == 0.5f && rest.w[1].f == 0.75f && rest.w[2].f == 0);
     scene_close(&s);
 }

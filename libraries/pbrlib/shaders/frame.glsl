@@ -34,6 +34,12 @@ vec3 mx_leave_frame(vec3 w, vec3 N, vec3 x)
     return w.x * x + w.y * cross(N, x) + w.z * N;
 }
 
+// x^5.
+float mx_power5(float x)
+{
+    return x * x * x * x * x;
+}
+
 // A cubic polynomial of x and y with the coefficients m, to which directional albedos are fitted.
 //
 // The programs in fits/ make the coefficients.

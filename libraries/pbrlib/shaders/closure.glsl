@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+// Weights of closures, and light between them. The compiler calls these functions (src/closure).
+
+// Mean of the channels.
+float mx_mean(vec3 light)
+{
+    return dot(light, vec3(1.0 / 3.0));
+}
+
+// Mean of light that a fit may bring below 0.
+float mx_brightness(vec3 light)
+{
+    return max(mx_mean(light), 0.0);
+}
+
+// ---- throughput ------------------------------------------------------------------------------------------------------
+
+// Light that passes a closure which is there with a weight.
+vec3 mx_weighted_throughput(vec3 throughput, float weight)
+{
+    return 1.0 - (1.0 - throughput) * weight;
+}
+
+// Light that passes a closure which is there with a weight.
+vec3 mx_weighted_throughput(vec3 throughput, vec3 weight)
+{
+    return 1.0 - (1.0 - throughput) * weight;
+}
+
+// ---- ways through media ----------------------------------------------------------------------------------------------
+// A weight of light on a way x is A + B decay^x. Media have the index 1.5.
+
+// How far light from L goes through a medium of the index 1.5, over its thickness, by Snell's law.
+float mx_closure_way(vec3 N, vec3 L)
+{
+    float cosine = dot(N, L);
+    return 1.5 * inversesqrt(1.25 + cosine * cosine);
+}
+
+// Decay of a weight that is known for the ways 0, 1 and 2.
+//
+// Where media hardly absorb, the limit keeps the quotient near the slope.
+vec3 mx_decay(vec3 at_rest, vec3 once, vec3 twice)
+{
+    return clamp((once - twice) / max(at_rest - once, 1e-6), 0.0, 0.999);
+}
+
+// Part of a weight that decays on the way.
+vec3 mx_decaying(vec3 at_rest, vec3 once, vec3 decay)
+{
+    return (at_rest - once) / (1.0 - decay);
+}
+
+// ---- homogeneous media -----------------------------------------------------------------------------------------------
+
+// Light that goes through a unit of length (Beer, Lambert).
+vec3 mx_transmittance(vec3 absorption)
+{
+    return exp(-absorption);
+}
+
+// Absorption of a medium with that transmittance.
+vec3 mx_absorption(vec3 transmittance)
+{
+    return -log(max(transmittance, 1e-6));
+}
+
+// True if light meets anything.
+bool mx_is_medium(vec3 extinction)
+{
+    return dot(extinction, vec3(1.0)) > 0.0;
+}
+
+// Thickness of a ball of a diameter behind a point of its front; 0 behind its back.
+float mx_volume_depth(float diameter, vec3 N, vec3 V)
+{
+    return diameter * max(dot(N, V), 0.0);
+}
+
+// Part of the background that a medium takes away.
+vec3 mx_volume_lost(vec3 optical_depth)
+{
+    return 1.0 - exp(-optical_depth);
+}
+
+// Effective length of a way through a medium: the integral of its transmittance over the depth.
+//
+// With optical_depth = t depth the transmittance is exp(-t x), and lost = 1 - exp(-optical_depth). Below 0.001 the quotient is 1 within 0.05 %,
+// and rounding would lose the difference from 1.
+vec3 mx_volume_path(float depth, vec3 optical_depth, vec3 lost)
+{
+    return mix(vec3(1.0), lost / max(optical_depth, 1e-3), step(vec3(1e-3), optical_depth)) * depth;
+}
+
+// ---- lights ----------------------------------------------------------------------------------------------------------
+
+// Light of an emitter at a distance: emitted intensity 2^exposure / distance^2.
+vec3 mx_light_of_emitter(vec3 emitted, float intensity, float exposure, float way)
+{
+    return emitted * (intensity * exp2(exposure) / (way * way));
+}
+
+// ---- paths -----------------------------------------------------------------------------------------------------------
+
+// Share of the samples for a closure with this albedo. Dark closures have some, too.
+float mx_sampled_share(float albedo)
+{
+    return albedo * 0.9 + 0.1;
+}
+
+// Share of the samples for a closure with this albedo. Dark closures have some, too.
+vec3 mx_sampled_share(vec3 albedo)
+{
+    return albedo * 0.9 + 0.1;
+}
+
+// Light from a direction that the host and the path may sample, by the balance heuristic (Veach and Guibas 1995).
+//
+// The path samples it with `density`, the host with one over `solid_angle`.
+vec3 mx_balanced(vec3 light, float density, float solid_angle)
+{
+    return light / (1.0 + density * solid_angle);
+}
+
+// True if L is on the side of N that V sees.
+bool mx_is_in_front(vec3 N, vec3 V, vec3 L)
+{
+    return dot(N, V) * dot(N, L) > 0.0;
+}
+
+// A random number of its own, 0 to below 1, of one that made a choice: below the chance, or not.
+float mx_rest_of_number(float number, float chance)
+{
+    return min(number < chance ? number / chance : (number - chance) / (1.0 - chance), 0.9999999);
+}
+
+// Scale of what is there in a part of the area, for samples that meet it always.
+float mx_scale_of_coverage(float alpha)
+{
+    return 1.0 / max(alpha, 1e-6);
+}

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// Layers of a medium that absorbs and scatters light: what they reflect and let through, and their coefficients for light that walks through
+// them at random. `color` is the albedo at infinite thickness, `mean_free_path` the way between two collisions, g the phase anisotropy.
+
+// Ways through a medium are multiples of its thickness. Every medium has the index 1.5.
+const float MX_MEAN_WAY = 1.1458980; // over cosine-weighted directions: 4.5 - 1.5 sqrt(5)
+
+const float MX_CLEAR_PATH = 1e6; // of a clear medium, by which src/slabs/recognise.c knows matter that is an interface only
+const float MX_MOST_ANISOTROPIC = 0.95; // of phase functions: beyond, all light would go straight on
+
+// How far light goes through a medium of index 1.5, over the thickness, on its way to or from V.
+float mx_way(vec3 N, vec3 V)
+{
+    float c = dot(N, V);
+    return 1.5 * inversesqrt(1.25 + c * c);
+}
+
+// The number s of a medium that reflects `color` at infinite thickness: the albedo of one scattering is 1 - s^2
+// (Kulla and Conty 2017, "Revisiting Physically Based Shading at Imageworks").
+vec3 mx_medium_loss(vec3 color)
+{
+    vec3 c = clamp(color, 0.0, 1.0);
+    vec3 s = clamp(4.09712 + 4.20863 * c - sqrt(9.59217 + c * (41.6808 + 17.7126 * c)), 0.0, 1.0);
+    return mix(s, vec3(1.0), step(c, vec3(0.0))); // exactly: no albedo, no scattering
+}
+
+// Optical depth, along the normal, of the medium that scatters evenly and stands for one with the phase anisotropy
+// g, by similarity.
+vec3 mx_medium_depth(vec3 loss, vec3 mean_free_path, float g, float thickness)
+{
+    float forward = clamp(g, -MX_MOST_ANISOTROPIC, MX_MOST_ANISOTROPIC);
+    return max(thickness, 0.0) / max(mean_free_path, 1e-6) * (1.0 - forward) / (1.0 - forward * loss * loss);
+}
+
+// Light that the layer of a medium reflects and lets through (`transmitted`), with all orders of scattering, on a
+// way: a is the albedo of one scattering, t the optical depth (after Kubelka and Munk 1931).
+//
+// Coefficients by the program fits/medium.c, which follows light at random; within 0.0053. Nothing is lost where
+// the albedo is 1.
+vec3 mx_medium_layer(vec3 a, vec3 t, float way, out vec3 transmitted)
+{
+    vec3 u = t / (1.0 + t);
+    float x = way - 1.0;
+    vec3 s = 0.5 * a * way * (1.0 + u * (-1.0290 + u * (0.5422 - 0.3924 * a) + a * (0.7451 + 0.3145 * a) + x * (1.1669 - 1.3629 * a)));
+    vec3 k = (1.0 - a) * way
+           * (1.0 + a * u * (0.6040 + u * (-0.1979 - 0.4865 * a) + a * (1.3930 - 0.5447 * a) + x * (0.2436 - 2.0559 * a)
+                             + a * a * a * a * (-0.0215 + 0.5896 * u)));
+    vec3 g = sqrt(k * (k + 2.0 * s));
+    vec3 e = exp(-g * t);
+    vec3 ways = mix((1.0 - e * e) / max(g, 1e-6), 2.0 * t * (1.0 - g * t), step(g * t, vec3(1e-3))); // by its series where g is near 0
+    vec3 below = (k + s) * ways + 1.0 + e * e;
+    transmitted = 2.0 * e / below;
+    return s * ways / below;
+}
+
+bool mx_is_black(vec3 color)
+{
+    return max(color.x, max(color.y, color.z)) <= 0.0;
+}
+
+// Light that the layer of a medium lets through on a way.
+//
+// A medium without scattering has only absorption (Beer, Lambert).
+vec3 mx_medium_through(vec3 color, vec3 mean_free_path, float g, float thickness, float way)
+{
+    vec3 loss = mx_medium_loss(color);
+    vec3 depth = mx_medium_depth(loss, mean_free_path, g, thickness);
+    if (mx_is_black(color))
+        return exp(-depth * way);
+    vec3 through;
+    mx_medium_layer(1.0 - loss * loss, depth, way, through);
+    return through;
+}
+
+// Light that the layer of a medium reflects on a way.
+vec3 mx_medium_reflected(vec3 color, vec3 mean_free_path, float g, float thickness, float way)
+{
+    if (mx_is_black(color))
+        return vec3(0.0);
+    vec3 ignored;
+    vec3 loss = mx_medium_loss(color);
+    return mx_medium_layer(1.0 - loss * loss, mx_medium_depth(loss, mean_free_path, g, thickness), way, ignored);
+}
+
+// Scattering coefficient of a medium over a length, for light that walks through it at random; 0 where it is
+// opaque.
+//
+// g by similarity, see mx_medium_depth.
+vec3 mx_medium_scattering(vec3 color, vec3 mean_free_path, float g, float length)
+{
+    if (mx_is_black(mean_free_path) || mx_is_black(color))
+        return vec3(0.0);
+    vec3 loss = mx_medium_loss(color);
+    return max(length, 0.0) / max(mean_free_path, 1e-6) * (1.0 - loss * loss) / (1.0 - clamp(g, -MX_MOST_ANISOTROPIC, MX_MOST_ANISOTROPIC) * loss * loss);
+}
+
+// Absorption coefficient of a medium over a length, for light that walks through it at random; 0 where it is
+// opaque.
+vec3 mx_medium_absorption(vec3 color, vec3 mean_free_path, float g, float length)
+{
+    if (mx_is_black(mean_free_path))
+        return vec3(0.0);
+    return max(length, 0.0) / max(mean_free_path, 1e-6) - mx_medium_scattering(color, mean_free_path, g, length);
+}
