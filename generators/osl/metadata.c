@@ -65,8 +65,8 @@ static const char *range_text(const struct spell *spell, const struct shader_var
     struct text piece;
     text_init(&piece, spell->scratch);
     if (variable->type == IR_TYPE_FLOAT || variable->type == IR_TYPE_INT) {
-        add_limit(&piece, "min", first_of(ui->soft_min, ui->min), variable->type);
-        add_limit(&piece, "max", first_of(ui->soft_max, ui->max), variable->type);
+        add_limit(&piece, "min", first_of(ui->uisoftmin, ui->uimin), variable->type);
+        add_limit(&piece, "max", first_of(ui->uisoftmax, ui->uimax), variable->type);
     }
     return text_cstr(&piece);
 }
@@ -135,8 +135,8 @@ void osl_write_macros(struct osl *osl)
         if (!is_parameter(osl, variable))
             continue;
         find_ui(spell, variable, &ui);
-        count_piece(osl, hint_text(spell, "page", ui.folder),
-                    page_name(spell, ui.folder ? ui.folder : ""));
+        count_piece(osl, hint_text(spell, "page", ui.uifolder),
+                    page_name(spell, ui.uifolder ? ui.uifolder : ""));
         const char *range = range_text(spell, variable, &ui);
         count_piece(osl, range,
                     strcmp(range, "float min = 0, float max = 1") == 0 ? "UNIT" : "RANGE");
@@ -236,8 +236,8 @@ void osl_write_metadata(struct osl *osl, const struct shader_variable *variable)
     if (spell->options->metadata == 0)
         return;
     find_ui(spell, variable, &ui);
-    write_label(spell, text_of(osl, variable->name), ui.name, &count);
-    write_shared(osl, hint_text(spell, "page", ui.folder), &count);
+    write_label(spell, text_of(osl, variable->name), ui.uiname, &count);
+    write_shared(osl, hint_text(spell, "page", ui.uifolder), &count);
     write_shared(osl, range_text(spell, variable, &ui), &count);
     write_widget(spell, variable, &ui, &count);
     write_hint(spell, "colorspace", colorspace_of(osl, variable), &count);

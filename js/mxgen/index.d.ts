@@ -160,19 +160,8 @@ export class Context extends Owner {
 
 // ---- Libraries ----
 
-/** An input or output of a definition. A text that the definition does not have is "". */
-export interface Port {
-    name: string;
-    type: string;
-    value: string;
-    defaultgeomprop: string;
-    enumNames: string;
-    unit: string;
-    doc: string;
-    uniform: boolean;
-    advanced: boolean;
-    enumValues: string;
-    unittype: string;
+/** What a document says about an input for a user interface, in the words of its attributes. */
+export interface UserInterface {
     uiname: string;
     uifolder: string;
     uimin: string;
@@ -180,6 +169,23 @@ export interface Port {
     uisoftmin: string;
     uisoftmax: string;
     uistep: string;
+    doc: string;
+    /** the attribute enum */
+    enumNames: string;
+    enumValues: string;
+    /** uiadvanced */
+    advanced: boolean;
+}
+
+/** An input or output of a definition. A text that the definition does not have is "". */
+export interface Port extends UserInterface {
+    name: string;
+    type: string;
+    value: string;
+    defaultgeomprop: string;
+    unit: string;
+    uniform: boolean;
+    unittype: string;
 }
 
 /** A node definition. A text that the definition does not have is "". */
@@ -542,7 +548,7 @@ export interface Tile {
 }
 
 /** A uniform, attribute, texture or output of a shader (docs/reflection.md). */
-export interface Variable {
+export interface Variable extends UserInterface {
     index: number;
     name: string;
     block: Block;
@@ -568,22 +574,11 @@ export interface Variable {
     uaddressmode: string;
     vaddressmode: string;
     filtertype: string;
-    uiname: string;
-    uifolder: string;
-    uimin: string;
-    uimax: string;
-    uisoftmin: string;
-    uisoftmax: string;
-    doc: string;
     layer: string;
     framerange: string;
     frameendaction: string;
     frameoffset: number;
     unittype: string;
-    uistep: string;
-    enumNames: string;
-    enumValues: string;
-    advanced: boolean;
     flat: boolean;
     integer: number;
     tiles: Tile[];
@@ -618,22 +613,11 @@ export interface Storage {
 }
 
 /** An input whose value is compiled in. */
-export interface CompiledInput {
+export interface CompiledInput extends UserInterface {
     path: string;
     type: string;
     value: string;
     authored: boolean;
-    advanced: boolean;
-    uiname: string;
-    uifolder: string;
-    uimin: string;
-    uimax: string;
-    uisoftmin: string;
-    uisoftmax: string;
-    uistep: string;
-    enumNames: string;
-    enumValues: string;
-    doc: string;
 }
 
 export interface BlockInfo {

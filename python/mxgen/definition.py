@@ -11,22 +11,9 @@ from .diagnostic import Diagnostics
 
 
 @dataclass(frozen=True)
-class Port:
-    """An input or output of a definition. A text that the definition does not have is ""."""
+class UserInterface:
+    """What a document says about an input for a user interface, in the words of its attributes."""
 
-    name: str
-    type: str
-    #: the default of an input
-    value: str
-    defaultgeomprop: str
-    enum_names: str
-    unit: str
-    doc: str
-    uniform: bool
-    #: uiadvanced
-    advanced: bool
-    enum_values: str
-    unittype: str
     uiname: str
     uifolder: str
     uimin: str
@@ -34,6 +21,26 @@ class Port:
     uisoftmin: str
     uisoftmax: str
     uistep: str
+    doc: str
+    #: the attribute enum
+    enum_names: str
+    enum_values: str
+    #: uiadvanced
+    advanced: bool
+
+
+@dataclass(frozen=True)
+class Port(UserInterface):
+    """An input or output of a definition. A text that the definition does not have is ""."""
+
+    name: str
+    type: str
+    #: the default of an input
+    value: str
+    defaultgeomprop: str
+    unit: str
+    uniform: bool
+    unittype: str
 
 
 @dataclass(frozen=True)

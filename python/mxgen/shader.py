@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, NamedTuple, Union
 
 from ._calls import Handle, Native, c_text, error_of, ffi, lib, py_text, record, sized_text
+from .definition import UserInterface
 from .diagnostic import Diagnostics
 from .error import ArgumentError, OutOfMemoryError
 
@@ -80,7 +81,7 @@ class Tile:
 
 
 @dataclass(frozen=True)
-class Variable:
+class Variable(UserInterface):
     """A uniform, attribute, texture or output of a shader (docs/reflection.md)."""
 
     #: as in the source; a member does not include the name of its block
@@ -115,13 +116,6 @@ class Variable:
     uaddressmode: str
     vaddressmode: str
     filtertype: str
-    uiname: str
-    uifolder: str
-    uimin: str
-    uimax: str
-    uisoftmin: str
-    uisoftmax: str
-    doc: str
     #: the name of the file's layer
     layer: str
     #: the frames of a sequence
@@ -130,11 +124,6 @@ class Variable:
     frameoffset: int
     num_tiles: int
     unittype: str
-    uistep: str
-    enum_names: str
-    enum_values: str
-    #: uiadvanced
-    advanced: bool
     #: not interpolated between vertices
     flat: bool
     #: the exact default of an integer
@@ -164,7 +153,7 @@ class Variable:
 
 
 @dataclass(frozen=True)
-class CompiledInput:
+class CompiledInput(UserInterface):
     """An input whose value is compiled in. A new value needs a new generation."""
 
     path: str
@@ -173,18 +162,6 @@ class CompiledInput:
     value: str
     #: the document has the value; otherwise it is the default
     authored: bool
-    #: uiadvanced
-    advanced: bool
-    uiname: str
-    uifolder: str
-    uimin: str
-    uimax: str
-    uisoftmin: str
-    uisoftmax: str
-    uistep: str
-    enum_names: str
-    enum_values: str
-    doc: str
 
 
 class InputState(enum.IntEnum):

@@ -400,20 +400,13 @@ mxg_status definition_port(const struct library *lib, uint32_t nodedef, uint32_t
         .type = text_of(lib, library_type_name(lib, port->type)),
         .value = text_of(lib, port->value),
         .defaultgeomprop = index < def->num_inputs ? text_of(lib, port->geomprop) : "",
-        .enum_names = attr_text(lib, port->element, STR_enum),
         .unit = attr_text(lib, port->element, STR_unit),
-        .doc = attr_text(lib, port->element, STR_doc),
         .uniform = port->flags & PORT_UNIFORM,
         .advanced = doc_attr_is_true(&lib->doc, port->element, STR_uiadvanced),
-        .enum_values = attr_text(lib, port->element, STR_enumvalues),
         .unittype = attr_text(lib, port->element, STR_unittype),
-        .uiname = attr_text(lib, port->element, STR_uiname),
-        .uifolder = attr_text(lib, port->element, STR_uifolder),
-        .uimin = attr_text(lib, port->element, STR_uimin),
-        .uimax = attr_text(lib, port->element, STR_uimax),
-        .uisoftmin = attr_text(lib, port->element, STR_uisoftmin),
-        .uisoftmax = attr_text(lib, port->element, STR_uisoftmax),
-        .uistep = attr_text(lib, port->element, STR_uistep),
+#define UI(member, attribute, key) .member = attr_text(lib, port->element, STR_##attribute),
+#include "shader/ui.def"
+#undef UI
     };
     return struct_write(out, &full, sizeof full);
 }

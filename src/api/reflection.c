@@ -60,16 +60,10 @@ void result_input_ui(const mxg_result *result, elem_id element, elem_id definiti
     const struct document *doc = &result->document->layer.doc;
     /* texts of a node are not those of its inputs */
     elem_id input = element && doc_element(doc, element)->kind != KIND_NODE ? element : 0;
-    const struct {
-        const char **text;
-        str_id attr;
-    } texts[] = {{&out->name, STR_uiname},        {&out->folder, STR_uifolder},
-                 {&out->min, STR_uimin},          {&out->max, STR_uimax},
-                 {&out->soft_min, STR_uisoftmin}, {&out->soft_max, STR_uisoftmax},
-                 {&out->step, STR_uistep},        {&out->doc, STR_doc},
-                 {&out->enum_names, STR_enum},    {&out->enum_values, STR_enumvalues}};
-    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
-        *texts[i].text = ui_text(result, input, definition, texts[i].attr);
+#define UI(member, attribute, key) \
+    out->member = ui_text(result, input, definition, STR_##attribute);
+#include "shader/ui.def"
+#undef UI
     out->advanced = strcmp(ui_text(result, input, definition, STR_uiadvanced), "true") == 0;
 }
 
@@ -83,16 +77,9 @@ static void set_user_interface(const mxg_result *result, const struct shader_var
 {
     struct shader_ui ui;
     result_ui((void *)(uintptr_t)result, variable, &ui);
-    out->uiname = ui.name;
-    out->uifolder = ui.folder;
-    out->uimin = ui.min;
-    out->uimax = ui.max;
-    out->uisoftmin = ui.soft_min;
-    out->uisoftmax = ui.soft_max;
-    out->uistep = ui.step;
-    out->doc = ui.doc;
-    out->enum_names = ui.enum_names;
-    out->enum_values = ui.enum_values;
+#define UI(member, attribute, key) out->member = ui.member;
+#include "shader/ui.def"
+#undef UI
     out->advanced = ui.advanced;
 }
 

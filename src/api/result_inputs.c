@@ -95,16 +95,9 @@ mxg_status mxg_result_compiled_input(const mxg_result *result, uint32_t index,
         .value = input.value,
         .authored = input.authored,
         .advanced = input.ui.advanced,
-        .uiname = input.ui.name,
-        .uifolder = input.ui.folder,
-        .uimin = input.ui.min,
-        .uimax = input.ui.max,
-        .uisoftmin = input.ui.soft_min,
-        .uisoftmax = input.ui.soft_max,
-        .uistep = input.ui.step,
-        .enum_names = input.ui.enum_names,
-        .enum_values = input.ui.enum_values,
-        .doc = input.ui.doc,
+#define UI(member, attribute, key) .member = input.ui.member,
+#include "shader/ui.def"
+#undef UI
     };
     return struct_write(out, &full, sizeof full);
 }

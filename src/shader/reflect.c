@@ -93,11 +93,9 @@ static void put_ui(struct reflect *r, const struct shader_ui *ui)
     const struct {
         const char *key, *value;
     } fields[] = {
-        {"name", ui->name},        {"folder", ui->folder},
-        {"min", ui->min},          {"max", ui->max},
-        {"softMin", ui->soft_min}, {"softMax", ui->soft_max},
-        {"step", ui->step},        {"doc", ui->doc},
-        {"enum", ui->enum_names},  {"enumValues", ui->enum_values},
+#define UI(member, attribute, key) {key, ui->member},
+#include "shader/ui.def"
+#undef UI
     };
     bool any = ui->advanced;
     for (size_t i = 0; i < sizeof fields / sizeof *fields; i++)

@@ -484,8 +484,9 @@ static inline uint32_t shader_callee(const struct shader *shader, ir_ref call)
 
 /* What the document says about a variable for a user interface; the strings may be NULL. */
 struct shader_ui {
-    const char *name, *folder, *min, *max, *soft_min, *soft_max, *step, *doc, *enum_names,
-        *enum_values;
+#define UI(member, attribute, key) const char *member;
+#include "shader/ui.def"
+#undef UI
     bool advanced;
 };
 /* An input that is compiled in, as text. */

@@ -45,7 +45,7 @@ static bool is_share(const struct spell *spell, const struct shader_variable *va
     if (!spell->options->ui || variable->type != IR_TYPE_FLOAT || !variable->definition)
         return false;
     spell->options->ui(spell->options->user_data, variable, &ui);
-    return ends_at(ui.min, 0.0) && ends_at(ui.max, 1.0);
+    return ends_at(ui.uimin, 0.0) && ends_at(ui.uimax, 1.0);
 }
 
 static bool is_half_texture(const struct spell *spell, const struct shader_variable *variable)

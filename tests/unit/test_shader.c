@@ -607,7 +607,7 @@ static void describe_ui(void *user_data, const struct shader_variable *variable,
     (void)user_data;
     if (variable->path)
         *out = (struct shader_ui){
-            .name = "Base", .folder = "Main", .min = "0", .soft_max = "1", .advanced = true};
+            .uiname = "Base", .uifolder = "Main", .uimin = "0", .uisoftmax = "1", .advanced = true};
 }
 
 static void describe_compiled(void *user_data, uint32_t index, struct shader_compiled_text *out)
@@ -618,7 +618,7 @@ static void describe_compiled(void *user_data, uint32_t index, struct shader_com
                                              .type = "float",
                                              .value = "1",
                                              .authored = true,
-                                             .ui.soft_max = "2"};
+                                             .ui.uisoftmax = "2"};
 }
 
 static void test_json(void)
