@@ -38,7 +38,7 @@ struct shader {
     double times[NUM_ROUNDS];
 };
 
-/* What is known of a document. */
+/* The figures of a document. */
 struct row {
     char name[64], family[64]; /* its file and its folder */
     double time, ratio;        /* of mxgen's shader in seconds; to MaterialX's, 0: not drawn */
@@ -92,7 +92,9 @@ static double draw(struct bench *b, struct shader *shader, uint32_t copies)
     return seconds;
 }
 
-/* Of a result, or of a program that mxgen did not write. The first frame compiles on some devices.
+/*
+ * Opens a result, or a program that mxgen did not write, and draws the first frame, which compiles
+ * on some devices.
  */
 static void open_shader(struct bench *b, const char *path, const mxg_result *result,
                         const struct bind_program *program, struct shader *out)
@@ -118,7 +120,7 @@ static void close_shader(struct shader *shader)
     free(shader->pixels);
 }
 
-/* Of the pixels of so many balls. */
+/* Measures the pixels of so many balls. */
 static double seconds_of_pixels(struct bench *b, struct shader *shader, uint32_t copies)
 {
     double seen = draw(b, shader, copies);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* What the benchmarks that draw share. */
+/* The benchmarks that draw share these functions. */
 #define _POSIX_C_SOURCE 200809L
 #include "bench/drawn.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* What the benchmarks that draw share. */
+/* The benchmarks that draw share these functions. */
 #ifndef MXG_BENCH_DRAWN_H
 #define MXG_BENCH_DRAWN_H
 

@@ -60,7 +60,7 @@ static bool is_in(uint32_t op, const struct range *ranges, size_t count)
     return false;
 }
 
-/* What computes; the others move values, or only say something. */
+/* Returns what computes; the others move values, or only say something. */
 static bool is_operation(uint32_t op)
 {
     static const struct range ranges[] = {
@@ -99,7 +99,7 @@ static bool ends_block(uint32_t op)
            || (op >= OP_BRANCH && op <= OP_UNREACHABLE);
 }
 
-/* What is known of an id. */
+/* The facts about an id. */
 struct known {
     uint32_t components;      /* of a type, or of the value's type */
     uint32_t of;              /* of a pointer or a vector: the type in it */

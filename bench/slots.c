@@ -100,7 +100,7 @@ static void draw(struct bench *b, struct drawn *drawn, double number)
             bench_fail("the quad does not fill the picture");
 }
 
-/* What a mode draws of a look in a round, with another number in each. */
+/* Draws a look in a mode; each round has another number. */
 static void draw_mode(struct bench *b, uint32_t look, enum mode mode, int round)
 {
     double number = mode == MODE_ONE_NUMBER ? (round + 0.5) / NUM_ROUNDS : -1;

@@ -36,8 +36,8 @@ char *baseline_find_mismatch(const struct baseline *baseline, const char *const 
                              size_t num_targets, bool compiles);
 
 /*
- * The same for the root: none of the baseline's documents is below it. A baseline without documents
- * fits every root.
+ * The reason why a root is another one than the baseline's, which the caller frees: none of the
+ * baseline's documents is below it. NULL: it fits; a baseline without documents fits every root.
  */
 char *baseline_find_other_root(struct baseline *baseline, const char *root);
 

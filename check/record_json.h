@@ -18,7 +18,7 @@ json_t *record_to_json(const struct check_document *document, bool with_times);
 /* NULL if the JSON is no record. The record does not refer to the JSON. */
 struct check_document *record_from_json(struct store *store, json_t *object);
 
-/* The same as text, which the caller frees. */
+/* Writes a record as text, which the caller frees. */
 char *record_to_text(const struct check_document *document, size_t *out_size);
 /* NULL if the text is no record. The record does not refer to the text. */
 struct check_document *record_from_text(struct store *store, const char *text, size_t size);

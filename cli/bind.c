@@ -62,7 +62,7 @@ static void write_bindings(struct bind *bind, const mxg_bindings *bindings)
         write_file(bind, bindings, bind->usda, MXG_BINDINGS_USDA);
 }
 
-/* What people look at. */
+/* Shows the bindings to people. */
 static void show_bindings(struct bind *bind, const mxg_scene *scene, const mxg_bindings *bindings)
 {
     if (bind->geom)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* What the files of the command `mxgen FILE` share. */
+/* The files of the command `mxgen FILE` share these declarations. */
 #ifndef MXG_CLI_GENERATE_H
 #define MXG_CLI_GENERATE_H
 

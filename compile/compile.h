@@ -62,7 +62,7 @@ void compiled_finish(struct compiled *compiled);
 bool compile_result(const char *target, const mxg_result *result, struct compiled *out);
 
 /*
- * The same for the source of a compute shader for Vulkan; code and messages stand in the place of
+ * Compiles the source of a compute shader for Vulkan; code and messages stand in the place of
  * the pixel stage.
  */
 bool compile_compute(const char *source, struct compiled *out);

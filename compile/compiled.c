@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* What compilers say, whichever they are. */
+/* The results of all compilers have one form. */
 #include "compile/compile.h"
 
 #include <stdio.h>

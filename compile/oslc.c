@@ -60,7 +60,7 @@ static void remove_work(const struct work *work)
     rmdir(work->folder);
 }
 
-/* What waitpid tells of it; -1 where it did not run. */
+/* Returns what waitpid tells of it; -1 where it did not run. */
 static int run(const struct work *work)
 {
     posix_spawn_file_actions_t actions;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* What a module of SPIR-V holds: instructions in functions, and whose they are. */
+/* A module of SPIR-V holds instructions in functions; this header finds whose they are. */
 #ifndef MXG_COMPILE_SPIRV_H
 #define MXG_COMPILE_SPIRV_H
 

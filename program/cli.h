@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What every program has on its command line: common options, and the library objects for them. It
+ * Every program has common options on its command line, and the library objects for them. It
  * uses only mxgen.h.
  *
  * Exit codes: 0 success, 1 errors in the input or while writing, 2 bad usage.
@@ -70,7 +70,7 @@ void cli_finish(struct cli *cli);
  * generation, and make it print only errors. The caller frees the items.
  */
 void cli_forward(struct cli *cli, struct arg_list *args);
-/* The same without options that make slabs cheaper. */
+/* Forwards the options without those that make slabs cheaper. */
 void cli_forward_full(struct cli *cli, struct arg_list *args);
 /* True if there are such options. */
 bool cli_has_budget(const struct cli *cli);
@@ -108,7 +108,7 @@ char *cli_program(const char *name);
  */
 bool cli_run(struct report *report, char *const *arguments, int *out_status);
 /*
- * The same without a message: returns 0, or an error of errno. What the program writes goes to the
+ * Runs without a message: returns 0, or an error of errno. What the program writes goes to the
  * file `log`, and it reads nothing; NULL: it writes and reads what this program does.
  */
 int cli_run_logged(char *const *arguments, const char *log, int *out_status);

@@ -18,7 +18,7 @@ struct drawn_subject {
     void *user_data;
 };
 
-/* What the renderer made; PNG and PPM are NULL after a failure. */
+/* A picture that the renderer made; PNG and PPM are NULL after a failure. */
 struct drawn_picture {
     char *png, *ppm, *log; /* log: what it wrote; NULL: it could not start */
     size_t png_size, ppm_size;

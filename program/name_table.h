@@ -26,7 +26,7 @@ struct name_table {
 
 /* The entry of a name; adds one with the value 0 if it is new. Valid until the next call. */
 struct name_entry *names_add(struct name_table *table, const char *name, bool *out_is_new);
-/* The same for what the caller hashes. */
+/* Adds an entry for what the caller hashes. */
 struct name_entry *names_add_hash(struct name_table *table, uint64_t hash, bool *out_is_new);
 /* NULL if there is none. */
 struct name_entry *names_find(const struct name_table *table, const char *name);

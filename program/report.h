@@ -47,7 +47,7 @@ void report_document(struct report *report);
 /* Prints a list to stderr, without repeated messages, up to the limit of errors. */
 void report_list(struct report *report, const mxg_diagnostics *list);
 
-/* The same for the errors of a list alone; counts only these. */
+/* Reports the errors of a list alone; counts only these. */
 void report_errors(struct report *report, const mxg_diagnostics *list);
 
 /* An error of the program itself: "error: message [id]". */

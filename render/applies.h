@@ -28,7 +28,7 @@ enum render_fact {
 /* False after a message about the first option that does not apply. */
 bool applies_all(const struct arg_parser *parser, unsigned facts);
 
-/* The same for --bake-environment, which takes -o and the options of all commands only. */
+/* As applies_all, for --bake-environment, which takes -o and the options of all commands only. */
 bool applies_to_bake(const struct arg_parser *parser);
 
 #endif

@@ -229,7 +229,7 @@ static const char *light_member(const char *path, uint32_t *out_light)
     return strncmp(end, "].", 2) == 0 ? end + 2 : NULL;
 }
 
-/* What the user says of a light's member; NULL. */
+/* Returns what the user says of a light's member; NULL: nothing. */
 static const struct bind_value *light_value(const struct bind *bind, uint32_t light,
                                             const char *member)
 {

@@ -71,7 +71,7 @@ struct bind {
 bool bind_shader(struct bind *bind);
 /* True if a variable of the shader has this semantic (docs/reflection.md). */
 bool bind_has_semantic(const mxg_result *result, const char *semantic);
-/* What the user says of an input; NULL: nothing. */
+/* Returns what the user says of an input; NULL: nothing. */
 const char *bind_user_value(const struct bind *bind, const mxg_variable *variable);
 /* Updates the data that depends on the camera and other uniforms of the scene. */
 bool bind_scene(struct bind *bind);

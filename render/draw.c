@@ -237,7 +237,7 @@ static VkPipelineShaderStageCreateInfo shader_stage(VkShaderStageFlagBits stage,
         .pName = "main"};
 }
 
-/* What is the same in every pipeline. */
+/* Every pipeline has this state. */
 static const VkPipelineInputAssemblyStateCreateInfo assembly = {
     .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
     .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST,

@@ -92,7 +92,7 @@ void draw_read_output(const struct draw_canvas *canvas, uint32_t location, float
 /* Compiles the program and uploads its inputs; NULL: see gpu->reason. `draw` must outlive it. */
 struct draw_program *draw_open(struct draw_canvas *canvas, const struct draw *draw);
 
-/* What the colour is where nothing is drawn, in the next frames; transparent black by default. */
+/* Sets the colour where the next frames draw nothing; transparent black by default. */
 void draw_clear_to(struct draw_canvas *canvas, const float rgba[4]);
 
 /*
@@ -104,7 +104,7 @@ bool draw_frame(struct draw_canvas *canvas, struct draw_program *const *programs
                 float *out_pixels);
 
 /*
- * What the last frame took on the device, in seconds, without the copy of its picture. false: the
+ * Measures the last frame on the device, in seconds, without the copy of its picture. false: the
  * device has no clock.
  */
 bool draw_frame_seconds(const struct draw_canvas *canvas, double *out);

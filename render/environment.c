@@ -132,7 +132,7 @@ static uint32_t least(uint32_t a, uint32_t b)
     return a < b ? a : b;
 }
 
-/* What a texel of a map is as light. */
+/* A texel of a map as a light. */
 struct texel_light {
     float direction[3], light[3], solid; /* the solid angle, up to a factor */
 };

@@ -84,7 +84,7 @@ unsigned import_missing(const struct aiMesh *mesh)
            | (mesh->mTangents && mesh->mTextureCoords[0] ? 0u : MESH_TANGENTS);
 }
 
-/* What any of the scene's meshes lacks. */
+/* Returns what any of the scene's meshes lacks. */
 static unsigned missing_parts(const struct aiScene *scene)
 {
     unsigned missing = 0;

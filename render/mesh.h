@@ -44,7 +44,7 @@ void mesh_fit(struct mesh *mesh);
 /* Splits each triangle into four. false: out of memory. */
 bool mesh_quarter(struct mesh *mesh);
 /*
- * What values of the vertices become where mesh_quarter splits this mesh; malloc. NULL: out of
+ * Splits values of the vertices as mesh_quarter splits this mesh; malloc. NULL: out of
  * memory.
  */
 float (*mesh_quarter_values(const struct mesh *mesh, float (*values)[4]))[4];

@@ -29,7 +29,7 @@ struct passes {
     char reason[512];
 };
 
-/* What passes need to be made. */
+/* The description from which passes are made. */
 struct passes_setup {
     mxg_context *context;
     const mxg_options *options;

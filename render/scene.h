@@ -24,7 +24,7 @@ struct primvar {
     float (*values)[4]; /* malloc; an integer is a whole number */
 };
 
-/* What a draw call draws. */
+/* An object that a draw call draws. */
 struct scene_object {
     struct mesh mesh;
     struct matrix world; /* from the mesh to the world */

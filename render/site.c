@@ -34,7 +34,7 @@ struct scene_object *site_add(struct site *site, uint32_t primitive, struct matr
     return &added->object;
 }
 
-/* What a message is about: "'/a.points' (a.usda:3:5)", or the path alone. The caller frees it. */
+/* Names the subject of a message: "'/a.points' (a.usda:3:5)", or the path. The caller frees it. */
 static char *subject_of(const struct site *site, uint32_t primitive, const char *property)
 {
     mxg_property at = {sizeof at};

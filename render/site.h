@@ -76,7 +76,7 @@ __attribute__((format(printf, 4, 5)))
 void site_fail(struct site *site, uint32_t primitive, const char *property, const char *format,
                 ...);
 
-/* The same as a warning, of its own id. */
+/* Reports a warning, with an id of its own. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 5, 6)))
 #endif

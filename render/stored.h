@@ -58,7 +58,7 @@ void stored_update(struct stored *stored, const struct stored_frame *frame);
 void stored_begin(const struct stored *stored, VkCommandBuffer commands);
 /* Runs the passes in the order in which they were added. */
 void stored_run(const struct stored *stored, VkCommandBuffer commands);
-/* What is written before is read after. */
+/* Writes before the barrier are visible to reads after it. */
 void stored_barrier(VkCommandBuffer commands);
 
 #endif

@@ -34,8 +34,8 @@ bool studio_open(const struct studio *studio, double aspect, struct scene *scene
                  unsigned *out_made, struct studio_fault *fault);
 
 /*
- * The same without a mesh: light, and the environment. `map` is the environment, which the scene
- * takes; without pixels: that of the studio.
+ * Opens a studio without a mesh: light, and the environment. `map` is the environment, which the
+ * scene takes; without pixels: that of the studio.
  */
 bool studio_open_light(const struct studio *studio, struct image map, struct scene *scene,
                        struct studio_fault *fault);
@@ -46,7 +46,7 @@ void studio_aim(const struct studio *studio, double aspect, double turn, struct 
 /* Reads the map of `studio`, or makes the sky. */
 bool studio_read_map(const struct studio *studio, struct image *out, struct studio_fault *fault);
 
-/* The same mesh with triangles small enough for displacement. */
+/* Splits the triangles of a mesh until they are small enough for displacement. */
 bool studio_refine(const struct studio *studio, const struct mesh *mesh, struct mesh *out);
 
 #endif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* What a pipeline must know of a SPIR-V module: its resources, vertex inputs and pixel outputs. */
+/* The resources, vertex inputs and pixel outputs of a SPIR-V module, which a pipeline must know. */
 #ifndef MXG_BENCH_GPU_SPIRV_INTERFACE_H
 #define MXG_BENCH_GPU_SPIRV_INTERFACE_H
 

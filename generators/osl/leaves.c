@@ -421,9 +421,9 @@ static ir_ref row_call(struct leaf *leaf, const struct row *row)
 }
 
 /*
- * What is below a slab has the weight that the front leaves. A closure that is seen from behind
- * reflects all light beyond the critical angle of the index that fits its f0, but a ray that came
- * straight through a surface is not inside of matter. No index fits 1 or 0, so from behind the
+ * The closures below a slab have the weight that the front leaves. A closure that is seen from
+ * behind reflects all light beyond the critical angle of the index that fits its f0, but a ray that
+ * came straight through a surface is not inside of matter. No index fits 1 or 0, so from behind the
  * curve is a sum: f0 · 1 + (f90 - f0) (1 - cos)^5.
  */
 static ir_ref seen_from_behind(struct leaf *leaf, const struct row *row)

@@ -164,7 +164,7 @@ MXG_API mxg_status mxg_edit_rename_element(mxg_edit *edit, mxg_element element, 
  */
 MXG_API mxg_status mxg_edit_set_value(mxg_edit *edit, mxg_element node, const char *input,
                                       const char *type, const char *value);
-/* The same for a number, integer, boolean, colour, vector or matrix. */
+/* Sets a number, integer, boolean, colour, vector or matrix. */
 MXG_API mxg_status mxg_edit_set_numbers(mxg_edit *edit, mxg_element node, const char *input,
                                         const char *type, const float *values, uint32_t num_values);
 /*
@@ -211,7 +211,7 @@ typedef enum mxg_rewriting {
      */
     MXG_REWRITE_FORMAT,
     /*
-     * The same after the upgrade of an older version (1.22 to 1.38) to 1.39. The remarks `upgraded`
+     * Formats after the upgrade of an older version (1.22 to 1.38) to 1.39. The remarks `upgraded`
      * in the diagnostics describe each change. Files that it includes stay as they are.
      */
     MXG_REWRITE_UPGRADE,

@@ -22,9 +22,9 @@ MXG_API mxg_status mxg_library_image(mxg_library *library, const void **out_data
  */
 MXG_API const char *mxg_library_xml(mxg_library *library, size_t *out_size);
 /*
- * What this document lacks: a warning `expand-loss` for each input that mxgen's code for a node
- * reads, and the node's graph for other tools does not. They live as long as the library. NULL: out
- * of memory.
+ * Lists what this document lacks: a warning `expand-loss` for each input that mxgen's code for a
+ * node reads, and the node's graph for other tools does not. They live as long as the library.
+ * NULL: out of memory.
  */
 MXG_API const mxg_diagnostics *mxg_library_losses(mxg_library *library);
 

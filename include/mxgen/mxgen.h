@@ -255,8 +255,8 @@ MXG_API uint32_t mxg_diagnostics_num_errors(const mxg_diagnostics *list);
 MXG_API mxg_status mxg_diagnostics_item(const mxg_diagnostics *list, uint32_t index,
                                         mxg_diagnostic *out);
 /*
- * What the format of the kind (mxg_diagnostic_kind.message) leaves open, as texts in its order: the
- * file of "missing-texture", both types of "type-mismatch". NULL: there is none.
+ * Returns what the format of the kind (mxg_diagnostic_kind.message) leaves open, as texts in its
+ * order: the file of "missing-texture", both types of "type-mismatch". NULL: there is none.
  */
 MXG_API const char *mxg_diagnostics_argument(const mxg_diagnostics *list, uint32_t item,
                                              uint32_t index);
@@ -309,7 +309,7 @@ MXG_API const char *mxg_library_file(const mxg_library *library, uint32_t index)
  */
 MXG_API mxg_status mxg_document_load(mxg_context *context, mxg_library *library, const char *path,
                                      mxg_document **out_document);
-/* The same from memory. `name` appears in messages and is the base of includes. */
+/* Loads a document from memory. `name` appears in messages and is the base of includes. */
 MXG_API mxg_status mxg_document_parse(mxg_context *context, mxg_library *library, const char *name,
                                       const char *data, size_t size, mxg_document **out_document);
 MXG_API void mxg_document_destroy(mxg_document *document);

@@ -183,9 +183,9 @@ typedef enum mxg_change {
     MXG_CHANGE_MAX_ENUM = 0x7fffffff
 } mxg_change;
 /*
- * What a host changes to draw `after` in place of `before`, for example after an edit. Both come
- * from the same target and options; `after` may have no source (without_source). A variable has the
- * same index in both results, unless the answer is SHADER.
+ * Tells what a host changes to draw `after` in place of `before`, for example after an edit. Both
+ * come from the same target and options; `after` may have no source (without_source). A variable
+ * has the same index in both results, unless the answer is SHADER.
  *
  * Writes the indices of the variables with other values, at most `capacity` of them, and returns
  * their number in *out_num (may be NULL). For a texture, another file, layer, tile, address mode or

@@ -51,8 +51,8 @@ typedef struct mxg_primitive {
 } mxg_primitive;
 
 /*
- * The same as mxg_scene_add_paths, from a callback, which gives one primitive in each call and
- * returns false at the end: `parent` (MXG_NONE: none), `name`, which may be a path below the
+ * Adds paths as mxg_scene_add_paths does, from a callback, which gives one primitive in each call
+ * and returns false at the end: `parent` (MXG_NONE: none), `name`, which may be a path below the
  * parent, "b/c", and `type`; the texts live until the next call. `last` is the number of the
  * primitive before, also if the scene had it already; MXG_NONE: there is none, or it was faulty.
  * The callback must not use the scene.
@@ -243,7 +243,7 @@ typedef enum mxg_fact_kind {
     MXG_FACT_MAX_ENUM = 0x7fffffff
 } mxg_fact_kind;
 
-/* What the document says of a primitive beside its layers. */
+/* A fact that the document states about a primitive beside its layers. */
 typedef struct mxg_fact {
     size_t size; /* in */
     mxg_fact_kind kind;
@@ -270,7 +270,7 @@ typedef enum mxg_bindings_format {
 MXG_API mxg_status mxg_bindings_write(const mxg_bindings *bindings, mxg_bindings_format format,
                                       bool (*write)(void *user_data, const char *data, size_t size),
                                       void *user_data);
-/* The same for the reasons of one primitive's layers: every assignment that was considered. */
+/* Writes the reasons of one primitive's layers: every assignment that was considered. */
 MXG_API mxg_status mxg_bindings_write_reasons(const mxg_bindings *bindings, uint32_t primitive,
                                               bool (*write)(void *user_data, const char *data,
                                                             size_t size),

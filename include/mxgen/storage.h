@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What shaders of the deferred pipeline store, and where (docs/deferred.md of the project).
+ * The storage of the deferred pipeline: what shaders store, and where (docs/deferred.md of the
+ * project).
  */
 #include <mxgen/mxgen.h>
 
@@ -11,7 +12,7 @@
 extern "C" {
 #endif
 
-/* What a shader stores per pixel for the passes, or what a pass reads. */
+/* A shader stores this per pixel for the passes, or a pass reads it. */
 typedef struct mxg_storage {
     size_t size; /* in */
     /* of 32 bits per pixel, at most, or of the payload; 0: the shader lights itself */

@@ -233,7 +233,7 @@ bool sandbox_admit_file(struct mxg_context *context, const char *file);
 bool sandbox_admit_folder(struct mxg_context *context, const char *folder);
 /* The reason why a document may not read a file; NULL if it may. */
 const char *sandbox_fault(const struct mxg_context *context, const char *path);
-/* The same for a file that a host reads later, so it may be missing, or a pattern of names. */
+/* Judges a file that a host reads later, so it may be missing, or a pattern of names. */
 const char *sandbox_texture_fault(const struct mxg_context *context, const char *path);
 void sandbox_finish(struct mxg_context *context);
 

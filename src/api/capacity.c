@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* What a host has too little room for: the textures and the AOVs of a shader. */
+/* Reports textures and AOVs of a shader for which a host has too little room. */
 #include "api/generation.h"
 
 #include "shader/shader.h"

@@ -171,7 +171,7 @@ void result_storage(void *user_data, struct json *json);
 
 /* reflection.c: the user interface data of a variable; user_data is the mxg_result. */
 void result_ui(void *user_data, const struct shader_variable *variable, struct shader_ui *out);
-/* The same for an input by its element (0: none) and the element of its definition. */
+/* As result_ui, for an input by its element (0: none) and the element of its definition. */
 void result_input_ui(const mxg_result *result, elem_id element, elem_id definition,
                      struct shader_ui *out);
 /* A hash: equal for shaders that can share a program. false: out of memory. */

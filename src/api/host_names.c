@@ -36,7 +36,7 @@ void naming_pairs(const struct option_value *value, struct arena *arena, struct 
     }
 }
 
-/* What is wrong with a pair, as the text of what is expected; NULL: nothing. */
+/* Returns what is wrong with a pair, as the text of what is expected; NULL: nothing. */
 static const char *fault_of(const struct generation *g, const struct name_rules *rules, uint32_t i)
 {
     const struct name_pair *pair = &rules->renamed[i];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* What the code of a node takes from its shader and its library: definitions, streams, uniforms. */
+/* The code of a node takes definitions, streams and uniforms from its library and its shader. */
 #include "dynamic/code.h"
 
 #include "base/structs.h"

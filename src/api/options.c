@@ -21,7 +21,7 @@ static const mxg_option table[NUM_OPTIONS] = {
 #undef OPTION
 };
 
-/* What an option needs of a target, and the task of a role that it sets. */
+/* The capabilities that an option needs of a target, and the task of a role that it sets. */
 static const struct need {
     uint32_t caps;
     enum role_task task;

@@ -22,7 +22,7 @@ static bool is_bound(int block)
     return block != BLOCK_APP_DATA && block != BLOCK_VERTEX_DATA && block != BLOCK_OUTPUTS;
 }
 
-/* What remains of the surface is what the host binds. */
+/* Leaves of the surface what the host binds. */
 static void leave_bindings(struct shader *shader)
 {
     uint32_t kept = 0;

@@ -29,7 +29,7 @@ static const struct combination {
 #undef COMBINATION
 };
 
-/* What a target can that has a capability, as the end of "only … can" and of "the first to". */
+/* The texts say what a capability allows, as the end of "only … can" and of "the first to". */
 static const struct ability {
     uint32_t cap;
     const char *text;

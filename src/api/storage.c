@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* What reflections say about the storage of the deferred pipeline. */
+/* Reflections describe the storage of the deferred pipeline here. */
 #include "api/generation.h"
 #include "base/json.h"
 
@@ -119,7 +119,7 @@ static uint32_t put_members(const struct deferred_resource *r, uint32_t first, s
     return i;
 }
 
-/* The same for all who use it. */
+/* Describes a resource; the description is equal for all who use it. */
 static void put_storage(const struct deferred_layout *layout, enum deferred_binding binding,
                         struct json *json)
 {
@@ -169,7 +169,8 @@ static void put_classes(uint32_t classes, struct json *json)
     json_close(json, ']');
 }
 
-/* What a pass reads and writes. A material writes its further words, if it has any. */
+/* Lists the resources that a pass reads and writes. A material writes its further words, if it has
+ * any. */
 static void put_resources(const mxg_result *result, struct json *json)
 {
     const struct deferred_layout *layout = &result->storage;

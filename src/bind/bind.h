@@ -113,7 +113,7 @@ bool bind_is_excluded(const struct bindings *b, const struct bind_state *state,
 
 /* ---- stack.c: the layers of a state ---- */
 
-/* What the layers of all states say together, for warnings. */
+/* Notes about the layers of all states together, for warnings. */
 struct layer_notes {
     uint32_t *sleeps_at; /* by name: 1 + a state where it sleeps */
     bool *has_layer;     /* by layer number: a state has it */

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What drives the inputs of a layer's material: products of weaker assignments, then variants, then
- * overrides, of which a later one wins. An output of an override drives the inputs of its name
+ * Finds what drives the inputs of a layer's material: products of weaker assignments, then
+ * variants, then overrides, of which a later one wins. An output of an override drives the inputs
+ * of its name
  *
  *     of the material's node;                   if it has none,
  *     of the interfaces of its nodegraphs;      if they have none,
@@ -18,7 +19,7 @@ struct substance { /* the parts of a layer's material that outputs may drive */
     VEC(elem_id) graphs, shaders;
 };
 
-/* What drives: a variant or an override, or a product. */
+/* A driver: a variant or an override, or a product. */
 struct driver {
     struct diag_place place; /* of an override */
     const char *slot;        /* its name: "050::010"; NULL: no override */

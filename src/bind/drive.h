@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/* What drives the inputs of a layer's material (docs/slots.md, "Overrides"). */
+/* Finds what drives the inputs of a layer's material (docs/slots.md, "Overrides"). */
 #ifndef MXG_BIND_DRIVE_H
 #define MXG_BIND_DRIVE_H
 
 #include "bind/bind.h"
 #include "library/library.h"
 
-/* What is known of an output of an override, by element. */
+/* The states of an output of an override, by element. */
 enum drive_seen { DRIVE_MET = 1, DRIVE_MATCHED = 2, DRIVE_REPORTED = 4 };
 
 struct drive_output {
@@ -15,7 +15,7 @@ struct drive_output {
     const char *slot;
 };
 
-/* What the drives of all stacks say together, for messages. */
+/* Notes about the drives of all stacks together, for messages. */
 struct drive_notes {
     struct arena *arena;
     struct diag_list *diags;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What a document says of primitives beside their layers: geometric properties and tokens of
+ * Finds what a document says of primitives beside their layers: geometric properties and tokens of
  * <geominfo>, properties and visibility of a look. They stand at paths as assignments of materials
  * do, so a fact is an assignment whose name is that of the fact, and the strongest one counts.
  */

@@ -63,8 +63,8 @@ struct look_collection {
 };
 
 /*
- * What a matcher of the patterns says about a path. It matches a list of geometry, or primitives of
- * the scene.
+ * The kinds of statements that a matcher makes about a path. It matches a list of geometry, or
+ * primitives of the scene.
  */
 enum matcher_kind {
     MATCHER_ASSIGN,
@@ -119,8 +119,8 @@ void look_read(struct bind_look *look, const struct document *doc, elem_id eleme
 void look_finish(struct bind_look *look);
 
 /*
- * The same in parts, for what stands at paths beside materials: begins with an empty look; visits
- * it and its parents, the parents first.
+ * Builds a look in parts, for what stands at paths beside materials: begins with an empty look;
+ * visits it and its parents, the parents first.
  */
 void look_begin(struct bind_look *look, const struct document *doc, elem_id element,
                 const struct scene *scene, struct arena *arena, struct diag_list *diags);

@@ -486,7 +486,7 @@ static void add_material(struct maker *m, usda_prim_id prim)
 
 /* ---- Overrides ---- */
 
-/* What a property says as an output: its name; len 0: it is no output, or a terminal. */
+/* Returns what a property says as an output: its name; len 0: it is no output, or a terminal. */
 static struct text_word override_name(const struct usda_property *property)
 {
     static const char prefix[] = "outputs:", connect_end[] = ".connect";

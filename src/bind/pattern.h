@@ -51,7 +51,7 @@ const char *pattern_add(struct pattern_set *set, const char *text, size_t len, u
 /* The end of the name that begins at `text` in a list with commas; one in brackets is its own. */
 const char *pattern_name_end(const char *text);
 
-/* The same for one path, whose names are not read as patterns. */
+/* Adds one path, whose names are not read as patterns. */
 void pattern_add_path(struct pattern_set *set, const char *path, size_t len, uint32_t matcher);
 
 /* True if an expression is a path: it matches at most there. */

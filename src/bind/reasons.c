@@ -19,7 +19,7 @@ static void put_assign(const struct explanation *e, uint32_t assign)
     look_assign_name(&e->b->look, assign, e->out);
 }
 
-/* What the assignment assigns: "material Dust", "nodegraph NG", "nothing". */
+/* Writes what the assignment assigns: "material Dust", "nodegraph NG", "nothing". */
 static void put_target(const struct explanation *e, const struct look_assign *a)
 {
     const struct document *doc = e->b->look.doc;
@@ -102,7 +102,7 @@ static void put_item(const struct explanation *e, uint32_t assign, int index)
             text_fmt(e->out, " %s", bind_product_names[items[i].product]);
 }
 
-/* What the strongest assignment of a name does that gives no item. */
+/* Writes what the strongest assignment of a name does if it gives no item. */
 static void put_idle(const struct explanation *e, const struct look_name *name,
                      const struct look_assign *a)
 {

@@ -149,7 +149,7 @@ static void sweep_children(struct scene *scene, prim_id parent)
         vec_push(scene->arena, &scene->emptied, parent);
 }
 
-/* What a removed primitive had. */
+/* Forgets what a removed primitive had. */
 static void forget(struct scene *scene, prim_id prim)
 {
     scene->prims.items[prim] = (struct scene_prim){.name = "", .parent = PRIM_REMOVED};

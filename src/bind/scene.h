@@ -79,11 +79,11 @@ void scene_init(struct scene *scene, struct arena *arena);
 /* The child of this name; adds it if there is none. Keeps `name`, which lives as long as the scene.
  */
 prim_id scene_child(struct scene *scene, prim_id parent, const char *name, size_t len);
-/* The same for a path below a primitive, "b/c"; an empty path is the primitive. Copies it. */
+/* Adds a path below a primitive, "b/c"; an empty path is the primitive. Copies it. */
 prim_id scene_add_below(struct scene *scene, prim_id prim, const char *path, size_t len);
 /* Reports a path below a primitive that is none, "/b" or "b//c"; false then. */
 bool scene_check_name(struct text_word name, struct diag_place place, struct diag_list *diags);
-/* The same text with a NUL, once for all equal ones. */
+/* Keeps a text with a NUL, once for all equal ones. */
 const char *scene_keep_word(struct scene *scene, struct text_word word);
 /* True if a number is that of a primitive, or of the root. */
 static inline bool scene_has(const struct scene *scene, prim_id prim)
@@ -102,7 +102,7 @@ prim_id scene_find_child(const struct scene *scene, prim_id parent, const char *
 /* The primitive at a path, "/a/b"; 0: none. */
 prim_id scene_find(const struct scene *scene, const char *path, size_t len);
 
-/* The same for the rest of a path below a primitive, "/b". */
+/* Finds the rest of a path below a primitive, "/b". */
 prim_id scene_find_below(const struct scene *scene, prim_id prim, const char *path, size_t len);
 
 /* Writes the path of a primitive: "/a/b"; "/" for 0. */

@@ -82,7 +82,7 @@ static void report_binding(struct reader *s, const struct usda_property *propert
 }
 
 /*
- * What a relationship's name says: the slot and the rest behind it, without ':'. false: it is no
+ * Reads a relationship's name: the slot and the rest behind it, without ':'. false: it is no
  * direct binding.
  */
 static bool read_binding_name(struct reader *s, const struct usda_property *property,
@@ -153,7 +153,7 @@ static bool read_target(struct reader *s, const struct usda_property *property,
     return true;
 }
 
-/* What follows the slot in the name of a binding. */
+/* The words that follow the slot in the name of a binding. */
 struct binding_rest {
     bool is_collection;
     struct text_word purpose;
@@ -212,8 +212,8 @@ static void add_binding(struct reader *s, prim_id prim, const struct usda_proper
 }
 
 /*
- * Of equal bindings the later wins: a slot binding of 000 beats a plain binding of the same prim, a
- * collection a direct binding, and a collection those behind it.
+ * The later one of equal bindings wins: a slot binding of 000 beats a plain binding of the same
+ * prim, a collection a direct binding, and a collection those behind it.
  */
 static void add_bindings(struct reader *s, prim_id prim, const struct usda_prim *source)
 {

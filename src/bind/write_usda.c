@@ -7,7 +7,7 @@
 
 #include <assert.h>
 
-/* What a primitive has of one name. */
+/* The values that a primitive has of one name. */
 struct said {
     uint32_t name, target;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* What a builder notes of a network: network.c, network_whole.c. */
+/* A builder notes a network in these records. */
 #ifndef MXG_BUILD_RECORDER_H
 #define MXG_BUILD_RECORDER_H
 

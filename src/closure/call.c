@@ -140,7 +140,7 @@ static bool may_scatter(struct shader *shader, const struct closure_host *host, 
     return albedo && !ir_const_is(shader->graph, albedo, 0.0f);
 }
 
-/* What a leaf lets through with the weight 1; 0: nothing. */
+/* Returns what a leaf lets through with the weight 1; 0: nothing. */
 static ir_ref unit_throughput(struct shader *shader, const struct closure_host *host, ir_ref leaf,
                               ir_ref *out_decay)
 {

@@ -204,7 +204,7 @@ ir_ref closure_without_aovs(const struct ir_graph *graph, ir_ref surface);
  * mixes and AOVs.
  */
 ir_ref closure_surface_alpha(struct shader *shader, ir_ref root);
-/* What the parts of a surface let through: its colour, or 1 - alpha as one. */
+/* Returns what the parts of a surface let through: its colour, or 1 - alpha as one. */
 ir_ref closure_surface_through(struct ir_graph *graph, const struct closure_surface *surface);
 /* The layers of a SLOTS node with their vertical ones, by slot; a vertical one itself is empty. */
 struct closure_surface *closure_slot_surfaces(struct shader *shader,

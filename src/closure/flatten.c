@@ -75,7 +75,7 @@ static int compare_nodes(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Of a closure below the root. */
+/* Returns the record of a closure below the root. */
 static struct closure_node *node_of(const struct flattener *f, ir_ref ref)
 {
     const struct closure_node key = {.ref = ref};

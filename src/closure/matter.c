@@ -85,7 +85,7 @@ static ir_ref throughput(struct closure_scatter *s, ir_ref leaf)
     return through ? ir_convert(s->graph, IR_TYPE_VEC3, through) : scatter_grey(s, 0.0f);
 }
 
-/* What a level lets through of light that goes straight on, towards the viewer. */
+/* Returns what a level lets through of light that goes straight on, towards the viewer. */
 static ir_ref straight(struct closure_scatter *s, const struct closure_level *level, ir_ref slope)
 {
     ir_ref black = scatter_grey(s, 0.0f), white = scatter_grey(s, 1.0f);
@@ -100,7 +100,7 @@ static ir_ref straight(struct closure_scatter *s, const struct closure_level *le
     return where(s, is_medium, attenuation(s, level->extinction, slope), through);
 }
 
-/* The same of the whole pile, down to a body. */
+/* Returns what the whole pile lets through straight on, down to a body. */
 static ir_ref straight_through(struct closure_scatter *s)
 {
     ir_ref view = closure_view(s->shader, s->host), product = scatter_grey(s, 1.0f);
@@ -257,7 +257,7 @@ static void sample_lobe(struct closure_scatter *s, const struct closure_level *l
     scatter_effect(s, EFFECT_END, 0, 0);
 }
 
-/* What goes on has this weight unless a lobe has another one. */
+/* Returns what goes on has this weight unless a lobe has another one. */
 static ir_ref gate_at_hand(struct closure_scatter *s)
 {
     ir_ref *values = new_values(s);

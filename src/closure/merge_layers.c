@@ -181,7 +181,7 @@ static ir_ref varied(struct merging *m, uint32_t item, str_id name)
     return ir_build(m->graph, IR_LOCAL, type, local, NULL, 0);
 }
 
-/* What stands for nodes at one place. */
+/* Returns what stands for nodes at one place. */
 static ir_ref became(struct merging *m, const ir_ref *refs, str_id name)
 {
     if (are_equal(refs, m->num))

@@ -261,7 +261,7 @@ static struct closure_surface with_aov(const struct surfaces *s, ir_ref ref)
     return out;
 }
 
-/* What a surface without other surfaces lets through, if that is a colour; 0: 1 - alpha. */
+/* Returns what a surface without other surfaces lets through, if that is a colour; 0: 1 - alpha. */
 static ir_ref through_of_leaf(const struct surfaces *s, ir_ref ref,
                               const struct closure_surface *surface)
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* What hosts choose about the output: the encoding of its colour, and transmission as alpha. */
+/* Hosts choose the encoding of the output's colour, and transmission as alpha. */
 #include "closure/closure_priv.h"
 
 #include <assert.h>

@@ -157,7 +157,7 @@ static bool is_opaque(struct finder *f, ir_ref closure)
            && ir_const_is(f->graph, closure_throughput(f->shader, f->host, closure, at_rest), 0.0f);
 }
 
-/* What the operand's light is multiplied by. */
+/* Adds a gate, which multiplies the operand's light. */
 static void add_gate(struct finder *f, struct operand of, ir_ref gate)
 {
     struct closure_level level = {.is_here = of.is_here,

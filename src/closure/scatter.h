@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What the files share that write the function for path tracers: scatter.c for a list of leaves,
+ * The files that write the function for path tracers share this: scatter.c for a list of leaves,
  * matter.c for a pile of matter.
  */
 #ifndef MXG_CLOSURE_SCATTER_H

@@ -46,7 +46,7 @@ static ir_ref output_alpha(struct emitter *e, const struct closure_surface *s)
     return ir_product(g, s->alpha, rest);
 }
 
-/* What the surface lets through, with the transmitted part. 0: 1 - alpha of the output. */
+/* Returns what the surface lets through, with the transmitted part. 0: 1 - alpha of the output. */
 static ir_ref output_through(struct emitter *e, const struct closure_surface *s)
 {
     struct ir_graph *g = e->graph;
@@ -187,7 +187,7 @@ static ir_ref find_scattering_of_aov(struct emitter *e, ir_ref closure, struct c
     return emission;
 }
 
-/* What does not come from the BSDF. */
+/* Returns what does not come from the BSDF. */
 static ir_ref emission_on_top(struct emitter *e, const struct closure_surface *s)
 {
     ir_ref unlit = s->unlit ? emitter_vec3(e, s->unlit) : 0, edf = emitter_emission(e, s->edf);

@@ -58,7 +58,7 @@ ir_ref closure_weight(struct shader *shader, const struct closure_leaf *leaf, ir
     return ir_product(g, color, leaf->scalar);
 }
 
-/* The same leaf in another list; NULL: it has no weight there. */
+/* Finds a leaf in another list; NULL: it has no weight there. */
 static const struct closure_leaf *same_leaf(const struct closure_list *list,
                                             const struct closure_leaf *of)
 {

@@ -21,7 +21,7 @@ enum {
 /* The option `storage`. */
 enum deferred_storage { STORAGE_DITHER, STORAGE_ROUND, STORAGE_FLOAT };
 
-/* What the texts of all passes need to agree. */
+/* The texts of all passes agree by these values. */
 struct deferred_layout {
     enum deferred_storage storage;
     uint32_t set;    /* of the resources below */
@@ -45,7 +45,7 @@ void deferred_store(struct shader *shader, const struct closure_host *host,
 /* A closure that is no slab below a root, before the walk; 0: there is none. */
 ir_ref deferred_misfit(const struct shader *shader, ir_ref root);
 
-/* What lies above a closure from storage, for closure_host.above. */
+/* Returns what lies above a closure from storage, for closure_host.above. */
 struct closure_above deferred_above(struct shader *shader);
 
 /* The classes of pixels. */

@@ -206,7 +206,7 @@ uint32_t deferred_layout_number(const struct deferred_layout *layout)
     return (uint32_t)(h ^ h >> 32);
 }
 
-/* What a lighting pass gives a stream of its surface; NULL: the closure has it. */
+/* Returns what a lighting pass gives a stream of its surface; NULL: the closure has it. */
 static const char *stream_value(const char *name)
 {
     static const struct {

@@ -157,7 +157,7 @@ static struct closure_list marks_of(const struct shader *shader, ir_ref bsdf,
 
 /* ---- Sizes ---- */
 
-/* Of a closure in whole floats. */
+/* The words of a closure in whole floats. */
 enum {
     WORDS_float = 1,
     WORDS_vec2 = 2,

@@ -62,7 +62,7 @@ static const char *format_message(struct arena *arena, const char *format, va_li
     return message;
 }
 
-/* What a format leaves open, as texts: strings, and numbers in decimal. */
+/* Returns what a format leaves open, as texts: strings, and numbers in decimal. */
 static const char *const *keep_arguments(struct arena *arena, const char *format, va_list args,
                                          uint32_t *out_num)
 {

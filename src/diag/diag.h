@@ -157,7 +157,7 @@ bool diag_guess_begin(struct diag_guess *guess, struct diag_list *list, const ch
 void diag_guess_add(struct diag_guess *guess, const char *candidate);
 const char *diag_guess_text(struct diag_guess *guess);
 
-/* The same for an array of candidates. */
+/* Suggests one of an array of candidates. */
 const char *diag_suggest(struct diag_list *list, const char *word, const char *const *candidates,
                          size_t num_candidates);
 

@@ -95,7 +95,7 @@ struct doc_place_path {
 };
 
 /*
- * What only a tree in memory needs: links for constant-time insertion and removal while it grows,
+ * A tree in memory has links for constant-time insertion and removal while it grows,
  * and the place of an element's name, for messages.
  */
 struct doc_link {
@@ -268,7 +268,7 @@ bool doc_is_within(const struct document *doc, elem_id element, elem_id outer);
 void doc_index_names(struct document *doc, struct diag_list *diags);
 /* The second element of this one's scope and name, which the index left out; 0: none. */
 elem_id doc_second_of_name(const struct document *doc, elem_id element);
-/* The same for one element that was added, renamed or moved since. */
+/* Indexes one element that was added, renamed or moved since. */
 void doc_index_element(struct document *doc, elem_id element);
 
 /*
@@ -328,7 +328,7 @@ static inline const struct element *doc_element(const struct document *doc, elem
 struct doc_change *doc_add_change(struct document *doc, uint32_t index);
 /* To be changed. */
 struct doc_link *doc_own_link(struct document *doc, elem_id element);
-/* What only a tree in memory has; NULL: an image has none. */
+/* Returns what only a tree in memory has; NULL: an image has none. */
 const struct doc_link *doc_link(const struct document *doc, elem_id element);
 /* The num_attrs attributes of the element. */
 const struct attribute *doc_attrs(const struct document *doc, elem_id element);
@@ -338,8 +338,8 @@ const struct attribute *doc_attr(const struct document *doc, elem_id element, st
 str_id doc_attr_value(const struct document *doc, elem_id element, str_id name);
 bool doc_attr_is_true(const struct document *doc, elem_id element, str_id name);
 /*
- * The same for inherited attributes (colorspace, fileprefix, geomprefix): the value on the closest
- * element, from the element upwards. An empty value counts.
+ * Finds the value of an inherited attribute (colorspace, fileprefix, geomprefix): the value on the
+ * closest element, from the element upwards. An empty value counts.
  */
 str_id doc_inherited_attr(const struct document *doc, elem_id element, str_id name);
 
@@ -354,7 +354,7 @@ elem_id doc_top_level(const struct document *doc, enum element_kind kind, str_id
  * first, then the layers below. The first name may omit the namespace of the root.
  */
 elem_id doc_find(const struct document *doc, const char *path, size_t len);
-/* The same below an element of this layer; an empty path is the element. 0: none. */
+/* Finds a path below an element of this layer; an empty path is the element. 0: none. */
 elem_id doc_find_below(const struct document *doc, elem_id below, const char *path, size_t len);
 void doc_path(const struct document *doc, elem_id element, char separator, struct text *out);
 
@@ -395,9 +395,9 @@ void doc_qualify_names(struct document *doc);
  * are those of this layer.
  */
 void doc_fix_paths(struct document *doc, struct diag_list *diags);
-/* The same for one element. */
+/* Corrects the paths of one element. */
 void doc_fix_paths_of(struct document *doc, elem_id element, struct diag_list *diags);
-/* The same for one name; `where` is its place. */
+/* Corrects one name; `where` is its place. */
 str_id doc_fix_path(struct strpool *strings, str_id path, struct diag_place where,
                     struct diag_list *diags);
 

@@ -14,7 +14,7 @@
                    (from)->field.len * sizeof *(from)->field.items); \
     } while (0)
 
-/* What an edit copies of a document that it does not share. */
+/* Returns what an edit copies of a document that it does not share. */
 static uint64_t num_own(const struct document *doc)
 {
     return (uint64_t)doc->changes.len + doc->attrs.len;

@@ -45,7 +45,7 @@ mxg_ref code_request(struct code_request *request, void (*work)(void *request));
 mxg_ref code_issue(struct mxg_build *build, ir_ref ref);
 /* The ref of a value, which may be 0; false after a report: no value of this use has the number. */
 bool code_ref(struct mxg_build *build, mxg_ref value, ir_ref *out);
-/* The same for several values; the refs live as long as the builder. */
+/* Takes several values; the refs live as long as the builder. */
 bool code_refs(struct mxg_build *build, const mxg_ref *values, uint32_t n, ir_ref **out);
 /* api/node_values.c: the value of a type from its components; false after a report. */
 bool code_numbers(struct mxg_build *build, ir_type_id type, const float *numbers, uint32_t n,

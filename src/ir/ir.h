@@ -42,7 +42,7 @@ static inline const struct ir_type_info *ir_type_info(ir_type_id type) /* for bu
     return &ir_types[type];
 }
 const char *ir_type_text(ir_type_id type);
-/* Of every type: 0 components and the scalar VOID for structs, arrays and types without numbers. */
+/* Every type has them: structs, arrays and types without numbers have 0 and the scalar VOID. */
 unsigned ir_type_components(ir_type_id type);
 ir_type_id ir_type_scalar(ir_type_id type);
 bool ir_type_is_vector(ir_type_id type);
@@ -376,7 +376,7 @@ static inline const union ir_word *ir_constant_words(const struct ir_graph *grap
 /* The value of a constant of a built-in type; false for other nodes. */
 bool ir_get_const(const struct ir_graph *graph, ir_ref ref, struct ir_value *out);
 /*
- * What is left of an operator of closures of which one operand is absent, 0: the other one. A
+ * Returns the rest of an operator of closures of which one operand is absent, 0: the other one. A
  * volume behind nothing is nothing.
  */
 ir_ref ir_other_operand(const struct ir_graph *graph, enum ir_op op, ir_ref a, ir_ref b);

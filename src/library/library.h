@@ -364,7 +364,7 @@ struct graph_node library_resolve_node(const struct library *lib, elem_id node,
  */
 struct binding library_resolve_driven(const struct library *lib, elem_id port, doc_type type,
                                       const struct library_drives *drives, struct diag_list *diags);
-/* The same without drives. */
+/* Resolves a connection without drives. */
 struct binding library_resolve_connection(const struct library *lib, elem_id port, doc_type type,
                                           struct diag_list *diags);
 

@@ -89,7 +89,7 @@ static bool is_exact(const struct candidate *c)
     return c->nodedef != LIBRARY_NONE && c->is_of_version && !c->wrong_types && !c->has_unknown;
 }
 
-/* Of equal candidates the first is best. */
+/* The first of equal candidates is best. */
 static bool is_better(const struct candidate *c, const struct candidate *best)
 {
     if (best->nodedef == LIBRARY_NONE || c->is_of_version != best->is_of_version)
@@ -164,7 +164,7 @@ static str_id version_of(const struct library *lib, uint32_t id)
     return library_nodedef(lib, id)->version;
 }
 
-/* What the definitions of a node have: their types or versions; LIBRARY_NONE: all of the node. */
+/* Lists types or versions of a node's definitions; LIBRARY_NONE: of all its definitions. */
 static const char *list_of(const struct library *lib, elem_id node, uint32_t only,
                            str_id (*get)(const struct library *, uint32_t), struct arena *arena)
 {

@@ -347,7 +347,7 @@ static elem_id follow_name(const struct library *lib, elem_id port, elem_id scop
     return 0;
 }
 
-/* The same for a port that names an output of the document. */
+/* Follows a port that names an output of the document. */
 static elem_id follow_output(const struct library *lib, elem_id port, str_id output,
                              struct diag_list *diags)
 {

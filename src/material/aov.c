@@ -221,7 +221,7 @@ static bool is_only(struct builder *b, const struct aov_use *uses, uint32_t inde
     return true;
 }
 
-/* What an <aovpass> gives another name has no longer its own. */
+/* Takes the own names from values that an <aovpass> gives another name. */
 static void take_sources(struct builder *b, const struct aov_use *uses, uint32_t num, ir_ref *root)
 {
     for (uint32_t i = 0; i < num; i++)

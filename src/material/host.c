@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* What the rooms of closures and slabs ask about the library. */
+/* Answers what the rooms of closures and slabs ask about the library. */
 #include "material/texels.h"
 #include "slabs/joined_surfaces.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* What a target can do. Targets have capabilities; roles and options ask for them. */
+/* Capabilities say what a target can do. Targets have them; roles and options ask for them. */
 #ifndef MXG_SHADER_CAPABILITIES_H
 #define MXG_SHADER_CAPABILITIES_H
 

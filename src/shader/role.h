@@ -32,7 +32,7 @@ enum role_derivatives {
     DERIVATIVES_NONE,      /* 0, and textures are read at their first level */
 };
 
-/* What the shader returns. */
+/* The result of the shader. */
 enum role_returns {
     RETURNS_LIGHT,    /* a colour and an alpha, lit */
     RETURNS_PATH,     /* emission, the response to a direction, and a sampled direction */

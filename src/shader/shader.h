@@ -474,7 +474,7 @@ void shader_schedule(struct shader *shader, enum shader_stage_id stage);
 
 /* The number of results that a call returns through out arguments. Such a call is a statement. */
 unsigned shader_call_outs(const struct shader *shader, ir_ref call);
-/* What a CALL (a lang function) or a VERBATIM node (an index in shader->verbatim) calls. */
+/* Returns what a CALL (a lang function) or a VERBATIM node (an index in shader->verbatim) calls. */
 static inline uint32_t shader_callee(const struct shader *shader, ir_ref call)
 {
     return shader->graph->callees.items[ir_get(shader->graph, call)->attr].index;
@@ -482,7 +482,7 @@ static inline uint32_t shader_callee(const struct shader *shader, ir_ref call)
 
 /* json.c: the reflection as JSON (docs/reflection.md). */
 
-/* What the document says about a variable for a user interface; the strings may be NULL. */
+/* The document's data about a variable for a user interface; the strings may be NULL. */
 struct shader_ui {
 #define UI(member, attribute, key) const char *member;
 #include "shader/ui.def"

@@ -10,7 +10,7 @@
 
 enum { SLAB_WORD_BYTES = 4 };
 
-/* What decides about the parts of a slab. */
+/* These facts decide about the parts of a slab. */
 struct stored_slab {
     ir_ref diffuse_albedo, f90, anisotropy, second_roughness_weight, fuzz_amount, free_path, normal;
     bool has_tint, has_glints;
@@ -35,7 +35,7 @@ uint32_t slab_stored_words(const struct ir_graph *graph, const struct stored_sla
 uint32_t slab_stored_pixel(const struct ir_graph *graph, const struct stored_slab *slabs,
                            uint32_t num_slabs);
 
-/* What a pixel may have beside f0, albedo and roughness of one slab. */
+/* A pixel may have this beside f0, albedo and roughness of one slab. */
 struct stored_features {
     bool any;     /* a word of a feature */
     bool many;    /* several slabs, weights or anisotropy */

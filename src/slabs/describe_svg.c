@@ -105,7 +105,7 @@ static void write_step(const struct slab_sheet *sheet, const struct slab_step *s
     text_str(out, "</text>\n");
 }
 
-/* What the estimates of the steps do not read. */
+/* Writes what the estimates of the steps do not read. */
 static void write_unread(const struct slab_sheet *sheet, unsigned y, struct text *out)
 {
     text_fmt(out, "<text x='%u' y='%u'>the estimate does not read ", (unsigned)(MARGIN + INDENT),

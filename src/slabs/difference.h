@@ -9,7 +9,7 @@
  */
 double color_difference(const float a[3], const float b[3]);
 
-/* The same of two colours in CIELAB. */
+/* The difference of two colours in CIELAB. */
 double lab_difference(const double a[3], const double b[3]);
 
 #endif

@@ -39,7 +39,7 @@ static struct ir_value value_of_three(float x, float y, float z)
     return (struct ir_value){.type = IR_TYPE_VEC3, .w = {{.f = x}, {.f = y}, {.f = z}}};
 }
 
-/* What the pixel stage knows of a point of the ball. */
+/* Gives what the pixel stage knows of a point of the ball. */
 static void stream_value(const struct eye *eye, str_id name, struct ir_value *out)
 {
     /* all of them fall into different parts of a texture that repeats */
@@ -149,7 +149,7 @@ static ir_ref global(void *user_data, struct ir_graph *g, const struct lang_unit
 
 /* ---- Light ---- */
 
-/* What one lobe sends to the viewer: of the environment, of the light, and its own. */
+/* Returns what one lobe sends to the viewer: of the environment, of the light, and its own. */
 static ir_ref light_of(struct eye *eye, const struct closure_host *host,
                        const struct closure_leaf *leaf)
 {

@@ -23,7 +23,7 @@ void slabs_look(struct shader *shader, const struct slabs_host *host, ir_ref roo
                 const struct slab_look *like, struct slab_look *out);
 
 /*
- * What a closure lets through as a layer of this thickness, of light that comes in on the mean way
+ * Returns what a closure lets through as a layer of this thickness, of light on the mean way
  * and goes out along the normal: a vec3 for slabs_brightness.
  */
 ir_ref slabs_through(struct shader *shader, const struct slabs_host *host, ir_ref top,

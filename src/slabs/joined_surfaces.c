@@ -69,7 +69,7 @@ static ir_ref on(const struct joiner *j, ir_ref top, ir_ref base)
     return top ? ir_build(j->graph, IR_LAYER, IR_TYPE_BSDF, 0, args, 2) : base;
 }
 
-/* What is there with this probability; 0: always. */
+/* Returns what is there with this probability; 0: always. */
 static ir_ref covered(const struct joiner *j, ir_ref bsdf, ir_ref opacity)
 {
     return opacity && bsdf ? mixed(j, 0, bsdf, opacity) : bsdf;

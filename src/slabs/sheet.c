@@ -21,7 +21,7 @@ const char *const slab_row_names[] = {[SLAB_ROW_SLAB] = "slab",
                                       [SLAB_ROW_COVERAGE] = "coverage",
                                       [SLAB_ROW_OTHER] = "no slab"};
 
-/* What drives an operator. */
+/* The input that drives an operator. */
 struct mask {
     ir_ref value, driven;
 };
@@ -255,7 +255,7 @@ static void fill_tree(struct filler *f, ir_ref root, ir_ref bsdf)
 }
 
 /*
- * What a host alone knows: textures that cannot be read, its uniforms, data of its vertices. The
+ * A host alone knows textures that cannot be read, its uniforms, data of its vertices. The
  * estimate has views of its own, in which the spaces of object and world are the same.
  */
 static bool is_unread(const struct slab_sheet *sheet, const struct slabs_host *host,

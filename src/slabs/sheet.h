@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What `mxgen inspect --slabs` shows, as data: sheet.c fills it in, and three files write it, as
- * text, as JSON and as a picture.
+ * `mxgen inspect --slabs` shows this sheet, as data: sheet.c fills it in, and three files write it,
+ * as text, as JSON and as a picture.
  */
 #ifndef MXG_SLABS_SHEET_H
 #define MXG_SLABS_SHEET_H

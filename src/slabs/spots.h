@@ -54,7 +54,7 @@ struct slab_top {
 };
 struct slab_top slabs_top(const struct ir_graph *graph, ir_ref root);
 
-/* What the closures below a root cost. */
+/* The cost of the closures below a root. */
 struct slab_cost {
     uint32_t closures; /* slabs and other BSDFs, each at each thickness */
     uint32_t others;   /* of them, those that are no slabs */

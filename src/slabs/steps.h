@@ -35,7 +35,7 @@ struct slab_saver slab_saver_of(struct shader *shader, const struct slabs_host *
                                 ir_ref root);
 /* Goes on with another tree. */
 void slab_saver_set_root(struct slab_saver *saver, ir_ref root);
-/* What another tree costs. */
+/* Returns what another tree costs. */
 struct slab_cost slab_saver_cost(const struct slab_saver *saver, ir_ref root);
 /* The estimated error of a tree against the one before all steps; below 0: unknown. */
 float slab_saver_error(const struct slab_saver *saver, ir_ref root);

@@ -118,7 +118,7 @@ static bool visited(struct walk *w, ir_ref node, struct where where, ir_ref *out
 
 /* ---- Slabs ---- */
 
-/* What a leaf reflects, with its weight. */
+/* Returns what a leaf reflects, with its weight. */
 static ir_ref leaf_albedo(struct walk *w, ir_ref leaf)
 {
     struct ir_graph *g = w->graph;
@@ -194,7 +194,7 @@ static ir_ref unknown_operand(const struct walk *w, ir_ref ref)
     return 0;
 }
 
-/* What lobes reflect towards the viewer of even light from above. */
+/* Returns what lobes reflect towards the viewer of even light from above. */
 static ir_ref albedo_of(struct walk *w, ir_ref lobes)
 {
     VEC(ir_ref) open = {0};

@@ -67,7 +67,7 @@ static enum kind kind_of_variable(const struct spell *spell, const struct shader
     return is_share(spell, variable) ? SHARE : NEITHER;
 }
 
-/* Of arithmetic: a colour if an operand is one, and none is a value that needs all bits. */
+/* Arithmetic is a colour if an operand is one, and none is a value that needs all bits. */
 static enum kind kind_of_operands(const struct spell *spell, ir_ref ref, unsigned first)
 {
     const struct ir_graph *g = spell->shader->graph;

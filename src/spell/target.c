@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* What targets and roles say of themselves. */
+/* Targets and roles, found by name, and what a target lacks. */
 #include "spell/spell.h"
 
 #include <string.h>

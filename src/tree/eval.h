@@ -13,8 +13,8 @@ bool lang_eval_call(const struct lang_unit *unit, uint32_t id, const struct ir_v
                     struct ir_value *results, uint32_t *steps_left, struct arena *scratch);
 
 /*
- * The same for a constant of a shader. Limits the steps of the call and of the generation; beyond
- * them a call stays a call.
+ * Evaluates a call for a constant of a shader. Limits the steps of the call and of the generation;
+ * beyond them a call stays a call.
  */
 bool lang_eval_constant(struct lang_unit *generated, uint32_t id, const struct ir_value *args,
                         struct ir_value *results, struct arena *scratch);

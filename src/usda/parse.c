@@ -144,7 +144,7 @@ static bool is_arc(struct text_word name)
            || usda_is(name, "subLayers") || usda_is(name, "variantSets");
 }
 
-/* What a prim, a property or the layer has of the metadata that binding needs. */
+/* The metadata of a prim, a property or the layer that binding needs. */
 struct metadata {
     struct text_word references, arc, bind_as, interpolation, color_space, default_prim, up_axis,
         unit;

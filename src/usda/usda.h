@@ -64,7 +64,7 @@ usda_prim_id usda_find(const struct usda_layer *layer, const char *path, size_t 
  */
 bool usda_next_item(struct text_word *at, struct text_word *out);
 
-/* The same for the numbers of a value: "[(0, 1), (2, 3)]"; true is 1. */
+/* Reads the next number of a value: "[(0, 1), (2, 3)]"; true is 1. */
 bool usda_next_number(struct text_word *at, double *out);
 /*
  * The attribute of a name; without a value of its own, the property with its time samples. NULL:

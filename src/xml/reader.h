@@ -49,7 +49,7 @@ void xml_startup(void);
 bool xml_read_file(struct document *doc, const struct xml_files *files,
                    const struct xml_limits *limits, const char *name, struct diag_list *diags);
 
-/* The same from memory. `name` appears in messages and is the base of includes. */
+/* Reads a document from memory. `name` appears in messages and is the base of includes. */
 bool xml_read_memory(struct document *doc, const struct xml_files *files,
                      const struct xml_limits *limits, const char *name, const char *data,
                      size_t size, struct diag_list *diags);
