@@ -16,13 +16,15 @@
 void parent_follow(void)
 {
     const char *text = getenv(VARIABLE);
-    if (!text || strtol(text, NULL, 10) != (long)getppid())
+    if (!text)
         return; /* the user started this program */
 #ifdef __linux__
     prctl(PR_SET_PDEATHSIG, SIGKILL);
 #endif
-    if (strtol(text, NULL, 10) != (long)getppid()) /* it ended before the call */
+    if (strtol(text, NULL, 10) != (long)getppid()) { /* it ended before the call */
+        fputs("mxgen: the program that started this one has ended\n", stderr);
         _exit(1);
+    }
     parent_announce();
 }
 

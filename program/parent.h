@@ -7,8 +7,9 @@
 #define MXG_PROGRAM_PARENT_H
 
 /*
- * At the start of a program: if another mxgen program started it, it dies with that program. Its
- * own children then end with it.
+ * At the start of a program: if another mxgen program started it, it dies with that program, or at
+ * once if that one has already ended. Its own children then end with it. A script that stands for a
+ * program of mxgen starts it by exec.
  */
 void parent_follow(void);
 

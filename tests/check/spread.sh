@@ -172,6 +172,7 @@ for signal in TERM HUP KILL; do # a shell makes its background jobs ignore SIGIN
     # no program can do anything about SIGKILL
     [ "$signal" = KILL ] || check "no half report is left by SIG$signal" test -z "$(find . -maxdepth 1 -name 'ended.json*')"
 done
+check 'a worker that starts after its run has ended ends at once' exits 1 env MXGEN_PARENT=999999999 "$work/programs/mxgen-check" </dev/null
 rm -f ended.json*
 
 # Depfiles
