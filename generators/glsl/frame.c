@@ -15,10 +15,10 @@ static void write_header(struct spell *spell)
     spell_title(spell);
     spell_text(spell, "\n");
     if (spell_can(spell, CAP_PRECISION)
-        && (spell->stage_id == STAGE_PIXEL || spell->shader->displaced))
+        && (spell->stage_id == STAGE_PIXEL || spell->shader->reflection.displaced))
         spell_text(spell,
                    "precision highp float;\nprecision highp int;\nprecision highp sampler2D;\n");
-    if (spell_can(spell, CAP_PRECISION) && spell->shader->tiles.len)
+    if (spell_can(spell, CAP_PRECISION) && spell->shader->interface.tiles.len)
         spell_text(spell, "precision highp sampler2DArray;\n");
     spell_text(spell, "\n");
 }
@@ -85,7 +85,7 @@ static void write_members(struct spell *spell, enum shader_block block)
 /* Every stage that reads a member declares the whole block, because the stages share its layout. */
 static void write_uniform_block(struct spell *spell, enum shader_block block)
 {
-    const struct shader_buffer *buffer = &spell->shader->buffers[block];
+    const struct shader_buffer *buffer = &spell->shader->interface.buffers[block];
     write_layout(spell, buffer->set, buffer->binding, true);
     SPELL(spell, "uniform ", spell_frame_name(spell, shader_block_name(spell->shader, block)),
           " {\n");
@@ -98,7 +98,8 @@ static void write_uniform(struct spell *spell, const struct shader_variable *var
     spell_text(spell, "uniform ");
     spell_declare(spell, PHRASE_PLAIN, variable,
                   spell_name_of(spell->shader->strings, variable->name));
-    bool fixed = variable->block != BLOCK_PUBLIC_UNIFORMS || !spell->shader->rules.neutral_names;
+    bool fixed =
+        variable->block != BLOCK_PUBLIC_UNIFORMS || !spell->shader->interface.rules.neutral_names;
     if (variable->has_default && variable->block != BLOCK_TEXTURES && fixed
         && spell_can(spell, CAP_UNIFORM_DEFAULTS)) {
         spell_text(spell, " = ");
@@ -112,7 +113,7 @@ static void write_uniforms(struct spell *spell, enum shader_block block)
 {
     if (!spell_uses_block(spell, block))
         return;
-    if (spell->shader->rules.blocks) {
+    if (spell->shader->interface.rules.blocks) {
         write_uniform_block(spell, block);
         return;
     }
@@ -132,21 +133,21 @@ static void write_light_data(struct spell *spell)
 {
     if (!spell->stage->has_lights)
         return;
-    const struct shader_buffer *buffer = &spell->shader->buffers[BLOCK_LIGHT_DATA];
+    const struct shader_buffer *buffer = &spell->shader->interface.buffers[BLOCK_LIGHT_DATA];
     const char *type = spell_frame_name(spell, "LightData"),
                *lights = spell_frame_name(spell, "u_lightData");
     SPELL(spell, "struct ", type, " {\n");
     write_members(spell, BLOCK_LIGHT_DATA);
     spell_text(spell, "};\n");
-    if (spell->shader->rules.blocks) {
+    if (spell->shader->interface.rules.blocks) {
         write_layout(spell, buffer->set, buffer->binding, true);
         SPELL(spell, "uniform ", spell_frame_name(spell, "LightData_block"), " { ", type, " ",
               lights, "[");
     } else {
         SPELL(spell, "uniform ", type, " ", lights, "[");
     }
-    spell_number(spell, spell->shader->max_lights);
-    spell_text(spell, spell->shader->rules.blocks ? "]; };\n" : "];\n");
+    spell_number(spell, spell->shader->interface.max_lights);
+    spell_text(spell, spell->shader->interface.rules.blocks ? "]; };\n" : "];\n");
 }
 
 static void write_textures(struct spell *spell)
@@ -174,7 +175,7 @@ static void write_attributes(struct spell *spell, enum shader_block block, const
             spell_text(spell, "flat ");
         spell_text(spell, qualifier);
         spell_declare(spell, PHRASE_PLAIN, variable,
-                      spell->variables[spell->shader->interface.items[i]]);
+                      spell->variables[spell->shader->interface.used.items[i]]);
         spell_text(spell, ";\n");
     }
 }

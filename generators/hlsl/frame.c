@@ -41,7 +41,7 @@ static void write_member(struct spell *spell, const struct shader_variable *vari
 /* "cbuffer LightData_block : register(b2)" */
 static void open_buffer(struct spell *spell, enum shader_block block, const char *name)
 {
-    const struct shader_buffer *buffer = &spell->shader->buffers[block];
+    const struct shader_buffer *buffer = &spell->shader->interface.buffers[block];
     write_binding(spell, buffer->binding, buffer->set);
     SPELL(spell, "cbuffer ", spell_frame_name(spell, name));
     text_fmt(spell->out, " : register(b%u)\n{\n", (unsigned)buffer->binding);
@@ -87,7 +87,7 @@ static void write_lights(struct spell *spell)
     spell_text(spell, "};\n");
     open_buffer(spell, BLOCK_LIGHT_DATA, "LightData_block");
     text_fmt(spell->out, "    %s %s[%u];\n};\n", type, spell_frame_name(spell, "u_lightData"),
-             (unsigned)spell->shader->max_lights);
+             (unsigned)spell->shader->interface.max_lights);
 }
 
 static void write_textures(struct spell *spell)
@@ -115,8 +115,8 @@ static const char *semantic_from(struct spell *spell, const struct shader_variab
     struct text text;
     text_init(&text, spell->scratch);
     const char *name = str_text(spell->shader->strings, variable->name);
-    size_t prefix = strlen(spell->shader->naming.prefix);
-    if (strncmp(name, spell->shader->naming.prefix, prefix) == 0
+    size_t prefix = strlen(spell->shader->interface.naming.prefix);
+    if (strncmp(name, spell->shader->interface.naming.prefix, prefix) == 0
         && strncmp(name + prefix, "i_", 2) == 0)
         name += prefix + 2;
     for (; *name; name++) {
@@ -135,7 +135,8 @@ static void write_semantic(struct spell *spell, uint32_t place)
     const struct shader_variable *variable = spell_interface_variable(spell, place);
     const char *semantic = semantic_from(spell, variable);
     bool is_taken = false;
-    for (uint32_t i = spell->shader->first_of_block[BLOCK_APP_DATA]; i < place && !is_taken; i++)
+    for (uint32_t i = spell->shader->interface.first_of_block[BLOCK_APP_DATA];
+         i < place && !is_taken; i++)
         is_taken = !strcmp(semantic_from(spell, spell_interface_variable(spell, i)), semantic);
     if (is_taken)
         text_fmt(spell->out, "ATTRIBUTE%u", (unsigned)variable->location);

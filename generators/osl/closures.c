@@ -13,7 +13,7 @@ static ir_ref seen_through(struct osl_tree *t, ir_ref closure, ir_ref opacity)
 {
     if (!opacity || ir_const_is(t->graph, opacity, 1.0f))
         return closure;
-    t->shader->transparent = true;
+    t->shader->reflection.transparent = true;
     return osl_mixed(t, osl_transparent(t), closure, opacity);
 }
 
@@ -21,7 +21,7 @@ static ir_ref unlit(struct osl_tree *t, ir_ref emitted, ir_ref transmitted, ir_r
 {
     ir_ref glow = osl_emission(t, ir_convert(t->graph, IR_TYPE_VEC3, emitted)), through = 0;
     if (!ir_const_is(t->graph, transmitted, 0.0f)) {
-        t->shader->transparent = true;
+        t->shader->reflection.transparent = true;
         through = osl_transparent(t);
         through = osl_scaled(t, through, ir_convert(t->graph, IR_TYPE_VEC3, transmitted));
     }
@@ -78,7 +78,7 @@ static ir_ref surface(struct osl_tree *t, ir_ref bsdf, ir_ref closure, ir_ref op
 {
     if (!is_matter || ir_const_is(t->graph, opacity, 1.0f))
         return seen_through(t, closure, opacity);
-    t->shader->transparent = true;
+    t->shader->reflection.transparent = true;
     ir_ref through = closure_throughput(t->shader, t->host, bsdf, ir_const_float(t->graph, 0.0f));
     return osl_sum(t, closure, osl_scaled(t, osl_transparent(t), through));
 }
@@ -174,7 +174,7 @@ static ir_ref blended(struct osl_tree *t, ir_ref slots)
     }
     if (ir_const_is(g, alpha, 1.0f))
         return sum;
-    t->shader->transparent = true;
+    t->shader->reflection.transparent = true;
     ir_ref through = osl_transparent(t);
     return osl_sum(t, sum, osl_scaled(t, through, ir_one_minus(g, alpha)));
 }
@@ -253,11 +253,11 @@ static void add_closures(struct osl_tree *t, ir_ref root)
 
 static void declare_aovs(struct osl_tree *t)
 {
-    t->aovs = ARENA_ARRAY(t->shader->arena, uint32_t, t->shader->aovs.len);
-    for (uint32_t i = 0; i < t->shader->aovs.len; i++) {
-        ir_type_id type = t->shader->aovs.items[i].type;
+    t->aovs = ARENA_ARRAY(t->shader->arena, uint32_t, t->shader->interface.aovs.len);
+    for (uint32_t i = 0; i < t->shader->interface.aovs.len; i++) {
+        ir_type_id type = t->shader->interface.aovs.items[i].type;
         type = ir_type_is_closure(type) ? IR_TYPE_BSDF : closure_aov_type(t->shader, i);
-        if (t->shader->aovs.items[i].is_output)
+        if (t->shader->interface.aovs.items[i].is_output)
             t->aovs[i] = closure_aov_output(t->shader, i, AOV_VALUE, type);
     }
 }
@@ -266,8 +266,8 @@ static void put_aovs(struct osl_tree *t, struct closure_aovs aovs)
 {
     for (uint32_t i = 0; i < aovs.num; i++) {
         ir_ref value = aovs.items[i].value;
-        bool is_closure = ir_type_is_closure(t->shader->aovs.items[i].type);
-        if (!t->shader->aovs.items[i].is_output)
+        bool is_closure = ir_type_is_closure(t->shader->interface.aovs.items[i].type);
+        if (!t->shader->interface.aovs.items[i].is_output)
             continue;
         value = is_closure ? or_black(t, closure_below(t, value))
                            : closure_aov_value(t->shader, i, value);
@@ -278,7 +278,7 @@ static void put_aovs(struct osl_tree *t, struct closure_aovs aovs)
 /* The AOVs of a surface, seen through its alpha. */
 static struct closure_aovs aovs_of(struct osl_tree *t, ir_ref surface)
 {
-    if (!surface || !t->shader->aovs.len)
+    if (!surface || !t->shader->interface.aovs.len)
         return (struct closure_aovs){0};
     struct closure_surface s = closure_surface_of(t->shader, t->host, surface);
     bool has_alpha = !s.alpha || s.premultiplied;
@@ -312,7 +312,7 @@ static void emit_picked(struct osl_tree *t, uint32_t out, ir_ref slots)
     }
     if (!choices.covered)
         return;
-    t->shader->transparent = true;
+    t->shader->reflection.transparent = true;
     struct closure_aovs none = {0};
     ir_ref through = osl_transparent(t);
     put_closure(t, out, through, none, ir_op2(t->graph, IR_GE, number, choices.covered));
@@ -323,7 +323,7 @@ static void emit_side(struct osl_tree *t, uint32_t out, ir_ref surface)
     bool is_stack = surface && ir_get(t->graph, surface)->op == IR_SLOTS;
     if (is_stack)
         surface = closure_shade_slots(t->shader, surface, 0);
-    if (is_stack && t->shader->picks) {
+    if (is_stack && t->shader->reflection.picks) {
         emit_picked(t, out, surface);
         return;
     }
@@ -357,7 +357,7 @@ static void emit_displacement(struct osl_tree *t, ir_ref displacement)
         return;
     ir_ref before = shader_stream(t->shader, STR_positionWorld, IR_TYPE_VEC3);
     ir_ref moved = with_unit_normal(t->shader, ir_op2(t->graph, IR_ADD, before, offset));
-    t->shader->displaced = true;
+    t->shader->reflection.displaced = true;
     shader_effect(t->shader, STAGE_VERTEX,
                   (struct effect){.kind = EFFECT_POSITION, .value = moved});
 }
@@ -367,8 +367,9 @@ static bool emit_value(struct osl_tree *t, ir_ref root)
     ir_type_id type = ir_type_of(t->graph, root);
     if (type >= IR_NUM_TYPES || type == IR_TYPE_SAMPLER || type == IR_TYPE_VOID)
         return false;
-    t->shader->kind = SHADER_VALUE;
-    uint32_t out = output(t, str_intern_z(t->shader->strings, "out"), type, t->shader->value_type);
+    t->shader->reflection.kind = SHADER_VALUE;
+    uint32_t out =
+        output(t, str_intern_z(t->shader->strings, "out"), type, t->shader->reflection.value_type);
     effect(t, EFFECT_OUTPUT, out, root);
     return true;
 }
@@ -403,11 +404,12 @@ static bool emit(struct shader *shader, const struct closure_host *host, ir_ref 
     closure_find_aovs(shader, root);
     emit_displacement(&t, displacement);
     if (displacement == root)
-        return shader->displaced;
+        return shader->reflection.displaced;
     ir_type_id type = front ? ir_type_of(t.graph, front) : IR_TYPE_SURFACE;
     if (!ir_type_is_closure(type) && !ir_type_is_shader(type))
         return emit_value(&t, front);
-    shader->kind = type == IR_TYPE_VOLUME || type == IR_TYPE_VDF ? SHADER_VOLUME : SHADER_SURFACE;
+    shader->reflection.kind =
+        type == IR_TYPE_VOLUME || type == IR_TYPE_VDF ? SHADER_VOLUME : SHADER_SURFACE;
     emit_sides(&t, front, back);
     *out_unknown = t.unknown;
     return !t.unknown;
@@ -435,14 +437,14 @@ static void emit_output(struct osl_tree *t, const struct network_output *of)
     if (value) /* an output starts as an empty closure */
         effect(t, EFFECT_OUTPUT, out, value);
     else
-        t->shader->variables.items[out].stages = 1 << STAGE_PIXEL;
+        t->shader->interface.variables.items[out].stages = 1 << STAGE_PIXEL;
 }
 
 bool osl_emit_node(struct shader *shader, const struct closure_host *host,
                    const struct network_output *outputs, unsigned n, str_id *out_unknown)
 {
     struct osl_tree t = start(shader, host);
-    shader->kind = SHADER_VALUE;
+    shader->reflection.kind = SHADER_VALUE;
     bool good = true;
     for (unsigned i = 0; i < n; i++) {
         good &= outputs[i].value != 0;

@@ -22,7 +22,7 @@ static bool gives_vector(enum ir_op op)
 
 static enum osl_kind kind_of_variable(const struct osl *osl, uint32_t index)
 {
-    const struct shader_variable *variable = &osl->spell->shader->variables.items[index];
+    const struct shader_variable *variable = &osl->spell->shader->interface.variables.items[index];
     const char *spelled = osl->spell->variables[index].text; /* NULL: nothing reads it */
     if (spelled && strcmp(spelled, "P") == 0)
         return OSL_POINT;

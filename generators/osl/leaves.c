@@ -478,7 +478,7 @@ static ir_ref source_leaf(struct osl_tree *t, ir_ref ref)
     const struct source_leaf source = *closure_source(t->shader, ref);
     const struct ir_node node = *ir_get(g, ref);
     assert(source.convention == SOURCE_NATIVE);
-    const struct shader_verbatim *verbatim = &t->shader->verbatim.items[source.verbatim[0]];
+    const struct shader_verbatim *verbatim = &t->shader->sources.calls.items[source.verbatim[0]];
     ir_ref *args = ARENA_ARRAY(t->shader->arena, ir_ref, node.num_args);
     for (unsigned i = 1; i < node.num_args; i++) {
         ir_ref arg = ir_arg(g, ref, i);

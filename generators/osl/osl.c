@@ -62,15 +62,15 @@ static void write_declarations(struct osl *osl)
     struct source_list sources = {0};
     for (uint32_t i = 0; i < spell->stage->verbatim.len; i++) {
         const struct shader_verbatim *v =
-            &spell->shader->verbatim.items[spell->stage->verbatim.items[i]];
+            &spell->shader->sources.calls.items[spell->stage->verbatim.items[i]];
         for (uint32_t k = 0; k < v->num_sources; k++)
             shader_collect_sources(spell->shader,
-                                   spell->shader->source_refs.items[v->first_source + k],
+                                   spell->shader->sources.refs.items[v->first_source + k],
                                    spell->scratch, &sources);
         note_verbatim_types(osl, v->expression);
     }
     for (uint32_t i = 0; i < sources.len; i++)
-        note_verbatim_types(osl, spell->shader->sources.items[sources.items[i]].text);
+        note_verbatim_types(osl, spell->shader->sources.all.items[sources.items[i]].text);
     note_helper_types(osl);
     for (size_t i = 0; i < NUM_STRUCTS; i++)
         if (osl->types >> structs[i].type & 1)
@@ -83,7 +83,7 @@ static const char *shader_type(const struct spell *spell)
 {
     static const char *const words[] = {
         [SHADER_VALUE] = "shader", [SHADER_SURFACE] = "surface", [SHADER_VOLUME] = "volume"};
-    return spell->stage_id == STAGE_VERTEX ? "displacement" : words[spell->shader->kind];
+    return spell->stage_id == STAGE_VERTEX ? "displacement" : words[spell->shader->reflection.kind];
 }
 
 /*
@@ -97,7 +97,8 @@ static const char *shader_name(struct spell *spell)
         return spell->options->shader_name;
     struct text name;
     text_init(&name, spell->scratch);
-    text_str(&name, str_text(shader->strings, shader->rules.neutral_names ? 0 : shader->path));
+    text_str(&name, str_text(shader->strings,
+                             shader->interface.rules.neutral_names ? 0 : shader->reflection.path));
     if (!name.len)
         text_str(&name, "neutral");
     if (spell->stage_id == STAGE_VERTEX && shader->stages[STAGE_PIXEL].effects.len)

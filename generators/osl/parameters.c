@@ -69,7 +69,7 @@ static const char *primitive_name(const char *stream)
 static bool is_result(const struct osl *osl, const struct shader_variable *variable)
 {
     return variable->block == BLOCK_OUTPUTS && ir_type_is_closure(variable->type)
-           && !variable->semantic && osl->spell->shader->kind != SHADER_VALUE;
+           && !variable->semantic && osl->spell->shader->reflection.kind != SHADER_VALUE;
 }
 
 static unsigned array_length(const struct shader_variable *variable)
@@ -96,8 +96,8 @@ static const char *value_name(struct spell *spell, const char *stream)
 void osl_name_interface(struct osl *osl)
 {
     struct spell *spell = osl->spell;
-    osl->arrays = ARENA_ARRAY(spell->scratch, const char *, spell->shader->interface.len);
-    for (uint32_t i = 0; i < spell->shader->interface.len; i++) {
+    osl->arrays = ARENA_ARRAY(spell->scratch, const char *, spell->shader->interface.used.len);
+    for (uint32_t i = 0; i < spell->shader->interface.used.len; i++) {
         const struct shader_variable *variable = osl_interface_variable(osl, i);
         const char *name = text_of(osl, variable->name);
         const struct known_row *known = known_of(osl, variable);
@@ -116,7 +116,7 @@ void osl_name_interface(struct osl *osl)
         else if (is_stream(variable))
             name = names_unique(&spell->names, primitive_name(name), strlen(primitive_name(name)))
                        .text;
-        spell->variables[spell->shader->interface.items[i]] =
+        spell->variables[spell->shader->interface.used.items[i]] =
             (struct spell_name){name, strlen(name)};
     }
 }
@@ -130,7 +130,7 @@ const char *osl_global_name(void *user_data, uint32_t id)
     osl->read[id] = true;
     if (index == UINT32_MAX)
         return NULL;
-    const struct shader_variable *variable = &spell->shader->variables.items[index];
+    const struct shader_variable *variable = &spell->shader->interface.variables.items[index];
     const struct known_row *known = known_of(osl, variable);
     osl_type(osl, variable->type);
     if (!known || known->kind == VARIABLE)
@@ -215,7 +215,7 @@ static void next_parameter(struct spell *spell, unsigned *count)
 static void write_inputs(struct osl *osl, enum shader_block block, unsigned *count)
 {
     struct spell *spell = osl->spell;
-    for (uint32_t i = 0; i < spell->shader->interface.len; i++) {
+    for (uint32_t i = 0; i < spell->shader->interface.used.len; i++) {
         const struct shader_variable *variable = osl_interface_variable(osl, i);
         if (variable->block != block || !osl_is_read(osl, variable))
             continue;
@@ -229,7 +229,7 @@ static void write_inputs(struct osl *osl, enum shader_block block, unsigned *cou
 static void write_stream_parameters(struct osl *osl, unsigned *count)
 {
     struct spell *spell = osl->spell;
-    for (uint32_t i = 0; i < spell->shader->interface.len; i++) {
+    for (uint32_t i = 0; i < spell->shader->interface.used.len; i++) {
         const struct shader_variable *variable = osl_interface_variable(osl, i);
         if (!is_stream(variable) || !osl_is_read(osl, variable) || known_of(osl, variable))
             continue;
@@ -240,7 +240,7 @@ static void write_stream_parameters(struct osl *osl, unsigned *count)
             spell_text(spell, "] = ");
         } else {
             SPELL(spell, type_name(osl, variable), " ",
-                  spell->variables[spell->shader->interface.items[i]].text, " = ");
+                  spell->variables[spell->shader->interface.used.items[i]].text, " = ");
         }
         write_default(osl, variable);
         spell_text(spell, " [[ int lockgeom = 0 ]]");
@@ -250,7 +250,7 @@ static void write_stream_parameters(struct osl *osl, unsigned *count)
 static void write_outputs(struct osl *osl, unsigned *count)
 {
     struct spell *spell = osl->spell;
-    for (uint32_t i = 0; i < spell->shader->interface.len; i++) {
+    for (uint32_t i = 0; i < spell->shader->interface.used.len; i++) {
         const struct shader_variable *variable = osl_interface_variable(osl, i);
         if (variable->block != BLOCK_OUTPUTS || !osl_is_read(osl, variable)
             || is_result(osl, variable))
@@ -274,10 +274,10 @@ void osl_write_parameters(struct osl *osl)
 void osl_write_streams(struct osl *osl)
 {
     struct spell *spell = osl->spell;
-    for (uint32_t i = 0; i < spell->shader->interface.len; i++) {
+    for (uint32_t i = 0; i < spell->shader->interface.used.len; i++) {
         const struct shader_variable *variable = osl_interface_variable(osl, i);
         const struct known_row *known = known_of(osl, variable);
-        const char *name = spell->variables[spell->shader->interface.items[i]].text;
+        const char *name = spell->variables[spell->shader->interface.used.items[i]].text;
         bool is_local = known ? known->kind == EXPRESSION : array_length(variable) > 0;
         if (!is_stream(variable) || !osl_is_read(osl, variable) || !is_local)
             continue;

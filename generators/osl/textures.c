@@ -86,7 +86,7 @@ static void write_missing(const struct spell *spell, const struct shader_variabl
 
 static bool is_color(const struct spell *spell, uint32_t parameter)
 {
-    return spell->shader->variables.items[parameter].doc_type == STR_color3;
+    return spell->shader->interface.variables.items[parameter].doc_type == STR_color3;
 }
 
 /* OSL's texture() returns one or three channels. */
@@ -147,7 +147,8 @@ const char *osl_texture_call(struct osl *osl, const struct lang_use *use)
         use->node ? ir_get(spell->shader->graph, ir_arg(spell->shader->graph, use->node, 0)) : NULL;
     if (!texture || texture->op != IR_TEXTURE)
         return NULL;
-    const struct shader_variable *variable = &spell->shader->variables.items[texture->attr];
+    const struct shader_variable *variable =
+        &spell->shader->interface.variables.items[texture->attr];
     struct text text;
     text_init(&text, spell->scratch);
     if (use->type == IR_TYPE_VEC4)

@@ -11,7 +11,7 @@ static bool has_block(const mxg_result *result, mxg_block block)
 static const struct shader_buffer *buffer_of(const mxg_result *result, mxg_block block)
 {
     const struct shader_buffer *buffer =
-        has_block(result, block) ? &result->shader.buffers[block] : NULL;
+        has_block(result, block) ? &result->shader.interface.buffers[block] : NULL;
     return buffer && buffer->size ? buffer : NULL;
 }
 
@@ -20,21 +20,21 @@ mxg_status mxg_result_block(const mxg_result *result, mxg_block block, mxg_block
     if (!has_block(result, block))
         return MXG_ERROR_ARGUMENT;
     const struct shader *shader = &result->shader;
-    const struct shader_buffer *buffer = &shader->buffers[block];
-    uint32_t first = shader->first_of_block[block];
+    const struct shader_buffer *buffer = &shader->interface.buffers[block];
+    uint32_t first = shader->interface.first_of_block[block];
     mxg_block_info full = {
         .name = shader_block_name(shader, (enum shader_block)block),
         .first_variable = first,
-        .num_variables = shader->first_of_block[block + 1] - first,
+        .num_variables = shader->interface.first_of_block[block + 1] - first,
         .byte_size = buffer->size,
         .set = buffer->size ? buffer->set : 0,
         .binding = buffer->size ? buffer->binding : 0,
     };
-    assert(first + full.num_variables <= shader->interface.len);
+    assert(first + full.num_variables <= shader->interface.used.len);
     if (block == MXG_BLOCK_LIGHT_DATA && full.num_variables) {
-        full.array_length = shader->max_lights;
+        full.array_length = shader->interface.max_lights;
         full.array_stride = buffer->stride;
-        assert(!buffer->size || buffer->size == buffer->stride * shader->max_lights);
+        assert(!buffer->size || buffer->size == buffer->stride * shader->interface.max_lights);
     }
     return struct_write(out, &full, sizeof full);
 }
@@ -62,8 +62,8 @@ void block_pack(const mxg_result *result, mxg_block block, void *bytes)
     const struct shader_buffer *buffer = buffer_of(result, block);
     memset(bytes, 0, buffer->size);
     const struct shader *shader = &result->shader;
-    for (uint32_t i = shader->first_of_block[block];
-         block != MXG_BLOCK_LIGHT_DATA && i < shader->first_of_block[block + 1]; i++) {
+    for (uint32_t i = shader->interface.first_of_block[block];
+         block != MXG_BLOCK_LIGHT_DATA && i < shader->interface.first_of_block[block + 1]; i++) {
         const struct shader_variable *v = result_variable(result, i);
         assert(v->offset + v->size <= buffer->size);
         if (v->has_default && v->value.type == v->type && !v->array_length)
@@ -88,11 +88,11 @@ static bool find_place(const mxg_result *result, const struct shader_variable *v
                        uint32_t *out_offset)
 {
     bool is_of_light = v->block == BLOCK_LIGHT_DATA;
-    uint32_t count = is_of_light       ? result->shader.max_lights
+    uint32_t count = is_of_light       ? result->shader.interface.max_lights
                      : v->array_length ? v->array_length
                                        : 1,
-             stride =
-                 is_of_light ? result->shader.buffers[BLOCK_LIGHT_DATA].stride : v->array_stride;
+             stride = is_of_light ? result->shader.interface.buffers[BLOCK_LIGHT_DATA].stride
+                                  : v->array_stride;
     *out_offset = v->offset + element * stride;
     return element < count;
 }
@@ -122,16 +122,16 @@ mxg_status mxg_result_pack_value(const mxg_result *result, uint32_t variable, ui
 uint32_t mxg_result_num_light_types(const mxg_result *result)
 {
     bool reads_lights = result && result->has_shader
-                        && result->shader.first_of_block[BLOCK_LIGHT_DATA]
-                               < result->shader.first_of_block[BLOCK_LIGHT_DATA + 1];
-    return reads_lights ? result->shader.lights.len : 0;
+                        && result->shader.interface.first_of_block[BLOCK_LIGHT_DATA]
+                               < result->shader.interface.first_of_block[BLOCK_LIGHT_DATA + 1];
+    return reads_lights ? result->shader.interface.lights.len : 0;
 }
 
 mxg_status mxg_result_light_type(const mxg_result *result, uint32_t index, mxg_light_type *out)
 {
     if (index >= mxg_result_num_light_types(result))
         return MXG_ERROR_ARGUMENT;
-    const struct shader_light *light = &result->shader.lights.items[index];
+    const struct shader_light *light = &result->shader.interface.lights.items[index];
     str_id name = light->shader ? light->name
                                 : lang_function(result->shader.unit, light->function, NULL)->name;
     mxg_light_type full = {.type = light->type,
@@ -144,14 +144,14 @@ mxg_status mxg_result_light_type(const mxg_result *result, uint32_t index, mxg_l
 uint32_t mxg_result_light_member(const mxg_result *result, uint32_t light, uint32_t member)
 {
     if (light >= mxg_result_num_light_types(result)
-        || member >= result->shader.lights.items[light].num_members)
+        || member >= result->shader.interface.lights.items[light].num_members)
         return MXG_NONE;
     const struct shader *shader = &result->shader;
-    uint32_t wanted =
-        shader->light_members.items[shader->lights.items[light].first_member + member];
-    for (uint32_t i = shader->first_of_block[BLOCK_LIGHT_DATA];
-         i < shader->first_of_block[BLOCK_LIGHT_DATA + 1]; i++)
-        if (shader->interface.items[i] == wanted)
+    uint32_t wanted = shader->interface.light_members
+                          .items[shader->interface.lights.items[light].first_member + member];
+    for (uint32_t i = shader->interface.first_of_block[BLOCK_LIGHT_DATA];
+         i < shader->interface.first_of_block[BLOCK_LIGHT_DATA + 1]; i++)
+        if (shader->interface.used.items[i] == wanted)
             return i;
     return MXG_NONE;
 }

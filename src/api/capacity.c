@@ -7,11 +7,11 @@
 void generation_tell_lost_aovs(struct generation *g)
 {
     const struct shader *shader = &g->result->shader;
-    for (uint32_t i = 0; i < shader->aovs.len && g->role->returns == RETURNS_PAYLOAD; i++)
-        if (shader->aovs.items[i].is_output && shader->aovs.items[i].element)
+    for (uint32_t i = 0; i < shader->interface.aovs.len && g->role->returns == RETURNS_PAYLOAD; i++)
+        if (shader->interface.aovs.items[i].is_output && shader->interface.aovs.items[i].element)
             diag_add(diags_of(g), DIAG_ID_aov_left_out,
-                     doc_place(&g->document->layer.doc, shader->aovs.items[i].element),
-                     str_text(shader->strings, shader->aovs.items[i].name),
+                     doc_place(&g->document->layer.doc, shader->interface.aovs.items[i].element),
+                     str_text(shader->strings, shader->interface.aovs.items[i].name),
                      "a payload holds one closure");
 }
 
@@ -22,8 +22,9 @@ static const char *list_slots(struct generation *g)
     struct text list;
     str_id last = 0;
     text_init(&list, &g->scratch);
-    for (uint32_t i = 0; i < shader->interface.len; i++) {
-        const struct shader_variable *v = &shader->variables.items[shader->interface.items[i]];
+    for (uint32_t i = 0; i < shader->interface.used.len; i++) {
+        const struct shader_variable *v =
+            &shader->interface.variables.items[shader->interface.used.items[i]];
         if (v->block != BLOCK_TEXTURES || !v->slot || v->slot == last)
             continue;
         last = v->slot;
@@ -36,8 +37,8 @@ bool generation_keeps_textures(struct generation *g)
 {
     const struct shader *shader = &g->result->shader;
     const struct target *target = g->result->target;
-    uint32_t first = shader->first_of_block[BLOCK_TEXTURES],
-             num = shader->first_of_block[BLOCK_TEXTURES + 1] - first;
+    uint32_t first = shader->interface.first_of_block[BLOCK_TEXTURES],
+             num = shader->interface.first_of_block[BLOCK_TEXTURES + 1] - first;
     while (target && !target->max_textures)
         target = target->base;
     if (!g->desc.bindings || !target || num <= target->max_textures)
@@ -51,27 +52,28 @@ bool generation_keeps_textures(struct generation *g)
 bool generation_keeps_outputs(struct generation *g)
 {
     const struct shader *shader = &g->result->shader;
-    uint32_t num =
-                 shader->first_of_block[BLOCK_OUTPUTS + 1] - shader->first_of_block[BLOCK_OUTPUTS],
+    uint32_t num = shader->interface.first_of_block[BLOCK_OUTPUTS + 1]
+                   - shader->interface.first_of_block[BLOCK_OUTPUTS],
              limit = (uint32_t)g->options[OPTION_max_outputs].number;
-    bool has_one_attachment = shader->has_two_sources && !g->role->is_in_host_file;
+    bool has_one_attachment = shader->reflection.has_two_sources && !g->role->is_in_host_file;
     bool has_attachments = g->role->returns == RETURNS_LIGHT || g->role->returns == RETURNS_SLABS;
     struct text list;
-    if (!shader->aovs.len || !has_attachments || num <= (has_one_attachment ? 2 : limit))
+    if (!shader->interface.aovs.len || !has_attachments || num <= (has_one_attachment ? 2 : limit))
         return true;
     text_init(&list, &g->scratch);
     uint32_t last = g->element;
-    for (uint32_t i = 0; i < shader->aovs.len; i++) {
-        if (!shader->aovs.items[i].is_output)
+    for (uint32_t i = 0; i < shader->interface.aovs.len; i++) {
+        if (!shader->interface.aovs.items[i].is_output)
             continue;
         text_fmt(&list, "%s'%s'", list.len ? ", " : "",
-                 str_text(shader->strings, shader->aovs.items[i].name));
-        last = shader->aovs.items[i].element ? shader->aovs.items[i].element : last;
+                 str_text(shader->strings, shader->interface.aovs.items[i].name));
+        last = shader->interface.aovs.items[i].element ? shader->interface.aovs.items[i].element
+                                                       : last;
     }
     if (has_one_attachment) {
         diag_add(diags_of(g), DIAG_ID_options_clash, doc_place(&g->document->layer.doc, last),
                  option_key(OPTION_transparency), "dual", "aov",
-                 str_text(&g->result->strings, shader->aovs.items[0].name),
+                 str_text(&g->result->strings, shader->interface.aovs.items[0].name),
                  "a blend with two sources has one attachment");
         return false;
     }

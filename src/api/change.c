@@ -8,9 +8,11 @@ static bool share_program(const mxg_result *before, const mxg_result *after)
     const struct shader *a = &before->shader, *b = &after->shader;
     uint64_t first, second;
     return before->target == after->target && before->options == after->options
-           && a->transparent == b->transparent && a->alpha == b->alpha
-           && a->displaced == b->displaced && a->lit == b->lit
-           && a->interface.len == b->interface.len && result_topology(before, &first)
+           && a->reflection.transparent == b->reflection.transparent
+           && a->reflection.alpha == b->reflection.alpha
+           && a->reflection.displaced == b->reflection.displaced
+           && a->reflection.lit == b->reflection.lit
+           && a->interface.used.len == b->interface.used.len && result_topology(before, &first)
            && result_topology(after, &second) && first == second;
 }
 
@@ -38,8 +40,8 @@ static bool same_tiles(const mxg_result *before, const struct shader_variable *a
     if (a->num_tiles != b->num_tiles)
         return false;
     for (uint32_t i = 0; i < a->num_tiles; i++) {
-        const struct shader_tile *x = &before->shader.tiles.items[a->first_tile + i],
-                                 *y = &after->shader.tiles.items[b->first_tile + i];
+        const struct shader_tile *x = &before->shader.interface.tiles.items[a->first_tile + i],
+                                 *y = &after->shader.interface.tiles.items[b->first_tile + i];
         if (x->u != y->u || x->v != y->v || !same_text(before, x->file, after, y->file))
             return false;
     }

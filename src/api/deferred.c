@@ -77,7 +77,8 @@ static const char *why_forward(struct generation *g)
     if (!closure_is_surface(shader, g->root))
         return "it is no surface";
     if (!g->misfit)
-        return shader->alpha == ALPHA_BLEND ? "its opacity may be between 0 and 1" : "it has AOVs";
+        return shader->reflection.alpha == ALPHA_BLEND ? "its opacity may be between 0 and 1"
+                                                       : "it has AOVs";
     struct text why;
     text_init(&why, &g->scratch);
     text_fmt(
@@ -92,14 +93,14 @@ void generation_tell_forward(struct generation *g)
     const struct document *doc = &g->document->layer.doc;
     if (g->role->returns != RETURNS_SLABS && !g->misfit)
         return;
-    assert(!shader->closures.len || g->result->storage.storage == STORAGE_FLOAT
-           || shader->stored_words * SLAB_WORD_BYTES <= g->result->slabs.after.bytes);
-    if (shader->stored_words && shader->closures.len > DEFERRED_MAX_CLOSURES)
+    assert(!shader->reflection.closures.len || g->result->storage.storage == STORAGE_FLOAT
+           || shader->reflection.stored_words * SLAB_WORD_BYTES <= g->result->slabs.after.bytes);
+    if (shader->reflection.stored_words && shader->reflection.closures.len > DEFERRED_MAX_CLOSURES)
         diag_add(&g->result->object.diagnostics.list, DIAG_ID_closures_not_stored,
-                 doc_place(doc, g->element), str_text(shader->strings, shader->name),
-                 (unsigned)shader->closures.len, (unsigned)DEFERRED_MAX_CLOSURES);
-    if (shader->stored_words)
+                 doc_place(doc, g->element), str_text(shader->strings, shader->reflection.name),
+                 (unsigned)shader->reflection.closures.len, (unsigned)DEFERRED_MAX_CLOSURES);
+    if (shader->reflection.stored_words)
         return;
     diag_add(&g->result->object.diagnostics.list, DIAG_ID_drawn_forward, doc_place(doc, g->element),
-             str_text(shader->strings, shader->name), why_forward(g));
+             str_text(shader->strings, shader->reflection.name), why_forward(g));
 }

@@ -148,19 +148,19 @@ static void name_element(struct generation *g)
     doc_path(doc, g->element, '/', &path);
     if (g->output_name)
         text_fmt(&path, "/%s", str_text(doc->strings, g->output_name));
-    shader->name = element->name;
-    shader->element_type = element->category;
-    shader->path = str_intern(shader->strings, path.data, path.len);
-    shader->value_type = value_type(g);
+    shader->reflection.name = element->name;
+    shader->reflection.element_type = element->category;
+    shader->reflection.path = str_intern(shader->strings, path.data, path.len);
+    shader->reflection.value_type = value_type(g);
 }
 
 /* The surface of a lighting pass has the name of the pass. */
 static void name_pass(struct generation *g)
 {
     struct shader *shader = &g->result->shader;
-    shader->name = str_intern_z(shader->strings, deferred_pass_name(g->result->pass));
-    shader->element_type = str_intern_z(shader->strings, "pass");
-    shader->path = 0;
+    shader->reflection.name = str_intern_z(shader->strings, deferred_pass_name(g->result->pass));
+    shader->reflection.element_type = str_intern_z(shader->strings, "pass");
+    shader->reflection.path = 0;
 }
 
 static void name_stack(struct generation *g)
@@ -168,8 +168,8 @@ static void name_stack(struct generation *g)
     struct shader *shader = &g->result->shader;
     char name[BIND_STACK_NAME_SIZE];
     bind_stack_name(&g->desc.bindings->bindings, g->desc.stack, name);
-    shader->name = shader->path = str_intern_z(shader->strings, name);
-    shader->element_type = str_intern_z(shader->strings, "stack");
+    shader->reflection.name = shader->reflection.path = str_intern_z(shader->strings, name);
+    shader->reflection.element_type = str_intern_z(shader->strings, "stack");
 }
 
 static void name_shader(struct generation *g)
@@ -183,12 +183,12 @@ static void name_shader(struct generation *g)
         name_pass(g);
     shader->style = arena_alloc(shader->arena, sizeof *shader->style);
     lang_style_init(shader->style, g->result->target->syntax, shader->arena);
-    for (const struct target *t = g->result->target; t && !shader->source_language; t = t->base)
-        shader->source_language = t->source;
-    shader->max_lights = (uint32_t)g->options[OPTION_max_lights].number;
-    shader->picks = g->options[OPTION_slots].number != 0;
-    shader->reserved = g->options[OPTION_reserved].list.items;
-    shader->num_reserved = g->options[OPTION_reserved].list.len;
+    for (const struct target *t = g->result->target; t && !shader->sources.language; t = t->base)
+        shader->sources.language = t->source;
+    shader->interface.max_lights = (uint32_t)g->options[OPTION_max_lights].number;
+    shader->reflection.picks = g->options[OPTION_slots].number != 0;
+    shader->interface.reserved = g->options[OPTION_reserved].list.items;
+    shader->interface.num_reserved = g->options[OPTION_reserved].list.len;
 }
 
 /* The place of messages about a stack: its base, or the look. */
@@ -211,14 +211,14 @@ static void name_variables(struct generation *g)
     if (role_is_pass(g->role))
         return;
     const char *prefix = g->options[OPTION_prefix].text;
-    shader->naming.prefix = arena_strndup(shader->arena, prefix, strlen(prefix));
-    naming_pairs(&g->options[OPTION_rename], shader->arena, &shader->naming);
-    shader->naming_of_members = shader->naming;
-    shader->naming_of_members.prefix = "";
+    shader->interface.naming.prefix = arena_strndup(shader->arena, prefix, strlen(prefix));
+    naming_pairs(&g->options[OPTION_rename], shader->arena, &shader->interface.naming);
+    shader->interface.naming_of_members = shader->interface.naming;
+    shader->interface.naming_of_members.prefix = "";
     if (!g->role->is_in_host_file)
         return;
-    shader->function = names_of_frame(shader, g->role->entry);
-    shader->function_type = names_of_frame(shader, SHADER_FUNCTION_RESULT);
+    shader->reflection.function = names_of_frame(shader, g->role->entry);
+    shader->reflection.function_type = names_of_frame(shader, SHADER_FUNCTION_RESULT);
 }
 
 bool generation_start(struct generation *g)
@@ -319,7 +319,7 @@ static bool has_lights(const struct generation *g)
     const struct shader *shader = &g->result->shader;
     if (shader->role->lights == LIGHTS_OF_HOST)
         return !g->options[OPTION_lights].is_set;
-    return shader->lights.len > 0 && shader->max_lights > 0;
+    return shader->interface.lights.len > 0 && shader->interface.max_lights > 0;
 }
 
 void generation_start_closures(struct generation *g)
@@ -339,7 +339,7 @@ void generation_start_closures(struct generation *g)
         .flips_v = g->options[OPTION_texture_origin].number != 0,
         .encodes = g->options[OPTION_encode].number != 0,
     };
-    g->result->shader.has_two_sources = g->lighting.transparency == TRANSPARENCY_DUAL;
+    g->result->shader.reflection.has_two_sources = g->lighting.transparency == TRANSPARENCY_DUAL;
     generation_defer(g);
     g->closure_host.occludes = g->options[OPTION_layering].number == LAYERING_OCCLUDING;
     g->closure_host.keeps_color = g->lighting.transparency == TRANSPARENCY_OPAQUE
@@ -389,7 +389,7 @@ bool generation_emit(struct generation *g)
     assert(g->root > 0 && g->root < g->result->graph.nodes.len);
     generation_start_closures(g);
     bool is_traced = g->role->returns == RETURNS_PATH;
-    if (is_traced && g->result->shader.source_leaves.len) {
+    if (is_traced && g->result->shader.sources.leaves.len) {
         generation_report_not_renderable(
             g, "a path tracer cannot sample closures whose source is for one target");
         return false;

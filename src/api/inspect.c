@@ -114,15 +114,16 @@ static void view_statistics(struct generation *g, struct text *out)
     const struct shader_stage *pixel = &shader->stages[STAGE_PIXEL];
     write_counts(out, "elements", doc_num_elements(&g->document->layer.doc));
     write_counts(out, "operations built", result->graph.nodes.len - 1);
-    write_counts(out, "closures", shader->closures.len);
-    write_counts(out, "variables", shader->interface.len);
-    write_counts(out, "compiled inputs", shader->compiled.len);
+    write_counts(out, "closures", shader->reflection.closures.len);
+    write_counts(out, "variables", shader->interface.used.len);
+    write_counts(out, "compiled inputs", shader->reflection.compiled.len);
     write_counts(out, "functions", pixel->reach.functions.len + pixel->functions.len);
     write_counts(out, "pixel statements", pixel->statements.len);
     write_counts(out, "pixel source bytes", (uint32_t)result->stages[STAGE_PIXEL].size);
     write_counts(out, "vertex source bytes", (uint32_t)result->stages[STAGE_VERTEX].size);
-    text_fmt(out, "%-24s %s\n%-24s %s\n", "transparent", shader->transparent ? "yes" : "no", "lit",
-             shader->lit ? "yes" : "no");
+    text_fmt(out, "%-24s %s\n%-24s %s\n", "transparent",
+             shader->reflection.transparent ? "yes" : "no", "lit",
+             shader->reflection.lit ? "yes" : "no");
 }
 
 /* ---- The views ---- */

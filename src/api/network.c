@@ -23,8 +23,8 @@ static struct shader *new_shader(struct generation *g, const struct network_node
     graph->max_nodes = result->object.context->max_nodes;
     shader_init(shader, result->shader.role, arena, &result->strings, graph, unit);
     shader->style = result->shader.style;
-    shader->source_language = result->shader.source_language;
-    shader->name = node->definition_name;
+    shader->sources.language = result->shader.sources.language;
+    shader->reflection.name = node->definition_name;
     return shader;
 }
 
@@ -65,9 +65,10 @@ static bool emit_node(struct generation *g, struct shader *shader, struct networ
     struct shader_layout_rules rules = generation_layout_rules(g);
     shader_finish(shader, &rules);
     uint32_t n = 0;
-    for (uint32_t i = 0; i < shader->interface.len; i++)
-        if (shader->variables.items[shader->interface.items[i]].block == BLOCK_OUTPUTS)
-            names[n++] = shader->variables.items[shader->interface.items[i]].name;
+    for (uint32_t i = 0; i < shader->interface.used.len; i++)
+        if (shader->interface.variables.items[shader->interface.used.items[i]].block
+            == BLOCK_OUTPUTS)
+            names[n++] = shader->interface.variables.items[shader->interface.used.items[i]].name;
     assert(n <= node->num_outputs);
     node->outputs = names;
     return n == node->num_outputs;
@@ -78,9 +79,9 @@ static void drop_unread(const struct shader *shader, struct network_node *node)
 {
     str_id *names = ARENA_ARRAY(shader->arena, str_id, node->num_inputs);
     for (uint32_t i = 0; i < node->num_inputs; i++)
-        for (uint32_t k = 0; node->inputs[i] && k < shader->interface.len; k++) {
+        for (uint32_t k = 0; node->inputs[i] && k < shader->interface.used.len; k++) {
             const struct shader_variable *variable =
-                &shader->variables.items[shader->interface.items[k]];
+                &shader->interface.variables.items[shader->interface.used.items[k]];
             if (variable->name == node->inputs[i] && variable->block != BLOCK_OUTPUTS)
                 names[i] = node->inputs[i];
         }
@@ -133,7 +134,9 @@ static const char *whole_name(struct generation *g, struct text source)
     size_t len;
     text_init(&name, &g->result->object.arena);
     text_fmt(&name, "%s_%08x",
-             shader->rules.neutral_names ? "neutral" : str_text(shader->strings, shader->path),
+             shader->interface.rules.neutral_names
+                 ? "neutral"
+                 : str_text(shader->strings, shader->reflection.path),
              (unsigned)hash_stable(0, text_cstr(&source), source.len));
     return identifier_from(text_cstr(&name), name.len, &g->result->object.arena, &len);
 }
@@ -165,8 +168,9 @@ static bool make_whole(struct generation *g)
         if (generation_has_stage(result, stage))
             make_whole_stage(g, (enum shader_stage_id)stage);
     /* the description of the network has its variables */
-    result->shader.interface.len = 0;
-    memset(result->shader.first_of_block, 0, sizeof result->shader.first_of_block);
+    result->shader.interface.used.len = 0;
+    memset(result->shader.interface.first_of_block, 0,
+           sizeof result->shader.interface.first_of_block);
     return true;
 }
 
@@ -207,7 +211,7 @@ static void write_stage(mxg_result *result, enum shader_stage_id stage)
 bool generation_make_network(struct generation *g)
 {
     mxg_result *result = g->result;
-    bool good = build_network_results(g->builder, g->root, result->shader.value_type)
+    bool good = build_network_results(g->builder, g->root, result->shader.reflection.value_type)
                 && (!result->network.is_whole || make_whole(g));
     if (good)
         result->target->network->plan(&result->network);

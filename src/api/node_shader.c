@@ -246,7 +246,7 @@ static void make_uniform(void *request)
     uint32_t index = declare(r, &uniform, type);
     if (index == UINT32_MAX)
         return;
-    struct shader_variable *variable = &b->shader->variables.items[index];
+    struct shader_variable *variable = &b->shader->interface.variables.items[index];
     if (variable->type != type) {
         code_fault(r->build, "adds a uniform that has another type elsewhere:", word);
         return;

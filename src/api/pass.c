@@ -27,13 +27,14 @@ static void leave_bindings(struct shader *shader)
 {
     uint32_t kept = 0;
     for (int block = 0; block < NUM_BLOCKS; block++) {
-        uint32_t first = shader->first_of_block[block], end = shader->first_of_block[block + 1];
-        shader->first_of_block[block] = kept;
+        uint32_t first = shader->interface.first_of_block[block],
+                 end = shader->interface.first_of_block[block + 1];
+        shader->interface.first_of_block[block] = kept;
         for (uint32_t i = first; i < end && is_bound(block); i++)
-            shader->interface.items[kept++] = shader->interface.items[i];
+            shader->interface.used.items[kept++] = shader->interface.used.items[i];
     }
-    shader->first_of_block[NUM_BLOCKS] = shader->interface.len = kept;
-    shader->closures.len = shader->compiled.len = 0;
+    shader->interface.first_of_block[NUM_BLOCKS] = shader->interface.used.len = kept;
+    shader->reflection.closures.len = shader->reflection.compiled.len = 0;
 }
 
 /* Replaces the source of the surface by the text of the pass. */

@@ -28,7 +28,7 @@ const char *mxg_result_file(const mxg_result *result, uint32_t index)
 
 uint32_t mxg_result_num_variables(const mxg_result *result)
 {
-    return result && result->has_shader ? result->shader.interface.len : 0;
+    return result && result->has_shader ? result->shader.interface.used.len : 0;
 }
 
 /*
@@ -152,8 +152,10 @@ static const struct shader_tile *tile_at(const mxg_result *result, uint32_t vari
     if (variable >= mxg_result_num_variables(result)
         || tile >= result_variable(result, variable)->num_tiles)
         return NULL;
-    assert(result_variable(result, variable)->first_tile + tile < result->shader.tiles.len);
-    return &result->shader.tiles.items[result_variable(result, variable)->first_tile + tile];
+    assert(result_variable(result, variable)->first_tile + tile
+           < result->shader.interface.tiles.len);
+    return &result->shader.interface.tiles
+                .items[result_variable(result, variable)->first_tile + tile];
 }
 
 mxg_status mxg_result_tile(const mxg_result *result, uint32_t variable, uint32_t index,
@@ -199,7 +201,7 @@ uint32_t mxg_result_find_variable(const mxg_result *result, const char *path)
 static uint32_t count_textures(const mxg_result *result)
 {
     uint32_t count = 0;
-    for (uint32_t i = 0; i < result->shader.interface.len; i++)
+    for (uint32_t i = 0; i < result->shader.interface.used.len; i++)
         count += result_variable(result, i)->block == BLOCK_TEXTURES;
     return count;
 }
@@ -208,7 +210,8 @@ static uint32_t count_textures(const mxg_result *result)
 static uint64_t network_topology(const mxg_result *result)
 {
     uint64_t topology = result->target->network->topology(&result->network);
-    return result->shader.codes ? hash_mix(topology, result->shader.codes) : topology;
+    return result->shader.reflection.codes ? hash_mix(topology, result->shader.reflection.codes)
+                                           : topology;
 }
 
 /* Passes differ in texts of their own. */
@@ -244,18 +247,18 @@ mxg_status mxg_result_info(const mxg_result *result, mxg_shader_info *out)
         return MXG_ERROR_ARGUMENT;
     const struct shader *shader = &result->shader;
     mxg_shader_info full = {
-        .name = text_of(result, shader->name),
-        .path = text_of(result, shader->path),
+        .name = text_of(result, shader->reflection.name),
+        .path = text_of(result, shader->reflection.path),
         .target = result->target->name,
-        .num_closures = shader->closures.len,
+        .num_closures = shader->reflection.closures.len,
         .num_textures = count_textures(result),
-        .num_lights = shader->stages[STAGE_PIXEL].has_lights ? shader->max_lights : 0,
-        .transparent = shader->transparent,
-        .alpha = (mxg_alpha)shader->alpha,
-        .displaced = shader->displaced,
-        .function = shader->function,
-        .function_type = shader->function_type,
-        .lit = shader->lit,
+        .num_lights = shader->stages[STAGE_PIXEL].has_lights ? shader->interface.max_lights : 0,
+        .transparent = shader->reflection.transparent,
+        .alpha = (mxg_alpha)shader->reflection.alpha,
+        .displaced = shader->reflection.displaced,
+        .function = shader->reflection.function,
+        .function_type = shader->reflection.function_type,
+        .lit = shader->reflection.lit,
     };
     /* only the topology is expensive */
     if (out && out->size > offsetof(mxg_shader_info, topology)

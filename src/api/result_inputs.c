@@ -16,7 +16,7 @@ static const struct document *tree_of(const mxg_result *result)
 
 uint32_t mxg_result_num_compiled_inputs(const mxg_result *result)
 {
-    return result && result->has_shader ? result->shader.compiled.len : 0;
+    return result && result->has_shader ? result->shader.reflection.compiled.len : 0;
 }
 
 /* True if the element is the input, false if it is the node, whose definition has the input. */
@@ -39,13 +39,13 @@ static void write_path(const struct document *doc, const struct shader_compiled_
 static void write_paths(const struct object *object, struct text *out)
 {
     const mxg_result *result = (const mxg_result *)object;
-    uint32_t count = result->shader.compiled.len;
+    uint32_t count = result->shader.reflection.compiled.len;
     for (uint32_t i = 0; i < count; i++)
         text_mem(out, (const char *)&(uint32_t){0}, sizeof(uint32_t));
     for (uint32_t i = 0; i < count; i++) {
         uint32_t start = (uint32_t)out->len;
         memcpy(out->data + i * sizeof start, &start, sizeof start);
-        write_path(tree_of(result), &result->shader.compiled.items[i], out);
+        write_path(tree_of(result), &result->shader.reflection.compiled.items[i], out);
     }
 }
 
@@ -66,7 +66,7 @@ void result_compiled(void *user_data, uint32_t index, struct shader_compiled_tex
 {
     const mxg_result *result = user_data;
     const struct document *doc = tree_of(result);
-    const struct shader_compiled_input *input = &result->shader.compiled.items[index];
+    const struct shader_compiled_input *input = &result->shader.reflection.compiled.items[index];
     const struct attribute *own =
         is_input(doc, input->element) ? doc_attr(doc, input->element, STR_value) : NULL;
     str_id value = own                 ? own->value
@@ -135,8 +135,8 @@ static bool find_input(const mxg_result *result, const char *path, struct found_
 
 static bool is_compiled(const mxg_result *result, const struct found_input *input)
 {
-    for (uint32_t i = 0; i < result->shader.compiled.len; i++) {
-        const struct shader_compiled_input *compiled = &result->shader.compiled.items[i];
+    for (uint32_t i = 0; i < result->shader.reflection.compiled.len; i++) {
+        const struct shader_compiled_input *compiled = &result->shader.reflection.compiled.items[i];
         if (input->element ? compiled->element == input->element
                            : compiled->element == input->node && input->port
                                  && compiled->definition == input->port->element)

@@ -151,7 +151,8 @@ bool generation_slabs_are_few(struct generation *g, const struct slab_report *re
     if (report->is_too_much)
         diag_add(diags_of(g), DIAG_ID_too_many_slabs,
                  doc_place(&g->document->layer.doc, g->element),
-                 str_text(g->result->shader.strings, g->result->shader.name), (unsigned)SLABS_MAX);
+                 str_text(g->result->shader.strings, g->result->shader.reflection.name),
+                 (unsigned)SLABS_MAX);
     return !report->is_too_much;
 }
 
@@ -181,8 +182,8 @@ bool generation_budget_slabs(struct generation *g)
 void generation_tell_media(struct generation *g)
 {
     const struct shader *shader = &g->result->shader;
-    if (shader->not_walked)
+    if (shader->reflection.not_walked)
         diag_add(diags_of(g), DIAG_ID_media_not_walked,
                  doc_place(&g->document->layer.doc, g->element),
-                 str_text(shader->strings, shader->name), shader->not_walked);
+                 str_text(shader->strings, shader->reflection.name), shader->reflection.not_walked);
 }

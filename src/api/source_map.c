@@ -139,7 +139,7 @@ size_t mxg_result_source_path(const mxg_result *result, mxg_stage stage, uint32_
 size_t mxg_result_closure_path(const mxg_result *result, uint32_t index, char *buffer,
                                size_t capacity)
 {
-    bool is_there = result && result->has_shader && index < result->shader.closures.len;
-    return write_path(result, is_there ? result->shader.closures.items[index] : 0, buffer,
-                      capacity);
+    bool is_there = result && result->has_shader && index < result->shader.reflection.closures.len;
+    return write_path(result, is_there ? result->shader.reflection.closures.items[index] : 0,
+                      buffer, capacity);
 }

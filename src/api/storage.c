@@ -13,7 +13,7 @@ static bool is_pass(const mxg_result *result)
 static uint32_t classes_of(const mxg_result *result)
 {
     if (!is_pass(result))
-        return result->shader.stored_classes;
+        return result->shader.reflection.stored_classes;
     enum deferred_class lit = deferred_pass_class(result->pass);
     return lit == CLASS_EMPTY || !deferred_is_indirect(result->pass) ? 0 : 1u << lit;
 }
@@ -22,7 +22,7 @@ mxg_status mxg_result_storage(const mxg_result *result, mxg_storage *out)
 {
     if (!result || !result->has_shader)
         return MXG_ERROR_ARGUMENT;
-    uint32_t words = result->shader.stored_words;
+    uint32_t words = result->shader.reflection.stored_words;
     mxg_storage full = {.words = words,
                         .layout =
                             is_pass(result) || words ? deferred_layout_number(&result->storage) : 0,
@@ -174,7 +174,8 @@ static void put_classes(uint32_t classes, struct json *json)
 static void put_resources(const mxg_result *result, struct json *json)
 {
     const struct deferred_layout *layout = &result->storage;
-    bool has_layers = !layout->is_payload && result->shader.stored_words > DEFERRED_TARGET_WORDS;
+    bool has_layers =
+        !layout->is_payload && result->shader.reflection.stored_words > DEFERRED_TARGET_WORDS;
     uint32_t reads = is_pass(result) ? deferred_reads(result->pass, layout) : 0,
              writes = is_pass(result) ? deferred_writes(result->pass, layout)
                       : has_layers    ? 1u << RESOURCE_WORDS
@@ -219,7 +220,7 @@ static void put_pass(enum deferred_pass pass, struct json *json)
 void result_storage(void *user_data, struct json *json)
 {
     const mxg_result *result = user_data;
-    uint32_t words = result->shader.stored_words;
+    uint32_t words = result->shader.reflection.stored_words;
     if (!is_pass(result) && !words)
         return;
     json_key(json, "deferred");
@@ -230,7 +231,7 @@ void result_storage(void *user_data, struct json *json)
         put_pass(result->pass, json);
     json_put_nonzero(json, "words", words);
     if (!is_pass(result) && !result->storage.is_payload) {
-        put_classes(result->shader.stored_classes, json);
+        put_classes(result->shader.reflection.stored_classes, json);
         put_targets(json);
     }
     put_resources(result, json);

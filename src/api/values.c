@@ -66,8 +66,8 @@ static mxg_status pack_values(const mxg_result *program, const mxg_document *doc
          writes++) { /* first a test, so that all or nothing is written */
         if (writes)
             block_pack(program, block, bytes);
-        for (uint32_t i = shader->first_of_block[block]; i < shader->first_of_block[block + 1];
-             i++) {
+        for (uint32_t i = shader->interface.first_of_block[block];
+             i < shader->interface.first_of_block[block + 1]; i++) {
             const struct shader_variable *v = result_variable(program, i);
             if (!v->path)
                 continue;

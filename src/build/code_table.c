@@ -71,7 +71,7 @@ const struct implementation *code_implementation(struct builder *b, uint32_t nod
     table_add(&b->code_table, b->arena, hash_pair(nodedef, 0), b->code_impls.len);
     const struct mxg_node_code *code = &b->options->codes[found - 1];
     /* a sum, because the order of the nodes does not matter */
-    b->shader->codes +=
+    b->shader->reflection.codes +=
         hash_mix(hash_stable(HASH_STABLE_SEED, code->name, strlen(code->name)), code->version);
     return impl;
 }

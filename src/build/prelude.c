@@ -102,7 +102,7 @@ static void scan_implementation(struct search *s, const struct builder *b,
 static struct search search(const struct builder *b, const struct implementation *impl)
 {
     struct search s = {
-        .language = b->shader->source_language, .strings = b->shader->strings, .arena = b->arena};
+        .language = b->shader->sources.language, .strings = b->shader->strings, .arena = b->arena};
     if (s.language && s.language->num_absent && impl->kind == IMPL_VERBATIM)
         scan_implementation(&s, b, impl);
     return s;

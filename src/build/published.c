@@ -165,12 +165,13 @@ static bool is_known(struct builder *b, const struct shader_compiled_input *inpu
 {
     uint32_t hash = hash_pair(input->element, has_element ? 0 : input->definition);
     for (uint32_t at = hash, found; (found = table_next(&b->compiled, hash, &at));) {
-        const struct shader_compiled_input *other = &b->shader->compiled.items[found - 1];
+        const struct shader_compiled_input *other =
+            &b->shader->reflection.compiled.items[found - 1];
         if (other->element == input->element
             && (has_element || other->definition == input->definition))
             return true;
     }
-    table_add(&b->compiled, b->arena, hash, b->shader->compiled.len + 1);
+    table_add(&b->compiled, b->arena, hash, b->shader->reflection.compiled.len + 1);
     return false;
 }
 
@@ -180,7 +181,7 @@ void build_compile_in(struct builder *b, elem_id node, const struct port *port, 
                                                 library_type_name(b->lib, port->type)};
     bool is_of_document = input.element >= build_doc(b)->first_element;
     if (is_of_document && !b->recorder && !is_known(b, &input, element != 0))
-        vec_push(b->arena, &b->shader->compiled, input);
+        vec_push(b->arena, &b->shader->reflection.compiled, input);
 }
 
 ir_ref build_publish(struct builder *b, elem_id node, const struct port *port, elem_id element,

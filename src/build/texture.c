@@ -130,8 +130,8 @@ static bool reads_alike(const struct shader_variable *a, const struct shader_var
  */
 static uint32_t shared_texture(const struct builder *b, const struct shader_variable *wanted)
 {
-    for (uint32_t i = 0; b->slot && wanted->file && i < b->shader->variables.len; i++) {
-        const struct shader_variable *v = &b->shader->variables.items[i];
+    for (uint32_t i = 0; b->slot && wanted->file && i < b->shader->interface.variables.len; i++) {
+        const struct shader_variable *v = &b->shader->interface.variables.items[i];
         if (v->block == BLOCK_TEXTURES && v->has_reader && v->file == wanted->file
             && v->type == wanted->type && reads_alike(v, wanted))
             return i;
@@ -143,17 +143,17 @@ static uint32_t shared_texture(const struct builder *b, const struct shader_vari
 static uint32_t variable_for(struct builder *b, uint32_t index,
                              const struct shader_variable *wanted)
 {
-    assert(index < b->shader->variables.len);
+    assert(index < b->shader->interface.variables.len);
     uint32_t shared = shared_texture(b, wanted);
     if (shared != UINT32_MAX)
         return shared;
-    struct shader_variable *first = &b->shader->variables.items[index];
+    struct shader_variable *first = &b->shader->interface.variables.items[index];
     if (!first->has_reader) {
         *first = *wanted;
         return index;
     }
-    for (uint32_t i = index; i < b->shader->variables.len; i++) {
-        const struct shader_variable *v = &b->shader->variables.items[i];
+    for (uint32_t i = index; i < b->shader->interface.variables.len; i++) {
+        const struct shader_variable *v = &b->shader->interface.variables.items[i];
         if (v->block == BLOCK_TEXTURES && v->path == wanted->path && v->file == wanted->file
             && reads_alike(v, wanted))
             return i;
@@ -166,7 +166,7 @@ static void note_reader(struct builder *b, const struct nodedef *def, const stru
 {
     assert(file < def->num_inputs && ir_get(b->graph, args[file])->op == IR_TEXTURE);
     uint32_t index = ir_get(b->graph, args[file])->attr;
-    struct shader_variable wanted = b->shader->variables.items[index];
+    struct shader_variable wanted = b->shader->interface.variables.items[index];
     wanted.has_reader = true;
     wanted.has_default = false;
     wanted.fallback = wanted.default_from = 0;
@@ -251,7 +251,8 @@ ir_ref build_read_tiles(void *user_data, enum ir_op op, const ir_ref *args)
     assert(ir_type_of(g, args[0]) == IR_TYPE_SAMPLER_ARRAY);
     if (op == IR_TEX_SIZE)
         return 0; /* all array layers have one size */
-    const struct shader_variable *texture = &b->shader->variables.items[ir_get(g, args[0])->attr];
+    const struct shader_variable *texture =
+        &b->shader->interface.variables.items[ir_get(g, args[0])->attr];
     if (op == IR_TEX_FETCH)
         return ir_poison(g, IR_TYPE_VEC4); /* build_check_tiles reports it */
     ir_ref inside, uv = upwards(b, args[1]), layer = build_tile_layer(b, texture, uv, &inside);
@@ -278,9 +279,11 @@ void build_check_tiles(struct builder *b, const struct frame *frame, uint32_t fi
             ir_ref arg = ir_arg(b->graph, ref, i);
             if (ir_type_of(b->graph, arg) != IR_TYPE_SAMPLER_ARRAY)
                 continue;
-            diag_add(b->diags, DIAG_ID_tiles_in_loop, doc_place(&b->lib->doc, frame->node.element),
-                     build_text(b, b->graph->callees.items[node->attr].name),
-                     build_text(b, b->shader->variables.items[ir_get(b->graph, arg)->attr].file));
+            diag_add(
+                b->diags, DIAG_ID_tiles_in_loop, doc_place(&b->lib->doc, frame->node.element),
+                build_text(b, b->graph->callees.items[node->attr].name),
+                build_text(b,
+                           b->shader->interface.variables.items[ir_get(b->graph, arg)->attr].file));
             return;
         }
     }

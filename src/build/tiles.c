@@ -212,13 +212,13 @@ bool build_find_tiles(struct builder *b, elem_id element, struct shader_variable
         diag_add(b->diags, DIAG_ID_too_many_tiles, place, file, MAX_CELLS);
     if (!tiles.len || are_too_many(&tiles))
         return false;
-    texture->first_tile = b->shader->tiles.len;
+    texture->first_tile = b->shader->interface.tiles.len;
     texture->num_tiles = tiles.len;
     for (uint32_t i = 0; i < tiles.len; i++) {
         tiles.items[i].file = file_of(b, token, file, &tiles.items[i]);
-        vec_push(b->shader->arena, &b->shader->tiles, tiles.items[i]);
+        vec_push(b->shader->arena, &b->shader->interface.tiles, tiles.items[i]);
     }
-    assert(texture->first_tile + texture->num_tiles == b->shader->tiles.len);
+    assert(texture->first_tile + texture->num_tiles == b->shader->interface.tiles.len);
     return true;
 }
 
@@ -256,9 +256,9 @@ static ir_ref is_between(struct ir_graph *g, ir_ref x, int32_t length)
 ir_ref build_tile_layer(struct builder *b, const struct shader_variable *texture, ir_ref uv,
                         ir_ref *out_inside)
 {
-    assert(texture->first_tile + texture->num_tiles <= b->shader->tiles.len);
+    assert(texture->first_tile + texture->num_tiles <= b->shader->interface.tiles.len);
     struct ir_graph *g = b->graph;
-    const struct shader_tile *tiles = b->shader->tiles.items + texture->first_tile;
+    const struct shader_tile *tiles = b->shader->interface.tiles.items + texture->first_tile;
     struct cells cells = cells_of(tiles, texture->num_tiles);
     struct ir_value corner = {.type = IR_TYPE_VEC2,
                               .w = {{.f = (float)cells.u}, {.f = (float)cells.v}}};

@@ -69,17 +69,17 @@ static void decide_by(struct builder *b, struct shader_variable *uniform)
         return;
     uniform->update = UPDATE_SHADER;
     vec_push(
-        b->arena, &b->shader->compiled,
+        b->arena, &b->shader->reflection.compiled,
         (struct shader_compiled_input){uniform->element, uniform->definition, uniform->doc_type});
 }
 
 bool build_initial(struct builder *b, ir_ref value, struct ir_value *out)
 {
     const struct ir_node *node = ir_get(b->graph, value);
-    assert(node->op != IR_UNIFORM || node->attr < b->shader->variables.len);
+    assert(node->op != IR_UNIFORM || node->attr < b->shader->interface.variables.len);
     if (node->op != IR_UNIFORM)
         return ir_get_const(b->graph, value, out);
-    struct shader_variable *uniform = &b->shader->variables.items[node->attr];
+    struct shader_variable *uniform = &b->shader->interface.variables.items[node->attr];
     decide_by(b, uniform);
     *out = uniform->value;
     return uniform->has_default;

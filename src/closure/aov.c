@@ -17,19 +17,19 @@ static bool is_whole(const struct ir_graph *g, ir_ref value)
 void closure_find_aovs(struct shader *shader, ir_ref root)
 {
     const struct ir_graph *g = shader->graph;
-    for (uint32_t i = 0; i < shader->num_listed_aovs; i++)
-        shader->aovs.items[i].is_output = true;
-    if (!root || !shader->aovs.len || shader->lists_aovs)
+    for (uint32_t i = 0; i < shader->interface.num_listed_aovs; i++)
+        shader->interface.aovs.items[i].is_output = true;
+    if (!root || !shader->interface.aovs.len || shader->interface.lists_aovs)
         return;
     const uint8_t *needed = ir_mark(g, &root, 1, shader->arena);
     for (ir_ref ref = 1; ref <= root; ref++)
         if (needed[ref] && ir_get(g, ref)->op == IR_AOV)
-            shader->aovs.items[ir_get(g, ref)->attr].is_output = true;
+            shader->interface.aovs.items[ir_get(g, ref)->attr].is_output = true;
 }
 
 struct closure_aovs closure_aovs_of(struct shader *shader)
 {
-    struct closure_aovs aovs = {.num = shader->aovs.len};
+    struct closure_aovs aovs = {.num = shader->interface.aovs.len};
     aovs.items = ARENA_ARRAY(shader->arena, struct closure_aov, aovs.num);
     for (uint32_t i = 0; i < aovs.num; i++)
         aovs.items[i].weight = ir_const_float(shader->graph, 1.0f);
@@ -174,14 +174,14 @@ static str_id output_name(struct shader *shader, const struct shader_aov *aov, c
 
 ir_type_id closure_aov_type(const struct shader *shader, uint32_t index)
 {
-    ir_type_id type = shader->aovs.items[index].type;
+    ir_type_id type = shader->interface.aovs.items[index].type;
     return type == IR_TYPE_BOOL ? IR_TYPE_INT : ir_type_is_closure(type) ? IR_TYPE_VEC3 : type;
 }
 
 uint32_t closure_aov_output(struct shader *shader, uint32_t index, enum aov_output which,
                             ir_type_id type)
 {
-    struct shader_aov *aov = &shader->aovs.items[index];
+    struct shader_aov *aov = &shader->interface.aovs.items[index];
     struct text semantic;
     text_init(&semantic, shader->arena);
     text_str(&semantic, "aov");

@@ -47,8 +47,8 @@ static void find_wanted(struct differ *d, const uint8_t *needed)
 static ir_ref shifted_stream(struct differ *d, ir_ref ref, unsigned axis)
 {
     const struct ir_node *node = ir_get(d->graph, ref);
-    assert(node->op == IR_STREAM && node->attr < d->shader->variables.len);
-    str_id name = d->shader->variables.items[node->attr].name;
+    assert(node->op == IR_STREAM && node->attr < d->shader->interface.variables.len);
+    str_id name = d->shader->interface.variables.items[node->attr].name;
     if (name == STR_random || name == STR_viewWorld || name == STR_lightWorld || name == STR_matter
         || ir_type_info(node->type)->scalar != IR_TYPE_FLOAT)
         return ref;

@@ -155,7 +155,7 @@ ir_ref closure_displace(struct shader *shader, const struct closure_host *host, 
     ir_ref offset = displacement ? closure_offset(shader, displacement) : 0;
     if (!offset)
         return shaded_root(shader, surface, 0);
-    shader->displaced = true;
+    shader->reflection.displaced = true;
     struct closure_point *point = host->point;
     ir_ref before = stream(shader, STR_positionWorld);
     ir_push_name(g, STR_P);

@@ -23,21 +23,21 @@ enum { MAX_LIGHT_NODES = 400 };
 
 static ir_ref member(struct shader *shader, uint32_t variable)
 {
-    assert(shader->variables.items[variable].block == BLOCK_LIGHT_DATA);
-    return ir_build(shader->graph, IR_CONTEXT, shader->variables.items[variable].type, variable,
-                    NULL, 0);
+    assert(shader->interface.variables.items[variable].block == BLOCK_LIGHT_DATA);
+    return ir_build(shader->graph, IR_CONTEXT, shader->interface.variables.items[variable].type,
+                    variable, NULL, 0);
 }
 
 /* Direction and intensity from the function of one light shader. */
 static void call_function(struct shader *shader, const struct closure_host *host,
                           const struct shader_light *light, ir_ref *results)
 {
-    assert(light->first_member + light->num_members <= shader->light_members.len);
+    assert(light->first_member + light->num_members <= shader->interface.light_members.len);
     struct lang_host see_through = *host->lang;
     see_through.max_inline_nodes = MAX_LIGHT_NODES;
     ir_ref *args = ARENA_ARRAY(shader->arena, ir_ref, light->num_members + 1);
     for (uint32_t i = 0; i < light->num_members; i++)
-        args[i] = member(shader, shader->light_members.items[light->first_member + i]);
+        args[i] = member(shader, shader->interface.light_members.items[light->first_member + i]);
     args[light->num_members] = closure_position(shader, host);
     lang_lower_call(shader->unit, shader->graph, &see_through, light->function, args, results);
 }
@@ -50,8 +50,8 @@ static void call_source(struct shader *shader, const struct closure_host *host,
                         const struct shader_light *light, ir_ref *results)
 {
     struct ir_graph *g = shader->graph;
-    const struct shader_verbatim *verbatim = &shader->verbatim.items[light->source];
-    ir_type_id type = shader->result_types.items[verbatim->first_result];
+    const struct shader_verbatim *verbatim = &shader->sources.calls.items[light->source];
+    ir_type_id type = shader->sources.result_types.items[verbatim->first_result];
     uint32_t callee = ir_add_callee(g, (struct ir_callee){.kind = IR_CALLEE_VERBATIM,
                                                           .index = light->source,
                                                           .name = verbatim->function});
@@ -134,12 +134,12 @@ static void call_host(struct shader *shader, const struct closure_host *host,
     struct shader_verbatim light = {.result_names = names,
                                     .function = str_intern_z(shader->strings, "mxg_light"),
                                     .num_results = 2,
-                                    .first_result = shader->result_types.len};
+                                    .first_result = shader->sources.result_types.len};
     for (uint32_t i = 0; i < light.num_results; i++)
-        vec_push(shader->arena, &shader->result_types, IR_TYPE_VEC3);
-    vec_push(shader->arena, &shader->verbatim, light);
+        vec_push(shader->arena, &shader->sources.result_types, IR_TYPE_VEC3);
+    vec_push(shader->arena, &shader->sources.calls, light);
     uint32_t callee = ir_add_callee(g, (struct ir_callee){.kind = IR_CALLEE_VERBATIM,
-                                                          .index = shader->verbatim.len - 1,
+                                                          .index = shader->sources.calls.len - 1,
                                                           .name = light.function});
     ir_ref args[] = {ir_build(g, IR_CONTEXT, IR_TYPE_INT, IR_LIGHT_INDEX, NULL, 0),
                      closure_position(shader, host)};
@@ -219,7 +219,7 @@ static void choose(struct shader *shader, struct closure_light *out, enum effect
 static uint32_t declare(struct shader *shader, struct closure_light *out, str_id name, ir_ref first)
 {
     uint32_t local = shader_add_local(shader, name, ir_type_of(shader->graph, first));
-    shader->locals.items[local].is_settled = true;
+    shader->effects.locals.items[local].is_settled = true;
     choose(shader, out, EFFECT_VAR, local, 0);
     return local;
 }
@@ -228,7 +228,7 @@ static ir_ref read_variable(struct shader *shader, uint32_t local)
 {
     struct ir_graph *g = shader->graph;
     ir_ref light = ir_build(g, IR_CONTEXT, IR_TYPE_INT, IR_LIGHT_INDEX, NULL, 0);
-    return ir_build(g, IR_LOCAL, shader->locals.items[local].type, local, &light, 1);
+    return ir_build(g, IR_LOCAL, shader->effects.locals.items[local].type, local, &light, 1);
 }
 
 static bool have_one_direction(const struct one_light *lights, uint32_t num)
@@ -277,11 +277,11 @@ void closure_sample_light(struct shader *shader, const struct closure_host *host
         call_host(shader, host, out);
         return;
     }
-    uint32_t num = shader->lights.len;
+    uint32_t num = shader->interface.lights.len;
     assert(num > 0);
     struct one_light *lights = ARENA_ARRAY(shader->arena, struct one_light, num);
     for (uint32_t i = num; i-- > 0;)
-        sample_one(shader, host, &shader->lights.items[i], &lights[i]);
+        sample_one(shader, host, &shader->interface.lights.items[i], &lights[i]);
     struct one_light *last = &lights[num - 1];
     ir_ref dark = ir_const_splat(g, IR_TYPE_VEC3, 0.0f);
     last->intensity = ir_op3(g, IR_SELECT, last->is_this, last->intensity, dark);
@@ -304,14 +304,14 @@ ir_ref closure_light_distance(struct shader *shader, const struct closure_host *
 {
     struct ir_graph *g = shader->graph;
     ir_ref type = type_of_light(shader), far = ir_const_float(g, 1e30f), distance = far;
-    for (uint32_t i = shader->lights.len; i-- > 0;) {
-        const struct shader_light *light = &shader->lights.items[i];
+    for (uint32_t i = shader->interface.lights.len; i-- > 0;) {
+        const struct shader_light *light = &shader->interface.lights.items[i];
         ir_ref this_one = far;
         if (light->shader)
             this_one = distance_to(shader, host, light->position);
         for (uint32_t m = 0; m < light->num_members; m++) {
-            uint32_t variable = shader->light_members.items[light->first_member + m];
-            const struct shader_variable *v = &shader->variables.items[variable];
+            uint32_t variable = shader->interface.light_members.items[light->first_member + m];
+            const struct shader_variable *v = &shader->interface.variables.items[variable];
             if (v->name == STR_position && v->type == IR_TYPE_VEC3)
                 this_one = distance_to(shader, host, variable);
         }

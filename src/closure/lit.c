@@ -77,7 +77,7 @@ static void add_part(struct emitter *e, enum closure_place place, const struct c
 
 static void accumulate(struct emitter *e, ir_ref factor, ir_ref value)
 {
-    assert(e->lit.color < e->shader->locals.len);
+    assert(e->lit.color < e->shader->effects.locals.len);
     ir_push_origin_of(e->graph, value);
     if (factor) /* of the numbers of both a GPU makes one, before it comes to vectors */
         value = closure_product(e->graph, factor, value);
@@ -323,7 +323,7 @@ static void loop_lights(struct emitter *e, struct closure_parts *lit, bool is_on
     comment_leaves(e, str_text(e->shader->strings, STR_lights), lit->parts.items,
                    is_one_of_several ? lit->parts.len : 0);
     emitter_effect(e, EFFECT_LIGHTS, 0, 0);
-    closure_enter_loop(&e->copies, e->shader->num_light_loops++);
+    closure_enter_loop(&e->copies, e->shader->effects.num_light_loops++);
     for (uint32_t i = 0; i < e->lit.light.choice.len; i++) {
         const struct effect *part = &e->lit.light.choice.items[i];
         emitter_effect(e, (enum effect_kind)part->kind, part->index, part->value);
@@ -338,7 +338,7 @@ static void loop_samples(struct emitter *e, struct closure_parts *list, ir_ref f
 {
     struct closure_turn turn = closure_turn_of_samples(e->shader, list);
     emitter_effect(e, EFFECT_SAMPLES, 0, turn.first);
-    closure_enter_loop(&e->copies, e->shader->num_sample_loops++);
+    closure_enter_loop(&e->copies, e->shader->effects.num_sample_loops++);
     if (list->parts.len == 1)
         accumulate(e, factor, list->parts.items[0].value);
     else
@@ -445,7 +445,7 @@ void emitter_write_lit(struct emitter *e)
             }
         write_batch(e, batch, batches.ends.len > 1, open);
     }
-    e->shader->lit = true;
+    e->shader->reflection.lit = true;
 }
 
 /* Light starts at the leaf, so its way in is 0. */

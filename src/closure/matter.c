@@ -361,5 +361,5 @@ void matter_write(struct closure_scatter *s)
     a = medium_above(s);
     scatter_write_output(s, STR_out11, whole, a);
     write_body(s);
-    s->shader->transparent |= !ir_const_is(s->graph, whole, 0.0f);
+    s->shader->reflection.transparent |= !ir_const_is(s->graph, whole, 0.0f);
 }

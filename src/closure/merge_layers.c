@@ -173,7 +173,7 @@ static ir_ref varied(struct merging *m, uint32_t item, str_id name)
     const ir_ref *refs = refs_of(m, item);
     ir_type_id type = ir_type_of(m->graph, refs[0]);
     uint32_t local = shader_add_local(m->shader, name, type);
-    m->shader->locals.items[local].is_settled = true;
+    m->shader->effects.locals.items[local].is_settled = true;
     struct closure_variable variable = {local, m->out->values.len};
     for (uint32_t i = 0; i < m->num; i++)
         vec_push(m->shader->arena, &m->out->values, refs[i]);

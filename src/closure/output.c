@@ -84,7 +84,7 @@ void closure_write_output(struct shader *shader, ir_ref color, ir_ref alpha, ir_
         ir_ref parts[2] = {color, alpha};
         write_value(shader, STR_out1, ir_construct(g, IR_TYPE_VEC4, parts, 2));
     }
-    if (shader->has_two_sources)
+    if (shader->reflection.has_two_sources)
         write_second_source(shader, through, alpha);
 }
 
@@ -98,7 +98,8 @@ bool closure_emit_value(struct shader *shader, bool encodes, ir_ref root)
         type = IR_TYPE_FLOAT;
     }
     ir_ref color = root, alpha = ir_const_float(g, 1.0f);
-    bool is_color = shader->value_type == STR_color3 || shader->value_type == STR_color4;
+    bool is_color =
+        shader->reflection.value_type == STR_color3 || shader->reflection.value_type == STR_color4;
     switch (type) {
     case IR_TYPE_FLOAT: color = ir_convert(g, IR_TYPE_VEC3, root); break;
     case IR_TYPE_VEC2: color = ir_construct(g, IR_TYPE_VEC3, (ir_ref[]){root, zero}, 2); break;

@@ -10,12 +10,12 @@
 /* Locals for the AOVs of the layer that is picked. */
 static uint32_t *declare_aovs(struct emitter *e)
 {
-    uint32_t num = e->shader->aovs.len;
+    uint32_t num = e->shader->interface.aovs.len;
     uint32_t *locals = ARENA_ARRAY(e->shader->arena, uint32_t, num);
     for (uint32_t i = 0; i < num; i++) {
         if (!emitter_is_output(e, i))
             continue;
-        locals[i] = shader_add_local(e->shader, e->shader->aovs.items[i].name,
+        locals[i] = shader_add_local(e->shader, e->shader->interface.aovs.items[i].name,
                                      closure_aov_type(e->shader, i));
         emitter_effect(e, EFFECT_VAR, locals[i], closure_aov_value(e->shader, i, 0));
     }
@@ -88,7 +88,7 @@ static void emit_values(struct emitter *e, const struct closure_merged *merged,
 {
     for (uint32_t i = 0; i < merged->variables.len; i++) {
         uint32_t local = merged->variables.items[i].local;
-        ir_type_id type = e->shader->locals.items[local].type;
+        ir_type_id type = e->shader->effects.locals.items[local].type;
         emitter_effect(e, EFFECT_VAR, local, zero_of(e->graph, type));
     }
     for (uint32_t k = 0; k < num; k++) {

@@ -283,6 +283,6 @@ bool closure_find_pile(struct shader *shader, const struct closure_host *host,
                                          .is_last = true});
     /* refracted light pays for clear media where it goes in, and where it comes out */
     bool walks = f.any_walk || (f.any_medium && f.any_solid);
-    shader->not_walked = walks ? f.why : NULL;
+    shader->reflection.not_walked = walks ? f.why : NULL;
     return walks && !f.why;
 }

@@ -140,7 +140,7 @@ ir_ref closure_gathered(struct shader *shader, ir_ref value)
     struct closure_parts parts = {0};
     vec_push(shader->arena, &parts.parts, (struct closure_part){.value = value});
     struct closure_turn turn = closure_turn_of_samples(shader, &parts);
-    struct closure_copies copies = {.shader = shader, .loop = shader->num_sample_loops++};
+    struct closure_copies copies = {.shader = shader, .loop = shader->effects.num_sample_loops++};
     value = closure_in_loop(&copies, value);
     turn.next = closure_in_loop(&copies, turn.next);
     struct effect effects[] = {{.kind = EFFECT_VAR, .index = sum, .value = nothing},

@@ -55,8 +55,9 @@ uint32_t scatter_local(struct closure_scatter *s, str_id name, ir_ref value)
 
 ir_ref scatter_read(struct closure_scatter *s, uint32_t index)
 {
-    assert(index < s->shader->locals.len);
-    return ir_build(s->graph, IR_LOCAL, s->shader->locals.items[index].type, index, NULL, 0);
+    assert(index < s->shader->effects.locals.len);
+    return ir_build(s->graph, IR_LOCAL, s->shader->effects.locals.items[index].type, index, NULL,
+                    0);
 }
 
 ir_ref scatter_number(struct closure_scatter *s, float value)
@@ -398,7 +399,7 @@ static void light_up(struct closure_scatter *s)
         ir_ref lit = scatter_read(s, c.kept[p]);
         s->parts[p].lit = scatter_op2(s, IR_MUL, lit, scatter_read(s, c.sum));
     }
-    s->shader->lit = true;
+    s->shader->reflection.lit = true;
 }
 
 ir_ref closure_scatter_number(struct shader *shader, ir_ref alpha)
@@ -416,10 +417,11 @@ struct closure_scatter *closure_scatter_begin(struct shader *shader,
                                   .host = host,
                                   .lighting = lighting,
                                   .copies = {.shader = shader}};
-    s->parts = ARENA_ARRAY(shader->arena, struct part, shader->aovs.len + 1);
+    s->parts = ARENA_ARRAY(shader->arena, struct part, shader->interface.aovs.len + 1);
     s->num_parts = 1;
-    for (uint32_t i = 0; i < shader->aovs.len; i++)
-        if (shader->aovs.items[i].is_output && shader->aovs.items[i].type == IR_TYPE_BSDF)
+    for (uint32_t i = 0; i < shader->interface.aovs.len; i++)
+        if (shader->interface.aovs.items[i].is_output
+            && shader->interface.aovs.items[i].type == IR_TYPE_BSDF)
             s->parts[s->num_parts++].aov = i;
     return s;
 }
@@ -438,11 +440,11 @@ static void declare_layers(struct closure_scatter *s)
         s->to_light = scatter_local(s, STR_L, black);
         s->away = scatter_local(s, STR_distance, nothing);
     }
-    s->aov_locals = ARENA_ARRAY(s->shader->arena, uint32_t, s->shader->aovs.len);
-    for (uint32_t i = 0; i < s->shader->aovs.len; i++)
-        if (s->shader->aovs.items[i].is_output)
-            s->aov_locals[i] =
-                scatter_local(s, s->shader->aovs.items[i].name, closure_aov_value(s->shader, i, 0));
+    s->aov_locals = ARENA_ARRAY(s->shader->arena, uint32_t, s->shader->interface.aovs.len);
+    for (uint32_t i = 0; i < s->shader->interface.aovs.len; i++)
+        if (s->shader->interface.aovs.items[i].is_output)
+            s->aov_locals[i] = scatter_local(s, s->shader->interface.aovs.items[i].name,
+                                             closure_aov_value(s->shader, i, 0));
     s->is_stack = true;
 }
 
@@ -463,7 +465,7 @@ static void keep_layer(struct closure_scatter *s)
     for (uint32_t p = 0; p < s->num_parts; p++)
         scatter_effect(s, EFFECT_ASSIGN, s->parts[p].seen_local, seen_of(s, p));
     for (uint32_t i = 0; i < s->aovs.num; i++)
-        if (s->shader->aovs.items[i].is_output && s->aovs.items[i].value)
+        if (s->shader->interface.aovs.items[i].is_output && s->aovs.items[i].value)
             scatter_effect(s, EFFECT_ASSIGN, s->aov_locals[i],
                            closure_aov_value(s->shader, i, s->aovs.items[i].value));
     if (!s->lighting->lights)
@@ -527,8 +529,8 @@ static void write_part(struct closure_scatter *s, const struct part *part, enum 
 
 static void write_aovs(struct closure_scatter *s)
 {
-    for (uint32_t i = 0; i < s->shader->aovs.len; i++) {
-        if (!s->shader->aovs.items[i].is_output)
+    for (uint32_t i = 0; i < s->shader->interface.aovs.len; i++) {
+        if (!s->shader->interface.aovs.items[i].is_output)
             continue;
         ir_ref value =
             s->is_stack ? scatter_read(s, s->aov_locals[i])
@@ -579,7 +581,7 @@ void closure_scatter_end(struct closure_scatter *s, ir_ref alpha)
     if (s->lighting->lights)
         write_lit(s);
     write_aovs(s);
-    s->shader->transparent = alpha && !ir_const_is(s->graph, alpha, 1.0f);
+    s->shader->reflection.transparent = alpha && !ir_const_is(s->graph, alpha, 1.0f);
     if (s->pile)
         matter_write(s);
 }

@@ -28,11 +28,11 @@ static void alpha_test(struct emitter *e, ir_ref alpha)
     uint32_t threshold = shader_private_uniform(e->shader, STR_u_alphaThreshold, IR_TYPE_FLOAT, 0);
     emitter_effect(e, EFFECT_DISCARD, 0,
                    ir_op2(e->graph, IR_LT, alpha, shader_read(e->shader, threshold)));
-    e->shader->transparent = true;
-    e->shader->alpha = e->lighting->transparency == TRANSPARENCY_AUTO
-                           ? (uint8_t)closure_alpha(e->shader, alpha)
-                       : e->lighting->transparency == TRANSPARENCY_MASK ? ALPHA_MASK
-                                                                        : ALPHA_BLEND;
+    e->shader->reflection.transparent = true;
+    e->shader->reflection.alpha = e->lighting->transparency == TRANSPARENCY_AUTO
+                                      ? (uint8_t)closure_alpha(e->shader, alpha)
+                                  : e->lighting->transparency == TRANSPARENCY_MASK ? ALPHA_MASK
+                                                                                   : ALPHA_BLEND;
 }
 
 /* The alpha of the output: the opacity without the transmitted part. 0 = 1. */
@@ -50,7 +50,7 @@ static ir_ref output_alpha(struct emitter *e, const struct closure_surface *s)
 static ir_ref output_through(struct emitter *e, const struct closure_surface *s)
 {
     struct ir_graph *g = e->graph;
-    if (!e->shader->has_two_sources || (!e->through && !s->through))
+    if (!e->shader->reflection.has_two_sources || (!e->through && !s->through))
         return 0;
     ir_ref one = ir_const_splat(g, IR_TYPE_VEC3, 1.0f);
     ir_ref through = closure_surface_through(g, s);
@@ -84,8 +84,8 @@ static void write_aovs(struct emitter *e, struct closure_aovs aovs, ir_ref scale
 {
     if (scale)
         aovs = closure_aovs_scaled(e->graph, aovs, scale);
-    for (uint32_t i = 0; i < e->shader->aovs.len; i++) {
-        if (!e->shader->aovs.items[i].is_output)
+    for (uint32_t i = 0; i < e->shader->interface.aovs.len; i++) {
+        if (!e->shader->interface.aovs.items[i].is_output)
             continue;
         ir_ref value = closure_aov_value(e->shader, i, aovs.num ? aovs.items[i].value : 0);
         value = with_alpha(e, value, alpha);
@@ -99,7 +99,7 @@ static bool draws_all(const struct emitter *e, ir_ref alpha)
 {
     return e->lighting->transparency == TRANSPARENCY_OPAQUE
            || (closure_is_opaque(e->graph, alpha) && e->lighting->transparency != TRANSPARENCY_BLEND
-               && !e->shader->has_two_sources);
+               && !e->shader->reflection.has_two_sources);
 }
 
 void emitter_finish_surface(struct emitter *e, const struct closure_surface *s)
@@ -124,7 +124,7 @@ void emitter_finish_surface(struct emitter *e, const struct closure_surface *s)
 
 bool emitter_is_output(const struct emitter *e, uint32_t aov)
 {
-    return e->shader->aovs.items[aov].is_output;
+    return e->shader->interface.aovs.items[aov].is_output;
 }
 
 bool emitter_is_closure(const struct emitter *e, ir_ref value)
@@ -134,7 +134,7 @@ bool emitter_is_closure(const struct emitter *e, ir_ref value)
 
 static bool has_aov_outputs(const struct emitter *e)
 {
-    for (uint32_t i = 0; i < e->shader->aovs.len; i++)
+    for (uint32_t i = 0; i < e->shader->interface.aovs.len; i++)
         if (emitter_is_output(e, i))
             return true;
     return false;
@@ -226,12 +226,12 @@ static bool find_pile(struct emitter *e, ir_ref root, const struct closure_surfa
                       struct closure_pile *out)
 {
     const struct ir_graph *g = e->graph;
-    ir_ref *closures = ARENA_ARRAY(e->shader->arena, ir_ref, e->shader->aovs.len + 1);
+    ir_ref *closures = ARENA_ARRAY(e->shader->arena, ir_ref, e->shader->interface.aovs.len + 1);
     bool is_whole = closure_is_opaque(g, s->alpha), is_joined = op_of(e, root) == IR_MATTER;
     uint32_t num = 0;
     closures[num++] = is_joined ? ir_arg(g, root, 1) : s->bsdf;
-    for (uint32_t i = 0; i < e->shader->aovs.len; i++)
-        if (emitter_is_output(e, i) && e->shader->aovs.items[i].type == IR_TYPE_BSDF)
+    for (uint32_t i = 0; i < e->shader->interface.aovs.len; i++)
+        if (emitter_is_output(e, i) && e->shader->interface.aovs.items[i].type == IR_TYPE_BSDF)
             closures[num++] = is_joined ? ir_arg(g, root, i + 2) : 0;
     return !e->host->above && (s->is_matter || is_whole || !s->premultiplied)
            && closure_find_pile(e->shader, e->host, closures, num, s->is_matter && !is_whole, out);
@@ -267,7 +267,9 @@ static void emit_scattering(struct emitter *e, ir_ref root)
 static void store_surface(struct emitter *e, const struct closure_surface *s, bool is_whole)
 {
     struct closure_list list;
-    e->shader->alpha = draws_all(e, s->alpha) ? ALPHA_OPAQUE : is_whole ? ALPHA_MASK : ALPHA_BLEND;
+    e->shader->reflection.alpha = draws_all(e, s->alpha) ? ALPHA_OPAQUE
+                                  : is_whole             ? ALPHA_MASK
+                                                         : ALPHA_BLEND;
     emitter_flatten(e, s, &list);
     const struct closure_stored stored = {s->bsdf, &list, e->lit.base, s->alpha, s->premultiplied};
     e->host->store(e->shader, e->host, &stored);
@@ -289,7 +291,7 @@ static void emit_surface(struct emitter *e, ir_ref root)
         emit_scattering(e, root);
         return;
     }
-    if (op_of(e, root) == IR_SLOTS && e->shader->picks) {
+    if (op_of(e, root) == IR_SLOTS && e->shader->reflection.picks) {
         emitter_pick_layer(e, root);
         return;
     }
@@ -324,9 +326,9 @@ static void emit_volume(struct emitter *e, ir_ref root)
     for (uint32_t i = 0; i < volume.scattering.leaves.len; i++)
         shader_add_closure(e->shader, volume.scattering.leaves.items[i].leaf);
     emitter_write_lit(e);
-    e->shader->transparent = true;
+    e->shader->reflection.transparent = true;
     /* no alpha test: emission may leave the background unchanged */
-    e->shader->alpha = ALPHA_BLEND;
+    e->shader->reflection.alpha = ALPHA_BLEND;
     write_surface(e, emitter_color(e), volume.alpha, 0);
 }
 

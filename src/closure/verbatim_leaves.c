@@ -25,8 +25,8 @@ const struct source_leaf *closure_source(const struct shader *shader, ir_ref lea
     const struct ir_callee *callee = &shader->graph->callees.items[node->attr];
     if (callee->kind != IR_CALLEE_SOURCE)
         return NULL;
-    assert(callee->index < shader->source_leaves.len);
-    return &shader->source_leaves.items[callee->index];
+    assert(callee->index < shader->sources.leaves.len);
+    return &shader->sources.leaves.items[callee->index];
 }
 
 /* The context whose response is a function of a leaf; NUM_SOURCE_CONTEXTS: none. */
@@ -164,9 +164,9 @@ struct closure_value closure_call_with(struct shader *shader, const struct closu
                     ? struct_of(&c, operand_struct(&c, &source, type), operands[i])
                     : ir_arg(g, leaf, i));
     }
-    const struct shader_verbatim *verbatim = &shader->verbatim.items[index];
+    const struct shader_verbatim *verbatim = &shader->sources.calls.items[index];
     assert(verbatim->num_results == 1 && verbatim->has_initial);
-    ir_type_id type = shader->result_types.items[verbatim->first_result];
+    ir_type_id type = shader->sources.result_types.items[verbatim->first_result];
     put(&c, struct_of(&c, type, nothing(&c)));
     ir_push_origin(g, node.origin);
     uint32_t callee =

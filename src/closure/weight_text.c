@@ -123,8 +123,8 @@ static void describe(struct describer *d, ir_ref ref, unsigned depth, unsigned p
     case IR_UNIFORM:
     case IR_STREAM:
     case IR_TEXTURE: {
-        assert(node->attr < d->shader->variables.len);
-        const struct shader_variable *v = &d->shader->variables.items[node->attr];
+        assert(node->attr < d->shader->interface.variables.len);
+        const struct shader_variable *v = &d->shader->interface.variables.items[node->attr];
         text_str(d->out, name_of(d, v->path ? v->path : v->name));
         return;
     }

@@ -44,14 +44,14 @@ ir_ref deferred_misfit(const struct shader *shader, ir_ref root)
 static ir_ref call(struct shader *shader, const char *name, ir_type_id type, uint32_t source,
                    const ir_ref *args, unsigned n)
 {
-    uint32_t first = shader->source_refs.len;
-    vec_push(shader->arena, &shader->source_refs, source);
+    uint32_t first = shader->sources.refs.len;
+    vec_push(shader->arena, &shader->sources.refs, source);
     struct shader_verbatim verbatim = {
         .first_source = first, .num_sources = 1, .function = str_intern_z(shader->strings, name)};
-    vec_push(shader->arena, &shader->verbatim, verbatim);
+    vec_push(shader->arena, &shader->sources.calls, verbatim);
     uint32_t callee =
         ir_add_callee(shader->graph, (struct ir_callee){.kind = IR_CALLEE_VERBATIM,
-                                                        .index = shader->verbatim.len - 1,
+                                                        .index = shader->sources.calls.len - 1,
                                                         .name = verbatim.function});
     return ir_build(shader->graph, IR_VERBATIM, type, callee, args, n);
 }
@@ -220,12 +220,13 @@ static void measure(struct shader *shader, const struct closure_list *marks,
                     const struct deferred_layout *layout)
 {
     if (layout->is_payload) {
-        shader->stored_words = DEFERRED_PAYLOAD_WORDS;
+        shader->reflection.stored_words = DEFERRED_PAYLOAD_WORDS;
         return;
     }
     const struct stored_slab *slabs = slabs_of(shader, marks);
-    shader->stored_words = count_words(shader->graph, slabs, marks->leaves.len, layout->storage);
-    shader->stored_classes = find_classes(shader->graph, slabs, marks->leaves.len);
+    shader->reflection.stored_words =
+        count_words(shader->graph, slabs, marks->leaves.len, layout->storage);
+    shader->reflection.stored_classes = find_classes(shader->graph, slabs, marks->leaves.len);
 }
 
 /* ---- Effects ---- */
@@ -241,7 +242,7 @@ static ir_ref table_of(struct shader *shader, ir_ref texture, ir_ref weight)
     if (ir_const_is(g, weight, 0.0f))
         return ir_const_float(g, 0.0f);
     assert(node->op == IR_TEXTURE);
-    struct shader_variable number = shader->variables.items[node->attr];
+    struct shader_variable number = shader->interface.variables.items[node->attr];
     struct text name;
     text_init(&name, shader->arena);
     text_fmt(&name, "%s_number", str_text(shader->strings, number.name));
@@ -294,12 +295,13 @@ static void store_leaf(struct shader *shader, const struct closure_leaf *leaf, b
 
 static uint32_t add_source(struct shader *shader, const struct deferred_layout *layout)
 {
-    bool has_layers = !layout->is_payload && shader->stored_words > DEFERRED_TARGET_WORDS;
+    bool has_layers =
+        !layout->is_payload && shader->reflection.stored_words > DEFERRED_TARGET_WORDS;
     struct text text;
     struct source_fault fault;
     text_init(&text, shader->arena);
     deferred_write_storage(layout, &text);
-    text_fmt(&text, "#define MX_WORDS %u\n", (unsigned)shader->stored_words);
+    text_fmt(&text, "#define MX_WORDS %u\n", (unsigned)shader->reflection.stored_words);
     if (has_layers)
         deferred_declare(RESOURCE_WORDS, layout, false, true, &text);
     deferred_write_lines(layout->is_payload ? deferred_pack : deferred_write, &text);
@@ -393,7 +395,7 @@ void deferred_store(struct shader *shader, const struct closure_host *host,
     uint32_t source = add_source(shader, layout);
     if (layout->is_payload)
         premultiply(shader, surface, &marks, &emission);
-    shader->closures.len = 0; /* lights of slabs are no closures of their own here */
+    shader->reflection.closures.len = 0; /* lights of slabs are no closures of their own here */
     for (uint32_t i = 0; i < marks.leaves.len; i++) {
         const struct closure_leaf *leaf = &marks.leaves.items[i];
         store_leaf(shader, leaf, is_spread(&spread, leaf), local, source,

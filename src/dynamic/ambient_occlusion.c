@@ -16,7 +16,7 @@ static ir_ref stream_of(struct builder *b, const char *name)
 /* A geometry without the primvar is open. */
 static void open_by_default(struct builder *b, uint32_t index)
 {
-    struct shader_variable *variable = &b->shader->variables.items[index];
+    struct shader_variable *variable = &b->shader->interface.variables.items[index];
     variable->has_default = true;
     variable->value = ir_value_float(1.0f);
 }
@@ -33,7 +33,8 @@ static ir_ref primvar(struct builder *b)
 
 static bool has_semantic(const struct builder *b, ir_ref stream, const char *semantic)
 {
-    const struct shader_variable *v = &b->shader->variables.items[ir_get(b->graph, stream)->attr];
+    const struct shader_variable *v =
+        &b->shader->interface.variables.items[ir_get(b->graph, stream)->attr];
     return strcmp(build_text(b, v->semantic), semantic) == 0;
 }
 
@@ -52,7 +53,8 @@ static ir_ref traced(struct builder *b, float angle, float distance)
         uint32_t index = ir_get(b->graph, stream)->attr;
         if (is_new) {
             b->num_occlusions = number + 1;
-            b->shader->variables.items[index].semantic = str_intern_z(b->shader->strings, semantic);
+            b->shader->interface.variables.items[index].semantic =
+                str_intern_z(b->shader->strings, semantic);
         }
         if (has_semantic(b, stream, semantic))
             return stream;

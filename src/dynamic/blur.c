@@ -79,7 +79,8 @@ static bool moves(const struct blur *blur, const struct ir_node *node)
     const struct shader *shader = blur->b->shader;
     if (node->op != IR_STREAM)
         return false;
-    const char *name = str_text(shader->strings, shader->variables.items[node->attr].name);
+    const char *name =
+        str_text(shader->strings, shader->interface.variables.items[node->attr].name);
     return blur->skew ? ir_type_is_float(node->type) : strncmp(name, "texcoord_", 9) == 0;
 }
 

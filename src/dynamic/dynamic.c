@@ -164,8 +164,8 @@ static bool build_bitangent(void *user_data, mxg_build *build, mxg_ref *results)
 static void record_default(mxg_build *build, uint32_t index)
 {
     struct builder *b = build->b;
-    assert(index < b->shader->variables.len);
-    struct shader_variable *variable = &b->shader->variables.items[index];
+    assert(index < b->shader->interface.variables.len);
+    struct shader_variable *variable = &b->shader->interface.variables.items[index];
     struct ir_value value;
     if (!variable->has_default && build_initial(b, dynamic_arg(build, STR_default), &value)
         && value.type == variable->type) {

@@ -14,7 +14,8 @@ static bool is_off(const mxg_build *build, str_id input)
     if (!ref)
         return true;
     if (ir_get(b->graph, ref)->op == IR_TEXTURE)
-        return !*build_text(b, b->shader->variables.items[ir_get(b->graph, ref)->attr].file);
+        return !*build_text(b,
+                            b->shader->interface.variables.items[ir_get(b->graph, ref)->attr].file);
     return build_initial(b, ref, &value) && value.w[0].u == 0;
 }
 

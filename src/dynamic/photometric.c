@@ -223,12 +223,13 @@ ir_ref build_measured_edf(struct builder *b, ir_ref color, ir_ref normal, ir_ref
     uint32_t nodedef = even ? library_nodedef_by_name(b->lib, even) : LIBRARY_NONE;
     const struct ir_node *source = file ? ir_get(b->graph, file) : NULL;
     const struct shader_variable *texture =
-        source && source->op == IR_TEXTURE ? &b->shader->variables.items[source->attr] : NULL;
+        source && source->op == IR_TEXTURE ? &b->shader->interface.variables.items[source->attr]
+                                           : NULL;
     float table[LENGTH];
     if (texture && *build_text(b, texture->file)) {
         struct shader_compiled_input compiled = {texture->element, texture->definition,
                                                  texture->doc_type};
-        vec_push(b->arena, &b->shader->compiled, compiled);
+        vec_push(b->arena, &b->shader->reflection.compiled, compiled);
         if (read_table(b, texture->element, build_text(b, texture->file), table))
             color = ir_op2(b->graph, IR_MUL, color, look_up(b, table, normal));
     }

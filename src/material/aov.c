@@ -70,8 +70,8 @@ static void report_unknown(mxg_build *build, ir_ref shader, str_id source)
     bool guesses = diag_guess_begin(&guess, b->diags, build_text(b, source));
     for (ir_ref s = shader; guesses && s && ir_get(b->graph, s)->op == IR_AOV;
          s = ir_arg(b->graph, s, 0))
-        diag_guess_add(&guess,
-                       build_text(b, b->shader->aovs.items[ir_get(b->graph, s)->attr].name));
+        diag_guess_add(
+            &guess, build_text(b, b->shader->interface.aovs.items[ir_get(b->graph, s)->attr].name));
     diag_add(b->diags, DIAG_ID_unknown_aov, doc_place(doc, build->frame->node.element),
              build_text(b, source), build_text(b, output_type(build)),
              guesses ? diag_guess_text(&guess) : "");
@@ -83,7 +83,7 @@ static uint32_t find_in(const struct builder *b, ir_ref surface, str_id name, st
 {
     for (ir_ref s = surface; s && ir_get(b->graph, s)->op == IR_AOV; s = ir_arg(b->graph, s, 0)) {
         uint32_t index = ir_get(b->graph, s)->attr;
-        const struct shader_aov *aov = &b->shader->aovs.items[index];
+        const struct shader_aov *aov = &b->shader->interface.aovs.items[index];
         *out_value = ir_arg(b->graph, s, 1);
         if (aov->name == name && aov->doc_type == type)
             return index;
@@ -171,8 +171,8 @@ static void report_types(struct builder *b, const struct aov_use *use, const str
 static uint32_t number_of(struct builder *b, const struct aov_use *use)
 {
     struct shader *shader = b->shader;
-    for (uint32_t i = 0; i < shader->aovs.len; i++) {
-        struct shader_aov *aov = &shader->aovs.items[i];
+    for (uint32_t i = 0; i < shader->interface.aovs.len; i++) {
+        struct shader_aov *aov = &shader->interface.aovs.items[i];
         if (aov->name != use->name)
             continue;
         if (aov->doc_type != use->type) {
@@ -183,12 +183,12 @@ static uint32_t number_of(struct builder *b, const struct aov_use *use)
             aov->element = use->node;
         return i;
     }
-    vec_push(b->arena, &shader->aovs,
+    vec_push(b->arena, &shader->interface.aovs,
              (struct shader_aov){.name = use->name,
                                  .doc_type = use->type,
                                  .type = ir_type_of(b->graph, use->value),
                                  .element = use->node});
-    return shader->aovs.len - 1;
+    return shader->interface.aovs.len - 1;
 }
 
 void build_add_aov(struct builder *b, const struct aov_use *use, ir_ref *root)
@@ -225,8 +225,8 @@ static bool is_only(struct builder *b, const struct aov_use *uses, uint32_t inde
 static void take_sources(struct builder *b, const struct aov_use *uses, uint32_t num, ir_ref *root)
 {
     for (uint32_t i = 0; i < num; i++)
-        for (uint32_t k = 0; uses[i].source && k < b->shader->aovs.len; k++)
-            if (b->shader->aovs.items[k].name == uses[i].source)
+        for (uint32_t k = 0; uses[i].source && k < b->shader->interface.aovs.len; k++)
+            if (b->shader->interface.aovs.items[k].name == uses[i].source)
                 change_surfaces(b, root, k, 0, without_value);
 }
 
@@ -263,10 +263,10 @@ void build_list_aovs(struct builder *b, const char *const *items, uint32_t num)
 {
     struct shader *shader = b->shader;
     const struct diag_place nowhere = {0};
-    shader->lists_aovs = true;
+    shader->interface.lists_aovs = true;
     for (uint32_t i = 0; i < num; i++) {
         if (strcmp(items[i], "none") == 0) {
-            shader->aovs.len = 0;
+            shader->interface.aovs.len = 0;
             continue;
         }
         const char *equals = strrchr(items[i], '=');
@@ -281,7 +281,7 @@ void build_list_aovs(struct builder *b, const char *const *items, uint32_t num)
         }
         struct shader_aov aov = {
             .name = str_intern(shader->strings, items[i], len), .doc_type = word, .type = of_graph};
-        vec_push(b->arena, &shader->aovs, aov);
+        vec_push(b->arena, &shader->interface.aovs, aov);
     }
-    shader->num_listed_aovs = shader->aovs.len;
+    shader->interface.num_listed_aovs = shader->interface.aovs.len;
 }

@@ -24,7 +24,8 @@ static bool source(void *user_data, const struct ir_graph *graph, ir_ref ref, st
     const struct ir_node *node = ir_get(graph, ref);
     if (node->op != IR_UNIFORM)
         return false;
-    const struct shader_variable *uniform = &h->builder->shader->variables.items[node->attr];
+    const struct shader_variable *uniform =
+        &h->builder->shader->interface.variables.items[node->attr];
     *out = uniform->value;
     vec_push(h->builder->arena, &h->deciders, ref);
     return uniform->has_default && out->type == node->type;

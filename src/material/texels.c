@@ -33,7 +33,8 @@ const float *build_texels(struct builder *b, uint32_t variable)
         known = ARENA_ARRAY(b->arena, struct texels, 1);
         known->next = b->texels;
         known->variable = variable;
-        known->is_read = read_texels(b, &b->shader->variables.items[variable], known->values);
+        known->is_read =
+            read_texels(b, &b->shader->interface.variables.items[variable], known->values);
         b->texels = known;
     }
     return known->is_read ? known->values : NULL;

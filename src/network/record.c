@@ -80,7 +80,7 @@ static struct ir_value settled_value(struct builder *b, const struct implementat
     struct ir_value value = {.type = IR_TYPE_VOID};
     const struct ir_node *node = ir_get(b->graph, arg);
     if (node->op == IR_TEXTURE) {
-        str_id file = settled_file(b, impl, b->shader->variables.items[node->attr].file);
+        str_id file = settled_file(b, impl, b->shader->interface.variables.items[node->attr].file);
         if (file)
             value = (struct ir_value){.type = IR_TYPE_SAMPLER, .w[0].u = file};
     } else if (is_settled(b, impl, port)) {
@@ -215,7 +215,7 @@ static struct network_input input_of(struct builder *b, ir_ref arg)
     const struct shader_variable *variable = NULL;
     input.type = node->type;
     if (node->op == IR_UNIFORM || node->op == IR_STREAM || node->op == IR_TEXTURE)
-        variable = &b->shader->variables.items[node->attr];
+        variable = &b->shader->interface.variables.items[node->attr];
     if (variable && recorder_layer_of(r, node->attr)) {
         input.kind = NETWORK_LAYER;
         input.layer = recorder_layer_of(r, node->attr) - 1;
@@ -239,8 +239,8 @@ static struct network_input input_of(struct builder *b, ir_ref arg)
 /* A surface without the AOVs that are no outputs. */
 static ir_ref without_unasked(const struct builder *b, ir_ref surface)
 {
-    while (surface && b->shader->lists_aovs && ir_get(b->graph, surface)->op == IR_AOV
-           && ir_get(b->graph, surface)->attr >= b->shader->num_listed_aovs)
+    while (surface && b->shader->interface.lists_aovs && ir_get(b->graph, surface)->op == IR_AOV
+           && ir_get(b->graph, surface)->attr >= b->shader->interface.num_listed_aovs)
         surface = ir_arg(b->graph, surface, 0);
     return surface;
 }
@@ -462,14 +462,15 @@ static bool give_layer(struct builder *b, ir_ref value, str_id type, struct netw
 /* The number of AOVs that may be outputs. */
 static uint32_t num_aovs(const struct shader *shader)
 {
-    return shader->lists_aovs ? shader->num_listed_aovs : shader->aovs.len;
+    return shader->interface.lists_aovs ? shader->interface.num_listed_aovs
+                                        : shader->interface.aovs.len;
 }
 
 /* Takes the AOVs off a surface: the values, by number, of those that have none yet. */
 static ir_ref take_aovs(struct builder *b, ir_ref surface, ir_ref *values)
 {
     struct network *network = b->recorder->network;
-    ir_ref *own = ARENA_ARRAY(b->arena, ir_ref, b->shader->aovs.len);
+    ir_ref *own = ARENA_ARRAY(b->arena, ir_ref, b->shader->interface.aovs.len);
     for (; surface && ir_get(b->graph, surface)->op == IR_AOV;
          surface = ir_arg(b->graph, surface, 0)) {
         uint32_t number = ir_get(b->graph, surface)->attr;
@@ -490,7 +491,7 @@ static ir_ref take_aovs(struct builder *b, ir_ref surface, ir_ref *values)
 static void add_aovs(struct builder *b, const ir_ref *values)
 {
     for (uint32_t i = 0; i < num_aovs(b->shader); i++) {
-        const struct shader_aov *from = &b->shader->aovs.items[i];
+        const struct shader_aov *from = &b->shader->interface.aovs.items[i];
         const struct aov_use use = {.node = from->element, .name = from->name};
         struct network_aov aov = {.name = from->name, .doc_type = from->doc_type};
         if (!values[i])
@@ -516,7 +517,8 @@ static enum network_result result_of(ir_type_id type)
 static void find_material(struct builder *b, ir_ref material)
 {
     struct network *network = b->recorder->network;
-    ir_ref *aovs = ARENA_ARRAY(b->arena, ir_ref, b->shader->aovs.len), parts[NETWORK_PLAIN_VALUE];
+    ir_ref *aovs = ARENA_ARRAY(b->arena, ir_ref, b->shader->interface.aovs.len),
+           parts[NETWORK_PLAIN_VALUE];
     for (unsigned i = 0; i < NETWORK_PLAIN_VALUE; i++)
         parts[i] = take_aovs(b, ir_arg(b->graph, material, i), aovs);
     if (network->is_whole)
@@ -531,7 +533,7 @@ static void find_material(struct builder *b, ir_ref material)
 static bool find_element(struct builder *b, ir_ref root, str_id type)
 {
     struct network *network = b->recorder->network;
-    ir_ref *aovs = ARENA_ARRAY(b->arena, ir_ref, b->shader->aovs.len);
+    ir_ref *aovs = ARENA_ARRAY(b->arena, ir_ref, b->shader->interface.aovs.len);
     enum network_result result = result_of(ir_type_of(b->graph, root));
     struct network_input *input = &network->results[result];
     root = take_aovs(b, root, aovs);

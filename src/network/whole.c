@@ -29,7 +29,7 @@ static void make_parameter(struct builder *b, uint32_t variable)
 /* The value of a parameter in the document, or the layer that gives it. */
 static struct network_input parameter_input(const struct builder *b, uint32_t variable)
 {
-    const struct shader_variable *v = &b->shader->variables.items[variable];
+    const struct shader_variable *v = &b->shader->interface.variables.items[variable];
     struct network_input input = {.type = v->type, .doc_type = v->doc_type, .path = v->path};
     if (recorder_layer_of(b->recorded, variable)) {
         input.kind = NETWORK_LAYER;
@@ -62,10 +62,10 @@ static void take_value(struct builder *b, struct shader_variable *v)
 void build_network_parameters(struct builder *b)
 {
     struct recorder *r = b->recorded;
-    r->num_values = b->shader->variables.len;
+    r->num_values = b->shader->interface.variables.len;
     r->values = ARENA_ARRAY(b->arena, struct network_input, r->num_values);
     for (uint32_t i = 0; i < r->num_values; i++) {
-        struct shader_variable *v = &b->shader->variables.items[i];
+        struct shader_variable *v = &b->shader->interface.variables.items[i];
         if (recorder_layer_of(r, i) && build_is_number(v->type))
             make_parameter(b, i);
         r->values[i] = parameter_input(b, i);
@@ -77,9 +77,10 @@ void build_network_parameters(struct builder *b)
 /* The AOV that an output of the shader has; NULL: it is the closure of the surface. */
 static const struct shader_aov *aov_of(const struct shader *shader, uint32_t variable)
 {
-    for (uint32_t i = 0; i < shader->aovs.len; i++)
-        if (shader->aovs.items[i].is_output && shader->aovs.items[i].variable == variable)
-            return &shader->aovs.items[i];
+    for (uint32_t i = 0; i < shader->interface.aovs.len; i++)
+        if (shader->interface.aovs.items[i].is_output
+            && shader->interface.aovs.items[i].variable == variable)
+            return &shader->interface.aovs.items[i];
     return NULL;
 }
 
@@ -97,7 +98,7 @@ static void add_output(struct builder *b, uint32_t variable, struct network_node
                                         .doc_type = aov->doc_type};
     const struct network_aov made = {aov->name, aov->doc_type, value};
     vec_push(b->arena, &network->aovs, made);
-    outputs[node->num_outputs++] = b->shader->variables.items[variable].name;
+    outputs[node->num_outputs++] = b->shader->interface.variables.items[variable].name;
 }
 
 void build_network_whole(struct builder *b, enum shader_stage_id stage,
@@ -106,19 +107,19 @@ void build_network_whole(struct builder *b, enum shader_stage_id stage,
     struct network *network = b->recorded->network;
     const struct shader *shader = b->shader;
     struct network_layer layer = {.name = str_intern_z(shader->strings, network->end_layer),
-                                  .path = shader->path,
+                                  .path = shader->reflection.path,
                                   .node = network->nodes.len,
                                   .first_input = network->inputs.len};
-    str_id *names = ARENA_ARRAY(b->arena, str_id, shader->interface.len),
-           *outputs = ARENA_ARRAY(b->arena, str_id, shader->interface.len);
+    str_id *names = ARENA_ARRAY(b->arena, str_id, shader->interface.used.len),
+           *outputs = ARENA_ARRAY(b->arena, str_id, shader->interface.used.len);
     struct network_node node = {.name = str_intern_z(shader->strings, part->name),
                                 .whole = *part,
                                 .definition = LIBRARY_NONE,
                                 .inputs = names,
                                 .outputs = outputs};
-    for (uint32_t i = 0; i < shader->interface.len; i++) {
-        uint32_t variable = shader->interface.items[i];
-        const struct shader_variable *v = &shader->variables.items[variable];
+    for (uint32_t i = 0; i < shader->interface.used.len; i++) {
+        uint32_t variable = shader->interface.used.items[i];
+        const struct shader_variable *v = &shader->interface.variables.items[variable];
         if (!(v->stages >> stage & 1))
             continue;
         if (is_parameter(v)) {
@@ -129,9 +130,9 @@ void build_network_whole(struct builder *b, enum shader_stage_id stage,
             add_output(b, variable, &node, outputs);
         }
     }
-    enum network_result result = stage == STAGE_VERTEX           ? NETWORK_DISPLACEMENT
-                                 : shader->kind == SHADER_VOLUME ? NETWORK_VOLUME
-                                                                 : NETWORK_SURFACE;
+    enum network_result result = stage == STAGE_VERTEX                      ? NETWORK_DISPLACEMENT
+                                 : shader->reflection.kind == SHADER_VOLUME ? NETWORK_VOLUME
+                                                                            : NETWORK_SURFACE;
     network->results[result] = (struct network_input){
         .kind = NETWORK_LAYER, .layer = network->layers.len, .type = IR_TYPE_SURFACE};
     vec_push(b->arena, &network->nodes, node);

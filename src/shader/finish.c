@@ -9,8 +9,8 @@
 
 static void mark_read(struct shader *shader, uint32_t variable, enum shader_stage_id stage)
 {
-    assert(variable < shader->variables.len && stage < NUM_STAGES);
-    shader->variables.items[variable].stages |= (uint8_t)(1u << stage);
+    assert(variable < shader->interface.variables.len && stage < NUM_STAGES);
+    shader->interface.variables.items[variable].stages |= (uint8_t)(1u << stage);
 }
 
 static void complete_loops(struct shader *shader, enum shader_stage_id id)
@@ -27,8 +27,8 @@ static void complete_loops(struct shader *shader, enum shader_stage_id id)
     mark_read(shader, shader_private_uniform(shader, STR_u_numActiveLightSources, IR_TYPE_INT, 0),
               id);
     mark_read(shader, shader_light_member(shader, STR_type, IR_TYPE_INT), id);
-    for (uint32_t i = 0; i < shader->light_members.len; i++)
-        mark_read(shader, shader->light_members.items[i], id);
+    for (uint32_t i = 0; i < shader->interface.light_members.len; i++)
+        mark_read(shader, shader->interface.light_members.items[i], id);
 }
 
 /* Adds the host data that called portable functions and verbatim sources read. */
@@ -79,7 +79,8 @@ static void complete_vertex_stage(struct shader *shader)
     for (uint32_t i = 0; i < effects->len; i++) {
         const struct effect *effect = &effects->items[i];
         has_position |= effect->kind == EFFECT_POSITION;
-        if (effect->kind != EFFECT_OUTPUT || shader->variables.items[effect->index].stages)
+        if (effect->kind != EFFECT_OUTPUT
+            || shader->interface.variables.items[effect->index].stages)
             effects->items[kept++] = *effect;
     }
     assert(kept <= effects->len);
@@ -100,14 +101,15 @@ static void complete_vertex_stage(struct shader *shader)
 static void name_neutrally(struct shader *shader)
 {
     uint32_t uniforms = 0, textures = 0;
-    for (uint32_t i = 0; i < shader->interface.len; i++) {
-        struct shader_variable *variable = &shader->variables.items[shader->interface.items[i]];
+    for (uint32_t i = 0; i < shader->interface.used.len; i++) {
+        struct shader_variable *variable =
+            &shader->interface.variables.items[shader->interface.used.items[i]];
         bool texture = variable->block == BLOCK_TEXTURES && !variable->semantic;
         if (variable->block != BLOCK_PUBLIC_UNIFORMS && !texture)
             continue;
         struct text name;
         text_init(&name, shader->arena);
-        text_str(&name, shader->naming.prefix);
+        text_str(&name, shader->interface.naming.prefix);
         text_str(&name, texture ? "t_" : "u_");
         text_u32(&name, texture ? textures++ : uniforms++);
         variable->name = str_intern(shader->strings, text_cstr(&name), name.len);
@@ -145,8 +147,8 @@ static void finish_displacement(struct shader *shader)
 
 void shader_finish(struct shader *shader, const struct shader_layout_rules *rules)
 {
-    assert(shader->interface.len == 0);
-    shader->rules = *rules;
+    assert(shader->interface.used.len == 0);
+    shader->interface.rules = *rules;
     shader_specialise_calls(shader, rules->typed_textures);
     complete_loops(shader, STAGE_PIXEL);
     mark_outputs(shader, STAGE_PIXEL);

@@ -26,7 +26,7 @@ const char *shader_block_name(const struct shader *shader, enum shader_block blo
     };
     if (block < BLOCK_OWN)
         return names[block];
-    str_id own = shader->own_blocks[block - BLOCK_OWN];
+    str_id own = shader->interface.own_blocks[block - BLOCK_OWN];
     return own ? str_text(shader->strings, own) : "";
 }
 
@@ -39,8 +39,8 @@ const char *shader_block_type(const struct shader *shader, const struct lang_syn
                               const struct shader_variable *variable)
 {
     enum shader_block block = (enum shader_block)variable->block;
-    bool is_in_block =
-        shader->rules.blocks && (shader_block_has_uniforms(block) || block == BLOCK_LIGHT_DATA);
+    bool is_in_block = shader->interface.rules.blocks
+                       && (shader_block_has_uniforms(block) || block == BLOCK_LIGHT_DATA);
     return variable->type == IR_TYPE_BOOL && is_in_block ? syntax->block_bool : NULL;
 }
 
@@ -58,14 +58,14 @@ void shader_init(struct shader *shader, const struct role *role, struct arena *a
                               .strings = strings,
                               .graph = graph,
                               .unit = unit,
-                              .max_lights = 3,
-                              .naming.prefix = "",
-                              .naming_of_members.prefix = "",
-                              .function = "",
-                              .function_type = ""};
+                              .interface.max_lights = 3,
+                              .interface.naming.prefix = "",
+                              .interface.naming_of_members.prefix = "",
+                              .reflection.function = "",
+                              .reflection.function_type = ""};
     for (int stage = 0; stage < NUM_STAGES; stage++)
         shader->stages[stage].reach.arena = arena;
-    vec_reserve(arena, &shader->variables, FIRST_VARIABLES);
+    vec_reserve(arena, &shader->interface.variables, FIRST_VARIABLES);
 }
 
 /* ---- Names ---- */
@@ -82,9 +82,9 @@ static uint32_t name_scope(const struct shader *shader, enum shader_block block)
 static uint32_t find(const struct shader *shader, uint32_t scope, str_id name)
 {
     uint32_t hash = hash_pair(name, scope);
-    for (uint32_t at = hash, found; (found = table_next(&shader->names, hash, &at));) {
-        assert(found <= shader->variables.len);
-        const struct shader_variable *variable = &shader->variables.items[found - 1];
+    for (uint32_t at = hash, found; (found = table_next(&shader->interface.names, hash, &at));) {
+        assert(found <= shader->interface.variables.len);
+        const struct shader_variable *variable = &shader->interface.variables.items[found - 1];
         if (variable->name == name && name_scope(shader, variable->block) == scope)
             return found;
     }
@@ -94,11 +94,12 @@ static uint32_t find(const struct shader *shader, uint32_t scope, str_id name)
 /* The names of a scope. The language is known before the first variable. */
 static struct name_set *names_of(struct shader *shader, uint32_t scope)
 {
-    struct name_set *names = &shader->taken[scope];
+    struct name_set *names = &shader->interface.taken[scope];
     if (!names->arena) {
         names_init(names, shader->arena, shader->style ? shader->style->syntax : NULL);
         if (scope != BLOCK_LIGHT_DATA)
-            names->rules = scope == NUM_BLOCKS ? &shader->naming : &shader->naming_of_members;
+            names->rules = scope == NUM_BLOCKS ? &shader->interface.naming
+                                               : &shader->interface.naming_of_members;
         names_take_frame(names, shader);
     }
     return names;
@@ -124,7 +125,7 @@ static bool is_hosts(const struct shader *shader, const struct shader_variable *
     bool is_private = variable->block == BLOCK_PRIVATE_UNIFORMS || variable->block >= BLOCK_OWN;
     bool may_be = is_private || (variable->block == BLOCK_TEXTURES && variable->semantic);
     return shader->role->is_in_host_file && may_be
-           && names_renamed(&shader->naming, str_text(shader->strings, variable->name),
+           && names_renamed(&shader->interface.naming, str_text(shader->strings, variable->name),
                             str_len(shader->strings, variable->name));
 }
 
@@ -133,23 +134,23 @@ uint32_t shader_add_variable(struct shader *shader, const struct shader_variable
     uint32_t scope = name_scope(shader, variable->block);
     str_id name = unique_name(shader, scope, variable->name);
     assert(!find(shader, scope, name));
-    uint32_t index = shader->variables.len;
-    table_add(&shader->names, shader->arena, hash_pair(name, scope), index + 1);
-    vec_push(shader->arena, &shader->variables, *variable);
-    vec_last(&shader->variables).is_hosts = is_hosts(shader, variable);
-    vec_last(&shader->variables).name = name;
+    uint32_t index = shader->interface.variables.len;
+    table_add(&shader->interface.names, shader->arena, hash_pair(name, scope), index + 1);
+    vec_push(shader->arena, &shader->interface.variables, *variable);
+    vec_last(&shader->interface.variables).is_hosts = is_hosts(shader, variable);
+    vec_last(&shader->interface.variables).name = name;
     return index;
 }
 
 void shader_make_parameter(struct shader *shader, uint32_t variable, str_id name, str_id doc_type)
 {
     uint32_t scope = name_scope(shader, BLOCK_PUBLIC_UNIFORMS);
-    struct shader_variable *v = &shader->variables.items[variable];
+    struct shader_variable *v = &shader->interface.variables.items[variable];
     assert(v->block == BLOCK_VERTEX_DATA);
     v->block = BLOCK_PUBLIC_UNIFORMS;
     v->name = unique_name(shader, scope, name);
     v->doc_type = doc_type;
-    table_add(&shader->names, shader->arena, hash_pair(v->name, scope), variable + 1);
+    table_add(&shader->interface.names, shader->arena, hash_pair(v->name, scope), variable + 1);
 }
 
 uint32_t shader_output(struct shader *shader, str_id name, ir_type_id type)
@@ -157,7 +158,7 @@ uint32_t shader_output(struct shader *shader, str_id name, ir_type_id type)
     assert(type != IR_TYPE_BOOL);
     uint32_t found = shader_find_variable(shader, BLOCK_OUTPUTS, name);
     if (found != UINT32_MAX) {
-        assert(shader->variables.items[found].type == type);
+        assert(shader->interface.variables.items[found].type == type);
         return found;
     }
     return shader_add_variable(
@@ -167,7 +168,8 @@ uint32_t shader_output(struct shader *shader, str_id name, ir_type_id type)
 uint32_t shader_find_variable(const struct shader *shader, enum shader_block block, str_id name)
 {
     uint32_t found = find(shader, name_scope(shader, block), name);
-    return found && shader->variables.items[found - 1].block == block ? found - 1 : UINT32_MAX;
+    return found && shader->interface.variables.items[found - 1].block == block ? found - 1
+                                                                                : UINT32_MAX;
 }
 
 /*
@@ -176,8 +178,8 @@ uint32_t shader_find_variable(const struct shader *shader, enum shader_block blo
  */
 ir_ref shader_read(struct shader *shader, uint32_t variable)
 {
-    assert(variable < shader->variables.len);
-    const struct shader_variable *v = &shader->variables.items[variable];
+    assert(variable < shader->interface.variables.len);
+    const struct shader_variable *v = &shader->interface.variables.items[variable];
     enum ir_op op = v->block == BLOCK_TEXTURES                                    ? IR_TEXTURE
                     : v->block == BLOCK_APP_DATA || v->block == BLOCK_VERTEX_DATA ? IR_STREAM
                                                                                   : IR_UNIFORM;
@@ -193,8 +195,9 @@ static uint32_t find_binding(const struct shader *shader, enum shader_block bloc
                              ir_type_id scalar)
 {
     uint32_t hash = hash_pair(asked, 0);
-    for (uint32_t at = hash, found; (found = table_next(&shader->binding_table, hash, &at));) {
-        const struct shader_binding *binding = &shader->bindings.items[found - 1];
+    for (uint32_t at = hash, found;
+         (found = table_next(&shader->interface.binding_table, hash, &at));) {
+        const struct shader_binding *binding = &shader->interface.bindings.items[found - 1];
         if (binding->asked == asked && binding->block == block && binding->scalar == scalar)
             return binding->variable;
     }
@@ -212,10 +215,10 @@ static uint32_t bind(struct shader *shader, const struct shader_variable *variab
     assert(find_binding(shader, variable->block, variable->name, scalar_of(variable->type))
            == UINT32_MAX);
     vec_push(
-        shader->arena, &shader->bindings,
+        shader->arena, &shader->interface.bindings,
         (struct shader_binding){variable->name, variable->block, scalar_of(variable->type), index});
-    table_add(&shader->binding_table, shader->arena, hash_pair(variable->name, 0),
-              shader->bindings.len);
+    table_add(&shader->interface.binding_table, shader->arena, hash_pair(variable->name, 0),
+              shader->interface.bindings.len);
     return index;
 }
 
@@ -325,15 +328,15 @@ uint32_t shader_private_uniform(struct shader *shader, str_id name, ir_type_id t
 enum shader_block shader_own_block(struct shader *shader, str_id name)
 {
     for (int i = 0; i < MAX_OWN_BLOCKS; i++) {
-        if (shader->own_blocks[i] == name)
+        if (shader->interface.own_blocks[i] == name)
             return (enum shader_block)(BLOCK_OWN + i);
-        if (shader->own_blocks[i])
+        if (shader->interface.own_blocks[i])
             continue;
         if (!shader_name_is_free(shader, name))
             return NUM_BLOCKS;
         names_take(names_of(shader, NUM_BLOCKS), str_text(shader->strings, name),
                    str_len(shader->strings, name));
-        shader->own_blocks[i] = name;
+        shader->interface.own_blocks[i] = name;
         return (enum shader_block)(BLOCK_OWN + i);
     }
     return NUM_BLOCKS;
@@ -366,7 +369,7 @@ uint32_t shader_light_member(struct shader *shader, str_id name, ir_type_id type
                                                               .block = BLOCK_LIGHT_DATA,
                                                               .type = IR_TYPE_INT});
     uint32_t found = shader_find_variable(shader, BLOCK_LIGHT_DATA, name);
-    if (found != UINT32_MAX && shader->variables.items[found].type == type)
+    if (found != UINT32_MAX && shader->interface.variables.items[found].type == type)
         return found;
     return shader_add_variable(
         shader, &(struct shader_variable){.name = name, .block = BLOCK_LIGHT_DATA, .type = type});
@@ -457,8 +460,8 @@ static bool is_flat(ir_type_id type)
 static uint32_t find_attribute(const struct shader *shader, str_id semantic)
 {
     uint32_t hash = hash_pair(semantic, 0);
-    for (uint32_t at = hash, found; (found = table_next(&shader->attributes, hash, &at));)
-        if (shader->variables.items[found - 1].semantic == semantic)
+    for (uint32_t at = hash, found; (found = table_next(&shader->interface.attributes, hash, &at));)
+        if (shader->interface.variables.items[found - 1].semantic == semantic)
             return found;
     return 0;
 }
@@ -475,7 +478,7 @@ static ir_ref attribute(struct shader *shader, const struct stream_row *row, con
                                     : concat(shader, row->attribute, ":", "object");
         index = bind(shader, &variable);
         if (!find_attribute(shader, variable.semantic))
-            table_add(&shader->attributes, shader->arena, hash_pair(variable.semantic, 0),
+            table_add(&shader->interface.attributes, shader->arena, hash_pair(variable.semantic, 0),
                       index + 1);
     }
     return shader_read(shader, index);
@@ -483,8 +486,8 @@ static ir_ref attribute(struct shader *shader, const struct stream_row *row, con
 
 bool shader_attribute(const struct shader *shader, uint32_t stream, uint32_t *out_index)
 {
-    assert(stream < shader->variables.len);
-    uint32_t found = find_attribute(shader, shader->variables.items[stream].semantic);
+    assert(stream < shader->interface.variables.len);
+    uint32_t found = find_attribute(shader, shader->interface.variables.items[stream].semantic);
     *out_index = found - 1;
     return found != 0;
 }
@@ -585,7 +588,7 @@ static uint32_t find_computed(const struct shader *shader, ir_ref value)
     const struct effect_list *effects = &shader->stages[STAGE_VERTEX].effects;
     for (uint32_t i = 0; i < effects->len; i++)
         if (effects->items[i].kind == EFFECT_OUTPUT && effects->items[i].value == value
-            && shader->variables.items[effects->items[i].index].is_computed)
+            && shader->interface.variables.items[effects->items[i].index].is_computed)
             return effects->items[i].index;
     return UINT32_MAX;
 }
@@ -635,11 +638,12 @@ void shader_effect(struct shader *shader, enum shader_stage_id stage, struct eff
 
 void shader_add_closure(struct shader *shader, ir_ref leaf)
 {
-    vec_push(shader->arena, &shader->closures, ir_get(shader->graph, leaf)->origin);
+    vec_push(shader->arena, &shader->reflection.closures, ir_get(shader->graph, leaf)->origin);
 }
 
 uint32_t shader_add_local(struct shader *shader, str_id name, ir_type_id type)
 {
-    vec_push(shader->arena, &shader->locals, (struct shader_local){.name = name, .type = type});
-    return shader->locals.len - 1;
+    vec_push(shader->arena, &shader->effects.locals,
+             (struct shader_local){.name = name, .type = type});
+    return shader->effects.locals.len - 1;
 }

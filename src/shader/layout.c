@@ -52,23 +52,23 @@ static bool is_in_interface(const struct shader_variable *variable)
 static void order_interface(struct shader *shader)
 {
     uint32_t starts[NUM_BLOCKS + 1] = {0}, ends[NUM_BLOCKS];
-    for (uint32_t i = 0; i < shader->variables.len; i++)
-        starts[shader->variables.items[i].block + 1] +=
-            is_in_interface(&shader->variables.items[i]);
+    for (uint32_t i = 0; i < shader->interface.variables.len; i++)
+        starts[shader->interface.variables.items[i].block + 1] +=
+            is_in_interface(&shader->interface.variables.items[i]);
     for (int block = 0; block < NUM_BLOCKS; block++) {
         ends[block] = starts[block];
         starts[block + 1] += starts[block];
     }
-    memcpy(shader->first_of_block, starts, sizeof starts);
-    shader->interface.len = 0;
-    uint32_t *order = vec_extend(shader->arena, &shader->interface, starts[NUM_BLOCKS]);
-    for (uint32_t i = 0; i < shader->variables.len; i++) {
-        const struct shader_variable *variable = &shader->variables.items[i];
+    memcpy(shader->interface.first_of_block, starts, sizeof starts);
+    shader->interface.used.len = 0;
+    uint32_t *order = vec_extend(shader->arena, &shader->interface.used, starts[NUM_BLOCKS]);
+    for (uint32_t i = 0; i < shader->interface.variables.len; i++) {
+        const struct shader_variable *variable = &shader->interface.variables.items[i];
         if (!is_in_interface(variable))
             continue;
         uint32_t at = ends[variable->block]++;
         for (; at > starts[variable->block]
-               && shader->variables.items[order[at - 1]].rank > variable->rank;
+               && shader->interface.variables.items[order[at - 1]].rank > variable->rank;
              at--)
             order[at] = order[at - 1];
         order[at] = i;
@@ -113,19 +113,21 @@ static uint32_t num_locations(ir_type_id type)
 
 bool shader_has_locations(const struct shader *shader, enum shader_block block)
 {
-    const uint32_t *first = &shader->first_of_block[block];
+    const uint32_t *first = &shader->interface.first_of_block[block];
     bool are_several_outputs = block == BLOCK_OUTPUTS && first[1] - first[0] > 1
-                               && shader->role->stages != STAGES_NONE && !shader->rules.one_stage;
-    return shader->rules.bindings || are_several_outputs;
+                               && shader->role->stages != STAGES_NONE
+                               && !shader->interface.rules.one_stage;
+    return shader->interface.rules.bindings || are_several_outputs;
 }
 
 static void finish_buffers(struct shader *shader)
 {
     for (int block = 0; block < NUM_BLOCKS; block++)
-        shader->buffers[block].size = round_up(shader->buffers[block].size, STD140_ROUND);
-    struct shader_buffer *lights = &shader->buffers[BLOCK_LIGHT_DATA];
+        shader->interface.buffers[block].size =
+            round_up(shader->interface.buffers[block].size, STD140_ROUND);
+    struct shader_buffer *lights = &shader->interface.buffers[BLOCK_LIGHT_DATA];
     lights->stride = lights->size; /* rule 9: the size of a struct is a multiple of a vec4 */
-    lights->size *= shader->max_lights;
+    lights->size *= shader->interface.max_lights;
 }
 
 /*
@@ -135,8 +137,8 @@ static void finish_buffers(struct shader *shader)
  */
 static void rank_light_members(struct shader *shader)
 {
-    for (uint32_t i = 0; i < shader->variables.len; i++) {
-        struct shader_variable *variable = &shader->variables.items[i];
+    for (uint32_t i = 0; i < shader->interface.variables.len; i++) {
+        struct shader_variable *variable = &shader->interface.variables.items[i];
         const struct ir_type_info *info = ir_type_info(variable->type);
         if (variable->block == BLOCK_LIGHT_DATA)
             variable->rank = info->columns > 1 ? 4 : (uint16_t)(4 - info->components);
@@ -145,40 +147,43 @@ static void rank_light_members(struct shader *shader)
 
 static void place_uniform(struct shader *shader, struct shader_variable *variable)
 {
-    if (shader->rules.blocks)
-        place_in_buffer(&shader->buffers[variable->block], shader->rules.packing, variable);
+    if (shader->interface.rules.blocks)
+        place_in_buffer(&shader->interface.buffers[variable->block],
+                        shader->interface.rules.packing, variable);
 }
 
 /* Own blocks follow the textures. */
 static void bind_own_blocks(struct shader *shader, uint32_t first_texture)
 {
-    const uint32_t *first = shader->first_of_block;
+    const uint32_t *first = shader->interface.first_of_block;
     uint32_t textures = first[BLOCK_TEXTURES + 1] - first[BLOCK_TEXTURES],
-             binding = first_texture + textures * (shader->rules.sampler_bindings ? 2 : 1);
+             binding =
+                 first_texture + textures * (shader->interface.rules.sampler_bindings ? 2 : 1);
     for (int block = BLOCK_OWN; block < NUM_BLOCKS; block++)
         if (first[block + 1] > first[block])
-            shader->buffers[block].binding = binding++;
+            shader->interface.buffers[block].binding = binding++;
 }
 
 void shader_layout(struct shader *shader)
 {
-    const struct shader_layout_rules *rules = &shader->rules;
+    const struct shader_layout_rules *rules = &shader->interface.rules;
     if (rules->packing == PACKING_CBUFFER)
         rank_light_members(shader);
     order_interface(shader);
-    memset(shader->buffers, 0, sizeof shader->buffers);
+    memset(shader->interface.buffers, 0, sizeof shader->interface.buffers);
     if (rules->bindings) {
         const uint32_t first = rules->first_binding;
         for (int block = 0; block < NUM_BLOCKS; block++)
-            shader->buffers[block].set = rules->set;
-        shader->buffers[BLOCK_PRIVATE_UNIFORMS].binding = first + BINDING_PRIVATE;
-        shader->buffers[BLOCK_PUBLIC_UNIFORMS].binding = first + BINDING_PUBLIC;
-        shader->buffers[BLOCK_LIGHT_DATA].binding = first + BINDING_LIGHTS;
+            shader->interface.buffers[block].set = rules->set;
+        shader->interface.buffers[BLOCK_PRIVATE_UNIFORMS].binding = first + BINDING_PRIVATE;
+        shader->interface.buffers[BLOCK_PUBLIC_UNIFORMS].binding = first + BINDING_PUBLIC;
+        shader->interface.buffers[BLOCK_LIGHT_DATA].binding = first + BINDING_LIGHTS;
         bind_own_blocks(shader, first + BINDING_FIRST_TEXTURE);
     }
     uint32_t texture = rules->first_binding + BINDING_FIRST_TEXTURE, location[NUM_BLOCKS] = {0};
-    for (uint32_t i = 0; i < shader->interface.len; i++) {
-        struct shader_variable *variable = &shader->variables.items[shader->interface.items[i]];
+    for (uint32_t i = 0; i < shader->interface.used.len; i++) {
+        struct shader_variable *variable =
+            &shader->interface.variables.items[shader->interface.used.items[i]];
         switch ((enum shader_block)variable->block) {
         case BLOCK_PUBLIC_UNIFORMS:
         case BLOCK_PRIVATE_UNIFORMS:

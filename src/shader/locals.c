@@ -74,7 +74,7 @@ static bool is_source(const struct scheduler *s, struct plan *plan)
     case IR_UNIFORM:
         plan->cost = 2;
         plan->chars = clamp16(NAME_CHARS + 3);
-        return !s->shader->rules.blocks || plan->uses < MIN_USES_OF_COPY
+        return !s->shader->interface.rules.blocks || plan->uses < MIN_USES_OF_COPY
                || ir_type_is_matrix(node->type);
     case IR_STREAM:
     case IR_TEXTURE:
@@ -272,7 +272,7 @@ static bool is_wanted(const struct plan *plan)
 /* Chooses locals, operands first. */
 void choose_locals(struct scheduler *s)
 {
-    bool names_wholes = s->shader->rules.names_wholes;
+    bool names_wholes = s->shader->interface.rules.names_wholes;
     for (uint32_t i = 0; i < s->reached.len; i++) {
         struct plan *plan = plan_of(s, s->reached.items[i]);
         /* an operand numbers the loop of a CONTEXT or SAMPLE, and the light of a LOCAL */

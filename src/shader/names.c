@@ -35,10 +35,10 @@ static const char *with_prefix(const char *prefix, const char *text, size_t len,
 
 const char *names_of_frame(const struct shader *shader, const char *name)
 {
-    const char *renamed = names_renamed(&shader->naming, name, strlen(name));
-    if (renamed || !*shader->naming.prefix)
+    const char *renamed = names_renamed(&shader->interface.naming, name, strlen(name));
+    if (renamed || !*shader->interface.naming.prefix)
         return renamed ? renamed : name;
-    return with_prefix(shader->naming.prefix, name, strlen(name), shader->arena);
+    return with_prefix(shader->interface.naming.prefix, name, strlen(name), shader->arena);
 }
 
 void names_open_scope(struct name_set *names)
@@ -124,21 +124,21 @@ void names_take_frame(struct name_set *names, const struct shader *shader)
     static const char *const fixed[] = {"main", "result", "mxg_light", "mxg_light_count"};
     bool is_in_host_file = shader->role->is_in_host_file;
     size_t of_functions = is_in_host_file ? 0 : 2, of_host = is_in_host_file ? 0 : 3;
-    for (uint32_t i = 0; i < shader->naming.num_renamed; i++)
-        keep(names, shader->naming.renamed[i].to);
+    for (uint32_t i = 0; i < shader->interface.naming.num_renamed; i++)
+        keep(names, shader->interface.naming.renamed[i].to);
     for (size_t i = 0; i < sizeof frame / sizeof *frame - of_functions; i++) {
         const char *name = names_of_frame(shader, frame[i]);
         names_take(names, name, strlen(name));
     }
     for (size_t i = 0; i < sizeof fixed / sizeof *fixed - of_host; i++)
         names_take(names, fixed[i], strlen(fixed[i]));
-    for (int i = 0; i < MAX_OWN_BLOCKS && shader->own_blocks[i]; i++) {
+    for (int i = 0; i < MAX_OWN_BLOCKS && shader->interface.own_blocks[i]; i++) {
         const char *name =
             names_of_frame(shader, shader_block_name(shader, (enum shader_block)(BLOCK_OWN + i)));
         names_take(names, name, strlen(name));
     }
-    for (uint32_t i = 0; i < shader->num_reserved; i++)
-        names_take(names, shader->reserved[i], strlen(shader->reserved[i]));
+    for (uint32_t i = 0; i < shader->interface.num_reserved; i++)
+        names_take(names, shader->interface.reserved[i], strlen(shader->interface.reserved[i]));
 }
 
 static bool is_reserved(const struct name_set *names, const char *text, size_t len)

@@ -69,18 +69,18 @@ static void put_place(struct reflect *r, const struct shader_variable *variable)
 {
     enum shader_block block = (enum shader_block)variable->block;
     if (shader_block_has_uniforms(block) || block == BLOCK_LIGHT_DATA) {
-        if (!r->shader->buffers[block].size)
+        if (!r->shader->interface.buffers[block].size)
             return;
-        assert(variable->offset + variable->size <= r->shader->buffers[block].size);
+        assert(variable->offset + variable->size <= r->shader->interface.buffers[block].size);
         json_put_number(&r->json, "offset", variable->offset);
         json_put_number(&r->json, "size", variable->size);
         json_put_nonzero(&r->json, "arrayStride", variable->array_stride);
         json_put_nonzero(&r->json, "matrixStride", variable->matrix_stride);
     } else if (block == BLOCK_TEXTURES) {
-        if (r->shader->rules.bindings) {
+        if (r->shader->interface.rules.bindings) {
             json_put_number(&r->json, "set", variable->set);
             json_put_number(&r->json, "binding", variable->binding);
-            if (r->shader->rules.sampler_bindings)
+            if (r->shader->interface.rules.sampler_bindings)
                 json_put_number(&r->json, "samplerBinding", variable->sampler_binding);
         }
     } else if (shader_has_locations(r->shader, block)) {
@@ -129,11 +129,12 @@ static void put_tiles(struct reflect *r, const struct shader_variable *variable)
 {
     if (!variable->num_tiles)
         return;
-    assert(variable->first_tile + variable->num_tiles <= r->shader->tiles.len);
+    assert(variable->first_tile + variable->num_tiles <= r->shader->interface.tiles.len);
     json_key(&r->json, "tiles");
     json_open(&r->json, '[');
     for (uint32_t i = 0; i < variable->num_tiles; i++) {
-        const struct shader_tile *tile = &r->shader->tiles.items[variable->first_tile + i];
+        const struct shader_tile *tile =
+            &r->shader->interface.tiles.items[variable->first_tile + i];
         json_item(&r->json);
         json_open(&r->json, '{');
         reflect_id(r, "file", tile->file);
@@ -176,8 +177,8 @@ static void put_variable(struct reflect *r, const struct shader_variable *variab
 
 static bool is_used(const struct shader *shader, enum shader_block block)
 {
-    for (uint32_t i = 0; i < shader->interface.len; i++)
-        if (shader->variables.items[shader->interface.items[i]].block == block)
+    for (uint32_t i = 0; i < shader->interface.used.len; i++)
+        if (shader->interface.variables.items[shader->interface.used.items[i]].block == block)
             return true;
     return false;
 }
@@ -185,28 +186,28 @@ static bool is_used(const struct shader *shader, enum shader_block block)
 static void put_block(struct reflect *r, enum shader_block block)
 {
     const struct shader *shader = r->shader;
-    const struct shader_buffer *buffer = &shader->buffers[block];
+    const struct shader_buffer *buffer = &shader->interface.buffers[block];
     if (!is_used(shader, block))
         return;
     json_item(&r->json);
     json_open(&r->json, '{');
     json_put_text(&r->json, "name", shader_block_name(shader, block));
     if (buffer->size) {
-        if (shader->rules.bindings) {
+        if (shader->interface.rules.bindings) {
             json_put_number(&r->json, "set", buffer->set);
             json_put_number(&r->json, "binding", buffer->binding);
         }
         json_put_number(&r->json, "size", buffer->size);
     }
     if (block == BLOCK_LIGHT_DATA) {
-        json_put_number(&r->json, "arrayLength", shader->max_lights);
+        json_put_number(&r->json, "arrayLength", shader->interface.max_lights);
         json_put_nonzero(&r->json, "arrayStride", buffer->stride);
     }
     json_key(&r->json, "variables");
     json_open(&r->json, '[');
-    for (uint32_t i = 0; i < shader->interface.len; i++) {
+    for (uint32_t i = 0; i < shader->interface.used.len; i++) {
         const struct shader_variable *variable =
-            &shader->variables.items[shader->interface.items[i]];
+            &shader->interface.variables.items[shader->interface.used.items[i]];
         if (variable->block == block)
             put_variable(r, variable);
     }
@@ -220,7 +221,7 @@ static void put_compiled(struct reflect *r)
 {
     json_key(&r->json, "compiledInputs");
     json_open(&r->json, '[');
-    for (uint32_t i = 0; r->options->compiled && i < r->shader->compiled.len; i++) {
+    for (uint32_t i = 0; r->options->compiled && i < r->shader->reflection.compiled.len; i++) {
         struct shader_compiled_text input = {0};
         r->options->compiled(r->options->user_data, i, &input);
         json_item(&r->json);
@@ -243,9 +244,9 @@ static void put_lights(struct reflect *r)
         return;
     json_key(&r->json, "lights");
     json_open(&r->json, '[');
-    for (uint32_t i = 0; i < shader->lights.len; i++) {
-        const struct shader_light *light = &shader->lights.items[i];
-        assert(light->first_member + light->num_members <= shader->light_members.len);
+    for (uint32_t i = 0; i < shader->interface.lights.len; i++) {
+        const struct shader_light *light = &shader->interface.lights.items[i];
+        assert(light->first_member + light->num_members <= shader->interface.light_members.len);
         json_item(&r->json);
         json_open(&r->json, '{');
         json_put_number(&r->json, "type", (uint32_t)light->type);
@@ -254,13 +255,14 @@ static void put_lights(struct reflect *r)
         else
             reflect_id(r, "function",
                        light->source != UINT32_MAX
-                           ? shader->verbatim.items[light->source].function
+                           ? shader->sources.calls.items[light->source].function
                            : lang_function(shader->unit, light->function, NULL)->name);
         json_key(&r->json, "members");
         json_open(&r->json, '[');
         for (uint32_t m = 0; m < light->num_members; m++) {
-            str_id name =
-                shader->variables.items[shader->light_members.items[light->first_member + m]].name;
+            str_id name = shader->interface.variables
+                              .items[shader->interface.light_members.items[light->first_member + m]]
+                              .name;
             put_item(&r->json, str_text(shader->strings, name));
         }
         json_close(&r->json, ']');
@@ -299,16 +301,16 @@ static void put_topology(struct reflect *r)
 static void put_surface(struct reflect *r)
 {
     const struct shader *shader = r->shader;
-    json_put_number(&r->json, "closures", shader->closures.len);
-    json_put_bool(&r->json, "transparent", shader->transparent);
-    if (shader->alpha != ALPHA_OPAQUE)
-        json_put_text(&r->json, "alpha", shader->alpha == ALPHA_MASK ? "mask" : "blend");
-    if (shader->displaced)
+    json_put_number(&r->json, "closures", shader->reflection.closures.len);
+    json_put_bool(&r->json, "transparent", shader->reflection.transparent);
+    if (shader->reflection.alpha != ALPHA_OPAQUE)
+        json_put_text(&r->json, "alpha", shader->reflection.alpha == ALPHA_MASK ? "mask" : "blend");
+    if (shader->reflection.displaced)
         json_put_bool(&r->json, "displaced", true);
-    json_put_bool(&r->json, "lit", shader->lit);
+    json_put_bool(&r->json, "lit", shader->reflection.lit);
     if (shader->role->is_in_host_file) {
-        json_put_text(&r->json, "function", shader->function);
-        json_put_text(&r->json, "functionType", shader->function_type);
+        json_put_text(&r->json, "function", shader->reflection.function);
+        json_put_text(&r->json, "functionType", shader->reflection.function_type);
     }
 }
 
@@ -336,9 +338,9 @@ void shader_reflect_json(const struct shader *shader, const struct shader_reflec
 {
     struct reflect r = {.json.out = out, .shader = shader, .options = options};
     json_open(&r.json, '{');
-    reflect_id(&r, "name", shader->name);
-    reflect_id(&r, "path", shader->path);
-    reflect_id(&r, "element", shader->element_type);
+    reflect_id(&r, "name", shader->reflection.name);
+    reflect_id(&r, "path", shader->reflection.path);
+    reflect_id(&r, "element", shader->reflection.element_type);
     json_put_text(&r.json, "target", options->target);
     json_put_text(&r.json, "generator", options->generator);
     put_topology(&r);

@@ -23,7 +23,7 @@ unsigned shader_call_outs(const struct shader *shader, ir_ref call)
     if (node->op == IR_GRAPH_CALL)
         return shader->graph->functions.items[node->attr].num_results - 1;
     if (node->op == IR_VERBATIM)
-        return shader->verbatim.items[shader_callee(shader, call)].num_results;
+        return shader->sources.calls.items[shader_callee(shader, call)].num_results;
     const struct lang_unit *layer;
     const struct lang_function *fn =
         lang_function(shader->unit, shader_callee(shader, call), &layer);
@@ -37,7 +37,7 @@ unsigned shader_call_outs(const struct shader *shader, ir_ref call)
 
 static void need_verbatim(struct scheduler *s, uint32_t callee)
 {
-    assert(callee < s->shader->verbatim.len);
+    assert(callee < s->shader->sources.calls.len);
     if (!s->is_needed[callee])
         vec_push(s->arena, &s->stage->verbatim, callee);
     s->is_needed[callee] = true;
@@ -69,11 +69,11 @@ static unsigned note_call(struct scheduler *s, ir_ref ref, const struct ir_node 
 
 static void note_variable(const struct scheduler *s, uint32_t index)
 {
-    assert(index < s->shader->variables.len);
-    struct shader_variable *variable = &s->shader->variables.items[index];
+    assert(index < s->shader->interface.variables.len);
+    struct shader_variable *variable = &s->shader->interface.variables.items[index];
     variable->stages |= s->stage_bit;
     if (variable->fallback)
-        s->shader->variables.items[variable->fallback - 1].stages |= s->stage_bit;
+        s->shader->interface.variables.items[variable->fallback - 1].stages |= s->stage_bit;
 }
 
 /* Like note_call, for any node. */
@@ -81,7 +81,7 @@ static inline unsigned note_needs(struct scheduler *s, ir_ref ref, const struct 
 {
     switch (node->op) {
     case IR_LOCAL:
-        if (s->shader->locals.items[node->attr].is_settled)
+        if (s->shader->effects.locals.items[node->attr].is_settled)
             return 0;
         s->any_local = true;
         return PLAN_LOCAL;
@@ -417,7 +417,7 @@ void shader_schedule(struct shader *shader, enum shader_stage_id stage)
         .stage = &shader->stages[stage],
         .stage_bit = (uint8_t)(1u << stage),
         .is_reached = ARENA_ARRAY(shader->arena, bool, shader->graph->nodes.len),
-        .is_needed = ARENA_ARRAY(shader->arena, bool, shader->verbatim.len),
+        .is_needed = ARENA_ARRAY(shader->arena, bool, shader->sources.calls.len),
         .plans =
             arena_alloc(shader->arena, mem_array_size(shader->arena->mem, shader->graph->nodes.len,
                                                       sizeof(struct plan))),

@@ -256,6 +256,80 @@ struct shader_source;
 struct shader_token;
 struct source_leaf;
 
+/* The variables that a host sets and reads: interface.c, layout.c. */
+struct shader_interface {
+    VEC(struct shader_variable) variables;
+    VEC(struct shader_tile) tiles;
+    VEC(struct shader_aov) aovs; /* IR_AOV has an index in it */
+    /* the options list the outputs: the first ones; otherwise all that the root has */
+    bool lists_aovs;
+    uint32_t num_listed_aovs;
+    /* used variables, block by block, in the order of their layout */
+    VEC(uint32_t) used;
+    /* start of each block in `used`, and the end of the last */
+    uint32_t first_of_block[NUM_BLOCKS + 1];
+    /* uniform blocks; size 0 if absent */
+    struct shader_buffer buffers[NUM_BLOCKS];
+    str_id own_blocks[MAX_OWN_BLOCKS]; /* names, in the order of declaration; 0: none */
+    VEC(struct shader_light) lights;
+    VEC(uint32_t) light_members;
+    uint32_t max_lights; /* elements of u_lightData */
+    VEC(struct shader_binding) bindings;
+    struct table binding_table;            /* by name, to indices + 1 */
+    struct table attributes;               /* by semantic, to the first variable of app data + 1 */
+    struct table names;                    /* names to variables + 1 */
+    struct name_set taken[NUM_BLOCKS + 1]; /* by scope */
+    struct name_rules naming;              /* of variables, functions and types */
+    struct name_rules naming_of_members;   /* of vertex data: without a prefix */
+    const char *const *reserved;           /* names that the host keeps for itself */
+    uint32_t num_reserved;
+    struct shader_layout_rules rules; /* of shader_finish */
+};
+
+/* What the effects of its stages share: schedule.c. */
+struct shader_effects {
+    VEC(struct shader_local) locals;
+    uint32_t num_light_loops, num_sample_loops; /* so far; each has its own lights or samples */
+};
+
+/* Source of the target in its own language: verbatim.h. */
+struct shader_sources {
+    const struct source_language *language; /* of the target; NULL: it has none */
+    VEC(struct shader_verbatim) calls;
+    VEC(ir_type_id) result_types; /* of the functions that are called */
+    VEC(struct shader_source) all;
+    VEC(struct source_function) functions;
+    VEC(uint32_t) refs;
+    VEC(struct shader_token) tokens; /* of all sources */
+    VEC(struct source_leaf) leaves;
+    bool is_1_38;              /* it has closures of MaterialX 1.38 */
+    struct table helper_table; /* names of the target's helpers to bits + 1 */
+};
+
+/* Facts that a host is told: api/reflection.c. */
+struct shader_reflection {
+    str_id name;         /* of the element: "Gold" */
+    str_id element_type; /* "surfacematerial" */
+    str_id path;
+    VEC(struct shader_compiled_input) compiled;
+    VEC(uint32_t) closures; /* the evaluated closures, as origins of their leaves */
+    uint64_t codes;         /* a hash of the nodes in C and their versions; part of the topology */
+    uint8_t kind;           /* enum shader_kind */
+    str_id value_type;      /* document type of a shader for a plain value */
+    uint8_t alpha;          /* enum shader_alpha */
+    bool transparent;       /* by analysis: the alpha output may be below 1 */
+    bool lit;               /* reads lights or environment */
+    bool displaced;         /* the vertex stage moves the surface */
+    bool has_two_sources;   /* the second output is what the surface lets through */
+    bool picks;             /* one layer of a stack, by a random number */
+    const char *not_walked; /* on paths: why its media are tables; NULL: they are not */
+    /* words that it stores per pixel, at most, or in a payload; 0: it lights itself */
+    uint32_t stored_words;
+    uint32_t stored_classes; /* that its pixels may have, as bits (docs/deferred.md) */
+    /* names of the function and of the struct that it returns; "": it is no function of a host */
+    const char *function, *function_type;
+};
+
 struct shader {
     const struct role *role; /* what it is for */
     struct arena *arena;
@@ -263,67 +337,12 @@ struct shader {
     struct ir_graph *graph;
     /* the unit of the generation, above the units of the library: contains the specialisations */
     struct lang_unit *unit;
-    const char *const *reserved; /* names that the host keeps for itself */
-    uint32_t num_reserved;
     struct lang_style *style; /* its reserved words are not valid for variables; NULL: none */
-    VEC(struct shader_variable) variables;
-    VEC(struct shader_tile) tiles;
-    VEC(struct shader_aov) aovs; /* IR_AOV has an index in it */
-    /* the options list the outputs: the first ones; otherwise all that the root has */
-    bool lists_aovs;
-    uint32_t num_listed_aovs;
-    VEC(struct shader_compiled_input) compiled;
-    VEC(struct shader_local) locals;
-    VEC(struct shader_light) lights;
-    VEC(uint32_t) light_members;
-    VEC(struct shader_verbatim) verbatim;
-    VEC(ir_type_id) result_types;                  /* of verbatim functions */
-    const struct source_language *source_language; /* of the target; NULL: it has none */
-    VEC(struct shader_source) sources;             /* verbatim.h */
-    VEC(struct source_function) source_functions;
-    VEC(uint32_t) source_refs;
-    VEC(struct shader_token) tokens; /* of all sources */
-    VEC(struct source_leaf) source_leaves;
-    bool source_is_1_38;       /* it has closures of MaterialX 1.38 */
-    struct table helper_table; /* names of the target's helpers to bits + 1 */
-    /* used variables, block by block, in the order of their layout */
-    VEC(uint32_t) interface;
-    /* start of each block in `interface`, and the end of the last */
-    uint32_t first_of_block[NUM_BLOCKS + 1];
-    struct table names;                    /* names to variables + 1: interface.c */
-    struct name_set taken[NUM_BLOCKS + 1]; /* by scope */
-    VEC(struct shader_binding) bindings;
-    struct table binding_table; /* by name, to indices + 1 */
-    struct table attributes;    /* by semantic, to the first variable of app data + 1 */
-    /* uniform blocks; size 0 if absent */
-    struct shader_buffer buffers[NUM_BLOCKS];
-    str_id own_blocks[MAX_OWN_BLOCKS]; /* names, in the order of declaration; 0: none */
+    struct shader_interface interface;
+    struct shader_effects effects;
+    struct shader_sources sources;
+    struct shader_reflection reflection;
     struct shader_stage stages[NUM_STAGES];
-    uint32_t max_lights; /* elements of u_lightData */
-    str_id name;         /* of the element: "Gold" */
-    str_id element_type; /* "surfacematerial" */
-    str_id path;
-    VEC(uint32_t) closures; /* the evaluated closures, as origins of their leaves */
-    uint8_t kind;           /* enum shader_kind */
-    /* document type of a shader for a plain value */
-    str_id value_type;
-    uint64_t codes;   /* a hash of the nodes in C and their versions; part of the topology */
-    bool transparent; /* by analysis: the alpha output may be below 1 */
-    uint8_t alpha;    /* enum shader_alpha */
-    bool lit;         /* reads lights or environment */
-    bool displaced;   /* the vertex stage moves the surface */
-    uint32_t num_light_loops, num_sample_loops; /* so far; each has its own lights or samples */
-    const char *not_walked; /* on paths: why its media are tables; NULL: they are not */
-    /* words that it stores per pixel, at most, or in a payload; 0: it lights itself */
-    uint32_t stored_words;
-    uint32_t stored_classes; /* that its pixels may have, as bits (docs/deferred.md) */
-    bool has_two_sources;    /* the second output is what the surface lets through */
-    /* names of the function and of the struct that it returns; "": it is no function of a host */
-    const char *function, *function_type;
-    struct name_rules naming;            /* of variables, functions and types */
-    struct name_rules naming_of_members; /* of vertex data: without a prefix */
-    bool picks;                          /* one layer of a stack, by a random number */
-    struct shader_layout_rules rules;    /* of shader_finish */
 };
 
 /* The function of a shader that is one, and the struct that it returns, in the frame. */

@@ -49,15 +49,15 @@ static void add_words(struct hasher *h, ir_type_id type, const union ir_word *wo
 
 static void add_variables(struct hasher *h)
 {
-    for (uint32_t i = 0; i < h->shader->interface.len; i++) {
-        uint32_t index = h->shader->interface.items[i];
-        const struct shader_variable *variable = &h->shader->variables.items[index];
+    for (uint32_t i = 0; i < h->shader->interface.used.len; i++) {
+        uint32_t index = h->shader->interface.used.items[i];
+        const struct shader_variable *variable = &h->shader->interface.variables.items[index];
         h->variable_numbers[index] = i + 1;
         add(h, (uint64_t)variable->block << 40 | (uint64_t)variable->stages << 32
                    | (uint64_t)variable->array_length << 16 | variable->type);
         add_text(h, variable->semantic);
         if (variable->block >= BLOCK_OWN)
-            add_text(h, h->shader->own_blocks[variable->block - BLOCK_OWN]);
+            add_text(h, h->shader->interface.own_blocks[variable->block - BLOCK_OWN]);
     }
 }
 
@@ -110,8 +110,8 @@ static void add_portable_functions(struct hasher *h, const struct lang_reach *re
 /* A variable of the host is not in the interface: its name tells it apart. */
 static uint32_t variable_number(struct hasher *h, uint32_t variable)
 {
-    if (h->shader->variables.items[variable].is_hosts)
-        add_text(h, h->shader->variables.items[variable].name);
+    if (h->shader->interface.variables.items[variable].is_hosts)
+        add_text(h, h->shader->interface.variables.items[variable].name);
     return h->variable_numbers[variable];
 }
 
@@ -193,14 +193,14 @@ static void add_stage(struct hasher *h, const struct shader_stage *stage)
     add_portable_functions(h, &stage->reach);
     for (uint32_t i = 0; i < stage->verbatim.len; i++) {
         const struct shader_verbatim *verbatim =
-            &h->shader->verbatim.items[stage->verbatim.items[i]];
+            &h->shader->sources.calls.items[stage->verbatim.items[i]];
         struct source_list sources = {0};
         for (uint32_t k = 0; k < verbatim->num_sources; k++)
             shader_collect_sources(h->shader,
-                                   h->shader->source_refs.items[verbatim->first_source + k],
+                                   h->shader->sources.refs.items[verbatim->first_source + k],
                                    h->arena, &sources);
         for (uint32_t k = 0; k < sources.len; k++)
-            add_text(h, h->shader->sources.items[sources.items[k]].text);
+            add_text(h, h->shader->sources.all.items[sources.items[k]].text);
         add_text(h, verbatim->function);
         add_text(h, verbatim->expression);
     }
@@ -217,14 +217,14 @@ uint64_t shader_topology(const struct shader *shader, struct arena *scratch)
     uint32_t num_functions =
         shader->unit ? shader->unit->base_functions + shader->unit->functions.len : 0;
     h.node_numbers = ARENA_ARRAY(h.arena, uint32_t, shader->graph->nodes.len);
-    h.variable_numbers = ARENA_ARRAY(h.arena, uint32_t, shader->variables.len + 1);
+    h.variable_numbers = ARENA_ARRAY(h.arena, uint32_t, shader->interface.variables.len + 1);
     h.function_numbers = ARENA_ARRAY(h.arena, uint32_t, num_functions + 1);
     h.graph_function_numbers = ARENA_ARRAY(h.arena, uint32_t, shader->graph->functions.len + 1);
-    if (shader->codes)
-        add(&h, shader->codes);
+    if (shader->reflection.codes)
+        add(&h, shader->reflection.codes);
     add_variables(&h);
-    for (uint32_t i = 0; i < shader->lights.len; i++)
-        add(&h, (uint64_t)(uint32_t)shader->lights.items[i].type);
+    for (uint32_t i = 0; i < shader->interface.lights.len; i++)
+        add(&h, (uint64_t)(uint32_t)shader->interface.lights.items[i].type);
     for (int stage = 0; stage < NUM_STAGES; stage++)
         add_stage(&h, &shader->stages[stage]);
     assert(h.num_nodes < shader->graph->nodes.len);

@@ -56,11 +56,11 @@ ir_type_id shader_source_struct(struct shader *shader, enum source_struct which)
 const struct shader_token *shader_find_token(const struct shader *shader, const char *name,
                                              size_t len)
 {
-    for (uint32_t i = 0; i < shader->tokens.len; i++) {
-        str_id known = shader->tokens.items[i].name;
+    for (uint32_t i = 0; i < shader->sources.tokens.len; i++) {
+        str_id known = shader->sources.tokens.items[i].name;
         if (str_len(shader->strings, known) == len
             && memcmp(str_text(shader->strings, known), name, len) == 0)
-            return &shader->tokens.items[i];
+            return &shader->sources.tokens.items[i];
     }
     return NULL;
 }
@@ -68,7 +68,7 @@ const struct shader_token *shader_find_token(const struct shader *shader, const 
 static const struct source_token *token_row(const struct shader *shader,
                                             const struct scan_word *word)
 {
-    const struct source_language *language = shader->source_language;
+    const struct source_language *language = shader->sources.language;
     for (unsigned i = 0; language && i < language->num_tokens; i++)
         if (scan_is(word, language->tokens[i].name))
             return &language->tokens[i];
@@ -106,45 +106,46 @@ static const struct shader_token *add_token(struct shader *shader, const struct 
         token.variable = variable_of(shader, word->text, word->len);
     if (!token.text && token.variable == UINT32_MAX)
         return NULL;
-    vec_push(shader->arena, &shader->tokens, token);
-    return &vec_last(&shader->tokens);
+    vec_push(shader->arena, &shader->sources.tokens, token);
+    return &vec_last(&shader->sources.tokens);
 }
 
 /* ---- Helpers ---- */
 
 void shader_index_helpers(struct shader *shader)
 {
-    const struct source_language *language = shader->source_language;
-    if (!language || shader->helper_table.num)
+    const struct source_language *language = shader->sources.language;
+    if (!language || shader->sources.helper_table.num)
         return;
     assert(language->num_helpers <= SOURCE_MAX_HELPERS);
     for (uint32_t i = 0; i < language->num_helpers; i++) {
         const char *name = language->helpers[i].name;
-        table_add(&shader->helper_table, shader->arena, hash_bytes(name, strlen(name)), i + 1);
+        table_add(&shader->sources.helper_table, shader->arena, hash_bytes(name, strlen(name)),
+                  i + 1);
     }
 }
 
 const char *shader_helper_text(const struct shader *shader, unsigned helper)
 {
-    const struct source_helper *h = &shader->source_language->helpers[helper];
-    return shader->source_is_1_38 && h->text_1_38 ? h->text_1_38 : h->text;
+    const struct source_helper *h = &shader->sources.language->helpers[helper];
+    return shader->sources.is_1_38 && h->text_1_38 ? h->text_1_38 : h->text;
 }
 
 /* The bit of the helper of this name; 0: there is none. */
 static uint64_t helper_bit(const struct shader *shader, const struct scan_word *word)
 {
-    if (!shader->source_language)
+    if (!shader->sources.language)
         return 0;
     uint32_t hash = hash_bytes(word->text, word->len);
-    for (uint32_t at = hash, found; (found = table_next(&shader->helper_table, hash, &at));)
-        if (scan_is(word, shader->source_language->helpers[found - 1].name))
+    for (uint32_t at = hash, found; (found = table_next(&shader->sources.helper_table, hash, &at));)
+        if (scan_is(word, shader->sources.language->helpers[found - 1].name))
             return (uint64_t)1 << (found - 1);
     return 0;
 }
 
 static bool is_derivative(const struct shader *shader, const struct scan_word *word)
 {
-    const struct source_language *language = shader->source_language;
+    const struct source_language *language = shader->sources.language;
     for (unsigned i = 0; language && i < language->num_derivatives; i++)
         if (scan_is(word, language->derivatives[i]))
             return true;
@@ -187,9 +188,9 @@ static void declare(struct reader *r, const struct scan_word *name)
 
 static uint32_t keep_refs(struct shader *shader, const uint32_t *refs, uint32_t n)
 {
-    uint32_t first = shader->source_refs.len;
+    uint32_t first = shader->sources.refs.len;
     for (uint32_t i = 0; i < n; i++)
-        vec_push(shader->arena, &shader->source_refs, refs[i]);
+        vec_push(shader->arena, &shader->sources.refs, refs[i]);
     return first;
 }
 
@@ -201,7 +202,7 @@ static void end_function(struct reader *r)
         return;
     r->function.num_calls = r->calls.len;
     r->function.first_call = keep_refs(shader, r->calls.items, r->calls.len);
-    vec_push(shader->arena, &shader->source_functions, r->function);
+    vec_push(shader->arena, &shader->sources.functions, r->function);
     r->function = (struct source_function){0};
     r->calls.len = 0;
 }
@@ -271,12 +272,12 @@ static bool read_word(struct reader *r, const struct scan *scan, const struct sc
 uint32_t shader_add_source(struct shader *shader, str_id text, const uint32_t *includes,
                            uint32_t num_includes, struct source_fault *out_fault)
 {
-    for (uint32_t i = 0; i < shader->sources.len; i++)
-        if (shader->sources.items[i].text == text)
+    for (uint32_t i = 0; i < shader->sources.all.len; i++)
+        if (shader->sources.all.items[i].text == text)
             return i;
     shader_index_helpers(shader);
     struct reader r = {.shader = shader, .source = {.text = text, .num_includes = num_includes}};
-    r.source.first_function = shader->source_functions.len;
+    r.source.first_function = shader->sources.functions.len;
     struct scan scan;
     struct scan_word word;
     scan_begin(&scan, str_text(shader->strings, text), str_len(shader->strings, text));
@@ -290,14 +291,14 @@ uint32_t shader_add_source(struct shader *shader, str_id text, const uint32_t *i
         }
     }
     end_function(&r);
-    r.source.num_functions = shader->source_functions.len - r.source.first_function;
+    r.source.num_functions = shader->sources.functions.len - r.source.first_function;
     r.source.first_include = keep_refs(shader, includes, num_includes);
     r.source.num_variables = r.variables.len;
     r.source.first_variable = keep_refs(shader, r.variables.items, r.variables.len);
     r.source.num_names = r.names.len;
     r.source.first_name = keep_refs(shader, r.names.items, r.names.len);
-    vec_push(shader->arena, &shader->sources, r.source);
-    return shader->sources.len - 1;
+    vec_push(shader->arena, &shader->sources.all, r.source);
+    return shader->sources.all.len - 1;
 }
 
 static void add_once(struct source_list *out, uint32_t id, struct arena *arena)
@@ -314,19 +315,19 @@ void shader_collect_sources(const struct shader *shader, uint32_t source, struct
     uint32_t next = out->len;
     add_once(out, source, arena);
     for (; next < out->len; next++) {
-        const struct shader_source *at = &shader->sources.items[out->items[next]];
-        assert(at->first_include + at->num_includes <= shader->source_refs.len);
+        const struct shader_source *at = &shader->sources.all.items[out->items[next]];
+        assert(at->first_include + at->num_includes <= shader->sources.refs.len);
         for (uint32_t i = 0; i < at->num_includes; i++)
-            add_once(out, shader->source_refs.items[at->first_include + i], arena);
+            add_once(out, shader->sources.refs.items[at->first_include + i], arena);
     }
 }
 
 static void collect_verbatim(const struct shader *shader, uint32_t verbatim, struct arena *arena,
                              struct source_list *out)
 {
-    const struct shader_verbatim *v = &shader->verbatim.items[verbatim];
+    const struct shader_verbatim *v = &shader->sources.calls.items[verbatim];
     for (uint32_t i = 0; i < v->num_sources; i++)
-        shader_collect_sources(shader, shader->source_refs.items[v->first_source + i], arena, out);
+        shader_collect_sources(shader, shader->sources.refs.items[v->first_source + i], arena, out);
 }
 
 /* ---- Derivatives ---- */
@@ -355,15 +356,15 @@ static bool calls_of_name(const struct shader *shader, const struct shader_sourc
                           str_id name, struct arena *scratch, struct source_list *out)
 {
     bool any = false;
-    assert(source->first_function + source->num_functions <= shader->source_functions.len);
+    assert(source->first_function + source->num_functions <= shader->sources.functions.len);
     for (uint32_t i = 0; i < source->num_functions; i++) {
         const struct source_function *function =
-            &shader->source_functions.items[source->first_function + i];
+            &shader->sources.functions.items[source->first_function + i];
         if (function->name != name)
             continue;
         any |= function->has_derivatives;
         for (uint32_t k = 0; k < function->num_calls; k++)
-            add_once(out, shader->source_refs.items[function->first_call + k], scratch);
+            add_once(out, shader->sources.refs.items[function->first_call + k], scratch);
     }
     return any;
 }
@@ -374,10 +375,10 @@ bool shader_needs_neighbours(const struct shader *shader, const struct shader_ve
     struct source_list files = {0}, names = {0};
     bool any = false;
     for (uint32_t i = 0; i < verbatim->num_sources; i++)
-        shader_collect_sources(shader, shader->source_refs.items[verbatim->first_source + i],
+        shader_collect_sources(shader, shader->sources.refs.items[verbatim->first_source + i],
                                scratch, &files);
     for (uint32_t i = 0; i < files.len; i++)
-        any |= shader->sources.items[files.items[i]].has_derivatives;
+        any |= shader->sources.all.items[files.items[i]].has_derivatives;
     if (verbatim->function)
         vec_push(scratch, &names, verbatim->function);
     else if (verbatim->expression)
@@ -385,8 +386,8 @@ bool shader_needs_neighbours(const struct shader *shader, const struct shader_ve
                                    &names);
     for (uint32_t next = 0; next < names.len && !any; next++)
         for (uint32_t i = 0; i < files.len; i++)
-            any |= calls_of_name(shader, &shader->sources.items[files.items[i]], names.items[next],
-                                 scratch, &names);
+            any |= calls_of_name(shader, &shader->sources.all.items[files.items[i]],
+                                 names.items[next], scratch, &names);
     return any;
 }
 
@@ -397,11 +398,11 @@ void shader_mark_sources(struct shader *shader, enum shader_stage_id id)
     for (uint32_t i = 0; i < stage->verbatim.len; i++)
         collect_verbatim(shader, stage->verbatim.items[i], shader->arena, &all);
     for (uint32_t i = 0; i < all.len; i++) {
-        const struct shader_source *source = &shader->sources.items[all.items[i]];
+        const struct shader_source *source = &shader->sources.all.items[all.items[i]];
         for (uint32_t k = 0; k < source->num_variables; k++) {
-            uint32_t variable = shader->source_refs.items[source->first_variable + k];
-            assert(variable < shader->variables.len);
-            shader->variables.items[variable].stages |= (uint8_t)(1u << id);
+            uint32_t variable = shader->sources.refs.items[source->first_variable + k];
+            assert(variable < shader->interface.variables.len);
+            shader->interface.variables.items[variable].stages |= (uint8_t)(1u << id);
         }
     }
 }
@@ -409,7 +410,8 @@ void shader_mark_sources(struct shader *shader, enum shader_stage_id id)
 /* The helpers in `wanted`, with those that their texts name. A text names earlier helpers only. */
 static uint64_t with_needed(const struct shader *shader, uint64_t wanted)
 {
-    for (uint32_t i = shader->source_language ? shader->source_language->num_helpers : 0; i-- > 0;)
+    for (uint32_t i = shader->sources.language ? shader->sources.language->num_helpers : 0;
+         i-- > 0;)
         if (wanted >> i & 1)
             wanted |= uses_of(shader, shader_helper_text(shader, i)) & (((uint64_t)1 << i) - 1);
     return wanted;
@@ -422,11 +424,11 @@ uint64_t shader_stage_helpers(const struct shader *shader, const struct shader_s
     for (uint32_t i = 0; i < stage->verbatim.len; i++) {
         struct source_list all = {0};
         uint64_t uses = 0, declares = 0;
-        str_id expression = shader->verbatim.items[stage->verbatim.items[i]].expression;
+        str_id expression = shader->sources.calls.items[stage->verbatim.items[i]].expression;
         collect_verbatim(shader, stage->verbatim.items[i], scratch, &all);
         for (uint32_t k = 0; k < all.len; k++) {
-            uses |= shader->sources.items[all.items[k]].uses;
-            declares |= shader->sources.items[all.items[k]].declares;
+            uses |= shader->sources.all.items[all.items[k]].uses;
+            declares |= shader->sources.all.items[all.items[k]].declares;
         }
         if (expression)
             uses |= uses_of(shader, str_text(shader->strings, expression));

@@ -111,10 +111,10 @@ static bool source(void *user_data, const struct ir_graph *graph, ir_ref ref, st
     }
     switch (node->op) {
     case IR_UNIFORM:
-        *out = eye->shader->variables.items[node->attr].value;
+        *out = eye->shader->interface.variables.items[node->attr].value;
         return out->type == node->type;
     case IR_STREAM:
-        stream_value(eye, eye->shader->variables.items[node->attr].name, out);
+        stream_value(eye, eye->shader->interface.variables.items[node->attr].name, out);
         return ir_type_is_float(node->type);
     case IR_DFDX:
     case IR_DFDY:
@@ -266,7 +266,8 @@ static unsigned count_points(const struct eye *eye, const uint8_t *needed, ir_re
     unsigned count = 1;
     for (ir_ref ref = 1; ref <= root; ref++) {
         const struct ir_node *node = ir_get(g, ref);
-        str_id name = node->op == IR_STREAM ? shader->variables.items[node->attr].name : 0;
+        str_id name =
+            node->op == IR_STREAM ? shader->interface.variables.items[node->attr].name : 0;
         bool varies =
             node->op == IR_TEXTURE || (name && name != STR_normalWorld && name != STR_tangentWorld);
         if (needed[ref] && texels_of(eye->host, node))

@@ -77,7 +77,7 @@ static ir_ref covered(const struct joiner *j, ir_ref bsdf, ir_ref opacity)
 
 static ir_ref *new_aovs(const struct joiner *j)
 {
-    return ARENA_ARRAY(j->shader->arena, ir_ref, j->shader->aovs.len);
+    return ARENA_ARRAY(j->shader->arena, ir_ref, j->shader->interface.aovs.len);
 }
 
 /* All parts of two pieces beside each other; the opacity is the caller's. */
@@ -87,7 +87,7 @@ static struct piece beside(const struct joiner *j, const struct piece *bg, const
     struct piece out = {.bsdf = mixed(j, bg->bsdf, fg->bsdf, share),
                         .edf = mixed(j, bg->edf, fg->edf, share),
                         .aovs = new_aovs(j)};
-    for (uint32_t i = 0; i < j->shader->aovs.len; i++)
+    for (uint32_t i = 0; i < j->shader->interface.aovs.len; i++)
         out.aovs[i] = mixed(j, bg->aovs[i], fg->aovs[i], share);
     return out;
 }
@@ -118,7 +118,7 @@ static struct piece alone(const struct joiner *j, struct piece piece)
         const ir_ref *aovs = piece.aovs;
         piece.bsdf = layered(j, piece.bsdf, 0, piece.thickness);
         piece.aovs = new_aovs(j);
-        for (uint32_t i = 0; i < j->shader->aovs.len; i++)
+        for (uint32_t i = 0; i < j->shader->interface.aovs.len; i++)
             piece.aovs[i] = layered(j, aovs[i], 0, piece.thickness);
     } else if (j->walks && piece.is_solid && is_open_below(j, piece.bsdf)) {
         ir_ref black = ir_const_splat(g, IR_TYPE_VEC3, 0.0f);
@@ -163,7 +163,7 @@ static struct piece with_aov(const struct joiner *j, ir_ref ref)
     ir_ref value = ir_arg(j->graph, ref, 1), *aovs = new_aovs(j);
     if (ir_type_of(j->graph, value) != IR_TYPE_BSDF)
         return out;
-    memcpy(aovs, out.aovs, j->shader->aovs.len * sizeof *aovs);
+    memcpy(aovs, out.aovs, j->shader->interface.aovs.len * sizeof *aovs);
     aovs[ir_get(j->graph, ref)->attr] = value;
     out.aovs = aovs;
     return out;
@@ -205,7 +205,7 @@ static void put_coat(const struct joiner *j, struct piece *base, const struct pi
         base->bsdf = layered(j, top, base->bsdf, thickness);
     }
     ir_ref *aovs = new_aovs(j);
-    for (uint32_t i = 0; i < j->shader->aovs.len; i++)
+    for (uint32_t i = 0; i < j->shader->interface.aovs.len; i++)
         aovs[i] = coat->aovs[i] ? mixed(j, base->aovs[i], coat->aovs[i], share) : base->aovs[i];
     base->aovs = aovs;
 }
@@ -387,7 +387,7 @@ static bool is_one_piece(const struct ir_graph *g, ir_ref surface)
 
 static ir_ref matter_of(struct joiner *j, ir_ref surface)
 {
-    uint32_t num_aovs = j->shader->aovs.len;
+    uint32_t num_aovs = j->shader->interface.aovs.len;
     ir_ref *args = ARENA_ARRAY(j->shader->arena, ir_ref, num_aovs + 2);
     struct piece piece = alone(j, joined(j, surface));
     args[0] = surface;

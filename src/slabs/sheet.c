@@ -64,7 +64,7 @@ void slab_write_value(const struct slab_sheet *sheet, ir_ref ref, struct text *o
     const struct ir_graph *g = sheet->shader->graph;
     const struct ir_node *node = ir_get(g, ref);
     if (node->op == IR_UNIFORM) {
-        const struct shader_variable *v = &sheet->shader->variables.items[node->attr];
+        const struct shader_variable *v = &sheet->shader->interface.variables.items[node->attr];
         text_str(out, str_text(sheet->shader->strings, v->path ? v->path : v->name));
         return;
     }
@@ -266,7 +266,7 @@ static bool is_unread(const struct slab_sheet *sheet, const struct slabs_host *h
         return !(host->texels && host->texels(host->user_data, node->attr));
     if (node->op != IR_UNIFORM && node->op != IR_STREAM)
         return false;
-    const struct shader_variable *variable = &shader->variables.items[node->attr];
+    const struct shader_variable *variable = &shader->interface.variables.items[node->attr];
     const char *semantic = variable->semantic ? str_text(shader->strings, variable->semantic) : "";
     return node->op == IR_UNIFORM
                ? !variable->path && variable->type != IR_TYPE_MAT4

@@ -15,8 +15,8 @@ static struct spell_name prefixed(struct spell *spell, const char *prefix, struc
 
 const struct shader_variable *spell_interface_variable(const struct spell *spell, uint32_t place)
 {
-    assert(place < spell->shader->interface.len);
-    return &spell->shader->variables.items[spell->shader->interface.items[place]];
+    assert(place < spell->shader->interface.used.len);
+    return &spell->shader->interface.variables.items[spell->shader->interface.used.items[place]];
 }
 
 static struct spell_name variable_name(const struct spell *spell,
@@ -53,33 +53,34 @@ void spell_name_interface(struct spell *spell)
     const char *prefixes[NUM_BLOCKS];
     for (int block = 0; block < NUM_BLOCKS; block++)
         prefixes[block] = member_prefix(spell, (enum shader_block)block);
-    for (uint32_t i = 0; i < spell->shader->interface.len; i++) {
+    for (uint32_t i = 0; i < spell->shader->interface.used.len; i++) {
         const struct shader_variable *variable = spell_interface_variable(spell, i);
         struct spell_name name = variable_name(spell, variable);
         const char *prefix = prefixes[variable->block];
         if (*prefix)
             name = prefixed(spell, prefix, name);
-        spell->variables[spell->shader->interface.items[i]] = name;
-        bool declared = spell->shader->rules.blocks || spell_uses(spell, variable),
+        spell->variables[spell->shader->interface.used.items[i]] = name;
+        bool declared = spell->shader->interface.rules.blocks || spell_uses(spell, variable),
              is_member = variable->block == BLOCK_LIGHT_DATA || strchr(prefix, '.');
         if (declared && !is_member)
             names_take(&spell->names, name.text, name.len);
     }
-    for (uint32_t i = 0; i < spell->shader->variables.len; i++)
-        if (spell->shader->variables.items[i].is_hosts)
-            spell->variables[i] = variable_name(spell, &spell->shader->variables.items[i]);
+    for (uint32_t i = 0; i < spell->shader->interface.variables.len; i++)
+        if (spell->shader->interface.variables.items[i].is_hosts)
+            spell->variables[i] =
+                variable_name(spell, &spell->shader->interface.variables.items[i]);
 }
 
 bool spell_functions_read_vertex_data(const struct spell *spell)
 {
     const struct lang_reach *reach = &spell->stage->reach;
-    const uint32_t *of_block = &spell->shader->first_of_block[BLOCK_VERTEX_DATA];
+    const uint32_t *of_block = &spell->shader->interface.first_of_block[BLOCK_VERTEX_DATA];
     bool reads = spell->stage->functions.len > 0;
     for (uint32_t i = 0; i < reach->globals.len && !reads; i++)
         reads = lang_global(spell->shader->unit, reach->globals.items[i], NULL)->kind
                 == LANG_GLOBAL_STREAM;
     for (uint32_t i = 0; i < spell->stage->verbatim.len && !reads; i++)
-        reads = spell->shader->verbatim.items[spell->stage->verbatim.items[i]].num_sources > 0;
+        reads = spell->shader->sources.calls.items[spell->stage->verbatim.items[i]].num_sources > 0;
     return reads && of_block[0] < of_block[1];
 }
 
@@ -102,7 +103,8 @@ void spell_declare(struct spell *spell, enum lang_phrase phrase,
 /* True if this stage uses a variable of the block. */
 bool spell_uses_block(const struct spell *spell, enum shader_block block)
 {
-    assert(spell->shader->first_of_block[block] <= spell->shader->first_of_block[block + 1]);
+    assert(spell->shader->interface.first_of_block[block]
+           <= spell->shader->interface.first_of_block[block + 1]);
     SPELL_EACH_OF_BLOCK(i, spell, block)
     if (spell_uses(spell, spell_interface_variable(spell, i)))
         return true;

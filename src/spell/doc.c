@@ -116,7 +116,7 @@ void spell_function_doc(struct spell *spell, uint32_t function)
                         .id = function,
                         .origin = version ? version->origin : function};
     s.function = lang_function(unit, s.origin, &s.layer);
-    if (!spell->options->comments || spell->shader->rules.neutral_names)
+    if (!spell->options->comments || spell->shader->interface.rules.neutral_names)
         return;
     if (s.function->doc) {
         const char *text = str_text(unit->strings, s.function->doc);

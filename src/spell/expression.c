@@ -148,7 +148,8 @@ static const char *callee_name(const struct spell *spell, ir_ref call)
                         spell->shader->graph->callees.items[node->attr].name);
     uint32_t callee = shader_callee(spell->shader, call);
     if (node->op == IR_VERBATIM)
-        return str_text(spell->shader->strings, spell->shader->verbatim.items[callee].function);
+        return str_text(spell->shader->strings,
+                        spell->shader->sources.calls.items[callee].function);
     return spell_function_name(spell, callee);
 }
 
@@ -158,7 +159,7 @@ static uint32_t initial_operands(const struct spell *spell, ir_ref call)
     if (ir_get(spell->shader->graph, call)->op != IR_VERBATIM)
         return 0;
     const struct shader_verbatim *verbatim =
-        &spell->shader->verbatim.items[shader_callee(spell->shader, call)];
+        &spell->shader->sources.calls.items[shader_callee(spell->shader, call)];
     return verbatim->has_initial ? verbatim->num_results : 0;
 }
 
@@ -175,7 +176,7 @@ static void write_call(struct spell *spell, ir_ref ref)
 {
     if (ir_get(spell->shader->graph, ref)->op == IR_VERBATIM) {
         const struct shader_verbatim *verbatim =
-            &spell->shader->verbatim.items[shader_callee(spell->shader, ref)];
+            &spell->shader->sources.calls.items[shader_callee(spell->shader, ref)];
         if (!verbatim->function) {
             write_verbatim(spell, ref, verbatim->expression);
             return;
@@ -217,7 +218,7 @@ static inline void write_operand(struct spell *spell, ir_ref ref, enum lang_prec
     if (local)
         spell_name(spell, spell->let_names.items[local - 1]);
     else if (node->op == IR_UNIFORM && node->type == IR_TYPE_BOOL)
-        spell_read(spell, &spell->shader->variables.items[node->attr],
+        spell_read(spell, &spell->shader->interface.variables.items[node->attr],
                    spell_word(spell->variables[node->attr]), least);
     else if (node->op == IR_UNIFORM || node->op == IR_STREAM)
         spell_name(spell, spell->variables[node->attr]);
@@ -325,7 +326,7 @@ static void write_light(struct spell *spell, uint32_t attr, enum lang_precedence
     }
     text_char(&light, '.');
     text_mem(&light, spell->variables[attr].text, spell->variables[attr].len);
-    spell_read(spell, &spell->shader->variables.items[attr],
+    spell_read(spell, &spell->shader->interface.variables.items[attr],
                (struct text_word){text_cstr(&light), light.len}, least);
 }
 

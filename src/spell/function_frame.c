@@ -84,17 +84,17 @@ static void declare(struct spell *spell)
         write_variable(spell, PHRASE_VARIABLE, type, spell_frame_name(spell, "vd"));
         spell_text(spell, ";\n");
     }
-    open_struct(spell, spell->shader->function_type);
+    open_struct(spell, spell->shader->reflection.function_type);
     write_members(spell, BLOCK_OUTPUTS);
     close_struct(spell);
 }
 
 static void open_function(struct spell *spell)
 {
-    const char *type = spell->shader->function_type, *between = "";
+    const char *type = spell->shader->reflection.function_type, *between = "";
     struct lang_declaration head =
         lang_open(spell->style, PHRASE_FUNCTION, (struct lang_type_text){lang_word(type), 0},
-                  lang_word(spell->shader->function), spell->out);
+                  lang_word(spell->shader->reflection.function), spell->out);
     SPELL_EACH_OF_BLOCK(i, spell, BLOCK_VERTEX_DATA)
     {
         const struct shader_variable *variable = spell_interface_variable(spell, i);

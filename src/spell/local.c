@@ -151,7 +151,7 @@ static struct spell_name operand_name(const struct spell *spell, ir_ref ref)
     if (spell->local_of[ref] && (own || node->op == IR_CONTEXT))
         return spell->let_names.items[spell->local_of[ref] - 1];
     if (node->op == IR_UNIFORM)
-        return input_name(spell, &spell->shader->variables.items[node->attr]);
+        return input_name(spell, &spell->shader->interface.variables.items[node->attr]);
     return own ? bare_name(spell, own) : (struct spell_name){0};
 }
 
@@ -264,20 +264,21 @@ struct spell_name spell_call_base(struct spell *spell, ir_ref call)
     const struct ir_graph *graph = spell->shader->graph;
     const struct ir_label *label = ir_label(graph, call);
     str_id origin = graph->origins.items[ir_get(graph, call)->origin].name;
-    bool is_own =
-        origin && !label->name && !label->is_shared && !spell->shader->rules.neutral_names;
+    bool is_own = origin && !label->name && !label->is_shared
+                  && !spell->shader->interface.rules.neutral_names;
     return is_own ? spell_name_of(spell->shader->strings, origin) : spell_local_base(spell, call);
 }
 
 struct spell_name spell_local_base(struct spell *spell, ir_ref ref)
 {
     const struct ir_node *node = ir_get(spell->shader->graph, ref);
-    if (spell->shader->rules.neutral_names)
+    if (spell->shader->interface.rules.neutral_names)
         return word("v");
     if (node->op == IR_CONTEXT && !ir_is_light_member(node->attr))
         return word("light");
     if (node->op == IR_CONTEXT || node->op == IR_UNIFORM) {
-        const struct shader_variable *variable = &spell->shader->variables.items[node->attr];
+        const struct shader_variable *variable =
+            &spell->shader->interface.variables.items[node->attr];
         if (node->op == IR_UNIFORM)
             return input_name(spell, variable);
         return joined(spell, word("light"), "_",

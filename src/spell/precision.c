@@ -93,11 +93,12 @@ static enum kind kind_of(const struct spell *spell, ir_ref ref)
     const struct ir_node *node = ir_get(g, ref);
     if (!is_float(node->type))
         return node->op == IR_TEXTURE
-                   ? kind_of_variable(spell, &spell->shader->variables.items[node->attr])
+                   ? kind_of_variable(spell, &spell->shader->interface.variables.items[node->attr])
                    : NEITHER;
     switch (node->op) {
     case IR_CONST: return kind_of_constant(g, ref);
-    case IR_UNIFORM: return kind_of_variable(spell, &spell->shader->variables.items[node->attr]);
+    case IR_UNIFORM:
+        return kind_of_variable(spell, &spell->shader->interface.variables.items[node->attr]);
     case IR_TEX: return spell->kinds[ir_arg(g, ref, 0)];
     case IR_NEG:
     case IR_ADD:

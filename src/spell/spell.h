@@ -128,8 +128,8 @@ void spell_name_interface(struct spell *spell);
 bool spell_functions_read_vertex_data(const struct spell *spell);
 /* Loops over the positions of a block's variables in the interface. */
 #define SPELL_EACH_OF_BLOCK(i, spell, block) \
-    for (uint32_t i = (spell)->shader->first_of_block[block]; \
-         i < (spell)->shader->first_of_block[(block) + 1]; i++)
+    for (uint32_t i = (spell)->shader->interface.first_of_block[block]; \
+         i < (spell)->shader->interface.first_of_block[(block) + 1]; i++)
 /* The variable at a position in the interface. */
 const struct shader_variable *spell_interface_variable(const struct spell *spell, uint32_t place);
 /* True if the stage uses the variable, or a variable of the block. */

@@ -126,12 +126,12 @@ static const char *global_name(void *user_data, uint32_t id)
         return NULL;
     struct spell_name name = spell->variables[variable];
     if (!shader_block_type(spell->shader, spell->style->syntax,
-                           &spell->shader->variables.items[variable]))
+                           &spell->shader->interface.variables.items[variable]))
         return name.text;
     struct text value, *out = spell->out;
     text_init(&value, spell->scratch);
     spell->out = &value;
-    spell_read(spell, &spell->shader->variables.items[variable], spell_word(name),
+    spell_read(spell, &spell->shader->interface.variables.items[variable], spell_word(name),
                LANG_PREC_POSTFIX);
     spell->out = out;
     return text_cstr(&value);
@@ -168,23 +168,24 @@ void spell_comment(struct spell *spell, const char *text, size_t len)
 void spell_title(struct spell *spell)
 {
     const struct shader *shader = spell->shader;
-    const char *parts[] = {
-        str_text(shader->strings, shader->name), str_text(shader->strings, shader->element_type),
-        spell->options->generator, spell->target->name, spell->options->interface};
+    const char *parts[] = {str_text(shader->strings, shader->reflection.name),
+                           str_text(shader->strings, shader->reflection.element_type),
+                           spell->options->generator, spell->target->name,
+                           spell->options->interface};
     uint32_t textures = 0;
-    for (uint32_t i = 0; i < shader->interface.len; i++) {
+    for (uint32_t i = 0; i < shader->interface.used.len; i++) {
         const struct shader_variable *variable =
-            &shader->variables.items[shader->interface.items[i]];
+            &shader->interface.variables.items[shader->interface.used.items[i]];
         textures += variable->block == BLOCK_TEXTURES && !variable->semantic;
     }
-    for (size_t i = spell->shader->rules.neutral_names ? 2 : 0; i < sizeof parts / sizeof *parts;
-         i++) {
+    for (size_t i = spell->shader->interface.rules.neutral_names ? 2 : 0;
+         i < sizeof parts / sizeof *parts; i++) {
         if (!parts[i] || !*parts[i])
             continue;
         spell_comment(spell, parts[i], strlen(parts[i]));
         spell_text(spell, " · ");
     }
-    write_plural(spell->out, shader->closures.len, "closure");
+    write_plural(spell->out, shader->reflection.closures.len, "closure");
     spell_text(spell, " · ");
     write_plural(spell->out, textures, "texture");
 }
@@ -276,14 +277,14 @@ static void init(struct spell *spell)
     const struct shader *shader = spell->shader;
     struct arena *arena = spell->scratch;
     const struct lang_unit *unit = shader->unit;
-    spell->variables = ARENA_ARRAY(arena, struct spell_name, shader->variables.len + 1);
+    spell->variables = ARENA_ARRAY(arena, struct spell_name, shader->interface.variables.len + 1);
     uint32_t num_functions = unit->base_functions + unit->functions.len;
     spell->functions =
         arena_alloc(arena, mem_array_size(arena->mem, num_functions, sizeof *spell->functions));
     spell->graph_functions = ARENA_ARRAY(arena, const char *, shader->graph->functions.len + 1);
     spell->user_types =
         ARENA_ARRAY(arena, const char *, unit->base_user_types + unit->user_types.len + 1);
-    spell->locals = ARENA_ARRAY(arena, struct spell_name, shader->locals.len + 1);
+    spell->locals = ARENA_ARRAY(arena, struct spell_name, shader->effects.locals.len + 1);
     spell->local_of = ARENA_ARRAY(arena, uint32_t, shader->graph->nodes.len);
     spell->lang_names = (struct lang_names){.user_data = spell,
                                             .function = function_name,
@@ -293,15 +294,16 @@ static void init(struct spell *spell)
                                             .form = spell->target->form};
     bool has_neighbours = spell->stage_id == STAGE_PIXEL
                               ? shader->role->derivatives == DERIVATIVES_OF_SCREEN
-                              : !shader->displaced;
+                              : !shader->reflection.displaced;
     spell->style =
         shader->style && has_neighbours ? shader->style : arena_alloc(arena, sizeof *spell->style);
     if (spell->style != shader->style)
         lang_style_init(spell->style, has_neighbours ? spell->target->syntax : syntax_alone(spell),
                         arena);
     names_init(&spell->names, arena, spell->style->syntax);
-    spell->names.rules = &shader->naming;
-    if (spell->options->comments && spell->options->path && !spell->shader->rules.neutral_names) {
+    spell->names.rules = &shader->interface.naming;
+    if (spell->options->comments && spell->options->path
+        && !spell->shader->interface.rules.neutral_names) {
         names_init(&spell->paths, arena, NULL);
         spell->origins_seen = ARENA_ARRAY(arena, uint8_t, shader->graph->origins.len);
     }

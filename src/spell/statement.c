@@ -28,7 +28,8 @@ static struct spell_name with_slot(struct spell *spell, struct spell_name base, 
 {
     const struct shader *shader = spell->shader;
     str_id slot = shader->graph->origins.items[ir_get(shader->graph, ref)->origin].slot;
-    if (!slot || shader->rules.neutral_names || names_is_free(&spell->names, base.text, base.len))
+    if (!slot || shader->interface.rules.neutral_names
+        || names_is_free(&spell->names, base.text, base.len))
         return base;
     struct text text;
     size_t len;
@@ -52,7 +53,7 @@ static struct spell_name add_local(struct spell *spell, struct spell_name base, 
 /* "metal_ior" for the part "ior" of the results of a call. */
 static struct spell_name part_name(struct spell *spell, struct spell_name base, const char *part)
 {
-    if (!part || spell->shader->rules.neutral_names)
+    if (!part || spell->shader->interface.rules.neutral_names)
         return base;
     struct text text;
     text_init(&text, spell->scratch);
@@ -135,9 +136,10 @@ static struct call_out describe_out(const struct spell *spell, ir_ref call, unsi
                        shader->graph->function_results.items[fn->first_result + index + 1]),
             "result", false};
     }
-    const struct shader_verbatim *verbatim = &shader->verbatim.items[shader_callee(shader, call)];
+    const struct shader_verbatim *verbatim =
+        &shader->sources.calls.items[shader_callee(shader, call)];
     assert(index < verbatim->num_results);
-    return (struct call_out){shader->result_types.items[verbatim->first_result + index],
+    return (struct call_out){shader->sources.result_types.items[verbatim->first_result + index],
                              verbatim->result_names ? verbatim->result_names[index] : "result",
                              verbatim->has_initial};
 }
@@ -305,8 +307,9 @@ static void write_let(struct spell *spell, unsigned indent, ir_ref ref)
 static const char *private_name(const struct spell *spell, str_id asked)
 {
     uint32_t variable = shader_asked_uniform(spell->shader, asked);
-    assert(variable < spell->shader->variables.len);
-    return str_text(spell->shader->strings, spell->shader->variables.items[variable].name);
+    assert(variable < spell->shader->interface.variables.len);
+    return str_text(spell->shader->strings,
+                    spell->shader->interface.variables.items[variable].name);
 }
 
 /*
@@ -320,7 +323,7 @@ static void write_last_light(struct spell *spell)
         return;
     }
     SPELL(spell, "min(", private_name(spell, STR_u_numActiveLightSources), ", ");
-    spell_number(spell, spell->shader->max_lights);
+    spell_number(spell, spell->shader->interface.max_lights);
     spell_text(spell, ") - 1");
 }
 
@@ -341,7 +344,7 @@ static void write_first_turn(struct spell *spell, unsigned indent, ir_ref turn)
  */
 static void write_comment(struct spell *spell, unsigned indent, str_id text)
 {
-    if (!spell->options->comments || spell->shader->rules.neutral_names)
+    if (!spell->options->comments || spell->shader->interface.rules.neutral_names)
         return;
     struct text comment;
     text_init(&comment, spell->scratch);
@@ -361,7 +364,7 @@ static void write_comment(struct spell *spell, unsigned indent, str_id text)
 
 static void explain_order(struct spell *spell, unsigned indent)
 {
-    if (!spell->options->comments || spell->shader->rules.neutral_names)
+    if (!spell->options->comments || spell->shader->interface.rules.neutral_names)
         return;
     open_line(spell, indent, 0);
     spell_text(spell, "// from the last light, so that drivers do not unroll the loop\n");
@@ -426,9 +429,9 @@ static void write_discard(struct spell *spell, unsigned indent, ir_ref condition
 
 static void write_variable(struct spell *spell, unsigned indent, const struct effect *effect)
 {
-    assert(effect->index < spell->shader->locals.len);
-    const struct shader_local *local = &spell->shader->locals.items[effect->index];
-    struct spell_name name = spell->shader->rules.neutral_names
+    assert(effect->index < spell->shader->effects.locals.len);
+    const struct shader_local *local = &spell->shader->effects.locals.items[effect->index];
+    struct spell_name name = spell->shader->interface.rules.neutral_names
                                  ? (struct spell_name){"v", 1}
                                  : spell_name_of(spell->shader->strings, local->name);
     spell->locals[effect->index] = names_unique(&spell->names, name.text, name.len);

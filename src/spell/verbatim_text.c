@@ -17,7 +17,7 @@ struct writer {
 static void write_token(struct spell *spell, const struct scan_word *word)
 {
     const struct shader_token *token = shader_find_token(spell->shader, word->text, word->len);
-    assert(token && (token->text || token->variable < spell->shader->variables.len));
+    assert(token && (token->text || token->variable < spell->shader->interface.variables.len));
     if (token->text)
         spell_text(spell, token->text);
     else
@@ -42,7 +42,7 @@ void spell_once(struct spell *spell, const char *text, size_t len)
 static void write_source(struct writer *w, uint32_t index)
 {
     struct spell *spell = w->spell;
-    const struct shader_source *source = &spell->shader->sources.items[index];
+    const struct shader_source *source = &spell->shader->sources.all.items[index];
     if (w->written[index])
         return;
     w->written[index] = true;
@@ -62,7 +62,7 @@ static void write_source(struct writer *w, uint32_t index)
         if (includes) {
             scan_next(&scan, &word); /* its file */
             assert(include < source->num_includes);
-            write_source(w, spell->shader->source_refs.items[source->first_include + include++]);
+            write_source(w, spell->shader->sources.refs.items[source->first_include + include++]);
         } else {
             write_token(spell, &word);
         }
@@ -86,7 +86,7 @@ static void write_root(struct writer *w, uint32_t index)
 
 static void write_helpers(struct spell *spell, uint64_t helpers)
 {
-    const struct source_language *language = spell->shader->source_language;
+    const struct source_language *language = spell->shader->sources.language;
     for (unsigned i = 0; language && i < language->num_helpers; i++)
         if (helpers >> i & 1) {
             const char *text = shader_helper_text(spell->shader, i);
@@ -98,14 +98,15 @@ static void write_helpers(struct spell *spell, uint64_t helpers)
 void spell_verbatim_sources(struct spell *spell)
 {
     const struct shader *shader = spell->shader;
-    struct writer w = {spell, ARENA_ARRAY(spell->scratch, bool, shader->sources.len + 1)};
+    struct writer w = {spell, ARENA_ARRAY(spell->scratch, bool, shader->sources.all.len + 1)};
     spell->verbatim_begin = spell->out->len;
     write_helpers(spell, shader_stage_helpers(shader, spell->stage, spell->scratch));
     for (uint32_t i = 0; i < spell->stage->verbatim.len; i++) {
-        assert(spell->stage->verbatim.items[i] < shader->verbatim.len);
-        const struct shader_verbatim *v = &shader->verbatim.items[spell->stage->verbatim.items[i]];
+        assert(spell->stage->verbatim.items[i] < shader->sources.calls.len);
+        const struct shader_verbatim *v =
+            &shader->sources.calls.items[spell->stage->verbatim.items[i]];
         for (uint32_t k = 0; k < v->num_sources; k++)
-            write_root(&w, shader->source_refs.items[v->first_source + k]);
+            write_root(&w, shader->sources.refs.items[v->first_source + k]);
     }
     spell->verbatim_end = spell->out->len;
 }
@@ -114,22 +115,24 @@ void spell_take_source_names(struct spell *spell)
 {
     const struct shader *shader = spell->shader;
     uint64_t helpers = shader_stage_helpers(shader, spell->stage, spell->scratch);
-    for (unsigned i = 0; shader->source_language && i < shader->source_language->num_helpers; i++) {
-        const char *name = shader->source_language->helpers[i].name;
+    for (unsigned i = 0; shader->sources.language && i < shader->sources.language->num_helpers;
+         i++) {
+        const char *name = shader->sources.language->helpers[i].name;
         if (helpers >> i & 1)
             names_take(&spell->names, name, strlen(name));
     }
     struct source_list all = {0};
     for (uint32_t i = 0; i < spell->stage->verbatim.len; i++) {
-        const struct shader_verbatim *v = &shader->verbatim.items[spell->stage->verbatim.items[i]];
+        const struct shader_verbatim *v =
+            &shader->sources.calls.items[spell->stage->verbatim.items[i]];
         for (uint32_t k = 0; k < v->num_sources; k++)
-            shader_collect_sources(shader, shader->source_refs.items[v->first_source + k],
+            shader_collect_sources(shader, shader->sources.refs.items[v->first_source + k],
                                    spell->scratch, &all);
     }
     for (uint32_t i = 0; i < all.len; i++) {
-        const struct shader_source *source = &shader->sources.items[all.items[i]];
+        const struct shader_source *source = &shader->sources.all.items[all.items[i]];
         for (uint32_t k = 0; k < source->num_names; k++) {
-            str_id name = shader->source_refs.items[source->first_name + k];
+            str_id name = shader->sources.refs.items[source->first_name + k];
             names_take(&spell->names, str_text(shader->strings, name),
                        str_len(shader->strings, name));
         }

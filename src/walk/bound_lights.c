@@ -45,13 +45,13 @@ static struct shader_light start_light(struct builder *b, uint32_t nodedef, int3
                                  .name = def->node,
                                  .function = LANG_NONE,
                                  .source = UINT32_MAX,
-                                 .first_member = shader->light_members.len};
+                                 .first_member = shader->interface.light_members.len};
     for (uint32_t i = 0; i < def->num_inputs; i++)
         if (is_member(b, &ports[i]))
             vec_push(
-                b->arena, &shader->light_members,
+                b->arena, &shader->interface.light_members,
                 shader_light_member(shader, ports[i].name, library_type_ir(b->lib, ports[i].type)));
-    light.num_members = shader->light_members.len - light.first_member;
+    light.num_members = shader->interface.light_members.len - light.first_member;
     assert(light.num_members <= def->num_inputs);
     return light;
 }
@@ -59,8 +59,8 @@ static struct shader_light start_light(struct builder *b, uint32_t nodedef, int3
 /* Hosts that do not set a member leave it at the default of its definition. */
 static void set_default(struct builder *b, const struct port *input, uint32_t member)
 {
-    assert(member < b->shader->variables.len);
-    struct shader_variable *variable = &b->shader->variables.items[member];
+    assert(member < b->shader->interface.variables.len);
+    struct shader_variable *variable = &b->shader->interface.variables.items[member];
     ir_ref value = variable->has_default || input->geomprop ? 0 : build_default(b, input);
     if (value)
         variable->has_default = ir_get_const(b->graph, value, &variable->value);
@@ -75,18 +75,18 @@ static void place_light(struct builder *b, struct shader_light *light)
 
 static ir_ref read_member(struct builder *b, uint32_t variable)
 {
-    assert(variable < b->shader->variables.len);
-    return ir_build(b->graph, IR_CONTEXT, b->shader->variables.items[variable].type, variable, NULL,
-                    0);
+    assert(variable < b->shader->interface.variables.len);
+    return ir_build(b->graph, IR_CONTEXT, b->shader->interface.variables.items[variable].type,
+                    variable, NULL, 0);
 }
 
 /* The LIGHT_SHADER of a definition made of nodes, over the light's members; 0 after an error. */
 static ir_ref shader_of(struct builder *b, uint32_t nodedef, const struct shader_light *light)
 {
-    assert(light->first_member + light->num_members <= b->shader->light_members.len);
+    assert(light->first_member + light->num_members <= b->shader->interface.light_members.len);
     const struct nodedef *def = library_nodedef(b->lib, nodedef);
     const struct port *ports = library_ports(b->lib, nodedef, NULL);
-    const uint32_t *members = b->shader->light_members.items + light->first_member;
+    const uint32_t *members = b->shader->interface.light_members.items + light->first_member;
     ir_ref *args = ARENA_ARRAY(b->arena, ir_ref, def->num_inputs + 1), result = 0;
     uint32_t next = 0;
     for (uint32_t i = 0; i < def->num_inputs; i++)
@@ -117,7 +117,7 @@ static bool add_defined_light(struct builder *b, uint32_t nodedef, int32_t type)
         if (!light.shader)
             return false;
     }
-    vec_push(b->arena, &b->shader->lights, light);
+    vec_push(b->arena, &b->shader->interface.lights, light);
     return true;
 }
 
@@ -140,7 +140,7 @@ static bool add_light_element(struct builder *b, const char *path, int32_t type)
         || !ir_arg(b->graph, light.shader, 0))
         return false;
     place_light(b, &light);
-    vec_push(b->arena, &b->shader->lights, light);
+    vec_push(b->arena, &b->shader->interface.lights, light);
     return true;
 }
 
@@ -191,8 +191,8 @@ static const char *light_hint(struct builder *b, const char *item, size_t len)
 
 static bool has_light(const struct shader *shader, int32_t type)
 {
-    for (uint32_t i = 0; i < shader->lights.len; i++)
-        if (shader->lights.items[i].type == type)
+    for (uint32_t i = 0; i < shader->interface.lights.len; i++)
+        if (shader->interface.lights.items[i].type == type)
             return true;
     return false;
 }

@@ -25,13 +25,13 @@ static ir_ref add_parameter(struct builder *b, const struct port *port, str_id f
     if (type == IR_TYPE_SAMPLER) {
         v.file = file;
         ir_ref texture = build_texture(b, v, port->element);
-        *out_name = b->shader->variables.items[ir_get(b->graph, texture)->attr].name;
+        *out_name = b->shader->interface.variables.items[ir_get(b->graph, texture)->attr].name;
         return texture;
     }
     v.has_default = build_is_number(type);
     v.value = build_network_default(b, port);
     uint32_t variable = shader_add_variable(b->shader, &v);
-    *out_name = b->shader->variables.items[variable].name;
+    *out_name = b->shader->interface.variables.items[variable].name;
     return ir_build(b->graph, IR_UNIFORM, type, variable, NULL, 0);
 }
 

@@ -127,12 +127,12 @@ static bool add_files(const struct source_call *c, struct shader_verbatim *v)
             vec_push(c->b->arena, &files, add_file(c, pair[1], 0));
     }
     vec_push(c->b->arena, &files, add_file(c, verbatim->file, 0));
-    v->first_source = shader->source_refs.len;
+    v->first_source = shader->sources.refs.len;
     v->num_sources = files.len;
     for (uint32_t i = 0; i < files.len; i++) {
         if (files.items[i] == UINT32_MAX)
             return false;
-        vec_push(shader->arena, &shader->source_refs, files.items[i]);
+        vec_push(shader->arena, &shader->sources.refs, files.items[i]);
     }
     return true;
 }
@@ -143,8 +143,8 @@ static bool same_sources(const struct shader *shader, const struct shader_verbat
     if (a->num_sources != b->num_sources)
         return false;
     for (uint32_t i = 0; i < a->num_sources; i++)
-        if (shader->source_refs.items[a->first_source + i]
-            != shader->source_refs.items[b->first_source + i])
+        if (shader->sources.refs.items[a->first_source + i]
+            != shader->sources.refs.items[b->first_source + i])
             return false;
     return true;
 }
@@ -154,15 +154,16 @@ static uint32_t add_verbatim(const struct source_call *c, const struct shader_ve
 {
     struct shader *shader = c->b->shader;
     shader_index_helpers(shader);
-    for (uint32_t i = 0; i < shader->verbatim.len; i++) {
-        const struct shader_verbatim *have = &shader->verbatim.items[i];
+    for (uint32_t i = 0; i < shader->sources.calls.len; i++) {
+        const struct shader_verbatim *have = &shader->sources.calls.items[i];
         if (have->function == v->function && have->expression == v->expression
             && have->num_results == v->num_results && same_sources(shader, have, v))
             return i;
     }
-    vec_push(shader->arena, &shader->verbatim, *v);
-    vec_last(&shader->verbatim).needs_neighbours = shader_needs_neighbours(shader, v, c->b->arena);
-    return shader->verbatim.len - 1;
+    vec_push(shader->arena, &shader->sources.calls, *v);
+    vec_last(&shader->sources.calls).needs_neighbours =
+        shader_needs_neighbours(shader, v, c->b->arena);
+    return shader->sources.calls.len - 1;
 }
 
 static uint32_t callee_of(const struct source_call *c, uint32_t verbatim)
@@ -172,7 +173,8 @@ static uint32_t callee_of(const struct source_call *c, uint32_t verbatim)
         (struct ir_callee){.kind = IR_CALLEE_VERBATIM,
                            .index = verbatim,
                            .name = c->def->name,
-                           .derivative = c->b->shader->verbatim.items[verbatim].needs_neighbours});
+                           .derivative =
+                               c->b->shader->sources.calls.items[verbatim].needs_neighbours});
 }
 
 /* ---- Arguments ---- */
@@ -357,9 +359,10 @@ static void call_function(const struct source_call *c, struct shader_verbatim *v
     unsigned first = c->def->num_inputs;
     v->function = c->verbatim->function;
     v->num_results = c->def->num_outputs;
-    v->first_result = shader->result_types.len;
+    v->first_result = shader->sources.result_types.len;
     for (unsigned i = 0; i < v->num_results; i++)
-        vec_push(shader->arena, &shader->result_types, result_type(c, type_of(c, first + i)));
+        vec_push(shader->arena, &shader->sources.result_types,
+                 result_type(c, type_of(c, first + i)));
     uint32_t callee = callee_of(c, add_verbatim(c, v));
     ir_ref call = ir_build(g, IR_VERBATIM, IR_TYPE_VOID, callee, args, num_args);
     for (uint32_t i = 0; i < v->num_results; i++) {
@@ -399,9 +402,9 @@ static uint32_t add_context(const struct source_call *c, const struct shader_ver
     text_str(&name, c->verbatim->has_suffixes ? suffixes[context] : "");
     v.function = str_intern(shader->strings, name.data, name.len);
     v.num_results = 1;
-    v.first_result = shader->result_types.len;
+    v.first_result = shader->sources.result_types.len;
     v.has_initial = true;
-    vec_push(shader->arena, &shader->result_types,
+    vec_push(shader->arena, &shader->sources.result_types,
              closure_struct(c, type_of(c, c->def->num_inputs)));
     return add_verbatim(c, &v);
 }
@@ -426,15 +429,15 @@ static uint8_t answers_of(const struct source_call *c)
 /* Adds a leaf, unless an equal one exists. */
 static uint32_t add_leaf(struct shader *shader, const struct source_leaf *leaf)
 {
-    for (uint32_t i = 0; i < shader->source_leaves.len; i++) {
-        const struct source_leaf *have = &shader->source_leaves.items[i];
+    for (uint32_t i = 0; i < shader->sources.leaves.len; i++) {
+        const struct source_leaf *have = &shader->sources.leaves.items[i];
         if (have->convention == leaf->convention && have->answers == leaf->answers
             && have->nodedef == leaf->nodedef
             && memcmp(have->verbatim, leaf->verbatim, sizeof have->verbatim) == 0)
             return i;
     }
-    vec_push(shader->arena, &shader->source_leaves, *leaf);
-    return shader->source_leaves.len - 1;
+    vec_push(shader->arena, &shader->sources.leaves, *leaf);
+    return shader->sources.leaves.len - 1;
 }
 
 /* An expression or a function whose result is a closure of the target. */
@@ -446,9 +449,9 @@ static uint32_t add_native(const struct source_call *c, const struct shader_verb
     if (!v.function)
         v.expression = number_inputs(c, c->layer->refs.items[c->verbatim->first_expression]);
     v.num_results = v.function ? 1 : 0;
-    v.first_result = shader->result_types.len;
+    v.first_result = shader->sources.result_types.len;
     if (v.function)
-        vec_push(shader->arena, &shader->result_types, type_of(c, c->def->num_inputs));
+        vec_push(shader->arena, &shader->sources.result_types, type_of(c, c->def->num_inputs));
     return add_verbatim(c, &v);
 }
 
@@ -473,7 +476,7 @@ static void build_leaf(const struct source_call *c, const struct shader_verbatim
         leaf.verbatim[0] = add_native(c, files);
     }
     uint32_t index = add_leaf(shader, &leaf);
-    shader->source_is_1_38 |= !is_native && leaf.convention != SOURCE_CLOSURE_DATA;
+    shader->sources.is_1_38 |= !is_native && leaf.convention != SOURCE_CLOSURE_DATA;
     ir_ref *operands = ARENA_ARRAY(c->b->arena, ir_ref, num_args + 1);
     operands[0] = ir_const_float(c->b->graph, 1.0f);
     memcpy(operands + 1, args, num_args * sizeof *args);
@@ -531,8 +534,8 @@ uint32_t build_light_source(struct builder *b, const struct implementation *impl
     struct shader_verbatim v = {.function = c.verbatim->function, .num_results = 1};
     if (!add_files(&c, &v))
         return UINT32_MAX;
-    v.first_result = shader->result_types.len;
-    vec_push(shader->arena, &shader->result_types,
+    v.first_result = shader->sources.result_types.len;
+    vec_push(shader->arena, &shader->sources.result_types,
              shader_source_struct(shader, SOURCE_STRUCT_LIGHT));
     return add_verbatim(&c, &v);
 }

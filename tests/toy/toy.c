@@ -72,7 +72,8 @@ const struct lang_syntax toy_syntax = {
 /* "@0 block PrivateUniforms {" and its members. */
 static void write_block(struct spell *spell, enum shader_block block)
 {
-    text_fmt(spell->out, "@%u block %s {\n", (unsigned)spell->shader->buffers[block].binding,
+    text_fmt(spell->out, "@%u block %s {\n",
+             (unsigned)spell->shader->interface.buffers[block].binding,
              shader_block_name(spell->shader, block));
     SPELL_EACH_OF_BLOCK(i, spell, block)
     {
@@ -90,7 +91,7 @@ static void write_each(struct spell *spell, enum shader_block block)
     SPELL_EACH_OF_BLOCK(i, spell, block)
     {
         const struct shader_variable *variable = spell_interface_variable(spell, i);
-        struct spell_name name = spell->variables[spell->shader->interface.items[i]];
+        struct spell_name name = spell->variables[spell->shader->interface.used.items[i]];
         bool is_texture = block == BLOCK_TEXTURES;
         if (!spell_uses(spell, variable))
             continue;

@@ -40,8 +40,8 @@ static inline void fixture_open(struct fixture *f, const char *source)
     lang_unit_init(&f->unit, &f->arena, &f->strings, NULL);
     library_add_formulas(&f->unit);
     shader_init(&f->shader, &roles[ROLE_raster], &f->arena, &f->strings, &f->graph, &f->unit);
-    f->shader.name = word(f, "Gold");
-    f->shader.element_type = word(f, "surfacematerial");
+    f->shader.reflection.name = word(f, "Gold");
+    f->shader.reflection.element_type = word(f, "surfacematerial");
     f->color = shader_add_local(&f->shader, word(f, "color"), IR_TYPE_VEC3);
     if (!source)
         return;

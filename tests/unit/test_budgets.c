@@ -366,8 +366,9 @@ static unsigned compare_bytes(const struct run *run, mxg_document *document, con
     desc.element = element;
     desc.options = options;
     REQUIRE(mxg_generate(run->context, document, &desc, &result) == MXG_OK);
-    uint32_t stored = 4 * result->shader.stored_words, counted = result->slabs.after.bytes;
-    bool has_slabs = result->shader.closures.len > 0;
+    uint32_t stored = 4 * result->shader.reflection.stored_words,
+             counted = result->slabs.after.bytes;
+    bool has_slabs = result->shader.reflection.closures.len > 0;
     REQUIRE(is_exact ? stored == counted : stored <= counted || !has_slabs);
     mxg_result_destroy(result);
     mxg_options_destroy(options);

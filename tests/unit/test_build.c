@@ -118,8 +118,8 @@ static bool value_of_source(void *user_data, const struct ir_graph *graph, ir_re
     const struct ir_node *node = ir_get(graph, ref);
     if (node->op != IR_UNIFORM)
         return false;
-    *out = w->shader.variables.items[node->attr].value;
-    return w->shader.variables.items[node->attr].has_default;
+    *out = w->shader.interface.variables.items[node->attr].value;
+    return w->shader.interface.variables.items[node->attr].has_default;
 }
 
 /* "6": the value; "poison", "nothing", or "?" where it is not known yet. */
@@ -145,8 +145,8 @@ static const char *uniforms(struct work *w)
 {
     struct text text;
     text_init(&text, &w->layers.arena);
-    for (uint32_t i = 0; i < w->shader.variables.len; i++) {
-        const struct shader_variable *v = &w->shader.variables.items[i];
+    for (uint32_t i = 0; i < w->shader.interface.variables.len; i++) {
+        const struct shader_variable *v = &w->shader.interface.variables.items[i];
         if (v->block == BLOCK_PUBLIC_UNIFORMS)
             text_fmt(&text, "%s%s=%g", text.len ? " " : "", str_text(&w->strings, v->name),
                      (double)v->value.w[0].f);
@@ -207,7 +207,7 @@ static void test_interface(void)
         w.options.num_constant_globs = cases[i].constant != NULL;
         REQUIRE_STR(value_text(&w, work_build(&w, cases[i].element)), cases[i].value);
         REQUIRE_STR(uniforms(&w), cases[i].expected);
-        REQUIRE_EQ(w.shader.compiled.len, cases[i].compiled);
+        REQUIRE_EQ(w.shader.reflection.compiled.len, cases[i].compiled);
         work_close(&w);
     }
 }
@@ -219,13 +219,13 @@ static void test_variables(void)
     w.options.caps = CAP_SCOPED_PARAMETERS;
     work_build(&w, "n");
     REQUIRE_STR(uniforms(&w), "in=0.25 amount=2");
-    const struct shader_variable *v = &w.shader.variables.items[0];
+    const struct shader_variable *v = &w.shader.interface.variables.items[0];
     REQUIRE_STR(str_text(&w.strings, v->path), "n/in");
     REQUIRE_STR(str_text(&w.strings, v->doc_type), "float");
     REQUIRE_EQ(v->type, IR_TYPE_FLOAT);
     REQUIRE_EQ(v->update, UPDATE_UNIFORM);
     REQUIRE_EQ(v->element, layers_element(&w.layers, "n/in"));
-    REQUIRE_EQ(w.shader.variables.items[1].element, layers_element(&w.layers, "n"));
+    REQUIRE_EQ(w.shader.interface.variables.items[1].element, layers_element(&w.layers, "n"));
     work_close(&w);
 }
 
@@ -531,12 +531,12 @@ static void test_lights(void)
         work_open(&w, "<gain name='n' type='float'/>");
         work_build(&w, "n");
         build_lights(w.builder, cases[i].items, cases[i].items[1] ? 2 : 1, true);
-        REQUIRE_EQ(w.shader.lights.len, cases[i].num_lights);
+        REQUIRE_EQ(w.shader.interface.lights.len, cases[i].num_lights);
         REQUIRE_STR(layers_messages(&w.layers), cases[i].messages);
-        if (w.shader.lights.len) {
-            const struct shader_light *light = &vec_last(&w.shader.lights);
-            const uint32_t *members = w.shader.light_members.items + light->first_member;
-            const struct shader_variable *member = &w.shader.variables.items[members[0]];
+        if (w.shader.interface.lights.len) {
+            const struct shader_light *light = &vec_last(&w.shader.interface.lights);
+            const uint32_t *members = w.shader.interface.light_members.items + light->first_member;
+            const struct shader_variable *member = &w.shader.interface.variables.items[members[0]];
             REQUIRE_EQ(light->type, cases[i].type);
             REQUIRE(light->function != LANG_NONE && light->num_members == 1);
             REQUIRE_STR(str_text(&w.strings, member->name), "power");

@@ -58,19 +58,19 @@ static void check_packing(enum shader_packing packing, const struct member_case 
                                     .stages = 1 << STAGE_PIXEL};
         shader_add_variable(&f.shader, &v);
     }
-    f.shader.rules = (struct shader_layout_rules){
+    f.shader.interface.rules = (struct shader_layout_rules){
         .blocks = true, .packing = packing, .bindings = true, .set = 2};
     shader_layout(&f.shader);
     for (size_t i = 0; i < n; i++) {
-        const struct shader_variable *v = &f.shader.variables.items[i];
+        const struct shader_variable *v = &f.shader.interface.variables.items[i];
         REQUIRE_EQ(v->offset, cases[i].offset);
         REQUIRE_EQ(v->size, cases[i].size);
         REQUIRE_EQ(v->array_stride, cases[i].array_stride);
         REQUIRE_EQ(v->matrix_stride, cases[i].matrix_stride);
         REQUIRE_EQ(v->set, 2);
     }
-    REQUIRE_EQ(f.shader.buffers[BLOCK_PUBLIC_UNIFORMS].size, size);
-    REQUIRE_EQ(f.shader.buffers[BLOCK_PRIVATE_UNIFORMS].size, 0);
+    REQUIRE_EQ(f.shader.interface.buffers[BLOCK_PUBLIC_UNIFORMS].size, size);
+    REQUIRE_EQ(f.shader.interface.buffers[BLOCK_PRIVATE_UNIFORMS].size, 0);
     fixture_close(&f);
 }
 
@@ -97,15 +97,16 @@ static void test_cbuffer_lights(void)
                    {"angles", IR_TYPE_VEC2, 32}};
     for (size_t i = 0; i < sizeof members / sizeof *members; i++) {
         uint32_t v = shader_light_member(&f.shader, word(&f, members[i].name), members[i].type);
-        f.shader.variables.items[v].stages = 1 << STAGE_PIXEL;
+        f.shader.interface.variables.items[v].stages = 1 << STAGE_PIXEL;
     }
-    f.shader.rules = (struct shader_layout_rules){.blocks = true, .packing = PACKING_CBUFFER};
+    f.shader.interface.rules =
+        (struct shader_layout_rules){.blocks = true, .packing = PACKING_CBUFFER};
     shader_layout(&f.shader);
     for (size_t i = 0; i < sizeof members / sizeof *members; i++) {
         uint32_t v = shader_find_variable(&f.shader, BLOCK_LIGHT_DATA, word(&f, members[i].name));
-        REQUIRE_EQ(f.shader.variables.items[v].offset, members[i].offset);
+        REQUIRE_EQ(f.shader.interface.variables.items[v].offset, members[i].offset);
     }
-    REQUIRE_EQ(f.shader.buffers[BLOCK_LIGHT_DATA].stride, 96);
+    REQUIRE_EQ(f.shader.interface.buffers[BLOCK_LIGHT_DATA].stride, 96);
     fixture_close(&f);
 }
 
@@ -124,22 +125,23 @@ static void test_light_layout(void)
                    {"intensity", IR_TYPE_FLOAT, 44},  {"position", IR_TYPE_VEC3, 48},
                    {"decay_rate", IR_TYPE_FLOAT, 60}, {"outer_angle", IR_TYPE_FLOAT, 64}};
     for (size_t i = 0; i < sizeof members / sizeof *members; i++)
-        vec_push(&f.arena, &f.shader.light_members,
+        vec_push(&f.arena, &f.shader.interface.light_members,
                  shader_light_member(&f.shader, word(&f, members[i].name), members[i].type));
     REQUIRE_EQ(shader_light_member(&f.shader, word(&f, "color"), IR_TYPE_VEC3),
-               f.shader.light_members.items[1]);
+               f.shader.interface.light_members.items[1]);
     REQUIRE(shader_light_member(&f.shader, word(&f, "color"), IR_TYPE_FLOAT)
-            != f.shader.light_members.items[1]);
+            != f.shader.interface.light_members.items[1]);
     effect(&f, EFFECT_LIGHTS, 0, 0);
     effect(&f, EFFECT_END, 0, 0);
     shader_finish(&f.shader, &(struct shader_layout_rules){.blocks = true});
     uint32_t type = shader_find_variable(&f.shader, BLOCK_LIGHT_DATA, word(&f, "type"));
-    REQUIRE_EQ(f.shader.variables.items[type].offset, 0);
+    REQUIRE_EQ(f.shader.interface.variables.items[type].offset, 0);
     for (size_t i = 0; i < sizeof members / sizeof *members; i++)
-        REQUIRE_EQ(f.shader.variables.items[f.shader.light_members.items[i]].offset,
-                   members[i].offset);
-    REQUIRE_EQ(f.shader.buffers[BLOCK_LIGHT_DATA].stride, 80);
-    REQUIRE_EQ(f.shader.buffers[BLOCK_LIGHT_DATA].size, 240);
+        REQUIRE_EQ(
+            f.shader.interface.variables.items[f.shader.interface.light_members.items[i]].offset,
+            members[i].offset);
+    REQUIRE_EQ(f.shader.interface.buffers[BLOCK_LIGHT_DATA].stride, 80);
+    REQUIRE_EQ(f.shader.interface.buffers[BLOCK_LIGHT_DATA].size, 240);
     fixture_close(&f);
 }
 
@@ -277,7 +279,7 @@ SCHEDULE_TEST(local_in_two_effects, "var acc acc",
               accumulate(f, op2(f, IR_ADD, a, dear(f, "b")));)
 SCHEDULE_TEST(variable_of_the_light_loop, "lights{ var assign a acc acc }",
               uint32_t L = shader_add_local(&f->shader, word(f, "L"), IR_TYPE_VEC3);
-              f->shader.locals.items[L].is_settled = true;
+              f->shader.effects.locals.items[L].is_settled = true;
               ir_ref light = ir_build(&f->graph, IR_CONTEXT, IR_TYPE_INT, IR_LIGHT_INDEX, NULL, 0);
               name(f, "a");
               ir_ref a = op1(f, IR_NORMALIZE,
@@ -436,7 +438,7 @@ static void test_long_chains(void)
 
 static const char *variable_name(struct fixture *f, uint32_t index)
 {
-    return str_text(&f->strings, f->shader.variables.items[index].name);
+    return str_text(&f->strings, f->shader.interface.variables.items[index].name);
 }
 
 static void test_names(void)
@@ -514,9 +516,9 @@ static void test_streams(void)
         shader_finish(&f.shader, &(struct shader_layout_rules){0});
         struct text got;
         text_init(&got, &f.arena);
-        for (uint32_t v = 0; v < f.shader.interface.len; v++) {
+        for (uint32_t v = 0; v < f.shader.interface.used.len; v++) {
             text_str(&got, v ? " " : "");
-            text_str(&got, variable_name(&f, f.shader.interface.items[v]));
+            text_str(&got, variable_name(&f, f.shader.interface.used.items[v]));
         }
         REQUIRE_STR(text_cstr(&got), stream_cases[i].interface);
         fixture_close(&f);
@@ -536,16 +538,17 @@ static void test_private_uniforms(void)
     uint32_t env = shader_private_uniform(&f.shader, word(&f, "u_envMatrix"), IR_TYPE_MAT4, 0);
     static const float half_turn[16] = {-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1};
     for (int i = 0; i < 16; i++)
-        REQUIRE(f.shader.variables.items[env].value.w[i].f == half_turn[i]);
+        REQUIRE(f.shader.interface.variables.items[env].value.w[i].f == half_turn[i]);
     REQUIRE_EQ(shader_private_uniform(&f.shader, word(&f, "u_envMatrix"), IR_TYPE_MAT4, 0), env);
     uint32_t samples =
         shader_private_uniform(&f.shader, word(&f, "u_envRadianceSamples"), IR_TYPE_INT, 0);
-    REQUIRE_EQ(f.shader.variables.items[samples].value.w[0].i, 16);
+    REQUIRE_EQ(f.shader.interface.variables.items[samples].value.w[0].i, 16);
     uint32_t map = shader_private_uniform(&f.shader, word(&f, "u_envRadiance"), IR_TYPE_SAMPLER, 0);
-    REQUIRE_EQ(f.shader.variables.items[map].block, BLOCK_TEXTURES);
-    REQUIRE_STR(str_text(&f.strings, f.shader.variables.items[map].semantic), "envRadiance");
+    REQUIRE_EQ(f.shader.interface.variables.items[map].block, BLOCK_TEXTURES);
+    REQUIRE_STR(str_text(&f.strings, f.shader.interface.variables.items[map].semantic),
+                "envRadiance");
     uint32_t own = shader_private_uniform(&f.shader, word(&f, "u_geomprop_x"), IR_TYPE_VEC2, 0);
-    REQUIRE_EQ(f.shader.variables.items[own].type, IR_TYPE_VEC2);
+    REQUIRE_EQ(f.shader.interface.variables.items[own].type, IR_TYPE_VEC2);
     fixture_close(&f);
 }
 
@@ -626,9 +629,9 @@ static void test_json(void)
     struct fixture f;
     fixture_open(&f, NULL);
     ir_ref base = uniform(&f, "base", IR_TYPE_FLOAT);
-    f.shader.variables.items[0].doc_type = word(&f, "float");
-    f.shader.variables.items[0].value.w[0].f = 0.5f;
-    vec_push(&f.arena, &f.shader.compiled, (struct shader_compiled_input){0});
+    f.shader.interface.variables.items[0].doc_type = word(&f, "float");
+    f.shader.interface.variables.items[0].value.w[0].f = 0.5f;
+    vec_push(&f.arena, &f.shader.reflection.compiled, (struct shader_compiled_input){0});
     effect(&f, EFFECT_OUTPUT, add_output(&f), ir_construct(&f.graph, IR_TYPE_VEC4, &base, 1));
     shader_finish(&f.shader, &(struct shader_layout_rules){.blocks = true, .bindings = true});
     struct text out;

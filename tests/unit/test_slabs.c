@@ -48,7 +48,7 @@ static bool source(void *user_data, const struct ir_graph *graph, ir_ref ref, st
     const struct ir_node *node = ir_get(graph, ref);
     if (node->op != IR_UNIFORM && node->op != IR_STREAM)
         return false;
-    const struct shader_variable *variable = &shader->variables.items[node->attr];
+    const struct shader_variable *variable = &shader->interface.variables.items[node->attr];
     const char *name = str_text(shader->strings, variable->name);
     *out = variable->value;
     if (strcmp(name, "viewWorld") == 0 || strcmp(name, "u_viewPosition") == 0)

@@ -30,7 +30,7 @@ static void finish(struct fixture *f, const struct target *target)
 {
     f->shader.style = ARENA_NEW(&f->arena, struct lang_style);
     lang_style_init(f->shader.style, target->syntax, &f->arena);
-    struct shader_layout_rules rules = f->shader.rules;
+    struct shader_layout_rules rules = f->shader.interface.rules;
     rules.blocks |= (target->caps & CAP_UNIFORM_BLOCKS) != 0;
     rules.bindings = (target->caps & CAP_BINDINGS) != 0;
     shader_finish(&f->shader, &rules);
@@ -241,7 +241,7 @@ static void test_statements(void)
     STATEMENTS(
         "    vec3 v = u_0;\n    vec3 v_2 = sin(u_0);\n    v += v_2;\n    v += v_2 + vec3(1.0);\n",
         (&(struct spell_options){.comments = true, .path = path_of, .user_data = f}),
-        f->shader.rules.neutral_names = true;
+        f->shader.interface.rules.neutral_names = true;
         effect(f, EFFECT_VAR, f->color, v); use_twice(f, sine(f, "n", v)););
     STATEMENTS(
         "    vec3 color = v;\n    for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) "
@@ -303,17 +303,17 @@ static void test_verbatim(void)
 {
     struct fixture f;
     fixture_open(&f, NULL);
-    vec_push(&f.arena, &f.shader.result_types, IR_TYPE_VEC3);
+    vec_push(&f.arena, &f.shader.sources.result_types, IR_TYPE_VEC3);
     struct source_fault fault;
     str_id text = word(&f, "void theirs(vec3 a, out vec3 b) { b = a; }\n");
     uint32_t source = shader_add_source(&f.shader, text, NULL, 0, &fault);
-    vec_push(&f.arena, &f.shader.source_refs, source);
-    vec_push(&f.arena, &f.shader.verbatim,
-             (struct shader_verbatim){.first_source = f.shader.source_refs.len - 1,
+    vec_push(&f.arena, &f.shader.sources.refs, source);
+    vec_push(&f.arena, &f.shader.sources.calls,
+             (struct shader_verbatim){.first_source = f.shader.sources.refs.len - 1,
                                       .num_sources = 1,
                                       .function = word(&f, "theirs"),
                                       .num_results = 1});
-    vec_push(&f.arena, &f.shader.verbatim,
+    vec_push(&f.arena, &f.shader.sources.calls,
              (struct shader_verbatim){.expression = word(&f, "{{0}} * {{1}}")});
     uint32_t callees[2];
     for (uint32_t i = 0; i < 2; i++)
@@ -375,7 +375,7 @@ static void build_lit(struct fixture *f)
     accumulate(f, n);
     effect(f, EFFECT_END, 0, 0);
     write_color(f);
-    vec_push(&f->arena, &f->shader.closures, 0);
+    vec_push(&f->arena, &f->shader.reflection.closures, 0);
 }
 
 static const char *const lit_main =
@@ -482,7 +482,7 @@ static void test_stages(void)
         const struct stage_case *c = &stage_cases[i];
         struct fixture f;
         fixture_open(&f, functions);
-        f.shader.rules.blocks = c->uniform_blocks;
+        f.shader.interface.rules.blocks = c->uniform_blocks;
         build_lit(&f);
         finish(&f, target_find(c->target));
         struct spell_mark *marks;
