@@ -202,7 +202,7 @@ static void test_status(void)
     REQUIRE_EQ(object_status(&thing->object), MXG_OK);
     diag_add(list, DIAG_ID_unknown_input, (struct diag_place){0}, "a", "b", ""); /* a warning */
     REQUIRE_EQ(object_status(&thing->object), MXG_OK);
-    diag_add(list, DIAG_ID_no_matching_nodedef, (struct diag_place){0}, "a");
+    diag_add(list, DIAG_ID_no_matching_nodedef, (struct diag_place){0}, "a", "b", "c");
     REQUIRE_EQ(object_status(&thing->object), MXG_ERROR_DOCUMENT);
     object_unref(&thing->object);
     destroy_context(context, &heap);
