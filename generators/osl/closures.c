@@ -323,7 +323,7 @@ static void emit_side(struct osl_tree *t, uint32_t out, ir_ref surface)
     bool is_stack = surface && ir_get(t->graph, surface)->op == IR_SLOTS;
     if (is_stack)
         surface = closure_shade_slots(t->shader, surface, 0);
-    if (is_stack && t->shader->reflection.picks) {
+    if (is_stack && t->shader->picks) {
         emit_picked(t, out, surface);
         return;
     }

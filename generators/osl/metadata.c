@@ -131,7 +131,7 @@ void osl_write_macros(struct osl *osl)
     struct spell *spell = osl->spell;
     struct shader_ui ui;
     for (uint32_t i = 0; spell->options->metadata && i < spell->shader->interface.used.len; i++) {
-        const struct shader_variable *variable = osl_interface_variable(osl, i);
+        const struct shader_variable *variable = spell_interface_variable(osl->spell, i);
         if (!is_parameter(osl, variable))
             continue;
         find_ui(spell, variable, &ui);

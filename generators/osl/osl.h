@@ -86,12 +86,6 @@ void osl_write_structs(struct osl *osl, struct text *out);
  */
 const char *osl_texture_call(struct osl *osl, const struct lang_use *use);
 
-static inline const struct shader_variable *osl_interface_variable(const struct osl *osl,
-                                                                   uint32_t i)
-{
-    return &osl->spell->shader->interface.variables
-                .items[osl->spell->shader->interface.used.items[i]];
-}
 /* True if the current stage reads the variable. */
 static inline bool osl_is_read(const struct osl *osl, const struct shader_variable *variable)
 {

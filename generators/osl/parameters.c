@@ -98,7 +98,7 @@ void osl_name_interface(struct osl *osl)
     struct spell *spell = osl->spell;
     osl->arrays = ARENA_ARRAY(spell->scratch, const char *, spell->shader->interface.used.len);
     for (uint32_t i = 0; i < spell->shader->interface.used.len; i++) {
-        const struct shader_variable *variable = osl_interface_variable(osl, i);
+        const struct shader_variable *variable = spell_interface_variable(osl->spell, i);
         const char *name = text_of(osl, variable->name);
         const struct known_row *known = known_of(osl, variable);
         if (is_stream(variable) && !known && array_length(variable))
@@ -216,7 +216,7 @@ static void write_inputs(struct osl *osl, enum shader_block block, unsigned *cou
 {
     struct spell *spell = osl->spell;
     for (uint32_t i = 0; i < spell->shader->interface.used.len; i++) {
-        const struct shader_variable *variable = osl_interface_variable(osl, i);
+        const struct shader_variable *variable = spell_interface_variable(osl->spell, i);
         if (variable->block != block || !osl_is_read(osl, variable))
             continue;
         next_parameter(spell, count);
@@ -230,7 +230,7 @@ static void write_stream_parameters(struct osl *osl, unsigned *count)
 {
     struct spell *spell = osl->spell;
     for (uint32_t i = 0; i < spell->shader->interface.used.len; i++) {
-        const struct shader_variable *variable = osl_interface_variable(osl, i);
+        const struct shader_variable *variable = spell_interface_variable(osl->spell, i);
         if (!is_stream(variable) || !osl_is_read(osl, variable) || known_of(osl, variable))
             continue;
         next_parameter(spell, count);
@@ -251,7 +251,7 @@ static void write_outputs(struct osl *osl, unsigned *count)
 {
     struct spell *spell = osl->spell;
     for (uint32_t i = 0; i < spell->shader->interface.used.len; i++) {
-        const struct shader_variable *variable = osl_interface_variable(osl, i);
+        const struct shader_variable *variable = spell_interface_variable(osl->spell, i);
         if (variable->block != BLOCK_OUTPUTS || !osl_is_read(osl, variable)
             || is_result(osl, variable))
             continue;
@@ -275,7 +275,7 @@ void osl_write_streams(struct osl *osl)
 {
     struct spell *spell = osl->spell;
     for (uint32_t i = 0; i < spell->shader->interface.used.len; i++) {
-        const struct shader_variable *variable = osl_interface_variable(osl, i);
+        const struct shader_variable *variable = spell_interface_variable(osl->spell, i);
         const struct known_row *known = known_of(osl, variable);
         const char *name = spell->variables[spell->shader->interface.used.items[i]].text;
         bool is_local = known ? known->kind == EXPRESSION : array_length(variable) > 0;

@@ -23,8 +23,7 @@ static const char *list_slots(struct generation *g)
     str_id last = 0;
     text_init(&list, &g->scratch);
     for (uint32_t i = 0; i < shader->interface.used.len; i++) {
-        const struct shader_variable *v =
-            &shader->interface.variables.items[shader->interface.used.items[i]];
+        const struct shader_variable *v = shader_interface_variable(shader, i);
         if (v->block != BLOCK_TEXTURES || !v->slot || v->slot == last)
             continue;
         last = v->slot;
@@ -55,7 +54,7 @@ bool generation_keeps_outputs(struct generation *g)
     uint32_t num = shader->interface.first_of_block[BLOCK_OUTPUTS + 1]
                    - shader->interface.first_of_block[BLOCK_OUTPUTS],
              limit = (uint32_t)g->options[OPTION_max_outputs].number;
-    bool has_one_attachment = shader->reflection.has_two_sources && !g->role->is_in_host_file;
+    bool has_one_attachment = shader->has_two_sources && !g->role->is_in_host_file;
     bool has_attachments = g->role->returns == RETURNS_LIGHT || g->role->returns == RETURNS_SLABS;
     struct text list;
     if (!shader->interface.aovs.len || !has_attachments || num <= (has_one_attachment ? 2 : limit))

@@ -186,7 +186,7 @@ static void name_shader(struct generation *g)
     for (const struct target *t = g->result->target; t && !shader->sources.language; t = t->base)
         shader->sources.language = t->source;
     shader->interface.max_lights = (uint32_t)g->options[OPTION_max_lights].number;
-    shader->reflection.picks = g->options[OPTION_slots].number != 0;
+    shader->picks = g->options[OPTION_slots].number != 0;
     shader->interface.reserved = g->options[OPTION_reserved].list.items;
     shader->interface.num_reserved = g->options[OPTION_reserved].list.len;
 }
@@ -339,7 +339,7 @@ void generation_start_closures(struct generation *g)
         .flips_v = g->options[OPTION_texture_origin].number != 0,
         .encodes = g->options[OPTION_encode].number != 0,
     };
-    g->result->shader.reflection.has_two_sources = g->lighting.transparency == TRANSPARENCY_DUAL;
+    g->result->shader.has_two_sources = g->lighting.transparency == TRANSPARENCY_DUAL;
     generation_defer(g);
     g->closure_host.occludes = g->options[OPTION_layering].number == LAYERING_OCCLUDING;
     g->closure_host.keeps_color = g->lighting.transparency == TRANSPARENCY_OPAQUE

@@ -158,8 +158,7 @@ size_t frame_file(const char *file, const struct frame_sequence *sequence, int32
 static inline const struct shader_variable *result_variable(const mxg_result *result,
                                                             uint32_t index)
 {
-    assert(result->shader.interface.used.items[index] < result->shader.interface.variables.len);
-    return &result->shader.interface.variables.items[result->shader.interface.used.items[index]];
+    return shader_interface_variable(&result->shader, index);
 }
 
 /* The texts that results write when they are needed. */

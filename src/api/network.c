@@ -66,9 +66,8 @@ static bool emit_node(struct generation *g, struct shader *shader, struct networ
     shader_finish(shader, &rules);
     uint32_t n = 0;
     for (uint32_t i = 0; i < shader->interface.used.len; i++)
-        if (shader->interface.variables.items[shader->interface.used.items[i]].block
-            == BLOCK_OUTPUTS)
-            names[n++] = shader->interface.variables.items[shader->interface.used.items[i]].name;
+        if (shader_interface_variable(shader, i)->block == BLOCK_OUTPUTS)
+            names[n++] = shader_interface_variable(shader, i)->name;
     assert(n <= node->num_outputs);
     node->outputs = names;
     return n == node->num_outputs;
@@ -80,8 +79,7 @@ static void drop_unread(const struct shader *shader, struct network_node *node)
     str_id *names = ARENA_ARRAY(shader->arena, str_id, node->num_inputs);
     for (uint32_t i = 0; i < node->num_inputs; i++)
         for (uint32_t k = 0; node->inputs[i] && k < shader->interface.used.len; k++) {
-            const struct shader_variable *variable =
-                &shader->interface.variables.items[shader->interface.used.items[k]];
+            const struct shader_variable *variable = shader_interface_variable(shader, k);
             if (variable->name == node->inputs[i] && variable->block != BLOCK_OUTPUTS)
                 names[i] = node->inputs[i];
         }

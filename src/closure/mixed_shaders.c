@@ -243,7 +243,7 @@ static struct closure_surface stack_of(const struct surfaces *s, ir_ref slots)
             out = sum(s->graph, out, closure_weighted(s->graph, layers[i], slot.weight));
     }
     out.alpha = ir_arg(s->graph, slots, 0);
-    out.through = s->shader->reflection.has_two_sources ? through_of_stack(s, slots, layers) : 0;
+    out.through = s->shader->has_two_sources ? through_of_stack(s, slots, layers) : 0;
     out.premultiplied = true;
     out.aovs = closure_aovs_weighing(s->graph, out.aovs, out.alpha);
     return out;
@@ -267,7 +267,7 @@ static ir_ref through_of_leaf(const struct surfaces *s, ir_ref ref,
 {
     struct ir_graph *g = s->graph;
     const ir_ref *args = ir_args(g, ref);
-    if (!s->shader->reflection.has_two_sources)
+    if (!s->shader->has_two_sources)
         return 0;
     if (surface->is_matter)
         return surface->bsdf ? throughput_of(s, surface->bsdf)

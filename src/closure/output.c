@@ -84,7 +84,7 @@ void closure_write_output(struct shader *shader, ir_ref color, ir_ref alpha, ir_
         ir_ref parts[2] = {color, alpha};
         write_value(shader, STR_out1, ir_construct(g, IR_TYPE_VEC4, parts, 2));
     }
-    if (shader->reflection.has_two_sources)
+    if (shader->has_two_sources)
         write_second_source(shader, through, alpha);
 }
 

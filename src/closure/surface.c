@@ -50,7 +50,7 @@ static ir_ref output_alpha(struct emitter *e, const struct closure_surface *s)
 static ir_ref output_through(struct emitter *e, const struct closure_surface *s)
 {
     struct ir_graph *g = e->graph;
-    if (!e->shader->reflection.has_two_sources || (!e->through && !s->through))
+    if (!e->shader->has_two_sources || (!e->through && !s->through))
         return 0;
     ir_ref one = ir_const_splat(g, IR_TYPE_VEC3, 1.0f);
     ir_ref through = closure_surface_through(g, s);
@@ -99,7 +99,7 @@ static bool draws_all(const struct emitter *e, ir_ref alpha)
 {
     return e->lighting->transparency == TRANSPARENCY_OPAQUE
            || (closure_is_opaque(e->graph, alpha) && e->lighting->transparency != TRANSPARENCY_BLEND
-               && !e->shader->reflection.has_two_sources);
+               && !e->shader->has_two_sources);
 }
 
 void emitter_finish_surface(struct emitter *e, const struct closure_surface *s)
@@ -291,7 +291,7 @@ static void emit_surface(struct emitter *e, ir_ref root)
         emit_scattering(e, root);
         return;
     }
-    if (op_of(e, root) == IR_SLOTS && e->shader->reflection.picks) {
+    if (op_of(e, root) == IR_SLOTS && e->shader->picks) {
         emitter_pick_layer(e, root);
         return;
     }

@@ -225,8 +225,7 @@ static void write_fill(const struct shader *surface, struct text *out)
     text_str(out, "void mx_fill(MxClosure closure, vec3 point, vec3 top)\n{\n");
     for (uint32_t i = surface->interface.first_of_block[BLOCK_VERTEX_DATA];
          i < surface->interface.first_of_block[BLOCK_VERTEX_DATA + 1]; i++) {
-        const struct shader_variable *v =
-            &surface->interface.variables.items[surface->interface.used.items[i]];
+        const struct shader_variable *v = shader_interface_variable(surface, i);
         const char *name = str_text(surface->strings, v->name), *value = stream_value(name);
         assert(value || strncmp(name, prefix, sizeof prefix - 1) == 0);
         text_fmt(out, "    vd.%s = %s%s;\n", name, value ? "" : "closure.",

@@ -108,8 +108,7 @@ static bool is_partial(struct builder *b, const struct build_part *part)
     if (!part->sides[0])
         return !part->sides[1];
     ir_ref alpha = alpha_of(b, part->sides[0], has_slabs(b));
-    return (b->shader->reflection.picks || part->displacement) && alpha
-           && !ir_const_is(b->graph, alpha, 1.0f);
+    return (b->shader->picks || part->displacement) && alpha && !ir_const_is(b->graph, alpha, 1.0f);
 }
 
 /* True if a material of one layer is its surface alone. */

@@ -102,8 +102,7 @@ static void name_neutrally(struct shader *shader)
 {
     uint32_t uniforms = 0, textures = 0;
     for (uint32_t i = 0; i < shader->interface.used.len; i++) {
-        struct shader_variable *variable =
-            &shader->interface.variables.items[shader->interface.used.items[i]];
+        struct shader_variable *variable = shader_interface_variable(shader, i);
         bool texture = variable->block == BLOCK_TEXTURES && !variable->semantic;
         if (variable->block != BLOCK_PUBLIC_UNIFORMS && !texture)
             continue;

@@ -182,8 +182,7 @@ void shader_layout(struct shader *shader)
     }
     uint32_t texture = rules->first_binding + BINDING_FIRST_TEXTURE, location[NUM_BLOCKS] = {0};
     for (uint32_t i = 0; i < shader->interface.used.len; i++) {
-        struct shader_variable *variable =
-            &shader->interface.variables.items[shader->interface.used.items[i]];
+        struct shader_variable *variable = shader_interface_variable(shader, i);
         switch ((enum shader_block)variable->block) {
         case BLOCK_PUBLIC_UNIFORMS:
         case BLOCK_PRIVATE_UNIFORMS:

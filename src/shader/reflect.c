@@ -178,7 +178,7 @@ static void put_variable(struct reflect *r, const struct shader_variable *variab
 static bool is_used(const struct shader *shader, enum shader_block block)
 {
     for (uint32_t i = 0; i < shader->interface.used.len; i++)
-        if (shader->interface.variables.items[shader->interface.used.items[i]].block == block)
+        if (shader_interface_variable(shader, i)->block == block)
             return true;
     return false;
 }
@@ -206,8 +206,7 @@ static void put_block(struct reflect *r, enum shader_block block)
     json_key(&r->json, "variables");
     json_open(&r->json, '[');
     for (uint32_t i = 0; i < shader->interface.used.len; i++) {
-        const struct shader_variable *variable =
-            &shader->interface.variables.items[shader->interface.used.items[i]];
+        const struct shader_variable *variable = shader_interface_variable(shader, i);
         if (variable->block == block)
             put_variable(r, variable);
     }

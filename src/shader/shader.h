@@ -15,6 +15,8 @@
 #include "shader/role.h"
 #include "tree/reach.h"
 
+#include <assert.h>
+
 /* Blocks of the ShaderX convention; docs/reflection.md describes their contents. */
 enum shader_block {
     BLOCK_PUBLIC_UNIFORMS,
@@ -286,7 +288,7 @@ struct shader_interface {
     struct shader_layout_rules rules; /* of shader_finish */
 };
 
-/* What the effects of its stages share: schedule.c. */
+/* Locals and loops that the effects of all stages share: interface.c. */
 struct shader_effects {
     VEC(struct shader_local) locals;
     uint32_t num_light_loops, num_sample_loops; /* so far; each has its own lights or samples */
@@ -306,7 +308,7 @@ struct shader_sources {
     struct table helper_table; /* names of the target's helpers to bits + 1 */
 };
 
-/* Facts that a host is told: api/reflection.c. */
+/* Facts of the whole, which a host is told: api/reflection.c. */
 struct shader_reflection {
     str_id name;         /* of the element: "Gold" */
     str_id element_type; /* "surfacematerial" */
@@ -320,8 +322,6 @@ struct shader_reflection {
     bool transparent;       /* by analysis: the alpha output may be below 1 */
     bool lit;               /* reads lights or environment */
     bool displaced;         /* the vertex stage moves the surface */
-    bool has_two_sources;   /* the second output is what the surface lets through */
-    bool picks;             /* one layer of a stack, by a random number */
     const char *not_walked; /* on paths: why its media are tables; NULL: they are not */
     /* words that it stores per pixel, at most, or in a payload; 0: it lights itself */
     uint32_t stored_words;
@@ -332,6 +332,8 @@ struct shader_reflection {
 
 struct shader {
     const struct role *role; /* what it is for */
+    bool has_two_sources;    /* the second output is what the surface lets through */
+    bool picks;              /* one layer of a stack, by a random number */
     struct arena *arena;
     struct strpool *strings;
     struct ir_graph *graph;
@@ -353,6 +355,15 @@ void shader_init(struct shader *shader, const struct role *role, struct arena *a
                  struct strpool *strings, struct ir_graph *graph, struct lang_unit *unit);
 
 /* interface.c */
+
+/* The variable at `place` in the order of the layout: after shader_finish. */
+static inline struct shader_variable *shader_interface_variable(const struct shader *shader,
+                                                                uint32_t place)
+{
+    const struct shader_interface *interface = &shader->interface;
+    assert(place < interface->used.len && interface->used.items[place] < interface->variables.len);
+    return &interface->variables.items[interface->used.items[place]];
+}
 
 /*
  * Adds a variable. Converts the name to a valid identifier and makes it unique with a number.

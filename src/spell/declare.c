@@ -15,8 +15,7 @@ static struct spell_name prefixed(struct spell *spell, const char *prefix, struc
 
 const struct shader_variable *spell_interface_variable(const struct spell *spell, uint32_t place)
 {
-    assert(place < spell->shader->interface.used.len);
-    return &spell->shader->interface.variables.items[spell->shader->interface.used.items[place]];
+    return shader_interface_variable(spell->shader, place);
 }
 
 static struct spell_name variable_name(const struct spell *spell,

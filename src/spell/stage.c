@@ -174,8 +174,7 @@ void spell_title(struct spell *spell)
                            spell->options->interface};
     uint32_t textures = 0;
     for (uint32_t i = 0; i < shader->interface.used.len; i++) {
-        const struct shader_variable *variable =
-            &shader->interface.variables.items[shader->interface.used.items[i]];
+        const struct shader_variable *variable = shader_interface_variable(shader, i);
         textures += variable->block == BLOCK_TEXTURES && !variable->semantic;
     }
     for (size_t i = spell->shader->interface.rules.neutral_names ? 2 : 0;

@@ -56,12 +56,13 @@ as_expected() {
     return 1
 }
 
-declare -A is_listed reasons
+declare -A is_listed is_left_out reasons
+while read -r document; do is_left_out[$document]=1; done < <(comm -23 documents taken)
 while IFS=$'\t' read -r document count ids reason; do
     ids=${ids#-}
     is_listed[$document]=1 reasons[$document]=$reason
     [ -z "$update" ] || continue
-    grep -qxF "$document" documents && ! grep -qxF "$document" taken && continue
+    [ -z "${is_left_out[$document]:-}" ] || continue
     check "$document" as_expected "$count" "$ids" "$document"
 done < <(sed 1d "$table")
 [ -z "$update" ] || printf 'document\tgenerated\terrors\treason\n' >"$table"
