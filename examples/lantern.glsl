@@ -3,7 +3,7 @@
 
 #define PI 3.14159265
 
-// What leaves the light at an angle from its axis: nothing sideways, a little upwards.
+// The light that leaves at an angle from its axis: nothing sideways, a little upwards.
 vec3 lantern_emission(vec3 color, float upwards, float cosine)
 {
     return color * (max(cosine, 0.0) + upwards * max(-cosine, 0.0)) / PI;

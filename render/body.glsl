@@ -37,7 +37,7 @@ vec3 chance_of_channels(Path path)
     return path.through / (path.through.x + path.through.y + path.through.z);
 }
 
-// What light brings over a way, to a collision or to a surface.
+// The weight of light over a way, to a collision or to a surface.
 vec3 weight_of_way(vec3 chance, vec3 extinction, vec3 scattering, float way, bool collides)
 {
     vec3 passed = exp(-extinction * way), density = collides ? passed * extinction : passed;

@@ -372,7 +372,7 @@ const uint AT_HIT = 1u, AT_REST = 2u;
 
 const float FROM_SOLID = -2.0; // a level: the first one for light in the solid that the surface bounds
 
-// What a ray meets.
+// Results of meet().
 const int NOTHING = 0, OURS = 1, ANOTHERS = 2, RESTS = 3; // RESTS: the path has worked enough for now
 
 int meet(inout Path path, vec3 origin, vec3 direction, float limit, out Hit hit)
@@ -425,7 +425,7 @@ bool follow_shadow(inout Path path)
     return true;
 }
 
-// What a path does next. CROSSING: it has gone into a solid, as a drawn picture has it, and leaves at the other side, whole. IN_MATTER: it
+// The next step of a path. CROSSING: it has gone into a solid, as a drawn picture has it, and leaves at the other side, whole. IN_MATTER: it
 // goes through a pile of matter on a surface.
 const uint GOING = 0u, CROSSING = 1u, ENDED = 2u, IN_MATTER = 3u;
 // How it goes through matter: away from where it came in; as it is outside, where it enters a medium of index 1.5; out of a body;

@@ -6,7 +6,7 @@ struct Node { vec3 low; uint first; vec3 high; uint count; };
 struct Corner { vec4 position_s, normal_t; vec3 tangent; uint object; vec3 rest; uint triangle; vec4 moved; }; // at rest: before displacement
 struct Object { mat4 to_object; uint shader, blocks_light, first_value, num_triangles; }; // its corners' values: of each attribute in a row
 struct Hit { float distance; uint triangle; vec2 weights; };
-// What a path is in: nothing, a solid, or the body of an object (see media.glsl). Coefficients are over a unit of the world.
+// The medium that a path is in: nothing, a solid, or the body of an object (see media.glsl). Coefficients are over a unit of the world.
 struct Medium {
     vec3 extinction; uint body;      // the object, and the side where light came in, see side_of(); 0: it is nothing
     vec3 scattering; float anisotropy;

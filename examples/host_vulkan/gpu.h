@@ -55,7 +55,7 @@ void gpu_free_buffer(const struct gpu *g, struct buffer b);
 VkCommandBuffer gpu_begin(const struct gpu *g);
 /* Runs the commands, waits, and frees them. */
 void gpu_run(const struct gpu *g, VkCommandBuffer commands);
-/* The same, and writes the drawn picture as PPM. */
+/* Runs the commands, too, and writes the drawn picture as PPM. */
 void gpu_write_picture(struct gpu *g, VkCommandBuffer commands, const char *path);
 
 #endif

@@ -318,7 +318,7 @@ static const char *compiled_type(const mxg_result *result, const char *path)
     return NULL;
 }
 
-/* What the materials of the document make of an input. */
+/* The use that the materials of the document make of an input. */
 struct use {
     bool known, compiled, connected;
     const char *type;

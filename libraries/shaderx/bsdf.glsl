@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the nodes of bsdf.mtlx need beyond pbrlib.
+// Functions that the nodes of bsdf.mtlx need beyond pbrlib.
 
 #include "../pbrlib/shaders/optics.glsl"
 

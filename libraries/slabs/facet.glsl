@@ -44,7 +44,7 @@ vec4 mx_slab_facet(vec2 roughness, float glint_density, vec2 glint_uv, vec4 glin
                 is_glint ? 0.5 * MX_GLINT_STEP : MX_SLAB_FACET_ROUGHNESS);
 }
 
-// What it sends of the light l that it mirrors to v, over Fresnel's factor, so that the mean is the lobe. Glints are as many as their share of
+// The part that a facet sends of the light l that it mirrors to v, over Fresnel's factor, so that the mean is the lobe. Glints are as many as their share of
 // the plane (Walter et al. 2007, equation 41). A visible normal weighs G2 / G1. The last factor undoes the blur by the facet's roughness: half a
 // variance, 0.007 in squares of alpha without the far tail, times the Laplacian of 1 / (1 + q)^2, GGX over slopes; the lobe is within 1 %.
 float mx_slab_facet_weight(vec2 alpha, bool is_glint, vec3 m, vec3 v, vec3 l)
@@ -56,7 +56,7 @@ float mx_slab_facet_weight(vec2 alpha, bool is_glint, vec3 m, vec3 v, vec3 l)
                     : weight / mx_ggx_masked(v, alpha) * (1.0 + 0.028 * (1.0 - 2.0 * q) / ((1.0 + q) * (1.0 + q)));
 }
 
-// The same with compensation, and the cosine of the light.
+// The facet's weight with compensation, and the cosine of the light.
 vec4 mx_slab_facet_light(vec3 f0, vec3 f90, vec2 roughness, bool by_direction, float glint_density, vec2 glint_uv, vec4 glint_footprint,
                          float specular_lut_weight, vec3 N, vec3 X, vec3 V)
 {

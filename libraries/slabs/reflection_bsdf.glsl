@@ -53,7 +53,7 @@ vec4 mx_slab_reflection_bsdf_facet(vec3 f0, vec3 f90, vec2 roughness, float glin
     return mx_slab_facet(roughness, glint_density, glint_uv, glint_footprint, specular_lut_weight, N, X, V);
 }
 
-// What the closure reflects is multiplied by the tint.
+// The tint multiplies the light that the closure reflects.
 vec3 mx_slab_reflection_bsdf_tint(vec3 f0, vec3 f90, vec2 roughness, float glint_density, vec2 glint_uv, vec4 glint_footprint, sampler2D specular_lut,
                                   float specular_lut_weight, float specular_lut_index, vec3 N, vec3 X, vec3 V)
 {

@@ -17,7 +17,7 @@ struct mx_HexTile {
     float rotation;
 };
 
-// What images of the same coordinates share: the three tiles and how near they are.
+// The part that images of the same coordinates share: the three tiles and how near they are.
 struct mx_HexTiles {
     mx_HexTile a;
     mx_HexTile b;

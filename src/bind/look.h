@@ -177,7 +177,7 @@ struct text_word look_next_name(const char **list);
 
 /* order.c: reads the slotorder of look->order into `order_parts`, and reports its faults. */
 void look_read_order(struct bind_look *look);
-/* The same, and sorts the names, with warnings about their order. */
+/* Reads it, too, and sorts the names, with warnings about their order. */
 void look_sort_names(struct bind_look *look);
 
 #endif

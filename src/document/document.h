@@ -453,7 +453,7 @@ struct doc_choice {
     bool (*take)(void *user_data, elem_id child, struct text *out);
 };
 
-/* The same, with those children of the root that the choice takes; NULL: all. */
+/* Writes `root` with those of its children that the choice takes; NULL: all. */
 void doc_write_part(const struct document *doc, elem_id root, const struct doc_choice *choice,
                     struct text *out);
 

@@ -39,8 +39,8 @@ float mx_bicubic(const mat4 m, const float x)
     return dot(vec4(1.0, x, x * x, x * x * x), m * vec4(1.0, 0.04, 0.0016, 0.000064));
 }
 
-// What a white GGX lobe of roughness a reflects at the cosine c of the viewer (x), and the mean of (1 - cos)^5 over it
-// (y); u is a / (a + c).
+// The light that a white GGX lobe of roughness a reflects at the viewer's cosine c (x), and the mean of (1 - cos)^5
+// over it (y); u is a / (a + c).
 // Here a = 0.04.
 vec2 mx_ggx_albedo_fit(const float u, const float c)
 {
@@ -104,7 +104,7 @@ vec2 mx_map_point(const vec3 d)
         - mx_half_turn(d.y, square * stretch));
 }
 
-// What a white GGX lobe reflects at the cosine c of the viewer (x), and the mean of (1 - cos)^5 over it (y).
+// The light that a white GGX lobe reflects at the viewer's cosine c (x), and the mean of (1 - cos)^5 over it (y).
 // Here roughness = vec2(0.04).
 vec2 mx_ggx_albedo(const float c)
 {

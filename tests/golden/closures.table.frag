@@ -33,7 +33,7 @@ in VertexData {
 } vd;
 out vec4 out1;
 
-// What a white GGX lobe reflects at the cosine c of the viewer (x), and the mean of (1 - cos)^5 over it (y).
+// The light that a white GGX lobe reflects at the viewer's cosine c (x), and the mean of (1 - cos)^5 over it (y).
 // Here roughness = vec2(0.04).
 vec2 mx_ggx_albedo(const float c)
 {

@@ -30,8 +30,8 @@ float mx_bicubic(const mat4 m, const float x)
     return dot(vec4(1.0, x, x * x, x * x * x), m * vec4(1.0, 0.05, 0.0025, 0.000125));
 }
 
-// What a white GGX lobe of roughness a reflects at the cosine c of the viewer (x), and the mean of (1 - cos)^5 over it
-// (y); u is a / (a + c).
+// The light that a white GGX lobe of roughness a reflects at the viewer's cosine c (x), and the mean of (1 - cos)^5
+// over it (y); u is a / (a + c).
 // Here a = 0.05.
 vec2 mx_ggx_albedo_fit(const float u, const float c)
 {

@@ -63,8 +63,8 @@ float mx_bicubic(const mat4 m, const float x)
     return dot(vec4(1.0, x, x * x, x * x * x), m * vec4(1.0, 0.04, 0.0016000002, 0.000064000014));
 }
 
-// What a white GGX lobe of roughness a reflects at the cosine c of the viewer (x), and the mean of (1 - cos)^5 over it
-// (y); u is a / (a + c).
+// The light that a white GGX lobe of roughness a reflects at the viewer's cosine c (x), and the mean of (1 - cos)^5
+// over it (y); u is a / (a + c).
 // Here a = 0.04.
 vec2 mx_ggx_albedo_fit(const float u, const float c)
 {

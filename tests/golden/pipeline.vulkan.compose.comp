@@ -45,7 +45,7 @@ struct MxClosure
 // The storage of closures (docs/deferred.md): how values become bits, for those who write and those who read. MX_STORAGE: 0 rounds with
 // dither, 1 rounds, 2 keeps whole floats. MX_BLUR: 1 where rough interfaces blur what lies below.
 
-// What a closure has beside f0, albedo and roughness: one word each, two for weights. Bits 20 to 27 of its first word.
+// Features that a closure has beside f0, albedo and roughness: one word each, two for weights. Bits 20 to 27 of its first word.
 const uint MX_HAS_WEIGHTS = 1u, MX_HAS_MEDIUM = 2u, MX_HAS_LOBES = 4u, MX_HAS_FUZZ = 8u, MX_HAS_ANISOTROPY = 16u;
 const uint MX_IS_SMOOTH = 32u;  // the closure on top, without a diffuse albedo: it has one word less
 const uint MX_NORMAL_SHIFT = 6; // 0: the normal of the top, 1: in a word of its own, 2: the last such word, 3: the one before it
@@ -65,7 +65,7 @@ uint mx_class(uint first)
     return (first >> 20u & MX_IS_SPECIAL) != 0u ? uint(MX_SPECIAL) : first >> 28u;
 }
 
-// What a closure has.
+// The features of a closure.
 uint mx_features(uint core)
 {
     return core >> 20u & ((core >> 20u & MX_IS_SPECIAL) != 0u ? 0x3ffu : 0xffu);
@@ -381,7 +381,7 @@ layout(set = 1, binding = 8, std140) uniform MxFrame
     uint mx_num_tiles;
     uint mx_show;
 };
-// What all passes share: a group covers a tile.
+// The part that all passes share: a group covers a tile.
 
 layout(local_size_x = MX_TILE, local_size_y = MX_TILE) in;
 

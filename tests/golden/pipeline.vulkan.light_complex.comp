@@ -149,8 +149,8 @@ float mx_bicubic(const mat4 m, const float x, const float y)
     return dot(vec4(1.0, x, x * x, x * x * x), m * vec4(1.0, y, y * y, y * y * y));
 }
 
-// What a white GGX lobe of roughness a reflects at the cosine c of the viewer (x), and the mean of (1 - cos)^5 over it
-// (y); u is a / (a + c).
+// The light that a white GGX lobe of roughness a reflects at the viewer's cosine c (x), and the mean of (1 - cos)^5
+// over it (y); u is a / (a + c).
 vec2 mx_ggx_albedo_fit(const float a, const float u, const float c)
 {
     float x = clamp(1.0 - c - a * mx_bicubic(mat4(-0.2006, 5.2916, -3.7565, 0.218, -10.2439, 6.6203, -0.9657, 2.5694,
@@ -693,7 +693,7 @@ struct MxClosure
 // The storage of closures (docs/deferred.md): how values become bits, for those who write and those who read. MX_STORAGE: 0 rounds with
 // dither, 1 rounds, 2 keeps whole floats. MX_BLUR: 1 where rough interfaces blur what lies below.
 
-// What a closure has beside f0, albedo and roughness: one word each, two for weights. Bits 20 to 27 of its first word.
+// Features that a closure has beside f0, albedo and roughness: one word each, two for weights. Bits 20 to 27 of its first word.
 const uint MX_HAS_WEIGHTS = 1u, MX_HAS_MEDIUM = 2u, MX_HAS_LOBES = 4u, MX_HAS_FUZZ = 8u, MX_HAS_ANISOTROPY = 16u;
 const uint MX_IS_SMOOTH = 32u;  // the closure on top, without a diffuse albedo: it has one word less
 const uint MX_NORMAL_SHIFT = 6; // 0: the normal of the top, 1: in a word of its own, 2: the last such word, 3: the one before it
@@ -713,7 +713,7 @@ uint mx_class(uint first)
     return (first >> 20u & MX_IS_SPECIAL) != 0u ? uint(MX_SPECIAL) : first >> 28u;
 }
 
-// What a closure has.
+// The features of a closure.
 uint mx_features(uint core)
 {
     return core >> 20u & ((core >> 20u & MX_IS_SPECIAL) != 0u ? 0x3ffu : 0xffu);
@@ -1128,7 +1128,7 @@ MxClosure mx_next(inout MxReader reader)
     return mx_unpack(r, normal, is_top ? mx_top_roughness(reader.top) : mx_uncut(r.body, 20u, 8u));
 #endif
 }
-// What all passes share: a group covers a tile.
+// The part that all passes share: a group covers a tile.
 
 layout(local_size_x = MX_TILE, local_size_y = MX_TILE) in;
 

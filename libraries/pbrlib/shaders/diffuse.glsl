@@ -115,7 +115,7 @@ float mx_burley_albedo(float c, float roughness)
     return mix(smooth_fit, rough_fit, roughness);
 }
 
-// What divides the Burley lobe where its albedo is greater than 1.
+// The divisor of the Burley lobe where its albedo is greater than 1.
 //
 // The model reflects more than there is where it is rough and seen at grazing angles; a path tracer takes that
 // back.

@@ -21,11 +21,11 @@ float mx_ggx_masking(float cosine, float area)
     return sqrt(area + (1.0 - area) * (cosine * cosine));
 }
 
-// What an interface does with light: a sum of these.
+// Ways in which an interface sends light: a sum of these.
 const int MX_REFLECTS = 1;
 const int MX_REFRACTS = 2;
 
-// What the interface does with light.
+// The ways in which the interface sends light.
 int mx_ggx_mode(string scatter_mode)
 {
     return scatter_mode == "R" ? MX_REFLECTS : scatter_mode == "T" ? MX_REFRACTS : MX_REFLECTS + MX_REFRACTS;
@@ -94,8 +94,8 @@ const int option_albedo = 0; // 0 by a fit, 1 from the host's table
 
 uniform sampler2D u_albedoTable;
 
-// What a white GGX lobe of roughness a reflects at the cosine c of the viewer (x), and the mean of (1 - cos)^5 over
-// it (y); u is a / (a + c).
+// The light that a white GGX lobe of roughness a reflects at the viewer's cosine c (x), and the mean of (1 - cos)^5
+// over it (y); u is a / (a + c).
 //
 // The program fits/ggx.c makes the constants. x is never too small by more than 0.001, so that giving lost energy
 // back adds none. `u` follows what happens where light grazes the facets.
@@ -109,7 +109,7 @@ vec2 mx_ggx_albedo_fit(float a, float u, float c)
     return vec2(min(1.0046 - u * mx_bicubic(LOST, u, a), 1.0), x * x * x * x * x);
 }
 
-// What a white GGX lobe reflects at the cosine c of the viewer (x), and the mean of (1 - cos)^5 over it (y).
+// The light that a white GGX lobe reflects at the viewer's cosine c (x), and the mean of (1 - cos)^5 over it (y).
 //
 // The table holds what scales the reflectance facing the viewer, and that at grazing angles: c to the right, the
 // mean of alpha downwards.
@@ -160,7 +160,7 @@ vec2 mx_ggx_albedo_like(vec3 round_lobe)
     return mx_ggx_facing_more(mx_ggx_albedo(round_lobe.xx, round_lobe.y), round_lobe.z);
 }
 
-// What a white GGX lobe reflects to the viewer V (x), and the mean of (1 - cos)^5 over it (y).
+// The light that a white GGX lobe reflects to the viewer V (x), and the mean of (1 - cos)^5 over it (y).
 vec2 mx_ggx_albedo_of(vec2 roughness, bool by_direction, vec3 N, vec3 X, vec3 V)
 {
     return by_direction ? mx_ggx_albedo_like(mx_ggx_round_like(mx_ggx_alpha(roughness), mx_ggx_local(mx_frame(mx_facing(N, V), X), V)))
@@ -362,7 +362,7 @@ mx_GgxFacet mx_ggx_facet(mx_GgxSamples s, int i, vec2 turn)
     return mx_GgxFacet(h, cosine, mirror, mirror * mirror * s.texels);
 }
 
-// What a sample brings: the weight stands beside the light, so that it scales Fresnel's factor, which may be one number.
+// The light of a sample: the weight stands beside the light, so that it scales Fresnel's factor, which may be one number.
 struct mx_GgxLight {
     vec3 color;
     float weight;

@@ -33,8 +33,8 @@ float mx_refraction_jacobian(vec3 v, vec3 l, vec3 h, float eta)
     return eta * eta * abs(cos_l) / (sum * sum);
 }
 
-// What only refracts lies below what reflects (as in standard_surface), and what that reflects is missing in what the layer lets through: it
-// is not taken twice, as it is by MaterialX's rasters.
+// A lobe that only refracts lies below one that reflects (as in standard_surface). The layer lets through what that one leaves: reflected
+// light is not taken twice, as it is by MaterialX's rasters.
 
 // Light that the lobe refracts from L to V, as a part of energy (Walter et al. 2007, equation 21).
 //

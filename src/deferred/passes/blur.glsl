@@ -1,4 +1,4 @@
-// What lies below a rough interface is blurred, because the way of the view bends there: the mean of the light around,
+// Light below a rough interface is blurred, because the way of the view bends there: the mean of the light around,
 // with the weights of a normal distribution on the surface. Samples that the picture shows elsewhere weigh less, those
 // without such light nothing.
 

@@ -1,4 +1,4 @@
-// What all passes share: a group covers a tile.
+// The part that all passes share: a group covers a tile.
 
 layout(local_size_x = MX_TILE, local_size_y = MX_TILE) in;
 

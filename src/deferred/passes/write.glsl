@@ -44,7 +44,7 @@ void mx_put(vec3 value)
     mx_put(value.z);
 }
 
-// What follows the first two words of a closure.
+// Writes the words that follow the first two of a closure.
 void mx_put_features(MxRecord r)
 {
     uint has = mx_features(r.core);
