@@ -2,6 +2,7 @@
 #include "compile/compile.h"
 #include "compile/hlsl.h"
 #include "compile/oslc.h"
+#include "compile/slang.h"
 #include "compile/spirv.h"
 
 #include <glslang/Include/glslang_c_interface.h>
@@ -42,6 +43,7 @@ void compile_begin(void)
 
 void compile_end(void)
 {
+    slang_end();
     glslang_finalize_process();
 }
 
@@ -57,7 +59,8 @@ static const struct dialect *find_dialect(const char *target)
 bool compile_knows_target(const char *target)
 {
     return find_dialect(target) || strcmp(target, "hlsl") == 0
-           || (strcmp(target, "osl") == 0 && oslc_is_installed());
+           || (strcmp(target, "osl") == 0 && oslc_is_installed())
+           || (strcmp(target, "slang") == 0 && slang_is_installed());
 }
 
 /* ---- Messages ---- */
@@ -257,6 +260,15 @@ static bool compile_hlsl(const char *const sources[MXG_NUM_STAGES], struct compi
     return out->errors == 0;
 }
 
+static bool compile_slang(const char *const sources[MXG_NUM_STAGES], struct compiled *out)
+{
+    slang_compile_program(sources, out);
+    for (int stage = 0; stage < MXG_NUM_STAGES; ++stage)
+        if (out->stages[stage].words)
+            validate_spirv((mxg_stage)stage, SPV_ENV_VULKAN_1_2, out);
+    return out->errors == 0;
+}
+
 bool compile_program(const char *target, const char *const sources[MXG_NUM_STAGES],
                      struct compiled *out)
 {
@@ -265,6 +277,8 @@ bool compile_program(const char *target, const char *const sources[MXG_NUM_STAGE
         return oslc_compile_program(sources, out);
     if (strcmp(target, "hlsl") == 0)
         return compile_hlsl(sources, out);
+    if (strcmp(target, "slang") == 0)
+        return compile_slang(sources, out);
     const struct dialect *dialect = find_dialect(target);
     if (!dialect) {
         compiled_add(out, MXG_STAGE_PIXEL, MXG_SEVERITY_ERROR, 0, "unknown dialect", 15);

@@ -34,7 +34,7 @@ struct compiled {
     uint32_t errors;
 };
 
-/* Sets glslang up and down; once for the whole process. */
+/* Sets the compilers up and down; once for the whole process. */
 void compile_begin(void);
 void compile_end(void);
 
@@ -43,7 +43,7 @@ void compile_on_exhaustion(void (*tell)(void));
 
 /*
  * Whether shaders of the target can be compiled here: "glsl", "vulkan", "essl"; "osl" where there
- * is an oslc.
+ * is an oslc, "slang" where there is slang-wasm.
  */
 bool compile_knows_target(const char *target);
 

@@ -77,6 +77,8 @@ static const struct host {
      "precision highp sampler2DArray;\n",
      "vec3", "layout(location = 0) out vec4 host_color;\n", "void main()"},
     {"hlsl", "", "float3", "", "void main(out float4 host_color : SV_Target0)"},
+    {"slang", "", "float3", "",
+     "[shader(\"fragment\")] void fragmentMain(out float4 host_color : SV_Target0)"},
 };
 
 static const struct host *find_host(const char *target)
@@ -155,16 +157,18 @@ static bool compile_function(const char *target, const mxg_result *result,
  * around it. It compiles with a main that calls it, behind its last line, so that the lines of
  * messages stay. NULL if the shader has a main of its own; otherwise the caller frees the source.
  */
-static char *with_main(const char *source)
+static char *with_main(const char *source, const char *target)
 {
-    static const char caller[] = "\nvoid main()\n{\n    scatter();\n}\n";
+    const char *caller = strcmp(target, "slang") == 0
+                             ? "\n[shader(\"fragment\")] void main()\n{\n    scatter();\n}\n"
+                             : "\nvoid main()\n{\n    scatter();\n}\n";
     if (!source || !strstr(source, "\nvoid scatter()\n"))
         return NULL;
-    size_t len = strlen(source);
-    char *whole = malloc(len + sizeof caller);
+    size_t len = strlen(source), more = strlen(caller) + 1;
+    char *whole = malloc(len + more);
     if (whole) {
         memcpy(whole, source, len);
-        memcpy(whole + len, caller, sizeof caller);
+        memcpy(whole + len, caller, more);
     }
     return whole;
 }
@@ -174,7 +178,7 @@ static bool compile_stages(const char *target, const mxg_result *result, struct 
     const char *sources[MXG_NUM_STAGES];
     for (int stage = 0; stage < MXG_NUM_STAGES; ++stage)
         sources[stage] = mxg_result_source(result, (mxg_stage)stage, NULL);
-    char *whole = with_main(sources[MXG_STAGE_PIXEL]);
+    char *whole = with_main(sources[MXG_STAGE_PIXEL], target);
     if (whole)
         sources[MXG_STAGE_PIXEL] = whole;
     bool good = compile_program(target, sources, out);

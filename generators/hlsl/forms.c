@@ -35,20 +35,17 @@ static void put_type(struct spell *spell, const struct lang_use *use, ir_type_id
     spell->out = before;
 }
 
-enum helper {
-#define HELPER(ID, text) HELPER_##ID,
+static const char *const hlsl_helpers[NUM_HLSL_HELPERS] = {
+#define HELPER(ID, text) text,
 #include "generators/hlsl/helpers.def"
 #undef HELPER
 };
 
-static void add_helper(struct spell *spell, const struct lang_use *use, unsigned helper)
+static void add_helper(struct spell *spell, const struct lang_use *use, const char *const *own,
+                       unsigned helper)
 {
-    static const char *const declarations[] = {
-#define HELPER(ID, text) text,
-#include "generators/hlsl/helpers.def"
-    };
     struct text *text = new_text(spell);
-    for (const char *p = declarations[helper]; *p; p++) {
+    for (const char *p = own[helper] ? own[helper] : hlsl_helpers[helper]; *p; p++) {
         if (*p != '$')
             text_char(text, *p);
         else if (*++p == 'T')
@@ -62,15 +59,18 @@ static void add_helper(struct spell *spell, const struct lang_use *use, unsigned
 /* ---- Operators ---- */
 
 /* Matrices are transposed: hlsl.h. */
-static const struct lang_pieces *product(struct spell *spell, const struct lang_use *use)
+static const struct lang_pieces *product(struct spell *spell, const struct lang_use *use,
+                                         const char *const *own)
 {
+    (void)own;
     ir_type_id a = use->operands[0], b = use->operands[1];
     bool is_linear = (ir_type_is_matrix(a) && ir_type_components(b) > 1)
                      || (ir_type_components(a) > 1 && ir_type_is_matrix(b));
     return is_linear ? call_of(spell, "mul($1, $0)") : NULL;
 }
 
-static const struct lang_pieces *equality(struct spell *spell, const struct lang_use *use)
+static const struct lang_pieces *equality(struct spell *spell, const struct lang_use *use,
+                                          const char *const *own)
 {
     ir_type_id type = use->operands[0];
     bool same = use->op == IR_EQ;
@@ -78,40 +78,47 @@ static const struct lang_pieces *equality(struct spell *spell, const struct lang
         return call_of(spell, same ? "all($0 == $1)" : "any($0 != $1)");
     if (!ir_type_is_matrix(type))
         return NULL;
-    add_helper(spell, use, HELPER_EQUAL_2 + rows_of(type) - 2);
+    add_helper(spell, use, own, HELPER_EQUAL_2 + rows_of(type) - 2);
     return same ? call_of(spell, "equal($0, $1)")
                 : lang_form_of(spell->scratch, "!equal($0, $1)", LANG_PREC_UNARY);
 }
 
-static const struct lang_pieces *choice(struct spell *spell, const struct lang_use *use)
+static const struct lang_pieces *choice(struct spell *spell, const struct lang_use *use,
+                                        const char *const *own)
 {
     if (use->type < IR_TYPE_FIRST_USER)
         return NULL;
-    add_helper(spell, use, HELPER_CHOOSE);
+    add_helper(spell, use, own, HELPER_CHOOSE);
     return call_of(spell, "choose($0, $1, $2)");
 }
 
 /* ---- Conversions of matrices; the syntax has those of vectors ---- */
 
-static const struct lang_pieces *grow(struct spell *spell, const struct lang_use *use)
+static const struct lang_pieces *grow(struct spell *spell, const struct lang_use *use,
+                                      const char *const *own)
 {
     bool is_small = rows_of(use->operands[0]) == 2, is_3 = rows_of(use->type) == 3;
-    add_helper(spell, use, is_3 ? HELPER_GROW_2_3 : is_small ? HELPER_GROW_2_4 : HELPER_GROW_3_4);
+    add_helper(spell, use, own,
+               is_3       ? HELPER_GROW_2_3
+               : is_small ? HELPER_GROW_2_4
+                          : HELPER_GROW_3_4);
     return call_of(spell, is_3 ? "grow_3($0)" : "grow_4($0)");
 }
 
-static const struct lang_pieces *convert(struct spell *spell, const struct lang_use *use)
+static const struct lang_pieces *convert(struct spell *spell, const struct lang_use *use,
+                                         const char *const *own)
 {
     ir_type_id from = use->operands[0], to = use->type;
     if (!ir_type_is_matrix(from) || !ir_type_is_matrix(to))
         return NULL;
-    return rows_of(from) < rows_of(to) ? grow(spell, use)
+    return rows_of(from) < rows_of(to) ? grow(spell, use, own)
                                        : lang_form_of(spell->scratch, "($T)$0", LANG_PREC_UNARY);
 }
 
 /* ---- Hooks ---- */
 
-typedef const struct lang_pieces *form_writer(struct spell *spell, const struct lang_use *use);
+typedef const struct lang_pieces *form_writer(struct spell *spell, const struct lang_use *use,
+                                              const char *const *own);
 
 static form_writer *const writers[IR_NUM_OPS] = {
     [IR_MUL] = product,   [IR_EQ] = equality,     [IR_NE] = equality,
@@ -136,21 +143,28 @@ static const struct {
     [IR_TEX_SIZE] = {HELPER_SIZE, false, "texture_size($0, $1)"},
 };
 
-static const struct lang_pieces *call_helper(struct spell *spell, const struct lang_use *use)
+static const struct lang_pieces *call_helper(struct spell *spell, const struct lang_use *use,
+                                             const char *const *own)
 {
     bool is_array = use->num_operands > 0 && use->operands[0] == IR_TYPE_SAMPLER_ARRAY;
     unsigned version = helped[use->op].is_by_rows ? rows_of(use->type) - 2 : is_array;
-    add_helper(spell, use, helped[use->op].helper + version);
+    add_helper(spell, use, own, helped[use->op].helper + version);
     return call_of(spell, helped[use->op].call);
 }
 
-const struct lang_pieces *hlsl_form(void *user_data, const struct lang_use *use)
+const struct lang_pieces *hlsl_form_of(struct spell *spell, const struct lang_use *use,
+                                       const char *const *own)
 {
     if (use->is_store)
         return NULL;
     if (helped[use->op].call)
-        return call_helper(user_data, use);
-    return writers[use->op] ? writers[use->op](user_data, use) : NULL;
+        return call_helper(spell, use, own);
+    return writers[use->op] ? writers[use->op](spell, use, own) : NULL;
+}
+
+const struct lang_pieces *hlsl_form(void *user_data, const struct lang_use *use)
+{
+    return hlsl_form_of(user_data, use, hlsl_helpers);
 }
 
 const char *hlsl_maker(void *user_data, const char *type)

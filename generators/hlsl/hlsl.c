@@ -67,7 +67,7 @@ static const char *const phrases[NUM_PHRASES] = {
     [PHRASE_VARIABLE] = "static $T $N",
 };
 
-static const struct lang_syntax syntax = {
+const struct lang_syntax hlsl_syntax = {
     .name = "hlsl",
     .base = &lang_syntax_portable,
     .type_names = type_names,
@@ -95,7 +95,7 @@ const struct target target_hlsl = {
             | CAP_UNIFORM_BLOCKS | CAP_BINDINGS | CAP_SETS | CAP_BLOCK_STAGE_IO | CAP_SAMPLERS
             | CAP_VULKAN_ATTRIBUTES,
     .versions = versions,
-    .syntax = &syntax,
+    .syntax = &hlsl_syntax,
     .frame = &hlsl_frame,
     .form = hlsl_form,
     .maker = hlsl_maker,

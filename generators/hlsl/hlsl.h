@@ -12,10 +12,46 @@
 #include "spell/spell.h"
 
 extern const struct target target_hlsl;
-extern const struct target_frame hlsl_frame; /* frame.c */
+extern const struct lang_syntax hlsl_syntax;
 
 /* forms.c: hooks of struct target. */
 const struct lang_pieces *hlsl_form(void *user_data, const struct lang_use *use);
+/*
+ * The same for a dialect: `own` has its texts of helpers, by enum helper; NULL entries: those of
+ * HLSL.
+ */
+enum helper {
+#define HELPER(ID, text) HELPER_##ID,
+#include "generators/hlsl/helpers.def"
+#undef HELPER
+    NUM_HLSL_HELPERS
+};
+const struct lang_pieces *hlsl_form_of(struct spell *spell, const struct lang_use *use,
+                                       const char *const *own);
 const char *hlsl_maker(void *user_data, const char *type);
+
+/* ---- frame.c ---- */
+
+extern const struct target_frame hlsl_frame;
+/* "float3 u_x": a variable of the interface under its own name. */
+void hlsl_variable(struct spell *spell, const struct shader_variable *variable);
+/* "    row_major float4x4 u_m": a line of a constant buffer without its end. */
+void hlsl_member(struct spell *spell, const struct shader_variable *variable);
+void hlsl_light_struct(struct spell *spell); /* "struct LightData {…};" */
+void hlsl_light_member(struct spell *spell); /* "    LightData u_lightData[3];" */
+
+/* ---- stage_io.c: inputs and outputs of a stage, and its main, for frames ---- */
+
+/* The parts that differ between HLSL and its dialects. */
+struct hlsl_io {
+    const char *heads[NUM_STAGES]; /* of main: "void main(" */
+    /* vertex data and properties of the geometry have their names as semantics */
+    bool own_semantics;
+};
+
+/* Declares the vertex data, and the results of a function that other code calls. */
+void hlsl_declare_io(struct spell *spell, const struct hlsl_io *io);
+void hlsl_open_main(struct spell *spell, const struct hlsl_io *io);
+void hlsl_close_main(struct spell *spell);
 
 #endif

@@ -13,7 +13,10 @@ golden=$(cd "$(dirname "$0")" && pwd)
 [ -n "$compile" ] || skip 'without glslang nothing is compiled'
 command -v oslc >/dev/null || skip 'without oslc no OSL is compiled'
 command -v glslangValidator >/dev/null || skip 'without glslangValidator no function of path tracers is compiled'
-compiles() { [ -n "$compile" ] && { [ "$1" != osl ] || command -v oslc >/dev/null; }; } # TARGET
+[ -f "${MXGEN_SLANG:-}" ] || skip 'MXGEN_SLANG does not name slang-wasm.js: no Slang is compiled'
+compiles() { # TARGET
+    [ -n "$compile" ] && { [ "$1" != osl ] || command -v oslc >/dev/null; } && { [ "$1" != slang ] || [ -f "${MXGEN_SLANG:-}" ]; }
+}
 
 # same KEPT NEW: whether they are equal; with --update they are then.
 same() {
@@ -66,7 +69,7 @@ check 'there are targets' test -n "$targets"
 for target in $targets; do # the shading models in every language
     check "models.mtlx has a run '$target'" ls "$golden/models.$target".standard_surface.*
 done
-for file in "$golden"/*.vert "$golden"/*.frag "$golden"/*.comp "$golden"/*.hlsl "$golden"/*.osl "$golden"/*.oslgroup "$golden"/*.json; do # what no run makes any more
+for file in "$golden"/*.vert "$golden"/*.frag "$golden"/*.comp "$golden"/*.hlsl "$golden"/*.slang "$golden"/*.osl "$golden"/*.oslgroup "$golden"/*.json; do # what no run makes any more
     [ -n "${kept[${file##*/}]:-}" ] && continue
     [ -n "$update" ] && rm -v "$file" || check "${file##*/} is made by a run" false
 done

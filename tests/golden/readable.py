@@ -19,7 +19,7 @@ NUMBER = re.compile(r"\b\d+\.\d+(?:e-?\d+)?\b")
 FUNCTION = re.compile(r"^(?!void main)[a-zA-Z_]\w* (mx_\w+)\(")
 
 
-SHADERS = {".vert", ".frag", ".comp", ".hlsl", ".osl"}
+SHADERS = {".vert", ".frag", ".comp", ".hlsl", ".osl", ".slang"}
 LEFTOVERS = {
     "a constructor in a constructor": re.compile(r"\b(?:vec|float)[34]\((?:vec|float)[23]\((?:[^()]|\((?:[^()]|\([^()]*\))*\))*\), "),
     "an element of a constant": re.compile(r"\b(?:vec|float)[234]\([\d.]+\)\["),
@@ -69,7 +69,7 @@ for path in shaders:
     if not path.name.startswith("models.") or path.suffix in (".vert", ".comp"):
         continue
     lines = path.read_text(encoding="utf-8").splitlines()
-    main = next(i for i, line in enumerate(lines) if re.match(r"void main|void scatter|PixelOutput main|\w+ surface\(|surface ", line))
+    main = next(i for i, line in enumerate(lines) if re.match(r"void main|void fragmentMain|void scatter|PixelOutput main|\w+ surface\(|surface ", line))
     names = list(names_of_locals(lines[main:]))
     numbered = [name for name in names if re.search(r"_\d+$", name)]
     check(names, f"{path.name}: no locals were found")

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+#define _POSIX_C_SOURCE 200809L
+#include "compile/slang.h"
+
+#include "compile/spirv.h"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+extern char **environ;
+extern const char compile_slang_script[]; /* slang_script.S */
+
+bool slang_is_installed(void)
+{
+    const char *path = getenv("MXGEN_SLANG");
+    return path && *path && access(path, R_OK) == 0;
+}
+
+/* ---- The process ---- */
+
+static struct node {
+    pid_t process; /* 0: it does not run */
+    int channel;
+} node;
+
+/* Node has its end of the channel as standard input and output. */
+static bool spawn(int end)
+{
+    posix_spawn_file_actions_t actions;
+    char *argv[] = {(char[]){"node"}, (char[]){"--input-type=module"}, (char[]){"-e"},
+                    (char *)(uintptr_t)compile_slang_script, NULL};
+    if (posix_spawn_file_actions_init(&actions) != 0)
+        return false;
+    posix_spawn_file_actions_adddup2(&actions, end, STDIN_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, end, STDOUT_FILENO);
+    bool good = posix_spawnp(&node.process, argv[0], &actions, NULL, argv, environ) == 0;
+    posix_spawn_file_actions_destroy(&actions);
+    return good;
+}
+
+static bool start(void)
+{
+    int ends[2];
+    if (node.process)
+        return true;
+    if (socketpair(AF_UNIX, SOCK_STREAM, 0, ends) != 0)
+        return false;
+    for (int i = 0; i < 2; i++)
+        fcntl(ends[i], F_SETFD, FD_CLOEXEC);
+    bool good = spawn(ends[1]);
+    close(ends[1]);
+    node.channel = ends[0];
+    if (!good) {
+        close(ends[0]);
+        node.process = 0;
+    }
+    return good;
+}
+
+void slang_end(void)
+{
+    if (!node.process)
+        return;
+    close(node.channel);
+    waitpid(node.process, NULL, 0);
+    node.process = 0;
+}
+
+/* ---- Requests and answers: slang.mjs says their form ---- */
+
+static bool send_all(const char *bytes, size_t size)
+{
+    while (size) {
+        ssize_t sent = send(node.channel, bytes, size, MSG_NOSIGNAL);
+        if (sent <= 0)
+            return false;
+        bytes += sent;
+        size -= (size_t)sent;
+    }
+    return true;
+}
+
+static bool receive_all(void *bytes, size_t size)
+{
+    for (char *at = bytes; size;) {
+        ssize_t received = recv(node.channel, at, size, 0);
+        if (received <= 0)
+            return false;
+        at += received;
+        size -= (size_t)received;
+    }
+    return true;
+}
+
+static bool send_request(const char *const sources[MXG_NUM_STAGES])
+{
+    char line[64];
+    size_t sizes[MXG_NUM_STAGES];
+    for (int i = 0; i < MXG_NUM_STAGES; i++)
+        sizes[i] = sources[i] ? strlen(sources[i]) : 0;
+    int len = snprintf(line, sizeof line, "%zu %zu\n", sizes[0], sizes[1]);
+    bool good = send_all(line, (size_t)len);
+    for (int i = 0; good && i < MXG_NUM_STAGES; i++)
+        good = sizes[i] == 0 || send_all(sources[i], sizes[i]);
+    return good;
+}
+
+/* The sizes of a log and of the words of both stages. */
+static bool receive_sizes(size_t out_sizes[1 + MXG_NUM_STAGES])
+{
+    char line[96];
+    size_t len = 0;
+    do {
+        if (len + 1 == sizeof line || !receive_all(line + len, 1))
+            return false;
+    } while (line[len++] != '\n');
+    line[len] = '\0';
+    return sscanf(line, "%zu %zu %zu", &out_sizes[0], &out_sizes[1], &out_sizes[2]) == 3;
+}
+
+static void add_log(struct compiled *out, char *log)
+{
+    for (char *line = log; *line;) {
+        size_t len = strcspn(line, "\n");
+        unsigned stage, is_error, number;
+        int text = 0;
+        if (sscanf(line, "%u %u %u %n", &stage, &is_error, &number, &text) == 3 && text)
+            compiled_add(out, stage == 0 ? MXG_STAGE_VERTEX : MXG_STAGE_PIXEL,
+                         is_error ? MXG_SEVERITY_ERROR : MXG_SEVERITY_WARNING, number, line + text,
+                         len - (size_t)text);
+        line += len + (line[len] == '\n');
+    }
+}
+
+static bool receive_log(struct compiled *out, size_t size)
+{
+    char *log = malloc(size + 1);
+    bool good = log && receive_all(log, size);
+    if (good) {
+        log[size] = '\0';
+        add_log(out, log);
+    }
+    free(log);
+    return good;
+}
+
+static bool receive_words(struct compiled_stage *code, size_t size)
+{
+    if (size == 0)
+        return true;
+    code->num_words = size / sizeof *code->words;
+    code->words = malloc(code->num_words * sizeof *code->words);
+    if (!code->words || !receive_all(code->words, code->num_words * sizeof *code->words))
+        return false;
+    spirv_hide_language(code->words, code->num_words);
+    code->body_instructions = spirv_count(code->words, code->num_words, NULL, NULL);
+    return true;
+}
+
+bool slang_compile_program(const char *const sources[MXG_NUM_STAGES], struct compiled *out)
+{
+    static const char fault[] = "Node or slang-wasm cannot be started, or ended early";
+    size_t sizes[1 + MXG_NUM_STAGES];
+    bool good =
+        start() && send_request(sources) && receive_sizes(sizes) && receive_log(out, sizes[0]);
+    for (int i = 0; good && i < MXG_NUM_STAGES; i++)
+        good = receive_words(&out->stages[i], sizes[1 + i]);
+    if (!good) {
+        compiled_add(out, MXG_STAGE_PIXEL, MXG_SEVERITY_ERROR, 0, fault, sizeof fault - 1);
+        slang_end();
+    }
+    return out->errors == 0;
+}

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+/* The tables of Slang, where it differs from HLSL (User's Guide of Slang, shader-slang.org). */
+#include "generators/slang/slang.h"
+
+static const char *const reserved[] = {
+#include "generators/slang/reserved.def"
+};
+
+#define CALL(op, text) [IR_##op] = {text, LANG_PREC_POSTFIX, false}
+
+static const struct lang_form forms[IR_NUM_OPS] = {
+    CALL(TEX, "$0.tex.Sample($0.sampler, $1)"),
+    CALL(TEX_LOD, "$0.tex.SampleLevel($0.sampler, $1, $2)"),
+    CALL(TEX_GRAD, "$0.tex.SampleGrad($0.sampler, $1, $2, $3)"),
+    CALL(TEX_FETCH, "$0.tex.Load(int3($1, $2))"),
+};
+
+static const struct lang_form forms_alone[IR_NUM_OPS] = {
+    [IR_DFDX] = {"$T(0.0)", LANG_PREC_POSTFIX, false},
+    [IR_DFDY] = {"$T(0.0)", LANG_PREC_POSTFIX, false},
+    [IR_FWIDTH] = {"$T(0.0)", LANG_PREC_POSTFIX, false},
+    CALL(TEX, "$0.tex.SampleLevel($0.sampler, $1, 0.0)"),
+};
+
+static const char *const type_names[IR_NUM_TYPES] = {
+    [IR_TYPE_SAMPLER] = "SamplerTexture2D",
+    [IR_TYPE_SAMPLER_ARRAY] = "SamplerTexture2DArray",
+};
+
+static const struct lang_syntax syntax = {
+    .name = "slang",
+    .base = &hlsl_syntax,
+    .type_names = type_names,
+    .forms = forms,
+    .forms_alone = forms_alone,
+    .reserved = reserved,
+    .num_reserved = sizeof reserved / sizeof *reserved,
+    .array_braces = true,
+    .exact_constructors = true,
+    .infinity = "asfloat(0x7f800000u)",
+    .nan = "asfloat(0x7fc00000u)",
+};
+
+static const char *const helpers[NUM_HLSL_HELPERS] = {
+#define HELPER(ID, text) [HELPER_##ID] = text,
+#include "generators/slang/helpers.def"
+#undef HELPER
+};
+
+static const struct lang_pieces *form(void *user_data, const struct lang_use *use)
+{
+    return hlsl_form_of(user_data, use, helpers);
+}
+
+static const char *const versions[] = {"2025.3", NULL};
+
+const struct target target_slang = {
+    .name = "slang",
+    .materialx_name = "genslang",
+    .brief = "Slang 2025.3, with the names of MaterialX's generator",
+    .caps = CAP_VERTEX_STAGE | CAP_OVERLOADS | CAP_BITWISE | CAP_IMPLICIT_LOD | CAP_TEXTURE_ARRAYS
+            | CAP_BLOCK_STAGE_IO | CAP_SAMPLERS,
+    .versions = versions,
+    .syntax = &syntax,
+    .frame = &slang_frame,
+    .form = form,
+    .position = ".position",
+    .stage_suffix = {"vert.slang", "frag.slang"},
+};
