@@ -35,6 +35,7 @@ static const struct ability {
     const char *text;
 } abilities[] = {{CAP_STORES, "store slabs"},
                  {CAP_TWO_SOURCES, "blend with two sources"},
+                 {CAP_HOST_FILES, "be a function in a file of the host"},
                  {CAP_LIGHTING, "compute light in the shader"},
                  {CAP_CLOSURES, "return closures"}};
 

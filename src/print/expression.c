@@ -93,7 +93,7 @@ static void print_list(struct printer *p, lang_ref ref)
 {
     while (ref) {
         const struct lang_node *node = node_at(p, ref);
-        print_expression(p, node, LANG_PREC_ASSIGN);
+        print_expression(p, node, lang_argument_level(p->style->syntax));
         ref = node->next;
         if (ref)
             text_mem(p->out, ", ", 2);
@@ -124,7 +124,7 @@ static void print_arguments(struct printer *p, const struct lang_node *call)
         if (ast_slot(layer, callee, i)->mode != LANG_IN)
             print_reference(p, node);
         else
-            print_expression(p, node, LANG_PREC_ASSIGN);
+            print_expression(p, node, lang_argument_level(p->style->syntax));
         if (node->type == IR_TYPE_SAMPLER && p->style->syntax->sampler_type) {
             text_str(p->out, ", ");
             print_expression(p, node, LANG_PREC_POSTFIX);

@@ -33,6 +33,7 @@ enum lang_phrase {
     PHRASE_PLAIN,          /* type and name alone, in a declaration of a frame: "$T $N" */
     PHRASE_LOCAL,          /* "$T $N", "var $N: $T" */
     PHRASE_LOCAL_CONSTANT, /* a local with a constant value: "const $T $N" */
+    PHRASE_VALUE,          /* a local that keeps its first value: "$T $N", "let $N: $T" */
     PHRASE_CONSTANT,       /* at file scope: "const $T $N = $V;", "#define $N $V" */
     PHRASE_VARIABLE,       /* at file scope: "$T $N", "static $T $N" */
     PHRASE_MEMBER,         /* of a struct: "$T $N;" */
@@ -71,6 +72,13 @@ struct lang_syntax {
     const struct lang_form *forms_alone;
     const char *const *reserved; /* identifiers that must be renamed, sorted by byte value */
     uint32_t num_reserved;
+    const char *reserved_prefix; /* no identifier begins with it; NULL: none */
+    /*
+     * [LANG_PREC_PRIMARY + 1], by the precedence of an infix operator: what its operands need, if
+     * that is more than in C; 0: as in C. NULL: all are as in C.
+     */
+    const uint8_t *operand_levels;
+    uint8_t argument_level; /* the precedence that an argument needs; 0: LANG_PREC_ASSIGN */
     /* parameters are read-only: an assigned parameter is copied to a local first */
     bool copies_params;
     bool plain_scalars;    /* the language has no bool and uint: their literals are int literals */
@@ -114,6 +122,11 @@ struct lang_syntax {
                         struct text *out);
 };
 
+/* The precedence that an argument of a call needs. */
+static inline enum lang_precedence lang_argument_level(const struct lang_syntax *syntax)
+{
+    return syntax->argument_level ? (enum lang_precedence)syntax->argument_level : LANG_PREC_ASSIGN;
+}
 const struct lang_form *lang_syntax_form(const struct lang_syntax *syntax, enum ir_op op);
 const struct lang_form *lang_syntax_forms_alone(const struct lang_syntax *syntax);
 const char *lang_syntax_type(const struct lang_syntax *syntax, ir_type_id type);
@@ -151,8 +164,6 @@ struct lang_style {
 void lang_style_init(struct lang_style *style, const struct lang_syntax *syntax,
                      struct arena *arena);
 const struct lang_pieces *lang_style_split(struct lang_style *style, enum ir_op op);
-/* out->text is NULL if there is no form */
-void lang_form_split(const struct lang_form *form, struct lang_pieces *out);
 /* a form made at run time, which lives as long as the arena */
 const struct lang_pieces *lang_form_of(struct arena *arena, const char *text,
                                        enum lang_precedence precedence);

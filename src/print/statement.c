@@ -18,8 +18,9 @@ static void print_indent(struct printer *p)
 
 static void print_declaration(struct printer *p, const struct lang_node *node)
 {
+    bool is_value = node->b && !ast_slot(p->layer, p->fn, node->a)->assigned;
     print_bring_into_scope(p, node->a);
-    print_variable(p, PHRASE_LOCAL, node->a);
+    print_variable(p, is_value ? PHRASE_VALUE : PHRASE_LOCAL, node->a);
     if (node->b) {
         text_mem(p->out, " = ", 3);
         print_expression(p, node_at(p, node->b), LANG_PREC_ASSIGN);

@@ -18,10 +18,12 @@ void lang_style_init(struct lang_style *style, const struct lang_syntax *syntax,
 }
 
 /* The precedence that an operand needs, by the characters around it in the form. */
-static enum lang_precedence operand_precedence(const struct lang_form *form, unsigned index,
-                                               char before, char after)
+static enum lang_precedence operand_precedence(const uint8_t *levels, const struct lang_form *form,
+                                               unsigned index, char before, char after)
 {
     enum lang_precedence own = (enum lang_precedence)form->precedence;
+    if (form->infix && levels && levels[own])
+        return (enum lang_precedence)levels[own];
     if (form->infix)
         return index == 0 ? own : own + 1;
     bool opens = before == '(' || before == '[' || before == ',' || before == '{';
@@ -44,7 +46,9 @@ static bool spreads_constants(const struct lang_syntax *syntax, enum ir_op op)
     return fits && syntax->wide_constants && op != IR_REFRACT;
 }
 
-void lang_form_split(const struct lang_form *form, struct lang_pieces *split)
+/* split->text is NULL if there is no form; `levels` as in struct lang_syntax */
+static void split_form(const struct lang_form *form, const uint8_t *levels,
+                       struct lang_pieces *split)
 {
     split->text = form ? form->text : NULL;
     split->num = 0;
@@ -64,7 +68,8 @@ void lang_form_split(const struct lang_form *form, struct lang_pieces *split)
         split->pieces[split->num++] = (struct lang_piece){
             .before = {from, (size_t)(p - from)},
             .index = p[1] == 'T' ? LANG_PIECE_TYPE : (uint8_t)index,
-            .least = p[1] == 'T' ? 0 : (uint8_t)operand_precedence(form, index, before, p[2]),
+            .least =
+                p[1] == 'T' ? 0 : (uint8_t)operand_precedence(levels, form, index, before, p[2]),
         };
         from = p + 2;
         p++;
@@ -76,7 +81,7 @@ const struct lang_pieces *lang_form_of(struct arena *arena, const char *text,
                                        enum lang_precedence precedence)
 {
     struct lang_pieces *form = ARENA_NEW(arena, struct lang_pieces);
-    lang_form_split(&(struct lang_form){text, (uint8_t)precedence, false}, form);
+    split_form(&(struct lang_form){text, (uint8_t)precedence, false}, NULL, form);
     return form;
 }
 
@@ -84,7 +89,10 @@ const struct lang_pieces *lang_style_split(struct lang_style *style, enum ir_op 
 {
     assert(!style->forms[op]);
     struct lang_pieces *split = style->forms[op] = arena_alloc(style->arena, sizeof *split);
-    lang_form_split(lang_syntax_form(style->syntax, op), split);
+    const struct lang_syntax *syntax = style->syntax;
+    while (!syntax->operand_levels && syntax->base)
+        syntax = syntax->base;
+    split_form(lang_syntax_form(style->syntax, op), syntax->operand_levels, split);
     split->spreads = split->text && spreads_constants(style->syntax, op);
     return split;
 }

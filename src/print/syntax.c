@@ -74,6 +74,7 @@ static const char *const phrases[NUM_PHRASES] = {
     [PHRASE_PLAIN] = "$T $N",
     [PHRASE_LOCAL] = "$T $N",
     [PHRASE_LOCAL_CONSTANT] = "const $T $N",
+    [PHRASE_VALUE] = "$T $N",
     [PHRASE_CONSTANT] = "const $T $N = $V;",
     [PHRASE_VARIABLE] = "$T $N",
     [PHRASE_MEMBER] = "$T $N;",
@@ -158,6 +159,9 @@ bool lang_syntax_is_reserved(const struct lang_syntax *syntax, const char *name,
     size_t suffix = strlen(LANG_SAMPLER_SUFFIX);
     if (syntax->sampler_type && len > suffix
         && memcmp(name + len - suffix, LANG_SAMPLER_SUFFIX, suffix) == 0)
+        return true;
+    if (syntax->reserved_prefix
+        && strncmp(name, syntax->reserved_prefix, strlen(syntax->reserved_prefix)) == 0)
         return true;
     while (!syntax->reserved && syntax->base)
         syntax = syntax->base;

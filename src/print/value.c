@@ -126,7 +126,9 @@ void lang_print_value(const struct lang_style *style, const struct strpool *stri
     bool parentheses = least > LANG_PREC_UNARY && has_sign(type, *words);
     unsigned count = 1;
     if (info->components > 1) {
-        count = style->syntax->lists_components ? info->components : count_needed(info, words);
+        bool lists = style->syntax->lists_components
+                     || (style->syntax->exact_constructors && info->columns > 1);
+        count = lists ? info->components : count_needed(info, words);
         text_put(out, style->types[type]);
         parentheses = true;
     }

@@ -34,12 +34,19 @@ bool spell_uses(const struct spell *spell, const struct shader_variable *variabl
 /* The text before the names of a block's variables; it ends with '.' if they are members. */
 static const char *member_prefix(struct spell *spell, enum shader_block block)
 {
+    struct text text;
     bool is_in_host_file = spell->shader->role->is_in_host_file;
+    const char *variable =
+        spell->target->block_variable ? spell->target->block_variable(spell, block) : NULL;
+    if (variable) {
+        text_init(&text, spell->scratch);
+        text_fmt(&text, "%s.", variable);
+        return text_cstr(&text);
+    }
     if (is_in_host_file && block == BLOCK_OUTPUTS)
         return "result.";
     if (block != BLOCK_VERTEX_DATA || (is_in_host_file && !spell->shares_vertex_data))
         return "";
-    struct text text;
     bool is_member = spell_can(spell, CAP_BLOCK_STAGE_IO) || is_in_host_file;
     text_init(&text, spell->scratch);
     text_fmt(&text, "%s%c", spell_frame_name(spell, "vd"), is_member ? '.' : '_');

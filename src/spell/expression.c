@@ -79,7 +79,8 @@ static void write_member(struct spell *spell, ir_ref ref, uint32_t attr)
 
 void spell_argument(struct spell *spell, ir_ref ref)
 {
-    spell_expression(spell, ref, LANG_PREC_ASSIGN);
+    const struct lang_syntax *syntax = spell->style->syntax;
+    spell_expression(spell, ref, lang_argument_level(syntax));
     if (!spell_has_sampler(spell, ir_type_of(spell->shader->graph, ref)))
         return;
     text_mem(spell->out, ", ", 2);

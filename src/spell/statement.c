@@ -271,7 +271,7 @@ static void write_call_let(struct spell *spell, unsigned indent, ir_ref call, un
     assert(spell->let_names.len == first + 1 + outs);
     open_line(spell, indent, node->origin);
     if (node->type != IR_TYPE_VOID) {
-        spell_variable(spell, PHRASE_LOCAL, node->type, spell->let_names.items[first]);
+        spell_variable(spell, PHRASE_VALUE, node->type, spell->let_names.items[first]);
         text_mem(spell->out, " = ", 3);
     }
     write_call_arguments(spell, call, first, outs);
@@ -293,7 +293,7 @@ static void write_let(struct spell *spell, unsigned indent, ir_ref ref)
     }
     struct spell_name name = add_local(spell, spell_local_base(spell, ref), ref);
     open_line(spell, indent, node->origin);
-    write_typed(spell, node->op == IR_CONST ? PHRASE_LOCAL_CONSTANT : PHRASE_LOCAL, ref, node->type,
+    write_typed(spell, node->op == IR_CONST ? PHRASE_LOCAL_CONSTANT : PHRASE_VALUE, ref, node->type,
                 name);
     text_mem(spell->out, " = ", 3);
     spell_expression(spell, ref, LANG_PREC_ASSIGN);
@@ -308,8 +308,7 @@ static const char *private_name(const struct spell *spell, str_id asked)
 {
     uint32_t variable = shader_asked_uniform(spell->shader, asked);
     assert(variable < spell->shader->interface.variables.len);
-    return str_text(spell->shader->strings,
-                    spell->shader->interface.variables.items[variable].name);
+    return spell->variables[variable].text;
 }
 
 /*

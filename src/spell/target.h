@@ -95,6 +95,11 @@ struct target {
      * lang_names)
      */
     const char *(*maker)(void *user_data, const char *type);
+    /*
+     * The variable whose members are the variables of a block: "u_pub". It is asked once for each
+     * block before functions and locals have names. NULL: they stand at file scope.
+     */
+    const char *(*block_variable)(struct spell *spell, enum shader_block block);
     enum shader_packing packing; /* of blocks of uniforms */
     const char *position;        /* of a vertex; ".x": of the vertex data; NULL: gl_Position */
     const char *stage_suffix[NUM_STAGES]; /* file endings: "vert", "frag" */

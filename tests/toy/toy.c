@@ -21,6 +21,7 @@ static const char *const phrases[NUM_PHRASES] = {
     [PHRASE_PLAIN] = "$N: $T",
     [PHRASE_LOCAL] = "var $N: $T",
     [PHRASE_LOCAL_CONSTANT] = "let $N: $T",
+    [PHRASE_VALUE] = "val $N: $T",
     [PHRASE_CONSTANT] = "const $N: $T := $V;",
     [PHRASE_VARIABLE] = "shared $N: $T",
     [PHRASE_MEMBER] = "$N: $T,",
@@ -140,8 +141,9 @@ const struct target target_toy = {
     .name = "toy",
     .materialx_name = "gentoy",
     .brief = "a language of the tests",
-    .caps = CAP_VERTEX_STAGE | CAP_UNIFORM_BLOCKS | CAP_BINDINGS | CAP_SAMPLER_BINDINGS
-            | CAP_BITWISE | CAP_IMPLICIT_LOD | CAP_TEXTURE_ARRAYS | CAP_SAMPLERS,
+    .caps = CAP_VERTEX_STAGE | CAP_HOST_FILES | CAP_UNIFORM_BLOCKS | CAP_BINDINGS
+            | CAP_SAMPLER_BINDINGS | CAP_BITWISE | CAP_IMPLICIT_LOD | CAP_TEXTURE_ARRAYS
+            | CAP_SAMPLERS,
     .syntax = &toy_syntax,
     .frame = &frame,
     .position = "position",

@@ -78,7 +78,7 @@ static void test_functions(void)
         "    var part: f32;\n"
         "    var own: array<f32, 2>;\n"
         "    var texel: f32x4;\n"
-        "    var near: f32 = 1.0;\n"
+        "    val near: f32 = 1.0;\n"
         "    split(v.xyz, &part, total);\n"
         "    split(splat<f32x3>(a), total, &(*ray).from.x);\n"
         "    read(map, map_sampler, v.xy, &texel);\n"
@@ -89,8 +89,8 @@ static void test_functions(void)
         "    loop {\n        a -= 1.0;\n        until !(a > 0.0); }\n"
         "    own[0] = convert<f32>(n);\n"
         "    (*ray).at[1] = part + own[0];\n"
-        "    var m: f32x2x2 = a * f32x2x2(1.0, 0.0, 0.0, 1.0);\n"
-        "    var all: f32x3 = f32x3(part, v.xy);\n"
+        "    val m: f32x2x2 = a * f32x2x2(1.0, 0.0, 0.0, 1.0);\n"
+        "    val all: f32x3 = f32x3(part, v.xy);\n"
         "    return m[0].x + all.y + texel.x;\n}\n");
     REQUIRE_STR(print(&f, "pair"), "fn pair(in x: f32) -> array<f32, 2>\n{\n"
                                    "    return array<f32, 2>(x, 1.0);\n}\n");
@@ -163,7 +163,7 @@ static void test_overloads(void)
     REQUIRE(has(text, "fn twin(in x: f32) -> f32\n"));
     REQUIRE(has(text, "fn twin_2(in x: f32x2) -> f32\n"));
     REQUIRE(has(text, "y += twin(x) + twin_2(splat<f32x2>(x));\n"));
-    REQUIRE(has(text, "    var color: f32x3 = splat<f32x3>(twin(a));\n"));
+    REQUIRE(has(text, "    val color: f32x3 = splat<f32x3>(twin(a));\n"));
     REQUIRE(has(text, "    color += splat<f32x3>(twin_2(uv));\n"));
     REQUIRE(has(text, "    color += splat<f32x3>(both(a));\n"));
     fixture_close(&f);
@@ -215,7 +215,7 @@ static void test_results(void)
     REQUIRE(
         has(text, "fn inner(in p0: f32x3, r1: ptr<f32>) -> f32x3\n{\n    (*r1) = length(p0);\n"));
     REQUIRE(
-        has(text, "    var deep_result: f32;\n    var deep: f32x3 = inner(v, &deep_result);\n"));
+        has(text, "    var deep_result: f32;\n    val deep: f32x3 = inner(v, &deep_result);\n"));
     REQUIRE(has(text, "    var s_x: f32;\n    var s_y: f32;\n    split(v, &s_x, &s_y);\n"));
     fixture_close(&f);
 }
