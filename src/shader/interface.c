@@ -364,15 +364,15 @@ uint32_t shader_asked_uniform(const struct shader *shader, str_id name)
 
 uint32_t shader_light_member(struct shader *shader, str_id name, ir_type_id type)
 {
-    if (shader_find_variable(shader, BLOCK_LIGHT_DATA, STR_type) == UINT32_MAX)
-        shader_add_variable(shader, &(struct shader_variable){.name = STR_type,
-                                                              .block = BLOCK_LIGHT_DATA,
-                                                              .type = IR_TYPE_INT});
-    uint32_t found = shader_find_variable(shader, BLOCK_LIGHT_DATA, name);
+    const struct shader_variable number = {
+        .name = STR_type, .block = BLOCK_LIGHT_DATA, .type = IR_TYPE_INT};
+    if (find_binding(shader, BLOCK_LIGHT_DATA, STR_type, IR_TYPE_INT) == UINT32_MAX)
+        (void)bind(shader, &number);
+    uint32_t found = find_binding(shader, BLOCK_LIGHT_DATA, name, scalar_of(type));
     if (found != UINT32_MAX && shader->interface.variables.items[found].type == type)
         return found;
-    return shader_add_variable(
-        shader, &(struct shader_variable){.name = name, .block = BLOCK_LIGHT_DATA, .type = type});
+    const struct shader_variable member = {.name = name, .block = BLOCK_LIGHT_DATA, .type = type};
+    return found == UINT32_MAX ? bind(shader, &member) : shader_add_variable(shader, &member);
 }
 
 /* ---- Streams ---- */
