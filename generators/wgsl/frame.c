@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * The frame of a WGSL stage: a struct and a variable for each block of uniforms, a texture and its
+ * sampler with a binding each, main with its inputs and outputs.
+ */
+#include "generators/wgsl/wgsl.h"
+
+const char *wgsl_block_variable(struct spell *spell, enum shader_block block)
+{
+    if (block == BLOCK_PRIVATE_UNIFORMS)
+        return spell_frame_name(spell, "u_prv");
+    if (block == BLOCK_PUBLIC_UNIFORMS)
+        return spell_frame_name(spell, "u_pub");
+    if (block < BLOCK_OWN)
+        return NULL;
+    struct text name;
+    text_init(&name, spell->scratch);
+    text_fmt(&name, "u_%s", spell_frame_name(spell, shader_block_name(spell->shader, block)));
+    names_take(&spell->names, text_cstr(&name), name.len);
+    return text_cstr(&name);
+}
+
+static struct spell_name own_name(const struct spell *spell, const struct shader_variable *variable)
+{
+    return spell_name_of(spell->shader->strings, variable->name);
+}
+
+/* "@group(0) @binding(3) " */
+static void write_binding(struct spell *spell, uint32_t set, uint32_t binding)
+{
+    text_fmt(spell->out, "@group(%u) @binding(%u) ", (unsigned)set, (unsigned)binding);
+}
+
+/* ---- Uniforms ---- */
+
+static void write_members(struct spell *spell, enum shader_block block)
+{
+    SPELL_EACH_OF_BLOCK(i, spell, block)
+    {
+        const struct shader_variable *variable = spell_interface_variable(spell, i);
+        bool is_first = i == spell->shader->interface.first_of_block[block];
+        spell_indent(spell, 1);
+        /* the size of an element of an array of uniforms is a multiple of its alignment */
+        spell_text(spell, is_first && block == BLOCK_LIGHT_DATA ? "@align(16) " : "");
+        spell_declare(spell, PHRASE_MEMBER, variable, own_name(spell, variable));
+        spell_text(spell, "\n");
+    }
+}
+
+static void write_buffer(struct spell *spell, enum shader_block block)
+{
+    const struct shader_buffer *buffer = &spell->shader->interface.buffers[block];
+    const char *type = spell_frame_name(spell, shader_block_name(spell->shader, block));
+    if (!spell_uses_block(spell, block))
+        return;
+    SPELL(spell, "struct ", type, " {\n");
+    write_members(spell, block);
+    spell_text(spell, "}\n");
+    write_binding(spell, buffer->set, buffer->binding);
+    SPELL(spell, "var<uniform> ", wgsl_block_variable(spell, block), ": ", type, ";\n");
+}
+
+static void write_buffers(struct spell *spell)
+{
+    for (int block = 0; block < NUM_BLOCKS; block++)
+        if (shader_block_has_uniforms((enum shader_block)block))
+            write_buffer(spell, (enum shader_block)block);
+}
+
+static void write_lights(struct spell *spell)
+{
+    if (!spell->stage->has_lights)
+        return;
+    const struct shader_buffer *buffer = &spell->shader->interface.buffers[BLOCK_LIGHT_DATA];
+    const char *type = spell_frame_name(spell, "LightData");
+    SPELL(spell, "struct ", type, " {\n");
+    write_members(spell, BLOCK_LIGHT_DATA);
+    spell_text(spell, "}\n");
+    write_binding(spell, buffer->set, buffer->binding);
+    text_fmt(spell->out, "var<uniform> %s: array<%s, %u>;\n",
+             spell_frame_name(spell, "u_lightData"), type,
+             (unsigned)spell->shader->interface.max_lights);
+}
+
+static void write_textures(struct spell *spell)
+{
+    SPELL_EACH_OF_BLOCK(i, spell, BLOCK_TEXTURES)
+    {
+        const struct shader_variable *variable = spell_interface_variable(spell, i);
+        if (!spell_uses(spell, variable))
+            continue;
+        write_binding(spell, variable->set, variable->binding);
+        spell_text(spell, "var ");
+        spell_declare(spell, PHRASE_PLAIN, variable, own_name(spell, variable));
+        spell_text(spell, ";\n");
+        write_binding(spell, variable->set, variable->sampler_binding);
+        SPELL(spell, "var ", own_name(spell, variable).text, LANG_SAMPLER_SUFFIX ": sampler;\n");
+    }
+}
+
+/* ---- Stage inputs and outputs ---- */
+
+static void write_located(struct spell *spell, const struct shader_variable *variable)
+{
+    text_fmt(spell->out, "@location(%u) ", (unsigned)variable->location);
+    spell_text(spell, variable->flat ? "@interpolate(flat) " : "");
+    spell_declare(spell, PHRASE_PLAIN, variable, own_name(spell, variable));
+}
+
+/* Both stages declare the whole struct, also members that they do not read, so that they match. */
+static void write_vertex_data(struct spell *spell)
+{
+    SPELL(spell, "struct ", spell_frame_name(spell, "VertexData"),
+          " {\n    @builtin(position) position: vec4f,\n");
+    SPELL_EACH_OF_BLOCK(i, spell, BLOCK_VERTEX_DATA)
+    {
+        spell_indent(spell, 1);
+        write_located(spell, spell_interface_variable(spell, i));
+        spell_text(spell, ",\n");
+    }
+    spell_text(spell, "}\n");
+}
+
+/* True for a function of other code, which sets the vertex data and reads the outputs. */
+static bool is_called(const struct spell *spell)
+{
+    return spell->shader->role->stages == STAGES_NONE;
+}
+
+static bool reads_vertex_data(const struct spell *spell)
+{
+    return spell->stage_id == STAGE_VERTEX || spell_uses_block(spell, BLOCK_VERTEX_DATA);
+}
+
+/* True if the vertex data is a variable of the module, because functions read it. */
+static bool shares_vertex_data(const struct spell *spell)
+{
+    bool shares = is_called(spell) || spell_functions_read_vertex_data(spell);
+    return shares && reads_vertex_data(spell);
+}
+
+static uint32_t num_outputs(const struct spell *spell)
+{
+    const uint32_t *first = &spell->shader->interface.first_of_block[BLOCK_OUTPUTS];
+    return spell->stage_id == STAGE_PIXEL ? first[1] - first[0] : 0;
+}
+
+/* The struct of several outputs; a single one is the result of main. */
+static void write_outputs(struct spell *spell)
+{
+    spell_text(spell, "struct PixelOutputs {\n");
+    SPELL_EACH_OF_BLOCK(i, spell, BLOCK_OUTPUTS)
+    {
+        spell_indent(spell, 1);
+        write_located(spell, spell_interface_variable(spell, i));
+        spell_text(spell, ",\n");
+    }
+    spell_text(spell, "}\n");
+}
+
+/* The outputs as variables, of the module or of main. */
+static void write_results(struct spell *spell, enum lang_phrase phrase, unsigned indent)
+{
+    SPELL_EACH_OF_BLOCK(i, spell, BLOCK_OUTPUTS)
+    {
+        const struct shader_variable *variable = spell_interface_variable(spell, i);
+        spell_indent(spell, indent);
+        spell_declare(spell, phrase, variable, own_name(spell, variable));
+        spell_text(spell, ";\n");
+    }
+}
+
+static void declare_for_function(struct spell *spell)
+{
+    spell_structs(spell);
+    write_buffers(spell);
+    write_textures(spell);
+}
+
+static void declare(struct spell *spell)
+{
+    spell_text(spell, "// ");
+    spell_title(spell);
+    spell_text(spell, "\n\n");
+    spell_structs(spell);
+    write_buffers(spell);
+    write_lights(spell);
+    write_textures(spell);
+    if (reads_vertex_data(spell))
+        write_vertex_data(spell);
+    if (shares_vertex_data(spell))
+        SPELL(spell, "var<private> ", spell_frame_name(spell, "vd"), ": ",
+              spell_frame_name(spell, "VertexData"), ";\n");
+    if (is_called(spell))
+        write_results(spell, PHRASE_VARIABLE, 0);
+    else if (num_outputs(spell) > 1)
+        write_outputs(spell);
+}
+
+/* ---- Main ---- */
+
+static void open_vertex(struct spell *spell)
+{
+    const char *type = spell_frame_name(spell, "VertexData"), *vd = spell_frame_name(spell, "vd"),
+               *between = "";
+    spell_text(spell, "@vertex\nfn main(");
+    SPELL_EACH_OF_BLOCK(i, spell, BLOCK_APP_DATA)
+    {
+        const struct shader_variable *variable = spell_interface_variable(spell, i);
+        if (!spell_uses(spell, variable))
+            continue;
+        SPELL(spell, between, "\n    ");
+        text_fmt(spell->out, "@location(%u) ", (unsigned)variable->location);
+        spell_declare(spell, PHRASE_PLAIN, variable, own_name(spell, variable));
+        between = ",";
+    }
+    SPELL(spell, ") -> ", type, "\n{\n");
+    if (!shares_vertex_data(spell))
+        SPELL(spell, "    var ", vd, ": ", type, ";\n");
+}
+
+static void open_pixel(struct spell *spell)
+{
+    bool shares = shares_vertex_data(spell);
+    const char *vd = spell_frame_name(spell, "vd");
+    spell_text(spell, "@fragment\nfn main(");
+    if (reads_vertex_data(spell))
+        SPELL(spell, shares ? "vd_in" : vd, ": ", spell_frame_name(spell, "VertexData"));
+    spell_text(spell, num_outputs(spell) > 1   ? ") -> PixelOutputs"
+                      : num_outputs(spell) > 0 ? ") -> @location(0) "
+                                               : ")");
+    if (num_outputs(spell) == 1)
+        spell_type(spell, spell_interface_variable(
+                              spell, spell->shader->interface.first_of_block[BLOCK_OUTPUTS])
+                              ->type);
+    spell_text(spell, "\n{\n");
+    if (shares)
+        SPELL(spell, "    ", vd, " = vd_in;\n");
+    write_results(spell, PHRASE_LOCAL, 1);
+}
+
+static void open_main(struct spell *spell)
+{
+    if (is_called(spell))
+        SPELL(spell, "fn ", spell_frame_name(spell, spell->shader->role->entry), "()\n{\n");
+    else if (spell->stage_id == STAGE_VERTEX)
+        open_vertex(spell);
+    else
+        open_pixel(spell);
+}
+
+static void return_outputs(struct spell *spell)
+{
+    const char *between = num_outputs(spell) > 1 ? "PixelOutputs(" : "";
+    spell_text(spell, "    return ");
+    SPELL_EACH_OF_BLOCK(i, spell, BLOCK_OUTPUTS)
+    {
+        SPELL(spell, between, own_name(spell, spell_interface_variable(spell, i)).text);
+        between = ", ";
+    }
+    spell_text(spell, num_outputs(spell) > 1 ? ");\n" : ";\n");
+}
+
+static void close_main(struct spell *spell)
+{
+    if (!is_called(spell) && spell->stage_id == STAGE_VERTEX)
+        SPELL(spell, "    return ", spell_frame_name(spell, "vd"), ";\n");
+    else if (!is_called(spell) && num_outputs(spell))
+        return_outputs(spell);
+    spell_text(spell, "}\n");
+    wgsl_add_numbers(spell);
+}
+
+const struct target_frame wgsl_frame = {.declare = declare,
+                                        .open = open_main,
+                                        .close = close_main,
+                                        .declare_for_function = declare_for_function};
