@@ -163,7 +163,7 @@ static void test_overloads(void)
     REQUIRE(has(text, "fn twin(in x: f32) -> f32\n"));
     REQUIRE(has(text, "fn twin_2(in x: f32x2) -> f32\n"));
     REQUIRE(has(text, "y += twin(x) + twin_2(splat<f32x2>(x));\n"));
-    REQUIRE(has(text, "    val color: f32x3 = splat<f32x3>(twin(a));\n"));
+    REQUIRE(has(text, "    var color: f32x3 = splat<f32x3>(twin(a));\n"));
     REQUIRE(has(text, "    color += splat<f32x3>(twin_2(uv));\n"));
     REQUIRE(has(text, "    color += splat<f32x3>(both(a));\n"));
     fixture_close(&f);
