@@ -5,21 +5,6 @@
  */
 #include "generators/wgsl/wgsl.h"
 
-const char *wgsl_block_variable(struct spell *spell, enum shader_block block)
-{
-    if (block == BLOCK_PRIVATE_UNIFORMS)
-        return spell_frame_name(spell, "u_prv");
-    if (block == BLOCK_PUBLIC_UNIFORMS)
-        return spell_frame_name(spell, "u_pub");
-    if (block < BLOCK_OWN)
-        return NULL;
-    struct text name;
-    text_init(&name, spell->scratch);
-    text_fmt(&name, "u_%s", spell_frame_name(spell, shader_block_name(spell->shader, block)));
-    names_take(&spell->names, text_cstr(&name), name.len);
-    return text_cstr(&name);
-}
-
 static struct spell_name own_name(const struct spell *spell, const struct shader_variable *variable)
 {
     return spell_name_of(spell->shader->strings, variable->name);
@@ -57,7 +42,7 @@ static void write_buffer(struct spell *spell, enum shader_block block)
     write_members(spell, block);
     spell_text(spell, "}\n");
     write_binding(spell, buffer->set, buffer->binding);
-    SPELL(spell, "var<uniform> ", wgsl_block_variable(spell, block), ": ", type, ";\n");
+    SPELL(spell, "var<uniform> ", spell_instance(spell, block), ": ", type, ";\n");
 }
 
 static void write_buffers(struct spell *spell)

@@ -102,6 +102,9 @@ static const struct lang_syntax syntax = {
     .nan = WGSL_NAN,
 };
 
+static const char *const instances[NUM_BLOCKS] = {
+    [BLOCK_PRIVATE_UNIFORMS] = "u_prv", [BLOCK_PUBLIC_UNIFORMS] = "u_pub"};
+
 static const char *const versions[] = {"1", NULL};
 
 const struct target target_wgsl = {
@@ -116,7 +119,7 @@ const struct target target_wgsl = {
     .syntax = &syntax,
     .frame = &wgsl_frame,
     .form = wgsl_form,
-    .block_variable = wgsl_block_variable,
+    .instances = instances,
     .position = ".position",
     .stage_suffix = {"vert.wgsl", "frag.wgsl"},
 };

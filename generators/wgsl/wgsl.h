@@ -17,9 +17,6 @@ extern const struct target_frame wgsl_frame; /* frame.c */
 #define WGSL_INFINITY WGSL_PREFIX "infinity()"
 #define WGSL_NAN WGSL_PREFIX "nan()"
 
-/* Hook of struct target (frame.c). */
-const char *wgsl_block_variable(struct spell *spell, enum shader_block block);
-
 /* ---- forms.c ---- */
 
 /* Hook of struct target. */

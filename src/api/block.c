@@ -45,6 +45,10 @@ mxg_status mxg_result_block(const mxg_result *result, mxg_block block, mxg_block
 void block_write_words(const struct shader_variable *v, const union ir_word *words, char *to)
 {
     const struct ir_type_info *info = ir_type_info(v->type);
+    if (v->type == IR_TYPE_BOOL && v->size == 1) { /* PACKING_METAL */
+        *to = words->u != 0;
+        return;
+    }
     uint32_t columns = info->columns > 1 ? info->columns : 1, rows = info->components / columns;
     for (uint32_t i = 0; i < info->components; i++)
         memcpy(to + i / rows * v->matrix_stride + i % rows * sizeof *words, &words[i],

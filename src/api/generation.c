@@ -354,6 +354,7 @@ struct shader_layout_rules generation_layout_rules(const struct generation *g)
                   || ((caps & CAP_BLOCK_OPTION) && g->options[OPTION_uniform_blocks].number),
         .packing = g->result->target->packing,
         .bindings = caps & CAP_BINDINGS,
+        .own_numbers = caps & CAP_OWN_NUMBERS,
         .sampler_bindings = caps & CAP_SAMPLER_BINDINGS,
         .neutral_names = g->options[OPTION_names].number != 0,
         .one_stage = !(caps & CAP_VERTEX_STAGE),

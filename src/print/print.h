@@ -53,6 +53,7 @@ enum lang_phrase {
     PHRASE_DO_END,     /* the line after it: "} while ($0);" */
     PHRASE_INCREMENT,  /* "++$0" */
     PHRASE_DECREMENT,  /* "--$0" */
+    PHRASE_DISCARD,    /* ends a pixel without a result: "discard" */
     NUM_PHRASES
 };
 

@@ -93,6 +93,7 @@ static const char *const phrases[NUM_PHRASES] = {
     [PHRASE_DO_END] = "} while ($0);",
     [PHRASE_INCREMENT] = "++$0",
     [PHRASE_DECREMENT] = "--$0",
+    [PHRASE_DISCARD] = "discard",
 };
 
 static const char *const keywords[] = {

@@ -77,6 +77,25 @@ static void order_interface(struct shader *shader)
         assert(ends[block] == starts[block + 1]);
 }
 
+/* A column of a matrix or a vector: that of 3 is as large as that of 4. */
+static uint32_t metal_column(ir_type_id type)
+{
+    const struct ir_type_info *info = ir_type_info(type);
+    uint32_t rows = info->components / (uint32_t)(info->columns > 1 ? info->columns : 1);
+    return (info->scalar == IR_TYPE_BOOL ? 1u : 4u) * (rows == 3 ? 4 : rows);
+}
+
+static void place_in_struct(struct shader_buffer *buffer, struct shader_variable *variable)
+{
+    const uint32_t column = metal_column(variable->type),
+                   columns = ir_type_info(variable->type)->columns,
+                   element = column * (columns > 1 ? columns : 1);
+    variable->size = element * (variable->array_length ? variable->array_length : 1);
+    variable->offset = round_up(buffer->size, column);
+    variable->array_stride = variable->array_length ? element : 0;
+    variable->matrix_stride = columns > 1 ? column : 0;
+}
+
 static uint32_t next_offset(const struct shader_variable *variable, enum shader_packing packing,
                             uint32_t end)
 {
@@ -87,8 +106,8 @@ static uint32_t next_offset(const struct shader_variable *variable, enum shader_
     return end % STD140_ROUND + variable->size > STD140_ROUND ? round_up(end, STD140_ROUND) : end;
 }
 
-static void place_in_buffer(struct shader_buffer *buffer, enum shader_packing packing,
-                            struct shader_variable *variable)
+static void place_in_rows(struct shader_buffer *buffer, enum shader_packing packing,
+                          struct shader_variable *variable)
 {
     bool array = variable->array_length > 0, matrix = ir_type_is_matrix(variable->type);
     variable->size = std140_size(variable->type, variable->array_length);
@@ -98,6 +117,15 @@ static void place_in_buffer(struct shader_buffer *buffer, enum shader_packing pa
            || variable->offset == next_offset(variable, PACKING_STD140, buffer->size));
     variable->array_stride = array ? variable->size / variable->array_length : 0;
     variable->matrix_stride = matrix ? STD140_ROUND : 0;
+}
+
+static void place_in_buffer(struct shader_buffer *buffer, enum shader_packing packing,
+                            struct shader_variable *variable)
+{
+    if (packing == PACKING_METAL)
+        place_in_struct(buffer, variable);
+    else
+        place_in_rows(buffer, packing, variable);
     assert(variable->offset >= buffer->size && variable->size > 0);
     variable->set = buffer->set;
     variable->binding = buffer->binding;
@@ -152,6 +180,20 @@ static void place_uniform(struct shader *shader, struct shader_variable *variabl
                         shader->interface.rules.packing, variable);
 }
 
+/* The blocks of a shader in the order of MaterialX's generator: lights, private, public. */
+static void number_blocks(struct shader *shader)
+{
+    static const enum shader_block order[] = {BLOCK_LIGHT_DATA, BLOCK_PRIVATE_UNIFORMS,
+                                              BLOCK_PUBLIC_UNIFORMS};
+    uint32_t binding = shader->interface.rules.first_binding, count = sizeof order / sizeof *order;
+    for (uint32_t i = 0; i < count + MAX_OWN_BLOCKS; i++) {
+        uint32_t block = i < count ? (uint32_t)order[i] : BLOCK_OWN + i - count;
+        const uint32_t *first = shader->interface.first_of_block + block;
+        if (first[1] > first[0])
+            shader->interface.buffers[block].binding = binding++;
+    }
+}
+
 /* Own blocks follow the textures. */
 static void bind_own_blocks(struct shader *shader, uint32_t first_texture)
 {
@@ -164,23 +206,33 @@ static void bind_own_blocks(struct shader *shader, uint32_t first_texture)
             shader->interface.buffers[block].binding = binding++;
 }
 
+static void bind_blocks(struct shader *shader)
+{
+    const struct shader_layout_rules *rules = &shader->interface.rules;
+    const uint32_t first = rules->first_binding;
+    struct shader_buffer *buffers = shader->interface.buffers;
+    if (rules->own_numbers)
+        number_blocks(shader);
+    if (rules->own_numbers || !rules->bindings)
+        return;
+    for (int block = 0; block < NUM_BLOCKS; block++)
+        buffers[block].set = rules->set;
+    buffers[BLOCK_PRIVATE_UNIFORMS].binding = first + BINDING_PRIVATE;
+    buffers[BLOCK_PUBLIC_UNIFORMS].binding = first + BINDING_PUBLIC;
+    buffers[BLOCK_LIGHT_DATA].binding = first + BINDING_LIGHTS;
+    bind_own_blocks(shader, first + BINDING_FIRST_TEXTURE);
+}
+
 void shader_layout(struct shader *shader)
 {
     const struct shader_layout_rules *rules = &shader->interface.rules;
-    if (rules->packing == PACKING_CBUFFER)
+    if (rules->packing != PACKING_STD140)
         rank_light_members(shader);
     order_interface(shader);
     memset(shader->interface.buffers, 0, sizeof shader->interface.buffers);
-    if (rules->bindings) {
-        const uint32_t first = rules->first_binding;
-        for (int block = 0; block < NUM_BLOCKS; block++)
-            shader->interface.buffers[block].set = rules->set;
-        shader->interface.buffers[BLOCK_PRIVATE_UNIFORMS].binding = first + BINDING_PRIVATE;
-        shader->interface.buffers[BLOCK_PUBLIC_UNIFORMS].binding = first + BINDING_PUBLIC;
-        shader->interface.buffers[BLOCK_LIGHT_DATA].binding = first + BINDING_LIGHTS;
-        bind_own_blocks(shader, first + BINDING_FIRST_TEXTURE);
-    }
-    uint32_t texture = rules->first_binding + BINDING_FIRST_TEXTURE, location[NUM_BLOCKS] = {0};
+    bind_blocks(shader);
+    uint32_t texture = rules->first_binding + (rules->own_numbers ? 0 : BINDING_FIRST_TEXTURE),
+             location[NUM_BLOCKS] = {0};
     for (uint32_t i = 0; i < shader->interface.used.len; i++) {
         struct shader_variable *variable = shader_interface_variable(shader, i);
         switch ((enum shader_block)variable->block) {

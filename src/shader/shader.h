@@ -237,6 +237,11 @@ enum shader_packing {
      * leaves to packoffset and Vulkan asks for.
      */
     PACKING_CBUFFER,
+    /*
+     * Structs of Metal (Metal Shading Language Specification, section 2.2): those of C, where a
+     * vector of 3 has the size of one of 4, and a bool has one byte.
+     */
+    PACKING_METAL,
 };
 
 /* The needs of a target, from its table and the options. */
@@ -244,6 +249,7 @@ struct shader_layout_rules {
     bool blocks; /* uniforms stand in blocks */
     enum shader_packing packing;
     bool bindings;          /* sets and bindings are numbered, locations given */
+    bool own_numbers;       /* blocks and textures are numbered apart, and each without gaps */
     bool sampler_bindings;  /* the sampler of a texture has a binding of its own, the next one */
     bool neutral_names;     /* public variables are numbered: equal topology, equal names */
     bool one_stage;         /* there is no vertex stage */

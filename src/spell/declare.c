@@ -31,31 +31,52 @@ bool spell_uses(const struct spell *spell, const struct shader_variable *variabl
 
 /* ---- Names ---- */
 
+const char *spell_instance(const struct spell *spell, enum shader_block block)
+{
+    const char *const *instances = spell->target->instances;
+    if (!instances || (block < BLOCK_OWN && !instances[block]))
+        return NULL;
+    if (block < BLOCK_OWN)
+        return spell_frame_name(spell, instances[block]);
+    struct text text;
+    text_init(&text, spell->scratch);
+    text_fmt(&text, "u_%s", shader_block_name(spell->shader, block));
+    return spell_frame_name(spell, text_cstr(&text));
+}
+
 /* The text before the names of a block's variables; it ends with '.' if they are members. */
 static const char *member_prefix(struct spell *spell, enum shader_block block)
 {
-    struct text text;
     bool is_in_host_file = spell->shader->role->is_in_host_file;
-    const char *variable =
-        spell->target->block_variable ? spell->target->block_variable(spell, block) : NULL;
-    if (variable) {
-        text_init(&text, spell->scratch);
-        text_fmt(&text, "%s.", variable);
-        return text_cstr(&text);
-    }
     if (is_in_host_file && block == BLOCK_OUTPUTS)
         return "result.";
-    if (block != BLOCK_VERTEX_DATA || (is_in_host_file && !spell->shares_vertex_data))
+    if (is_in_host_file && block == BLOCK_VERTEX_DATA && !spell->shares_vertex_data)
         return "";
-    bool is_member = spell_can(spell, CAP_BLOCK_STAGE_IO) || is_in_host_file;
+    const char *instance = spell_instance(spell, block);
+    if (block == BLOCK_LIGHT_DATA || (!instance && block != BLOCK_VERTEX_DATA))
+        return "";
+    struct text text;
+    bool is_member = instance || spell_can(spell, CAP_BLOCK_STAGE_IO) || is_in_host_file;
     text_init(&text, spell->scratch);
-    text_fmt(&text, "%s%c", spell_frame_name(spell, "vd"), is_member ? '.' : '_');
+    text_fmt(&text, "%s%c", instance ? instance : spell_frame_name(spell, "vd"),
+             is_member ? '.' : '_');
     return text_cstr(&text);
+}
+
+/* The others are reserved words of the language. */
+static void take_own_instances(struct spell *spell)
+{
+    for (int i = 0; spell->target->instances && i < MAX_OWN_BLOCKS; i++) {
+        const char *name = spell_instance(spell, (enum shader_block)(BLOCK_OWN + i));
+        if (spell->shader->interface.own_blocks[i])
+            names_take(&spell->names, name, strlen(name));
+    }
 }
 
 void spell_name_interface(struct spell *spell)
 {
     names_take_frame(&spell->names, spell->shader);
+    take_own_instances(spell);
     const char *prefixes[NUM_BLOCKS];
     for (int block = 0; block < NUM_BLOCKS; block++)
         prefixes[block] = member_prefix(spell, (enum shader_block)block);

@@ -74,15 +74,18 @@ static void declare(struct spell *spell)
     spell_title(spell);
     spell_text(spell, "\n\n");
     spell->frame->declare_for_function(spell);
-    if (spell->stage->has_lights)
+    bool has_context = spell->frame->open_context != NULL;
+    if (spell->stage->has_lights && !has_context)
         declare_lights(spell);
     if (spell->shares_vertex_data) {
         const char *type = spell_frame_name(spell, "VertexData");
         open_struct(spell, type);
         write_members(spell, BLOCK_VERTEX_DATA);
         close_struct(spell);
-        write_variable(spell, PHRASE_VARIABLE, type, spell_frame_name(spell, "vd"));
-        spell_text(spell, ";\n");
+        if (!has_context) {
+            write_variable(spell, PHRASE_VARIABLE, type, spell_frame_name(spell, "vd"));
+            spell_text(spell, ";\n");
+        }
     }
     open_struct(spell, spell->shader->reflection.function_type);
     write_members(spell, BLOCK_OUTPUTS);

@@ -124,6 +124,8 @@ void spell_graph_function(struct spell *spell, const struct shader_function *fun
 /* ---- declare.c: declarations above the functions, for frames ---- */
 
 void spell_name_interface(struct spell *spell);
+/* The variable that has the variables of a block as members; NULL: there is none. */
+const char *spell_instance(const struct spell *spell, enum shader_block block);
 /* True if functions of the stage may read vertex data, which must then be at file scope. */
 bool spell_functions_read_vertex_data(const struct spell *spell);
 /* Loops over the positions of a block's variables in the interface. */

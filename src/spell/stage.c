@@ -2,6 +2,7 @@
 /* A stage of a C-like target, section by section: version, interface, functions, main. */
 #include "base/hash.h"
 #include "spell/spell.h"
+#include "tree/ast.h"
 
 #include <assert.h>
 
@@ -189,23 +190,64 @@ void spell_title(struct spell *spell)
     write_plural(spell->out, textures, "texture");
 }
 
+static bool is_variable(const struct spell *spell, uint32_t global)
+{
+    return shader_global_variable(spell->shader, global) != UINT32_MAX;
+}
+
+/* By position in the reach: whether a function reads variables of the interface. */
+static const bool *find_readers(const struct spell *spell)
+{
+    const struct lang_reach *reach = &spell->stage->reach;
+    const struct lang_unit *unit = spell->shader->unit, *layer;
+    bool *readers = ARENA_ARRAY(spell->scratch, bool, reach->functions.len + 1),
+         *by_id = ARENA_ARRAY(spell->scratch, bool, unit->base_functions + unit->functions.len + 1);
+    for (uint32_t i = 0; i < reach->functions.len; i++) {
+        uint32_t id = reach->functions.items[i];
+        const struct lang_function *fn = lang_function(unit, id, &layer);
+        for (uint32_t k = 0; k < fn->num_globals; k++)
+            readers[i] |= is_variable(spell, ast_globals(layer, fn)[k]);
+        for (uint32_t k = 0; k < fn->num_callees; k++)
+            readers[i] |= by_id[ast_callees(layer, fn)[k]];
+        by_id[id] = readers[i];
+    }
+    return readers;
+}
+
+static void write_function(struct spell *spell, uint32_t id)
+{
+    spell_function_doc(spell, id);
+    lang_print_function(spell->style, &spell->lang_names, spell->shader->unit, id, spell->out);
+    spell_text(spell, "\n");
+}
+
+/* Functions follow their callees: those that read nothing call nobody else. */
+static void write_portable_functions(struct spell *spell)
+{
+    const struct lang_reach *reach = &spell->stage->reach;
+    const bool *readers = spell->frame->open_context ? find_readers(spell) : NULL;
+    for (uint32_t i = 0; readers && i < reach->functions.len; i++)
+        if (!readers[i])
+            write_function(spell, reach->functions.items[i]);
+    if (readers)
+        spell->frame->open_context(spell);
+    for (uint32_t i = 0; i < reach->functions.len; i++)
+        if (!readers || readers[i])
+            write_function(spell, reach->functions.items[i]);
+}
+
 static void write_functions(struct spell *spell)
 {
     const struct lang_reach *reach = &spell->stage->reach;
     size_t before = spell->out->len;
     for (uint32_t i = 0; i < reach->globals.len; i++)
-        if (shader_global_variable(spell->shader, reach->globals.items[i]) == UINT32_MAX)
+        if (!is_variable(spell, reach->globals.items[i]))
             lang_print_constant(spell->style, &spell->lang_names, spell->shader->unit,
                                 reach->globals.items[i], spell->out);
     if (spell->out->len > before)
         spell_text(spell, "\n");
     spell_verbatim_sources(spell);
-    for (uint32_t i = 0; i < reach->functions.len; i++) {
-        spell_function_doc(spell, reach->functions.items[i]);
-        lang_print_function(spell->style, &spell->lang_names, spell->shader->unit,
-                            reach->functions.items[i], spell->out);
-        spell_text(spell, "\n");
-    }
+    write_portable_functions(spell);
     for (uint32_t i = 0; i < spell->stage->functions.len; i++)
         spell_graph_function(spell, &spell->stage->functions.items[i]);
 }
@@ -254,6 +296,8 @@ void spell_stage(struct spell *spell, enum shader_stage_id stage)
         frame->close(spell);
     else
         spell_text(spell, "}\n");
+    if (spell->frame->close_context)
+        spell->frame->close_context(spell);
     if (spell->out != out)
         join(spell, out, &body);
 }

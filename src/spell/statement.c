@@ -419,7 +419,7 @@ static void write_discard(struct spell *spell, unsigned indent, ir_ref condition
     if (condition)
         write_if(spell, indent++, condition, braces);
     open_line(spell, indent, 0);
-    spell_text(spell, "discard;\n");
+    SPELL(spell, spell->style->phrases[PHRASE_DISCARD], ";\n");
     if (!braces)
         return;
     open_line(spell, indent - 1, 0);

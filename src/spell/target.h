@@ -58,6 +58,13 @@ struct target_frame {
     /* writes the last lines of main, its brace and what follows it; NULL: the brace */
     void (*close)(struct spell *spell);
     /*
+     * For a language without variables at file scope: opens what has the variables of the interface
+     * as members. Constants, and functions that read none of these variables, stand above it; main
+     * and the other functions follow. A frame of a role has the hooks of its target here.
+     */
+    void (*open_context)(struct spell *spell);
+    void (*close_context)(struct spell *spell); /* after main; may not be NULL beside the other */
+    /*
      * Declares structs, uniforms and textures for a shader that is a function in a file of the host
      * (spell/function_frame.c); nothing that stands once per file.
      */
@@ -95,13 +102,14 @@ struct target {
      * lang_names)
      */
     const char *(*maker)(void *user_data, const char *type);
-    /*
-     * The variable whose members are the variables of a block: "u_pub". It is asked once for each
-     * block before functions and locals have names. NULL: they stand at file scope.
-     */
-    const char *(*block_variable)(struct spell *spell, enum shader_block block);
     enum shader_packing packing; /* of blocks of uniforms */
-    const char *position;        /* of a vertex; ".x": of the vertex data; NULL: gl_Position */
+    /*
+     * By block: the variable that has the block's variables as members, "u_pub" of u_pub.base.
+     * NULL, also for a block: they stand at file scope. Blocks of nodes in C have "u_" before their
+     * name.
+     */
+    const char *const *instances;
+    const char *position; /* of a vertex; ".x": of the vertex data; NULL: gl_Position */
     const char *stage_suffix[NUM_STAGES]; /* file endings: "vert", "frag" */
     /*
      * The type of a node's local, or of each result of a call, if it differs from the IR's type.

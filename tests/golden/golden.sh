@@ -14,8 +14,13 @@ golden=$(cd "$(dirname "$0")" && pwd)
 command -v oslc >/dev/null || skip 'without oslc no OSL is compiled'
 command -v glslangValidator >/dev/null || skip 'without glslangValidator no function of path tracers is compiled'
 [ -f "${MXGEN_SLANG:-}" ] || skip 'MXGEN_SLANG does not name slang-wasm.js: no Slang is compiled'
-compiles() { # TARGET
-    [ -n "$compile" ] && { [ "$1" != osl ] || command -v oslc >/dev/null; } && { [ "$1" != slang ] || [ -f "${MXGEN_SLANG:-}" ]; }
+compiles() { # TARGET; tests/msl compiles MSL, tests/wgsl WGSL
+    [ -n "$compile" ] || return
+    case $1 in
+        osl) command -v oslc >/dev/null ;;
+        slang) [ -f "${MXGEN_SLANG:-}" ] ;;
+        msl | wgsl) false ;;
+    esac
 }
 
 # same KEPT NEW: whether they are equal; with --update they are then.
@@ -69,7 +74,7 @@ check 'there are targets' test -n "$targets"
 for target in $targets; do # the shading models in every language
     check "models.mtlx has a run '$target'" ls "$golden/models.$target".standard_surface.*
 done
-for file in "$golden"/*.vert "$golden"/*.frag "$golden"/*.comp "$golden"/*.hlsl "$golden"/*.slang "$golden"/*.osl "$golden"/*.oslgroup "$golden"/*.json; do # what no run makes any more
+for file in "$golden"/*.vert "$golden"/*.frag "$golden"/*.comp "$golden"/*.{hlsl,slang,metal,wgsl,osl,oslgroup,json}; do # what no run makes any more
     [ -n "${kept[${file##*/}]:-}" ] && continue
     [ -n "$update" ] && rm -v "$file" || check "${file##*/} is made by a run" false
 done

@@ -41,6 +41,7 @@ static const char *const phrases[NUM_PHRASES] = {
     [PHRASE_DO_END] = "    until !($0); }",
     [PHRASE_INCREMENT] = "$0++",
     [PHRASE_DECREMENT] = "$0--",
+    [PHRASE_DISCARD] = "kill",
 };
 
 static const struct lang_form forms[IR_NUM_OPS] = {

@@ -666,6 +666,7 @@ static void check_infinities(const struct target *target)
     } spellings[] = {{"genglsl", "1e39", "(0.0 / 0.0)"},
                      {"genhlsl", "asfloat(0x7f800000u)", "asfloat(0x7fc00000u)"},
                      {"genslang", "asfloat(0x7f800000u)", "asfloat(0x7fc00000u)"},
+                     {"genmsl", "INFINITY", "NAN"},
                      {"genosl", "3.4028235e+38", "0.0"}};
     const float values[] = {INFINITY, -INFINITY, NAN};
     for (size_t i = 0; i < sizeof spellings / sizeof *spellings; i++) {

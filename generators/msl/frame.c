@@ -1,0 +1,344 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * The frame of a stage of MSL: structs of what is bound, the struct that has it all as members, and
+ * the function of the stage, which fills that struct.
+ *
+ * Bindings are those of MaterialX's generator: blocks have buffers from 0 on in the pixel stage,
+ * and behind the vertex attributes in the vertex stage. Textures and samplers have one number.
+ */
+#include "generators/msl/msl.h"
+
+static bool is_vertex(const struct spell *spell)
+{
+    return spell->stage_id == STAGE_VERTEX;
+}
+
+/* True for a function of other code, which fills the context. */
+static bool is_called(const struct spell *spell)
+{
+    return spell->shader->role->stages == STAGES_NONE;
+}
+
+static const char *entry_name(const struct spell *spell)
+{
+    const char *entry = is_called(spell)   ? spell->shader->role->entry
+                        : is_vertex(spell) ? "VertexMain"
+                                           : "FragmentMain";
+    return spell_frame_name(spell, entry);
+}
+
+/* ---- Structs ---- */
+
+static void write_member(struct spell *spell, const struct shader_variable *variable)
+{
+    spell_indent(spell, 1);
+    spell_declare(spell, PHRASE_PLAIN, variable,
+                  spell_name_of(spell->shader->strings, variable->name));
+}
+
+static void open_struct(struct spell *spell, const char *name)
+{
+    SPELL(spell, "struct ", spell_frame_name(spell, name), " {\n");
+}
+
+static void write_block(struct spell *spell, enum shader_block block)
+{
+    if (!spell_uses_block(spell, block))
+        return;
+    open_struct(spell, shader_block_name(spell->shader, block));
+    SPELL_EACH_OF_BLOCK(i, spell, block)
+    {
+        write_member(spell, spell_interface_variable(spell, i));
+        spell_text(spell, ";\n");
+    }
+    spell_text(spell, "};\n");
+}
+
+static void write_blocks(struct spell *spell)
+{
+    for (int block = 0; block < NUM_BLOCKS; block++)
+        if (shader_block_has_uniforms((enum shader_block)block))
+            write_block(spell, (enum shader_block)block);
+}
+
+static bool has_lights(const struct spell *spell)
+{
+    return spell->stage->has_lights && spell->shader->role->lights == LIGHTS_IN_SHADER;
+}
+
+/* Lights are 16 bytes or a multiple of it apart (docs/reflection.md). */
+static void write_lights(struct spell *spell)
+{
+    const char *type = spell_frame_name(spell, "LightData");
+    if (!has_lights(spell))
+        return;
+    SPELL(spell, "struct alignas(16) ", type, " {\n");
+    SPELL_EACH_OF_BLOCK(i, spell, BLOCK_LIGHT_DATA)
+    {
+        write_member(spell, spell_interface_variable(spell, i));
+        spell_text(spell, ";\n");
+    }
+    spell_text(spell, "};\n");
+    open_struct(spell, "LightData_pixel");
+    text_fmt(spell->out, "    %s %s[%u];\n};\n", type, spell_frame_name(spell, "u_lightData"),
+             (unsigned)spell->shader->interface.max_lights);
+}
+
+static void write_textures(struct spell *spell)
+{
+    static const char
+        plain[] = "struct MetalTexture {\n    texture2d<float> tex;\n    sampler s;\n};\n",
+        array[] =
+            "struct MetalTextureArray {\n    texture2d_array<float> tex;\n    sampler s;\n};\n";
+    bool has[2] = {false, false};
+    SPELL_EACH_OF_BLOCK(i, spell, BLOCK_TEXTURES)
+    {
+        const struct shader_variable *variable = spell_interface_variable(spell, i);
+        if (spell_uses(spell, variable))
+            has[variable->type == IR_TYPE_SAMPLER_ARRAY] = true;
+    }
+    if (has[0])
+        spell_once(spell, plain, sizeof plain - 1);
+    if (has[1])
+        spell_once(spell, array, sizeof array - 1);
+}
+
+static void write_inputs(struct spell *spell)
+{
+    open_struct(spell, "VertexInputs");
+    SPELL_EACH_OF_BLOCK(i, spell, BLOCK_APP_DATA)
+    {
+        const struct shader_variable *variable = spell_interface_variable(spell, i);
+        if (!spell_uses(spell, variable))
+            continue;
+        write_member(spell, variable);
+        text_fmt(spell->out, " [[attribute(%u)]];\n", (unsigned)variable->location);
+    }
+    spell_text(spell, "};\n");
+}
+
+/* Both stages declare the whole struct, also members that they do not read, so that they match. */
+static void write_vertex_data(struct spell *spell)
+{
+    open_struct(spell, "VertexData");
+    if (!is_called(spell))
+        spell_text(spell, "    float4 pos [[position]];\n");
+    SPELL_EACH_OF_BLOCK(i, spell, BLOCK_VERTEX_DATA)
+    {
+        const struct shader_variable *variable = spell_interface_variable(spell, i);
+        write_member(spell, variable);
+        const char *name = str_text(spell->shader->strings, variable->name);
+        if (!is_called(spell))
+            SPELL(spell, " [[user(", name, variable->flat ? "), flat]]" : ")]]");
+        spell_text(spell, ";\n");
+    }
+    spell_text(spell, "};\n");
+}
+
+/* Both sources of a blend have the first number. */
+static void write_color(struct spell *spell, const struct shader_variable *variable)
+{
+    bool is_second = variable->semantic == STR_transmittance;
+    text_fmt(spell->out, " [[color(%u)%s]]", is_second ? 0u : (unsigned)variable->location,
+             is_second ? ", index(1)" : "");
+}
+
+static void write_outputs(struct spell *spell)
+{
+    open_struct(spell, "PixelOutputs");
+    SPELL_EACH_OF_BLOCK(i, spell, BLOCK_OUTPUTS)
+    {
+        const struct shader_variable *variable = spell_interface_variable(spell, i);
+        write_member(spell, variable);
+        if (!is_called(spell))
+            write_color(spell, variable);
+        spell_text(spell, ";\n");
+    }
+    spell_text(spell, "};\n");
+}
+
+static void declare_for_function(struct spell *spell)
+{
+    spell_text(spell, "#include <metal_stdlib>\nusing namespace metal;\n\n");
+    spell_structs(spell);
+    for (uint32_t i = 0; i < spell->stage->reach.user_types.len; i++)
+        spell_name_maker(spell, spell->stage->reach.user_types.items[i]);
+    write_textures(spell);
+    write_blocks(spell);
+}
+
+static void declare(struct spell *spell)
+{
+    const char *version =
+        spell->options->version ? spell->options->version : spell->target->versions[0];
+    spell_text(spell, "// ");
+    spell_title(spell);
+    SPELL(spell, "\n// Metal Shading Language ", version, "\n");
+    declare_for_function(spell);
+    write_lights(spell);
+    if (is_vertex(spell))
+        write_inputs(spell);
+    write_vertex_data(spell);
+    if (!is_vertex(spell))
+        write_outputs(spell);
+}
+
+/* ---- What is bound: members of the context, and parameters of the function of the stage ---- */
+
+/* The number of vertex attributes, whose buffers stand before those of the blocks. */
+static uint32_t num_attributes(const struct spell *spell)
+{
+    uint32_t end = 0;
+    SPELL_EACH_OF_BLOCK(i, spell, BLOCK_APP_DATA)
+    {
+        const struct shader_variable *variable = spell_interface_variable(spell, i);
+        uint32_t next = variable->location + ir_type_info(variable->type)->columns;
+        if (is_vertex(spell) && spell_uses(spell, variable) && next > end)
+            end = next;
+    }
+    return end;
+}
+
+/* How a list writes what is bound. */
+enum list { MEMBERS, PARAMETERS, ARGUMENTS };
+
+static const char *const begins[] = {"    ", ",\n    ", ", "}, *const ends[] = {";\n", "", ""};
+
+static void list_block(struct spell *spell, enum list list, enum shader_block block)
+{
+    const char *instance = spell_instance(spell, block),
+               *type = block == BLOCK_LIGHT_DATA ? "LightData_pixel"
+                                                 : shader_block_name(spell->shader, block);
+    bool is_there = block == BLOCK_LIGHT_DATA
+                        ? has_lights(spell)
+                        : shader_block_has_uniforms(block) && spell_uses_block(spell, block);
+    if (!is_there)
+        return;
+    spell_text(spell, begins[list]);
+    if (list != ARGUMENTS)
+        SPELL(spell, "constant ", spell_frame_name(spell, type), "& ");
+    spell_text(spell, instance);
+    if (list == PARAMETERS)
+        text_fmt(
+            spell->out, " [[buffer(%u)]]",
+            (unsigned)(spell->shader->interface.buffers[block].binding + num_attributes(spell)));
+    spell_text(spell, ends[list]);
+}
+
+static void list_texture(struct spell *spell, enum list list,
+                         const struct shader_variable *variable)
+{
+    const char *name = str_text(spell->shader->strings, variable->name);
+    bool is_array = variable->type == IR_TYPE_SAMPLER_ARRAY;
+    unsigned number = variable->binding;
+    spell_text(spell, begins[list]);
+    if (list == MEMBERS)
+        SPELL(spell, is_array ? "MetalTextureArray " : "MetalTexture ", name);
+    else if (list == ARGUMENTS)
+        SPELL(spell, "{", name, "_tex, ", name, "_sampler}");
+    else
+        text_fmt(spell->out,
+                 "%s<float> %s_tex [[texture(%u)]],\n    sampler %s_sampler [[sampler(%u)]]",
+                 is_array ? "texture2d_array" : "texture2d", name, number, name, number);
+    spell_text(spell, ends[list]);
+}
+
+/* MaterialX's order: lights, textures, blocks. */
+static void list_bound(struct spell *spell, enum list list)
+{
+    list_block(spell, list, BLOCK_LIGHT_DATA);
+    SPELL_EACH_OF_BLOCK(i, spell, BLOCK_TEXTURES)
+    if (spell_uses(spell, spell_interface_variable(spell, i)))
+        list_texture(spell, list, spell_interface_variable(spell, i));
+    list_block(spell, list, BLOCK_PRIVATE_UNIFORMS);
+    list_block(spell, list, BLOCK_PUBLIC_UNIFORMS);
+    for (int block = BLOCK_OWN; block < NUM_BLOCKS; block++)
+        list_block(spell, list, (enum shader_block)block);
+}
+
+/* ---- The context ---- */
+
+/* The lights of the host's file, which has a struct with these two functions. */
+static void write_host_lights(struct spell *spell)
+{
+    spell_text(spell,
+               "    MxgLights lights;\n"
+               "    int mxg_light_count() { return lights.count(); }\n"
+               "    void mxg_light(int i, float3 P, thread float3& L, thread float3& radiance)\n"
+               "    {\n        lights.light(i, P, L, radiance);\n    }\n");
+}
+
+static void write_inputs_and_outputs(struct spell *spell)
+{
+    const char *vd = spell_frame_name(spell, "vd"),
+               *vertex_data = spell_frame_name(spell, "VertexData");
+    if (spell->shader->role->is_in_host_file) {
+        if (spell->shares_vertex_data)
+            SPELL(spell, "    ", vertex_data, " ", vd, ";\n");
+        return;
+    }
+    if (is_vertex(spell))
+        SPELL(spell, "    ", spell_frame_name(spell, "VertexInputs"), " ",
+              spell_instance(spell, BLOCK_APP_DATA), ";\n");
+    SPELL(spell, "    ", vertex_data, " ", vd, ";\n");
+    if (!is_vertex(spell))
+        SPELL(spell, "    ", spell_frame_name(spell, "PixelOutputs"), " ",
+              spell_instance(spell, BLOCK_OUTPUTS), ";\n");
+}
+
+static void open_context(struct spell *spell)
+{
+    open_struct(spell, "GlobalContext");
+    list_bound(spell, MEMBERS);
+    if (spell->stage->has_lights && spell->shader->role->lights == LIGHTS_OF_HOST)
+        write_host_lights(spell);
+    write_inputs_and_outputs(spell);
+    spell_text(spell, "\n");
+}
+
+static void open_main(struct spell *spell)
+{
+    SPELL(spell, "void ", entry_name(spell), "()\n{\n");
+}
+
+/* ---- The function of the stage ---- */
+
+static void write_parameters(struct spell *spell)
+{
+    SPELL(spell, "(\n    ",
+          spell_frame_name(spell, is_vertex(spell) ? "VertexInputs" : "VertexData"), " ",
+          is_vertex(spell) ? spell_instance(spell, BLOCK_APP_DATA) : spell_frame_name(spell, "vd"),
+          " [[stage_in]]");
+    list_bound(spell, PARAMETERS);
+    spell_text(spell, ")\n{\n");
+}
+
+static void close_context(struct spell *spell)
+{
+    spell_text(spell, "};\n");
+    if (is_called(spell))
+        return;
+    const char *entry = entry_name(spell);
+    SPELL(spell, "\n", is_vertex(spell) ? "vertex " : "fragment ",
+          spell_frame_name(spell, is_vertex(spell) ? "VertexData" : "PixelOutputs"), " ", entry);
+    write_parameters(spell);
+    SPELL(spell, "    ", spell_frame_name(spell, "GlobalContext"), " context = {");
+    size_t begin = spell->out->len;
+    list_bound(spell, ARGUMENTS);
+    if (spell->out->len > begin) { /* without the first comma */
+        memmove(spell->out->data + begin, spell->out->data + begin + 2,
+                spell->out->len - begin - 2);
+        spell->out->len -= 2;
+        spell_text(spell, ", ");
+    }
+    const char *vd = spell_frame_name(spell, "vd");
+    SPELL(spell, is_vertex(spell) ? spell_instance(spell, BLOCK_APP_DATA) : vd,
+          ", {}};\n    context.", entry, "();\n    return context.",
+          is_vertex(spell) ? vd : spell_instance(spell, BLOCK_OUTPUTS), ";\n}\n");
+}
+
+const struct target_frame msl_frame = {.declare = declare,
+                                       .open = open_main,
+                                       .open_context = open_context,
+                                       .close_context = close_context,
+                                       .declare_for_function = declare_for_function};

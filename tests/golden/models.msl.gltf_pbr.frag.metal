@@ -1,0 +1,718 @@
+// gltf_pbr · surfacematerial · mxgen 0.1 · msl · complete · 9 closures · 0 textures
+// Metal Shading Language 2.3
+#include <metal_stdlib>
+using namespace metal;
+
+struct mx_GgxLobe {
+    float3 N;
+    float cosine;
+    float3 x;
+    float2 alpha;
+    float masking;
+};
+struct mx_GgxSamples {
+    float3x3 to_map;
+    float3 stretch;
+    float area;
+    float3 v;
+    float masking;
+    float reach;
+    float step;
+    float texels;
+    float weight;
+};
+struct mx_GgxFacet {
+    float3 h;
+    float cosine;
+    float mirror;
+    float texels;
+};
+struct mx_GgxLight {
+    float3 color;
+    float weight;
+    float cosine;
+};
+struct MetalTexture {
+    texture2d<float> tex;
+    sampler s;
+};
+struct PublicUniforms {
+    float3 SR_gltf_pbr_base_color;
+    float SR_gltf_pbr_metallic;
+    float SR_gltf_pbr_roughness;
+    float SR_gltf_pbr_transmission;
+    float SR_gltf_pbr_specular;
+    float3 SR_gltf_pbr_specular_color;
+    float SR_gltf_pbr_ior;
+    float SR_gltf_pbr_alpha;
+    int SR_gltf_pbr_alpha_mode;
+    float SR_gltf_pbr_alpha_cutoff;
+    float SR_gltf_pbr_iridescence;
+    float SR_gltf_pbr_iridescence_ior;
+    float SR_gltf_pbr_iridescence_thickness;
+    float3 SR_gltf_pbr_sheen_color;
+    float SR_gltf_pbr_sheen_roughness;
+    float SR_gltf_pbr_clearcoat;
+    float SR_gltf_pbr_clearcoat_roughness;
+    float3 SR_gltf_pbr_emissive;
+    float SR_gltf_pbr_emissive_strength;
+    float SR_gltf_pbr_anisotropy_strength;
+    float SR_gltf_pbr_anisotropy_rotation;
+};
+struct PrivateUniforms {
+    float4x4 u_worldMatrix;
+    float4x4 u_worldInverseTransposeMatrix;
+    float4x4 u_viewProjectionMatrix;
+    float3 u_viewPosition;
+    int u_numActiveLightSources;
+    float4x4 u_envMatrix;
+    int u_envRadianceMips;
+    int u_envRadianceSamples;
+    float u_envLightIntensity;
+    float u_alphaThreshold;
+    bool u_refractionTwoSided;
+};
+struct alignas(16) LightData {
+    float3 direction;
+    float3 color;
+    float3 position;
+    int type;
+    float intensity;
+    float decay_rate;
+    float inner_angle;
+    float outer_angle;
+};
+struct LightData_pixel {
+    LightData u_lightData[3];
+};
+struct VertexData {
+    float4 pos [[position]];
+    float3 positionWorld [[user(positionWorld)]];
+    float3 normalWorld [[user(normalWorld)]];
+    float3 tangentWorld [[user(tangentWorld)]];
+};
+struct PixelOutputs {
+    float4 out1 [[color(0)]];
+};
+
+mx_GgxLobe make_mx_GgxLobe(float3 N, float cosine, float3 x, float2 alpha, float masking)
+{
+    mx_GgxLobe made;
+    made.N = N;
+    made.cosine = cosine;
+    made.x = x;
+    made.alpha = alpha;
+    made.masking = masking;
+    return made;
+}
+
+mx_GgxFacet make_mx_GgxFacet(float3 h, float cosine, float mirror, float texels)
+{
+    mx_GgxFacet made;
+    made.h = h;
+    made.cosine = cosine;
+    made.mirror = mirror;
+    made.texels = texels;
+    return made;
+}
+
+mx_GgxSamples make_mx_GgxSamples(float3x3 to_map, float3 stretch, float area, float3 v, float masking, float reach,
+    float step, float texels, float weight)
+{
+    mx_GgxSamples made;
+    made.to_map = to_map;
+    made.stretch = stretch;
+    made.area = area;
+    made.v = v;
+    made.masking = masking;
+    made.reach = reach;
+    made.step = step;
+    made.texels = texels;
+    made.weight = weight;
+    return made;
+}
+
+float3x3 cut_3(float4x4 m)
+{
+    return float3x3(m[0].xyz, m[1].xyz, m[2].xyz);
+}
+
+mx_GgxLight make_mx_GgxLight(float3 color, float weight, float cosine)
+{
+    mx_GgxLight made;
+    made.color = color;
+    made.weight = weight;
+    made.cosine = cosine;
+    return made;
+}
+
+// A cubic polynomial of x and y with the coefficients m, to which directional albedos are fitted.
+float mx_bicubic(float4x4 m, float x, float y)
+{
+    return dot(float4(1.0, x, x * x, x * x * x), m * float4(1.0, y, y * y, y * y * y));
+}
+
+// The light that a white GGX lobe of roughness a reflects at the viewer's cosine c (x), and the mean of (1 - cos)^5
+// over it (y); u is a / (a + c).
+float2 mx_ggx_albedo_fit(float a, float u, float c)
+{
+    float x = clamp(1.0 - c - a * mx_bicubic(float4x4(-0.2006, 5.2916, -3.7565, 0.218, -10.2439, 6.6203, -0.9657,
+        2.5694, 38.3042, -80.8059, 71.731, -28.5214, -34.2, 89.1079, -88.4065, 33.782), u, a), 0.0, 1.0);
+    return float2(min(1.0046 - u * mx_bicubic(float4x4(-0.1447, 2.759, -5.4314, 2.8497, -0.9366, 1.4766, 0.5911,
+        -1.0905, 11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u, a), 1.0), x * x * x * x
+        * x);
+}
+
+// Light of one polarisation that interferes in a film, as Gaussian i of the CIE curves sees it: `a` is the amplitude of
+// the film's own interface, r the complex one of the interface below, and light in the film goes further by d / (2 pi)
+// micrometres (Belcour and Barla 2017, section 3.3).
+float mx_film_light(float a, float2 r, float d, int i)
+{
+    float4 gaussian = float4x4(1.681, 0.84659, -0.0043278, 1.0, 2.2399, 0.153868, -0.0045282, 0.0, 1.7953, 1.000222,
+        -0.0093046, 1.0, 2.2084, 1.001122, -0.0066121, 1.0)[i];
+    float c = cos(gaussian.x * d);
+    float s = sin(gaussian.x * d);
+    float decay = exp(gaussian.z * d * d);
+    float x = r.x * c - r.y * s;
+    float y = r.x * s + r.y * c;
+    float r23 = dot(r, r);
+    float t = 1.0 - a * a;
+    float even = t * t * r23 / (1.0 - a * a * r23);
+    return gaussian.w * (a * a + even) + 2.0 * (even - t)
+        * (gaussian.y * decay * a * (a * (decay * decay * decay) * (x * x - y * y) - x));
+}
+
+// Amplitudes of an interface of reflectance f below a film of index `ior`: negative where f0 says that the index behind
+// the film is lower.
+float3 mx_film_turned(float3 f0, float3 f_, float ior)
+{
+    return (1.0 - 2.0 * step(sqrt(clamp(f0, 0.01, 0.99)), float3((ior - 1.0) / (ior + 1.0))))
+        * sqrt(max(0.5 * f_, 0.0));
+}
+
+// Reflectance, facing the viewer, of a film on an interface of colour f0.
+float3 mx_film_schlick_facing(float3 f0, float film, float film_ior)
+{
+    float ior = max(film_ior, 1.0);
+    float a = (1.0 - ior) / (1.0 + ior);
+    float d = 0.012566372 * ior * film;
+    float3 r = mx_film_turned(f0, f0, ior);
+    float3 xyz = float3(0.0);
+    for (int i = 0; i < 4; ++i) {
+        int channel = max(i - 1, 0);
+        xyz[channel] += mx_film_light(a, float2(-r[channel], 0.0), d, i);
+    }
+    return clamp(float3x3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814,
+        1.0093968) * xyz, 0.0, 1.0);
+}
+
+// Reflectance, facing the viewer, of an interface.
+// Here model = "schlick", k = float3(0.0).
+float3 mx_fresnel_facing(float3 n, float film, float film_ior)
+{
+    if (film > 0.0)
+        return mx_film_schlick_facing(n, film, film_ior);
+    return n;
+}
+
+// The square of the length of the facet's normal H after the roughness divided its parts along the surface, times the
+// product of the roughness along x and y; cos_h is its part along N.
+// Here is_round = true, is_wide = false.
+float mx_ggx_stretched(mx_GgxLobe lobe, float3 H, float cos_h)
+{
+    float3 slope = H - cos_h * lobe.N;
+    return dot(slope, slope) + lobe.alpha.x * lobe.alpha.y * (cos_h * cos_h);
+}
+
+// The GGX lobe towards the light L, without Fresnel's factor: distribution, visibility and the cosine over one divisor.
+// Here is_round = true, is_wide = false.
+float mx_ggx_light(mx_GgxLobe lobe, float3 V, float3 L)
+{
+    float area = lobe.alpha.x * lobe.alpha.y;
+    float cos_l = max(dot(lobe.N, L), 1e-8);
+    float square = 2.0 + 2.0 * dot(V, L);
+    float e = mx_ggx_stretched(lobe, V + L, lobe.cosine + dot(lobe.N, L));
+    return area / 6.2831855 * square * square * cos_l
+        / (e * e * (lobe.cosine * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * lobe.masking));
+}
+
+// Unpolarised reflectance of an interface whose squared index is `re`, with c for the cosine in front of it:
+//     F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2
+//     s = 1 - c^2,  g^2 = c^2 + 2k,  2k = re - 1
+float mx_fresnel_permittivity(float cosine, float re)
+{
+    float k = 0.5 * (re - 1.0);
+    float c2 = max(cosine * cosine, -2.0 * k);
+    float s = 1.0 - c2;
+    float cg2 = c2 * (c2 + 2.0 * k);
+    float r = k / max((1.0 + k) * (c2 + sqrt(cg2)) + k, 1e-8);
+    return (cg2 + s * s) * (r * r);
+}
+
+// Schlick's curve from f0 to f90 at a cosine, less `bend` times cos (1 - cos)^6.
+// Here bend = float3(0.0), exponent = 5.0.
+float3 mx_fresnel_schlick(float cosine, float3 f0, float3 f90)
+{
+    float x = 1.0 - cosine;
+    return mix(f0, f90, x * x * x * x * x);
+}
+
+// Amplitudes of a film's own interface, of perpendicular and parallel light; `inside` is the cosine in the film.
+float2 mx_film_amplitudes(float cosine, float inside, float ior)
+{
+    float2 x = float2(cosine, ior * cosine);
+    float2 u = float2(ior * inside, inside);
+    return (x - u) / (x + u);
+}
+
+// Reflectance of a film on an interface with Schlick's curve.
+// Here bend = float3(0.0), exponent = 5.0.
+float3 mx_film_schlick(float cosine, float3 f0, float3 f90, float film, float film_ior)
+{
+    float ior = max(film_ior, 1.0);
+    float c = sqrt(1.0 - (1.0 - cosine * cosine) / (ior * ior));
+    float2 a = mx_film_amplitudes(cosine, c, ior);
+    float d = 0.012566372 * ior * c * film;
+    float3 r = mx_film_turned(f0, mx_fresnel_schlick(c, f0, f90), ior);
+    float3 xyz = float3(0.0);
+    for (int i = 0; i < 4; ++i) {
+        int channel = max(i - 1, 0);
+        float below = r[channel];
+        for (int p = 0; p < 2; ++p) {
+            below = -below;
+            xyz[channel] += mx_film_light(a[p], float2(below, 0.0), d, i);
+        }
+    }
+    return clamp(float3x3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814,
+        1.0093968) * (0.5 * xyz), 0.0, 1.0);
+}
+
+// Reflectance of an interface at a cosine.
+// Here model = "schlick", k = float3(0.0), exponent = 5.0.
+float3 mx_fresnel(float cosine, float3 n, float3 f90, float film, float film_ior)
+{
+    if (film > 0.0)
+        return mx_film_schlick(cosine, n, f90, film, film_ior);
+    return mx_fresnel_schlick(cosine, n, f90);
+}
+
+// The vector v turned clockwise around an axis of unit length, by an angle in radians (Rodrigues' formula).
+float3 mx_rotate3d(float3 v, float angle, float3 axis)
+{
+    float c = cos(angle);
+    return v * c + cross(v, axis) * sin(angle) + axis * (dot(axis, v) * (1.0 - c));
+}
+
+// cos (1 + 2 Lambda) of a direction for GGX; `area` is the product of the roughness along x and y (Heitz 2014,
+// "Understanding the Masking-Shadowing Function", equation 72).
+float mx_ggx_masking(float cosine, float area)
+{
+    return sqrt(area + (1.0 - area) * (cosine * cosine));
+}
+
+// The GGX lobe of a surface as lights see it; roughness is that along X and across, squared.
+// Here is_round = false.
+mx_GgxLobe mx_ggx_lobe(float2 roughness, float3 N, float3 X, float3 V)
+{
+    float2 alpha = clamp(roughness, 1e-8, 1.0);
+    float cosine = max(abs(dot(N, V)), 1e-8);
+    return make_mx_GgxLobe(faceforward(N, -V, N), cosine, normalize(X - dot(X, N) * N), alpha,
+        mx_ggx_masking(cosine, alpha.x * alpha.y));
+}
+
+// The square of the length of the facet's normal H after the roughness divided its parts along the surface, times the
+// product of the roughness along x and y; cos_h is its part along N.
+// Here is_round = false, is_wide = false.
+float mx_ggx_stretched_2(mx_GgxLobe lobe, float3 H, float cos_h)
+{
+    float2 parts = float2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha;
+    return lobe.alpha.x * lobe.alpha.y * (dot(parts, parts) + cos_h * cos_h);
+}
+
+// The GGX lobe towards the light L, without Fresnel's factor: distribution, visibility and the cosine over one divisor.
+// Here is_round = false, is_wide = false.
+float mx_ggx_light_2(mx_GgxLobe lobe, float3 V, float3 L)
+{
+    float area = lobe.alpha.x * lobe.alpha.y;
+    float cos_l = max(dot(lobe.N, L), 1e-8);
+    float square = 2.0 + 2.0 * dot(V, L);
+    float e = mx_ggx_stretched_2(lobe, V + L, lobe.cosine + dot(lobe.N, L));
+    return area / 6.2831855 * square * square * cos_l
+        / (e * e * (lobe.cosine * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * lobe.masking));
+}
+
+// The angle, over pi, with this sine and cosine; the cosine is not negative. It errs by 2.9e-5 at most.
+float mx_half_turn(float sine, float cosine)
+{
+    return sine * (0.4999709 + cosine * (cosine * (0.2302802 + cosine * (0.0398298 * cosine - 0.1351235)) - 0.3164252));
+}
+
+// The square of the distance of the unit direction d from the vertical axis, never 0.
+float mx_map_square(float3 d)
+{
+    return d.x * d.x + (d.z * d.z + 1e-16);
+}
+
+// The point of the latitude-longitude picture for the unit direction d, to a tenth of a texel in 4096.
+float2 mx_map_point(float3 d)
+{
+    float square = mx_map_square(d);
+    float stretch = rsqrt(square);
+    return float2(fract((d.z > 0.0 ? -0.5 : 0.5) * (mx_half_turn(d.x * stretch, abs(d.z) * stretch) + 0.5) + 0.25), 0.5
+        - mx_half_turn(d.y, square * stretch));
+}
+
+// The GGX lobe of a surface as lights see it; roughness is that along X and across, squared.
+// Here is_round = true.
+mx_GgxLobe mx_ggx_lobe(float2 roughness, float3 N, float3 V)
+{
+    float2 alpha = clamp(roughness, 1e-8, 1.0);
+    float cosine = max(abs(dot(N, V)), 1e-8);
+    return make_mx_GgxLobe(faceforward(N, -V, N), cosine, float3(0.0), alpha,
+        mx_ggx_masking(cosine, alpha.x * alpha.y));
+}
+
+// Height-correlated masking and shadowing G2 over 2 cos_v cos_l (Heitz 2014, equation 99); `masking` is that of the
+// viewer.
+float mx_ggx_visibility(float cos_v, float masking, float area, float cos_l)
+{
+    return 1.0 / (cos_v * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * masking);
+}
+
+// A normal of those visible from v, at any length (Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with Spherical
+// Caps"): v is stretched by the roughness and has the length `reach`, `around` is (cos, sin) of the turn around z, and
+// `depth` how far the normal lies below the top of the cap, v.z + reach at most.
+float3 mx_ggx_cap(float2 around, float depth, float3 v, float reach)
+{
+    return v + float3(sqrt(depth * (2.0 * reach - depth)) * around, reach - depth);
+}
+
+// The facet of sample i. Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further
+// around than the one before, by its `turn`.
+mx_GgxFacet mx_ggx_facet(mx_GgxSamples s, int i, float2 turn)
+{
+    float3 h = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.v * s.stretch, s.reach) * s.stretch;
+    float cosine = dot(s.v, h);
+    float mirror = 2.0 * cosine / dot(h, h);
+    return make_mx_GgxFacet(h, cosine, mirror, mirror * mirror * s.texels);
+}
+
+// Direction of the ray -v after it entered a solid sphere of index `ior` at the normal h, and left it again.
+float3 mx_refract_sphere(float3 v, float3 h, float ior)
+{
+    float3 inside = refract(-v, h, 1.0 / ior);
+    return refract(inside, normalize(inside * dot(inside, h) - 0.5 * h), ior);
+}
+
+struct GlobalContext {
+    constant LightData_pixel& u_lightData;
+    MetalTexture u_envRadiance;
+    MetalTexture u_envIrradiance;
+    constant PrivateUniforms& u_prv;
+    constant PublicUniforms& u_pub;
+    VertexData vd;
+    PixelOutputs out;
+
+// The GGX lobe of a surface as samples of the environment see it.
+// Here is_round = true.
+mx_GgxSamples mx_ggx_samples(float2 roughness, float3 N, float3 V)
+{
+    mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, V);
+    float3 x = normalize(V - lobe.cosine * lobe.N + 1e-6 * lobe.N.yzx);
+    float3 v = float3(sqrt(max(1.0 - lobe.cosine * lobe.cosine, 0.0)), 0.0, lobe.cosine);
+    float3 stretch = float3(lobe.alpha, 1.0);
+    float reach = lobe.masking;
+    float area = stretch.x * stretch.y;
+    float share = 1.0 / float(max(u_prv.u_envRadianceSamples, 1));
+    float weight = share * (v.z + lobe.masking);
+    return make_mx_GgxSamples(cut_3(u_prv.u_envMatrix) * float3x3(x, cross(lobe.N, x), lobe.N), stretch, area, v,
+        lobe.masking, reach, share * (v.z + reach), area * weight * exp2(2.0 * float(u_prv.u_envRadianceMips) - 2.3485),
+        u_prv.u_envLightIntensity * weight);
+}
+
+// Light of the environment from the unit direction d of its picture, filtered over as many texels.
+float3 mx_filtered_light(float3 d, float texels)
+{
+    return u_envRadiance.tex.sample(u_envRadiance.s, mx_map_point(d),
+        level(0.5 * log2(texels * rsqrt(mx_map_square(d))))).xyz;
+}
+
+// The light that the facet of sample i reflects.
+mx_GgxLight mx_ggx_reflected(mx_GgxSamples s, int i, float2 turn)
+{
+    mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
+    float3 l = facet.mirror * facet.h - s.v;
+    float cos_l = max(l.z, 1e-8);
+    return make_mx_GgxLight(mx_filtered_light(s.to_map * l, facet.texels), s.weight * cos_l
+        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l),
+        sqrt(clamp(0.5 * (facet.mirror * facet.cosine), 1e-8, 1.0)));
+}
+
+// The GGX lobe of a surface as samples of the environment see it.
+// Here is_round = false.
+mx_GgxSamples mx_ggx_samples(float2 roughness, float3 N, float3 X, float3 V)
+{
+    mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, X, V);
+    float3 x = lobe.x;
+    float3x3 frame = float3x3(x, cross(lobe.N, x), lobe.N);
+    float3 v = float3((V * frame).xy, lobe.cosine);
+    float3 stretch = float3(lobe.alpha, 1.0);
+    float reach = length(v * stretch);
+    float area = stretch.x * stretch.y;
+    float share = 1.0 / float(max(u_prv.u_envRadianceSamples, 1));
+    float weight = share * (v.z + lobe.masking);
+    return make_mx_GgxSamples(cut_3(u_prv.u_envMatrix) * frame, stretch, area, v, lobe.masking, reach, share
+        * (v.z + reach), area * weight * exp2(2.0 * float(u_prv.u_envRadianceMips) - 2.3485), u_prv.u_envLightIntensity
+        * weight);
+}
+
+// The light that comes to the facet of sample i through a solid sphere of index `ior` behind it.
+mx_GgxLight mx_ggx_transmitted(mx_GgxSamples s, float ior, int i, float2 turn)
+{
+    mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
+    float3 h = normalize(facet.h);
+    return make_mx_GgxLight(mx_filtered_light(s.to_map * mx_refract_sphere(s.v, h, ior), facet.texels), s.weight * 0.5
+        / s.v.z, clamp(dot(s.v, h), 1e-8, 1.0));
+}
+
+void FragmentMain()
+{
+    float3 color = u_pub.SR_gltf_pbr_emissive * u_pub.SR_gltf_pbr_emissive_strength;
+    // lights
+    float3 N = normalize(vd.normalWorld);
+    float3 V = normalize(u_prv.u_viewPosition - vd.positionWorld);
+    // SR_gltf_pbr
+    float3 Nf = faceforward(N, -V, N);
+    float ior = u_pub.SR_gltf_pbr_ior;
+    float amplitude = (1.0 - ior) / (ior + 1.0);
+    float3 fresnel_f0 = max(u_pub.SR_gltf_pbr_specular
+        * min(u_pub.SR_gltf_pbr_specular_color * (amplitude * amplitude), 1.0), 0.0);
+    float3 f90 = float3(max(u_pub.SR_gltf_pbr_specular, 0.0));
+    float alpha_bitangent = u_pub.SR_gltf_pbr_roughness * u_pub.SR_gltf_pbr_roughness;
+    float2 specular_roughness = clamp(float2(mix(alpha_bitangent, 1.0, u_pub.SR_gltf_pbr_anisotropy_strength
+        * u_pub.SR_gltf_pbr_anisotropy_strength), alpha_bitangent), 0.00001, 1.0);
+    float2 alpha = clamp(specular_roughness, 1e-8, 1.0);
+    float a = sqrt(alpha.x * alpha.y);
+    float cos_v = max(abs(dot(N, V)), 1e-8);
+    float2 albedo = mx_ggx_albedo_fit(a, a / (cos_v + a), cos_v);
+    float3 product = mix(fresnel_f0, f90, albedo.y) * albedo.x;
+    float difference = 1.0 / albedo.x - 1.0;
+    float3 reflection_scale = difference * mix(fresnel_f0, f90, 0.04761905) + float3(1.0);
+    float reflection_throughput = 1.0 - dot(product * reflection_scale, float3(0.33333334));
+    float iridescence_thickness = u_pub.SR_gltf_pbr_iridescence_thickness;
+    float iridescence_ior = u_pub.SR_gltf_pbr_iridescence_ior;
+    float3 reflection_film_scale = mix(mx_fresnel_facing(fresnel_f0, iridescence_thickness, iridescence_ior), f90,
+        0.04761905) * difference + float3(1.0);
+    float coat_lobe = clamp(u_pub.SR_gltf_pbr_clearcoat_roughness * u_pub.SR_gltf_pbr_clearcoat_roughness, 1e-8, 1.0);
+    float2 coating_albedo = mx_ggx_albedo_fit(coat_lobe, coat_lobe / (coat_lobe + cos_v), cos_v);
+    float coating_scale = (1.0 / coating_albedo.x - 1.0) * 0.08571429 + 1.0;
+    float coating_throughput = 1.0 - u_pub.SR_gltf_pbr_clearcoat
+        * (mix(0.04, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale);
+    float sheen_weight = max(max(u_pub.SR_gltf_pbr_sheen_color.x, u_pub.SR_gltf_pbr_sheen_color.y),
+        u_pub.SR_gltf_pbr_sheen_color.z);
+    float sheen_rough = u_pub.SR_gltf_pbr_sheen_roughness * u_pub.SR_gltf_pbr_sheen_roughness;
+    float sheen_albedo = clamp(mx_bicubic(float4x4(3.7341, -15.9587, 23.621, -11.0989, -8.2265, 35.1081, -49.7137,
+        23.2945, 4.0691, -17.882, 25.6639, -12.0167, -0.5833, 2.6552, -3.9393, 1.8999), 1.0 / (cos_v + 1.0), 1.0
+        / (sheen_rough + 0.2)), 0.0, 1.0);
+    float substrate_weight = coating_throughput * (1.0 - sheen_weight * sheen_albedo);
+    float body_weight = mix(reflection_throughput, 1.0 - dot(product * reflection_film_scale, float3(0.33333334)),
+        u_pub.SR_gltf_pbr_iridescence) * substrate_weight;
+    float dielectric_weight = 1.0 - u_pub.SR_gltf_pbr_metallic;
+    float diffuse_weight = dielectric_weight * (1.0 - u_pub.SR_gltf_pbr_transmission);
+    float3 diffuse_product = u_pub.SR_gltf_pbr_base_color * (body_weight * diffuse_weight * 0.31830987);
+    float ggx_masking = sqrt(coat_lobe * coat_lobe + (1.0 - coat_lobe * coat_lobe) * (cos_v * cos_v));
+    mx_GgxLobe coating_vector = make_mx_GgxLobe(Nf, cos_v, float3(0.0), float2(coat_lobe), ggx_masking);
+    float s = 1.0 / max(sheen_rough, 0.005);
+    float3 fuzz_product = u_pub.SR_gltf_pbr_sheen_color / sheen_weight * (sheen_weight * coating_throughput);
+    float metal_film_weight = u_pub.SR_gltf_pbr_metallic * u_pub.SR_gltf_pbr_iridescence;
+    float3 fresnel_facing = max(u_pub.SR_gltf_pbr_base_color, 0.0);
+    float3 metal_film_product = (difference
+        * mix(mx_fresnel_facing(fresnel_facing, iridescence_thickness, iridescence_ior), float3(1.0), 0.04761905)
+        + float3(1.0)) * (substrate_weight * metal_film_weight);
+    float3 specular_tangent = mx_rotate3d(normalize(vd.tangentWorld),
+        (u_pub.SR_gltf_pbr_anisotropy_rotation * -57.29578) * 0.017453292, N);
+    mx_GgxLobe lobe = mx_ggx_lobe(specular_roughness, N, specular_tangent, V);
+    float metal_bare_weight = u_pub.SR_gltf_pbr_metallic * (1.0 - u_pub.SR_gltf_pbr_iridescence);
+    float3 metal_bare_product = (difference * mix(fresnel_facing, float3(1.0), 0.04761905) + float3(1.0))
+        * (substrate_weight * metal_bare_weight);
+    bool reflection_film_visible = u_pub.SR_gltf_pbr_iridescence * dielectric_weight > 0.0;
+    float3 reflection_film_product = reflection_film_scale
+        * (substrate_weight * (u_pub.SR_gltf_pbr_iridescence * dielectric_weight));
+    float reflection_weight = dielectric_weight * (1.0 - u_pub.SR_gltf_pbr_iridescence);
+    float3 reflection_product = reflection_scale * (substrate_weight * reflection_weight);
+    // from the last light, so that drivers do not unroll the loop
+    for (int i = min(u_prv.u_numActiveLightSources, 3) - 1; i >= 0; --i) {
+        float3 L;
+        float intensity;
+        int light_type = u_lightData.u_lightData[i].type;
+        if (light_type == 1) {
+            L = -u_lightData.u_lightData[i].direction;
+            intensity = u_lightData.u_lightData[i].intensity;
+        } else {
+            float3 d = u_lightData.u_lightData[i].position - vd.positionWorld;
+            float3 to_light = normalize(d);
+            L = to_light;
+            float ratio = u_lightData.u_lightData[i].intensity
+                / pow(length(d) + 1.0, u_lightData.u_lightData[i].decay_rate);
+            if (light_type == 2) {
+                intensity = ratio;
+            } else {
+                float spot_light_difference = min(u_lightData.u_lightData[i].inner_angle,
+                    u_lightData.u_lightData[i].outer_angle) - 0.00001;
+                intensity = light_type == 3
+                    ? smoothstep(spot_light_difference, u_lightData.u_lightData[i].inner_angle,
+                    -dot(u_lightData.u_lightData[i].direction, to_light)) * ratio : 0.0;
+            }
+        }
+        // diffuse
+        float3 light_color = u_lightData.u_lightData[i].color;
+        float l_dot_nf = dot(L, Nf);
+        float cos_l = max(l_dot_nf, 1e-8);
+        color += light_color * (intensity * (cos_l * diffuse_product));
+        // coating
+        float v_dot_l = dot(V, L);
+        float cosine = sqrt(clamp(v_dot_l * 0.5 + 0.500001, 0.0, 1.0));
+        if (u_pub.SR_gltf_pbr_clearcoat > 0.0) {
+            float coating_product = mx_fresnel_permittivity(cosine, 2.25)
+                * (u_pub.SR_gltf_pbr_clearcoat * coating_scale);
+            color += light_color * (intensity * (mx_ggx_light(coating_vector, V, L) * coating_product));
+        }
+        // fuzz
+        if (sheen_weight > 0.0) {
+            float scaled_along = (cos_v + l_dot_nf) * (cos_v + l_dot_nf);
+            float fuzz_product_2 = cos_l
+                * ((s + 2.0) * pow(clamp(1.0 - scaled_along / max(v_dot_l * 2.0 + 2.0, 1e-8), 0.0, 1.0), s * 0.5)
+                / 6.2831855);
+            color += light_color * (intensity
+                * (fuzz_product_2 / ((cos_v + cos_l - cos_v * cos_l) * 4.0) * fuzz_product));
+        }
+        // metal_film
+        float ggx_light = mx_ggx_light_2(lobe, V, L);
+        if (metal_film_weight > 0.0)
+            color += light_color * (intensity
+                * (metal_film_product * (mx_fresnel(cosine, fresnel_facing, float3(1.0), iridescence_thickness,
+                iridescence_ior) * ggx_light)));
+        // metal_bare
+        if (metal_bare_weight > 0.0)
+            color += light_color * (intensity
+                * (metal_bare_product * (ggx_light * mx_fresnel_schlick(cosine, fresnel_facing, float3(1.0)))));
+        // reflection_film
+        if (reflection_film_visible)
+            color += light_color * (intensity
+                * (reflection_film_product
+                * (ggx_light * mx_fresnel(cosine, fresnel_f0, f90, iridescence_thickness, iridescence_ior))));
+        // reflection
+        if (reflection_weight > 0.0)
+            color += light_color * (intensity
+                * (reflection_product * (ggx_light * mx_fresnel_schlick(cosine, fresnel_f0, f90))));
+    }
+    // environment: fuzz
+    float3 part = u_envIrradiance.tex.sample(u_envIrradiance.s, mx_map_point(normalize(cut_3(u_prv.u_envMatrix) * Nf)),
+        level(0.0)).xyz;
+    if (sheen_weight > 0.0) {
+        float fuzz_product_3 = u_prv.u_envLightIntensity * (sheen_albedo * (sheen_weight * coating_throughput));
+        color += u_pub.SR_gltf_pbr_sheen_color / sheen_weight * part * fuzz_product_3;
+    }
+    // environment: diffuse
+    if (diffuse_weight > 0.0)
+        color += u_pub.SR_gltf_pbr_base_color * part * (body_weight * diffuse_weight * u_prv.u_envLightIntensity);
+    // environment: coating
+    if (u_pub.SR_gltf_pbr_clearcoat > 0.0) {
+        mx_GgxSamples coating_ggx_samples = mx_ggx_samples(float2(coat_lobe), N, V);
+        float2 turn = float2(1.0, 0.0);
+        for (int i = 0; i < u_prv.u_envRadianceSamples; ++i) {
+            mx_GgxLight light = mx_ggx_reflected(coating_ggx_samples, i, turn);
+            color += light.color * (mx_fresnel_permittivity(light.cosine, 2.25)
+                * (u_pub.SR_gltf_pbr_clearcoat * coating_scale * light.weight));
+            turn = float2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+        }
+    }
+    // environment: metal_film, metal_bare, reflection_film, reflection
+    mx_GgxSamples samples = mx_ggx_samples(specular_roughness, N, specular_tangent, V);
+    if (reflection_weight > 0.0 || (reflection_film_visible || (metal_film_weight > 0.0 || metal_bare_weight > 0.0))) {
+        if (iridescence_thickness > 0.0) {
+            float2 turn = float2(1.0, 0.0);
+            for (int i = 0; i < u_prv.u_envRadianceSamples; ++i) {
+                mx_GgxLight metal_film_ggx_reflected = mx_ggx_reflected(samples, i, turn);
+                if (metal_film_weight > 0.0)
+                    color += metal_film_product
+                        * (metal_film_ggx_reflected.color
+                        * (metal_film_ggx_reflected.weight
+                        * mx_film_schlick(metal_film_ggx_reflected.cosine, fresnel_facing, float3(1.0),
+                        iridescence_thickness, iridescence_ior)));
+                if (metal_bare_weight > 0.0)
+                    color += metal_bare_product
+                        * (metal_film_ggx_reflected.color
+                        * (metal_film_ggx_reflected.weight
+                        * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_facing, float3(1.0))));
+                if (reflection_film_visible)
+                    color += reflection_film_product
+                        * (metal_film_ggx_reflected.color
+                        * (metal_film_ggx_reflected.weight
+                        * mx_film_schlick(metal_film_ggx_reflected.cosine, fresnel_f0, f90, iridescence_thickness,
+                        iridescence_ior)));
+                if (reflection_weight > 0.0)
+                    color += reflection_product
+                        * (metal_film_ggx_reflected.color
+                        * (metal_film_ggx_reflected.weight
+                        * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_f0, f90)));
+                turn = float2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+            }
+        } else {
+            float2 turn = float2(1.0, 0.0);
+            for (int i = 0; i < u_prv.u_envRadianceSamples; ++i) {
+                mx_GgxLight metal_film_ggx_reflected = mx_ggx_reflected(samples, i, turn);
+                float3 metal_bare_product_2 = metal_film_ggx_reflected.color
+                    * (metal_film_ggx_reflected.weight
+                    * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_facing, float3(1.0)));
+                color += metal_bare_product * metal_bare_product_2 + metal_film_product * metal_bare_product_2;
+                float3 reflection_product_2 = metal_film_ggx_reflected.color
+                    * (metal_film_ggx_reflected.weight
+                    * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_f0, f90));
+                if (reflection_film_visible)
+                    color += reflection_film_product * reflection_product_2;
+                if (reflection_weight > 0.0)
+                    color += reflection_product * reflection_product_2;
+                turn = float2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+            }
+        }
+    }
+    // environment: refraction
+    if (u_pub.SR_gltf_pbr_transmission * dielectric_weight > 0.0) {
+        float3 refraction_tint = fresnel_facing * (u_prv.u_refractionTwoSided ? fresnel_facing : float3(1.0));
+        float3 refraction_product = refraction_tint
+            * (body_weight * (u_pub.SR_gltf_pbr_transmission * dielectric_weight));
+        float2 turn = float2(1.0, 0.0);
+        for (int i = 0; i < u_prv.u_envRadianceSamples; ++i) {
+            mx_GgxLight refraction_ggx_transmitted = mx_ggx_transmitted(samples, ior, i, turn);
+            color += refraction_product * (refraction_ggx_transmitted.color
+                * (refraction_ggx_transmitted.weight
+                * (1.0 - mx_fresnel_permittivity(refraction_ggx_transmitted.cosine, ior * ior))));
+            turn = float2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+        }
+    }
+    // opacity
+    float mask = u_pub.SR_gltf_pbr_alpha >= u_pub.SR_gltf_pbr_alpha_cutoff ? 1.0 : 0.0;
+    float opacity = 1 > u_pub.SR_gltf_pbr_alpha_mode ? 1.0 : 2 > u_pub.SR_gltf_pbr_alpha_mode ? mask : 3
+        > u_pub.SR_gltf_pbr_alpha_mode ? u_pub.SR_gltf_pbr_alpha : 0.0;
+    if (opacity < u_prv.u_alphaThreshold)
+        discard_fragment();
+    out.out1 = float4(opacity * color, opacity);
+}
+};
+
+fragment PixelOutputs FragmentMain(
+    VertexData vd [[stage_in]],
+    constant LightData_pixel& u_lightData [[buffer(0)]],
+    texture2d<float> u_envRadiance_tex [[texture(0)]],
+    sampler u_envRadiance_sampler [[sampler(0)]],
+    texture2d<float> u_envIrradiance_tex [[texture(1)]],
+    sampler u_envIrradiance_sampler [[sampler(1)]],
+    constant PrivateUniforms& u_prv [[buffer(1)]],
+    constant PublicUniforms& u_pub [[buffer(2)]])
+{
+    GlobalContext context = {u_lightData, {u_envRadiance_tex, u_envRadiance_sampler},
+        {u_envIrradiance_tex, u_envIrradiance_sampler}, u_prv, u_pub, vd, {}};
+    context.FragmentMain();
+    return context.out;
+}

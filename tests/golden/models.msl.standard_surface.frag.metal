@@ -1,0 +1,783 @@
+// standard_surface · surfacematerial · mxgen 0.1 · msl · complete · 9 closures · 0 textures
+// Metal Shading Language 2.3
+#include <metal_stdlib>
+using namespace metal;
+
+struct mx_GgxLobe {
+    float3 N;
+    float cosine;
+    float3 x;
+    float2 alpha;
+    float masking;
+};
+struct mx_GgxSamples {
+    float3x3 to_map;
+    float3 stretch;
+    float area;
+    float3 v;
+    float masking;
+    float reach;
+    float step;
+    float texels;
+    float weight;
+};
+struct mx_GgxFacet {
+    float3 h;
+    float cosine;
+    float mirror;
+    float texels;
+};
+struct mx_GgxLight {
+    float3 color;
+    float weight;
+    float cosine;
+};
+struct MetalTexture {
+    texture2d<float> tex;
+    sampler s;
+};
+struct PublicUniforms {
+    float SR_standard_surface_base;
+    float3 SR_standard_surface_base_color;
+    float SR_standard_surface_diffuse_roughness;
+    float SR_standard_surface_metalness;
+    float SR_standard_surface_specular;
+    float3 SR_standard_surface_specular_color;
+    float SR_standard_surface_specular_roughness;
+    float SR_standard_surface_specular_IOR;
+    float SR_standard_surface_specular_anisotropy;
+    float SR_standard_surface_specular_rotation;
+    float SR_standard_surface_transmission;
+    float3 SR_standard_surface_transmission_color;
+    float SR_standard_surface_transmission_extra_roughness;
+    float SR_standard_surface_subsurface;
+    float3 SR_standard_surface_subsurface_color;
+    float3 SR_standard_surface_subsurface_radius;
+    float SR_standard_surface_subsurface_scale;
+    float SR_standard_surface_sheen;
+    float3 SR_standard_surface_sheen_color;
+    float SR_standard_surface_sheen_roughness;
+    float SR_standard_surface_coat;
+    float3 SR_standard_surface_coat_color;
+    float SR_standard_surface_coat_roughness;
+    float SR_standard_surface_coat_anisotropy;
+    float SR_standard_surface_coat_rotation;
+    float SR_standard_surface_coat_IOR;
+    float SR_standard_surface_coat_affect_color;
+    float SR_standard_surface_coat_affect_roughness;
+    float SR_standard_surface_thin_film_thickness;
+    float SR_standard_surface_thin_film_IOR;
+    float SR_standard_surface_emission;
+    float3 SR_standard_surface_emission_color;
+    float3 SR_standard_surface_opacity;
+    bool SR_standard_surface_thin_walled;
+};
+struct PrivateUniforms {
+    float4x4 u_worldMatrix;
+    float4x4 u_worldInverseTransposeMatrix;
+    float4x4 u_viewProjectionMatrix;
+    float3 u_viewPosition;
+    int u_numActiveLightSources;
+    float4x4 u_envMatrix;
+    int u_envRadianceMips;
+    int u_envRadianceSamples;
+    float u_envLightIntensity;
+    float u_alphaThreshold;
+    bool u_refractionTwoSided;
+};
+struct alignas(16) LightData {
+    float3 direction;
+    float3 color;
+    float3 position;
+    int type;
+    float intensity;
+    float decay_rate;
+    float inner_angle;
+    float outer_angle;
+};
+struct LightData_pixel {
+    LightData u_lightData[3];
+};
+struct VertexData {
+    float4 pos [[position]];
+    float3 positionWorld [[user(positionWorld)]];
+    float3 normalWorld [[user(normalWorld)]];
+    float3 tangentWorld [[user(tangentWorld)]];
+};
+struct PixelOutputs {
+    float4 out1 [[color(0)]];
+};
+
+mx_GgxLobe make_mx_GgxLobe(float3 N, float cosine, float3 x, float2 alpha, float masking)
+{
+    mx_GgxLobe made;
+    made.N = N;
+    made.cosine = cosine;
+    made.x = x;
+    made.alpha = alpha;
+    made.masking = masking;
+    return made;
+}
+
+mx_GgxFacet make_mx_GgxFacet(float3 h, float cosine, float mirror, float texels)
+{
+    mx_GgxFacet made;
+    made.h = h;
+    made.cosine = cosine;
+    made.mirror = mirror;
+    made.texels = texels;
+    return made;
+}
+
+mx_GgxSamples make_mx_GgxSamples(float3x3 to_map, float3 stretch, float area, float3 v, float masking, float reach,
+    float step, float texels, float weight)
+{
+    mx_GgxSamples made;
+    made.to_map = to_map;
+    made.stretch = stretch;
+    made.area = area;
+    made.v = v;
+    made.masking = masking;
+    made.reach = reach;
+    made.step = step;
+    made.texels = texels;
+    made.weight = weight;
+    return made;
+}
+
+float3x3 cut_3(float4x4 m)
+{
+    return float3x3(m[0].xyz, m[1].xyz, m[2].xyz);
+}
+
+mx_GgxLight make_mx_GgxLight(float3 color, float weight, float cosine)
+{
+    mx_GgxLight made;
+    made.color = color;
+    made.weight = weight;
+    made.cosine = cosine;
+    return made;
+}
+
+// Reflectance of a dielectric that faces the viewer.
+float mx_fresnel_dielectric_facing(float ior)
+{
+    float r = (1.0 - ior) / (1.0 + ior);
+    return r * r;
+}
+
+// Light of one polarisation that interferes in a film, as Gaussian i of the CIE curves sees it: `a` is the amplitude of
+// the film's own interface, r the complex one of the interface below, and light in the film goes further by d / (2 pi)
+// micrometres (Belcour and Barla 2017, section 3.3).
+float mx_film_light(float a, float2 r, float d, int i)
+{
+    float4 gaussian = float4x4(1.681, 0.84659, -0.0043278, 1.0, 2.2399, 0.153868, -0.0045282, 0.0, 1.7953, 1.000222,
+        -0.0093046, 1.0, 2.2084, 1.001122, -0.0066121, 1.0)[i];
+    float c = cos(gaussian.x * d);
+    float s = sin(gaussian.x * d);
+    float decay = exp(gaussian.z * d * d);
+    float x = r.x * c - r.y * s;
+    float y = r.x * s + r.y * c;
+    float r23 = dot(r, r);
+    float t = 1.0 - a * a;
+    float even = t * t * r23 / (1.0 - a * a * r23);
+    return gaussian.w * (a * a + even) + 2.0 * (even - t)
+        * (gaussian.y * decay * a * (a * (decay * decay * decay) * (x * x - y * y) - x));
+}
+
+// Complex amplitude (x - u) / (x + u) of an interface in one polarisation: u is the index times the cosine behind it; x
+// is the cosine for perpendicular light, and the permittivity times the cosine for parallel light.
+float2 mx_film_amplitude(float2 x, float2 u)
+{
+    return float2(dot(x, x) - dot(u, u), 2.0 * (x.y * u.x - x.x * u.y)) / dot(x + u, x + u);
+}
+
+// The index times the cosine behind an interface, u + iv, from the cosine in front of it and the permittivity:
+//     (u + iv)^2 = re + i im - sin^2
+float2 mx_fresnel_refract(float cosine, float re, float im)
+{
+    float t = re + (cosine * cosine - 1.0);
+    float norm = sqrt(t * t + im * im);
+    return sqrt(max(0.5 * float2(norm + t, norm - t), 0.0));
+}
+
+// Reflectance, facing the viewer, of a film on an interface with the permittivity re + i im.
+float3 mx_film_index_facing(float3 re, float3 im, float film, float film_ior)
+{
+    float ior = max(film_ior, 1.0);
+    float a = (1.0 - ior) / (1.0 + ior);
+    float d = 0.012566372 * ior * film;
+    float3 xyz = float3(0.0);
+    for (int i = 0; i < 4; ++i) {
+        int channel = max(i - 1, 0);
+        xyz[channel] += mx_film_light(a,
+            mx_film_amplitude(float2(1.0, 0.0),
+            mx_fresnel_refract(1.0, re[channel] / (ior * ior), im[channel] / (ior * ior))), d, i);
+    }
+    return clamp(float3x3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814,
+        1.0093968) * xyz, 0.0, 1.0);
+}
+
+// Reflectance, facing the viewer, of an interface.
+// Here model = "dielectric", k = float3(0.0).
+float3 mx_fresnel_facing(float3 n, float film, float film_ior)
+{
+    if (film > 0.0)
+        return mx_film_index_facing(n * n, float3(0.0), film, film_ior);
+    return float3(mx_fresnel_dielectric_facing(n.x));
+}
+
+// Squared roughness along X and across: the aspect ratio stretches one axis and shrinks the other (Burley 2012, section
+// 5.4).
+float2 mx_roughness_anisotropy(float roughness, float anisotropy)
+{
+    float squared = clamp(roughness * roughness, 1e-8, 1.0);
+    float aspect = sqrt(1.0 - clamp(anisotropy, 0.0, 0.98));
+    return float2(min(squared / aspect, 1.0), squared * aspect);
+}
+
+// A cubic polynomial of x and y with the coefficients m, to which directional albedos are fitted.
+float mx_bicubic(float4x4 m, float x, float y)
+{
+    return dot(float4(1.0, x, x * x, x * x * x), m * float4(1.0, y, y * y, y * y * y));
+}
+
+// The light that a white GGX lobe of roughness a reflects at the viewer's cosine c (x), and the mean of (1 - cos)^5
+// over it (y); u is a / (a + c).
+float2 mx_ggx_albedo_fit(float a, float u, float c)
+{
+    float x = clamp(1.0 - c - a * mx_bicubic(float4x4(-0.2006, 5.2916, -3.7565, 0.218, -10.2439, 6.6203, -0.9657,
+        2.5694, 38.3042, -80.8059, 71.731, -28.5214, -34.2, 89.1079, -88.4065, 33.782), u, a), 0.0, 1.0);
+    return float2(min(1.0046 - u * mx_bicubic(float4x4(-0.1447, 2.759, -5.4314, 2.8497, -0.9366, 1.4766, 0.5911,
+        -1.0905, 11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054), u, a), 1.0), x * x * x * x
+        * x);
+}
+
+// The vector v turned clockwise around an axis of unit length, by an angle in radians (Rodrigues' formula).
+float3 mx_rotate3d(float3 v, float angle, float3 axis)
+{
+    float c = cos(angle);
+    return v * c + cross(v, axis) * sin(angle) + axis * (dot(axis, v) * (1.0 - c));
+}
+
+// cos (1 + 2 Lambda) of a direction for GGX; `area` is the product of the roughness along x and y (Heitz 2014,
+// "Understanding the Masking-Shadowing Function", equation 72).
+float mx_ggx_masking(float cosine, float area)
+{
+    return sqrt(area + (1.0 - area) * (cosine * cosine));
+}
+
+// The GGX lobe of a surface as lights see it; roughness is that along X and across, squared.
+// Here is_round = false.
+mx_GgxLobe mx_ggx_lobe(float2 roughness, float3 N, float3 X, float3 V)
+{
+    float2 alpha = clamp(roughness, 1e-8, 1.0);
+    float cosine = max(abs(dot(N, V)), 1e-8);
+    return make_mx_GgxLobe(faceforward(N, -V, N), cosine, normalize(X - dot(X, N) * N), alpha,
+        mx_ggx_masking(cosine, alpha.x * alpha.y));
+}
+
+// The square of the length of the facet's normal H after the roughness divided its parts along the surface, times the
+// product of the roughness along x and y; cos_h is its part along N.
+// Here is_round = false, is_wide = false.
+float mx_ggx_stretched(mx_GgxLobe lobe, float3 H, float cos_h)
+{
+    float2 parts = float2(dot(H, lobe.x), dot(cross(H, lobe.N), lobe.x)) / lobe.alpha;
+    return lobe.alpha.x * lobe.alpha.y * (dot(parts, parts) + cos_h * cos_h);
+}
+
+// The GGX lobe towards the light L, without Fresnel's factor: distribution, visibility and the cosine over one divisor.
+// Here is_round = false, is_wide = false.
+float mx_ggx_light(mx_GgxLobe lobe, float3 V, float3 L)
+{
+    float area = lobe.alpha.x * lobe.alpha.y;
+    float cos_l = max(dot(lobe.N, L), 1e-8);
+    float square = 2.0 + 2.0 * dot(V, L);
+    float e = mx_ggx_stretched(lobe, V + L, lobe.cosine + dot(lobe.N, L));
+    return area / 6.2831855 * square * square * cos_l
+        / (e * e * (lobe.cosine * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * lobe.masking));
+}
+
+// Unpolarised reflectance of an interface whose squared index is `re`, with c for the cosine in front of it:
+//     F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2
+//     s = 1 - c^2,  g^2 = c^2 + 2k,  2k = re - 1
+float mx_fresnel_permittivity(float cosine, float re)
+{
+    float k = 0.5 * (re - 1.0);
+    float c2 = max(cosine * cosine, -2.0 * k);
+    float s = 1.0 - c2;
+    float cg2 = c2 * (c2 + 2.0 * k);
+    float r = k / max((1.0 + k) * (c2 + sqrt(cg2)) + k, 1e-8);
+    return (cg2 + s * s) * (r * r);
+}
+
+// Index and extinction of a conductor with this reflectivity facing the viewer, and this colour at the edge
+// (Gulbrandsen 2014, "Artist Friendly Metallic Fresnel").
+void mx_artistic_ior(float3 reflectivity, float3 edge_color, thread float3& ior, thread float3& extinction)
+{
+    float3 s = sqrt(clamp(reflectivity, 0.0, 0.99));
+    float3 greatest = (1.0 + s) / (1.0 - s);
+    ior = mix(greatest, (1.0 - s * s) / (1.0 + s * s), edge_color);
+    extinction = sqrt(max((greatest - ior) * (ior - 1.0 / greatest), 0.0));
+}
+
+// Unpolarised reflectance of an interface with the permittivity re + i im, with c for the cosine and u + iv for the
+// index times the cosine behind (Born and Wolf 1999, "Principles of Optics", section 14.4):
+//     F = (P + P Q) / 2,  P = (a - g) / (a + g),  Q = (b - g s) / (b + g s)
+//     a = |u + iv|^2 + c^2,  g = 2uc,  s = 1 - c^2,  b = |u + iv|^2 c^2 + s^2
+float mx_fresnel_conductor(float cosine, float re, float im)
+{
+    float c2 = cosine * cosine;
+    float s = 1.0 - c2;
+    float t = re - s;
+    float norm = sqrt(t * t + im * im);
+    float g = cosine * sqrt(max(2.0 * (norm + t), 0.0));
+    float b = norm * c2 + s * s;
+    float a = norm + c2;
+    return (a - g) * b / ((a + g) * (b + g * s));
+}
+
+// Unpolarised reflectance of a conductor with the permittivity re + i im of each channel.
+float3 mx_fresnel_conductor(float cosine, float3 re, float3 im)
+{
+    float3 color = float3(0.0);
+    for (int i = 0; i < 3; ++i)
+        color[i] = mx_fresnel_conductor(cosine, re[i], im[i]);
+    return color;
+}
+
+// Reflectance, facing the viewer, of an interface.
+// Here model = "conductor".
+float3 mx_fresnel_facing(float3 n, float3 k, float film, float film_ior)
+{
+    if (film > 0.0)
+        return mx_film_index_facing(n, k, film, film_ior);
+    return mx_fresnel_conductor(1.0, n, k);
+}
+
+// Amplitudes of a film's own interface, of perpendicular and parallel light; `inside` is the cosine in the film.
+float2 mx_film_amplitudes(float cosine, float inside, float ior)
+{
+    float2 x = float2(cosine, ior * cosine);
+    float2 u = float2(ior * inside, inside);
+    return (x - u) / (x + u);
+}
+
+// Reflectance of a film on an interface with the permittivity re + i im.
+float3 mx_film_index(float cosine, float3 re, float3 im, float film, float film_ior)
+{
+    float ior = max(film_ior, 1.0);
+    float c = sqrt(1.0 - (1.0 - cosine * cosine) / (ior * ior));
+    float2 a = mx_film_amplitudes(cosine, c, ior);
+    float d = 0.012566372 * ior * c * film;
+    float3 xyz = float3(0.0);
+    for (int i = 0; i < 4; ++i) {
+        int channel = max(i - 1, 0);
+        float2 below = float2(re[channel], im[channel]) / (ior * ior);
+        float2 u = mx_fresnel_refract(c, below.x, below.y);
+        float2 x = float2(c, 0.0);
+        for (int p = 0; p < 2; ++p) {
+            xyz[channel] += mx_film_light(a[p], mx_film_amplitude(x, u), d, i);
+            x = c * below;
+        }
+    }
+    return clamp(float3x3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814,
+        1.0093968) * (0.5 * xyz), 0.0, 1.0);
+}
+
+// Reflectance of an interface at a cosine.
+// Here model = "conductor", f90 = float3(1.0), exponent = 0.0.
+float3 mx_fresnel(float cosine, float3 n, float3 k, float film, float film_ior)
+{
+    if (film > 0.0)
+        return mx_film_index(cosine, n, k, film, film_ior);
+    return mx_fresnel_conductor(cosine, n, k);
+}
+
+// Reflectance of an interface at a cosine.
+// Here model = "dielectric", k = float3(0.0), f90 = float3(1.0), exponent = 0.0.
+float3 mx_fresnel(float cosine, float3 n, float film, float film_ior)
+{
+    if (film > 0.0)
+        return mx_film_index(cosine, n * n, float3(0.0), film, film_ior);
+    return float3(mx_fresnel_permittivity(cosine, n.x * n.x));
+}
+
+// Light that arrives at a point of a circle of this curvature by subsurface scattering, where the cosine of the light
+// is cos_l: Burley's normalised diffusion (Christensen 2015) around the circle (after Penner 2011, "Pre-integrated skin
+// shading").
+float mx_subsurface_light(float radius, float curvature, float cos_l)
+{
+    float x = curvature * max(radius, 0.1);
+    float3 bend = (float3(0.1573, 0.0104, 0.1632) + x
+        * (float3(0.662, 0.1732, 0.6079) + x * float3(0.6075, 0.4138, 0.8133)))
+        / (6.2831855 * (0.1602 + x * (0.6652 + x)));
+    return bend.x * cos_l + sqrt(bend.y * bend.y + (bend.z * bend.z - bend.y * bend.y) * (cos_l * cos_l));
+}
+
+// Light that arrives by subsurface scattering, with a radius for each channel.
+float3 mx_subsurface_light(float3 radius, float curvature, float cos_l)
+{
+    float3 light = float3(0.0);
+    for (int i = 0; i < 3; ++i)
+        light[i] = mx_subsurface_light(radius[i], curvature, cos_l);
+    return light;
+}
+
+// The angle, over pi, with this sine and cosine; the cosine is not negative. It errs by 2.9e-5 at most.
+float mx_half_turn(float sine, float cosine)
+{
+    return sine * (0.4999709 + cosine * (cosine * (0.2302802 + cosine * (0.0398298 * cosine - 0.1351235)) - 0.3164252));
+}
+
+// The square of the distance of the unit direction d from the vertical axis, never 0.
+float mx_map_square(float3 d)
+{
+    return d.x * d.x + (d.z * d.z + 1e-16);
+}
+
+// The point of the latitude-longitude picture for the unit direction d, to a tenth of a texel in 4096.
+float2 mx_map_point(float3 d)
+{
+    float square = mx_map_square(d);
+    float stretch = rsqrt(square);
+    return float2(fract((d.z > 0.0 ? -0.5 : 0.5) * (mx_half_turn(d.x * stretch, abs(d.z) * stretch) + 0.5) + 0.25), 0.5
+        - mx_half_turn(d.y, square * stretch));
+}
+
+// Height-correlated masking and shadowing G2 over 2 cos_v cos_l (Heitz 2014, equation 99); `masking` is that of the
+// viewer.
+float mx_ggx_visibility(float cos_v, float masking, float area, float cos_l)
+{
+    return 1.0 / (cos_v * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * masking);
+}
+
+// A normal of those visible from v, at any length (Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with Spherical
+// Caps"): v is stretched by the roughness and has the length `reach`, `around` is (cos, sin) of the turn around z, and
+// `depth` how far the normal lies below the top of the cap, v.z + reach at most.
+float3 mx_ggx_cap(float2 around, float depth, float3 v, float reach)
+{
+    return v + float3(sqrt(depth * (2.0 * reach - depth)) * around, reach - depth);
+}
+
+// The facet of sample i. Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further
+// around than the one before, by its `turn`.
+mx_GgxFacet mx_ggx_facet(mx_GgxSamples s, int i, float2 turn)
+{
+    float3 h = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.v * s.stretch, s.reach) * s.stretch;
+    float cosine = dot(s.v, h);
+    float mirror = 2.0 * cosine / dot(h, h);
+    return make_mx_GgxFacet(h, cosine, mirror, mirror * mirror * s.texels);
+}
+
+// Direction of the ray -v after it entered a solid sphere of index `ior` at the normal h, and left it again.
+float3 mx_refract_sphere(float3 v, float3 h, float ior)
+{
+    float3 inside = refract(-v, h, 1.0 / ior);
+    return refract(inside, normalize(inside * dot(inside, h) - 0.5 * h), ior);
+}
+
+struct GlobalContext {
+    constant LightData_pixel& u_lightData;
+    MetalTexture u_envRadiance;
+    MetalTexture u_envIrradiance;
+    constant PrivateUniforms& u_prv;
+    constant PublicUniforms& u_pub;
+    VertexData vd;
+    PixelOutputs out;
+
+// The GGX lobe of a surface as samples of the environment see it.
+// Here is_round = false.
+mx_GgxSamples mx_ggx_samples(float2 roughness, float3 N, float3 X, float3 V)
+{
+    mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, X, V);
+    float3 x = lobe.x;
+    float3x3 frame = float3x3(x, cross(lobe.N, x), lobe.N);
+    float3 v = float3((V * frame).xy, lobe.cosine);
+    float3 stretch = float3(lobe.alpha, 1.0);
+    float reach = length(v * stretch);
+    float area = stretch.x * stretch.y;
+    float share = 1.0 / float(max(u_prv.u_envRadianceSamples, 1));
+    float weight = share * (v.z + lobe.masking);
+    return make_mx_GgxSamples(cut_3(u_prv.u_envMatrix) * frame, stretch, area, v, lobe.masking, reach, share
+        * (v.z + reach), area * weight * exp2(2.0 * float(u_prv.u_envRadianceMips) - 2.3485), u_prv.u_envLightIntensity
+        * weight);
+}
+
+// Light of the environment from the unit direction d of its picture, filtered over as many texels.
+float3 mx_filtered_light(float3 d, float texels)
+{
+    return u_envRadiance.tex.sample(u_envRadiance.s, mx_map_point(d),
+        level(0.5 * log2(texels * rsqrt(mx_map_square(d))))).xyz;
+}
+
+// The light that the facet of sample i reflects.
+mx_GgxLight mx_ggx_reflected(mx_GgxSamples s, int i, float2 turn)
+{
+    mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
+    float3 l = facet.mirror * facet.h - s.v;
+    float cos_l = max(l.z, 1e-8);
+    return make_mx_GgxLight(mx_filtered_light(s.to_map * l, facet.texels), s.weight * cos_l
+        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l),
+        sqrt(clamp(0.5 * (facet.mirror * facet.cosine), 1e-8, 1.0)));
+}
+
+// The light that comes to the facet of sample i through a solid sphere of index `ior` behind it.
+mx_GgxLight mx_ggx_transmitted(mx_GgxSamples s, float ior, int i, float2 turn)
+{
+    mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
+    float3 h = normalize(facet.h);
+    return make_mx_GgxLight(mx_filtered_light(s.to_map * mx_refract_sphere(s.v, h, ior), facet.texels), s.weight * 0.5
+        / s.v.z, clamp(dot(s.v, h), 1e-8, 1.0));
+}
+
+void FragmentMain()
+{
+    float coat = u_pub.SR_standard_surface_coat;
+    float coat_IOR = u_pub.SR_standard_surface_coat_IOR;
+    float coat_front = coat_IOR * 4.0 / ((coat_IOR + 1.0) * (coat_IOR + 1.0));
+    float3 N = normalize(vd.normalWorld);
+    float3 V = normalize(u_prv.u_viewPosition - vd.positionWorld);
+    float absolute = abs(dot(N, V));
+    float3 color = u_pub.SR_standard_surface_emission
+        * (u_pub.SR_standard_surface_emission_color
+        * (1.0 - coat + u_pub.SR_standard_surface_coat_color
+        * (coat * (coat_front * (1.0 - pow(1.0 - min(absolute, 1.0), 5.0))))));
+    // lights
+    float3 vector_coat_gamma = float3(u_pub.SR_standard_surface_coat_affect_color * clamp(coat, 0.0, 1.0) + 1.0);
+    float specular_IOR = u_pub.SR_standard_surface_specular_IOR;
+    float thin_film_thickness = u_pub.SR_standard_surface_thin_film_thickness;
+    float thin_film_IOR = u_pub.SR_standard_surface_thin_film_IOR;
+    float coat_blur = u_pub.SR_standard_surface_coat_roughness
+        * (coat * u_pub.SR_standard_surface_coat_affect_roughness);
+    float2 roughness = mx_roughness_anisotropy(mix(u_pub.SR_standard_surface_specular_roughness, 1.0, coat_blur),
+        u_pub.SR_standard_surface_specular_anisotropy);
+    float2 alpha = clamp(roughness, 1e-8, 1.0);
+    float a = sqrt(alpha.x * alpha.y);
+    float cos_v = max(absolute, 1e-8);
+    float2 albedo = mx_ggx_albedo_fit(a, a / (cos_v + a), cos_v);
+    float difference = 1.0 / albedo.x - 1.0;
+    float3 reflection_scale = mix(mx_fresnel_facing(float3(specular_IOR), thin_film_thickness, thin_film_IOR),
+        float3(1.0), 0.04761905) * difference + float3(1.0);
+    float reflection_r = (1.0 - specular_IOR) / (specular_IOR + 1.0);
+    float coating_r = (1.0 - coat_IOR) / (coat_IOR + 1.0);
+    float2 coat_lobe = mx_roughness_anisotropy(u_pub.SR_standard_surface_coat_roughness,
+        u_pub.SR_standard_surface_coat_anisotropy);
+    float2 coating_alpha = clamp(coat_lobe, 1e-8, 1.0);
+    float coating_a = sqrt(coating_alpha.x * coating_alpha.y);
+    float2 coating_albedo = mx_ggx_albedo_fit(coating_a, coating_a / (cos_v + coating_a), cos_v);
+    float coating_scale = mix(coating_r * coating_r, 1.0, 0.04761905) * (1.0 / coating_albedo.x - 1.0) + 1.0;
+    float coating_throughput = 1.0 - coat
+        * (mix(coating_r * coating_r, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale);
+    float3 clamped_coat_tint = clamp(mix(float3(1.0), u_pub.SR_standard_surface_coat_color, coat), 0.0, 1.0);
+    float3 body_weight = (float3(1.0) - reflection_scale
+        * (u_pub.SR_standard_surface_specular * (mix(reflection_r * reflection_r, 1.0, albedo.y) * albedo.x)))
+        * (coating_throughput * clamped_coat_tint);
+    float sheen_albedo = clamp(mx_bicubic(float4x4(3.7341, -15.9587, 23.621, -11.0989, -8.2265, 35.1081, -49.7137,
+        23.2945, 4.0691, -17.882, 25.6639, -12.0167, -0.5833, 2.6552, -3.9393, 1.8999), 1.0 / (cos_v + 1.0), 1.0
+        / (u_pub.SR_standard_surface_sheen_roughness + 0.2)), 0.0, 1.0);
+    float fuzz_throughput = 1.0 - u_pub.SR_standard_surface_sheen * sheen_albedo;
+    float dielectric_weight = 1.0 - u_pub.SR_standard_surface_metalness;
+    float opaque_weight = dielectric_weight * (1.0 - u_pub.SR_standard_surface_transmission);
+    float3 diffuse_weight = body_weight * (fuzz_throughput
+        * (u_pub.SR_standard_surface_base * (opaque_weight * (1.0 - u_pub.SR_standard_surface_subsurface))));
+    float3 diffuse_product = pow(max(u_pub.SR_standard_surface_base_color, 0.0), vector_coat_gamma) * diffuse_weight;
+    float3 Nf = faceforward(N, -V, N);
+    float r2 = u_pub.SR_standard_surface_diffuse_roughness * u_pub.SR_standard_surface_diffuse_roughness;
+    float2 ab = r2 * float2(-0.5, 0.45) / (r2 + float2(0.33, 0.09)) + float2(1.0, 0.0);
+    float s = 1.0 / max(u_pub.SR_standard_surface_sheen_roughness, 0.005);
+    float3 fuzz_product = u_pub.SR_standard_surface_sheen_color
+        * (body_weight * (u_pub.SR_standard_surface_sheen * opaque_weight));
+    float3 scatter_color = pow(max(u_pub.SR_standard_surface_subsurface_color, 0.0), vector_coat_gamma);
+    float thin = float(u_pub.SR_standard_surface_thin_walled);
+    float translucent_weight = thin * (u_pub.SR_standard_surface_subsurface * opaque_weight);
+    float3 translucent_product = scatter_color * (body_weight * (fuzz_throughput * translucent_weight));
+    float3 tangent_direction = normalize(vd.tangentWorld);
+    float3 coat_tangent = mx_rotate3d(tangent_direction, (u_pub.SR_standard_surface_coat_rotation * 360.0)
+        * 0.017453292, N);
+    mx_GgxLobe coating_lobe = mx_ggx_lobe(coat_lobe, N, coat_tangent, V);
+    bool metal_visible = u_pub.SR_standard_surface_metalness > 0.0;
+    float3 metal_ior, metal_extinction;
+    mx_artistic_ior(u_pub.SR_standard_surface_base * u_pub.SR_standard_surface_base_color,
+        u_pub.SR_standard_surface_specular * u_pub.SR_standard_surface_specular_color, metal_ior, metal_extinction);
+    float3 re = metal_ior * metal_ior - metal_extinction * metal_extinction;
+    float3 im = metal_extinction * (metal_ior * 2.0);
+    float3 metal_scale = difference * mix(mx_fresnel_facing(re, im, thin_film_thickness, thin_film_IOR), float3(1.0),
+        0.04761905) + float3(1.0);
+    float3 metal_product = metal_scale * (clamped_coat_tint
+        * (u_pub.SR_standard_surface_metalness * coating_throughput));
+    float3 specular_tangent = mx_rotate3d(tangent_direction, (u_pub.SR_standard_surface_specular_rotation * 360.0)
+        * 0.017453292, N);
+    mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, specular_tangent, V);
+    bool reflection_visible = u_pub.SR_standard_surface_specular * dielectric_weight > 0.0;
+    float3 reflection_weight = clamped_coat_tint
+        * (coating_throughput * (u_pub.SR_standard_surface_specular * dielectric_weight));
+    float3 reflection_product = reflection_weight
+        * (reflection_scale * max(u_pub.SR_standard_surface_specular_color, 0.0));
+    float scatter_weight = u_pub.SR_standard_surface_subsurface * opaque_weight * (1.0 - thin);
+    float3 scatter_radius = u_pub.SR_standard_surface_subsurface_radius * u_pub.SR_standard_surface_subsurface_scale;
+    float curvature = max(length(fwidth(Nf)) / length(fwidth(vd.positionWorld)), 0.01);
+    float3 scatter_product = scatter_color * (body_weight * (fuzz_throughput * scatter_weight));
+    // from the last light, so that drivers do not unroll the loop
+    for (int i = min(u_prv.u_numActiveLightSources, 3) - 1; i >= 0; --i) {
+        float3 L;
+        float intensity;
+        int light_type = u_lightData.u_lightData[i].type;
+        if (light_type == 1) {
+            L = -u_lightData.u_lightData[i].direction;
+            intensity = u_lightData.u_lightData[i].intensity;
+        } else {
+            float3 d = u_lightData.u_lightData[i].position - vd.positionWorld;
+            float3 to_light = normalize(d);
+            L = to_light;
+            float ratio = u_lightData.u_lightData[i].intensity
+                / pow(length(d) + 1.0, u_lightData.u_lightData[i].decay_rate);
+            if (light_type == 2) {
+                intensity = ratio;
+            } else {
+                float spot_light_difference = min(u_lightData.u_lightData[i].inner_angle,
+                    u_lightData.u_lightData[i].outer_angle) - 0.00001;
+                intensity = light_type == 3
+                    ? smoothstep(spot_light_difference, u_lightData.u_lightData[i].inner_angle,
+                    -dot(u_lightData.u_lightData[i].direction, to_light)) * ratio : 0.0;
+            }
+        }
+        // fuzz, translucent, diffuse
+        float3 light_color = u_lightData.u_lightData[i].color;
+        float cos_l = dot(L, Nf);
+        float cos_l_2 = max(cos_l, 1e-8);
+        float v_dot_l = dot(V, L);
+        float3 diffuse_response = diffuse_product * 0.31830987
+            * (cos_l_2 * (ab.x + ab.y * max(v_dot_l - cos_v * cos_l_2, 0.0) / max(cos_l_2, cos_v)));
+        float scaled_along = (cos_v + cos_l) * (cos_v + cos_l);
+        float fuzz_product_2 = cos_l_2 * ((s + 2.0)
+            * pow(clamp(1.0 - scaled_along / max(v_dot_l * 2.0 + 2.0, 1e-8), 0.0, 1.0), s * 0.5) / 6.2831855);
+        float3 fuzz_response = fuzz_product_2 / ((cos_v + cos_l_2 - cos_v * cos_l_2) * 4.0) * fuzz_product;
+        color += light_color * (intensity
+            * (diffuse_response + (fuzz_response + max(-cos_l, 0.0) / 3.1415927 * translucent_product)));
+        // coating
+        float cosine = sqrt(clamp(v_dot_l * 0.5 + 0.500001, 0.0, 1.0));
+        if (coat > 0.0) {
+            float coating_product = mx_fresnel_permittivity(cosine, coat_IOR * coat_IOR) * (coat * coating_scale);
+            color += light_color * (intensity * (mx_ggx_light(coating_lobe, V, L) * coating_product));
+        }
+        // metal
+        float ggx_light = mx_ggx_light(lobe, V, L);
+        if (metal_visible)
+            color += light_color * (intensity
+                * (metal_product * (mx_fresnel(cosine, re, im, thin_film_thickness, thin_film_IOR) * ggx_light)));
+        // reflection
+        if (reflection_visible)
+            color += light_color * (intensity
+                * (reflection_product * (ggx_light
+                * mx_fresnel(cosine, float3(specular_IOR), thin_film_thickness, thin_film_IOR))));
+        // scatter
+        if (scatter_weight > 0.0)
+            color += light_color * (intensity
+                * (mx_subsurface_light(scatter_radius, curvature, cos_l) * scatter_product));
+    }
+    // environment: fuzz, scatter, diffuse
+    float3 part = u_envIrradiance.tex.sample(u_envIrradiance.s, mx_map_point(normalize(cut_3(u_prv.u_envMatrix) * Nf)),
+        level(0.0)).xyz;
+    float2 fit = u_pub.SR_standard_surface_diffuse_roughness
+        * (cos_v * float2(-0.7632, -0.4993) - float2(0.4297, 0.6076) + u_pub.SR_standard_surface_diffuse_roughness
+        * float2(1.4385, 2.0315)) + float2(1.0);
+    float3 diffuse_response = diffuse_product * part * (u_prv.u_envLightIntensity * clamp(fit.x / fit.y, 0.0, 1.0));
+    float3 fuzz_response = fuzz_product * part * (sheen_albedo * u_prv.u_envLightIntensity);
+    color += diffuse_response + (fuzz_response + u_prv.u_envLightIntensity * (scatter_product * part));
+    // environment: translucent
+    if (translucent_weight > 0.0)
+        color += u_prv.u_envLightIntensity
+            * (translucent_product * u_envIrradiance.tex.sample(u_envIrradiance.s,
+            mx_map_point(normalize(cut_3(u_prv.u_envMatrix) * -Nf)), level(0.0)).xyz);
+    // environment: coating
+    if (coat > 0.0) {
+        mx_GgxSamples coating_ggx_samples = mx_ggx_samples(coat_lobe, N, coat_tangent, V);
+        float2 turn = float2(1.0, 0.0);
+        for (int i = 0; i < u_prv.u_envRadianceSamples; ++i) {
+            mx_GgxLight light = mx_ggx_reflected(coating_ggx_samples, i, turn);
+            float fresnel_bare = mx_fresnel_permittivity(light.cosine, coat_IOR * coat_IOR);
+            color += light.color * (fresnel_bare * (coat * coating_scale * light.weight));
+            turn = float2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+        }
+    }
+    // environment: metal, reflection
+    float scaled_specular_IOR = specular_IOR * specular_IOR;
+    if (metal_visible || reflection_visible) {
+        mx_GgxSamples ggx_samples = mx_ggx_samples(roughness, N, specular_tangent, V);
+        if (thin_film_thickness > 0.0) {
+            float2 turn = float2(1.0, 0.0);
+            for (int i = 0; i < u_prv.u_envRadianceSamples; ++i) {
+                mx_GgxLight metal_ggx_reflected = mx_ggx_reflected(ggx_samples, i, turn);
+                if (metal_visible)
+                    color += metal_product
+                        * (metal_ggx_reflected.color
+                        * (metal_ggx_reflected.weight
+                        * mx_film_index(metal_ggx_reflected.cosine, re, im, thin_film_thickness, thin_film_IOR)));
+                if (reflection_visible)
+                    color += reflection_product
+                        * (metal_ggx_reflected.color
+                        * (metal_ggx_reflected.weight
+                        * mx_film_index(metal_ggx_reflected.cosine, float3(scaled_specular_IOR), float3(0.0),
+                        thin_film_thickness, thin_film_IOR)));
+                turn = float2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+            }
+        } else {
+            float2 turn = float2(1.0, 0.0);
+            for (int i = 0; i < u_prv.u_envRadianceSamples; ++i) {
+                mx_GgxLight metal_ggx_reflected = mx_ggx_reflected(ggx_samples, i, turn);
+                if (metal_visible)
+                    color += metal_product
+                        * (metal_ggx_reflected.color
+                        * (metal_ggx_reflected.weight * mx_fresnel_conductor(metal_ggx_reflected.cosine, re, im)));
+                if (reflection_visible)
+                    color += reflection_product
+                        * (metal_ggx_reflected.color
+                        * (metal_ggx_reflected.weight
+                        * mx_fresnel_permittivity(metal_ggx_reflected.cosine, scaled_specular_IOR)));
+                turn = float2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+            }
+        }
+    }
+    // environment: refraction
+    if (u_pub.SR_standard_surface_transmission * dielectric_weight > 0.0) {
+        float3 tint = max(u_pub.SR_standard_surface_transmission_color, 0.0);
+        float3 refraction_tint = tint * (u_prv.u_refractionTwoSided ? tint : float3(1.0));
+        float3 refraction_product = refraction_tint
+            * (body_weight * (u_pub.SR_standard_surface_transmission * dielectric_weight));
+        float transmission_blurred = mix(clamp(u_pub.SR_standard_surface_specular_roughness
+            + u_pub.SR_standard_surface_transmission_extra_roughness, 0.0, 1.0), 1.0, coat_blur);
+        mx_GgxSamples samples = mx_ggx_samples(mx_roughness_anisotropy(transmission_blurred,
+            u_pub.SR_standard_surface_specular_anisotropy), N, specular_tangent, V);
+        float2 turn = float2(1.0, 0.0);
+        for (int i = 0; i < u_prv.u_envRadianceSamples; ++i) {
+            mx_GgxLight refraction_ggx_transmitted = mx_ggx_transmitted(samples, specular_IOR, i, turn);
+            color += refraction_product * (refraction_ggx_transmitted.color
+                * (refraction_ggx_transmitted.weight
+                * (1.0 - mx_fresnel_permittivity(refraction_ggx_transmitted.cosine, scaled_specular_IOR))));
+            turn = float2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+        }
+    }
+    // opacity
+    float opacity_grey = dot(u_pub.SR_standard_surface_opacity, float3(0.2722287, 0.6740818, 0.0536895));
+    if (opacity_grey < u_prv.u_alphaThreshold)
+        discard_fragment();
+    out.out1 = float4(opacity_grey * color, opacity_grey);
+}
+};
+
+fragment PixelOutputs FragmentMain(
+    VertexData vd [[stage_in]],
+    constant LightData_pixel& u_lightData [[buffer(0)]],
+    texture2d<float> u_envRadiance_tex [[texture(0)]],
+    sampler u_envRadiance_sampler [[sampler(0)]],
+    texture2d<float> u_envIrradiance_tex [[texture(1)]],
+    sampler u_envIrradiance_sampler [[sampler(1)]],
+    constant PrivateUniforms& u_prv [[buffer(1)]],
+    constant PublicUniforms& u_pub [[buffer(2)]])
+{
+    GlobalContext context = {u_lightData, {u_envRadiance_tex, u_envRadiance_sampler},
+        {u_envIrradiance_tex, u_envIrradiance_sampler}, u_prv, u_pub, vd, {}};
+    context.FragmentMain();
+    return context.out;
+}
