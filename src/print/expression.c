@@ -112,16 +112,22 @@ static void print_reference(struct printer *p, const struct lang_node *node)
         print_expression(p, node, LANG_PREC_UNARY);
 }
 
-static void print_arguments(struct printer *p, const struct lang_node *call)
+void print_arguments(struct printer *p, const struct lang_node *call)
 {
     const struct lang_unit *layer;
     const struct lang_function *callee = lang_function(p->unit, call->a, &layer);
+    bool in_struct = p->style->syntax->results_in_struct, is_first = true;
     lang_ref ref = call->b;
     for (uint32_t i = 0; ref; i++) {
         const struct lang_node *node = node_at(p, ref);
         assert(i < callee->num_params);
-        text_str(p->out, i ? ", " : "");
-        if (ast_slot(layer, callee, i)->mode != LANG_IN)
+        uint8_t mode = ast_slot(layer, callee, i)->mode;
+        ref = node->next;
+        if (in_struct && mode == LANG_OUT)
+            continue;
+        text_str(p->out, is_first ? "" : ", ");
+        is_first = false;
+        if (mode != LANG_IN && !in_struct)
             print_reference(p, node);
         else
             print_expression(p, node, lang_argument_level(p->style->syntax));
@@ -130,7 +136,6 @@ static void print_arguments(struct printer *p, const struct lang_node *call)
             print_expression(p, node, LANG_PREC_POSTFIX);
             text_str(p->out, LANG_SAMPLER_SUFFIX);
         }
-        ref = node->next;
     }
 }
 
@@ -295,6 +300,8 @@ void print_expression(struct printer *p, const struct lang_node *node, enum lang
         text_str(p->out, "}}");
         break;
     case LANG_CALL:
+        if (print_result_value(p, node))
+            break;
         text_str(p->out, print_function_name(p->names, p->unit, node->a));
         text_char(p->out, '(');
         print_arguments(p, node);

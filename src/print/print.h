@@ -83,6 +83,11 @@ struct lang_syntax {
     /* parameters are read-only: an assigned parameter is copied to a local first */
     bool copies_params;
     bool plain_scalars;    /* the language has no bool and uint: their literals are int literals */
+    /*
+     * functions have no parameters for results: they return a struct of all results, which stands
+     * above the function (results.c). Needs a reserved_prefix.
+     */
+    bool results_in_struct;
     bool arrays_are_local; /* functions declare the constant arrays that they read */
     bool one_per_declaration;        /* "float x, y;" is two declarations */
     bool always_braces;              /* also around a single statement */
@@ -234,6 +239,16 @@ const char *lang_member_name(const struct lang_style *style, const struct strpoo
                              str_id name);
 /* The suffix of the sampler beside a texture. No other name has it. */
 #define LANG_SAMPLER_SUFFIX "_sampler"
+
+/* results.c: functions of languages with results_in_struct, whose results are a struct. */
+
+/* "mdl_results_f": the struct of the results of a function, by its name in the output. */
+const char *lang_results_name(const struct lang_syntax *syntax, const char *function,
+                              struct arena *arena);
+/* The member of the value that the function returns in the portable language. */
+#define LANG_RESULTS_VALUE "value"
+/* True if a portable function returns such a struct. */
+bool lang_has_results(const struct lang_syntax *syntax, const struct lang_unit *unit, uint32_t id);
 
 /* declare.c: declarations by the phrases of the syntax. */
 

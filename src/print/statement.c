@@ -162,6 +162,10 @@ static void print_simple(struct printer *p, const struct lang_node *node)
     case LANG_ASSIGN: print_assignment(p, node); break;
     case LANG_EXPR: print_expression(p, node_at(p, node->a), LANG_PREC_ASSIGN); break;
     case LANG_RETURN:
+        if (p->has_results) {
+            print_return_results(p, p->id, node->a);
+            break;
+        }
         text_str(p->out, node->a ? "return " : "return");
         if (node->a)
             print_expression(p, node_at(p, node->a), LANG_PREC_ASSIGN);
@@ -171,11 +175,32 @@ static void print_simple(struct printer *p, const struct lang_node *node)
     }
 }
 
+/* What a statement evaluates once, before anything else; 0: it is no such statement. */
+static lang_ref evaluated(const struct lang_node *node, lang_ref ref)
+{
+    switch (node->kind) {
+    case LANG_IF: return node->a;
+    case LANG_DECLARE:
+    case LANG_ASSIGN:
+    case LANG_EXPR:
+    case LANG_RETURN: return ref;
+    default: return 0;
+    }
+}
+
+/* A statement after the calls that it needs; an expression is such a call itself. */
+static void print_with_calls(struct printer *p, const struct lang_node *node)
+{
+    print_result_calls(p, evaluated(node, (lang_ref)(node - node_at(p, 0))));
+    if (node->kind != LANG_EXPR || !p->num_calls)
+        print_statement(p, node);
+}
+
 static void print_statements(struct printer *p, lang_ref first)
 {
     for (lang_ref ref = first; ref;) {
         const struct lang_node *node = node_at(p, ref);
-        print_statement(p, node);
+        print_with_calls(p, node);
         ref = node->next;
     }
 }
@@ -187,7 +212,7 @@ void print_body(struct printer *p, const struct lang_node *body)
     if (body && body->kind == LANG_BLOCK)
         print_statements(p, body->a);
     else if (body)
-        print_statement(p, body);
+        print_with_calls(p, body);
     p->indent--;
     assert(p->num_visible >= mark);
     p->num_visible = mark;

@@ -49,6 +49,9 @@ struct spell {
     /* by node: 1 + index of the first name of its LET in let_names; 0: the node is an expression */
     uint32_t *local_of;
     VEC(struct spell_name) let_names;
+    /* the struct of the results of the graph's function that is written, and their number; NULL */
+    const char *graph_results;
+    uint32_t num_graph_results;
     VEC(str_id) wanted_names; /* names that several locals of the function want, sorted */
     /* of a shader that is a function: its parameters are copied to file scope */
     bool shares_vertex_data;
