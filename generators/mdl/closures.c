@@ -93,6 +93,11 @@ static struct mdl_parts layered(struct mdl_tree *t, ir_ref top, ir_ref base)
 
 /* ---- The tree ---- */
 
+static bool is_volume(ir_type_id type)
+{
+    return type == IR_TYPE_VOLUME || type == IR_TYPE_VDF;
+}
+
 static struct mdl_parts rewrite(struct mdl_tree *t, ir_ref ref)
 {
     ir_ref a[4] = {0};
@@ -100,16 +105,18 @@ static struct mdl_parts rewrite(struct mdl_tree *t, ir_ref ref)
     if (node->op == IR_LEAF)
         return mdl_leaf(t, ref);
     memcpy(a, ir_args(t->graph, ref), (node->num_args < 4 ? node->num_args : 4) * sizeof *a);
+    bool fills = is_volume(node->type);
     switch (node->op) {
     case IR_LAYER: return layered(t, a[0], a[1]);
     case IR_CLOSURE_MIX:
-    case IR_SHADER_MIX: return mdl_parts_mixed(t, t->of[a[0]], t->of[a[1]], a[2]);
+    case IR_SHADER_MIX: return mdl_parts_mixed(t, t->of[a[0]], t->of[a[1]], a[2], fills);
     case IR_CLOSURE_ADD:
     case IR_VOLUME_SHADER: return mdl_parts_sum(t, t->of[a[0]], t->of[a[1]]);
-    case IR_CLOSURE_SCALE: return mdl_parts_scaled(t, t->of[a[0]], a[1]);
+    case IR_CLOSURE_SCALE: return mdl_parts_scaled(t, t->of[a[0]], a[1], fills);
     case IR_LIGHT_SHADER:
         return mdl_parts_scaled(t, t->of[a[0]],
-                                ir_mul(t->graph, a[1], ir_op1(t->graph, IR_EXP2, a[2])));
+                                ir_mul(t->graph, a[1], ir_op1(t->graph, IR_EXP2, a[2])),
+                                false);
     default: return (struct mdl_parts){0};
     }
 }
@@ -277,18 +284,12 @@ static ir_ref thin_walled(struct mdl_tree *t, ir_ref surface)
     return is_false ? 0 : thin;
 }
 
-/* A volume has no surface of its own: light enters it straight on. */
-static bool is_volume(ir_type_id type)
-{
-    return type == IR_TYPE_VOLUME || type == IR_TYPE_VDF;
-}
-
 static void emit_sides(struct mdl_tree *t, ir_ref front, ir_ref back)
 {
     ir_ref cutout, none;
     struct mdl_parts parts = side_parts(t, front, &cutout), behind = side_parts(t, back, &none);
     bool fills = front && is_volume(ir_type_of(t->graph, front));
-    if (fills)
+    if (fills) /* a volume has no surface of its own: light enters it straight on */
         parts.bsdf = mdl_transparent(t, ir_white(t->graph));
     put(t, MDL_SCATTERING, IR_TYPE_BSDF, parts.bsdf);
     put_light(t, fills ? NULL : parts.light, MDL_EMISSION);
@@ -337,6 +338,15 @@ static bool emit_value(struct mdl_tree *t, ir_ref root)
 
 /* ---- Hook ---- */
 
+/* A step becomes sharp without derivatives, but a height has no normal. */
+static bool needs_slopes(const struct mdl_tree *t, ir_ref call)
+{
+    const struct lang_function *fn =
+        lang_function(t->shader->unit, shader_callee(t->shader, call), NULL);
+    return strcmp(str_text(t->shader->strings, fn->name), "mx_slopes_to_normal") == 0
+           || strcmp(str_text(t->shader->strings, fn->name), "mx_heighttonormal") == 0;
+}
+
 /* What the effects read and a material cannot have; NULL: all is there. */
 static const char *missing(struct mdl_tree *t)
 {
@@ -346,20 +356,22 @@ static const char *missing(struct mdl_tree *t)
         const uint8_t *needed = ir_mark(t->graph, &root, 1, t->shader->arena);
         for (ir_ref ref = 1; ref <= root; ref++) {
             const struct ir_node *node = ir_get(t->graph, ref);
+            if (needed[ref] && node->op == IR_CALL && needs_slopes(t, ref))
+                return "no slopes of a height, which need derivatives";
             if (!needed[ref] || node->op != IR_UNIFORM)
                 continue;
             const struct shader_variable *v =
                 &t->shader->interface.variables.items[node->attr];
             const char *semantic = str_text(t->shader->strings, v->semantic);
             if (v->block == BLOCK_PRIVATE_UNIFORMS && !mdl_knows_uniform(semantic))
-                return semantic;
+                return mdl_lacks(t, "no %s where a material is evaluated", semantic);
         }
     }
     return NULL;
 }
 
 static bool emit(struct shader *shader, const struct closure_host *host, ir_ref root,
-                 str_id *out_unknown)
+                 const char **out_lacks)
 {
     struct mdl_tree t = {.shader = shader, .graph = shader->graph, .host = host};
     ir_ref front = root, back = 0,
@@ -380,9 +392,9 @@ static bool emit(struct shader *shader, const struct closure_host *host, ir_ref 
         return emit_value(&t, front);
     shader->reflection.kind = is_volume(type) ? SHADER_VOLUME : SHADER_SURFACE;
     emit_sides(&t, front, back);
-    const char *lacks = t.lacks ? t.lacks : missing(&t);
-    *out_unknown = lacks ? str_intern_z(shader->strings, lacks) : 0;
-    return !lacks;
+    t.lacks = t.lacks ? t.lacks : missing(&t);
+    *out_lacks = t.lacks;
+    return !t.lacks;
 }
 
 const struct target_closures mdl_closures = {.emit = emit};

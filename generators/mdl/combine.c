@@ -16,6 +16,14 @@ ir_ref mdl_call(struct mdl_tree *t, const char *form, ir_type_id type, const ir_
     return ir_build(t->graph, IR_LEAF, type, callee, args, n);
 }
 
+const char *mdl_lacks(struct mdl_tree *t, const char *format, const char *name)
+{
+    struct text text;
+    text_init(&text, t->shader->arena);
+    text_fmt(&text, format, name);
+    return text_cstr(&text);
+}
+
 static bool is_float(const struct mdl_tree *t, ir_ref value)
 {
     return ir_type_of(t->graph, value) == IR_TYPE_FLOAT;
@@ -34,7 +42,7 @@ ir_ref mdl_scaled(struct mdl_tree *t, ir_ref bsdf, ir_ref factor)
     if (ir_const_is(t->graph, factor, 0.0f))
         return 0;
     ir_ref args[2] = {factor, bsdf};
-    return mdl_call(t, "df::tint(tint: color($0), base: $1)", IR_TYPE_BSDF, args, 2);
+    return mdl_call(t, MDL_TINT "tint: color($0), base: $1)", IR_TYPE_BSDF, args, 2);
 }
 
 ir_ref mdl_sum(struct mdl_tree *t, ir_ref a, ir_ref b)
@@ -139,14 +147,17 @@ static ir_ref times(struct mdl_tree *t, ir_ref value, ir_ref factor)
     return value ? ir_mul(t->graph, value, factor) : 0;
 }
 
-struct mdl_parts mdl_parts_scaled(struct mdl_tree *t, struct mdl_parts p, ir_ref factor)
+struct mdl_parts mdl_parts_scaled(struct mdl_tree *t, struct mdl_parts p, ir_ref factor,
+                                  bool is_medium)
 {
     if (!factor || ir_const_is(t->graph, factor, 1.0f))
         return p;
     p.bsdf = mdl_scaled(t, p.bsdf, factor);
     p.light = lights_scaled(t, p.light, factor);
-    p.absorption = times(t, p.absorption, factor);
-    p.scattering = times(t, p.scattering, factor);
+    if (is_medium) {
+        p.absorption = times(t, p.absorption, factor);
+        p.scattering = times(t, p.scattering, factor);
+    }
     return p;
 }
 
@@ -178,12 +189,15 @@ struct mdl_parts mdl_parts_sum(struct mdl_tree *t, struct mdl_parts a, struct md
 }
 
 struct mdl_parts mdl_parts_mixed(struct mdl_tree *t, struct mdl_parts bg, struct mdl_parts fg,
-                                 ir_ref mix)
+                                 ir_ref mix, bool is_medium)
 {
     ir_ref bsdf = mdl_mixed(t, bg.bsdf, fg.bsdf, mix);
+    bool both = (bg.absorption || bg.scattering) && (fg.absorption || fg.scattering);
     bg.bsdf = fg.bsdf = 0;
-    struct mdl_parts sum = mdl_parts_sum(t, mdl_parts_scaled(t, bg, ir_one_minus(t->graph, mix)),
-                                         mdl_parts_scaled(t, fg, mix));
+    is_medium |= both;
+    struct mdl_parts sum =
+        mdl_parts_sum(t, mdl_parts_scaled(t, bg, ir_one_minus(t->graph, mix), is_medium),
+                      mdl_parts_scaled(t, fg, mix, is_medium));
     sum.bsdf = bsdf;
     return sum;
 }

@@ -358,6 +358,8 @@ static ir_ref bsdf_over(struct leaf *leaf, ir_ref base)
 
 /* ---- Other leaves ---- */
 
+static const char no_closure[] = "no closure for '%s', and a function cannot replace it";
+
 /* The light of a cone is even up to its edge; MDL has it as a spot with the fall-off of a plane. */
 static const struct mdl_light *cone(struct leaf *leaf)
 {
@@ -419,14 +421,32 @@ static struct mdl_parts medium(struct mdl_tree *t, ir_ref ref)
     };
 }
 
+/* MDL has one tint of all paths through a fibre: the mean of three. */
+static ir_ref hair_tint(const struct leaf *leaf)
+{
+    struct ir_graph *g = leaf->tree->graph;
+    ir_ref r = leaf->inputs[INPUT_tint_R], tt = leaf->inputs[INPUT_tint_TT],
+           trt = leaf->inputs[INPUT_tint_TRT];
+    if (r == tt && r == trt)
+        return r;
+    return ir_scaled(g, ir_add(g, r, ir_add(g, tt, trt)), 1.0f / 3.0f);
+}
+
 static struct mdl_parts hair(struct leaf *leaf)
 {
+    struct mdl_tree *t = leaf->tree;
+    ir_ref args[2] = {
+        ir_mul(t->graph, hair_tint(leaf), leaf->weight),
+        written(leaf,
+                MDL_HAIR_BSDF "roughness_R: {roughness_R}, roughness_TT: {roughness_TT}, "
+                              "roughness_TRT: {roughness_TRT}, cuticle_angle: {cuticle_angle}, "
+                              "absorption_coefficient: color({absorption_coefficient}), ior: {ior})",
+                IR_TYPE_BSDF)};
+    bool is_white = ir_const_is(t->graph, args[0], 1.0f);
     return (struct mdl_parts){
-        .hair = written(leaf,
-                        "df::chiang_hair_bsdf(roughness_R: {roughness_R}, roughness_TT: {roughness_TT}, "
-                        "roughness_TRT: {roughness_TRT}, cuticle_angle: {cuticle_angle}, "
-                        "absorption_coefficient: color({absorption_coefficient}), ior: {ior})",
-                        IR_TYPE_BSDF)};
+        .hair = is_white ? args[1]
+                         : mdl_call(t, MDL_TINT "tint: color($0), base: $1)", IR_TYPE_BSDF, args,
+                                    2)};
 }
 
 static struct mdl_parts bsdf_leaf(struct mdl_tree *t, ir_ref ref, struct leaf *leaf)
@@ -447,7 +467,7 @@ static struct mdl_parts bsdf_leaf(struct mdl_tree *t, ir_ref ref, struct leaf *l
     parts.light =
         mdl_light(t, 0, closure_call(t->shader, t->host, ref, LEAF_EMISSION, NULL));
     if (!parts.bsdf && !closure_has(t->shader, t->host, ref, LEAF_EMISSION))
-        t->lacks = leaf->family;
+        t->lacks = mdl_lacks(t, no_closure, leaf->family);
     return parts;
 }
 
@@ -455,11 +475,12 @@ struct mdl_parts mdl_leaf(struct mdl_tree *t, ir_ref ref)
 {
     const struct ir_node node = *ir_get(t->graph, ref);
     if (closure_source(t->shader, ref)) {
-        t->lacks = str_text(t->shader->strings, t->graph->callees.items[node.attr].name);
+        t->lacks = mdl_lacks(t, no_closure,
+                             str_text(t->shader->strings, t->graph->callees.items[node.attr].name));
         return (struct mdl_parts){0};
     }
     if (closure_has(t->shader, t->host, ref, LEAF_FACTOR))
-        return mdl_parts_scaled(t, factor(t, ref), ir_arg(t->graph, ref, 0));
+        return mdl_parts_scaled(t, factor(t, ref), ir_arg(t->graph, ref, 0), false);
     struct leaf leaf = leaf_of(t, ref);
     struct mdl_parts parts = {0};
     if (node.type == IR_TYPE_BSDF)
@@ -471,7 +492,7 @@ struct mdl_parts mdl_leaf(struct mdl_tree *t, ir_ref ref)
     else
         parts.light =
             mdl_light(t, 0, closure_call(t->shader, t->host, ref, LEAF_EMISSION, NULL));
-    return mdl_parts_scaled(t, parts, leaf.weight);
+    return mdl_parts_scaled(t, parts, leaf.weight, true);
 }
 
 bool mdl_leaf_covers(struct mdl_tree *t, ir_ref ref)

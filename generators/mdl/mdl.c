@@ -87,6 +87,22 @@ static const struct lang_syntax syntax = {
     .write_value = write_value,
 };
 
+static bool is_hair(const struct shader *shader, ir_ref ref)
+{
+    const struct ir_node *node = ir_get(shader->graph, ref);
+    if (node->op != IR_LEAF)
+        return false;
+    const char *form = str_text(shader->strings, shader->graph->callees.items[node->attr].name);
+    if (strncmp(form, MDL_TINT, strlen(MDL_TINT)) == 0)
+        return is_hair(shader, ir_arg(shader->graph, ref, 1));
+    return strncmp(form, MDL_HAIR_BSDF, strlen(MDL_HAIR_BSDF)) == 0;
+}
+
+static const char *node_type(const struct spell *spell, ir_ref ref)
+{
+    return is_hair(spell->shader, ref) ? "hair_bsdf" : NULL;
+}
+
 static const char *const versions[] = {"1.8", "1.9", "1.10", NULL};
 
 const struct target target_mdl = {
@@ -100,6 +116,7 @@ const struct target target_mdl = {
     .syntax = &syntax,
     .frame = &mdl_frame,
     .form = mdl_form,
+    .node_type = node_type,
     .position = "state::position()",
     .stage_suffix = {NULL, "mdl"},
 };

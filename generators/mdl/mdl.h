@@ -23,6 +23,10 @@ enum mdl_part {
 };
 extern const char *const mdl_part_names[NUM_MDL_PARTS];
 
+/* A closure of the graph's type BSDF that is a hair_bsdf, and what scales any closure. */
+#define MDL_HAIR_BSDF "df::chiang_hair_bsdf("
+#define MDL_TINT "df::tint("
+
 /* forms.c: lang_names.form; `user_data` is the spell. */
 const struct lang_pieces *mdl_form(void *user_data, const struct lang_use *use);
 

@@ -31,8 +31,11 @@ struct mdl_tree {
     ir_ref ior;            /* vec3 of what light is refracted into; 0: nothing refracts */
     bool has_new_sheen;    /* the version has df::microflake_sheen_bsdf */
     struct table counted;  /* the leaves among the shader's closures */
-    const char *lacks;     /* why MDL cannot have the closure; NULL: it can */
+    const char *lacks;     /* what MDL lacks (struct target_closures); NULL: nothing */
 };
+
+/* A text that lives as long as the shader. */
+const char *mdl_lacks(struct mdl_tree *tree, const char *format, const char *name);
 
 /* ---- combine.c: closures of closures; a bsdf 0 is black and absorbs nothing ---- */
 
@@ -48,10 +51,15 @@ ir_ref mdl_attenuated(struct mdl_tree *tree, ir_ref base, const ir_ref *through)
 /* Straight on, in a colour. */
 ir_ref mdl_transparent(struct mdl_tree *tree, ir_ref color);
 
-struct mdl_parts mdl_parts_scaled(struct mdl_tree *tree, struct mdl_parts parts, ir_ref factor);
+/*
+ * A factor or mix weighs what a surface scatters, not the medium behind it; of closures that are
+ * media (`is_medium`) it weighs the coefficients. Two media of a surface are mixed.
+ */
+struct mdl_parts mdl_parts_scaled(struct mdl_tree *tree, struct mdl_parts parts, ir_ref factor,
+                                  bool is_medium);
 struct mdl_parts mdl_parts_sum(struct mdl_tree *tree, struct mdl_parts a, struct mdl_parts b);
 struct mdl_parts mdl_parts_mixed(struct mdl_tree *tree, struct mdl_parts bg, struct mdl_parts fg,
-                                 ir_ref mix);
+                                 ir_ref mix, bool is_medium);
 const struct mdl_light *mdl_light(struct mdl_tree *tree, ir_ref edf, ir_ref radiance);
 
 /* ---- leaves.c ---- */

@@ -16,11 +16,11 @@ struct spell; /* spell/spell.h */
 struct target_closures {
     /*
      * Replaces closure_emit: writes the effects for a root of any type. false if the type has no
-     * meaning, or if the language has no closure for a leaf; *out_unknown is then the family of the
-     * leaf, otherwise unchanged.
+     * meaning, or if the language lacks something; *out_lacks then says what, otherwise it is
+     * unchanged: "no closure for 'x'".
      */
     bool (*emit)(struct shader *shader, const struct closure_host *host, ir_ref root,
-                 str_id *out_unknown);
+                 const char **out_lacks);
 };
 
 struct reflect; /* shader/reflect.h */
@@ -37,7 +37,8 @@ struct target_network {
      * false as for target_closures.emit.
      */
     bool (*emit_node)(struct shader *shader, const struct closure_host *host,
-                      const struct network_output *outputs, unsigned n, str_id *out_unknown);
+                      const struct network_output *outputs, unsigned n,
+                      const char **out_lacks);
     /* Adds the shaders that do not belong to a node, after the shaders of nodes. */
     void (*add_parts)(struct network *network);
     /* The text of a stage; empty: there is no such stage. */
