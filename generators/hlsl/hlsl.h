@@ -28,7 +28,6 @@ enum helper {
 };
 const struct lang_pieces *hlsl_form_of(struct spell *spell, const struct lang_use *use,
                                        const char *const *own);
-const char *hlsl_maker(void *user_data, const char *type);
 
 /* ---- frame.c ---- */
 

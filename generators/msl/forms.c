@@ -9,31 +9,11 @@ static unsigned columns_of(ir_type_id type)
     return ir_type_info(type)->columns;
 }
 
-/* ---- Forms and helpers made here live as long as the stage is written ---- */
-
-static struct text *new_text(struct spell *spell)
-{
-    struct text *text = ARENA_NEW(spell->scratch, struct text);
-    text_init(text, spell->scratch);
-    return text;
-}
-
-static const struct lang_pieces *call_of(struct spell *spell, const char *text)
-{
-    return lang_form_of(spell->scratch, text, LANG_PREC_POSTFIX);
-}
-
 enum helper {
 #define HELPER(ID, text) HELPER_##ID,
 #include "generators/msl/helpers.def"
 #undef HELPER
 };
-
-/* Helpers have built-in types only. */
-static void put_type(const struct spell *spell, ir_type_id type, struct text *out)
-{
-    text_put(out, lang_type_name(spell->style, &spell->lang_names, type));
-}
 
 static void add_helper(struct spell *spell, const struct lang_use *use, unsigned helper)
 {
@@ -41,14 +21,7 @@ static void add_helper(struct spell *spell, const struct lang_use *use, unsigned
 #define HELPER(ID, text) text,
 #include "generators/msl/helpers.def"
     };
-    struct text *text = new_text(spell);
-    for (const char *p = declarations[helper]; *p; p++) {
-        if (*p != '$')
-            text_char(text, *p);
-        else
-            put_type(spell, *++p == 'T' ? use->type : use->operands[*p - '0'], text);
-    }
-    spell_helper(spell, text_cstr(text));
+    spell_add_helper(spell, use, declarations[helper]);
 }
 
 /* ---- Operators of matrices, column by column ---- */
@@ -57,22 +30,15 @@ static void add_helper(struct spell *spell, const struct lang_use *use, unsigned
 static const struct lang_pieces *by_column(struct spell *spell, const struct lang_use *use,
                                            const char *name, const char *sign)
 {
-    struct text *text = new_text(spell), *call = new_text(spell);
-    put_type(spell, use->type, text);
-    text_fmt(text, " %s(", name);
-    for (unsigned i = 0; i < 2; i++) {
-        put_type(spell, use->operands[i], text);
-        text_str(text, i ? " b)\n{\n    " : " a, ");
-    }
-    put_type(spell, use->type, text);
+    struct text *text = spell_new_text(spell), *call = spell_new_text(spell);
     text_fmt(text,
-             " made;\n    for (int i = 0; i < %u; ++i)\n"
+             "$T %s($0 a, $1 b)\n{\n    $T made;\n    for (int i = 0; i < %u; ++i)\n"
              "        made[i] = a%s %s b%s;\n    return made;\n}\n",
-             columns_of(use->type), ir_type_is_matrix(use->operands[0]) ? "[i]" : "", sign,
+             name, columns_of(use->type), ir_type_is_matrix(use->operands[0]) ? "[i]" : "", sign,
              ir_type_is_matrix(use->operands[1]) ? "[i]" : "");
-    spell_helper(spell, text_cstr(text));
+    spell_add_helper(spell, use, text_cstr(text));
     text_fmt(call, "%s($0, $1)", name);
-    return call_of(spell, text_cstr(call));
+    return spell_call_form(spell, text_cstr(call));
 }
 
 static const struct lang_pieces *arithmetic(struct spell *spell, const struct lang_use *use)
@@ -100,11 +66,11 @@ static const struct lang_pieces *equality(struct spell *spell, const struct lang
     ir_type_id type = use->operands[0];
     bool same = use->op == IR_EQ;
     if (ir_type_is_vector(type))
-        return call_of(spell, same ? "all($0 == $1)" : "any($0 != $1)");
+        return spell_call_form(spell, same ? "all($0 == $1)" : "any($0 != $1)");
     if (!ir_type_is_matrix(type))
         return NULL;
     add_helper(spell, use, HELPER_EQUAL_2 + columns_of(type) - 2);
-    return same ? call_of(spell, "equal($0, $1)")
+    return same ? spell_call_form(spell, "equal($0, $1)")
                 : lang_form_of(spell->scratch, "!equal($0, $1)", LANG_PREC_UNARY);
 }
 
@@ -113,7 +79,7 @@ static const struct lang_pieces *choice(struct spell *spell, const struct lang_u
     if (!ir_type_is_matrix(use->type))
         return NULL;
     add_helper(spell, use, HELPER_CHOOSE);
-    return call_of(spell, "choose($0, $1, $2)");
+    return spell_call_form(spell, "choose($0, $1, $2)");
 }
 
 /* ---- Conversions; the syntax has those of vectors of numbers ---- */
@@ -128,10 +94,10 @@ static const struct lang_pieces *resize(struct spell *spell, const struct lang_u
     };
     if (from == to)
         return NULL;
-    struct text *call = new_text(spell);
+    struct text *call = spell_new_text(spell);
     add_helper(spell, use, helpers[from][to]);
     text_fmt(call, "%s_%u($0)", from < to ? "grow" : "cut", to);
-    return call_of(spell, text_cstr(call));
+    return spell_call_form(spell, text_cstr(call));
 }
 
 static const struct lang_pieces *convert(struct spell *spell, const struct lang_use *use)
@@ -141,7 +107,7 @@ static const struct lang_pieces *convert(struct spell *spell, const struct lang_
         return resize(spell, use);
     bool is_choice = ir_type_is_vector(from) && ir_type_info(from)->scalar == IR_TYPE_BOOL
                      && ir_type_components(from) == ir_type_components(to) && from != to;
-    return is_choice ? call_of(spell, "select($T(0), $T(1), $0)") : NULL;
+    return is_choice ? spell_call_form(spell, "select($T(0), $T(1), $0)") : NULL;
 }
 
 /* ---- Functions that MSL has for other types only ---- */
@@ -151,9 +117,9 @@ static const struct lang_pieces *of_number(struct spell *spell, const struct lan
     if (use->operands[0] != IR_TYPE_FLOAT)
         return NULL;
     switch (use->op) {
-    case IR_LENGTH: return call_of(spell, "abs($0)");
-    case IR_DISTANCE: return call_of(spell, "abs($0 - $1)");
-    case IR_NORMALIZE: return call_of(spell, "sign($0)");
+    case IR_LENGTH: return spell_call_form(spell, "abs($0)");
+    case IR_DISTANCE: return spell_call_form(spell, "abs($0 - $1)");
+    case IR_NORMALIZE: return spell_call_form(spell, "sign($0)");
     default: return lang_form_of(spell->scratch, "$0 * $1", LANG_PREC_PRODUCT); /* DOT */
     }
 }
@@ -161,7 +127,7 @@ static const struct lang_pieces *of_number(struct spell *spell, const struct lan
 static const struct lang_pieces *sign_of(struct spell *spell, const struct lang_use *use)
 {
     return ir_type_info(use->type)->scalar == IR_TYPE_INT
-               ? call_of(spell, "clamp($0, $T(-1), $T(1))")
+               ? spell_call_form(spell, "clamp($0, $T(-1), $T(1))")
                : NULL;
 }
 
@@ -175,14 +141,15 @@ static const struct lang_pieces *sample(struct spell *spell, const struct lang_u
     switch (use->op) {
     case IR_TEX_LOD:
         add_helper(spell, use, HELPER_LAYER_LOD);
-        return call_of(spell, "sample_layer_lod($0, $1, $2)");
+        return spell_call_form(spell, "sample_layer_lod($0, $1, $2)");
     case IR_TEX_GRAD:
         add_helper(spell, use, HELPER_LAYER_GRAD);
-        return call_of(spell, "sample_layer_grad($0, $1, $2, $3)");
-    case IR_TEX_FETCH: return call_of(spell, "$0.tex.read(uint2($1.xy), uint($1.z), uint($2))");
+        return spell_call_form(spell, "sample_layer_grad($0, $1, $2, $3)");
+    case IR_TEX_FETCH:
+        return spell_call_form(spell, "$0.tex.read(uint2($1.xy), uint($1.z), uint($2))");
     default:
         add_helper(spell, use, is_alone ? HELPER_LAYER_ALONE : HELPER_LAYER);
-        return call_of(spell, "sample_layer($0, $1)");
+        return spell_call_form(spell, "sample_layer($0, $1)");
     }
 }
 
@@ -191,13 +158,13 @@ static const struct lang_pieces *sample(struct spell *spell, const struct lang_u
 static const struct lang_pieces *help(struct spell *spell, const struct lang_use *use)
 {
     switch (use->op) {
-    case IR_MOD: add_helper(spell, use, HELPER_MOD); return call_of(spell, "mod($0, $1)");
+    case IR_MOD: add_helper(spell, use, HELPER_MOD); return spell_call_form(spell, "mod($0, $1)");
     case IR_INVERSE:
         add_helper(spell, use, HELPER_INVERSE_2 + columns_of(use->type) - 2);
-        return call_of(spell, "inverse($0)");
+        return spell_call_form(spell, "inverse($0)");
     default: /* TEX_SIZE */
         add_helper(spell, use, HELPER_SIZE);
-        return call_of(spell, "texture_size($0, $1)");
+        return spell_call_form(spell, "texture_size($0, $1)");
     }
 }
 
@@ -218,15 +185,4 @@ const struct lang_pieces *msl_form(void *user_data, const struct lang_use *use)
     if (use->is_store || !writers[use->op])
         return NULL;
     return writers[use->op](user_data, use);
-}
-
-/* A struct without constructors is made of a list in braces, which no form of a call has. */
-const char *msl_maker(void *user_data, const char *type)
-{
-    struct spell *spell = user_data;
-    const struct spell_maker *maker = spell_find_maker(spell, type);
-    struct text *text = new_text(spell);
-    spell_write_maker(spell, maker, text);
-    spell_helper(spell, text_cstr(text));
-    return maker->name;
 }

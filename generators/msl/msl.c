@@ -101,13 +101,13 @@ const struct target target_msl = {
     .brief = "Metal Shading Language 2.3 and 3.0",
     .caps = CAP_VERTEX_STAGE | CAP_OVERLOADS | CAP_BITWISE | CAP_IMPLICIT_LOD | CAP_TEXTURE_ARRAYS
             | CAP_UNIFORM_BLOCKS | CAP_BINDINGS | CAP_OWN_NUMBERS | CAP_BLOCK_STAGE_IO
-            | CAP_SAMPLERS,
+            | CAP_SAMPLERS | CAP_HOST_FILES,
     .max_textures = 16, /* section 2.10: samplers of a function */
     .versions = versions,
     .syntax = &syntax,
     .frame = &msl_frame,
     .form = msl_form,
-    .maker = msl_maker,
+    .maker = spell_helper_maker,
     .packing = PACKING_METAL,
     .instances = instances,
     .position = ".pos",

@@ -14,8 +14,7 @@
 extern const struct target target_msl;
 extern const struct target_frame msl_frame; /* frame.c */
 
-/* forms.c: hooks of struct target. */
+/* forms.c: hook of struct target. */
 const struct lang_pieces *msl_form(void *user_data, const struct lang_use *use);
-const char *msl_maker(void *user_data, const char *type);
 
 #endif

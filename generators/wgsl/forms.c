@@ -4,12 +4,6 @@
 
 #include <string.h>
 
-/* The number of rows of a vector or matrix. */
-static unsigned rows_of(ir_type_id type)
-{
-    return ir_type_info(type)->components / ir_type_info(type)->columns;
-}
-
 static bool is_matrix(ir_type_id type)
 {
     return type < IR_TYPE_FIRST_USER && ir_type_is_matrix(type);
@@ -20,65 +14,12 @@ static bool is_scalar(ir_type_id type)
     return type < IR_TYPE_FIRST_USER && ir_type_components(type) == 1;
 }
 
-/* ---- Forms and helpers made here live as long as the stage is written ---- */
-
-static struct text *new_text(struct spell *spell)
-{
-    struct text *text = ARENA_NEW(spell->scratch, struct text);
-    text_init(text, spell->scratch);
-    return text;
-}
-
-static const struct lang_pieces *call_of(struct spell *spell, const char *text)
-{
-    return lang_form_of(spell->scratch, text, LANG_PREC_POSTFIX);
-}
-
-/* The name of a type: a tree has structs of the unit, the graph has types of its own. */
-static const char *type_text(struct spell *spell, const struct lang_use *use, ir_type_id type)
-{
-    struct text *text = new_text(spell), *before = spell->out;
-    spell->out = text;
-    if (type < IR_TYPE_FIRST_USER || use->node)
-        spell_type(spell, type);
-    else
-        spell_text(spell, spell->user_types[type - IR_TYPE_FIRST_USER]);
-    spell->out = before;
-    return text_cstr(text);
-}
-
-/* Letters, digits and underscores of a type: "vec3_bool" of "vec3<bool>". */
-static void put_in_name(const char *type, struct text *out)
-{
-    for (; *type && *type != '>'; type++)
-        text_char(out, *type == '<' ? '_' : *type);
-}
-
 enum helper {
 #define HELPER(ID, text) HELPER_##ID,
 #include "generators/wgsl/helpers.def"
 #undef HELPER
     NUM_HELPERS
 };
-
-static void expand(struct spell *spell, const struct lang_use *use, const char *from,
-                   struct text *out)
-{
-    for (; *from; from++) {
-        if (*from != '$') {
-            text_char(out, *from);
-            continue;
-        }
-        char mark = *++from;
-        bool is_of_result = mark == 'T' || mark == 'S', is_name = mark == 'S' || mark == 'A';
-        unsigned operand = mark == '1';
-        const char *type = type_text(spell, use, is_of_result ? use->type : use->operands[operand]);
-        if (is_name)
-            put_in_name(type, out);
-        else
-            text_str(out, type);
-    }
-}
 
 static void add_helper(struct spell *spell, const struct lang_use *use, unsigned helper)
 {
@@ -87,9 +28,7 @@ static void add_helper(struct spell *spell, const struct lang_use *use, unsigned
 #include "generators/wgsl/helpers.def"
     };
     assert(helper < NUM_HELPERS);
-    struct text *text = new_text(spell);
-    expand(spell, use, declarations[helper], text);
-    spell_helper(spell, text_cstr(text));
+    spell_add_helper(spell, use, declarations[helper]);
 }
 
 /*
@@ -99,11 +38,11 @@ static void add_helper(struct spell *spell, const struct lang_use *use, unsigned
 static const struct lang_pieces *helped(struct spell *spell, const struct lang_use *use,
                                         unsigned helper, const char *name, const char *operands)
 {
-    struct text *call = new_text(spell);
+    struct text *call = spell_new_text(spell);
     add_helper(spell, use, helper);
-    expand(spell, use, name, call);
+    spell_expand(spell, use, name, call);
     text_fmt(call, "(%s)", operands);
-    return call_of(spell, text_cstr(call));
+    return spell_call_form(spell, text_cstr(call));
 }
 
 void wgsl_add_numbers(struct spell *spell)
@@ -121,13 +60,13 @@ void wgsl_add_numbers(struct spell *spell)
 /* "$0", or the matrix whose components are all this scalar */
 static const char *as_matrix(struct spell *spell, const struct lang_use *use, unsigned operand)
 {
-    struct text *text = new_text(spell);
+    struct text *text = spell_new_text(spell);
     if (!is_scalar(use->operands[operand])) {
         text_fmt(text, "$%u", operand);
         return text_cstr(text);
     }
-    add_helper(spell, use, HELPER_FILL_2 + rows_of(use->type) - 2);
-    expand(spell, use, "wgsl_fill_$S", text);
+    add_helper(spell, use, HELPER_FILL_2 + ir_type_rows(use->type) - 2);
+    spell_expand(spell, use, "wgsl_fill_$S", text);
     text_fmt(text, "($%u)", operand);
     return text_cstr(text);
 }
@@ -136,7 +75,7 @@ static const struct lang_pieces *sum(struct spell *spell, const struct lang_use 
 {
     if (!is_matrix(use->type) || (!is_scalar(use->operands[0]) && !is_scalar(use->operands[1])))
         return NULL;
-    struct text *text = new_text(spell);
+    struct text *text = spell_new_text(spell);
     text_fmt(text, "%s %s %s", as_matrix(spell, use, 0), use->op == IR_ADD ? "+" : "-",
              as_matrix(spell, use, 1));
     return lang_form_of(spell->scratch, text_cstr(text), LANG_PREC_SUM);
@@ -146,9 +85,9 @@ static const struct lang_pieces *quotient(struct spell *spell, const struct lang
 {
     if (!is_matrix(use->type))
         return NULL;
-    struct text *operands = new_text(spell);
+    struct text *operands = spell_new_text(spell);
     text_fmt(operands, "%s, %s", as_matrix(spell, use, 0), as_matrix(spell, use, 1));
-    return helped(spell, use, HELPER_EACH_DIV_2 + rows_of(use->type) - 2, "wgsl_div_$S",
+    return helped(spell, use, HELPER_EACH_DIV_2 + ir_type_rows(use->type) - 2, "wgsl_div_$S",
                   text_cstr(operands));
 }
 
@@ -163,12 +102,12 @@ static const struct lang_pieces *equality(struct spell *spell, const struct lang
     ir_type_id type = use->operands[0];
     bool same = use->op == IR_EQ;
     if (ir_type_is_vector(type))
-        return call_of(spell, same ? "all($0 == $1)" : "any($0 != $1)");
+        return spell_call_form(spell, same ? "all($0 == $1)" : "any($0 != $1)");
     if (!is_matrix(type))
         return NULL;
-    add_helper(spell, use, HELPER_EQUAL_2 + rows_of(type) - 2);
-    struct text *text = new_text(spell);
-    expand(spell, use, same ? "wgsl_equal_$A" : "!wgsl_equal_$A", text);
+    add_helper(spell, use, HELPER_EQUAL_2 + ir_type_rows(type) - 2);
+    struct text *text = spell_new_text(spell);
+    spell_expand(spell, use, same ? "wgsl_equal_$A" : "!wgsl_equal_$A", text);
     text_str(text, "($0, $1)");
     return lang_form_of(spell->scratch, text_cstr(text),
                         same ? LANG_PREC_POSTFIX : LANG_PREC_UNARY);
@@ -180,7 +119,7 @@ static const struct lang_pieces *shift(struct spell *spell, const struct lang_us
     unsigned n = ir_type_components(use->type);
     if (n == 1 && use->operands[1] == IR_TYPE_UINT)
         return NULL;
-    struct text *text = new_text(spell);
+    struct text *text = spell_new_text(spell);
     text_fmt(text, "$0 %s ", use->op == IR_SHL ? "<<" : ">>");
     if (n == 1)
         text_str(text, "u32($1)");
@@ -193,7 +132,7 @@ static const struct lang_pieces *shift(struct spell *spell, const struct lang_us
 static const struct lang_pieces *choice(struct spell *spell, const struct lang_use *use)
 {
     if (use->type == IR_TYPE_BOOL)
-        return call_of(spell, "select(($2), ($1), $0)");
+        return spell_call_form(spell, "select(($2), ($1), $0)");
     if (use->type < IR_TYPE_FIRST_USER && !is_matrix(use->type))
         return NULL;
     return helped(spell, use, HELPER_CHOOSE, "wgsl_choose_$S", "$0, $1, $2");
@@ -209,7 +148,7 @@ static const struct lang_pieces *convert(struct spell *spell, const struct lang_
         [3] = {[2] = HELPER_TO_3_FROM_2, [4] = HELPER_TO_3_FROM_4},
         [4] = {[2] = HELPER_TO_4_FROM_2, [3] = HELPER_TO_4_FROM_3},
     };
-    return helped(spell, use, helpers[rows_of(to)][rows_of(from)], "wgsl_$S_of_$A", "$0");
+    return helped(spell, use, helpers[ir_type_rows(to)][ir_type_rows(from)], "wgsl_$S_of_$A", "$0");
 }
 
 /* ---- Functions ---- */
@@ -218,14 +157,14 @@ static const struct lang_pieces *convert(struct spell *spell, const struct lang_
 static const struct lang_pieces *spread(struct spell *spell, const struct lang_use *use,
                                         const char *function)
 {
-    struct text *text = new_text(spell);
+    struct text *text = spell_new_text(spell);
     text_fmt(text, "%s(", function);
     for (unsigned i = 0; i < use->num_operands; i++) {
         bool is_wide = ir_type_components(use->operands[i]) == ir_type_components(use->type);
         text_fmt(text, is_wide ? "%s$%u" : "%s$T($%u)", i ? ", " : "", i);
     }
     text_char(text, ')');
-    return call_of(spell, text_cstr(text));
+    return spell_call_form(spell, text_cstr(text));
 }
 
 static const struct lang_pieces *spread_own(struct spell *spell, const struct lang_use *use)
@@ -235,9 +174,9 @@ static const struct lang_pieces *spread_own(struct spell *spell, const struct la
 
 static const struct lang_pieces *modulo(struct spell *spell, const struct lang_use *use)
 {
-    struct text *name = new_text(spell);
+    struct text *name = spell_new_text(spell);
     add_helper(spell, use, HELPER_MOD);
-    expand(spell, use, "wgsl_mod_$S", name);
+    spell_expand(spell, use, "wgsl_mod_$S", name);
     return spread(spell, use, text_cstr(name));
 }
 
@@ -245,18 +184,20 @@ static const struct lang_pieces *classify(struct spell *spell, const struct lang
 {
     bool is_nan = use->op == IR_ISNAN;
     unsigned first = is_nan ? HELPER_ISNAN_1 : HELPER_ISINF_1;
-    return helped(spell, use, first + rows_of(use->operands[0]) - 1,
+    return helped(spell, use, first + ir_type_rows(use->operands[0]) - 1,
                   is_nan ? "wgsl_isnan_$A" : "wgsl_isinf_$A", "$0");
 }
 
 static const struct lang_pieces *each_product(struct spell *spell, const struct lang_use *use)
 {
-    return helped(spell, use, HELPER_EACH_MUL_2 + rows_of(use->type) - 2, "wgsl_mul_$S", "$0, $1");
+    return helped(spell, use, HELPER_EACH_MUL_2 + ir_type_rows(use->type) - 2, "wgsl_mul_$S",
+                  "$0, $1");
 }
 
 static const struct lang_pieces *inverse(struct spell *spell, const struct lang_use *use)
 {
-    return helped(spell, use, HELPER_INVERSE_2 + rows_of(use->type) - 2, "wgsl_inverse_$S", "$0");
+    return helped(spell, use, HELPER_INVERSE_2 + ir_type_rows(use->type) - 2, "wgsl_inverse_$S",
+                  "$0");
 }
 
 /* Lengths and products of single numbers. */
@@ -265,7 +206,7 @@ static const struct lang_pieces *of_scalars(struct spell *spell, const struct la
     if (!is_scalar(use->operands[0]))
         return NULL;
     return use->op == IR_DOT         ? lang_form_of(spell->scratch, "$0 * $1", LANG_PREC_PRODUCT)
-           : use->op == IR_NORMALIZE ? call_of(spell, "sign($0)")
+           : use->op == IR_NORMALIZE ? spell_call_form(spell, "sign($0)")
                                      : NULL;
 }
 
@@ -300,17 +241,18 @@ static const struct lang_pieces *layers(struct spell *spell, const struct lang_u
  */
 static const struct lang_pieces *store(struct spell *spell, const struct lang_use *use)
 {
-    unsigned n = use->attr >> 8, rows = rows_of(use->type);
+    unsigned n = use->attr >> 8, rows = ir_type_rows(use->type);
     if (use->op != IR_SWIZZLE || n == 1)
         return NULL;
-    const char *whole = type_text(spell, use, use->type);
-    struct text *name = new_text(spell), *text = new_text(spell), *call = new_text(spell);
+    const char *whole = spell_use_type(spell, use, use->type);
+    struct text *name = spell_new_text(spell), *text = spell_new_text(spell),
+                *call = spell_new_text(spell);
     text_str(name, "wgsl_with_");
     for (unsigned i = 0; i < n; i++)
         text_char(name, "xyzw"[use->attr >> 2 * i & 3]);
     text_fmt(name, "_%s", whole);
     text_fmt(text, "fn %s(v: %s, parts: %s) -> %s\n{\n    return %s(", text_cstr(name), whole,
-             type_text(spell, use, use->operands[1]), whole, whole);
+             spell_use_type(spell, use, use->operands[1]), whole, whole);
     for (unsigned row = 0; row < rows; row++) {
         unsigned part = n;
         for (unsigned i = 0; i < n; i++)
@@ -321,7 +263,7 @@ static const struct lang_pieces *store(struct spell *spell, const struct lang_us
     text_str(text, ");\n}\n");
     spell_helper(spell, text_cstr(text));
     text_fmt(call, "%s($0, $1)", text_cstr(name));
-    return call_of(spell, text_cstr(call));
+    return spell_call_form(spell, text_cstr(call));
 }
 
 /* ---- Hooks ---- */

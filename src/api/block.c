@@ -49,7 +49,7 @@ void block_write_words(const struct shader_variable *v, const union ir_word *wor
         *to = words->u != 0;
         return;
     }
-    uint32_t columns = info->columns > 1 ? info->columns : 1, rows = info->components / columns;
+    uint32_t rows = ir_type_rows(v->type);
     for (uint32_t i = 0; i < info->components; i++)
         memcpy(to + i / rows * v->matrix_stride + i % rows * sizeof *words, &words[i],
                sizeof *words);

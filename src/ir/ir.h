@@ -44,6 +44,7 @@ static inline const struct ir_type_info *ir_type_info(ir_type_id type) /* for bu
 const char *ir_type_text(ir_type_id type);
 /* Every type has them: structs, arrays and types without numbers have 0 and the scalar VOID. */
 unsigned ir_type_components(ir_type_id type);
+unsigned ir_type_rows(ir_type_id type); /* of a vector or matrix; 1 of a scalar */
 ir_type_id ir_type_scalar(ir_type_id type);
 bool ir_type_is_vector(ir_type_id type);
 static inline bool ir_type_is_closure(ir_type_id type)

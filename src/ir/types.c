@@ -32,6 +32,12 @@ unsigned ir_type_components(ir_type_id type)
     return type < IR_NUM_TYPES ? ir_types[type].components : 0;
 }
 
+unsigned ir_type_rows(ir_type_id type)
+{
+    unsigned columns = type < IR_NUM_TYPES ? ir_types[type].columns : 0;
+    return ir_type_components(type) / (columns > 1 ? columns : 1);
+}
+
 ir_type_id ir_type_scalar(ir_type_id type)
 {
     return type < IR_NUM_TYPES ? ir_types[type].scalar : IR_TYPE_VOID;

@@ -12,7 +12,7 @@ static const struct lang_pieces *form_of(const struct text *text, enum lang_prec
 static const struct lang_pieces *diagonal(ir_type_id type, struct text *text)
 {
     const struct ir_type_info *info = ir_type_info(type);
-    unsigned rows = info->components / info->columns;
+    unsigned rows = ir_type_rows(type);
     for (unsigned i = 0; i < info->components; i++) {
         text_str(text, i ? ", " : "$0 * $T(");
         text_str(text, i % (rows + 1) ? "0.0" : "1.0");

@@ -81,7 +81,7 @@ static void order_interface(struct shader *shader)
 static uint32_t metal_column(ir_type_id type)
 {
     const struct ir_type_info *info = ir_type_info(type);
-    uint32_t rows = info->components / (uint32_t)(info->columns > 1 ? info->columns : 1);
+    uint32_t rows = ir_type_rows(type);
     return (info->scalar == IR_TYPE_BOOL ? 1u : 4u) * (rows == 3 ? 4 : rows);
 }
 

@@ -153,6 +153,32 @@ struct spell_maker *spell_find_maker(const struct spell *spell, const char *type
 void spell_write_maker(const struct spell *spell, const struct spell_maker *maker,
                        struct text *out);
 
+/* ---- helper.c: for the hooks `form` and `maker` of a target ---- */
+
+struct text *spell_new_text(struct spell *spell); /* lives as long as the stage is written */
+/* The form of a call: "choose($0, $1, $2)". */
+const struct lang_pieces *spell_call_form(struct spell *spell, const char *text);
+/* The name of the type of a result or operand of `use`. */
+const char *spell_use_type(struct spell *spell, const struct lang_use *use, ir_type_id type);
+/*
+ * Writes `from` with names of types: $T of the result, $0, $1, … of the operands; $S of the result
+ * and $A of the first operand as a part of a name.
+ */
+void spell_expand(struct spell *spell, const struct lang_use *use, const char *from,
+                  struct text *out);
+/*
+ * Declares a function that the language lacks, once, above the functions of the shader. The text
+ * must live as long as the stage is written.
+ */
+void spell_helper(struct spell *spell, const char *text);
+/* The same for a text with the marks of spell_expand. */
+void spell_add_helper(struct spell *spell, const struct lang_use *use, const char *declaration);
+/*
+ * Hook `maker` of a target whose structs have no constructors: a helper builds the struct. User
+ * data is the spell.
+ */
+const char *spell_helper_maker(void *user_data, const char *type);
+
 /* ---- wrap.c ---- */
 
 /* Breaks the long lines of spell->out from `begin` on, and moves the marks. */
@@ -160,11 +186,6 @@ void spell_wrap(struct spell *spell, size_t begin);
 
 /* ---- stage.c ---- */
 
-/*
- * Declares a function that the language lacks, once, above the functions of the shader. The text
- * must live as long as the stage is written.
- */
-void spell_helper(struct spell *spell, const char *text);
 void spell_title(struct spell *spell); /* "Gold · surfacematerial · …", without a newline */
 
 /* Writes the stage of a C-like target: declarations, functions, main. */

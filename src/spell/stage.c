@@ -252,14 +252,6 @@ static void write_functions(struct spell *spell)
         spell_graph_function(spell, &spell->stage->functions.items[i]);
 }
 
-void spell_helper(struct spell *spell, const char *text)
-{
-    for (uint32_t i = 0; i < spell->helpers.len; i++)
-        if (strcmp(spell->helpers.items[i], text) == 0)
-            return;
-    vec_push(spell->scratch, &spell->helpers, text);
-}
-
 /*
  * Writes the helpers after the functions and main, because these ask for helpers; then joins the
  * texts in order.
