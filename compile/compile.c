@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "compile/compile.h"
+#include "compile/command.h"
 #include "compile/hlsl.h"
-#include "compile/oslc.h"
-#include "compile/slang.h"
 #include "compile/spirv.h"
+#include "compile/worker.h"
 
 #include <glslang/Include/glslang_c_interface.h>
 #include <glslang/Public/resource_limits_c.h>
@@ -43,7 +43,7 @@ void compile_begin(void)
 
 void compile_end(void)
 {
-    slang_end();
+    workers_end();
     glslang_finalize_process();
 }
 
@@ -58,9 +58,8 @@ static const struct dialect *find_dialect(const char *target)
 
 bool compile_knows_target(const char *target)
 {
-    return find_dialect(target) || strcmp(target, "hlsl") == 0
-           || (strcmp(target, "osl") == 0 && oslc_is_installed())
-           || (strcmp(target, "slang") == 0 && slang_is_installed());
+    return find_dialect(target) || strcmp(target, "hlsl") == 0 || command_knows_target(target)
+           || worker_knows_target(target);
 }
 
 /* ---- Messages ---- */
@@ -260,9 +259,10 @@ static bool compile_hlsl(const char *const sources[MXG_NUM_STAGES], struct compi
     return out->errors == 0;
 }
 
-static bool compile_slang(const char *const sources[MXG_NUM_STAGES], struct compiled *out)
+static bool compile_by_worker(const char *target, const char *const sources[MXG_NUM_STAGES],
+                              struct compiled *out)
 {
-    slang_compile_program(sources, out);
+    worker_compile_program(target, sources, out);
     for (int stage = 0; stage < MXG_NUM_STAGES; ++stage)
         if (out->stages[stage].words)
             validate_spirv((mxg_stage)stage, SPV_ENV_VULKAN_1_2, out);
@@ -273,12 +273,12 @@ bool compile_program(const char *target, const char *const sources[MXG_NUM_STAGE
                      struct compiled *out)
 {
     *out = (struct compiled){0};
-    if (strcmp(target, "osl") == 0)
-        return oslc_compile_program(sources, out);
+    if (command_knows_target(target))
+        return command_compile_program(target, sources, out);
+    if (worker_knows_target(target))
+        return compile_by_worker(target, sources, out);
     if (strcmp(target, "hlsl") == 0)
         return compile_hlsl(sources, out);
-    if (strcmp(target, "slang") == 0)
-        return compile_slang(sources, out);
     const struct dialect *dialect = find_dialect(target);
     if (!dialect) {
         compiled_add(out, MXG_STAGE_PIXEL, MXG_SEVERITY_ERROR, 0, "unknown dialect", 15);

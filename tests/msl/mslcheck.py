@@ -1,9 +1,10 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""mslcheck.py FILE.metal [--run HARNESS.inc [N]]
+"""mslcheck.py FILE.metal [--run HARNESS.inc [N]] | mslcheck.py --serve
 Checks Metal Shading Language source with stock clang, and optionally runs it on the CPU. Debian 12: clang python3-clang-14.
  1. check pass: C++ for OpenCL with real address spaces     2. C++17 without address spaces (catches what 1 has to waive; the one that runs)
  3. lint on clang's AST: attributes and their targets, indices, address-space words, stage structs, what Metal bans
+ --serve: answers requests of compile/worker.c, whose form is in compile/answer.mjs
  --run: HARNESS.inc is appended to the shader; it defines  extern "C" void msl_pixel(int i, float* rgba)  for i = 0..N-1."""
 import os, re, subprocess, sys, tempfile
 import clang.cindex as ci
@@ -64,8 +65,16 @@ def compares(e):                              # is this expression a comparison 
     c = list(e.get_children())
     return e.kind == K.BINARY_OPERATOR and is_vec(e.type) and e.type.get_canonical().element_type.kind == T.INT and any(is_vec(x.type) and x.type.get_canonical().element_type.kind != T.INT for x in c)
 
+units = {}
+PREAMBLE = 0x4 | 0x100                        # a precompiled preamble from the first parse on: the headers, which all shaders share
+def parse(path, args):
+    key = path, args[1]
+    if key in units: units[key].reparse()
+    else: units[key] = ci.Index.create().parse(path, args + ['-ferror-limit=0'], options=PREAMBLE)
+    return units[key]
+
 def diagnostics(path, args, waive):
-    tu = ci.Index.create().parse(path, args + ['-ferror-limit=0'])
+    tu = parse(path, args)
     text = open(path).read().split('\n')
     for d in tu.diagnostics:
         if d.severity < ci.Diagnostic.Error: continue
@@ -148,22 +157,37 @@ def lint(tu, path):
     for f in calls:
         if reaches(f, f, set()): err(0, 'recursion through %s' % f)
 
-def main():
-    src = open(sys.argv[1]).read()
+def check(src, path):
+    errors.clear()
     if re.search(r'^\s*#\s*include\s*<(?!metal_|simd/)', src, re.M): err(0, 'only metal_* and simd/ headers exist')
-    keep = tempfile.TemporaryDirectory(prefix='mslcheck', dir=os.environ.get('MSL_TMP', HERE)); tmp = keep.name; path = tmp + '/' + os.path.basename(sys.argv[1])
     open(path, 'w').write(annotate(src))
     tu = diagnostics(path, CHECK, True)
     diagnostics(path, RUN, False)
     lint(tu, path)
-    for line, msg in sorted(errors): print('%s:%d: error: %s' % (sys.argv[1], line, msg))
-    print('%s: %d errors' % (sys.argv[1], len(errors)))
-    if not errors and '--run' in sys.argv:
-        i = sys.argv.index('--run'); n = sys.argv[i + 2] if len(sys.argv) > i + 2 else '1'
-        open(path, 'a').write('\n#include "%s"\n' % os.path.abspath(sys.argv[i + 1]))
-        open(tmp + '/host.c', 'w').write(HOST)
-        subprocess.check_call(['clang'] + RUN + ['-w', '-O1', '-ffp-contract=off', '-c', path, '-o', tmp + '/shader.o'])
-        subprocess.check_call(['clang', tmp + '/host.c', tmp + '/shader.o', '-lm', '-o', tmp + '/run'])
-        subprocess.check_call([tmp + '/run', n])
-    sys.exit(1 if errors else 0)
+    return sorted(errors)
+
+def run(path, tmp, harness, n):
+    open(path, 'a').write('\n#include "%s"\n' % os.path.abspath(harness))
+    open(tmp + '/host.c', 'w').write(HOST)
+    subprocess.check_call(['clang'] + RUN + ['-w', '-O1', '-ffp-contract=off', '-c', path, '-o', tmp + '/shader.o'])
+    subprocess.check_call(['clang', tmp + '/host.c', tmp + '/shader.o', '-lm', '-o', tmp + '/run'])
+    subprocess.check_call([tmp + '/run', n])
+
+def serve(path):
+    requests, answers = sys.stdin.buffer, sys.stdout.buffer
+    for line in iter(requests.readline, b''):
+        sources = [requests.read(int(size)).decode() for size in line.split()]
+        log = ''.join('%d 1 %d %s\n' % (stage, at, msg.replace('\n', ' ')) for stage, src in enumerate(sources) if src for at, msg in check(src, path)).encode()
+        answers.write(b'%d 0 0\n' % len(log) + log); answers.flush()
+
+def main():
+    keep = tempfile.TemporaryDirectory(prefix='mslcheck', dir=os.environ.get('MSL_TMP')); tmp = keep.name; path = tmp + '/shader.metal'
+    if sys.argv[1] == '--serve': return serve(path)
+    found = check(open(sys.argv[1]).read(), path)
+    for line, msg in found: print('%s:%d: error: %s' % (sys.argv[1], line, msg))
+    print('%s: %d errors' % (sys.argv[1], len(found)))
+    if not found and '--run' in sys.argv:
+        i = sys.argv.index('--run')
+        run(path, tmp, sys.argv[i + 1], sys.argv[i + 2] if len(sys.argv) > i + 2 else '1')
+    sys.exit(1 if found else 0)
 main()

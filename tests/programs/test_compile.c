@@ -65,6 +65,40 @@ static void refuses(const char *target, const char *vertex, const char *pixel, u
     compiled_finish(&compiled);
 }
 
+/* Compilers that are installed apart: a good and a wrong pixel stage, and its message. */
+static void test_installed(void)
+{
+    static const struct {
+        const char *target, *good, *wrong, *word;
+        uint32_t line;
+    } rows[] = {
+        {"slang", "[shader(\"fragment\")]\nfloat4 main() : SV_Target\n{\n    return 1.0;\n}\n",
+         "[shader(\"fragment\")]\nfloat4 main() : SV_Target\n{\n    return missing;\n}\n",
+         "missing", 4},
+        {"wgsl", "@fragment\nfn main() -> @location(0) vec4f\n{\n    return vec4f(1.0);\n}\n",
+         "@fragment\nfn main() -> @location(0) vec4f\n{\n    return missing;\n}\n", "missing", 4},
+        /* derivatives stand in uniform control flow */
+        {"wgsl", "fn f(x: f32) -> f32\n{\n    return dpdx(x);\n}\n",
+         "@fragment\nfn main(@location(0) x: f32) -> @location(0) vec4f\n{\n    if (x > 0.0) {\n"
+         "        return vec4f(dpdx(x));\n    }\n    return vec4f();\n}\n",
+         "uniform control flow", 5},
+        {"msl",
+         "#include <metal_stdlib>\nusing namespace metal;\nfloat2 f(float2 v) { return v; }\n",
+         "#include <metal_stdlib>\nusing namespace metal;\nfloat3 f(float2 v) { return v; }\n",
+         "return object", 3},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
+        if (!compile_knows_target(rows[i].target)) {
+            printf("skip: no compiler for %s is installed\n", rows[i].target);
+            continue;
+        }
+        struct compiled compiled = compile(rows[i].target, NULL, rows[i].good);
+        REQUIRE_EQ(compiled.errors, 0);
+        compiled_finish(&compiled);
+        refuses(rows[i].target, NULL, rows[i].wrong, rows[i].line, rows[i].word);
+    }
+}
+
 int main(void)
 {
     compile_begin();
@@ -83,7 +117,8 @@ int main(void)
     /* loose uniforms are not Vulkan's */
     refuses("vulkan", desktop_vertex, desktop_pixel, 2, "outside a block");
     REQUIRE(compile_knows_target("essl") && compile_knows_target("hlsl"));
-    REQUIRE(!compile_knows_target("msl"));
+    REQUIRE(!compile_knows_target("metal"));
+    test_installed();
     compile_end();
     return test_report("compile");
 }

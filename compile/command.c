@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #define _POSIX_C_SOURCE 200809L
-#include "compile/oslc.h"
+#include "compile/command.h"
 
 #include <fcntl.h>
 #include <spawn.h>
@@ -12,15 +12,23 @@
 
 extern char **environ;
 
-enum { PATH_CAPACITY = 4096 };
+enum { PATH_CAPACITY = 4096, MAX_ARGUMENTS = 8 };
 
-bool oslc_is_installed(void)
+/* "$SOURCE" and "$OBJECT" stand for the files that the compiler reads and writes. */
+static const struct command {
+    const char *target, *ending;
+    const char *argv[MAX_ARGUMENTS];
+} commands[] = {
+    {"osl", "osl", {"oslc", "-q", "-O2", "-o", "$OBJECT", "$SOURCE"}},
+};
+
+static bool is_installed(const char *program)
 {
     const char *folder = getenv("PATH");
     while (folder && *folder) {
         size_t len = strcspn(folder, ":");
         char path[PATH_CAPACITY];
-        int written = snprintf(path, sizeof path, "%.*s/oslc", (int)len, folder);
+        int written = snprintf(path, sizeof path, "%.*s/%s", (int)len, folder, program);
         if (written > 0 && (size_t)written < sizeof path && access(path, X_OK) == 0)
             return true;
         folder += len + (folder[len] == ':');
@@ -28,22 +36,36 @@ bool oslc_is_installed(void)
     return false;
 }
 
-/* ---- Files: oslc reads one and writes one ---- */
+static const struct command *find_command(const char *target)
+{
+    for (size_t i = 0; i < sizeof commands / sizeof *commands; ++i)
+        if (strcmp(commands[i].target, target) == 0)
+            return &commands[i];
+    return NULL;
+}
+
+bool command_knows_target(const char *target)
+{
+    const struct command *command = find_command(target);
+    return command && is_installed(command->argv[0]);
+}
+
+/* ---- Files: a compiler reads one and may write one ---- */
 
 struct work { /* in a folder of its own */
     char folder[PATH_CAPACITY];
     char source[PATH_CAPACITY + 16], object[PATH_CAPACITY + 16], log[PATH_CAPACITY + 16];
 };
 
-static bool make_work(struct work *work, const char *source)
+static bool make_work(struct work *work, const char *ending, const char *source)
 {
     const char *place = getenv("TMPDIR");
     int written = snprintf(work->folder, sizeof work->folder, "%s/mxgen-XXXXXX",
                            place && *place ? place : "/tmp");
     if (written < 0 || (size_t)written >= sizeof work->folder || !mkdtemp(work->folder))
         return false;
-    snprintf(work->source, sizeof work->source, "%s/shader.osl", work->folder);
-    snprintf(work->object, sizeof work->object, "%s/shader.oso", work->folder);
+    snprintf(work->source, sizeof work->source, "%s/shader.%s", work->folder, ending);
+    snprintf(work->object, sizeof work->object, "%s/shader.object", work->folder);
     snprintf(work->log, sizeof work->log, "%s/log", work->folder);
     FILE *file = fopen(work->source, "w");
     if (!file)
@@ -61,7 +83,7 @@ static void remove_work(const struct work *work)
 }
 
 /* Returns what waitpid tells of it; -1 where it did not run. */
-static int run(const struct work *work)
+static int run(const struct command *command, const struct work *work)
 {
     posix_spawn_file_actions_t actions;
     if (posix_spawn_file_actions_init(&actions) != 0)
@@ -69,13 +91,12 @@ static int run(const struct work *work)
     posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, work->log,
                                      O_WRONLY | O_CREAT | O_TRUNC, 0600);
     posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
-    char *argv[] = {(char[]){"oslc"},
-                    (char[]){"-q"},
-                    (char[]){"-O2"},
-                    (char[]){"-o"},
-                    (char *)(uintptr_t)work->object,
-                    (char *)(uintptr_t)work->source,
-                    NULL};
+    char *argv[MAX_ARGUMENTS + 1] = {NULL};
+    for (int i = 0; i < MAX_ARGUMENTS && command->argv[i]; ++i)
+        argv[i] =
+            (char *)(uintptr_t)(strcmp(command->argv[i], "$SOURCE") == 0   ? work->source
+                                : strcmp(command->argv[i], "$OBJECT") == 0 ? work->object
+                                                                           : command->argv[i]);
     pid_t process;
     int status = -1;
     if (posix_spawnp(&process, argv[0], &actions, NULL, argv, environ) != 0
@@ -135,37 +156,41 @@ static void add_fault(struct compiled *out, mxg_stage stage, const char *text)
     compiled_add(out, stage, MXG_SEVERITY_ERROR, 0, text, strlen(text));
 }
 
-static void explain_failure(struct compiled *out, mxg_stage stage, int status)
+static void explain_failure(struct compiled *out, mxg_stage stage, const char *program, int status)
 {
-    char text[128] = "oslc failed without a message";
+    char text[128];
     if (status == -1)
-        snprintf(text, sizeof text, "oslc cannot be started");
+        snprintf(text, sizeof text, "%s cannot be started", program);
     else if (WIFSIGNALED(status))
-        snprintf(text, sizeof text, "oslc was ended (%s), perhaps because memory ran out",
+        snprintf(text, sizeof text, "%s was ended (%s), perhaps because memory ran out", program,
                  strsignal(WTERMSIG(status)));
+    else
+        snprintf(text, sizeof text, "%s failed without a message", program);
     add_fault(out, stage, text);
 }
 
-static void compile(struct compiled *out, mxg_stage stage, const char *source)
+static void compile(const struct command *command, struct compiled *out, mxg_stage stage,
+                    const char *source)
 {
     struct work work;
-    if (!make_work(&work, source)) {
+    if (!make_work(&work, command->ending, source)) {
         add_fault(out, stage, "no temporary file can be written");
         return;
     }
     uint32_t before = out->errors;
-    int status = run(&work);
+    int status = run(command, &work);
     read_log(out, stage, work.log);
     if (status != 0 && out->errors == before)
-        explain_failure(out, stage, status);
+        explain_failure(out, stage, command->argv[0], status);
     out->stages[stage].body_instructions = count_instructions(work.object);
     remove_work(&work);
 }
 
-bool oslc_compile_program(const char *const sources[MXG_NUM_STAGES], struct compiled *out)
+bool command_compile_program(const char *target, const char *const sources[MXG_NUM_STAGES],
+                             struct compiled *out)
 {
     for (int stage = 0; stage < MXG_NUM_STAGES; ++stage)
         if (sources[stage])
-            compile(out, (mxg_stage)stage, sources[stage]);
+            compile(find_command(target), out, (mxg_stage)stage, sources[stage]);
     return out->errors == 0;
 }

@@ -1,0 +1,35 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# What a language's compiler says of shaders, in all roles that the language has.
+# Arguments: mxgen, mxgen-compile, the target, roles that it lacks ("deferred,depth"; none: ''), and documents or folders of documents.
+mxgen=$(realpath "$1") compile=$(realpath "$2") target=$3 lacking=$4
+shift 4
+documents=$(find $(realpath "$@") -name "*.mtlx")
+. "$(dirname "$0")/common.sh"
+
+cat >gold.mtlx <<'END'
+<materialx version="1.39">
+  <standard_surface name="gold" type="surfaceshader"><input name="metalness" type="float" value="1"/></standard_surface>
+</materialx>
+END
+# compiles OPTION...: shaders are made, and the compiler refuses none.
+compiles() {
+    exits 0 "$compile" "$@" --targets "$target" || return
+    [ -s out ] || { echo 'no shader was made' && return 1; }
+    ! grep '^note: .* no compiler' err
+}
+
+for role in ${lacking//,/ }; do
+    check "$role is an error" exits 1 "$mxgen" gold.mtlx --target "$target" --role "$role" -o none
+    check "the error of $role has its reason" grep -q 'have no meaning together: only' err
+done
+"$compile" gold.mtlx --targets "$target" >out 2>err
+if grep -q '^note: .* no compiler' err; then
+    skip "no compiler for $target is installed: nothing is compiled"
+    finish "$target"
+fi
+check 'documents' compiles $documents --trust --interfaces complete,reduced # the compiler starts once for all
+for role in path scatter function deferred depth payload; do
+    [[ ,$lacking, == *,$role,* ]] || check "role $role" compiles gold.mtlx --interfaces complete,reduced --role "$role"
+done
+finish "$target"
