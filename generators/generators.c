@@ -8,9 +8,9 @@
 #include "generators/slang/slang.h"
 #include "generators/wgsl/wgsl.h"
 
-const struct target *const targets[] = {
-    &target_glsl,  &target_vulkan, &target_essl, &target_essl310, &target_hlsl,
-    &target_slang, &target_msl,    &target_wgsl, &target_osl, &target_mdl, NULL};
+const struct target *const targets[] = {&target_glsl, &target_vulkan, &target_essl, &target_essl310,
+                                        &target_hlsl, &target_slang,  &target_msl,  &target_wgsl,
+                                        &target_osl,  &target_mdl,    NULL};
 
 const struct target *target_find(const char *name)
 {

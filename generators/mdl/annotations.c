@@ -2,7 +2,8 @@
 /*
  * Annotations of parameters for user interfaces:
  *
- *     float roughness = 0.3 [[ anno::display_name("Roughness"), anno::in_group("Coat"), anno::hard_range(0.0, 1.0) ]]
+ *     float roughness = 0.3 [[ anno::display_name("Roughness"), anno::in_group("Coat"),
+ * anno::hard_range(0.0, 1.0) ]]
  */
 #include "generators/mdl/mdl.h"
 

@@ -38,9 +38,8 @@ static ir_ref through_at(struct mdl_tree *t, ir_ref top, double angle)
     through = ir_replace(g, through, unit_normal(t->shader), axis, t->shader->arena);
     const uint8_t *below = ir_mark(g, &top, 1, t->shader->arena);
     for (ir_ref ref = 1; ref <= top; ref++) {
-        ir_ref normal = below[ref] && ir_get(g, ref)->op == IR_LEAF
-                            ? mdl_leaf_input(t, ref, "normal")
-                            : 0;
+        ir_ref normal =
+            below[ref] && ir_get(g, ref)->op == IR_LEAF ? mdl_leaf_input(t, ref, "normal") : 0;
         if (normal)
             through = ir_replace(g, through, normal, axis, t->shader->arena);
     }
@@ -115,8 +114,7 @@ static struct mdl_parts rewrite(struct mdl_tree *t, ir_ref ref)
     case IR_CLOSURE_SCALE: return mdl_parts_scaled(t, t->of[a[0]], a[1], fills);
     case IR_LIGHT_SHADER:
         return mdl_parts_scaled(t, t->of[a[0]],
-                                ir_mul(t->graph, a[1], ir_op1(t->graph, IR_EXP2, a[2])),
-                                false);
+                                ir_mul(t->graph, a[1], ir_op1(t->graph, IR_EXP2, a[2])), false);
     default: return (struct mdl_parts){0};
     }
 }
@@ -326,9 +324,7 @@ static bool emit_value(struct mdl_tree *t, ir_ref root)
     ir_ref parts[3];
     unsigned n = ir_type_info(type)->components;
     for (unsigned i = 0; i < 3; i++) {
-        ir_ref part = n == 1  ? root
-                      : i < n ? ir_component(g, root, i)
-                              : ir_const_float(g, 0.0f);
+        ir_ref part = n == 1 ? root : i < n ? ir_component(g, root, i) : ir_const_float(g, 0.0f);
         parts[i] = ir_convert(g, IR_TYPE_FLOAT, part);
     }
     ir_ref color = type == IR_TYPE_VEC3 ? root : ir_construct(g, IR_TYPE_VEC3, parts, 3);
@@ -360,8 +356,7 @@ static const char *missing(struct mdl_tree *t)
                 return "no slopes of a height, which need derivatives";
             if (!needed[ref] || node->op != IR_UNIFORM)
                 continue;
-            const struct shader_variable *v =
-                &t->shader->interface.variables.items[node->attr];
+            const struct shader_variable *v = &t->shader->interface.variables.items[node->attr];
             const char *semantic = str_text(t->shader->strings, v->semantic);
             if (v->block == BLOCK_PRIVATE_UNIFORMS && !mdl_knows_uniform(semantic))
                 return mdl_lacks(t, "no %s where a material is evaluated", semantic);
@@ -376,6 +371,7 @@ static bool emit(struct shader *shader, const struct closure_host *host, ir_ref 
     struct mdl_tree t = {.shader = shader, .graph = shader->graph, .host = host};
     ir_ref front = root, back = 0,
            displacement = root && ir_type_of(t.graph, root) == IR_TYPE_DISPLACEMENT ? root : 0;
+    bool is_good = true;
     host->point->view = unit_normal(shader);
     if (root && ir_get(t.graph, root)->op == IR_MATERIAL) {
         front = ir_arg(t.graph, root, 0);
@@ -389,12 +385,13 @@ static bool emit(struct shader *shader, const struct closure_host *host, ir_ref 
         front = 0;
     ir_type_id type = front ? ir_type_of(t.graph, front) : IR_TYPE_SURFACE;
     if (!ir_type_is_closure(type) && !ir_type_is_shader(type))
-        return emit_value(&t, front);
+        is_good = emit_value(&t, front);
+    else
+        emit_sides(&t, front, back);
     shader->reflection.kind = is_volume(type) ? SHADER_VOLUME : SHADER_SURFACE;
-    emit_sides(&t, front, back);
     t.lacks = t.lacks ? t.lacks : missing(&t);
     *out_lacks = t.lacks;
-    return !t.lacks;
+    return is_good && !t.lacks;
 }
 
 const struct target_closures mdl_closures = {.emit = emit};

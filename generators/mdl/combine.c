@@ -112,8 +112,7 @@ static const struct mdl_light *lights_scaled(struct mdl_tree *t, const struct md
     struct mdl_light *first = NULL, **last = &first;
     for (; light; light = light->next) {
         struct mdl_light *scaled = ARENA_NEW(t->shader->arena, struct mdl_light);
-        *scaled =
-            (struct mdl_light){light->edf, ir_mul(t->graph, light->radiance, factor), NULL};
+        *scaled = (struct mdl_light){light->edf, ir_mul(t->graph, light->radiance, factor), NULL};
         *last = scaled;
         last = &scaled->next;
     }

@@ -52,10 +52,9 @@ static const struct helper {
 static char letter_of(ir_type_id type)
 {
     static const char letters[IR_NUM_TYPES] = {
-        [IR_TYPE_BOOL] = 'b', [IR_TYPE_INT] = 'i',  [IR_TYPE_UINT] = 'u',
-        [IR_TYPE_FLOAT] = 'f', [IR_TYPE_VEC2] = '2', [IR_TYPE_VEC3] = '3',
-        [IR_TYPE_VEC4] = '4',  [IR_TYPE_MAT2] = 'm', [IR_TYPE_MAT3] = 'M',
-        [IR_TYPE_MAT4] = 'N',
+        [IR_TYPE_BOOL] = 'b', [IR_TYPE_INT] = 'i',  [IR_TYPE_UINT] = 'u', [IR_TYPE_FLOAT] = 'f',
+        [IR_TYPE_VEC2] = '2', [IR_TYPE_VEC3] = '3', [IR_TYPE_VEC4] = '4', [IR_TYPE_MAT2] = 'm',
+        [IR_TYPE_MAT3] = 'M', [IR_TYPE_MAT4] = 'N',
     };
     return type < IR_NUM_TYPES && letters[type] ? letters[type] : '?';
 }
@@ -327,10 +326,10 @@ static const struct lang_pieces *convert(struct spell *spell, const struct lang_
     if (is_matrix(to) || is_vector(to) || from >= IR_NUM_TYPES)
         return NULL;
     if (to == IR_TYPE_BOOL)
-        return from == IR_TYPE_BOOL ? lang_form_of(spell->scratch, "$0", LANG_PREC_ASSIGN)
-                                    : lang_form_of(spell->scratch,
-                                                   from == IR_TYPE_FLOAT ? "$0 != 0.0" : "$0 != 0",
-                                                   LANG_PREC_EQUAL);
+        return from == IR_TYPE_BOOL
+                   ? lang_form_of(spell->scratch, "$0", LANG_PREC_ASSIGN)
+                   : lang_form_of(spell->scratch, from == IR_TYPE_FLOAT ? "$0 != 0.0" : "$0 != 0",
+                                  LANG_PREC_EQUAL);
     if (from == IR_TYPE_FLOAT && to == IR_TYPE_UINT) {
         spell_helper(spell, "int mdl_unsigned_of_float(float x)\n{\n    return x < 2147483648.0 ? "
                             "int(x) : int(x - 2147483648.0) ^ (1 << 31);\n}\n");
@@ -435,13 +434,12 @@ static const struct lang_pieces *by_op(struct spell *spell, const struct lang_us
     case IR_STEP:
     case IR_SMOOTHSTEP: return spread(spell, use);
     case IR_CHOOSE:
-        return is_vector(use->type) ? NULL
-                                    : lang_form_of(spell->scratch, "$2 ? $1 : $0",
-                                                   LANG_PREC_TERNARY);
+        return is_vector(use->type)
+                   ? NULL
+                   : lang_form_of(spell->scratch, "$2 ? $1 : $0", LANG_PREC_TERNARY);
     case IR_SHR:
-        return is_unsigned(use->type)
-                   ? lang_form_of(spell->scratch, "$0 >>> $1", LANG_PREC_SHIFT)
-                   : NULL;
+        return is_unsigned(use->type) ? lang_form_of(spell->scratch, "$0 >>> $1", LANG_PREC_SHIFT)
+                                      : NULL;
     case IR_ADD:
     case IR_SUB:
     case IR_DIV: return matrix_form(spell, use);

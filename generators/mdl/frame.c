@@ -213,8 +213,8 @@ static const char *material_name(struct spell *spell)
     const struct shader *shader = spell->shader;
     if (spell->options->shader_name)
         return spell->options->shader_name;
-    const char *name = text_of(
-        spell, shader->interface.rules.neutral_names ? 0 : shader->reflection.path);
+    const char *name =
+        text_of(spell, shader->interface.rules.neutral_names ? 0 : shader->reflection.path);
     name = *name ? name : "neutral";
     return names_unique(&spell->names, name, strlen(name)).text;
 }
@@ -225,7 +225,7 @@ static void open(struct spell *spell)
     SPELL(spell, "export material ", material_name(spell), "(");
     write_parameters(spell, BLOCK_PUBLIC_UNIFORMS, &count);
     write_parameters(spell, BLOCK_TEXTURES, &count);
-    spell_text(spell, count ? "\n)\n= let {\n" : ")\n= let {\n");
+    SPELL(spell, count ? "\n)\n= " : ")\n= ", spell->stage->statements.len ? "let {\n" : "");
 }
 
 /* ---- Parts ---- */
@@ -251,9 +251,11 @@ struct field {
 static const struct field fields[] = {
     {MDL_THIN_WALLED, NULL, "thin_walled", "$0"},
     {MDL_SCATTERING, "surface: material_surface", "scattering", "$0"},
-    {MDL_EMISSION, "surface: material_surface", "emission", "material_emission(emission: $0, intensity: "},
+    {MDL_EMISSION, "surface: material_surface", "emission",
+     "material_emission(emission: $0, intensity: "},
     {MDL_BACK_SCATTERING, "backface: material_surface", "scattering", "$0"},
-    {MDL_BACK_EMISSION, "backface: material_surface", "emission", "material_emission(emission: $0, intensity: "},
+    {MDL_BACK_EMISSION, "backface: material_surface", "emission",
+     "material_emission(emission: $0, intensity: "},
     {MDL_IOR, NULL, "ior", "color($0)"},
     {MDL_VOLUME, "volume: material_volume", "scattering", "$0"},
     {MDL_ABSORPTION, "volume: material_volume", "absorption_coefficient", "color($0)"},
@@ -276,7 +278,7 @@ static void close(struct spell *spell)
 {
     const char *in = NULL;
     bool is_first = true;
-    spell_text(spell, "} in material(");
+    SPELL(spell, spell->stage->statements.len ? "} in " : "", "material(");
     for (size_t i = 0; i < sizeof fields / sizeof *fields; i++) {
         if (!part_name(spell, fields[i].part))
             continue;
@@ -290,7 +292,7 @@ static void close(struct spell *spell)
         in = fields[i].in;
         is_first = false;
     }
-    spell_text(spell, in ? ")\n);\n" : "\n);\n");
+    SPELL(spell, in ? ")" : "", is_first ? ");\n" : "\n);\n");
     use_helpers(spell);
 }
 

@@ -108,7 +108,8 @@ static bool put_constant(struct writer *w, ir_ref value)
 {
     struct ir_value constant;
     size_t len = strlen("color(");
-    bool is_color = w->text.len >= len && memcmp(w->text.data + w->text.len - len, "color(", len) == 0;
+    bool is_color =
+        w->text.len >= len && memcmp(w->text.data + w->text.len - len, "color(", len) == 0;
     if (!is_color || !ir_get_const(w->leaf->tree->graph, value, &constant)
         || constant.type != IR_TYPE_VEC3)
         return false;
@@ -134,8 +135,8 @@ static void put_normal(struct writer *w)
 {
     struct mdl_tree *t = w->leaf->tree;
     ir_ref normal = w->leaf->inputs[INPUT_normal];
-    ir_ref own = ir_op1(t->graph, IR_NORMALIZE,
-                        shader_stream(t->shader, STR_normalWorld, IR_TYPE_VEC3));
+    ir_ref own =
+        ir_op1(t->graph, IR_NORMALIZE, shader_stream(t->shader, STR_normalWorld, IR_TYPE_VEC3));
     if (!normal || normal == own)
         return;
     text_str(&w->text, ", normal: mdl_normal_to_internal(");
@@ -262,8 +263,10 @@ static ir_ref filmed(struct leaf *leaf, ir_ref closure)
     if (!is_film(leaf))
         return closure;
     leaf->lobe = closure;
-    return written(leaf, "df::thin_film(thickness: {thinfilm_thickness}, ior: color({thinfilm_ior}), base: {lobe})",
-                   IR_TYPE_BSDF);
+    return written(
+        leaf,
+        "df::thin_film(thickness: {thinfilm_thickness}, ior: color({thinfilm_ior}), base: {lobe})",
+        IR_TYPE_BSDF);
 }
 
 /* The index that fits Schlick's reflectance at normal incidence. */
@@ -379,7 +382,8 @@ static struct mdl_parts factor(struct mdl_tree *t, ir_ref ref)
     ir_ref base = ir_arg(t->graph, ref, ir_get(t->graph, ref)->num_args - 1);
     struct mdl_parts parts = {0}, below = t->of[base];
     for (const struct mdl_light *light = below.light; light; light = light->next) {
-        leaf.base = light->edf ? light->edf : mdl_call(t, "df::diffuse_edf()", IR_TYPE_EDF, NULL, 0);
+        leaf.base =
+            light->edf ? light->edf : mdl_call(t, "df::diffuse_edf()", IR_TYPE_EDF, NULL, 0);
         struct mdl_parts one = {0};
         one.light = mdl_light(t,
                               written(&leaf,
@@ -438,15 +442,15 @@ static struct mdl_parts hair(struct leaf *leaf)
     ir_ref args[2] = {
         ir_mul(t->graph, hair_tint(leaf), leaf->weight),
         written(leaf,
-                MDL_HAIR_BSDF "roughness_R: {roughness_R}, roughness_TT: {roughness_TT}, "
-                              "roughness_TRT: {roughness_TRT}, cuticle_angle: {cuticle_angle}, "
-                              "absorption_coefficient: color({absorption_coefficient}), ior: {ior})",
+                MDL_HAIR_BSDF
+                "roughness_R: {roughness_R}, roughness_TT: {roughness_TT}, "
+                "roughness_TRT: {roughness_TRT}, cuticle_angle: {cuticle_angle}, "
+                "absorption_coefficient: color({absorption_coefficient}), ior: {ior})",
                 IR_TYPE_BSDF)};
     bool is_white = ir_const_is(t->graph, args[0], 1.0f);
-    return (struct mdl_parts){
-        .hair = is_white ? args[1]
-                         : mdl_call(t, MDL_TINT "tint: color($0), base: $1)", IR_TYPE_BSDF, args,
-                                    2)};
+    return (struct mdl_parts){.hair = is_white ? args[1]
+                                               : mdl_call(t, MDL_TINT "tint: color($0), base: $1)",
+                                                          IR_TYPE_BSDF, args, 2)};
 }
 
 static struct mdl_parts bsdf_leaf(struct mdl_tree *t, ir_ref ref, struct leaf *leaf)
@@ -462,10 +466,8 @@ static struct mdl_parts bsdf_leaf(struct mdl_tree *t, ir_ref ref, struct leaf *l
     if (strcmp(leaf->family, "mx_subsurface_bsdf") == 0)
         add_subsurface(leaf, &parts);
     parts.bsdf = bsdf_over(leaf, 0);
-    parts.bsdf =
-        mdl_scaled(t, parts.bsdf, closure_call(t->shader, t->host, ref, LEAF_TINT, NULL));
-    parts.light =
-        mdl_light(t, 0, closure_call(t->shader, t->host, ref, LEAF_EMISSION, NULL));
+    parts.bsdf = mdl_scaled(t, parts.bsdf, closure_call(t->shader, t->host, ref, LEAF_TINT, NULL));
+    parts.light = mdl_light(t, 0, closure_call(t->shader, t->host, ref, LEAF_EMISSION, NULL));
     if (!parts.bsdf && !closure_has(t->shader, t->host, ref, LEAF_EMISSION))
         t->lacks = mdl_lacks(t, no_closure, leaf->family);
     return parts;
@@ -490,8 +492,7 @@ struct mdl_parts mdl_leaf(struct mdl_tree *t, ir_ref ref)
     else if (leaf.inputs[INPUT_inner_angle])
         parts.light = cone(&leaf);
     else
-        parts.light =
-            mdl_light(t, 0, closure_call(t->shader, t->host, ref, LEAF_EMISSION, NULL));
+        parts.light = mdl_light(t, 0, closure_call(t->shader, t->host, ref, LEAF_EMISSION, NULL));
     return mdl_parts_scaled(t, parts, leaf.weight, true);
 }
 

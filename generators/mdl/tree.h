@@ -27,11 +27,11 @@ struct mdl_tree {
     struct shader *shader;
     struct ir_graph *graph;
     const struct closure_host *host;
-    struct mdl_parts *of;  /* per node of closure type */
-    ir_ref ior;            /* vec3 of what light is refracted into; 0: nothing refracts */
-    bool has_new_sheen;    /* the version has df::microflake_sheen_bsdf */
-    struct table counted;  /* the leaves among the shader's closures */
-    const char *lacks;     /* what MDL lacks (struct target_closures); NULL: nothing */
+    struct mdl_parts *of; /* per node of closure type */
+    ir_ref ior;           /* vec3 of what light is refracted into; 0: nothing refracts */
+    bool has_new_sheen;   /* the version has df::microflake_sheen_bsdf */
+    struct table counted; /* the leaves among the shader's closures */
+    const char *lacks;    /* what MDL lacks (struct target_closures); NULL: nothing */
 };
 
 /* A text that lives as long as the shader. */

@@ -20,7 +20,7 @@ struct osl_tree {
     bool seen_through;    /* rays come straight through the surface, and see it from behind */
     uint32_t *aovs;       /* the outputs of the shader's AOVs */
     struct table counted; /* the leaves among the shader's closures */
-    const char *lacks; /* what OSL lacks for a leaf (struct target_closures); NULL: nothing */
+    const char *lacks;    /* what OSL lacks for a leaf (struct target_closures); NULL: nothing */
 };
 
 /*

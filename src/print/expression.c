@@ -81,7 +81,8 @@ void print_variable(struct printer *p, enum lang_phrase phrase, uint32_t slot)
 static void print_local(struct printer *p, uint32_t slot)
 {
     assert(slot < p->fn->num_slots);
-    if (ast_slot(p->layer, p->fn, slot)->mode == LANG_IN)
+    bool is_plain = p->has_results || ast_slot(p->layer, p->fn, slot)->mode == LANG_IN;
+    if (is_plain)
         text_put(p->out, p->locals[slot]);
     else
         lang_put_phrase(p->style->phrases[PHRASE_REFERENCED], p->locals[slot], p->out);

@@ -48,8 +48,8 @@ static void print_param(struct printer *p, uint32_t slot)
 {
     const struct lang_slot *param = ast_slot(p->layer, p->fn, slot);
     struct text_word name = is_copied(p, param) ? copied_name(p, slot) : p->locals[slot];
-    lang_print_variable(p->style, p->names, p->unit, param_phrase(p->style->syntax, param), param->type, name,
-                        p->out);
+    lang_print_variable(p->style, p->names, p->unit, param_phrase(p->style->syntax, param),
+                        param->type, name, p->out);
     if (param->type == IR_TYPE_SAMPLER)
         lang_put_sampler(p->style, name, p->out);
 }

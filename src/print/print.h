@@ -82,13 +82,13 @@ struct lang_syntax {
     uint8_t argument_level; /* the precedence that an argument needs; 0: LANG_PREC_ASSIGN */
     /* parameters are read-only: an assigned parameter is copied to a local first */
     bool copies_params;
-    bool plain_scalars;    /* the language has no bool and uint: their literals are int literals */
+    bool plain_scalars; /* the language has no bool and uint: their literals are int literals */
     /*
      * functions have no parameters for results: they return a struct of all results, which stands
      * above the function (results.c). Needs a reserved_prefix.
      */
     bool results_in_struct;
-    bool arrays_are_local; /* functions declare the constant arrays that they read */
+    bool arrays_are_local;           /* functions declare the constant arrays that they read */
     bool one_per_declaration;        /* "float x, y;" is two declarations */
     bool always_braces;              /* also around a single statement */
     bool float_literals_need_suffix; /* 1.0f */

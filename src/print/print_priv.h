@@ -34,7 +34,7 @@ struct printer {
     const struct lang_names *names;
     const struct lang_unit *unit, *layer;
     const struct lang_function *fn;
-    uint32_t id; /* of fn */
+    uint32_t id;      /* of fn */
     bool has_results; /* it returns a struct of its results */
     struct text *out;
     struct text_word *locals; /* by slot: its name in the output */

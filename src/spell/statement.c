@@ -271,17 +271,16 @@ static void name_member(struct spell *spell, struct spell_name made, const char 
     text_init(&text, spell->scratch);
     text_mem(&text, made.text, made.len);
     text_fmt(&text, ".%s", member);
-    vec_push(spell->scratch, &spell->let_names,
-             (struct spell_name){text_cstr(&text), text.len});
+    vec_push(spell->scratch, &spell->let_names, (struct spell_name){text_cstr(&text), text.len});
 }
 
 /* The member of the struct for a result; those of a graph's function are "r1", "r2". */
 static const char *member_of(struct spell *spell, ir_ref call, unsigned index)
 {
     if (ir_get(spell->shader->graph, call)->op != IR_GRAPH_CALL)
-        return lang_member_name(spell->style, spell->shader->strings,
-                                str_intern_z(spell->shader->strings,
-                                             describe_out(spell, call, index).part));
+        return lang_member_name(
+            spell->style, spell->shader->strings,
+            str_intern_z(spell->shader->strings, describe_out(spell, call, index).part));
     struct text text;
     text_init(&text, spell->scratch);
     text_fmt(&text, "r%u", index + 1);
@@ -525,8 +524,8 @@ static void write_result(struct spell *spell, unsigned indent, const struct effe
     struct text name;
     size_t len = (size_t)snprintf(number, sizeof number, "r%u", (unsigned)effect->index);
     text_init(&name, spell->scratch);
-    lang_put_phrase(spell->style->phrases[PHRASE_REFERENCED], (struct text_word){number, len},
-                    &name);
+    lang_put_phrase(spell->graph_results ? "$0" : spell->style->phrases[PHRASE_REFERENCED],
+                    (struct text_word){number, len}, &name);
     write_assignment(spell, indent, (struct spell_name){text_cstr(&name), name.len}, " = ",
                      effect->value);
 }

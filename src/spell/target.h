@@ -37,8 +37,7 @@ struct target_network {
      * false as for target_closures.emit.
      */
     bool (*emit_node)(struct shader *shader, const struct closure_host *host,
-                      const struct network_output *outputs, unsigned n,
-                      const char **out_lacks);
+                      const struct network_output *outputs, unsigned n, const char **out_lacks);
     /* Adds the shaders that do not belong to a node, after the shaders of nodes. */
     void (*add_parts)(struct network *network);
     /* The text of a stage; empty: there is no such stage. */

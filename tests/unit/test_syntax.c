@@ -32,14 +32,19 @@ static void test_differs(void)
     REQUIRE((target_toy.caps ^ target_find("vulkan")->caps) & CAP_SAMPLER_BINDINGS);
 }
 
-static const char *print(struct fixture *f, const char *called)
+static const char *print_by(struct fixture *f, const struct lang_syntax *syntax, const char *called)
 {
     struct lang_style style;
     struct text text;
-    lang_style_init(&style, &toy_syntax, &f->arena);
+    lang_style_init(&style, syntax, &f->arena);
     text_init(&text, &f->arena);
     lang_print_function(&style, NULL, &f->unit, function(f, called), &text);
     return text_cstr(&text);
+}
+
+static const char *print(struct fixture *f, const char *called)
+{
+    return print_by(f, &toy_syntax, called);
 }
 
 static const char source[] =
@@ -239,6 +244,35 @@ static void test_bindings(void)
     fixture_close(&f);
 }
 
+/* A language whose functions have no parameters for results. */
+static void test_results_in_struct(void)
+{
+    struct fixture f;
+    struct lang_syntax syntax = toy_syntax;
+    syntax.base = &toy_syntax;
+    syntax.results_in_struct = true;
+    syntax.reserved_prefix = "toy_";
+    fixture_open(
+        &f, "float both(float a, out float b, inout float c) { b = a; c += a; return 2.0 * a; }\n"
+            "void none(out float b) { b = 1.0; }\n"
+            "float use(float a) { float b, c = 0.0; none(b); if (both(a, b, c) > 1.0) b += both(c, "
+            "c, b);\n"
+            "    return b + c; }\n");
+    const char *text = print_by(&f, &syntax, "both");
+    REQUIRE(has(text, "struct toy_results_both {\n"));
+    REQUIRE(has(text, "fn both(in a: f32, copy c: f32) -> toy_results_both\n{\n    var b: f32;\n"));
+    REQUIRE(has(text, "    return toy_results_both(2.0 * a, b, c);\n"));
+    REQUIRE(has(print_by(&f, &syntax, "none"), "    b = 1.0;\n    return toy_results_none(b);\n"));
+    text = print_by(&f, &syntax, "use");
+    REQUIRE(has(text,
+                "    toy_results_none toy_r1 = none();\n    b = toy_r1.b;\n"
+                "    toy_results_both toy_r2 = both(a, c);\n    b = toy_r2.b;\n    c = toy_r2.c;\n"
+                "    if (toy_r2.value > 1.0) {\n"));
+    REQUIRE(has(text, "        toy_results_both toy_r3 = both(c, b);\n        c = toy_r3.b;\n"
+                      "        b = toy_r3.c;\n        b += toy_r3.value;\n"));
+    fixture_close(&f);
+}
+
 int main(void)
 {
     test_differs();
@@ -248,5 +282,6 @@ int main(void)
     test_booleans();
     test_results();
     test_bindings();
+    test_results_in_struct();
     return test_report("syntax");
 }
