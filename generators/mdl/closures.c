@@ -61,7 +61,7 @@ enum { MAX_DEPTH = 32 };
 static ir_ref over(struct mdl_tree *t, ir_ref top, ir_ref base, unsigned depth)
 {
     const struct ir_node node = *ir_get(t->graph, top);
-    ir_ref a[3] = {0};
+    ir_ref a[3] = {0}, first;
     memcpy(a, ir_args(t->graph, top), (node.num_args < 3 ? node.num_args : 3) * sizeof *a);
     if (!base || !t->of[top].bsdf)
         return base ? base : t->of[top].bsdf;
@@ -72,7 +72,8 @@ static ir_ref over(struct mdl_tree *t, ir_ref top, ir_ref base, unsigned depth)
         return mdl_leaf_covers(t, top) ? mdl_leaf_over(t, top, base) : over_any(t, top, base);
     case IR_LAYER: return over(t, a[0], over(t, a[1], base, depth + 1), depth + 1);
     case IR_CLOSURE_MIX:
-        return mdl_mixed(t, over(t, a[0], base, depth + 1), over(t, a[1], base, depth + 1), a[2]);
+        first = over(t, a[0], base, depth + 1);
+        return mdl_mixed(t, first, over(t, a[1], base, depth + 1), a[2]);
     case IR_CLOSURE_SCALE: return mdl_mixed(t, base, over(t, a[0], base, depth + 1), a[1]);
     default: return over_any(t, top, base);
     }
@@ -358,7 +359,7 @@ static const char *missing(struct mdl_tree *t)
                 continue;
             const struct shader_variable *v = &t->shader->interface.variables.items[node->attr];
             const char *semantic = str_text(t->shader->strings, v->semantic);
-            if (v->block == BLOCK_PRIVATE_UNIFORMS && !mdl_knows_uniform(semantic))
+            if (v->block == BLOCK_PRIVATE_UNIFORMS && mdl_lacks_uniform(semantic))
                 return mdl_lacks(t, "no %s where a material is evaluated", semantic);
         }
     }

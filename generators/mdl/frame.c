@@ -55,10 +55,16 @@ static void use_helpers(struct spell *spell)
     }
 }
 
-bool mdl_knows_uniform(const char *semantic)
+bool mdl_lacks_uniform(const char *semantic)
 {
-    return FIND(uniforms, semantic) || strcmp(semantic, "frame") == 0
-           || strncmp(semantic, "geomprop:", 9) == 0;
+    static const char *const absent[] = {
+#define ABSENT(beginning) beginning,
+#include "generators/mdl/streams.def"
+    };
+    bool is_absent = false;
+    for (size_t i = 0; i < sizeof absent / sizeof *absent; i++)
+        is_absent |= strncmp(semantic, absent[i], strlen(absent[i])) == 0;
+    return is_absent;
 }
 
 /* "scene::data_lookup_float("wear", 0.5)": data that the scene has beside the state. */

@@ -107,9 +107,9 @@ struct writer {
 static bool put_constant(struct writer *w, ir_ref value)
 {
     struct ir_value constant;
-    size_t len = strlen("color(");
+    size_t len = strlen(MDL_COLOR);
     bool is_color =
-        w->text.len >= len && memcmp(w->text.data + w->text.len - len, "color(", len) == 0;
+        w->text.len >= len && memcmp(w->text.data + w->text.len - len, MDL_COLOR, len) == 0;
     if (!is_color || !ir_get_const(w->leaf->tree->graph, value, &constant)
         || constant.type != IR_TYPE_VEC3)
         return false;
@@ -227,7 +227,7 @@ static void put_input(struct writer *w, const char *name)
                                : w->leaf->inputs[i]);
         return;
     }
-    assert(!"a row names an input that the table has");
+    assert(false); /* a row names an input that the table has */
 }
 
 static ir_ref written(struct leaf *leaf, const char *form, ir_type_id type)
@@ -279,8 +279,8 @@ static ir_ref index_of(const struct leaf *leaf)
            most = ir_const_float(g, 0.98f), none = ir_const_float(g, 0.0f),
            one = ir_const_float(g, 1.0f);
     ir_ref root = ir_op1(g, IR_SQRT, ir_op3(g, IR_CLAMP, frontal, none, most));
-    ir_ref index = ir_div(g, ir_add(g, one, root), ir_sub(g, one, root));
-    return ir_convert(g, IR_TYPE_VEC3, index);
+    ir_ref above = ir_add(g, one, root), below = ir_sub(g, one, root);
+    return ir_convert(g, IR_TYPE_VEC3, ir_div(g, above, below));
 }
 
 static void note_refraction(struct leaf *leaf)

@@ -26,12 +26,13 @@ extern const char *const mdl_part_names[NUM_MDL_PARTS];
 /* A closure of the graph's type BSDF that is a hair_bsdf, and what scales any closure. */
 #define MDL_HAIR_BSDF "df::chiang_hair_bsdf("
 #define MDL_TINT "df::tint("
+#define MDL_COLOR "color("
 
 /* forms.c: lang_names.form; `user_data` is the spell. */
 const struct lang_pieces *mdl_form(void *user_data, const struct lang_use *use);
 
-/* frame.c: true if a material can read a private uniform, by its semantic. */
-bool mdl_knows_uniform(const char *semantic);
+/* frame.c: true if a material cannot read a private uniform, by its semantic. */
+bool mdl_lacks_uniform(const char *semantic);
 
 /* textures.c: the form that reads a texture. */
 const struct lang_pieces *mdl_texture_form(struct spell *spell, const struct lang_use *use);
