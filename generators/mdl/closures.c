@@ -294,7 +294,9 @@ static void emit_sides(struct mdl_tree *t, ir_ref front, ir_ref back)
     put_light(t, fills ? NULL : parts.light, MDL_EMISSION);
     put(t, MDL_BACK_SCATTERING, IR_TYPE_BSDF, behind.bsdf);
     put_light(t, behind.light, MDL_BACK_EMISSION);
-    put(t, MDL_THIN_WALLED, IR_TYPE_BOOL, thin_walled(t, front));
+    /* only a thin wall has another side */
+    put(t, MDL_THIN_WALLED, IR_TYPE_BOOL,
+        back ? ir_const_bool(t->graph, true) : thin_walled(t, front));
     put(t, MDL_IOR, IR_TYPE_VEC3, t->ior);
     put_volume(t, &parts);
     if (fills && parts.light)

@@ -417,6 +417,7 @@ static bool is_by_component(const struct lang_use *use)
     case IR_CHOOSE:
     case IR_MOD:
     case IR_TRUNC:
+    case IR_ROUND:
     case IR_ASINH:
     case IR_ACOSH:
     case IR_ATANH:
