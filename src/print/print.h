@@ -179,6 +179,8 @@ struct lang_use {
     uint32_t attr;              /* of SWIZZLE and MEMBER, as in struct ir_node */
     const ir_type_id *operands; /* types of the operands */
     unsigned num_operands;
+    /* the values of operands that are constants, NULL of others; NULL: nobody knows */
+    const union ir_word *const *constants;
     /*
      * SWIZZLE or INDEX as the target of an assignment: the last operand is the new value of the
      * parts, and the form is the whole with this value. NULL: the language assigns parts.
