@@ -84,8 +84,9 @@ struct lang_syntax {
     bool copies_params;
     bool plain_scalars;    /* the language has no bool and uint: their literals are int literals */
     bool arrays_are_local; /* functions declare the constant arrays that they read */
-    bool one_per_declaration;        /* "float x, y;" is two declarations */
-    bool always_braces;              /* also around a single statement */
+    bool one_per_declaration; /* "float x, y;" is two declarations */
+    bool always_braces;       /* also around a single statement */
+    bool no_directives; /* nor prototypes: declarations stand in any order, and once in a file */
     bool float_literals_need_suffix; /* 1.0f */
     const char *infinity, *nan;      /* expressions, the highest precedence (docs/ir.md) */
     /* max(v, vec3(0.0)), although the language also has max(v, 0.0) */
