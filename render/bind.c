@@ -256,12 +256,13 @@ static bool store_lights(struct bind *bind, uint32_t object, const mxg_variable 
     size_t stride =
         find_block(&bind->draw, variable->set, variable->binding)->size / bind->max_lights;
     const struct shape *shape = find_shape(variable->type);
+    const char *member = *variable->semantic ? variable->semantic : variable->name;
     uint32_t num_lights = bind->scene->num_lights;
     if (num_lights < SCENE_NUM_LIGHTS)
         num_lights = SCENE_NUM_LIGHTS; /* those that the user may switch on */
     for (uint32_t i = 0; i < num_lights && i < bind->max_lights; ++i) {
         float values[MAX_COMPONENTS] = {0};
-        if (!scene_light(bind->scene, i, variable->name, values) && variable->num_values)
+        if (!scene_light(bind->scene, i, member, values) && variable->num_values)
             memcpy(values, variable->values, sizeof values);
         const struct bind_value *said = light_value(bind, i, variable->name);
         if (said && (!shape || !parse_value(said->text, shape, values)))
