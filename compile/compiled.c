@@ -91,6 +91,10 @@ static const struct host {
      "}\n    void light(int i, float3 P, thread float3& L, thread float3& radiance) { L = "
      "normalize(P); radiance = P; }\n};\n",
      "float3", "", NULL, NULL},
+    {"wgsl",
+     "fn mxg_light_count() -> i32 { return 2; }\nfn mxg_light(i: i32, P: vec3f, L: ptr<function, "
+     "vec3f>, radiance: ptr<function, vec3f>) { *L = normalize(P); *radiance = P; }\n",
+     "vec3f", "", NULL, NULL},
 };
 
 static const struct host *find_host(const char *target)

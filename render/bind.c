@@ -56,28 +56,30 @@ static mxg_shader_info get_info(const struct bind *bind)
 
 /* ---- Types by name ---- */
 
+enum { NUM_FAMILIES = 3 }; /* languages that share names: of GLSL, of HLSL, and WGSL */
+
 struct shape {
-    const char *name, *hlsl_name;
+    const char *names[NUM_FAMILIES];
     unsigned columns, rows;
     bool is_float;
 };
 
 static const struct shape shapes[] = {
-    {"float", "float", 1, 1, true},   {"vec2", "float2", 1, 2, true},
-    {"vec3", "float3", 1, 3, true},   {"vec4", "float4", 1, 4, true},
-    {"mat2", "float2x2", 2, 2, true}, {"mat3", "float3x3", 3, 3, true},
-    {"mat4", "float4x4", 4, 4, true}, {"int", "int", 1, 1, false},
-    {"ivec2", "int2", 1, 2, false},   {"ivec3", "int3", 1, 3, false},
-    {"ivec4", "int4", 1, 4, false},   {"uint", "uint", 1, 1, false},
-    {"bool", "bool", 1, 1, false},
+    {{"float", "float", "f32"}, 1, 1, true},       {{"vec2", "float2", "vec2f"}, 1, 2, true},
+    {{"vec3", "float3", "vec3f"}, 1, 3, true},     {{"vec4", "float4", "vec4f"}, 1, 4, true},
+    {{"mat2", "float2x2", "mat2x2f"}, 2, 2, true}, {{"mat3", "float3x3", "mat3x3f"}, 3, 3, true},
+    {{"mat4", "float4x4", "mat4x4f"}, 4, 4, true}, {{"int", "int", "i32"}, 1, 1, false},
+    {{"ivec2", "int2", "vec2i"}, 1, 2, false},     {{"ivec3", "int3", "vec3i"}, 1, 3, false},
+    {{"ivec4", "int4", "vec4i"}, 1, 4, false},     {{"uint", "uint", "u32"}, 1, 1, false},
+    {{"bool", "bool", "bool"}, 1, 1, false},
 };
 
 static const struct shape *find_shape(const char *type)
 {
-    for (size_t i = 0; i < sizeof shapes / sizeof *shapes; ++i) {
-        if (strcmp(type, shapes[i].name) == 0 || strcmp(type, shapes[i].hlsl_name) == 0)
-            return &shapes[i];
-    }
+    for (size_t i = 0; i < sizeof shapes / sizeof *shapes; ++i)
+        for (size_t k = 0; k < NUM_FAMILIES; ++k)
+            if (strcmp(type, shapes[i].names[k]) == 0)
+                return &shapes[i];
     return NULL;
 }
 
@@ -118,6 +120,12 @@ static bool reserve(struct bind *bind, const mxg_variable *variable)
     return true;
 }
 
+/* Metal's booleans have one byte, the first of an integer in memory. */
+static size_t word_size(const mxg_variable *variable)
+{
+    return variable->byte_size == 1 ? 1 : sizeof(float);
+}
+
 static void store(unsigned char *at, const mxg_variable *variable, const float *values)
 {
     const struct shape *shape = find_shape(variable->type);
@@ -128,7 +136,7 @@ static void store(unsigned char *at, const mxg_variable *variable, const float *
             const void *word = shape->is_float ? (const void *)&value : &integer;
             memcpy(at + (size_t)c * (shape->columns > 1 ? variable->matrix_stride : 0)
                        + r * sizeof(float),
-                   word, sizeof(float));
+                   word, word_size(variable));
         }
     }
 }
@@ -248,12 +256,13 @@ static bool store_lights(struct bind *bind, uint32_t object, const mxg_variable 
     size_t stride =
         find_block(&bind->draw, variable->set, variable->binding)->size / bind->max_lights;
     const struct shape *shape = find_shape(variable->type);
+    const char *member = *variable->semantic ? variable->semantic : variable->name;
     uint32_t num_lights = bind->scene->num_lights;
     if (num_lights < SCENE_NUM_LIGHTS)
         num_lights = SCENE_NUM_LIGHTS; /* those that the user may switch on */
     for (uint32_t i = 0; i < num_lights && i < bind->max_lights; ++i) {
         float values[MAX_COMPONENTS] = {0};
-        if (!scene_light(bind->scene, i, variable->name, values) && variable->num_values)
+        if (!scene_light(bind->scene, i, member, values) && variable->num_values)
             memcpy(values, variable->values, sizeof values);
         const struct bind_value *said = light_value(bind, i, variable->name);
         if (said && (!shape || !parse_value(said->text, shape, values)))

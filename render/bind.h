@@ -27,8 +27,8 @@ struct bind_fault {
 };
 
 /*
- * A shader that mxgen did not write, for Vulkan. Of its variables are read: name, block, type, set,
- * binding, location, offset, byte_size, matrix_stride, values, file and path.
+ * A shader that mxgen did not write, for Vulkan. Of its variables are read: name, semantic, block,
+ * type, set, binding, location, offset, byte_size, matrix_stride, values, file and path.
  */
 struct bind_program {
     const char *sources[MXG_NUM_STAGES];

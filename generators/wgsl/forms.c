@@ -128,6 +128,22 @@ static const struct lang_pieces *shift(struct spell *spell, const struct lang_us
     return lang_form_of(spell->scratch, text_cstr(text), LANG_PREC_SHIFT);
 }
 
+/* Operators of bits take no scalar beside vectors: "$0 & $T($1)". */
+static const struct lang_pieces *bits(struct spell *spell, const struct lang_use *use)
+{
+    struct text *text = spell_new_text(spell);
+    if (is_scalar(use->operands[0]) == is_scalar(use->operands[1]))
+        return NULL;
+    text_fmt(text, is_scalar(use->operands[0]) ? "$T($0) %c $1" : "$0 %c $T($1)",
+             use->op == IR_AND  ? '&'
+             : use->op == IR_OR ? '|'
+                                : '^');
+    return lang_form_of(spell->scratch, text_cstr(text),
+                        use->op == IR_AND  ? LANG_PREC_AND
+                        : use->op == IR_OR ? LANG_PREC_OR
+                                           : LANG_PREC_XOR);
+}
+
 /* The values of a choice of booleans are comparisons, which would be a template: a<b, c>. */
 static const struct lang_pieces *choice(struct spell *spell, const struct lang_use *use)
 {
@@ -210,6 +226,89 @@ static const struct lang_pieces *of_scalars(struct spell *spell, const struct la
                                      : NULL;
 }
 
+/* ---- Constant expressions that have no value ---- */
+
+/*
+ * Such an expression is an error in WGSL, and elsewhere any number. The operand "@" stands in a
+ * call of a function of the module, which makes no constant expression.
+ */
+static const struct {
+    const char *text;
+    uint8_t hidden, decide; /* the operand, and a bit for each operand that decides */
+    uint8_t level;
+} without_value[IR_NUM_OPS] = {
+    [IR_ASIN] = {"asin(@)", 0, 1, LANG_PREC_POSTFIX},
+    [IR_ACOS] = {"acos(@)", 0, 1, LANG_PREC_POSTFIX},
+    [IR_ACOSH] = {"acosh(@)", 0, 1, LANG_PREC_POSTFIX},
+    [IR_ATANH] = {"atanh(@)", 0, 1, LANG_PREC_POSTFIX},
+    [IR_LOG] = {"log(@)", 0, 1, LANG_PREC_POSTFIX},
+    [IR_LOG2] = {"log2(@)", 0, 1, LANG_PREC_POSTFIX},
+    [IR_SQRT] = {"sqrt(@)", 0, 1, LANG_PREC_POSTFIX},
+    [IR_RSQRT] = {"inverseSqrt(@)", 0, 1, LANG_PREC_POSTFIX},
+    [IR_NORMALIZE] = {"normalize(@)", 0, 1, LANG_PREC_POSTFIX},
+    [IR_ATAN2] = {"atan2(@, $1)", 0, 3, LANG_PREC_POSTFIX},
+    [IR_POW] = {"pow(@, $T($1))", 0, 3, LANG_PREC_POSTFIX},
+    [IR_SMOOTHSTEP] = {"smoothstep(@, $T($1), $T($2))", 0, 3, LANG_PREC_POSTFIX},
+    [IR_CLAMP] = {"min(max($T($0), @), $T($2))", 1, 6, LANG_PREC_POSTFIX},
+    [IR_DIV] = {"$0 / @", 1, 2, LANG_PREC_PRODUCT},
+    [IR_REM] = {"$0 % @", 1, 2, LANG_PREC_PRODUCT},
+};
+
+/* The value of an operand: its constant, or 1, which stands for what does not decide. */
+static struct ir_value value_of(const struct lang_use *use, unsigned operand)
+{
+    ir_type_id type = use->operands[operand];
+    struct ir_value value = {.type = type};
+    for (unsigned i = 0; i < ir_type_components(type); i++) {
+        value.w[i].i = 1;
+        if (ir_type_info(type)->scalar == IR_TYPE_FLOAT)
+            value.w[i].f = 1.0f;
+        if (use->constants[operand])
+            value.w[i] = use->constants[operand][i];
+    }
+    return value;
+}
+
+static bool is_reversed(const struct ir_value *low, const struct ir_value *high)
+{
+    unsigned n = ir_type_components(low->type), m = ir_type_components(high->type);
+    for (unsigned i = 0; i < n || i < m; i++) {
+        union ir_word a = low->w[n > 1 ? i : 0], b = high->w[m > 1 ? i : 0];
+        if (ir_type_info(low->type)->scalar == IR_TYPE_FLOAT ? a.f > b.f : a.i > b.i)
+            return true;
+    }
+    return false;
+}
+
+static bool has_value(const struct lang_use *use)
+{
+    struct ir_value values[3], result;
+    if (use->op == IR_NORMALIZE && is_scalar(use->type))
+        return true;
+    for (unsigned i = 0; i < use->num_operands; i++) {
+        if (without_value[use->op].decide >> i & 1 && !use->constants[i])
+            return true;
+        values[i] = value_of(use, i);
+    }
+    return use->op == IR_CLAMP
+               ? !is_reversed(&values[1], &values[2])
+               : ir_eval_op(use->op, use->type, use->attr, values, use->num_operands, &result);
+}
+
+static const struct lang_pieces *hide(struct spell *spell, const struct lang_use *use)
+{
+    if (use->op >= IR_NUM_OPS || !without_value[use->op].text || !use->constants || has_value(use))
+        return NULL;
+    const char *text = without_value[use->op].text, *at = strchr(text, '@'),
+               *type = spell_use_type(spell, use, use->type);
+    struct text *form = spell_new_text(spell), *helper = spell_new_text(spell);
+    text_fmt(helper, "fn wgsl_value_%s(x: %s) -> %s\n{\n    return x;\n}\n", type, type, type);
+    spell_helper(spell, text_cstr(helper));
+    text_mem(form, text, (size_t)(at - text));
+    text_fmt(form, "wgsl_value_%s($T($%u))%s", type, without_value[use->op].hidden, at + 1);
+    return lang_form_of(spell->scratch, text_cstr(form), without_value[use->op].level);
+}
+
 /* ---- Arrays of textures ---- */
 
 static const struct lang_pieces *layers(struct spell *spell, const struct lang_use *use)
@@ -279,6 +378,9 @@ static form_writer *const writers[IR_NUM_OPS] = {
     [IR_NE] = equality,
     [IR_SHL] = shift,
     [IR_SHR] = shift,
+    [IR_AND] = bits,
+    [IR_OR] = bits,
+    [IR_XOR] = bits,
     [IR_SELECT] = choice,
     [IR_CONVERT] = convert,
     [IR_MIN] = spread_own,
@@ -304,5 +406,8 @@ const struct lang_pieces *wgsl_form(void *user_data, const struct lang_use *use)
 {
     if (use->is_store)
         return store(user_data, use);
+    const struct lang_pieces *hidden = hide(user_data, use);
+    if (hidden)
+        return hidden;
     return use->op < IR_NUM_OPS && writers[use->op] ? writers[use->op](user_data, use) : NULL;
 }

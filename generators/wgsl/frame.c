@@ -253,10 +253,10 @@ static void close_main(struct spell *spell)
     else if (!is_called(spell) && num_outputs(spell))
         return_outputs(spell);
     spell_text(spell, "}\n");
-    wgsl_add_numbers(spell);
 }
 
 const struct target_frame wgsl_frame = {.declare = declare,
                                         .open = open_main,
                                         .close = close_main,
+                                        .close_context = wgsl_add_numbers,
                                         .declare_for_function = declare_for_function};

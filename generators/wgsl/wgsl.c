@@ -41,8 +41,11 @@ static const struct lang_form forms[IR_NUM_OPS] = {
     CALL(TEX_FETCH, "textureLoad($0, $1, $2)"), CALL(TEX_SIZE, "$T(textureDimensions($0, $1))"),
 };
 
+/* No constants, because a quotient of two would be an error. */
+#define ZERO(op) [IR_##op] = {"$0 * 0.0", LANG_PREC_PRODUCT, false}
+
 static const struct lang_form forms_alone[IR_NUM_OPS] = {
-    CALL(DFDX, "$T(0.0)"), CALL(DFDY, "$T(0.0)"), CALL(FWIDTH, "$T(0.0)"),
+    ZERO(DFDX), ZERO(DFDY), ZERO(FWIDTH),
     CALL(TEX, "textureSampleLevel(" TEXTURE ", 0.0)"),
 };
 
@@ -94,6 +97,7 @@ static const struct lang_syntax syntax = {
     .copies_params = true,
     .one_per_declaration = true,
     .always_braces = true,
+    .no_directives = true,
     .exact_constructors = true,
     .block_bool = "u32",
     .block_bool_value = {"$0 != 0u", LANG_PREC_EQUAL, false},
@@ -113,7 +117,7 @@ const struct target target_wgsl = {
     .brief = "WGSL for WebGPU",
     .caps = CAP_VERTEX_STAGE | CAP_BITWISE | CAP_IMPLICIT_LOD | CAP_TEXTURE_ARRAYS
             | CAP_UNIFORM_BLOCKS | CAP_BINDINGS | CAP_SETS | CAP_BLOCK_STAGE_IO | CAP_SAMPLERS
-            | CAP_SAMPLER_BINDINGS,
+            | CAP_SAMPLER_BINDINGS | CAP_HOST_FILES,
     .max_textures = 16, /* WebGPU, default of maxSampledTexturesPerShaderStage */
     .versions = versions,
     .syntax = &syntax,

@@ -248,9 +248,16 @@ const struct lang_pieces *print_typed_form(struct printer *p, enum ir_op op, uin
 {
     assert(num_operands <= AST_MAX_OPERANDS);
     ir_type_id types[AST_MAX_OPERANDS];
-    struct lang_use use = {
-        .op = op, .type = type, .attr = attr, .operands = types, .num_operands = num_operands};
+    const union ir_word *constants[AST_MAX_OPERANDS];
+    struct lang_use use = {.op = op,
+                           .type = type,
+                           .attr = attr,
+                           .operands = types,
+                           .num_operands = num_operands,
+                           .constants = constants};
     for (unsigned i = 0; i < num_operands; i++) {
+        bool is_constant = operands[i]->kind == LANG_CONST && !ast_is_user_type(operands[i]->type);
+        constants[i] = is_constant ? ast_words(p->layer, operands[i]) : NULL;
         types[i] = operands[i]->type;
         use.named |= (uint32_t)is_named(p, operands[i]) << i;
     }

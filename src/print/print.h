@@ -88,9 +88,10 @@ struct lang_syntax {
      * above the function (results.c). Needs a reserved_prefix.
      */
     bool results_in_struct;
-    bool arrays_are_local;           /* functions declare the constant arrays that they read */
-    bool one_per_declaration;        /* "float x, y;" is two declarations */
-    bool always_braces;              /* also around a single statement */
+    bool arrays_are_local;    /* functions declare the constant arrays that they read */
+    bool one_per_declaration; /* "float x, y;" is two declarations */
+    bool always_braces;       /* also around a single statement */
+    bool no_directives; /* nor prototypes: declarations stand in any order, and once in a file */
     bool float_literals_need_suffix; /* 1.0f */
     const char *infinity, *nan;      /* expressions, the highest precedence (docs/ir.md) */
     /* max(v, vec3(0.0)), although the language also has max(v, 0.0) */
@@ -184,6 +185,8 @@ struct lang_use {
     uint32_t attr;              /* of SWIZZLE and MEMBER, as in struct ir_node */
     const ir_type_id *operands; /* types of the operands */
     unsigned num_operands;
+    /* the values of operands that are constants, NULL of others; NULL: nobody knows */
+    const union ir_word *const *constants;
     /*
      * SWIZZLE or INDEX as the target of an assignment: the last operand is the new value of the
      * parts, and the form is the whole with this value. NULL: the language assigns parts.

@@ -362,17 +362,24 @@ uint32_t shader_asked_uniform(const struct shader *shader, str_id name)
     return find_binding(shader, BLOCK_PRIVATE_UNIFORMS, name, scalar_of(shader_uniform_type(name)));
 }
 
+/* The name of a member is its semantic, unless the language reserves the word. */
+static uint32_t add_light_member(struct shader *shader, str_id name, ir_type_id type, bool binds)
+{
+    const struct shader_variable member = {.name = name, .block = BLOCK_LIGHT_DATA, .type = type};
+    uint32_t added = binds ? bind(shader, &member) : shader_add_variable(shader, &member);
+    struct shader_variable *variable = &shader->interface.variables.items[added];
+    variable->semantic = variable->name == name ? 0 : name;
+    return added;
+}
+
 uint32_t shader_light_member(struct shader *shader, str_id name, ir_type_id type)
 {
-    const struct shader_variable number = {
-        .name = STR_type, .block = BLOCK_LIGHT_DATA, .type = IR_TYPE_INT};
     if (find_binding(shader, BLOCK_LIGHT_DATA, STR_type, IR_TYPE_INT) == UINT32_MAX)
-        (void)bind(shader, &number);
+        (void)add_light_member(shader, STR_type, IR_TYPE_INT, true);
     uint32_t found = find_binding(shader, BLOCK_LIGHT_DATA, name, scalar_of(type));
     if (found != UINT32_MAX && shader->interface.variables.items[found].type == type)
         return found;
-    const struct shader_variable member = {.name = name, .block = BLOCK_LIGHT_DATA, .type = type};
-    return found == UINT32_MAX ? bind(shader, &member) : shader_add_variable(shader, &member);
+    return add_light_member(shader, name, type, found == UINT32_MAX);
 }
 
 /* ---- Streams ---- */

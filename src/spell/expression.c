@@ -428,10 +428,16 @@ static const struct lang_pieces *typed_form(const struct spell *spell, ir_ref re
     if (!has_form)
         return NULL;
     ir_type_id types[16];
-    struct lang_use use = {
-        .op = node->op, .type = node->type, .attr = node->attr, .operands = types, .node = ref};
+    const union ir_word *constants[16];
+    struct lang_use use = {.op = node->op,
+                           .type = node->type,
+                           .attr = node->attr,
+                           .operands = types,
+                           .constants = constants,
+                           .node = ref};
     for (; use.num_operands < node->num_args && use.num_operands < 16; use.num_operands++) {
         ir_ref operand = ir_arg(spell->shader->graph, ref, use.num_operands);
+        constants[use.num_operands] = ir_constant_words(spell->shader->graph, operand);
         types[use.num_operands] = ir_type_of(spell->shader->graph, operand);
         use.named |= (uint32_t)is_named(spell, operand) << use.num_operands;
     }

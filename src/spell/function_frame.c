@@ -75,7 +75,7 @@ static void declare(struct spell *spell)
     spell_text(spell, "\n\n");
     spell->frame->declare_for_function(spell);
     bool has_context = spell->frame->open_context != NULL;
-    if (spell->stage->has_lights && !has_context)
+    if (spell->stage->has_lights && !has_context && !spell->style->syntax->no_directives)
         declare_lights(spell);
     if (spell->shares_vertex_data) {
         const char *type = spell_frame_name(spell, "VertexData");

@@ -63,7 +63,8 @@ struct target_frame {
      * and the other functions follow. A frame of a role has the hooks of its target here.
      */
     void (*open_context)(struct spell *spell);
-    void (*close_context)(struct spell *spell); /* after main; may not be NULL beside the other */
+    /* after main; may not be NULL beside the other, and may stand without it */
+    void (*close_context)(struct spell *spell);
     /*
      * Declares structs, uniforms and textures for a shader that is a function in a file of the host
      * (spell/function_frame.c); nothing that stands once per file.

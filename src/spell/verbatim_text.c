@@ -27,7 +27,7 @@ static void write_token(struct spell *spell, const struct scan_word *word)
 void spell_once(struct spell *spell, const char *text, size_t len)
 {
     char guard[32];
-    if (!spell->shader->role->is_in_host_file) {
+    if (!spell->shader->role->is_in_host_file || spell->style->syntax->no_directives) {
         text_mem(spell->out, text, len);
         return;
     }

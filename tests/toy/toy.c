@@ -62,6 +62,7 @@ const struct lang_syntax toy_syntax = {
     .copies_params = true,
     .one_per_declaration = true,
     .always_braces = true,
+    .no_directives = true,
     .exact_constructors = true,
     .splat = {"splat<$T>($0)", LANG_PREC_POSTFIX, false},
     .block_bool = "u32",

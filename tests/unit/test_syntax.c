@@ -23,6 +23,7 @@ static void test_differs(void)
     }
     REQUIRE(toy_syntax.one_per_declaration != glsl->one_per_declaration);
     REQUIRE(toy_syntax.always_braces != glsl->always_braces);
+    REQUIRE(toy_syntax.no_directives != glsl->no_directives);
     REQUIRE(toy_syntax.copies_params != glsl->copies_params);
     REQUIRE(toy_syntax.exact_constructors != glsl->exact_constructors);
     REQUIRE(toy_syntax.splat.text && !glsl->splat.text);
