@@ -58,8 +58,9 @@ static void write_location(struct spell *spell, uint32_t location)
 /* Both stages declare the whole struct, also members that they do not read, so that they match. */
 static void write_vertex_data(struct spell *spell, const struct hlsl_io *io)
 {
-    SPELL(spell, "struct ", spell_frame_name(spell, "VertexData"),
-          " {\n    float4 position : SV_Position;\n");
+    bool agrees = spell->stage_id == STAGE_VERTEX && spell->shader->role->stages == STAGES_OF_PASS;
+    SPELL(spell, "struct ", spell_frame_name(spell, "VertexData"), " {\n    ",
+          agrees ? "precise " : "", "float4 position : SV_Position;\n");
     SPELL_EACH_OF_BLOCK(i, spell, BLOCK_VERTEX_DATA)
     {
         const struct shader_variable *variable = spell_interface_variable(spell, i);
