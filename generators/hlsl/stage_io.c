@@ -80,7 +80,8 @@ static void write_vertex_data(struct spell *spell, const struct hlsl_io *io)
 
 static bool reads_vertex_data(const struct spell *spell)
 {
-    return spell->stage_id == STAGE_VERTEX || spell_uses_block(spell, BLOCK_VERTEX_DATA);
+    return spell->stage_id == STAGE_VERTEX || spell_uses_block(spell, BLOCK_VERTEX_DATA)
+           || spell_reads_position(spell);
 }
 
 /* True for a function of other code, which sets the vertex data. */
@@ -161,7 +162,8 @@ void hlsl_open_main(struct spell *spell, const struct hlsl_io *io)
     const char *vd = spell_frame_name(spell, "vd");
     bool is_pixel = spell->stage_id == STAGE_PIXEL, shares = shares_vertex_data(spell),
          is_first = true;
-    spell_text(spell, io->heads[spell->stage_id]);
+    SPELL(spell, spell_tests_early(spell) ? "[earlydepthstencil]\n" : "",
+          io->heads[spell->stage_id]);
     if (!is_pixel)
         write_parameters(spell, io, BLOCK_APP_DATA, &is_first);
     if (reads_vertex_data(spell)) {

@@ -251,6 +251,19 @@ static void list_texture(struct spell *spell, enum list list,
     spell_text(spell, ends[list]);
 }
 
+/* An image of programs. */
+static void list_resource(struct spell *spell, enum list list, const struct spell_resource *r)
+{
+    spell_text(spell, begins[list]);
+    if (list != ARGUMENTS)
+        SPELL(spell, spell_image(spell, r)->type, " ");
+    SPELL(spell, "mx_", r->resource->name);
+    if (list == PARAMETERS)
+        text_fmt(spell->out, " [[texture(%u)]]",
+                 (unsigned)(spell->target->first_resource + r->binding));
+    spell_text(spell, ends[list]);
+}
+
 /* MaterialX's order: lights, textures, blocks. */
 static void list_bound(struct spell *spell, enum list list)
 {
@@ -262,6 +275,8 @@ static void list_bound(struct spell *spell, enum list list)
     list_block(spell, list, BLOCK_PUBLIC_UNIFORMS);
     for (int block = BLOCK_OWN; block < NUM_BLOCKS; block++)
         list_block(spell, list, (enum shader_block)block);
+    SPELL_EACH_RESOURCE(r, spell)
+    list_resource(spell, list, &r);
 }
 
 /* ---- The context ---- */
@@ -330,7 +345,8 @@ static void close_context(struct spell *spell)
     const char *inputs = is_vertex(spell) ? spell_instance(spell, BLOCK_APP_DATA) : vd,
                *outputs = is_vertex(spell) ? vd : spell_instance(spell, BLOCK_OUTPUTS);
     bool returns = is_vertex(spell) || has_outputs(spell);
-    SPELL(spell, "\n", is_vertex(spell) ? "vertex " : "fragment ",
+    SPELL(spell, "\n", spell_tests_early(spell) ? "[[early_fragment_tests]]\n" : "",
+          is_vertex(spell) ? "vertex " : "fragment ",
           is_vertex(spell) ? spell_frame_name(spell, "VertexData")
           : returns        ? spell_frame_name(spell, "PixelOutputs")
                            : "void",

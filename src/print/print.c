@@ -80,9 +80,12 @@ static void print_copies(struct printer *p)
 static void print_head(struct printer *p, uint32_t id)
 {
     bool returns = p->fn->return_type != IR_TYPE_VOID;
+    struct lang_type_text type = lang_type_text(p->style, p->names, p->unit, p->fn->return_type);
+    const char *array = print_array_name(p->names, type);
+    if (array)
+        type = (struct lang_type_text){lang_word(array), 0};
     struct lang_declaration head =
-        lang_open(p->style, returns ? PHRASE_FUNCTION : PHRASE_PROCEDURE,
-                  lang_type_text(p->style, p->names, p->unit, p->fn->return_type),
+        lang_open(p->style, returns ? PHRASE_FUNCTION : PHRASE_PROCEDURE, type,
                   lang_word(print_function_name(p->names, p->unit, id)), p->out);
     for (uint32_t i = 0; i < p->fn->num_params; i++) {
         if (i)

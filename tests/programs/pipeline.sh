@@ -238,8 +238,11 @@ X
 aovs_are_told() { "$mxgen" aov.mtlx --target vulkan --interface reduced --role deferred -o aovs "$@" 2>&1 | grep -q "drawn forward: it has AOVs"; }
 check "a message says that AOVs are drawn forward" aovs_are_told
 check "nothing is drawn forward without AOVs" exits 1 aovs_are_told --aovs none
-for target in essl essl310 hlsl osl; do
-    check "passes for $target are an error" reports options-clash "$mxgen" "$examples/deferred.mtlx" -e Plain --target "$target" --role deferred -o no
+for target in essl essl310 wgsl osl; do
+    check "material passes for $target are an error" reports options-clash "$mxgen" "$examples/deferred.mtlx" -e Plain --target "$target" --role deferred -o no
+done
+for target in essl hlsl slang msl wgsl; do
+    check "passes for $target are an error" reports options-clash "$mxgen" pipeline no --target "$target"
 done
 check "passes for OpenGL 3.3 are an error" reports options-clash "$mxgen" pipeline no --target glsl --target-version 330
 check "passes do not light paths" reports options-clash "$mxgen" pipeline no --role scatter
