@@ -207,7 +207,7 @@ reports() {
     shift
     exits 1 "$@" && grep -q "\[$id\]" err
 }
-check "a payload for HLSL is an error" reports options-clash "$mxgen" models.mtlx -e Paint --role payload --target hlsl -o other
+check "a payload for OpenGL ES is an error" reports options-clash "$mxgen" models.mtlx -e Paint --role payload --target essl -o other
 check "a payload with lights is an error" reports option-without-effect "$mxgen" models.mtlx -e Paint --role payload --max-lights 8 --target vulkan
 echo '<materialx version="1.39"><constant name="c" type="color3"/></materialx>' >value.mtlx
 check "a payload of a value is an error" reports not-renderable "$mxgen" value.mtlx -e c --role payload --target vulkan -o other
