@@ -59,11 +59,14 @@ const struct target target_slang = {
     .materialx_name = "genslang",
     .brief = "Slang 2025.3, with the names of MaterialX's generator",
     .caps = CAP_VERTEX_STAGE | CAP_OVERLOADS | CAP_BITWISE | CAP_IMPLICIT_LOD | CAP_TEXTURE_ARRAYS
-            | CAP_BLOCK_STAGE_IO | CAP_SAMPLERS | CAP_HOST_FILES,
+            | CAP_BLOCK_STAGE_IO | CAP_SAMPLERS | CAP_HOST_FILES | CAP_STORES,
     .versions = versions,
     .syntax = &syntax,
     .frame = &slang_frame,
     .form = form,
+    .array_type = "typealias $N = $T[$L];",
+    .functions = hlsl_functions,
+    .images = hlsl_images,
     .position = ".position",
     .stage_suffix = {"vert.slang", "frag.slang"},
 };

@@ -140,15 +140,46 @@ void print_arguments(struct printer *p, const struct lang_node *call)
     }
 }
 
+/* "make_uint_4" in a language without array constructors; NULL: it has them. */
+static const char *array_maker(struct printer *p, ir_type_id type)
+{
+    struct lang_type_text text = lang_type_text(p->style, p->names, p->unit, type);
+    const char *name = print_array_name(p->names, text);
+    struct text maker;
+    if (!name)
+        return NULL;
+    text_init(&maker, p->out->arena);
+    text_fmt(&maker, "make_%s", name);
+    return text_cstr(&maker);
+}
+
+void print_initialiser(struct printer *p, const struct lang_node *node)
+{
+    bool is_array = node->kind == LANG_OP && node->op == IR_CONSTRUCT
+                    && ast_is_user_type(node->type)
+                    && lang_user_type(p->unit, node->type, NULL)->array_length;
+    if (!is_array) {
+        print_expression(p, node, LANG_PREC_ASSIGN);
+        return;
+    }
+    print_open_array(p->style, p->names, p->unit, node->type, p->out);
+    print_list(p, node->a);
+    text_char(p->out, p->style->syntax->array_braces ? '}' : ')');
+}
+
 static void print_construct(struct printer *p, const struct lang_node *node)
 {
     bool is_array =
         ast_is_user_type(node->type) && lang_user_type(p->unit, node->type, NULL)->array_length;
     bool is_struct = ast_is_user_type(node->type) && !is_array;
-    const char *maker = is_struct ? print_maker(p->names, p->unit, node->type) : NULL;
-    if (is_array) {
-        print_open_array(p->style, p->names, p->unit, node->type, p->out);
-    } else if (maker) {
+    const char *maker = is_struct  ? print_maker(p->names, p->unit, node->type)
+                        : is_array ? array_maker(p, node->type)
+                                   : NULL;
+    if (is_array && !maker) {
+        print_initialiser(p, node);
+        return;
+    }
+    if (maker) {
         text_str(p->out, maker);
         text_char(p->out, '(');
     } else {
@@ -156,7 +187,7 @@ static void print_construct(struct printer *p, const struct lang_node *node)
         text_char(p->out, '(');
     }
     print_list(p, node->a);
-    text_char(p->out, is_array && p->style->syntax->array_braces ? '}' : ')');
+    text_char(p->out, ')');
 }
 
 static void print_swizzle(struct printer *p, const struct lang_node *node)

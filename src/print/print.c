@@ -85,6 +85,9 @@ static void print_head(struct printer *p, uint32_t id)
     struct lang_type_text type =
         p->has_results ? print_results_type(p, id)
                        : lang_type_text(p->style, p->names, p->unit, p->fn->return_type);
+    const char *array = print_array_name(p->names, type);
+    if (array)
+        type = (struct lang_type_text){lang_word(array), 0};
     struct lang_declaration head =
         lang_open(p->style, returns ? PHRASE_FUNCTION : PHRASE_PROCEDURE, type,
                   lang_word(print_function_name(p->names, p->unit, id)), p->out);

@@ -97,7 +97,9 @@ struct lang_syntax {
     /* max(v, vec3(0.0)), although the language also has max(v, 0.0) */
     bool wide_constants;
     bool lists_components; /* vec3(1.0, 1.0, 1.0), because the language has no vec3(1.0) */
-    bool array_braces;     /* array constructors are {a, b} instead of float[2](a, b) */
+    /* array constructors are {a, b} instead of float[2](a, b); behind PHRASE_ARRAY, if there is one
+     */
+    bool array_braces;
     /*
      * Constructors take as many components as they need: v.xy for vec2(v), and a product with the
      * identity for mat3(x).
@@ -215,6 +217,12 @@ struct lang_names {
      * does.
      */
     const char *(*maker)(void *user_data, const char *type);
+    /*
+     * For a language whose arrays are no values (PHRASE_ARRAY is NULL): the name of the type of an
+     * array, for the result of a function; with "make_" before it the function that builds one. By
+     * the name of the element in the output. NULL: the language has array constructors.
+     */
+    const char *(*array)(void *user_data, struct text_word element, uint32_t length);
     /*
      * The form of an op, also of CONSTRUCT, SWIZZLE and INDEX, for languages where types decide it;
      * NULL: the form of the syntax.

@@ -19,6 +19,9 @@ const char *print_struct_name(const struct lang_names *names, const struct lang_
 const char *print_maker(const struct lang_names *names, const struct lang_unit *unit,
                         ir_type_id type);
 
+/* lang_names.array; NULL: the type is no array, or has its own name */
+const char *print_array_name(const struct lang_names *names, struct lang_type_text type);
+
 /* The start of an array constructor: "float[3](" or "{". */
 void print_open_array(const struct lang_style *style, const struct lang_names *names,
                       const struct lang_unit *unit, ir_type_id type, struct text *out);
@@ -72,6 +75,9 @@ void print_form(struct printer *p, const struct lang_pieces *form, ir_type_id ty
 const struct lang_pieces *print_typed_form(struct printer *p, enum ir_op op, uint32_t attr,
                                            ir_type_id type, const struct lang_node *const *operands,
                                            unsigned num_operands);
+
+/* The first value of a variable: of an array, its elements. */
+void print_initialiser(struct printer *p, const struct lang_node *node);
 
 /* ---- statement.c ---- */
 

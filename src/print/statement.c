@@ -23,7 +23,7 @@ static void print_declaration(struct printer *p, const struct lang_node *node)
     print_variable(p, is_value ? PHRASE_VALUE : PHRASE_LOCAL, node->a);
     if (node->b) {
         text_mem(p->out, " = ", 3);
-        print_expression(p, node_at(p, node->b), LANG_PREC_ASSIGN);
+        print_initialiser(p, node_at(p, node->b));
     }
 }
 
@@ -360,13 +360,13 @@ static bool print_array_assignment(struct printer *p, const struct lang_node *no
     bool is_array = value && value->kind == LANG_OP && value->op == IR_CONSTRUCT
                     && ast_is_user_type(value->type)
                     && lang_user_type(p->unit, value->type, NULL)->array_length;
-    if (!is_array || !p->style->syntax->array_braces)
+    if (!is_array || !p->style->syntax->array_braces || p->style->phrases[PHRASE_ARRAY])
         return false;
     struct text_word made = print_free_name(p, lang_word("made"));
     text_str(p->out, "{ ");
     lang_print_variable(p->style, p->names, p->unit, PHRASE_LOCAL, value->type, made, p->out);
     text_str(p->out, " = ");
-    print_expression(p, value, LANG_PREC_ASSIGN);
+    print_initialiser(p, value);
     text_str(p->out, "; ");
     print_expression(p, node_at(p, node->a), LANG_PREC_UNARY);
     text_fmt(p->out, " = %s; }\n", made.bytes);

@@ -113,7 +113,7 @@ static void write_construct(struct spell *spell, ir_ref ref, ir_type_id type)
                             : NULL;
     if (maker)
         spell_text(spell, maker);
-    else if (!braces)
+    else if (!braces || spell->style->phrases[PHRASE_ARRAY])
         spell_type(spell, type);
     text_char(spell->out, braces ? '{' : '(');
     write_list(spell, ref);

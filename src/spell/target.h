@@ -72,6 +72,22 @@ struct target_frame {
     void (*declare_for_function)(struct spell *spell);
 };
 
+/* A function without a body in a program (parse/parse.h): its text in the language. */
+struct target_function {
+    const char *name, *text;
+};
+
+/*
+ * An image of programs. In the texts, $N is the name of the resource.
+ */
+struct target_image {
+    const char *kind, *format; /* of struct deferred_resource */
+    unsigned access;           /* 1 reads, 2 writes, 3 both */
+    const char *type;          /* its type in the language */
+    /* the functions of programs that read and write it; NULL: it does not */
+    const char *load, *store;
+};
+
 /* Capabilities that the first versions of a language lack; caps 0: there are none. */
 struct target_since {
     uint32_t caps;
@@ -103,7 +119,16 @@ struct target {
      * lang_names)
      */
     const char *(*maker)(void *user_data, const char *type);
-    enum shader_packing packing; /* of blocks of uniforms */
+    /*
+     * Declares the type of an array whose values functions return, with $T, $N and $L as in phrases
+     * (lang_names.array): "typedef $T $N[$L];". NULL: arrays are values.
+     */
+    const char *array_type;
+    /* functions of programs, NULL-terminated; NULL: from base */
+    const struct target_function *functions;
+    uint32_t first_resource;           /* the number of the first resource of programs */
+    const struct target_image *images; /* ends with kind NULL; NULL: from base */
+    enum shader_packing packing;       /* of blocks of uniforms */
     /*
      * By block: the variable that has the block's variables as members, "u_pub" of u_pub.base.
      * NULL, also for a block: they stand at file scope. Blocks of nodes in C have "u_" before their

@@ -29,7 +29,20 @@ if grep -q '^note: .* no compiler' err; then
     finish "$target"
 fi
 check 'documents' compiles $documents --trust --interfaces complete,reduced # the compiler starts once for all
+cat >coat.mtlx <<'END'
+<materialx version="1.39">
+  <slab name="metal" type="BSDF"><input name="f0" type="color3" value="0.9, 0.6, 0.3"/></slab>
+  <slab name="varnish" type="BSDF"><input name="mean_free_path" type="vector3" value="0.2, 0.3, 0.4"/></slab>
+  <slab_layer name="both" type="BSDF">
+    <input name="top" type="BSDF" nodename="varnish"/><input name="base" type="BSDF" nodename="metal"/>
+  </slab_layer>
+  <surface name="coat" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="both"/></surface>
+</materialx>
+END
 for role in path scatter function deferred depth payload; do
-    [[ ,$lacking, == *,$role,* ]] || check "role $role" compiles gold.mtlx --interfaces complete,reduced --role "$role"
+    options=()
+    [ "$role" = deferred ] && options=(--slabs)
+    [[ ,$lacking, == *,$role,* ]] ||
+        check "role $role" compiles gold.mtlx coat.mtlx --interfaces complete,reduced --role "$role" "${options[@]}"
 done
 finish "$target"
