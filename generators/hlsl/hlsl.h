@@ -16,20 +16,14 @@ extern const struct lang_syntax hlsl_syntax;
 extern const struct target_function hlsl_functions[];
 extern const struct target_image hlsl_images[];
 
-/* forms.c: hooks of struct target. */
+/* forms.c: hook of struct target, and the helpers, for `helpers` of a dialect. */
 const struct lang_pieces *hlsl_form(void *user_data, const struct lang_use *use);
-/*
- * The same for a dialect: `own` has its texts of helpers, by enum helper; NULL entries: those of
- * HLSL.
- */
 enum helper {
 #define HELPER(ID, text) HELPER_##ID,
 #include "generators/hlsl/helpers.def"
 #undef HELPER
     NUM_HLSL_HELPERS
 };
-const struct lang_pieces *hlsl_form_of(struct spell *spell, const struct lang_use *use,
-                                       const char *const *own);
 
 /* ---- frame.c ---- */
 

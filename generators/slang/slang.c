@@ -47,11 +47,6 @@ static const char *const helpers[NUM_HLSL_HELPERS] = {
 #undef HELPER
 };
 
-static const struct lang_pieces *form(void *user_data, const struct lang_use *use)
-{
-    return hlsl_form_of(user_data, use, helpers);
-}
-
 static const char *const versions[] = {"2025.3", NULL};
 
 const struct target target_slang = {
@@ -63,7 +58,8 @@ const struct target target_slang = {
     .versions = versions,
     .syntax = &syntax,
     .frame = &slang_frame,
-    .form = form,
+    .form = hlsl_form,
+    .helpers = helpers,
     .array_type = "typealias $N = $T[$L];",
     .functions = hlsl_functions,
     .images = hlsl_images,

@@ -120,6 +120,11 @@ struct target {
      */
     const char *(*maker)(void *user_data, const char *type);
     /*
+     * Texts of helpers, by the enum of the language whose `form` the target has; NULL, also an
+     * entry: those of that language.
+     */
+    const char *const *helpers;
+    /*
      * Declares the type of an array whose values functions return, with $T, $N and $L as in phrases
      * (lang_names.array): "typedef $T $N[$L];". NULL: arrays are values.
      */
