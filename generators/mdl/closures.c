@@ -13,12 +13,6 @@ static const double HALF_PI = 1.57079632679489661923;
 
 /* ---- Layers ---- */
 
-static ir_ref unit_normal(struct shader *shader)
-{
-    return ir_op1(shader->graph, IR_NORMALIZE,
-                  shader_stream(shader, STR_normalWorld, IR_TYPE_VEC3));
-}
-
 /*
  * What a closure lets through at an angle from its normal. A material does not know the view, so
  * the normals of all leaves become the z axis, and the view a constant.
@@ -35,7 +29,7 @@ static ir_ref through_at(struct mdl_tree *t, ir_ref top, double angle)
     ir_ref through =
         closure_throughput(t->shader, t->host, top, closure_way(t->shader, t->host, point->view));
     point->view = view;
-    through = ir_replace(g, through, unit_normal(t->shader), axis, t->shader->arena);
+    through = ir_replace(g, through, closure_normal(t->shader, t->host), axis, t->shader->arena);
     const uint8_t *below = ir_mark(g, &top, 1, t->shader->arena);
     for (ir_ref ref = 1; ref <= top; ref++) {
         ir_ref normal =
@@ -63,12 +57,14 @@ static ir_ref over(struct mdl_tree *t, ir_ref top, ir_ref base, unsigned depth)
     const struct ir_node node = *ir_get(t->graph, top);
     ir_ref a[3] = {0}, first;
     memcpy(a, ir_args(t->graph, top), (node.num_args < 3 ? node.num_args : 3) * sizeof *a);
-    if (!base || !t->of[top].bsdf)
-        return base ? base : t->of[top].bsdf;
+    if (!base)
+        return t->of[top].bsdf;
     if (depth == MAX_DEPTH)
         return over_any(t, top, base);
     switch (node.op) {
     case IR_LEAF:
+        if (!t->of[top].bsdf && !closure_has(t->shader, t->host, top, LEAF_TRANSMITTANCE))
+            return base;
         return mdl_leaf_covers(t, top) ? mdl_leaf_over(t, top, base) : over_any(t, top, base);
     case IR_LAYER: return over(t, a[0], over(t, a[1], base, depth + 1), depth + 1);
     case IR_CLOSURE_MIX:
@@ -86,6 +82,10 @@ static struct mdl_parts layered(struct mdl_tree *t, ir_ref top, ir_ref base)
     struct mdl_parts above = t->of[top], below = t->of[base];
     ir_ref bsdf = over(t, top, below.bsdf, 0);
     above.bsdf = below.bsdf = 0;
+    if (below.light) { /* by what the top lets through along the normal */
+        struct mdl_parts light = {.light = below.light};
+        below.light = mdl_parts_scaled(t, light, through_at(t, top, 0.0), false).light;
+    }
     struct mdl_parts sum = mdl_parts_sum(t, above, below);
     sum.bsdf = bsdf;
     return sum;
@@ -375,7 +375,6 @@ static bool emit(struct shader *shader, const struct closure_host *host, ir_ref 
     ir_ref front = root, back = 0,
            displacement = root && ir_type_of(t.graph, root) == IR_TYPE_DISPLACEMENT ? root : 0;
     bool is_good = true;
-    host->point->view = unit_normal(shader);
     if (root && ir_get(t.graph, root)->op == IR_MATERIAL) {
         front = ir_arg(t.graph, root, 0);
         back = ir_arg(t.graph, root, 1);
@@ -397,4 +396,4 @@ static bool emit(struct shader *shader, const struct closure_host *host, ir_ref 
     return is_good && !t.lacks;
 }
 
-const struct target_closures mdl_closures = {.emit = emit};
+const struct target_closures mdl_closures = {.lacks_view = true, .emit = emit};

@@ -198,6 +198,18 @@ static void write_default(struct spell *spell, const struct shader_variable *var
     SPELL(spell, "color", parts);
 }
 
+/* The type with its frequency: "uniform bool". */
+static const char *parameter_type(struct spell *spell, const struct shader_variable *variable)
+{
+    if (!is_parameter(spell, variable))
+        return NULL;
+    struct text *text = spell_new_text(spell);
+    bool is_uniform = variable->type == IR_TYPE_BOOL || variable->type == IR_TYPE_STRING;
+    text_fmt(text, "%s%s", is_uniform ? "uniform " : "",
+             is_color(variable) ? "color" : spell->style->types[variable->type].bytes);
+    return text_cstr(text);
+}
+
 static void write_parameters(struct spell *spell, enum shader_block block, unsigned *count)
 {
     for (uint32_t i = 0; i < spell->shader->interface.used.len; i++) {
@@ -205,10 +217,7 @@ static void write_parameters(struct spell *spell, enum shader_block block, unsig
         if (variable->block != block || !is_parameter(spell, variable))
             continue;
         spell_text(spell, (*count)++ ? ",\n    " : "\n    ");
-        if (variable->type == IR_TYPE_BOOL || variable->type == IR_TYPE_STRING)
-            spell_text(spell, "uniform ");
-        SPELL(spell, is_color(variable) ? "color" : spell->style->types[variable->type].bytes, " ",
-              text_of(spell, variable->name), " = ");
+        SPELL(spell, parameter_type(spell, variable), " ", text_of(spell, variable->name), " = ");
         write_default(spell, variable);
         mdl_write_annotations(spell, variable);
     }
@@ -302,4 +311,5 @@ static void close(struct spell *spell)
     use_helpers(spell);
 }
 
-const struct target_frame mdl_frame = {.declare = declare, .open = open, .close = close};
+const struct target_frame mdl_frame = {
+    .declare = declare, .open = open, .close = close, .passed_type = parameter_type};

@@ -79,6 +79,7 @@ static const struct lang_syntax syntax = {
     .reserved = reserved,
     .num_reserved = sizeof reserved / sizeof *reserved,
     .reserved_prefix = MDL_PREFIX,
+    .begins_with_letter = true,
     .phrases = phrases,
     .always_braces = true,
     .results_in_struct = true,
@@ -107,7 +108,7 @@ static const char *const versions[] = {"1.8", "1.9", "1.10", NULL};
 
 const struct target target_mdl = {
     .name = "mdl",
-    .materialx_name = "genmdl",
+    .materialx_name = "mdl", /* sources for genmdl need modules of MaterialX */
     .brief = "NVIDIA's Material Definition Language 1.8 and later",
     .caps = CAP_BITWISE | CAP_IMPLICIT_LOD | CAP_STRINGS | CAP_NAMED_WHOLES | CAP_TYPED_TEXTURES
             | CAP_MISSING_COLORS | CAP_SCOPED_PARAMETERS | CAP_INDEXED_TANGENTS | CAP_METADATA,

@@ -327,6 +327,8 @@ void generation_start_closures(struct generation *g)
     if (g->result->shader.role->lights == LIGHTS_IN_SHADER)
         build_lights(g->builder, lights->list.items, lights->list.len, lights->is_set);
     g->closure_host = build_closure_host(g->builder, &g->point);
+    if (g->result->target->closures && g->result->target->closures->lacks_view)
+        g->point.view = closure_normal(&g->result->shader, &g->closure_host);
     g->lighting = (struct closure_lighting){
         .lights = has_lights(g),
         .environment = g->options[OPTION_environment].number != 0,

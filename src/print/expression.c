@@ -45,6 +45,7 @@ static struct text_word variant(struct printer *p, struct text_word name, uint32
     bool ends_low = name.len && name.bytes[name.len - 1] == '_';
     struct text text;
     text_init(&text, p->out->arena);
+    text_str(&text, lang_syntax_beginning(p->style->syntax, name.bytes));
     text_put(&text, name);
     if (!ends_low)
         text_char(&text, '_');
@@ -326,6 +327,8 @@ static void print_op_or_part(struct printer *p, const struct lang_node *node,
 
 void print_expression(struct printer *p, const struct lang_node *node, enum lang_precedence least)
 {
+    if (print_result_value(p, node))
+        return;
     switch (node->kind) {
     case LANG_CONST:
         lang_print_value(p->style, p->unit->strings, node->type, ast_words(p->layer, node), least,
@@ -339,8 +342,6 @@ void print_expression(struct printer *p, const struct lang_node *node, enum lang
         text_str(p->out, "}}");
         break;
     case LANG_CALL:
-        if (print_result_value(p, node))
-            break;
         text_str(p->out, print_function_name(p->names, p->unit, node->a));
         text_char(p->out, '(');
         print_arguments(p, node);

@@ -74,6 +74,7 @@ struct lang_syntax {
     const char *const *reserved; /* identifiers that must be renamed, sorted by byte value */
     uint32_t num_reserved;
     const char *reserved_prefix; /* no identifier begins with it; NULL: none */
+    bool begins_with_letter;     /* an identifier; otherwise it may begin with '_' */
     /*
      * [LANG_PREC_PRIMARY + 1], by the precedence of an infix operator: what its operands need, if
      * that is more than in C; 0: as in C. NULL: all are as in C.
@@ -140,6 +141,8 @@ const struct lang_form *lang_syntax_form(const struct lang_syntax *syntax, enum 
 const struct lang_form *lang_syntax_forms_alone(const struct lang_syntax *syntax);
 const char *lang_syntax_type(const struct lang_syntax *syntax, ir_type_id type);
 const char *lang_syntax_phrase(const struct lang_syntax *syntax, enum lang_phrase phrase);
+/* What an identifier needs before it, because none begins as it does: "x"; "": nothing. */
+const char *lang_syntax_beginning(const struct lang_syntax *syntax, const char *name);
 bool lang_syntax_is_reserved(const struct lang_syntax *syntax, const char *name, size_t len);
 
 /* style.c: a syntax prepared for printing, with the rows of its bases and with parsed forms. */

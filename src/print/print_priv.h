@@ -32,6 +32,11 @@ const union ir_word *print_words(const struct lang_style *style, const struct la
 
 /* ---- The state while a function is printed ---- */
 
+struct printed_value {
+    const struct lang_node *node;
+    const char *text;
+};
+
 struct printer {
     struct lang_style *style;
     const struct lang_names *names;
@@ -45,12 +50,9 @@ struct printer {
     uint32_t num_visible;
     unsigned indent;
     bool is_typed; /* the target has forms that depend on types */
-    /* calls of the current statement whose results are in a struct, and their numbers */
-    struct printed_call {
-        const struct lang_node *call;
-        uint32_t number;
-    } * calls;
-    uint32_t num_calls, max_calls, num_results;
+    /* expressions of the current statement that stand before it, and their texts (results.c) */
+    VEC(struct printed_value) values;
+    uint32_t num_results; /* names made for them */
 };
 
 static inline const struct lang_node *node_at(const struct printer *p, lang_ref ref)
@@ -99,11 +101,15 @@ void print_result_locals(struct printer *p);
 void print_return_results(struct printer *p, uint32_t id, lang_ref value);
 /*
  * Writes the calls of a statement or expression that return such a struct, before it, with the
- * assignments of their results.
+ * assignments of their results. True if there were any.
  */
-void print_result_calls(struct printer *p, lang_ref ref);
-/* Writes the value of such a call. false: the call is another one. */
-bool print_result_value(struct printer *p, const struct lang_node *call);
+bool print_result_calls(struct printer *p, lang_ref ref);
+/* True if an expression has such calls; 0 has none. */
+bool print_has_result_calls(struct printer *p, lang_ref expression);
+/* Writes the value of an expression that stands before its statement. false: it does not. */
+bool print_result_value(struct printer *p, const struct lang_node *node);
+/* A name that nothing else in the function has: "mdl_r1". */
+const char *print_result_name(struct printer *p);
 
 /*
  * texts.c: writes the text of a function from its image. false: the image has none, or the text

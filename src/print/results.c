@@ -96,21 +96,39 @@ void print_return_results(struct printer *p, uint32_t id, lang_ref value)
 
 /* ---- Calls ---- */
 
-static const struct printed_call *find_call(const struct printer *p, const struct lang_node *call)
-{
-    for (uint32_t i = 0; i < p->num_calls; i++)
-        if (p->calls[i].call == call)
-            return &p->calls[i];
-    return NULL;
-}
-
 static void print_indent(struct printer *p)
 {
     for (unsigned i = 0; i < p->indent; i++)
         text_str(p->out, "    ");
 }
 
-static void assign_results(struct printer *p, const struct lang_node *call, uint32_t number)
+static bool is_result_call(const struct printer *p, const struct lang_node *node)
+{
+    return node->kind == LANG_CALL && lang_has_results(p->style->syntax, p->unit, node->a);
+}
+
+static bool is_plain(void *user_data, lang_ref ref, unsigned access)
+{
+    struct printer *p = user_data;
+    (void)access;
+    return !is_result_call(p, node_at(p, ref));
+}
+
+bool print_has_result_calls(struct printer *p, lang_ref expression)
+{
+    return p->style->syntax->results_in_struct
+           && !lang_walk(p->layer, expression, LANG_READ, is_plain, p);
+}
+
+const char *print_result_name(struct printer *p)
+{
+    struct text name;
+    text_init(&name, p->out->arena);
+    text_fmt(&name, "%sr%u", p->style->syntax->reserved_prefix, (unsigned)++p->num_results);
+    return text_cstr(&name);
+}
+
+static void assign_results(struct printer *p, const struct lang_node *call, const char *made)
 {
     const struct lang_unit *layer;
     const struct lang_function *callee = lang_function(p->unit, call->a, &layer);
@@ -123,59 +141,99 @@ static void assign_results(struct printer *p, const struct lang_node *call, uint
             continue;
         print_indent(p);
         print_expression(p, argument, LANG_PREC_UNARY);
-        text_fmt(p->out, " = %sr%u.%s;\n", p->style->syntax->reserved_prefix, (unsigned)number,
-                 member_of(p, param));
+        text_fmt(p->out, " = %s.%s;\n", made, member_of(p, param));
     }
 }
 
-/* The calls in the arguments come first. */
-static bool visit(void *user_data, lang_ref ref, unsigned access)
+static void print_call(struct printer *p, const struct lang_node *call)
 {
-    struct printer *p = user_data;
+    const char *made = print_result_name(p);
+    struct text value;
+    print_indent(p);
+    text_fmt(p->out, "%s %s = %s(", struct_name(p, call->a), made,
+             print_function_name(p->names, p->unit, call->a));
+    print_arguments(p, call);
+    text_str(p->out, ");\n");
+    assign_results(p, call, made);
+    text_init(&value, p->out->arena);
+    text_fmt(&value, "%s." LANG_RESULTS_VALUE, made);
+    vec_push(p->out->arena, &p->values, (struct printed_value){call, text_cstr(&value)});
+}
+
+static void print_calls_of(struct printer *p, lang_ref ref);
+
+/* "bool mdl_r1 = a; if (mdl_r1) { …; mdl_r1 = b; }": a && b, whose right side is not always
+ * evaluated. */
+static void print_logic(struct printer *p, const struct lang_node *node)
+{
+    const struct lang_node *left = node_at(p, node->a), *right = node_at(p, left->next);
+    print_calls_of(p, node->a);
+    const char *made = print_result_name(p);
+    print_indent(p);
+    text_fmt(p->out, "bool %s = ", made);
+    print_expression(p, left, LANG_PREC_ASSIGN);
+    text_str(p->out, ";\n");
+    print_indent(p);
+    text_fmt(p->out, node->op == IR_LAND ? "if (%s) {\n" : "if (!%s) {\n", made);
+    p->indent++;
+    print_calls_of(p, left->next);
+    print_indent(p);
+    text_fmt(p->out, "%s = ", made);
+    print_expression(p, right, LANG_PREC_ASSIGN);
+    text_str(p->out, ";\n");
+    p->indent--;
+    print_indent(p);
+    text_str(p->out, "}\n");
+    vec_push(p->out->arena, &p->values, (struct printed_value){node, made});
+}
+
+/* The operands of an expression or simple statement, in the order in which they are evaluated. */
+static lang_ref first_operand(const struct lang_node *node)
+{
+    switch (node->kind) {
+    case LANG_OP:
+    case LANG_EXPR:
+    case LANG_RETURN:
+    case LANG_ASSIGN: return node->a;
+    case LANG_CALL:
+    case LANG_DECLARE: return node->b;
+    default: return 0;
+    }
+}
+
+static void print_calls_of(struct printer *p, lang_ref ref)
+{
     const struct lang_node *node = node_at(p, ref);
-    (void)access;
-    if (node->kind == LANG_CALL && lang_has_results(p->style->syntax, p->unit, node->a)) {
-        assert(p->num_calls < p->max_calls);
-        p->calls[p->num_calls++] = (struct printed_call){node, 0};
-    }
-    return true;
-}
-
-static bool count(void *user_data, lang_ref ref, unsigned access)
-{
-    (void)ref;
-    (void)access;
-    ++*(uint32_t *)user_data;
-    return true;
-}
-
-void print_result_calls(struct printer *p, lang_ref ref)
-{
-    if (!p->style->syntax->results_in_struct)
+    if (!print_has_result_calls(p, ref))
         return;
-    p->max_calls = p->num_calls = 0;
-    lang_walk(p->layer, ref, LANG_READ, count, &p->max_calls);
-    p->calls = arena_alloc(p->out->arena, p->max_calls * sizeof *p->calls);
-    lang_walk(p->layer, ref, LANG_READ, visit, p);
-    for (uint32_t i = p->num_calls; i-- > 0;) {
-        struct printed_call *made = &p->calls[i];
-        uint32_t number = ++p->num_results;
-        print_indent(p);
-        text_fmt(p->out, "%s %sr%u = %s(", struct_name(p, made->call->a),
-                 p->style->syntax->reserved_prefix, (unsigned)number,
-                 print_function_name(p->names, p->unit, made->call->a));
-        print_arguments(p, made->call);
-        text_str(p->out, ");\n");
-        assign_results(p, made->call, number);
-        made->number = number;
+    bool is_logic = node->kind == LANG_OP && (node->op == IR_LAND || node->op == IR_LOR);
+    if (is_logic && print_has_result_calls(p, node_at(p, node->a)->next)) {
+        print_logic(p, node);
+        return;
     }
+    for (lang_ref operand = first_operand(node); operand; operand = node_at(p, operand)->next)
+        print_calls_of(p, operand);
+    if (node->kind == LANG_ASSIGN)
+        print_calls_of(p, node->b);
+    if (is_result_call(p, node))
+        print_call(p, node);
 }
 
-bool print_result_value(struct printer *p, const struct lang_node *call)
+bool print_result_calls(struct printer *p, lang_ref ref)
 {
-    const struct printed_call *made = find_call(p, call);
-    if (made)
-        text_fmt(p->out, "%sr%u." LANG_RESULTS_VALUE, p->style->syntax->reserved_prefix,
-                 (unsigned)made->number);
-    return made != NULL;
+    p->values.len = 0;
+    if (!print_has_result_calls(p, ref))
+        return false;
+    print_calls_of(p, ref);
+    return true;
+}
+
+bool print_result_value(struct printer *p, const struct lang_node *node)
+{
+    for (uint32_t i = 0; i < p->values.len; i++)
+        if (p->values.items[i].node == node) {
+            text_str(p->out, p->values.items[i].text);
+            return true;
+        }
+    return false;
 }

@@ -170,6 +170,9 @@ unsigned spell_call_open(struct spell *spell, ir_ref call)
     spell_text(spell, callee_name(spell, call));
     text_char(spell->out, '(');
     write_first(spell, call, n);
+    const struct ir_node *node = ir_get(spell->shader->graph, call);
+    if (node->op == IR_GRAPH_CALL)
+        spell_passed(spell, node->attr, false, n == 0);
     return n;
 }
 

@@ -680,6 +680,7 @@ void spell_graph_function(struct spell *spell, const struct shader_function *fun
         write_parameter(spell, PHRASE_PARAM_IN, graph->param_types.items[fn->first_param_type + i],
                         "p", i);
     }
+    spell_passed(spell, function->function, true, fn->num_params == 0);
     for (uint32_t i = 1; i < fn->num_results && !in_struct; i++) {
         spell_text(spell, fn->num_params || i > 1 ? ", " : "");
         write_parameter(spell, PHRASE_PARAM_OUT, ir_type_of(graph, results[i]), "r", i);

@@ -14,6 +14,8 @@ struct spell; /* spell/spell.h */
 
 /* For a language with closures: the renderer handles lights, layers and weights. */
 struct target_closures {
+    /* no shader knows where it is seen from: weights of layers are those along the normal */
+    bool lacks_view;
     /*
      * Replaces closure_emit: writes the effects for a root of any type. false if the type has no
      * meaning, or if the language lacks something; *out_lacks then says what, otherwise it is
@@ -65,6 +67,11 @@ struct target_frame {
     void (*open_context)(struct spell *spell);
     /* after main; may not be NULL beside the other, and may stand without it */
     void (*close_context)(struct spell *spell);
+    /*
+     * The type of a parameter that functions of graphs cannot see, and get as an argument of its
+     * name; NULL: they see the variable.
+     */
+    const char *(*passed_type)(struct spell *spell, const struct shader_variable *variable);
     /*
      * Declares structs, uniforms and textures for a shader that is a function in a file of the host
      * (spell/function_frame.c); nothing that stands once per file.
