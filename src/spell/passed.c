@@ -26,8 +26,7 @@ static void find_of_node(struct spell *spell, struct spell_passed *passed,
     }
     bool is_read = node->op == IR_UNIFORM || node->op == IR_TEXTURE;
     if (is_read
-        && spell->frame->passed_type(spell,
-                                     &spell->shader->interface.variables.items[node->attr]))
+        && spell->frame->passed_type(spell, &spell->shader->interface.variables.items[node->attr]))
         add(spell, passed, node->attr);
 }
 
