@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /* The values that the code of a node builds. */
 #include "dynamic/code.h"
+#include "ir/arithmetic.h"
 
 #include "base/hash.h"
 #include "lower/lower.h"
@@ -87,17 +88,18 @@ static const struct opaque_op {
     ir_type_id result;
     bool is_uniform; /* the first two operands have one type */
     uint32_t operands[4];
+    unsigned share; /* the operand that is one, from 0 to 1; 0: none. A factor is that of a BSDF. */
 } opaque_ops[] = {
     {IR_LAYER, 0, false, {OF(BSDF), OF(BSDF) | OF(VDF)}},
-    {IR_CLOSURE_MIX, 0, true, {CLOSURES, CLOSURES, OF(FLOAT)}},
+    {IR_CLOSURE_MIX, 0, true, {CLOSURES, CLOSURES, OF(FLOAT)}, 2},
     {IR_CLOSURE_ADD, 0, true, {CLOSURES, CLOSURES}},
-    {IR_CLOSURE_SCALE, 0, false, {CLOSURES, OF(FLOAT) | OF(VEC3)}},
-    {IR_SURFACE_SHADER, IR_TYPE_SURFACE, false, {OF(BSDF), OF(EDF), OF(FLOAT), OF(BOOL)}},
-    {IR_SURFACE_UNLIT, IR_TYPE_SURFACE, false, {OF(VEC3), OF(VEC3), OF(FLOAT)}},
+    {IR_CLOSURE_SCALE, 0, false, {CLOSURES, OF(FLOAT) | OF(VEC3)}, 1},
+    {IR_SURFACE_SHADER, IR_TYPE_SURFACE, false, {OF(BSDF), OF(EDF), OF(FLOAT), OF(BOOL)}, 2},
+    {IR_SURFACE_UNLIT, IR_TYPE_SURFACE, false, {OF(VEC3), OF(VEC3), OF(FLOAT)}, 2},
     {IR_VOLUME_SHADER, IR_TYPE_VOLUME, false, {OF(VDF), OF(EDF)}},
     {IR_DISPLACEMENT_SHADER, IR_TYPE_DISPLACEMENT, false, {OF(FLOAT) | OF(VEC3), OF(FLOAT)}},
     {IR_LIGHT_SHADER, IR_TYPE_LIGHT, false, {OF(EDF), OF(FLOAT), OF(FLOAT)}},
-    {IR_SHADER_MIX, 0, true, {SHADERS, SHADERS, OF(FLOAT)}},
+    {IR_SHADER_MIX, 0, true, {SHADERS, SHADERS, OF(FLOAT)}, 2},
     {IR_MATERIAL,
      IR_TYPE_MATERIAL,
      false,
@@ -149,11 +151,15 @@ static bool is_operand(const struct ir_graph *g, enum ir_op op, const ir_ref *ar
 }
 
 /* False: the operands do not fit. */
-static bool build_opaque(struct ir_graph *g, const struct opaque_op *row, const ir_ref *args,
-                         unsigned n, ir_ref *out)
+static bool build_opaque(struct ir_graph *g, const struct opaque_op *row, ir_ref *args, unsigned n,
+                         ir_ref *out)
 {
     if (!fits_opaque(g, row, args))
         return false;
+    bool is_factor =
+        row->op == IR_CLOSURE_SCALE && args[0] && ir_type_of(g, args[0]) != IR_TYPE_BSDF;
+    if (row->share && !is_factor)
+        args[row->share] = ir_share(g, args[row->share]);
     if (is_operand(g, (enum ir_op)row->op, args, out))
         return true;
     ir_type_id type = row->result ? row->result : ir_type_of(g, args[0] ? args[0] : args[1]);

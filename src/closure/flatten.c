@@ -314,10 +314,8 @@ static void spread(struct flattener *f, ir_ref ref, struct weight w)
     } else if (op == IR_CLOSURE_ADD) {
         add_weight(f, a, w);
         add_weight(f, b, w);
-    } else { /* scale: a BSDF must not gain energy from it */
-        ir_ref zero = ir_const_float(g, 0.0f), one = ir_const_float(g, 1.0f);
-        bool reflects = ir_type_of(g, ref) == IR_TYPE_BSDF;
-        add_scaled(f, a, w, reflects ? ir_op3(g, IR_CLAMP, b, zero, one) : b);
+    } else {
+        add_scaled(f, a, w, b);
     }
 }
 

@@ -197,7 +197,8 @@ bool dynamic_slab_layer(void *user_data, mxg_build *build, mxg_ref *results)
 /* bg (1 - share) + fg share; 0 is no matter. */
 static bool beside(mxg_build *build, ir_ref bg, ir_ref fg, ir_ref share, mxg_ref *results)
 {
-    const struct ir_graph *g = build->b->graph;
+    struct ir_graph *g = build->b->graph;
+    share = ir_share(g, share);
     ir_ref args[3] = {bg, fg, share};
     bool is_bg = bg == fg || ir_const_is(g, share, 0.0f), is_fg = ir_const_is(g, share, 1.0f);
     if (!is_bg && !is_fg)

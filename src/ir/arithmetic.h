@@ -40,6 +40,8 @@ static inline ir_ref ir_saturate(struct ir_graph *graph, ir_ref a)
     ir_ref zero = ir_const_float(graph, 0.0f), one = ir_const_float(graph, 1.0f);
     return ir_op3(graph, IR_CLAMP, a, zero, one);
 }
+/* share.c: the same of a value that may be outside; 0 for 0. */
+ir_ref ir_share(struct ir_graph *graph, ir_ref value);
 static inline ir_ref ir_white(struct ir_graph *graph)
 {
     return ir_const_splat(graph, IR_TYPE_VEC3, 1.0f);

@@ -69,7 +69,7 @@ static void find_presence(struct builder *b, struct build_part *part, const stru
                           unsigned side, bool walks)
 {
     ir_ref surface = part->sides[side] ? part->sides[side] : part->sides[0];
-    ir_ref opacity = surface ? ir_saturate(b->graph, alpha_of(b, surface, walks)) : 0;
+    ir_ref opacity = surface ? ir_share(b->graph, alpha_of(b, surface, walks)) : 0;
     ir_ref presence = ir_product(b->graph, part->mask, opacity);
     part->presence = presence ? presence : ir_const_float(b->graph, 1.0f);
     part->hides = surface ? part->presence : ir_const_float(b->graph, 0.0f);
@@ -226,8 +226,8 @@ struct build_part build_part_of(struct builder *b, ir_ref material)
     if (material && ir_get(g, material)->op == IR_SUBSTANCE) {
         uint32_t modes = ir_get(g, material)->attr;
         part.normal = ir_arg(g, material, 1);
-        part.mask = ir_arg(g, material, 2) ? ir_saturate(b->graph, ir_arg(g, material, 2)) : 0;
-        part.cutout = ir_arg(g, material, 3) ? ir_saturate(b->graph, ir_arg(g, material, 3)) : 0;
+        part.mask = ir_arg(g, material, 2) ? ir_share(b->graph, ir_arg(g, material, 2)) : 0;
+        part.cutout = ir_arg(g, material, 3) ? ir_share(b->graph, ir_arg(g, material, 3)) : 0;
         part.displacement_mode = (enum ir_slot_mode)(modes & MODE_MASK);
         part.normal_mode = (enum ir_slot_mode)(modes >> MODE_BITS);
         material = ir_arg(g, material, 0);

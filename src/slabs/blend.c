@@ -487,7 +487,7 @@ static void blend_sum(const struct slab_blend *blend, struct part *a, struct par
 static void blend_scaled(struct shader *shader, const struct part *a, ir_ref factor, ir_ref *out)
 {
     struct ir_graph *g = shader->graph;
-    ir_ref weight = ir_saturate(g, ir_convert(g, IR_TYPE_VEC3, factor));
+    ir_ref weight = ir_share(g, ir_convert(g, IR_TYPE_VEC3, factor));
     memcpy(out, a->in, sizeof a->in);
     out[SLAB_f0] = ir_mul(g, a->in[SLAB_f0], weight);
     ir_ref diffuse =

@@ -248,7 +248,7 @@ static void put_layer(const struct joiner *j, struct piece *below, struct piece 
     }
     layer = alone(j, layer);
     ir_ref presence =
-        ir_product(j->graph, mask, layer.opacity ? ir_saturate(j->graph, layer.opacity) : 0);
+        ir_product(j->graph, mask, layer.opacity ? ir_share(j->graph, layer.opacity) : 0);
     if (below->aovs) {
         ir_ref missing = ir_one_minus(g, one_or(j, below->opacity));
         missing = ir_op2(g, IR_MUL, missing, ir_one_minus(g, presence));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /* From the arguments of a node to its results, by the implementation for the target. */
 #include "dynamic/code.h"
+#include "ir/arithmetic.h"
 #include "lower/lower.h"
 
 static void call_expressions(struct builder *b, const struct implementation *impl,
@@ -54,6 +55,8 @@ static void build_leaf(struct builder *b, const struct implementation *impl, con
     }
     uint32_t callee = build_leaf_callee(b, impl->ref);
     ir_type_id type = build_type(b, ports[def->num_inputs].type);
+    if (type == IR_TYPE_BSDF)
+        operands[0] = ir_share(b->graph, operands[0]);
     bool is_absent = ir_const_is(b->graph, operands[0], 0.0f) && !b->options->keeps_absent;
     results[0] = is_absent ? 0 : ir_build(b->graph, IR_LEAF, type, callee, operands, n);
 }

@@ -261,7 +261,8 @@ void main()
         turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
     }
     // opacity
-    if (SR_varnish_opacity < u_alphaThreshold)
+    float opacity = clamp(SR_varnish_opacity, 0.0, 1.0);
+    if (opacity < u_alphaThreshold)
         discard;
-    out1 = vec4(SR_varnish_opacity * color, SR_varnish_opacity);
+    out1 = vec4(opacity * color, opacity);
 }

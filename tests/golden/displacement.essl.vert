@@ -34,5 +34,6 @@ void main()
     vec3 Ng = normalize(vd_normalWorld);
     float both = textureLod(height_file, vd_texcoord_0, 0.0).x * mx_line(vd_texcoord_0);
     vec3 displacement = normalize(vd_tangentWorld) * 0.1 + Ng * both;
-    gl_Position = u_viewProjectionMatrix * vec4(mix(displacement, Ng * (both * 0.5), D_mix) + vd_positionWorld, 1.0);
+    gl_Position = u_viewProjectionMatrix
+        * vec4(mix(displacement, Ng * (both * 0.5), clamp(D_mix, 0.0, 1.0)) + vd_positionWorld, 1.0);
 }

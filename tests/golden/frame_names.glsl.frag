@@ -76,8 +76,8 @@ void main()
     vec3 normal_N = normalize(vd.normalWorld);
     vec3 diffuse_N = faceforward(normal_N, -V, normal_N);
     float cos_v = max(abs(dot(normal_N, V)), 1e-8);
-    float LightData_2 = scatter_2();
-    float diffuse_product = LightData_2 * 0.31830987 * 0.18;
+    float diffuse_weight = clamp(scatter_2(), 0.0, 1.0);
+    float diffuse_product = diffuse_weight * 0.31830987 * 0.18;
     // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         vec3 L;
@@ -107,15 +107,16 @@ void main()
         color += u_lightData[i].color * diffuse_product_2;
     }
     // environment: diffuse
-    if (LightData_2 > 0.0) {
+    if (diffuse_weight > 0.0) {
         vec2 fit = PublicUniforms_2 * (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + PublicUniforms_2
             * vec2(1.4385, 2.0315)) + vec2(1.0);
-        float diffuse_product_3 = u_envLightIntensity * (clamp(fit.x / fit.y, 0.0, 1.0) * (LightData_2 * 0.18));
+        float diffuse_product_3 = u_envLightIntensity * (clamp(fit.x / fit.y, 0.0, 1.0) * (diffuse_weight * 0.18));
         color += textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * diffuse_N)), 0.0).xyz
             * diffuse_product_3;
     }
     // opacity
-    if (surface_opacity < u_alphaThreshold)
+    float opacity = clamp(surface_opacity, 0.0, 1.0);
+    if (opacity < u_alphaThreshold)
         discard;
-    out1 = vec4(surface_opacity * color, surface_opacity);
+    out1 = vec4(opacity * color, opacity);
 }

@@ -60,13 +60,13 @@ mat3 mx_frame(const vec3 N, const vec3 X)
 
 void scatter()
 {
-    float LightData_2 = scatter_2();
+    float diffuse_weight = clamp(scatter_2(), 0.0, 1.0);
     float PublicUniforms_2 = vd_2(vd.texcoord_0.y);
     vec3 normal_N = normalize(vd.normalWorld);
     float cos_v = max(abs(dot(normal_N, vd.viewWorld)), 1e-8);
     vec2 fit = PublicUniforms_2 * (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + PublicUniforms_2
         * vec2(1.4385, 2.0315)) + vec2(1.0);
-    float diffuse_share = max(dot(vec3(LightData_2 * (clamp(fit.x / fit.y, 0.0, 1.0) * 0.18 * 0.9 + 0.1)),
+    float diffuse_share = max(dot(vec3(diffuse_weight * (clamp(fit.x / fit.y, 0.0, 1.0) * 0.18 * 0.9 + 0.1)),
         vec3(0.33333334)), 0.0);
     float pick = diffuse_share * vd.random.w;
     vec3 L = vec3(0.0);
@@ -88,7 +88,7 @@ void scatter()
         float diffuse_sum = ab.x + ab.y * max(dot(vd.viewWorld, L_2) - cos_v * diffuse_cos_l, 0.0)
             / max(diffuse_cos_l, cos_v);
         float pdf = max(diffuse_n_dot_l_2, 0.0) / 3.1415927;
-        weight = vec3(LightData_2 * (diffuse_cos_l * 0.31830987 * 0.18 * diffuse_sum / max(pdf, 1e-8))
+        weight = vec3(diffuse_weight * (diffuse_cos_l * 0.31830987 * 0.18 * diffuse_sum / max(pdf, 1e-8))
             * scaled_diffuse_share);
         density = pdf * scaled_diffuse_share;
     }
@@ -102,7 +102,7 @@ void scatter()
     float diffuse_sum = ab.x + ab.y * max(dot(vd.viewWorld, vd.lightWorld.xyz) - cos_v * diffuse_cos_l, 0.0)
         / max(diffuse_cos_l, cos_v);
     float sum = vd.lightWorld.w * (scaled_diffuse_share * (max(diffuse_n_dot_l, 0.0) / 3.1415927)) + 1.0;
-    float balanced = LightData_2 * (diffuse_cos_l * 0.31830987 * 0.18 * diffuse_sum) / sum;
+    float balanced = diffuse_weight * (diffuse_cos_l * 0.31830987 * 0.18 * diffuse_sum) / sum;
     out5 = vec4(balanced, balanced, balanced, 0.0);
     float chance = fract(vd.random.w * 4096.0);
     float sum_2 = 0.0;
@@ -135,7 +135,7 @@ void scatter()
         float diffuse_cos_l_2 = max(dot(diffuse_N, L_4), 1e-8);
         float diffuse_sum_2 = ab.x + ab.y * max(dot(vd.viewWorld, L_4) - cos_v * diffuse_cos_l_2, 0.0)
             / max(diffuse_cos_l_2, cos_v);
-        float product = LightData_2 * (diffuse_cos_l_2 * 0.31830987 * 0.18 * diffuse_sum_2);
+        float product = diffuse_weight * (diffuse_cos_l_2 * 0.31830987 * 0.18 * diffuse_sum_2);
         vec3 lit = u_lightData[i].color * intensity * product;
         float brightness = max(dot(lit, vec3(0.33333334)), 0.0);
         sum_2 += brightness;

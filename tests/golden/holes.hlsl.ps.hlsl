@@ -15,6 +15,6 @@ struct VertexData {
 void main(
     VertexData vd)
 {
-    if (vd.geomprop_torn < u_alphaThreshold)
+    if (clamp(vd.geomprop_torn, 0.0, 1.0) < u_alphaThreshold)
         discard;
 }

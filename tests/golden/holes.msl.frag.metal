@@ -19,7 +19,7 @@ struct GlobalContext {
 
 void FragmentMain()
 {
-    if (vd.geomprop_torn < u_prv.u_alphaThreshold)
+    if (clamp(vd.geomprop_torn, 0.0, 1.0) < u_prv.u_alphaThreshold)
         discard_fragment();
 }
 };

@@ -14,7 +14,7 @@ struct VertexData {
 @fragment
 fn main(vd: VertexData)
 {
-    if (vd.geomprop_torn < u_prv.u_alphaThreshold) {
+    if (clamp(vd.geomprop_torn, 0.0, 1.0) < u_prv.u_alphaThreshold) {
         discard;
     }
 }

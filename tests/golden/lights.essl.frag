@@ -46,7 +46,8 @@ void main()
         color += intensity * (max(dot(L, bsdf_facing), 1e-8) * 0.31830987 * 0.8);
     }
     // opacity
-    if (S_opacity < u_alphaThreshold)
+    float opacity = clamp(S_opacity, 0.0, 1.0);
+    if (opacity < u_alphaThreshold)
         discard;
-    out1 = vec4(S_opacity * color, S_opacity);
+    out1 = vec4(opacity * color, opacity);
 }

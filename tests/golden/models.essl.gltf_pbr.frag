@@ -420,41 +420,44 @@ void main()
     float reflection_throughput = 1.0 - dot(product * reflection_scale, vec3(0.33333334));
     vec3 reflection_film_scale = mix(mx_fresnel_facing(fresnel_f0, SR_gltf_pbr_iridescence_thickness,
         SR_gltf_pbr_iridescence_ior), f90, 0.04761905) * difference + vec3(1.0);
+    float clamped_iridescence = clamp(SR_gltf_pbr_iridescence, 0.0, 1.0);
+    float coating_weight = clamp(SR_gltf_pbr_clearcoat, 0.0, 1.0);
     float coat_lobe = clamp(SR_gltf_pbr_clearcoat_roughness * SR_gltf_pbr_clearcoat_roughness, 1e-8, 1.0);
     vec2 coating_albedo = mx_ggx_albedo_fit(coat_lobe, coat_lobe / (coat_lobe + cos_v), cos_v);
     float coating_scale = (1.0 / coating_albedo.x - 1.0) * 0.08571429 + 1.0;
-    float coating_throughput = 1.0 - SR_gltf_pbr_clearcoat
+    float coating_throughput = 1.0 - coating_weight
         * (mix(0.04, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale);
     float sheen_weight = max(max(SR_gltf_pbr_sheen_color.x, SR_gltf_pbr_sheen_color.y), SR_gltf_pbr_sheen_color.z);
+    float fuzz_weight = clamp(sheen_weight, 0.0, 1.0);
     float sheen_rough = SR_gltf_pbr_sheen_roughness * SR_gltf_pbr_sheen_roughness;
     float sheen_albedo = clamp(mx_bicubic(mat4(3.7341, -15.9587, 23.621, -11.0989, -8.2265, 35.1081, -49.7137, 23.2945,
         4.0691, -17.882, 25.6639, -12.0167, -0.5833, 2.6552, -3.9393, 1.8999), 1.0 / (cos_v + 1.0), 1.0
         / (sheen_rough + 0.2)), 0.0, 1.0);
-    float substrate_weight = coating_throughput * (1.0 - sheen_weight * sheen_albedo);
+    float substrate_weight = coating_throughput * (1.0 - fuzz_weight * sheen_albedo);
     float body_weight = mix(reflection_throughput, 1.0 - dot(product * reflection_film_scale, vec3(0.33333334)),
-        SR_gltf_pbr_iridescence) * substrate_weight;
-    float dielectric_weight = 1.0 - SR_gltf_pbr_metallic;
-    float diffuse_weight = dielectric_weight * (1.0 - SR_gltf_pbr_transmission);
+        clamped_iridescence) * substrate_weight;
+    float metal_weight = clamp(SR_gltf_pbr_metallic, 0.0, 1.0);
+    float clamped_transmission = clamp(SR_gltf_pbr_transmission, 0.0, 1.0);
+    float diffuse_weight = (1.0 - metal_weight) * (1.0 - clamped_transmission);
     vec3 diffuse_product = SR_gltf_pbr_base_color * (body_weight * diffuse_weight * 0.31830987);
     float ggx_masking = sqrt(coat_lobe * coat_lobe + (1.0 - coat_lobe * coat_lobe) * (cos_v * cos_v));
     mx_GgxLobe coating_vector = mx_GgxLobe(Nf, cos_v, vec3(0.0), vec2(coat_lobe), ggx_masking);
     float s = 1.0 / max(sheen_rough, 0.005);
-    vec3 fuzz_product = SR_gltf_pbr_sheen_color / sheen_weight * (sheen_weight * coating_throughput);
-    float metal_film_weight = SR_gltf_pbr_metallic * SR_gltf_pbr_iridescence;
+    vec3 fuzz_product = SR_gltf_pbr_sheen_color / sheen_weight * (fuzz_weight * coating_throughput);
+    bool metal_film_visible = clamped_iridescence * metal_weight > 0.0;
     vec3 fresnel_facing = max(SR_gltf_pbr_base_color, 0.0);
-    vec3 metal_film_product = (difference
-        * mix(mx_fresnel_facing(fresnel_facing, SR_gltf_pbr_iridescence_thickness, SR_gltf_pbr_iridescence_ior),
-        vec3(1.0), 0.04761905) + vec3(1.0)) * (substrate_weight * metal_film_weight);
+    vec3 metal_film_scale = difference * mix(mx_fresnel_facing(fresnel_facing, SR_gltf_pbr_iridescence_thickness,
+        SR_gltf_pbr_iridescence_ior), vec3(1.0), 0.04761905) + vec3(1.0);
+    vec3 metal_film_product = metal_film_scale * (substrate_weight * (clamped_iridescence * metal_weight));
     vec3 specular_tangent = mx_rotate3d(normalize(vd_tangentWorld),
         radians(SR_gltf_pbr_anisotropy_rotation * -57.29578), N);
     mx_GgxLobe lobe = mx_ggx_lobe(specular_roughness, N, specular_tangent, V);
-    float metal_bare_weight = SR_gltf_pbr_metallic * (1.0 - SR_gltf_pbr_iridescence);
+    float metal_bare_weight = metal_weight * (1.0 - clamped_iridescence);
     vec3 metal_bare_product = (difference * mix(fresnel_facing, vec3(1.0), 0.04761905) + vec3(1.0))
         * (substrate_weight * metal_bare_weight);
-    bool reflection_film_visible = SR_gltf_pbr_iridescence * dielectric_weight > 0.0;
-    vec3 reflection_film_product = reflection_film_scale
-        * (substrate_weight * (SR_gltf_pbr_iridescence * dielectric_weight));
-    float reflection_weight = dielectric_weight * (1.0 - SR_gltf_pbr_iridescence);
+    float reflection_film_weight = clamped_iridescence * (1.0 - metal_weight);
+    vec3 reflection_film_product = reflection_film_scale * (substrate_weight * reflection_film_weight);
+    float reflection_weight = (1.0 - metal_weight) * (1.0 - clamped_iridescence);
     vec3 reflection_product = reflection_scale * (substrate_weight * reflection_weight);
     // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
@@ -486,12 +489,12 @@ void main()
         // coating
         float v_dot_l = dot(V, L);
         float cosine = sqrt(clamp(v_dot_l * 0.5 + 0.500001, 0.0, 1.0));
-        if (SR_gltf_pbr_clearcoat > 0.0) {
-            float coating_product = mx_fresnel_permittivity(cosine, 2.25) * (SR_gltf_pbr_clearcoat * coating_scale);
+        if (coating_weight > 0.0) {
+            float coating_product = mx_fresnel_permittivity(cosine, 2.25) * (coating_weight * coating_scale);
             color += light_color * (intensity * (mx_ggx_light(coating_vector, V, L) * coating_product));
         }
         // fuzz
-        if (sheen_weight > 0.0) {
+        if (fuzz_weight > 0.0) {
             float scaled_along = (cos_v + l_dot_nf) * (cos_v + l_dot_nf);
             float fuzz_product_2 = cos_l
                 * ((s + 2.0) * pow(clamp(1.0 - scaled_along / max(v_dot_l * 2.0 + 2.0, 1e-8), 0.0, 1.0), s * 0.5)
@@ -501,7 +504,7 @@ void main()
         }
         // metal_film
         float ggx_light = mx_ggx_light_2(lobe, V, L);
-        if (metal_film_weight > 0.0)
+        if (metal_film_visible)
             color += light_color * (intensity
                 * (metal_film_product * (mx_fresnel(cosine, fresnel_facing, vec3(1.0),
                 SR_gltf_pbr_iridescence_thickness, SR_gltf_pbr_iridescence_ior) * ggx_light)));
@@ -510,7 +513,7 @@ void main()
             color += light_color * (intensity
                 * (metal_bare_product * (ggx_light * mx_fresnel_schlick(cosine, fresnel_facing, vec3(1.0)))));
         // reflection_film
-        if (reflection_film_visible)
+        if (reflection_film_weight > 0.0)
             color += light_color * (intensity
                 * (reflection_film_product
                 * (ggx_light * mx_fresnel(cosine, fresnel_f0, f90, SR_gltf_pbr_iridescence_thickness,
@@ -522,32 +525,32 @@ void main()
     }
     // environment: fuzz
     vec3 part = textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * Nf)), 0.0).xyz;
-    if (sheen_weight > 0.0) {
-        float fuzz_product_3 = u_envLightIntensity * (sheen_albedo * (sheen_weight * coating_throughput));
+    if (fuzz_weight > 0.0) {
+        float fuzz_product_3 = u_envLightIntensity * (sheen_albedo * (fuzz_weight * coating_throughput));
         color += SR_gltf_pbr_sheen_color / sheen_weight * part * fuzz_product_3;
     }
     // environment: diffuse
     if (diffuse_weight > 0.0)
         color += SR_gltf_pbr_base_color * part * (body_weight * diffuse_weight * u_envLightIntensity);
     // environment: coating
-    if (SR_gltf_pbr_clearcoat > 0.0) {
+    if (coating_weight > 0.0) {
         mx_GgxSamples coating_ggx_samples = mx_ggx_samples(vec2(coat_lobe), N, V);
         vec2 turn = vec2(1.0, 0.0);
         for (int i = 0; i < u_envRadianceSamples; ++i) {
             mx_GgxLight light = mx_ggx_reflected(coating_ggx_samples, i, turn);
             color += light.color * (mx_fresnel_permittivity(light.cosine, 2.25)
-                * (SR_gltf_pbr_clearcoat * coating_scale * light.weight));
+                * (coating_weight * coating_scale * light.weight));
             turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
         }
     }
     // environment: metal_film, metal_bare, reflection_film, reflection
     mx_GgxSamples samples = mx_ggx_samples(specular_roughness, N, specular_tangent, V);
-    if (reflection_weight > 0.0 || (reflection_film_visible || (metal_film_weight > 0.0 || metal_bare_weight > 0.0))) {
+    if (reflection_weight > 0.0 || (reflection_film_weight > 0.0 || (metal_film_visible || metal_bare_weight > 0.0))) {
         if (SR_gltf_pbr_iridescence_thickness > 0.0) {
             vec2 turn = vec2(1.0, 0.0);
             for (int i = 0; i < u_envRadianceSamples; ++i) {
                 mx_GgxLight metal_film_ggx_reflected = mx_ggx_reflected(samples, i, turn);
-                if (metal_film_weight > 0.0)
+                if (metal_film_visible)
                     color += metal_film_product
                         * (metal_film_ggx_reflected.color
                         * (metal_film_ggx_reflected.weight
@@ -558,7 +561,7 @@ void main()
                         * (metal_film_ggx_reflected.color
                         * (metal_film_ggx_reflected.weight
                         * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_facing, vec3(1.0))));
-                if (reflection_film_visible)
+                if (reflection_film_weight > 0.0)
                     color += reflection_film_product
                         * (metal_film_ggx_reflected.color
                         * (metal_film_ggx_reflected.weight
@@ -582,7 +585,7 @@ void main()
                 vec3 reflection_product_2 = metal_film_ggx_reflected.color
                     * (metal_film_ggx_reflected.weight
                     * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_f0, f90));
-                if (reflection_film_visible)
+                if (reflection_film_weight > 0.0)
                     color += reflection_film_product * reflection_product_2;
                 if (reflection_weight > 0.0)
                     color += reflection_product * reflection_product_2;
@@ -591,9 +594,10 @@ void main()
         }
     }
     // environment: refraction
-    if (SR_gltf_pbr_transmission * dielectric_weight > 0.0) {
-        vec3 refraction_tint = fresnel_facing * (u_refractionTwoSided ? fresnel_facing : vec3(1.0));
-        vec3 refraction_product = refraction_tint * (body_weight * (SR_gltf_pbr_transmission * dielectric_weight));
+    float refraction_weight = clamped_transmission * (1.0 - metal_weight);
+    if (refraction_weight > 0.0) {
+        vec3 refraction_product = fresnel_facing * (u_refractionTwoSided ? fresnel_facing : vec3(1.0))
+            * (body_weight * refraction_weight);
         float scaled_ior = SR_gltf_pbr_ior * SR_gltf_pbr_ior;
         vec2 turn = vec2(1.0, 0.0);
         for (int i = 0; i < u_envRadianceSamples; ++i) {
@@ -606,8 +610,8 @@ void main()
     }
     // opacity
     float mask = SR_gltf_pbr_alpha >= SR_gltf_pbr_alpha_cutoff ? 1.0 : 0.0;
-    float opacity = 1 > SR_gltf_pbr_alpha_mode ? 1.0 : 2 > SR_gltf_pbr_alpha_mode ? mask : 3 > SR_gltf_pbr_alpha_mode
-        ? SR_gltf_pbr_alpha : 0.0;
+    float opacity = clamp(1 > SR_gltf_pbr_alpha_mode ? 1.0 : 2 > SR_gltf_pbr_alpha_mode ? mask : 3
+        > SR_gltf_pbr_alpha_mode ? SR_gltf_pbr_alpha : 0.0, 0.0, 1.0);
     if (opacity < u_alphaThreshold)
         discard;
     out1 = vec4(opacity * color, opacity);

@@ -359,6 +359,7 @@ void main(
     float3 V = normalize(u_viewPosition - vd.positionWorld);
     float3 N = faceforward(shading_normal, -V, shading_normal);
     float3 diffuseColor = SR_UsdPreviewSurface_diffuseColor;
+    float coating_weight = clamp(SR_UsdPreviewSurface_clearcoat, 0.0, 1.0);
     float ior = SR_UsdPreviewSurface_ior;
     float amplitude = (1.0 - ior) / (ior + 1.0);
     float coating_fresnel_f0 = max(amplitude * amplitude, 0.0);
@@ -367,7 +368,7 @@ void main(
     float cos_v = max(abs(dot(shading_normal, V)), 1e-8);
     float2 coating_albedo = mx_ggx_albedo_fit(coat_roughness, coat_roughness / (coat_roughness + cos_v), cos_v);
     float coating_scale = lerp(coating_fresnel_f0, 1.0, 0.04761905) * (1.0 / coating_albedo.x - 1.0) + 1.0;
-    float coating_throughput = 1.0 - SR_UsdPreviewSurface_clearcoat
+    float coating_throughput = 1.0 - coating_weight
         * dot((float3)(lerp(coating_fresnel_f0, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale),
         float3(0.33333334, 0.33333334, 0.33333334));
     bool is_equal_useSpecularWorkflow = SR_UsdPreviewSurface_useSpecularWorkflow == 1;
@@ -383,12 +384,13 @@ void main(
         * (1.0 - dot(lerp(reflection_fresnel_f0, f90, albedo.y) * albedo.x * reflection_scale,
         float3(0.33333334, 0.33333334, 0.33333334)));
     float metal_weight = is_equal_useSpecularWorkflow ? 0.0 : SR_UsdPreviewSurface_metallic;
-    float diffuse_weight = 1.0 - metal_weight;
     float opaque_transparent = SR_UsdPreviewSurface_opacityThreshold > 0.0 ? 1.0 : SR_UsdPreviewSurface_opacity;
-    float opaque_weight = 1 > SR_UsdPreviewSurface_opacityMode ? opaque_transparent : 2
-        > SR_UsdPreviewSurface_opacityMode ? 1.0 : 0.0;
-    float diffuse_weight_2 = diffuse_weight * (diffuse_weight * opaque_weight);
-    float3 diffuse_product = diffuseColor * (body_weight * diffuse_weight_2 * 0.31830987);
+    float clamped_opaque_weight = clamp(1 > SR_UsdPreviewSurface_opacityMode ? opaque_transparent : 2
+        > SR_UsdPreviewSurface_opacityMode ? 1.0 : 0.0, 0.0, 1.0);
+    float substrate_metal_weight = clamp(metal_weight, 0.0, 1.0);
+    float diffuse_weight = clamp(1.0 - metal_weight, 0.0, 1.0)
+        * (clamped_opaque_weight * (1.0 - substrate_metal_weight));
+    float3 diffuse_product = diffuseColor * (body_weight * diffuse_weight * 0.31830987);
     float coating_ggx_masking = sqrt(coat_roughness * coat_roughness + (1.0 - coat_roughness * coat_roughness)
         * (cos_v * cos_v));
     mx_GgxLobe coating_vector = make_mx_GgxLobe(N, cos_v, float3(0.0, 0.0, 0.0), (float2)coat_roughness,
@@ -398,11 +400,12 @@ void main(
     float3 re = metal_ior * metal_ior - metal_extinction * metal_extinction;
     float3 im = metal_extinction * (metal_ior * 2.0);
     float3 metal_product = (difference * lerp(mx_fresnel_conductor(1.0, re, im), float3(1.0, 1.0, 1.0), 0.04761905)
-        + float3(1.0, 1.0, 1.0)) * (metal_weight * coating_throughput);
+        + float3(1.0, 1.0, 1.0)) * (substrate_metal_weight * coating_throughput);
     float ggx_masking = sqrt(specular_roughness * specular_roughness + cos_v * cos_v
         * (1.0 - specular_roughness * specular_roughness));
     mx_GgxLobe vector_ = make_mx_GgxLobe(N, cos_v, float3(0.0, 0.0, 0.0), (float2)specular_roughness, ggx_masking);
-    float3 reflection_product = reflection_scale * (diffuse_weight * coating_throughput);
+    bool reflection_visible = 1.0 - substrate_metal_weight > 0.0;
+    float3 reflection_product = reflection_scale * (coating_throughput * (1.0 - substrate_metal_weight));
     // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         float3 L;
@@ -430,49 +433,48 @@ void main(
         color += light_color * (intensity * (max(dot(L, N), 1e-8) * diffuse_product));
         // coating
         float cosine = sqrt(clamp(dot(V, L) * 0.5 + 0.500001, 0.0, 1.0));
-        if (SR_UsdPreviewSurface_clearcoat > 0.0) {
-            float coating_product = mx_ggx_light(coating_vector, V, L)
-                * (SR_UsdPreviewSurface_clearcoat * coating_scale);
+        if (coating_weight > 0.0) {
+            float coating_product = mx_ggx_light(coating_vector, V, L) * (coating_weight * coating_scale);
             color += light_color * (intensity
                 * (mx_fresnel_schlick(cosine, (float3)coating_fresnel_f0, float3(1.0, 1.0, 1.0)) * coating_product));
         }
         // metal
         float ggx_light = mx_ggx_light(vector_, V, L);
-        if (metal_weight > 0.0)
+        if (substrate_metal_weight > 0.0)
             color += light_color * (intensity * (metal_product * (mx_fresnel_conductor(cosine, re, im) * ggx_light)));
         // reflection
-        if (diffuse_weight > 0.0)
+        if (reflection_visible)
             color += light_color * (intensity
                 * (reflection_product * (ggx_light * mx_fresnel_schlick(cosine, reflection_fresnel_f0, f90))));
     }
     // environment: diffuse
-    if (diffuse_weight_2 > 0.0) {
+    if (diffuse_weight > 0.0) {
         float3 diffuse_product_2 = diffuseColor
             * u_envIrradiance.SampleLevel(u_envIrradiance_sampler,
             mx_map_point(normalize(mul(N, (float3x3)u_envMatrix))), 0.0).xyz;
-        color += diffuse_product_2 * (body_weight * diffuse_weight_2 * u_envLightIntensity);
+        color += diffuse_product_2 * (body_weight * diffuse_weight * u_envLightIntensity);
     }
     // environment: coating
-    if (SR_UsdPreviewSurface_clearcoat > 0.0) {
+    if (coating_weight > 0.0) {
         mx_GgxSamples coating_ggx_samples = mx_ggx_samples((float2)coat_roughness, shading_normal, V);
         float2 turn = float2(1.0, 0.0);
         for (int i = 0; i < u_envRadianceSamples; ++i) {
             mx_GgxLight light = mx_ggx_reflected(coating_ggx_samples, i, turn);
             float3 fresnel_bare = mx_fresnel_schlick(light.cosine, (float3)coating_fresnel_f0, float3(1.0, 1.0, 1.0));
-            color += light.color * (fresnel_bare * (SR_UsdPreviewSurface_clearcoat * coating_scale * light.weight));
+            color += light.color * (fresnel_bare * (coating_weight * coating_scale * light.weight));
             turn = float2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
         }
     }
     // environment: metal, reflection
-    if (metal_weight > 0.0 || diffuse_weight > 0.0) {
+    if (substrate_metal_weight > 0.0 || reflection_visible) {
         mx_GgxSamples ggx_samples = mx_ggx_samples((float2)specular_roughness, shading_normal, V);
         float2 turn = float2(1.0, 0.0);
         for (int i = 0; i < u_envRadianceSamples; ++i) {
             mx_GgxLight metal_ggx_reflected = mx_ggx_reflected(ggx_samples, i, turn);
-            if (metal_weight > 0.0)
+            if (substrate_metal_weight > 0.0)
                 color += metal_product * (metal_ggx_reflected.color
                     * (metal_ggx_reflected.weight * mx_fresnel_conductor(metal_ggx_reflected.cosine, re, im)));
-            if (diffuse_weight > 0.0)
+            if (reflection_visible)
                 color += reflection_product
                     * (metal_ggx_reflected.color
                     * (metal_ggx_reflected.weight
@@ -481,7 +483,7 @@ void main(
         }
     }
     // environment: refraction
-    float refraction_weight = diffuse_weight * (1.0 - opaque_weight);
+    float refraction_weight = (1.0 - substrate_metal_weight) * (1.0 - clamped_opaque_weight);
     if (refraction_weight > 0.0) {
         mx_GgxSamples samples = mx_ggx_samples(float2(0.0, 0.0), shading_normal, V);
         float2 turn = float2(1.0, 0.0);
@@ -497,8 +499,8 @@ void main(
     float mask = SR_UsdPreviewSurface_opacity >= SR_UsdPreviewSurface_opacityThreshold ? 1.0 : 0.0;
     float coverage_choice = 2 > SR_UsdPreviewSurface_opacityMode ? SR_UsdPreviewSurface_opacityThreshold > 0.0 ? mask
         : SR_UsdPreviewSurface_opacity : 0.0;
-    float coverage = 1 > SR_UsdPreviewSurface_opacityMode ? mask : coverage_choice;
-    if (coverage < u_alphaThreshold)
+    float opacity = clamp(1 > SR_UsdPreviewSurface_opacityMode ? mask : coverage_choice, 0.0, 1.0);
+    if (opacity < u_alphaThreshold)
         discard;
-    out1 = float4(coverage * color, coverage);
+    out1 = float4(opacity * color, opacity);
 }

@@ -533,7 +533,8 @@ mx_GgxLight mx_ggx_transmitted(mx_GgxSamples s, float ior, int i, float2 turn)
 
 void FragmentMain()
 {
-    float coat = u_pub.SR_standard_surface_coat;
+    // SR_standard_surface
+    float coat_weight = clamp(u_pub.SR_standard_surface_coat, 0.0, 1.0);
     float coat_IOR = u_pub.SR_standard_surface_coat_IOR;
     float coat_front = coat_IOR * 4.0 / ((coat_IOR + 1.0) * (coat_IOR + 1.0));
     float3 N = normalize(vd.normalWorld);
@@ -541,15 +542,15 @@ void FragmentMain()
     float absolute = abs(dot(N, V));
     float3 color = u_pub.SR_standard_surface_emission
         * (u_pub.SR_standard_surface_emission_color
-        * (1.0 - coat + u_pub.SR_standard_surface_coat_color
-        * (coat * (coat_front * (1.0 - pow(1.0 - min(absolute, 1.0), 5.0))))));
+        * (1.0 - coat_weight + u_pub.SR_standard_surface_coat_color
+        * (coat_weight * (coat_front * (1.0 - pow(1.0 - min(absolute, 1.0), 5.0))))));
     // lights
-    float3 vector_coat_gamma = float3(u_pub.SR_standard_surface_coat_affect_color * clamp(coat, 0.0, 1.0) + 1.0);
+    float3 vector_coat_gamma = float3(u_pub.SR_standard_surface_coat_affect_color * coat_weight + 1.0);
     float specular_IOR = u_pub.SR_standard_surface_specular_IOR;
     float thin_film_thickness = u_pub.SR_standard_surface_thin_film_thickness;
     float thin_film_IOR = u_pub.SR_standard_surface_thin_film_IOR;
     float coat_blur = u_pub.SR_standard_surface_coat_roughness
-        * (coat * u_pub.SR_standard_surface_coat_affect_roughness);
+        * (u_pub.SR_standard_surface_coat * u_pub.SR_standard_surface_coat_affect_roughness);
     float2 roughness = mx_roughness_anisotropy(mix(u_pub.SR_standard_surface_specular_roughness, 1.0, coat_blur),
         u_pub.SR_standard_surface_specular_anisotropy);
     float2 alpha = clamp(roughness, 1e-8, 1.0);
@@ -559,7 +560,10 @@ void FragmentMain()
     float difference = 1.0 / albedo.x - 1.0;
     float3 reflection_scale = mix(mx_fresnel_facing(float3(specular_IOR), thin_film_thickness, thin_film_IOR),
         float3(1.0), 0.04761905) * difference + float3(1.0);
+    float reflection_weight = clamp(u_pub.SR_standard_surface_specular, 0.0, 1.0);
     float reflection_r = (1.0 - specular_IOR) / (specular_IOR + 1.0);
+    float3 clamped_coat_tint = clamp(mix(float3(1.0), u_pub.SR_standard_surface_coat_color,
+        u_pub.SR_standard_surface_coat), 0.0, 1.0);
     float coating_r = (1.0 - coat_IOR) / (coat_IOR + 1.0);
     float2 coat_lobe = mx_roughness_anisotropy(u_pub.SR_standard_surface_coat_roughness,
         u_pub.SR_standard_surface_coat_anisotropy);
@@ -567,36 +571,36 @@ void FragmentMain()
     float coating_a = sqrt(coating_alpha.x * coating_alpha.y);
     float2 coating_albedo = mx_ggx_albedo_fit(coating_a, coating_a / (cos_v + coating_a), cos_v);
     float coating_scale = mix(coating_r * coating_r, 1.0, 0.04761905) * (1.0 / coating_albedo.x - 1.0) + 1.0;
-    float coating_throughput = 1.0 - coat
+    float coating_throughput = 1.0 - coat_weight
         * (mix(coating_r * coating_r, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale);
-    float3 clamped_coat_tint = clamp(mix(float3(1.0), u_pub.SR_standard_surface_coat_color, coat), 0.0, 1.0);
     float3 body_weight = (float3(1.0) - reflection_scale
-        * (u_pub.SR_standard_surface_specular * (mix(reflection_r * reflection_r, 1.0, albedo.y) * albedo.x)))
-        * (coating_throughput * clamped_coat_tint);
+        * (reflection_weight * (mix(reflection_r * reflection_r, 1.0, albedo.y) * albedo.x)))
+        * (clamped_coat_tint * coating_throughput);
+    float fuzz_weight = clamp(u_pub.SR_standard_surface_sheen, 0.0, 1.0);
     float sheen_albedo = clamp(mx_bicubic(float4x4(3.7341, -15.9587, 23.621, -11.0989, -8.2265, 35.1081, -49.7137,
         23.2945, 4.0691, -17.882, 25.6639, -12.0167, -0.5833, 2.6552, -3.9393, 1.8999), 1.0 / (cos_v + 1.0), 1.0
         / (u_pub.SR_standard_surface_sheen_roughness + 0.2)), 0.0, 1.0);
-    float fuzz_throughput = 1.0 - u_pub.SR_standard_surface_sheen * sheen_albedo;
-    float dielectric_weight = 1.0 - u_pub.SR_standard_surface_metalness;
-    float opaque_weight = dielectric_weight * (1.0 - u_pub.SR_standard_surface_transmission);
+    float fuzz_throughput = 1.0 - fuzz_weight * sheen_albedo;
+    float metal_weight = clamp(u_pub.SR_standard_surface_metalness, 0.0, 1.0);
+    float clamped_transmission = clamp(u_pub.SR_standard_surface_transmission, 0.0, 1.0);
+    float opaque_weight = (1.0 - metal_weight) * (1.0 - clamped_transmission);
+    float clamped_subsurface = clamp(u_pub.SR_standard_surface_subsurface, 0.0, 1.0);
     float3 diffuse_weight = body_weight * (fuzz_throughput
-        * (u_pub.SR_standard_surface_base * (opaque_weight * (1.0 - u_pub.SR_standard_surface_subsurface))));
+        * (clamp(u_pub.SR_standard_surface_base, 0.0, 1.0) * (opaque_weight * (1.0 - clamped_subsurface))));
     float3 diffuse_product = pow(max(u_pub.SR_standard_surface_base_color, 0.0), vector_coat_gamma) * diffuse_weight;
     float3 Nf = faceforward(N, -V, N);
     float r2 = u_pub.SR_standard_surface_diffuse_roughness * u_pub.SR_standard_surface_diffuse_roughness;
     float2 ab = r2 * float2(-0.5, 0.45) / (r2 + float2(0.33, 0.09)) + float2(1.0, 0.0);
     float s = 1.0 / max(u_pub.SR_standard_surface_sheen_roughness, 0.005);
-    float3 fuzz_product = u_pub.SR_standard_surface_sheen_color
-        * (body_weight * (u_pub.SR_standard_surface_sheen * opaque_weight));
+    float3 fuzz_product = u_pub.SR_standard_surface_sheen_color * (body_weight * (fuzz_weight * opaque_weight));
     float3 scatter_color = pow(max(u_pub.SR_standard_surface_subsurface_color, 0.0), vector_coat_gamma);
     float thin = float(u_pub.SR_standard_surface_thin_walled);
-    float translucent_weight = thin * (u_pub.SR_standard_surface_subsurface * opaque_weight);
+    float translucent_weight = thin * (clamped_subsurface * opaque_weight);
     float3 translucent_product = scatter_color * (body_weight * (fuzz_throughput * translucent_weight));
     float3 tangent_direction = normalize(vd.tangentWorld);
     float3 coat_tangent = mx_rotate3d(tangent_direction, (u_pub.SR_standard_surface_coat_rotation * 360.0)
         * 0.017453292, N);
     mx_GgxLobe coating_lobe = mx_ggx_lobe(coat_lobe, N, coat_tangent, V);
-    bool metal_visible = u_pub.SR_standard_surface_metalness > 0.0;
     float3 metal_ior, metal_extinction;
     mx_artistic_ior(u_pub.SR_standard_surface_base * u_pub.SR_standard_surface_base_color,
         u_pub.SR_standard_surface_specular * u_pub.SR_standard_surface_specular_color, metal_ior, metal_extinction);
@@ -604,17 +608,14 @@ void FragmentMain()
     float3 im = metal_extinction * (metal_ior * 2.0);
     float3 metal_scale = difference * mix(mx_fresnel_facing(re, im, thin_film_thickness, thin_film_IOR), float3(1.0),
         0.04761905) + float3(1.0);
-    float3 metal_product = metal_scale * (clamped_coat_tint
-        * (u_pub.SR_standard_surface_metalness * coating_throughput));
+    float3 metal_product = metal_scale * (clamped_coat_tint * (metal_weight * coating_throughput));
     float3 specular_tangent = mx_rotate3d(tangent_direction, (u_pub.SR_standard_surface_specular_rotation * 360.0)
         * 0.017453292, N);
     mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, specular_tangent, V);
-    bool reflection_visible = u_pub.SR_standard_surface_specular * dielectric_weight > 0.0;
-    float3 reflection_weight = clamped_coat_tint
-        * (coating_throughput * (u_pub.SR_standard_surface_specular * dielectric_weight));
-    float3 reflection_product = reflection_weight
+    float reflection_weight_2 = reflection_weight * (1.0 - metal_weight);
+    float3 reflection_product = clamped_coat_tint * (coating_throughput * reflection_weight_2)
         * (reflection_scale * max(u_pub.SR_standard_surface_specular_color, 0.0));
-    float scatter_weight = u_pub.SR_standard_surface_subsurface * opaque_weight * (1.0 - thin);
+    float scatter_weight = clamped_subsurface * opaque_weight * (1.0 - thin);
     float3 scatter_radius = u_pub.SR_standard_surface_subsurface_radius * u_pub.SR_standard_surface_subsurface_scale;
     float curvature = max(length(fwidth(Nf)) / length(fwidth(vd.positionWorld)), 0.01);
     float3 scatter_product = scatter_color * (body_weight * (fuzz_throughput * scatter_weight));
@@ -657,17 +658,18 @@ void FragmentMain()
             * (diffuse_response + (fuzz_response + max(-cos_l, 0.0) / 3.1415927 * translucent_product)));
         // coating
         float cosine = sqrt(clamp(v_dot_l * 0.5 + 0.500001, 0.0, 1.0));
-        if (coat > 0.0) {
-            float coating_product = mx_fresnel_permittivity(cosine, coat_IOR * coat_IOR) * (coat * coating_scale);
+        if (coat_weight > 0.0) {
+            float coating_product = mx_fresnel_permittivity(cosine, coat_IOR * coat_IOR)
+                * (coat_weight * coating_scale);
             color += light_color * (intensity * (mx_ggx_light(coating_lobe, V, L) * coating_product));
         }
         // metal
         float ggx_light = mx_ggx_light(lobe, V, L);
-        if (metal_visible)
+        if (metal_weight > 0.0)
             color += light_color * (intensity
                 * (metal_product * (mx_fresnel(cosine, re, im, thin_film_thickness, thin_film_IOR) * ggx_light)));
         // reflection
-        if (reflection_visible)
+        if (reflection_weight_2 > 0.0)
             color += light_color * (intensity
                 * (reflection_product * (ggx_light
                 * mx_fresnel(cosine, float3(specular_IOR), thin_film_thickness, thin_film_IOR))));
@@ -691,30 +693,30 @@ void FragmentMain()
             * (translucent_product * u_envIrradiance.tex.sample(u_envIrradiance.s,
             mx_map_point(normalize(cut_3(u_prv.u_envMatrix) * -Nf)), level(0.0)).xyz);
     // environment: coating
-    if (coat > 0.0) {
+    if (coat_weight > 0.0) {
         mx_GgxSamples coating_ggx_samples = mx_ggx_samples(coat_lobe, N, coat_tangent, V);
         float2 turn = float2(1.0, 0.0);
         for (int i = 0; i < u_prv.u_envRadianceSamples; ++i) {
             mx_GgxLight light = mx_ggx_reflected(coating_ggx_samples, i, turn);
             float fresnel_bare = mx_fresnel_permittivity(light.cosine, coat_IOR * coat_IOR);
-            color += light.color * (fresnel_bare * (coat * coating_scale * light.weight));
+            color += light.color * (fresnel_bare * (coat_weight * coating_scale * light.weight));
             turn = float2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
         }
     }
     // environment: metal, reflection
     float scaled_specular_IOR = specular_IOR * specular_IOR;
-    if (metal_visible || reflection_visible) {
+    if (metal_weight > 0.0 || reflection_weight_2 > 0.0) {
         mx_GgxSamples ggx_samples = mx_ggx_samples(roughness, N, specular_tangent, V);
         if (thin_film_thickness > 0.0) {
             float2 turn = float2(1.0, 0.0);
             for (int i = 0; i < u_prv.u_envRadianceSamples; ++i) {
                 mx_GgxLight metal_ggx_reflected = mx_ggx_reflected(ggx_samples, i, turn);
-                if (metal_visible)
+                if (metal_weight > 0.0)
                     color += metal_product
                         * (metal_ggx_reflected.color
                         * (metal_ggx_reflected.weight
                         * mx_film_index(metal_ggx_reflected.cosine, re, im, thin_film_thickness, thin_film_IOR)));
-                if (reflection_visible)
+                if (reflection_weight_2 > 0.0)
                     color += reflection_product
                         * (metal_ggx_reflected.color
                         * (metal_ggx_reflected.weight
@@ -726,11 +728,11 @@ void FragmentMain()
             float2 turn = float2(1.0, 0.0);
             for (int i = 0; i < u_prv.u_envRadianceSamples; ++i) {
                 mx_GgxLight metal_ggx_reflected = mx_ggx_reflected(ggx_samples, i, turn);
-                if (metal_visible)
+                if (metal_weight > 0.0)
                     color += metal_product
                         * (metal_ggx_reflected.color
                         * (metal_ggx_reflected.weight * mx_fresnel_conductor(metal_ggx_reflected.cosine, re, im)));
-                if (reflection_visible)
+                if (reflection_weight_2 > 0.0)
                     color += reflection_product
                         * (metal_ggx_reflected.color
                         * (metal_ggx_reflected.weight
@@ -740,11 +742,11 @@ void FragmentMain()
         }
     }
     // environment: refraction
-    if (u_pub.SR_standard_surface_transmission * dielectric_weight > 0.0) {
+    float refraction_weight = clamped_transmission * (1.0 - metal_weight);
+    if (refraction_weight > 0.0) {
         float3 tint = max(u_pub.SR_standard_surface_transmission_color, 0.0);
-        float3 refraction_tint = tint * (u_prv.u_refractionTwoSided ? tint : float3(1.0));
-        float3 refraction_product = refraction_tint
-            * (body_weight * (u_pub.SR_standard_surface_transmission * dielectric_weight));
+        float3 refraction_product = tint * (u_prv.u_refractionTwoSided ? tint : float3(1.0))
+            * (body_weight * refraction_weight);
         float transmission_blurred = mix(clamp(u_pub.SR_standard_surface_specular_roughness
             + u_pub.SR_standard_surface_transmission_extra_roughness, 0.0, 1.0), 1.0, coat_blur);
         mx_GgxSamples samples = mx_ggx_samples(mx_roughness_anisotropy(transmission_blurred,
@@ -759,10 +761,10 @@ void FragmentMain()
         }
     }
     // opacity
-    float opacity_grey = dot(u_pub.SR_standard_surface_opacity, float3(0.2722287, 0.6740818, 0.0536895));
-    if (opacity_grey < u_prv.u_alphaThreshold)
+    float opacity = clamp(dot(u_pub.SR_standard_surface_opacity, float3(0.2722287, 0.6740818, 0.0536895)), 0.0, 1.0);
+    if (opacity < u_prv.u_alphaThreshold)
         discard_fragment();
-    out.out1 = float4(opacity_grey * color, opacity_grey);
+    out.out1 = float4(opacity * color, opacity);
 }
 };
 

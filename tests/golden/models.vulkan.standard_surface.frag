@@ -460,7 +460,8 @@ mx_GgxLight mx_ggx_transmitted(const mx_GgxSamples s, const float ior, const int
 
 void main()
 {
-    float coat = SR_standard_surface_coat;
+    // SR_standard_surface
+    float coat_weight = clamp(SR_standard_surface_coat, 0.0, 1.0);
     float coat_IOR = SR_standard_surface_coat_IOR;
     float coat_front = coat_IOR * 4.0 / ((coat_IOR + 1.0) * (coat_IOR + 1.0));
     vec3 N = normalize(vd.normalWorld);
@@ -468,14 +469,15 @@ void main()
     float absolute = abs(dot(N, V));
     vec3 color = SR_standard_surface_emission
         * (SR_standard_surface_emission_color
-        * (1.0 - coat + SR_standard_surface_coat_color
-        * (coat * (coat_front * (1.0 - pow(1.0 - min(absolute, 1.0), 5.0))))));
+        * (1.0 - coat_weight + SR_standard_surface_coat_color
+        * (coat_weight * (coat_front * (1.0 - pow(1.0 - min(absolute, 1.0), 5.0))))));
     // lights
-    vec3 vector_coat_gamma = vec3(SR_standard_surface_coat_affect_color * clamp(coat, 0.0, 1.0) + 1.0);
+    vec3 vector_coat_gamma = vec3(SR_standard_surface_coat_affect_color * coat_weight + 1.0);
     float specular_IOR = SR_standard_surface_specular_IOR;
     float thin_film_thickness = SR_standard_surface_thin_film_thickness;
     float thin_film_IOR = SR_standard_surface_thin_film_IOR;
-    float coat_blur = SR_standard_surface_coat_roughness * (coat * SR_standard_surface_coat_affect_roughness);
+    float coat_blur = SR_standard_surface_coat_roughness
+        * (SR_standard_surface_coat * SR_standard_surface_coat_affect_roughness);
     vec2 roughness = mx_roughness_anisotropy(mix(SR_standard_surface_specular_roughness, 1.0, coat_blur),
         SR_standard_surface_specular_anisotropy);
     vec2 alpha = clamp(roughness, 1e-8, 1.0);
@@ -485,41 +487,44 @@ void main()
     float difference = 1.0 / albedo.x - 1.0;
     vec3 reflection_scale = mix(mx_fresnel_facing(vec3(specular_IOR), thin_film_thickness, thin_film_IOR), vec3(1.0),
         0.04761905) * difference + vec3(1.0);
+    float reflection_weight = clamp(SR_standard_surface_specular, 0.0, 1.0);
     float reflection_r = (1.0 - specular_IOR) / (specular_IOR + 1.0);
+    vec3 clamped_coat_tint = clamp(mix(vec3(1.0), SR_standard_surface_coat_color, SR_standard_surface_coat), 0.0, 1.0);
     float coating_r = (1.0 - coat_IOR) / (coat_IOR + 1.0);
     vec2 coat_lobe = mx_roughness_anisotropy(SR_standard_surface_coat_roughness, SR_standard_surface_coat_anisotropy);
     vec2 coating_alpha = clamp(coat_lobe, 1e-8, 1.0);
     float coating_a = sqrt(coating_alpha.x * coating_alpha.y);
     vec2 coating_albedo = mx_ggx_albedo_fit(coating_a, coating_a / (cos_v + coating_a), cos_v);
     float coating_scale = mix(coating_r * coating_r, 1.0, 0.04761905) * (1.0 / coating_albedo.x - 1.0) + 1.0;
-    float coating_throughput = 1.0 - coat
+    float coating_throughput = 1.0 - coat_weight
         * (mix(coating_r * coating_r, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale);
-    vec3 clamped_coat_tint = clamp(mix(vec3(1.0), SR_standard_surface_coat_color, coat), 0.0, 1.0);
     vec3 body_weight = (vec3(1.0) - reflection_scale
-        * (SR_standard_surface_specular * (mix(reflection_r * reflection_r, 1.0, albedo.y) * albedo.x)))
-        * (coating_throughput * clamped_coat_tint);
+        * (reflection_weight * (mix(reflection_r * reflection_r, 1.0, albedo.y) * albedo.x)))
+        * (clamped_coat_tint * coating_throughput);
+    float fuzz_weight = clamp(SR_standard_surface_sheen, 0.0, 1.0);
     float sheen_albedo = clamp(mx_bicubic(mat4(3.7341, -15.9587, 23.621, -11.0989, -8.2265, 35.1081, -49.7137, 23.2945,
         4.0691, -17.882, 25.6639, -12.0167, -0.5833, 2.6552, -3.9393, 1.8999), 1.0 / (cos_v + 1.0), 1.0
         / (SR_standard_surface_sheen_roughness + 0.2)), 0.0, 1.0);
-    float fuzz_throughput = 1.0 - SR_standard_surface_sheen * sheen_albedo;
-    float dielectric_weight = 1.0 - SR_standard_surface_metalness;
-    float opaque_weight = dielectric_weight * (1.0 - SR_standard_surface_transmission);
+    float fuzz_throughput = 1.0 - fuzz_weight * sheen_albedo;
+    float metal_weight = clamp(SR_standard_surface_metalness, 0.0, 1.0);
+    float clamped_transmission = clamp(SR_standard_surface_transmission, 0.0, 1.0);
+    float opaque_weight = (1.0 - metal_weight) * (1.0 - clamped_transmission);
+    float clamped_subsurface = clamp(SR_standard_surface_subsurface, 0.0, 1.0);
     vec3 diffuse_weight = body_weight * (fuzz_throughput
-        * (SR_standard_surface_base * (opaque_weight * (1.0 - SR_standard_surface_subsurface))));
+        * (clamp(SR_standard_surface_base, 0.0, 1.0) * (opaque_weight * (1.0 - clamped_subsurface))));
     vec3 diffuse_product = pow(max(SR_standard_surface_base_color, 0.0), vector_coat_gamma) * diffuse_weight;
     vec3 Nf = faceforward(N, -V, N);
     float r2 = SR_standard_surface_diffuse_roughness * SR_standard_surface_diffuse_roughness;
     vec2 ab = r2 * vec2(-0.5, 0.45) / (r2 + vec2(0.33, 0.09)) + vec2(1.0, 0.0);
     float s = 1.0 / max(SR_standard_surface_sheen_roughness, 0.005);
-    vec3 fuzz_product = SR_standard_surface_sheen_color * (body_weight * (SR_standard_surface_sheen * opaque_weight));
+    vec3 fuzz_product = SR_standard_surface_sheen_color * (body_weight * (fuzz_weight * opaque_weight));
     vec3 scatter_color = pow(max(SR_standard_surface_subsurface_color, 0.0), vector_coat_gamma);
     float thin = float(SR_standard_surface_thin_walled);
-    float translucent_weight = thin * (SR_standard_surface_subsurface * opaque_weight);
+    float translucent_weight = thin * (clamped_subsurface * opaque_weight);
     vec3 translucent_product = scatter_color * (body_weight * (fuzz_throughput * translucent_weight));
     vec3 tangent_direction = normalize(vd.tangentWorld);
     vec3 coat_tangent = mx_rotate3d(tangent_direction, radians(SR_standard_surface_coat_rotation * 360.0), N);
     mx_GgxLobe coating_lobe = mx_ggx_lobe(coat_lobe, N, coat_tangent, V);
-    bool metal_visible = SR_standard_surface_metalness > 0.0;
     vec3 metal_ior, metal_extinction;
     mx_artistic_ior(SR_standard_surface_base * SR_standard_surface_base_color, SR_standard_surface_specular
         * SR_standard_surface_specular_color, metal_ior, metal_extinction);
@@ -527,14 +532,13 @@ void main()
     vec3 im = metal_extinction * (metal_ior * 2.0);
     vec3 metal_scale = difference * mix(mx_fresnel_facing(re, im, thin_film_thickness, thin_film_IOR), vec3(1.0),
         0.04761905) + vec3(1.0);
-    vec3 metal_product = metal_scale * (clamped_coat_tint * (SR_standard_surface_metalness * coating_throughput));
+    vec3 metal_product = metal_scale * (clamped_coat_tint * (metal_weight * coating_throughput));
     vec3 specular_tangent = mx_rotate3d(tangent_direction, radians(SR_standard_surface_specular_rotation * 360.0), N);
     mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, specular_tangent, V);
-    bool reflection_visible = SR_standard_surface_specular * dielectric_weight > 0.0;
-    vec3 reflection_weight = clamped_coat_tint
-        * (coating_throughput * (SR_standard_surface_specular * dielectric_weight));
-    vec3 reflection_product = reflection_weight * (reflection_scale * max(SR_standard_surface_specular_color, 0.0));
-    float scatter_weight = SR_standard_surface_subsurface * opaque_weight * (1.0 - thin);
+    float reflection_weight_2 = reflection_weight * (1.0 - metal_weight);
+    vec3 reflection_product = clamped_coat_tint * (coating_throughput * reflection_weight_2)
+        * (reflection_scale * max(SR_standard_surface_specular_color, 0.0));
+    float scatter_weight = clamped_subsurface * opaque_weight * (1.0 - thin);
     vec3 scatter_radius = SR_standard_surface_subsurface_radius * SR_standard_surface_subsurface_scale;
     float curvature = max(length(fwidth(Nf)) / length(fwidth(vd.positionWorld)), 0.01);
     vec3 scatter_product = scatter_color * (body_weight * (fuzz_throughput * scatter_weight));
@@ -575,17 +579,18 @@ void main()
             * (diffuse_response + (fuzz_response + max(-cos_l, 0.0) / 3.1415927 * translucent_product)));
         // coating
         float cosine = sqrt(clamp(v_dot_l * 0.5 + 0.500001, 0.0, 1.0));
-        if (coat > 0.0) {
-            float coating_product = mx_fresnel_permittivity(cosine, coat_IOR * coat_IOR) * (coat * coating_scale);
+        if (coat_weight > 0.0) {
+            float coating_product = mx_fresnel_permittivity(cosine, coat_IOR * coat_IOR)
+                * (coat_weight * coating_scale);
             color += light_color * (intensity * (mx_ggx_light(coating_lobe, V, L) * coating_product));
         }
         // metal
         float ggx_light = mx_ggx_light(lobe, V, L);
-        if (metal_visible)
+        if (metal_weight > 0.0)
             color += light_color * (intensity
                 * (metal_product * (mx_fresnel(cosine, re, im, thin_film_thickness, thin_film_IOR) * ggx_light)));
         // reflection
-        if (reflection_visible)
+        if (reflection_weight_2 > 0.0)
             color += light_color * (intensity
                 * (reflection_product * (ggx_light
                 * mx_fresnel(cosine, vec3(specular_IOR), thin_film_thickness, thin_film_IOR))));
@@ -607,30 +612,30 @@ void main()
         color += u_envLightIntensity * (translucent_product
             * textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * -Nf)), 0.0).xyz);
     // environment: coating
-    if (coat > 0.0) {
+    if (coat_weight > 0.0) {
         mx_GgxSamples coating_ggx_samples = mx_ggx_samples(coat_lobe, N, coat_tangent, V);
         vec2 turn = vec2(1.0, 0.0);
         for (int i = 0; i < u_envRadianceSamples; ++i) {
             mx_GgxLight light = mx_ggx_reflected(coating_ggx_samples, i, turn);
             float fresnel_bare = mx_fresnel_permittivity(light.cosine, coat_IOR * coat_IOR);
-            color += light.color * (fresnel_bare * (coat * coating_scale * light.weight));
+            color += light.color * (fresnel_bare * (coat_weight * coating_scale * light.weight));
             turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
         }
     }
     // environment: metal, reflection
     float scaled_specular_IOR = specular_IOR * specular_IOR;
-    if (metal_visible || reflection_visible) {
+    if (metal_weight > 0.0 || reflection_weight_2 > 0.0) {
         mx_GgxSamples ggx_samples = mx_ggx_samples(roughness, N, specular_tangent, V);
         if (thin_film_thickness > 0.0) {
             vec2 turn = vec2(1.0, 0.0);
             for (int i = 0; i < u_envRadianceSamples; ++i) {
                 mx_GgxLight metal_ggx_reflected = mx_ggx_reflected(ggx_samples, i, turn);
-                if (metal_visible)
+                if (metal_weight > 0.0)
                     color += metal_product
                         * (metal_ggx_reflected.color
                         * (metal_ggx_reflected.weight
                         * mx_film_index(metal_ggx_reflected.cosine, re, im, thin_film_thickness, thin_film_IOR)));
-                if (reflection_visible)
+                if (reflection_weight_2 > 0.0)
                     color += reflection_product
                         * (metal_ggx_reflected.color
                         * (metal_ggx_reflected.weight
@@ -642,11 +647,11 @@ void main()
             vec2 turn = vec2(1.0, 0.0);
             for (int i = 0; i < u_envRadianceSamples; ++i) {
                 mx_GgxLight metal_ggx_reflected = mx_ggx_reflected(ggx_samples, i, turn);
-                if (metal_visible)
+                if (metal_weight > 0.0)
                     color += metal_product
                         * (metal_ggx_reflected.color
                         * (metal_ggx_reflected.weight * mx_fresnel_conductor(metal_ggx_reflected.cosine, re, im)));
-                if (reflection_visible)
+                if (reflection_weight_2 > 0.0)
                     color += reflection_product
                         * (metal_ggx_reflected.color
                         * (metal_ggx_reflected.weight
@@ -656,11 +661,10 @@ void main()
         }
     }
     // environment: refraction
-    if (SR_standard_surface_transmission * dielectric_weight > 0.0) {
+    float refraction_weight = clamped_transmission * (1.0 - metal_weight);
+    if (refraction_weight > 0.0) {
         vec3 tint = max(SR_standard_surface_transmission_color, 0.0);
-        vec3 refraction_tint = tint * (u_refractionTwoSided ? tint : vec3(1.0));
-        vec3 refraction_product = refraction_tint
-            * (body_weight * (SR_standard_surface_transmission * dielectric_weight));
+        vec3 refraction_product = tint * (u_refractionTwoSided ? tint : vec3(1.0)) * (body_weight * refraction_weight);
         float transmission_blurred = mix(clamp(SR_standard_surface_specular_roughness
             + SR_standard_surface_transmission_extra_roughness, 0.0, 1.0), 1.0, coat_blur);
         mx_GgxSamples samples = mx_ggx_samples(mx_roughness_anisotropy(transmission_blurred,
@@ -675,8 +679,8 @@ void main()
         }
     }
     // opacity
-    float opacity_grey = dot(SR_standard_surface_opacity, vec3(0.2722287, 0.6740818, 0.0536895));
-    if (opacity_grey < u_alphaThreshold)
+    float opacity = clamp(dot(SR_standard_surface_opacity, vec3(0.2722287, 0.6740818, 0.0536895)), 0.0, 1.0);
+    if (opacity < u_alphaThreshold)
         discard;
-    out1 = vec4(opacity_grey * color, opacity_grey);
+    out1 = vec4(opacity * color, opacity);
 }

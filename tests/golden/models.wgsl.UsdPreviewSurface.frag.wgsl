@@ -313,6 +313,7 @@ fn main(vd: VertexData) -> @location(0) vec4f
     let V: vec3f = normalize(u_prv.u_viewPosition - vd.positionWorld);
     let N: vec3f = faceForward(shading_normal, -V, shading_normal);
     let diffuseColor: vec3f = u_pub.SR_UsdPreviewSurface_diffuseColor;
+    let coating_weight: f32 = clamp(u_pub.SR_UsdPreviewSurface_clearcoat, 0.0, 1.0);
     let ior: f32 = u_pub.SR_UsdPreviewSurface_ior;
     let amplitude: f32 = (1.0 - ior) / (ior + 1.0);
     let coating_fresnel_f0: f32 = max(amplitude * amplitude, 0.0);
@@ -321,7 +322,7 @@ fn main(vd: VertexData) -> @location(0) vec4f
     let cos_v: f32 = max(abs(dot(shading_normal, V)), 1e-8);
     let coating_albedo: vec2f = mx_ggx_albedo_fit(coat_roughness, coat_roughness / (coat_roughness + cos_v), cos_v);
     let coating_scale: f32 = mix(coating_fresnel_f0, 1.0, 0.04761905) * (1.0 / coating_albedo.x - 1.0) + 1.0;
-    let coating_throughput: f32 = 1.0 - u_pub.SR_UsdPreviewSurface_clearcoat
+    let coating_throughput: f32 = 1.0 - coating_weight
         * dot(vec3f(mix(coating_fresnel_f0, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale),
         vec3f(0.33333334));
     let is_equal_useSpecularWorkflow: bool = u_pub.SR_UsdPreviewSurface_useSpecularWorkflow == 1;
@@ -338,13 +339,14 @@ fn main(vd: VertexData) -> @location(0) vec4f
     let body_weight: f32 = coating_throughput
         * (1.0 - dot(mix(reflection_fresnel_f0, f90, albedo.y) * albedo.x * reflection_scale, vec3f(0.33333334)));
     let metal_weight: f32 = select(u_pub.SR_UsdPreviewSurface_metallic, 0.0, is_equal_useSpecularWorkflow);
-    let diffuse_weight: f32 = 1.0 - metal_weight;
     let opaque_transparent: f32 = select(u_pub.SR_UsdPreviewSurface_opacity, 1.0,
         u_pub.SR_UsdPreviewSurface_opacityThreshold > 0.0);
-    let opaque_weight: f32 = select(select(0.0, 1.0, 2 > u_pub.SR_UsdPreviewSurface_opacityMode), opaque_transparent, 1
-        > u_pub.SR_UsdPreviewSurface_opacityMode);
-    let diffuse_weight_2: f32 = diffuse_weight * (diffuse_weight * opaque_weight);
-    let diffuse_product: vec3f = diffuseColor * (body_weight * diffuse_weight_2 * 0.31830987);
+    let clamped_opaque_weight: f32 = clamp(select(select(0.0, 1.0, 2 > u_pub.SR_UsdPreviewSurface_opacityMode),
+        opaque_transparent, 1 > u_pub.SR_UsdPreviewSurface_opacityMode), 0.0, 1.0);
+    let substrate_metal_weight: f32 = clamp(metal_weight, 0.0, 1.0);
+    let diffuse_weight: f32 = clamp(1.0 - metal_weight, 0.0, 1.0)
+        * (clamped_opaque_weight * (1.0 - substrate_metal_weight));
+    let diffuse_product: vec3f = diffuseColor * (body_weight * diffuse_weight * 0.31830987);
     let coating_ggx_masking: f32 = sqrt(coat_roughness * coat_roughness + (1.0 - coat_roughness * coat_roughness)
         * (cos_v * cos_v));
     let coating_vector: mx_GgxLobe = mx_GgxLobe(N, cos_v, vec3f(0.0), vec2f(coat_roughness), coating_ggx_masking);
@@ -354,11 +356,12 @@ fn main(vd: VertexData) -> @location(0) vec4f
     let re: vec3f = metal_ior * metal_ior - metal_extinction * metal_extinction;
     let im: vec3f = metal_extinction * (metal_ior * 2.0);
     let metal_product: vec3f = (difference * mix(mx_fresnel_conductor_2(1.0, re, im), vec3f(1.0), 0.04761905)
-        + vec3f(1.0)) * (metal_weight * coating_throughput);
+        + vec3f(1.0)) * (substrate_metal_weight * coating_throughput);
     let ggx_masking: f32 = sqrt(specular_roughness * specular_roughness + cos_v * cos_v
         * (1.0 - specular_roughness * specular_roughness));
     let vector: mx_GgxLobe = mx_GgxLobe(N, cos_v, vec3f(0.0), vec2f(specular_roughness), ggx_masking);
-    let reflection_product: vec3f = reflection_scale * (diffuse_weight * coating_throughput);
+    let reflection_visible: bool = 1.0 - substrate_metal_weight > 0.0;
+    let reflection_product: vec3f = reflection_scale * (coating_throughput * (1.0 - substrate_metal_weight));
     // from the last light, so that drivers do not unroll the loop
     for (var i: i32 = min(u_prv.u_numActiveLightSources, 3) - 1; i >= 0; i--) {
         var L: vec3f;
@@ -385,53 +388,51 @@ fn main(vd: VertexData) -> @location(0) vec4f
         color += light_color * (intensity * (max(dot(L, N), 1e-8) * diffuse_product));
         // coating
         let cosine: f32 = sqrt(clamp(dot(V, L) * 0.5 + 0.500001, 0.0, 1.0));
-        if (u_pub.SR_UsdPreviewSurface_clearcoat > 0.0) {
-            let coating_product: f32 = mx_ggx_light(coating_vector, V, L)
-                * (u_pub.SR_UsdPreviewSurface_clearcoat * coating_scale);
+        if (coating_weight > 0.0) {
+            let coating_product: f32 = mx_ggx_light(coating_vector, V, L) * (coating_weight * coating_scale);
             color += light_color * (intensity
                 * (mx_fresnel_schlick(cosine, vec3f(coating_fresnel_f0), vec3f(1.0)) * coating_product));
         }
         // metal
         let ggx_light: f32 = mx_ggx_light(vector, V, L);
-        if (metal_weight > 0.0) {
+        if (substrate_metal_weight > 0.0) {
             color += light_color * (intensity * (metal_product * (mx_fresnel_conductor_2(cosine, re, im) * ggx_light)));
         }
         // reflection
-        if (diffuse_weight > 0.0) {
+        if (reflection_visible) {
             color += light_color * (intensity
                 * (reflection_product * (ggx_light * mx_fresnel_schlick(cosine, reflection_fresnel_f0, f90))));
         }
     }
     // environment: diffuse
-    if (diffuse_weight_2 > 0.0) {
+    if (diffuse_weight > 0.0) {
         let diffuse_product_2: vec3f = diffuseColor
             * textureSampleLevel(u_envIrradiance, u_envIrradiance_sampler,
             mx_map_point(normalize(wgsl_mat3x3f_of_mat4x4f(u_prv.u_envMatrix) * N)), 0.0).xyz;
-        color += diffuse_product_2 * (body_weight * diffuse_weight_2 * u_prv.u_envLightIntensity);
+        color += diffuse_product_2 * (body_weight * diffuse_weight * u_prv.u_envLightIntensity);
     }
     // environment: coating
-    if (u_pub.SR_UsdPreviewSurface_clearcoat > 0.0) {
+    if (coating_weight > 0.0) {
         let coating_ggx_samples: mx_GgxSamples = mx_ggx_samples(vec2f(coat_roughness), shading_normal, V);
         var turn: vec2f = vec2f(1.0, 0.0);
         for (var i: i32 = 0; i < u_prv.u_envRadianceSamples; i++) {
             let light: mx_GgxLight = mx_ggx_reflected(coating_ggx_samples, i, turn);
             let fresnel_bare: vec3f = mx_fresnel_schlick(light.cosine, vec3f(coating_fresnel_f0), vec3f(1.0));
-            color += light.color * (fresnel_bare
-                * (u_pub.SR_UsdPreviewSurface_clearcoat * coating_scale * light.weight));
+            color += light.color * (fresnel_bare * (coating_weight * coating_scale * light.weight));
             turn = vec2f(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
         }
     }
     // environment: metal, reflection
-    if (metal_weight > 0.0 || diffuse_weight > 0.0) {
+    if (substrate_metal_weight > 0.0 || reflection_visible) {
         let ggx_samples: mx_GgxSamples = mx_ggx_samples(vec2f(specular_roughness), shading_normal, V);
         var turn: vec2f = vec2f(1.0, 0.0);
         for (var i: i32 = 0; i < u_prv.u_envRadianceSamples; i++) {
             let metal_ggx_reflected: mx_GgxLight = mx_ggx_reflected(ggx_samples, i, turn);
-            if (metal_weight > 0.0) {
+            if (substrate_metal_weight > 0.0) {
                 color += metal_product * (metal_ggx_reflected.color
                     * (metal_ggx_reflected.weight * mx_fresnel_conductor_2(metal_ggx_reflected.cosine, re, im)));
             }
-            if (diffuse_weight > 0.0) {
+            if (reflection_visible) {
                 color += reflection_product
                     * (metal_ggx_reflected.color
                     * (metal_ggx_reflected.weight
@@ -441,7 +442,7 @@ fn main(vd: VertexData) -> @location(0) vec4f
         }
     }
     // environment: refraction
-    let refraction_weight: f32 = diffuse_weight * (1.0 - opaque_weight);
+    let refraction_weight: f32 = (1.0 - substrate_metal_weight) * (1.0 - clamped_opaque_weight);
     if (refraction_weight > 0.0) {
         let samples: mx_GgxSamples = mx_ggx_samples(vec2f(0.0), shading_normal, V);
         var turn: vec2f = vec2f(1.0, 0.0);
@@ -459,10 +460,10 @@ fn main(vd: VertexData) -> @location(0) vec4f
     let coverage_choice: f32 = select(0.0,
         select(u_pub.SR_UsdPreviewSurface_opacity, mask, u_pub.SR_UsdPreviewSurface_opacityThreshold > 0.0), 2
         > u_pub.SR_UsdPreviewSurface_opacityMode);
-    let coverage: f32 = select(coverage_choice, mask, 1 > u_pub.SR_UsdPreviewSurface_opacityMode);
-    if (coverage < u_prv.u_alphaThreshold) {
+    let opacity: f32 = clamp(select(coverage_choice, mask, 1 > u_pub.SR_UsdPreviewSurface_opacityMode), 0.0, 1.0);
+    if (opacity < u_prv.u_alphaThreshold) {
         discard;
     }
-    out1 = vec4f(coverage * color, coverage);
+    out1 = vec4f(opacity * color, opacity);
     return out1;
 }

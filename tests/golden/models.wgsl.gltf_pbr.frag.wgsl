@@ -444,43 +444,47 @@ fn main(vd: VertexData) -> @location(0) vec4f
     let iridescence_ior: f32 = u_pub.SR_gltf_pbr_iridescence_ior;
     let reflection_film_scale: vec3f = mix(mx_fresnel_facing(fresnel_f0, iridescence_thickness, iridescence_ior), f90,
         0.04761905) * difference + vec3f(1.0);
+    let clamped_iridescence: f32 = clamp(u_pub.SR_gltf_pbr_iridescence, 0.0, 1.0);
+    let coating_weight: f32 = clamp(u_pub.SR_gltf_pbr_clearcoat, 0.0, 1.0);
     let coat_lobe: f32 = clamp(u_pub.SR_gltf_pbr_clearcoat_roughness * u_pub.SR_gltf_pbr_clearcoat_roughness, 1e-8,
         1.0);
     let coating_albedo: vec2f = mx_ggx_albedo_fit(coat_lobe, coat_lobe / (coat_lobe + cos_v), cos_v);
     let coating_scale: f32 = (1.0 / coating_albedo.x - 1.0) * 0.08571429 + 1.0;
-    let coating_throughput: f32 = 1.0 - u_pub.SR_gltf_pbr_clearcoat
+    let coating_throughput: f32 = 1.0 - coating_weight
         * (mix(0.04, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale);
     let sheen_weight: f32 = max(max(u_pub.SR_gltf_pbr_sheen_color.x, u_pub.SR_gltf_pbr_sheen_color.y),
         u_pub.SR_gltf_pbr_sheen_color.z);
+    let fuzz_weight: f32 = clamp(sheen_weight, 0.0, 1.0);
     let sheen_rough: f32 = u_pub.SR_gltf_pbr_sheen_roughness * u_pub.SR_gltf_pbr_sheen_roughness;
     let sheen_albedo: f32 = clamp(mx_bicubic(mat4x4f(3.7341, -15.9587, 23.621, -11.0989, -8.2265, 35.1081, -49.7137,
         23.2945, 4.0691, -17.882, 25.6639, -12.0167, -0.5833, 2.6552, -3.9393, 1.8999), 1.0 / (cos_v + 1.0), 1.0
         / (sheen_rough + 0.2)), 0.0, 1.0);
-    let substrate_weight: f32 = coating_throughput * (1.0 - sheen_weight * sheen_albedo);
+    let substrate_weight: f32 = coating_throughput * (1.0 - fuzz_weight * sheen_albedo);
     let body_weight: f32 = mix(reflection_throughput, 1.0 - dot(product * reflection_film_scale, vec3f(0.33333334)),
-        u_pub.SR_gltf_pbr_iridescence) * substrate_weight;
-    let dielectric_weight: f32 = 1.0 - u_pub.SR_gltf_pbr_metallic;
-    let diffuse_weight: f32 = dielectric_weight * (1.0 - u_pub.SR_gltf_pbr_transmission);
+        clamped_iridescence) * substrate_weight;
+    let metal_weight: f32 = clamp(u_pub.SR_gltf_pbr_metallic, 0.0, 1.0);
+    let clamped_transmission: f32 = clamp(u_pub.SR_gltf_pbr_transmission, 0.0, 1.0);
+    let diffuse_weight: f32 = (1.0 - metal_weight) * (1.0 - clamped_transmission);
     let diffuse_product: vec3f = u_pub.SR_gltf_pbr_base_color * (body_weight * diffuse_weight * 0.31830987);
     let ggx_masking: f32 = sqrt(coat_lobe * coat_lobe + (1.0 - coat_lobe * coat_lobe) * (cos_v * cos_v));
     let coating_vector: mx_GgxLobe = mx_GgxLobe(Nf, cos_v, vec3f(0.0), vec2f(coat_lobe), ggx_masking);
     let s: f32 = 1.0 / max(sheen_rough, 0.005);
-    let fuzz_product: vec3f = u_pub.SR_gltf_pbr_sheen_color / sheen_weight * (sheen_weight * coating_throughput);
-    let metal_film_weight: f32 = u_pub.SR_gltf_pbr_metallic * u_pub.SR_gltf_pbr_iridescence;
+    let fuzz_product: vec3f = u_pub.SR_gltf_pbr_sheen_color / sheen_weight * (fuzz_weight * coating_throughput);
+    let metal_film_visible: bool = clamped_iridescence * metal_weight > 0.0;
     let fresnel_facing: vec3f = max(u_pub.SR_gltf_pbr_base_color, vec3f(0.0));
-    let metal_film_product: vec3f = (difference
+    let metal_film_scale: vec3f = difference
         * mix(mx_fresnel_facing(fresnel_facing, iridescence_thickness, iridescence_ior), vec3f(1.0), 0.04761905)
-        + vec3f(1.0)) * (substrate_weight * metal_film_weight);
+        + vec3f(1.0);
+    let metal_film_product: vec3f = metal_film_scale * (substrate_weight * (clamped_iridescence * metal_weight));
     let specular_tangent: vec3f = mx_rotate3d(normalize(vd.tangentWorld),
         radians(u_pub.SR_gltf_pbr_anisotropy_rotation * -57.29578), N);
     let lobe: mx_GgxLobe = mx_ggx_lobe(specular_roughness, N, specular_tangent, V);
-    let metal_bare_weight: f32 = u_pub.SR_gltf_pbr_metallic * (1.0 - u_pub.SR_gltf_pbr_iridescence);
+    let metal_bare_weight: f32 = metal_weight * (1.0 - clamped_iridescence);
     let metal_bare_product: vec3f = (difference * mix(fresnel_facing, vec3f(1.0), 0.04761905) + vec3f(1.0))
         * (substrate_weight * metal_bare_weight);
-    let reflection_film_visible: bool = u_pub.SR_gltf_pbr_iridescence * dielectric_weight > 0.0;
-    let reflection_film_product: vec3f = reflection_film_scale
-        * (substrate_weight * (u_pub.SR_gltf_pbr_iridescence * dielectric_weight));
-    let reflection_weight: f32 = dielectric_weight * (1.0 - u_pub.SR_gltf_pbr_iridescence);
+    let reflection_film_weight: f32 = clamped_iridescence * (1.0 - metal_weight);
+    let reflection_film_product: vec3f = reflection_film_scale * (substrate_weight * reflection_film_weight);
+    let reflection_weight: f32 = (1.0 - metal_weight) * (1.0 - clamped_iridescence);
     let reflection_product: vec3f = reflection_scale * (substrate_weight * reflection_weight);
     // from the last light, so that drivers do not unroll the loop
     for (var i: i32 = min(u_prv.u_numActiveLightSources, 3) - 1; i >= 0; i--) {
@@ -511,13 +515,12 @@ fn main(vd: VertexData) -> @location(0) vec4f
         // coating
         let v_dot_l: f32 = dot(V, L);
         let cosine: f32 = sqrt(clamp(v_dot_l * 0.5 + 0.500001, 0.0, 1.0));
-        if (u_pub.SR_gltf_pbr_clearcoat > 0.0) {
-            let coating_product: f32 = mx_fresnel_permittivity(cosine, 2.25)
-                * (u_pub.SR_gltf_pbr_clearcoat * coating_scale);
+        if (coating_weight > 0.0) {
+            let coating_product: f32 = mx_fresnel_permittivity(cosine, 2.25) * (coating_weight * coating_scale);
             color += light_color * (intensity * (mx_ggx_light(coating_vector, V, L) * coating_product));
         }
         // fuzz
-        if (sheen_weight > 0.0) {
+        if (fuzz_weight > 0.0) {
             let scaled_along: f32 = (cos_v + l_dot_nf) * (cos_v + l_dot_nf);
             let fuzz_product_2: f32 = cos_l
                 * ((s + 2.0) * pow(clamp(1.0 - scaled_along / max(v_dot_l * 2.0 + 2.0, 1e-8), 0.0, 1.0), s * 0.5)
@@ -527,7 +530,7 @@ fn main(vd: VertexData) -> @location(0) vec4f
         }
         // metal_film
         let ggx_light: f32 = mx_ggx_light_2(lobe, V, L);
-        if (metal_film_weight > 0.0) {
+        if (metal_film_visible) {
             color += light_color * (intensity
                 * (metal_film_product * (mx_fresnel(cosine, fresnel_facing, vec3f(1.0), iridescence_thickness,
                 iridescence_ior) * ggx_light)));
@@ -538,7 +541,7 @@ fn main(vd: VertexData) -> @location(0) vec4f
                 * (metal_bare_product * (ggx_light * mx_fresnel_schlick(cosine, fresnel_facing, vec3f(1.0)))));
         }
         // reflection_film
-        if (reflection_film_visible) {
+        if (reflection_film_weight > 0.0) {
             color += light_color * (intensity
                 * (reflection_film_product
                 * (ggx_light * mx_fresnel(cosine, fresnel_f0, f90, iridescence_thickness, iridescence_ior))));
@@ -552,8 +555,8 @@ fn main(vd: VertexData) -> @location(0) vec4f
     // environment: fuzz
     let part: vec3f = textureSampleLevel(u_envIrradiance, u_envIrradiance_sampler,
         mx_map_point(normalize(wgsl_mat3x3f_of_mat4x4f(u_prv.u_envMatrix) * Nf)), 0.0).xyz;
-    if (sheen_weight > 0.0) {
-        let fuzz_product_3: f32 = u_prv.u_envLightIntensity * (sheen_albedo * (sheen_weight * coating_throughput));
+    if (fuzz_weight > 0.0) {
+        let fuzz_product_3: f32 = u_prv.u_envLightIntensity * (sheen_albedo * (fuzz_weight * coating_throughput));
         color += u_pub.SR_gltf_pbr_sheen_color / sheen_weight * part * fuzz_product_3;
     }
     // environment: diffuse
@@ -561,24 +564,24 @@ fn main(vd: VertexData) -> @location(0) vec4f
         color += u_pub.SR_gltf_pbr_base_color * part * (body_weight * diffuse_weight * u_prv.u_envLightIntensity);
     }
     // environment: coating
-    if (u_pub.SR_gltf_pbr_clearcoat > 0.0) {
+    if (coating_weight > 0.0) {
         let coating_ggx_samples: mx_GgxSamples = mx_ggx_samples(vec2f(coat_lobe), N, V);
         var turn: vec2f = vec2f(1.0, 0.0);
         for (var i: i32 = 0; i < u_prv.u_envRadianceSamples; i++) {
             let light: mx_GgxLight = mx_ggx_reflected(coating_ggx_samples, i, turn);
             color += light.color * (mx_fresnel_permittivity(light.cosine, 2.25)
-                * (u_pub.SR_gltf_pbr_clearcoat * coating_scale * light.weight));
+                * (coating_weight * coating_scale * light.weight));
             turn = vec2f(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
         }
     }
     // environment: metal_film, metal_bare, reflection_film, reflection
     let samples: mx_GgxSamples = mx_ggx_samples_2(specular_roughness, N, specular_tangent, V);
-    if (reflection_weight > 0.0 || (reflection_film_visible || (metal_film_weight > 0.0 || metal_bare_weight > 0.0))) {
+    if (reflection_weight > 0.0 || (reflection_film_weight > 0.0 || (metal_film_visible || metal_bare_weight > 0.0))) {
         if (iridescence_thickness > 0.0) {
             var turn: vec2f = vec2f(1.0, 0.0);
             for (var i: i32 = 0; i < u_prv.u_envRadianceSamples; i++) {
                 let metal_film_ggx_reflected: mx_GgxLight = mx_ggx_reflected(samples, i, turn);
-                if (metal_film_weight > 0.0) {
+                if (metal_film_visible) {
                     color += metal_film_product
                         * (metal_film_ggx_reflected.color
                         * (metal_film_ggx_reflected.weight
@@ -591,7 +594,7 @@ fn main(vd: VertexData) -> @location(0) vec4f
                         * (metal_film_ggx_reflected.weight
                         * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_facing, vec3f(1.0))));
                 }
-                if (reflection_film_visible) {
+                if (reflection_film_weight > 0.0) {
                     color += reflection_film_product
                         * (metal_film_ggx_reflected.color
                         * (metal_film_ggx_reflected.weight
@@ -617,7 +620,7 @@ fn main(vd: VertexData) -> @location(0) vec4f
                 let reflection_product_2: vec3f = metal_film_ggx_reflected.color
                     * (metal_film_ggx_reflected.weight
                     * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_f0, f90));
-                if (reflection_film_visible) {
+                if (reflection_film_weight > 0.0) {
                     color += reflection_film_product * reflection_product_2;
                 }
                 if (reflection_weight > 0.0) {
@@ -628,11 +631,10 @@ fn main(vd: VertexData) -> @location(0) vec4f
         }
     }
     // environment: refraction
-    if (u_pub.SR_gltf_pbr_transmission * dielectric_weight > 0.0) {
-        let refraction_tint: vec3f = fresnel_facing
-            * select(vec3f(1.0), fresnel_facing, u_prv.u_refractionTwoSided != 0u);
-        let refraction_product: vec3f = refraction_tint
-            * (body_weight * (u_pub.SR_gltf_pbr_transmission * dielectric_weight));
+    let refraction_weight: f32 = clamped_transmission * (1.0 - metal_weight);
+    if (refraction_weight > 0.0) {
+        let refraction_product: vec3f = fresnel_facing
+            * select(vec3f(1.0), fresnel_facing, u_prv.u_refractionTwoSided != 0u) * (body_weight * refraction_weight);
         var turn: vec2f = vec2f(1.0, 0.0);
         for (var i: i32 = 0; i < u_prv.u_envRadianceSamples; i++) {
             let refraction_ggx_transmitted: mx_GgxLight = mx_ggx_transmitted(samples, ior, i, turn);
@@ -644,8 +646,8 @@ fn main(vd: VertexData) -> @location(0) vec4f
     }
     // opacity
     let mask: f32 = select(0.0, 1.0, u_pub.SR_gltf_pbr_alpha >= u_pub.SR_gltf_pbr_alpha_cutoff);
-    let opacity: f32 = select(select(select(0.0, u_pub.SR_gltf_pbr_alpha, 3 > u_pub.SR_gltf_pbr_alpha_mode), mask, 2
-        > u_pub.SR_gltf_pbr_alpha_mode), 1.0, 1 > u_pub.SR_gltf_pbr_alpha_mode);
+    let opacity: f32 = clamp(select(select(select(0.0, u_pub.SR_gltf_pbr_alpha, 3 > u_pub.SR_gltf_pbr_alpha_mode), mask,
+        2 > u_pub.SR_gltf_pbr_alpha_mode), 1.0, 1 > u_pub.SR_gltf_pbr_alpha_mode), 0.0, 1.0);
     if (opacity < u_prv.u_alphaThreshold) {
         discard;
     }

@@ -479,7 +479,8 @@ fn mx_ggx_transmitted(s: mx_GgxSamples, ior: f32, i: i32, turn: vec2f) -> mx_Ggx
 fn main(vd: VertexData) -> @location(0) vec4f
 {
     var out1: vec4f;
-    let coat: f32 = u_pub.SR_standard_surface_coat;
+    // SR_standard_surface
+    let coat_weight: f32 = clamp(u_pub.SR_standard_surface_coat, 0.0, 1.0);
     let coat_IOR: f32 = u_pub.SR_standard_surface_coat_IOR;
     let coat_front: f32 = coat_IOR * 4.0 / ((coat_IOR + 1.0) * (coat_IOR + 1.0));
     let N: vec3f = normalize(vd.normalWorld);
@@ -487,15 +488,15 @@ fn main(vd: VertexData) -> @location(0) vec4f
     let absolute: f32 = abs(dot(N, V));
     var color: vec3f = u_pub.SR_standard_surface_emission
         * (u_pub.SR_standard_surface_emission_color
-        * (1.0 - coat + u_pub.SR_standard_surface_coat_color
-        * (coat * (coat_front * (1.0 - pow(1.0 - min(absolute, 1.0), 5.0))))));
+        * (1.0 - coat_weight + u_pub.SR_standard_surface_coat_color
+        * (coat_weight * (coat_front * (1.0 - pow(1.0 - min(absolute, 1.0), 5.0))))));
     // lights
-    let vector_coat_gamma: vec3f = vec3f(u_pub.SR_standard_surface_coat_affect_color * clamp(coat, 0.0, 1.0) + 1.0);
+    let vector_coat_gamma: vec3f = vec3f(u_pub.SR_standard_surface_coat_affect_color * coat_weight + 1.0);
     let specular_IOR: f32 = u_pub.SR_standard_surface_specular_IOR;
     let thin_film_thickness: f32 = u_pub.SR_standard_surface_thin_film_thickness;
     let thin_film_IOR: f32 = u_pub.SR_standard_surface_thin_film_IOR;
     let coat_blur: f32 = u_pub.SR_standard_surface_coat_roughness
-        * (coat * u_pub.SR_standard_surface_coat_affect_roughness);
+        * (u_pub.SR_standard_surface_coat * u_pub.SR_standard_surface_coat_affect_roughness);
     let roughness: vec2f = mx_roughness_anisotropy(mix(u_pub.SR_standard_surface_specular_roughness, 1.0, coat_blur),
         u_pub.SR_standard_surface_specular_anisotropy);
     let alpha: vec2f = clamp(roughness, vec2f(1e-8), vec2f(1.0));
@@ -505,7 +506,10 @@ fn main(vd: VertexData) -> @location(0) vec4f
     let difference: f32 = 1.0 / albedo.x - 1.0;
     let reflection_scale: vec3f = mix(mx_fresnel_facing(vec3f(specular_IOR), thin_film_thickness, thin_film_IOR),
         vec3f(1.0), 0.04761905) * difference + vec3f(1.0);
+    let reflection_weight: f32 = clamp(u_pub.SR_standard_surface_specular, 0.0, 1.0);
     let reflection_r: f32 = (1.0 - specular_IOR) / (specular_IOR + 1.0);
+    let clamped_coat_tint: vec3f = clamp(mix(vec3f(1.0), u_pub.SR_standard_surface_coat_color,
+        u_pub.SR_standard_surface_coat), vec3f(0.0), vec3f(1.0));
     let coating_r: f32 = (1.0 - coat_IOR) / (coat_IOR + 1.0);
     let coat_lobe: vec2f = mx_roughness_anisotropy(u_pub.SR_standard_surface_coat_roughness,
         u_pub.SR_standard_surface_coat_anisotropy);
@@ -513,39 +517,38 @@ fn main(vd: VertexData) -> @location(0) vec4f
     let coating_a: f32 = sqrt(coating_alpha.x * coating_alpha.y);
     let coating_albedo: vec2f = mx_ggx_albedo_fit(coating_a, coating_a / (cos_v + coating_a), cos_v);
     let coating_scale: f32 = mix(coating_r * coating_r, 1.0, 0.04761905) * (1.0 / coating_albedo.x - 1.0) + 1.0;
-    let coating_throughput: f32 = 1.0 - coat
+    let coating_throughput: f32 = 1.0 - coat_weight
         * (mix(coating_r * coating_r, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale);
-    let clamped_coat_tint: vec3f = clamp(mix(vec3f(1.0), u_pub.SR_standard_surface_coat_color, coat), vec3f(0.0),
-        vec3f(1.0));
     let body_weight: vec3f = (vec3f(1.0) - reflection_scale
-        * (u_pub.SR_standard_surface_specular * (mix(reflection_r * reflection_r, 1.0, albedo.y) * albedo.x)))
-        * (coating_throughput * clamped_coat_tint);
+        * (reflection_weight * (mix(reflection_r * reflection_r, 1.0, albedo.y) * albedo.x)))
+        * (clamped_coat_tint * coating_throughput);
+    let fuzz_weight: f32 = clamp(u_pub.SR_standard_surface_sheen, 0.0, 1.0);
     let sheen_albedo: f32 = clamp(mx_bicubic(mat4x4f(3.7341, -15.9587, 23.621, -11.0989, -8.2265, 35.1081, -49.7137,
         23.2945, 4.0691, -17.882, 25.6639, -12.0167, -0.5833, 2.6552, -3.9393, 1.8999), 1.0 / (cos_v + 1.0), 1.0
         / (u_pub.SR_standard_surface_sheen_roughness + 0.2)), 0.0, 1.0);
-    let fuzz_throughput: f32 = 1.0 - u_pub.SR_standard_surface_sheen * sheen_albedo;
-    let dielectric_weight: f32 = 1.0 - u_pub.SR_standard_surface_metalness;
-    let opaque_weight: f32 = dielectric_weight * (1.0 - u_pub.SR_standard_surface_transmission);
+    let fuzz_throughput: f32 = 1.0 - fuzz_weight * sheen_albedo;
+    let metal_weight: f32 = clamp(u_pub.SR_standard_surface_metalness, 0.0, 1.0);
+    let clamped_transmission: f32 = clamp(u_pub.SR_standard_surface_transmission, 0.0, 1.0);
+    let opaque_weight: f32 = (1.0 - metal_weight) * (1.0 - clamped_transmission);
+    let clamped_subsurface: f32 = clamp(u_pub.SR_standard_surface_subsurface, 0.0, 1.0);
     let diffuse_weight: vec3f = body_weight
-        * (fuzz_throughput * (u_pub.SR_standard_surface_base
-        * (opaque_weight * (1.0 - u_pub.SR_standard_surface_subsurface))));
+        * (fuzz_throughput * (clamp(u_pub.SR_standard_surface_base, 0.0, 1.0)
+        * (opaque_weight * (1.0 - clamped_subsurface))));
     let diffuse_product: vec3f = pow(max(u_pub.SR_standard_surface_base_color, vec3f(0.0)), vector_coat_gamma)
         * diffuse_weight;
     let Nf: vec3f = faceForward(N, -V, N);
     let r2: f32 = u_pub.SR_standard_surface_diffuse_roughness * u_pub.SR_standard_surface_diffuse_roughness;
     let ab: vec2f = r2 * vec2f(-0.5, 0.45) / (r2 + vec2f(0.33, 0.09)) + vec2f(1.0, 0.0);
     let s: f32 = 1.0 / max(u_pub.SR_standard_surface_sheen_roughness, 0.005);
-    let fuzz_product: vec3f = u_pub.SR_standard_surface_sheen_color
-        * (body_weight * (u_pub.SR_standard_surface_sheen * opaque_weight));
+    let fuzz_product: vec3f = u_pub.SR_standard_surface_sheen_color * (body_weight * (fuzz_weight * opaque_weight));
     let scatter_color: vec3f = pow(max(u_pub.SR_standard_surface_subsurface_color, vec3f(0.0)), vector_coat_gamma);
     let thin: f32 = f32(u_pub.SR_standard_surface_thin_walled != 0u);
-    let translucent_weight: f32 = thin * (u_pub.SR_standard_surface_subsurface * opaque_weight);
+    let translucent_weight: f32 = thin * (clamped_subsurface * opaque_weight);
     let translucent_product: vec3f = scatter_color * (body_weight * (fuzz_throughput * translucent_weight));
     let tangent_direction: vec3f = normalize(vd.tangentWorld);
     let coat_tangent: vec3f = mx_rotate3d(tangent_direction, radians(u_pub.SR_standard_surface_coat_rotation * 360.0),
         N);
     let coating_lobe: mx_GgxLobe = mx_ggx_lobe(coat_lobe, N, coat_tangent, V);
-    let metal_visible: bool = u_pub.SR_standard_surface_metalness > 0.0;
     var metal_ior: vec3f;
     var metal_extinction: vec3f;
     mx_artistic_ior(u_pub.SR_standard_surface_base * u_pub.SR_standard_surface_base_color,
@@ -554,17 +557,14 @@ fn main(vd: VertexData) -> @location(0) vec4f
     let im: vec3f = metal_extinction * (metal_ior * 2.0);
     let metal_scale: vec3f = difference * mix(mx_fresnel_facing_2(re, im, thin_film_thickness, thin_film_IOR),
         vec3f(1.0), 0.04761905) + vec3f(1.0);
-    let metal_product: vec3f = metal_scale
-        * (clamped_coat_tint * (u_pub.SR_standard_surface_metalness * coating_throughput));
+    let metal_product: vec3f = metal_scale * (clamped_coat_tint * (metal_weight * coating_throughput));
     let specular_tangent: vec3f = mx_rotate3d(tangent_direction,
         radians(u_pub.SR_standard_surface_specular_rotation * 360.0), N);
     let lobe: mx_GgxLobe = mx_ggx_lobe(roughness, N, specular_tangent, V);
-    let reflection_visible: bool = u_pub.SR_standard_surface_specular * dielectric_weight > 0.0;
-    let reflection_weight: vec3f = clamped_coat_tint
-        * (coating_throughput * (u_pub.SR_standard_surface_specular * dielectric_weight));
-    let reflection_product: vec3f = reflection_weight
+    let reflection_weight_2: f32 = reflection_weight * (1.0 - metal_weight);
+    let reflection_product: vec3f = clamped_coat_tint * (coating_throughput * reflection_weight_2)
         * (reflection_scale * max(u_pub.SR_standard_surface_specular_color, vec3f(0.0)));
-    let scatter_weight: f32 = u_pub.SR_standard_surface_subsurface * opaque_weight * (1.0 - thin);
+    let scatter_weight: f32 = clamped_subsurface * opaque_weight * (1.0 - thin);
     let scatter_radius: vec3f = u_pub.SR_standard_surface_subsurface_radius
         * u_pub.SR_standard_surface_subsurface_scale;
     let curvature: f32 = max(length(fwidth(Nf)) / length(fwidth(vd.positionWorld)), 0.01);
@@ -606,18 +606,19 @@ fn main(vd: VertexData) -> @location(0) vec4f
             * (diffuse_response + (fuzz_response + max(-cos_l, 0.0) / 3.1415927 * translucent_product)));
         // coating
         let cosine: f32 = sqrt(clamp(v_dot_l * 0.5 + 0.500001, 0.0, 1.0));
-        if (coat > 0.0) {
-            let coating_product: f32 = mx_fresnel_permittivity(cosine, coat_IOR * coat_IOR) * (coat * coating_scale);
+        if (coat_weight > 0.0) {
+            let coating_product: f32 = mx_fresnel_permittivity(cosine, coat_IOR * coat_IOR)
+                * (coat_weight * coating_scale);
             color += light_color * (intensity * (mx_ggx_light(coating_lobe, V, L) * coating_product));
         }
         // metal
         let ggx_light: f32 = mx_ggx_light(lobe, V, L);
-        if (metal_visible) {
+        if (metal_weight > 0.0) {
             color += light_color * (intensity
                 * (metal_product * (mx_fresnel(cosine, re, im, thin_film_thickness, thin_film_IOR) * ggx_light)));
         }
         // reflection
-        if (reflection_visible) {
+        if (reflection_weight_2 > 0.0) {
             color += light_color * (intensity
                 * (reflection_product * (ggx_light
                 * mx_fresnel_2(cosine, vec3f(specular_IOR), thin_film_thickness, thin_film_IOR))));
@@ -644,31 +645,31 @@ fn main(vd: VertexData) -> @location(0) vec4f
             mx_map_point(normalize(wgsl_mat3x3f_of_mat4x4f(u_prv.u_envMatrix) * -Nf)), 0.0).xyz);
     }
     // environment: coating
-    if (coat > 0.0) {
+    if (coat_weight > 0.0) {
         let coating_ggx_samples: mx_GgxSamples = mx_ggx_samples(coat_lobe, N, coat_tangent, V);
         var turn: vec2f = vec2f(1.0, 0.0);
         for (var i: i32 = 0; i < u_prv.u_envRadianceSamples; i++) {
             let light: mx_GgxLight = mx_ggx_reflected(coating_ggx_samples, i, turn);
             let fresnel_bare: f32 = mx_fresnel_permittivity(light.cosine, coat_IOR * coat_IOR);
-            color += light.color * (fresnel_bare * (coat * coating_scale * light.weight));
+            color += light.color * (fresnel_bare * (coat_weight * coating_scale * light.weight));
             turn = vec2f(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
         }
     }
     // environment: metal, reflection
     let scaled_specular_IOR: f32 = specular_IOR * specular_IOR;
-    if (metal_visible || reflection_visible) {
+    if (metal_weight > 0.0 || reflection_weight_2 > 0.0) {
         let ggx_samples: mx_GgxSamples = mx_ggx_samples(roughness, N, specular_tangent, V);
         if (thin_film_thickness > 0.0) {
             var turn: vec2f = vec2f(1.0, 0.0);
             for (var i: i32 = 0; i < u_prv.u_envRadianceSamples; i++) {
                 let metal_ggx_reflected: mx_GgxLight = mx_ggx_reflected(ggx_samples, i, turn);
-                if (metal_visible) {
+                if (metal_weight > 0.0) {
                     color += metal_product
                         * (metal_ggx_reflected.color
                         * (metal_ggx_reflected.weight
                         * mx_film_index(metal_ggx_reflected.cosine, re, im, thin_film_thickness, thin_film_IOR)));
                 }
-                if (reflection_visible) {
+                if (reflection_weight_2 > 0.0) {
                     color += reflection_product
                         * (metal_ggx_reflected.color
                         * (metal_ggx_reflected.weight
@@ -681,12 +682,12 @@ fn main(vd: VertexData) -> @location(0) vec4f
             var turn: vec2f = vec2f(1.0, 0.0);
             for (var i: i32 = 0; i < u_prv.u_envRadianceSamples; i++) {
                 let metal_ggx_reflected: mx_GgxLight = mx_ggx_reflected(ggx_samples, i, turn);
-                if (metal_visible) {
+                if (metal_weight > 0.0) {
                     color += metal_product
                         * (metal_ggx_reflected.color
                         * (metal_ggx_reflected.weight * mx_fresnel_conductor_2(metal_ggx_reflected.cosine, re, im)));
                 }
-                if (reflection_visible) {
+                if (reflection_weight_2 > 0.0) {
                     color += reflection_product
                         * (metal_ggx_reflected.color
                         * (metal_ggx_reflected.weight
@@ -697,11 +698,11 @@ fn main(vd: VertexData) -> @location(0) vec4f
         }
     }
     // environment: refraction
-    if (u_pub.SR_standard_surface_transmission * dielectric_weight > 0.0) {
+    let refraction_weight: f32 = clamped_transmission * (1.0 - metal_weight);
+    if (refraction_weight > 0.0) {
         let tint: vec3f = max(u_pub.SR_standard_surface_transmission_color, vec3f(0.0));
-        let refraction_tint: vec3f = tint * select(vec3f(1.0), tint, u_prv.u_refractionTwoSided != 0u);
-        let refraction_product: vec3f = refraction_tint
-            * (body_weight * (u_pub.SR_standard_surface_transmission * dielectric_weight));
+        let refraction_product: vec3f = tint * select(vec3f(1.0), tint, u_prv.u_refractionTwoSided != 0u)
+            * (body_weight * refraction_weight);
         let transmission_blurred: f32 = mix(clamp(u_pub.SR_standard_surface_specular_roughness
             + u_pub.SR_standard_surface_transmission_extra_roughness, 0.0, 1.0), 1.0, coat_blur);
         let samples: mx_GgxSamples = mx_ggx_samples(mx_roughness_anisotropy(transmission_blurred,
@@ -716,10 +717,10 @@ fn main(vd: VertexData) -> @location(0) vec4f
         }
     }
     // opacity
-    let opacity_grey: f32 = dot(u_pub.SR_standard_surface_opacity, vec3f(0.2722287, 0.6740818, 0.0536895));
-    if (opacity_grey < u_prv.u_alphaThreshold) {
+    let opacity: f32 = clamp(dot(u_pub.SR_standard_surface_opacity, vec3f(0.2722287, 0.6740818, 0.0536895)), 0.0, 1.0);
+    if (opacity < u_prv.u_alphaThreshold) {
         discard;
     }
-    out1 = vec4f(opacity_grey * color, opacity_grey);
+    out1 = vec4f(opacity * color, opacity);
     return out1;
 }

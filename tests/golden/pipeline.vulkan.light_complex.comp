@@ -446,8 +446,9 @@ void surface()
 {
     vec3 color = vec3(0.0);
     // lights: fuzz, second_reflection, reflection
-    vec3 V = normalize(u_viewPosition - vd.positionWorld);
     // complex_slab
+    float fuzz_weight = clamp(vd.geomprop_fuzz_amount, 0.0, 1.0);
+    vec3 V = normalize(u_viewPosition - vd.positionWorld);
     float c = dot(vd.geomprop_normal, V);
     float cos_v = max(abs(c), 1e-8);
     float r = clamp(vd.geomprop_fuzz_roughness < 0.0 ? vd.geomprop_roughness : vd.geomprop_fuzz_roughness, 0.01, 1.0);
@@ -463,6 +464,7 @@ void surface()
     vec3 choice = vd.geomprop_spreads > 0.0 ? vd.geomprop_color * power : vd.geomprop_color;
     vec3 choice_2 = vd.geomprop_spreads > 0.0 ? vec3(1.0) : vd.geomprop_decay;
     vec3 N = normalize(vd.normalWorld);
+    float second_reflection_weight = clamp(vd.geomprop_second_roughness_weight, 0.0, 1.0);
     vec3 fresnel_f0 = max(vd.geomprop_f0, 0.0);
     vec3 grazing = mx_slab_grazing(vd.geomprop_f0, vd.geomprop_f90);
     vec3 blend = mix(fresnel_f0, grazing, 0.04761905);
@@ -477,8 +479,8 @@ void surface()
         / (second_reflection_round_lobe.y + second_reflection_a), second_reflection_round_lobe.y),
         second_reflection_round_lobe.z);
     vec3 second_reflection_scale = blend * (1.0 / second_reflection_albedo.x - 1.0) + vec3(1.0);
-    float fuzz_throughput = 1.0 - vd.geomprop_fuzz_amount * sheen_albedo;
-    float reflection_weight = 1.0 - vd.geomprop_second_roughness_weight;
+    float fuzz_throughput = 1.0 - fuzz_weight * sheen_albedo;
+    bool reflection_visible = 1.0 - second_reflection_weight > 0.0;
     float scaled_roughness = vd.geomprop_roughness * vd.geomprop_roughness;
     vec2 alpha = vector * scaled_roughness;
     vec3 reflection_round_lobe = mx_ggx_round_like(clamp(alpha, 1e-8, 1.0), greater);
@@ -513,37 +515,38 @@ void surface()
         vec3 light_color = u_lightData[i].color;
         float cosine = dot(L, N);
         vec3 power_2 = pow(choice_2, vec3(inversesqrt(cosine * cosine + 1.25) * 1.5));
-        if (vd.geomprop_fuzz_amount > 0.0) {
+        if (fuzz_weight > 0.0) {
             float fuzz_sheen_zeltner = mx_sheen_zeltner(Nf, V, L, limited_cos_v, r);
             color += light_color * (intensity
-                * (fuzz_product_2 * (fuzz_sheen_zeltner
-                * (vd.geomprop_fuzz_amount * (vd.geomprop_steady + choice * power_2)))));
+                * (fuzz_product_2 * (fuzz_sheen_zeltner * (fuzz_weight * (vd.geomprop_steady + choice * power_2)))));
         }
         // second_reflection
         float cosine_2 = sqrt(clamp(dot(V, L) * 0.5 + 0.500001, 0.0, 1.0));
         vec3 fresnel = mx_fresnel_schlick(cosine_2, fresnel_f0, grazing);
         vec3 sum = vd.geomprop_steady * fuzz_throughput + fuzz_throughput * choice * power_2;
-        if (vd.geomprop_second_roughness_weight > 0.0)
+        if (second_reflection_weight > 0.0)
             color += light_color * (intensity
                 * (second_reflection_scale
-                * (fresnel * (mx_ggx_smith_lobe(second_alpha, frame, V, L)
-                * (vd.geomprop_second_roughness_weight * sum)))));
+                * (fresnel * (mx_ggx_smith_lobe(second_alpha, frame, V, L) * (second_reflection_weight * sum)))));
         // reflection
-        if (reflection_weight > 0.0)
+        if (reflection_visible) {
+            float reflection_ggx_smith_lobe = mx_ggx_smith_lobe(alpha, frame, V, L);
             color += light_color * (intensity
-                * (reflection_scale * (fresnel * (mx_ggx_smith_lobe(alpha, frame, V, L) * (reflection_weight * sum)))));
+                * (reflection_scale * (fresnel
+                * (reflection_ggx_smith_lobe * ((1.0 - second_reflection_weight) * sum)))));
+        }
     }
     // environment: fuzz
     float cosine = dot(V, N);
     vec3 power_3 = pow(choice_2, vec3(inversesqrt(cosine * cosine + 1.25) * 1.5));
     vec3 part = textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * Nf)), 0.0).xyz;
-    if (vd.geomprop_fuzz_amount > 0.0)
-        color += vd.geomprop_fuzz_amount * (vd.geomprop_steady + choice * power_3) * (vd.geomprop_fuzz_color * part)
+    if (fuzz_weight > 0.0)
+        color += fuzz_weight * (vd.geomprop_steady + choice * power_3) * (vd.geomprop_fuzz_color * part)
             * (sheen_albedo * u_envLightIntensity);
     // environment: second_reflection
     vec3 sum = vd.geomprop_steady * fuzz_throughput + fuzz_throughput * choice * power_3;
-    if (vd.geomprop_second_roughness_weight > 0.0) {
-        vec3 second_reflection_product = second_reflection_scale * (vd.geomprop_second_roughness_weight * sum);
+    if (second_reflection_weight > 0.0) {
+        vec3 second_reflection_product = second_reflection_scale * (second_reflection_weight * sum);
         mx_GgxSamples second_reflection_ggx_samples = mx_ggx_samples(second_alpha, vd.geomprop_normal,
             vd.geomprop_tangent, V);
         vec2 turn = vec2(1.0, 0.0);
@@ -557,8 +560,8 @@ void surface()
         }
     }
     // environment: reflection
-    if (reflection_weight > 0.0) {
-        vec3 reflection_product = reflection_scale * (reflection_weight * sum);
+    if (reflection_visible) {
+        vec3 reflection_product = reflection_scale * ((1.0 - second_reflection_weight) * sum);
         mx_GgxSamples reflection_ggx_samples = mx_ggx_samples(alpha, vd.geomprop_normal, vd.geomprop_tangent, V);
         vec2 turn = vec2(1.0, 0.0);
         for (int i = 0; i < u_envRadianceSamples; ++i) {
@@ -571,14 +574,15 @@ void surface()
         }
     }
     // lights: subsurface, medium
-    float is_thick = mx_slab_is_thick(vd.geomprop_diffuse_albedo, vd.geomprop_free_path, vd.geomprop_is_thick);
+    float subsurface_weight = clamp(mx_slab_is_thick(vd.geomprop_diffuse_albedo, vd.geomprop_free_path,
+        vd.geomprop_is_thick), 0.0, 1.0);
     vec3 reflection_throughput = max(vec3(1.0) - mix(fresnel_f0, grazing, reflection_albedo.y) * reflection_albedo.x
         * reflection_scale, 0.0);
     vec3 inside_weight = fuzz_throughput
         * mix(reflection_throughput, max(vec3(1.0) - mix(fresnel_f0, grazing, second_reflection_albedo.y)
-        * second_reflection_albedo.x * second_reflection_scale, 0.0), vd.geomprop_second_roughness_weight);
+        * second_reflection_albedo.x * second_reflection_scale, 0.0), second_reflection_weight);
     vec3 product = vd.geomprop_steady * inside_weight;
-    bool medium_visible = 1.0 - is_thick > 0.0;
+    bool medium_visible = 1.0 - subsurface_weight > 0.0;
     // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         vec3 L;
@@ -605,8 +609,9 @@ void surface()
         // subsurface
         float cosine_2 = dot(N, L);
         vec3 fuzz_vector = vec3(inversesqrt(cosine_2 * cosine_2 + 1.25) * 1.5);
-        if (is_thick > 0.0) {
-            vec3 subsurface_product = is_thick * (product + inside_weight * choice * pow(choice_2, fuzz_vector));
+        if (subsurface_weight > 0.0) {
+            vec3 subsurface_product = subsurface_weight
+                * (product + inside_weight * choice * pow(choice_2, fuzz_vector));
             color += u_lightData[i].color
                 * (intensity * (vd.geomprop_diffuse_albedo
                 * (mx_subsurface_light(vd.geomprop_free_path, dot(Nf, L)) * subsurface_product)));
@@ -617,13 +622,13 @@ void surface()
                 vd.geomprop_roughness, vd.geomprop_free_path, vd.geomprop_phase_anisotropy, vd.geomprop_normal, V, L);
             color += u_lightData[i].color
                 * (intensity * (medium_slab_medium_bsdf_eval
-                * ((1.0 - is_thick) * (product + vd.geomprop_color * inside_weight
-                * pow(vd.geomprop_decay, fuzz_vector)))));
+                * ((1.0 - subsurface_weight)
+                * (product + vd.geomprop_color * inside_weight * pow(vd.geomprop_decay, fuzz_vector)))));
         }
     }
     // environment: subsurface
-    if (is_thick > 0.0)
-        color += u_envLightIntensity * (is_thick * (product + inside_weight * choice * power_3)
+    if (subsurface_weight > 0.0)
+        color += u_envLightIntensity * (subsurface_weight * (product + inside_weight * choice * power_3)
             * (vd.geomprop_diffuse_albedo * part));
     // environment: medium
     if (medium_visible) {
@@ -642,7 +647,7 @@ void surface()
         vec3 slab_medium_bsdf_environment = max(vd.geomprop_diffuse_albedo.x,
             max(vd.geomprop_diffuse_albedo.y, vd.geomprop_diffuse_albedo.z)) <= 0.0 ? vec3(0.0) : medium_light;
         color += slab_medium_bsdf_environment
-            * ((1.0 - is_thick) * (product + power * (vd.geomprop_color * inside_weight)));
+            * ((1.0 - subsurface_weight) * (product + power * (vd.geomprop_color * inside_weight)));
     }
     out1 = vec4(color, 1.0);
 }

@@ -12,8 +12,8 @@ void main()
 {
     // opacity
     // SR_leaf
-    float opacity_grey = dot(texture(mask_file, vd.texcoord_0).xyz, vec3(0.2722287, 0.6740818, 0.0536895));
-    if (opacity_grey < u_alphaThreshold)
+    float opacity = clamp(dot(texture(mask_file, vd.texcoord_0).xyz, vec3(0.2722287, 0.6740818, 0.0536895)), 0.0, 1.0);
+    if (opacity < u_alphaThreshold)
         discard;
-    out1 = vec4(opacity_grey);
+    out1 = vec4(opacity);
 }

@@ -14,8 +14,9 @@ out vec4 out1;
 void main()
 {
     // opacity
-    float opacity = fade * (1.0 - dot(SR_unlit_transmission * SR_unlit_transmission_color, vec3(0.33333334)));
+    float clamped_fade = clamp(fade, 0.0, 1.0);
+    float opacity = clamped_fade * (1.0 - dot(SR_unlit_transmission * SR_unlit_transmission_color, vec3(0.33333334)));
     if (opacity < u_alphaThreshold)
         discard;
-    out1 = vec4(vec3(vd.texcoord_0, 0.0) * (SR_unlit_emission * fade), opacity);
+    out1 = vec4(vec3(vd.texcoord_0, 0.0) * (SR_unlit_emission * clamped_fade), opacity);
 }

@@ -55,12 +55,13 @@ void main()
 {
     vec3 V = normalize(u_viewPosition - vd.positionWorld);
     float volume_depth = u_volumeDepth * max(dot(V, normalize(vd.normalWorld)), 0.0);
-    float both_weight = 1.0 - vd.texcoord_0.x;
+    float glow_weight = clamp(vd.texcoord_0.x, 0.0, 1.0);
+    float both_weight = 1.0 - glow_weight;
     vec3 optical_depth_sum = both_weight * vec3(0.3, 0.5, 0.9) + both_weight * 1.2;
     vec3 optical_depth = volume_depth * (optical_depth_sum + both_weight * vec3(2.0, 1.0, 0.5));
     vec3 volume_lost = vec3(1.0) - exp(-optical_depth);
     vec3 path_blend = mix(vec3(1.0), volume_lost / max(optical_depth, 0.001), step(vec3(0.001), optical_depth));
-    vec3 color = volume_depth * path_blend * (vd.texcoord_0.x * vec3(0.2, 0.06, 0.01));
+    vec3 color = volume_depth * path_blend * (glow_weight * vec3(0.2, 0.06, 0.01));
     // lights
     vec3 smoke_product = path_blend * (both_weight * volume_depth * 1.2);
     // from the last light, so that drivers do not unroll the loop

@@ -322,9 +322,6 @@ static void test_scales(void)
     REQUIRE_WEIGHTS(scale(s, leaf(s, MATTE, 0.5f, 1), color(s, 1, 0.5f, 0.25f)),
                     "matte 0.5 0.25 0.125");
     REQUIRE_WEIGHTS(scale(s, leaf(s, MATTE, 1, 1), color(s, 0, 0, 0)), "");
-    /* a BSDF gains no energy; an EDF may */
-    REQUIRE_WEIGHTS(scale(s, leaf(s, MATTE, 1, 1), num(s, 2)), "matte 1");
-    REQUIRE_WEIGHTS(scale(s, leaf(s, MATTE, 1, 1), color(s, 2, 0.5f, -1)), "matte 1 0.5 0");
     REQUIRE_WEIGHTS(scale(s, leaf(s, GLOW, 1, 1), num(s, 2)), "glow 2");
     /* a scaled top hides as much as before */
     REQUIRE_WEIGHTS(
