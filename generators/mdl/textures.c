@@ -15,7 +15,23 @@ static const char *wrap_of(const struct spell *spell, str_id mode)
                                                                        : "tex::wrap_repeat";
 }
 
-/* A path begins at the file or at a root of the renderer's search path. */
+/*
+ * A path begins at the file or at a root of the renderer's search path, and has no colon: the drive
+ * D: is the folder /D, and other colons are underscores.
+ */
+static const char *path_of(struct spell *spell, const char *file)
+{
+    struct text *path = spell_new_text(spell);
+    bool is_rooted = *file == '/' || *file == '.', has_drive = *file && file[1] == ':';
+    text_str(path, has_drive ? "/" : is_rooted ? "" : "./");
+    for (const char *c = file; *c; c++) {
+        bool is_drive = has_drive && c == file + 1;
+        if (!is_drive)
+            text_char(path, *c == ':' ? '_' : *c == '\\' ? '/' : *c);
+    }
+    return text_cstr(path);
+}
+
 void mdl_write_texture(struct spell *spell, const struct shader_variable *variable)
 {
     const char *file = str_text(spell->shader->strings, variable->file);
@@ -23,11 +39,8 @@ void mdl_write_texture(struct spell *spell, const struct shader_variable *variab
         spell_text(spell, "texture_2d()");
         return;
     }
-    struct text *path = spell_new_text(spell);
-    bool is_rooted = *file == '/' || *file == '.';
-    text_fmt(path, "%s%s", is_rooted ? "" : "./", file);
     spell_text(spell, "texture_2d(");
-    mdl_write_string(spell, text_cstr(path));
+    mdl_write_string(spell, path_of(spell, file));
     spell_text(spell, ", tex::gamma_linear)");
 }
 

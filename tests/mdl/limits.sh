@@ -41,6 +41,15 @@ check 'names that begin otherwise' exits 0 "$mxgen" names.mtlx --target mdl --el
 check 'a material' grep -q '^export material x_graph_o(' made/_graph._o.mdl
 check 'a parameter' grep -q 'float x_k = 0.5' made/_graph._o.mdl
 
+cat >drive.mtlx <<'END'
+<materialx version="1.39">
+  <image name="picture" type="color3"><input name="file" type="filename" value="D:/textures/a:b.png"/></image>
+  <output name="shown" type="color3" nodename="picture"/>
+</materialx>
+END
+check 'a path with a drive' exits 0 "$mxgen" drive.mtlx --target mdl --element shown -o made
+check 'has no colon' grep -qF 'texture_2d("/D/textures/a_b.png", tex::gamma_linear)' made/shown.mdl
+
 for version in 1.8 1.9 1.10; do
     check "version $version" exits 0 "$mxgen" gold.mtlx --target mdl --target-version "$version" --element gold -o made
     check "it is version $version" grep -qx "mdl $version;" made/gold.mdl
