@@ -13,9 +13,10 @@ vec3 mx_slab_grazing(vec3 f0, vec3 f90)
 }
 
 // A body whose medium scatters is seen through nowhere.
-float mx_slab_is_thick(vec3 color, vec3 mean_free_path, float is_body)
+float mx_slab_is_thick(vec3 color, vec3 mean_free_path, float is_body, float scatters)
 {
-    return mx_is_black(mean_free_path) || mx_is_black(color) ? 0.0 : is_body;
+    bool is_clear = scatters == 0.0 && mx_is_black(color);
+    return mx_is_black(mean_free_path) || is_clear ? 0.0 : is_body;
 }
 
 // Light goes into a body that is not opaque, where a path tracer follows it.

@@ -2,6 +2,7 @@
 /* The nodes of slabs (docs/slabs.md): each is an op of the IR, which the walk of src/slabs reads.
  */
 #include "dynamic/dynamic.h"
+#include "slabs/regime.h"
 
 #include <math.h>
 
@@ -179,7 +180,8 @@ bool dynamic_slab(void *user_data, mxg_build *build, mxg_ref *results)
     args[SLAB_coverage] = ir_const_float(build->b->graph, 1.0f);
     leave_out(build, args);
     check_slab(build, names, args);
-    return finish(build, IR_SLAB, build_slab_lacks(build->b), args, NUM_SLAB_OPERANDS, results);
+    uint32_t attr = build_slab_lacks(build->b) | slab_regime(build->b->graph, args);
+    return finish(build, IR_SLAB, attr, args, NUM_SLAB_OPERANDS, results);
 }
 
 bool dynamic_slab_layer(void *user_data, mxg_build *build, mxg_ref *results)

@@ -4,6 +4,7 @@
  * that is a part of matter.
  */
 #include "build/build_priv.h"
+#include "slabs/regime.h"
 
 #include "shader/formula.h"
 
@@ -99,6 +100,12 @@ static void take_frame(struct builder *b, ir_ref leaf, ir_ref *in)
     in[SLAB_tangent] = tangent ? tangent : in[SLAB_tangent];
 }
 
+static ir_ref made(struct builder *b, const ir_ref *in)
+{
+    uint32_t attr = build_slab_lacks(b) | slab_regime(b->graph, in);
+    return ir_build(b->graph, IR_SLAB, IR_TYPE_BSDF, attr, in, NUM_SLAB_OPERANDS);
+}
+
 static ir_ref slab_with(struct builder *b, uint32_t id, const ir_ref *results, ir_ref leaf,
                         ir_ref coverage, ir_ref albedo)
 {
@@ -118,7 +125,7 @@ static ir_ref slab_with(struct builder *b, uint32_t id, const ir_ref *results, i
         in[SLAB_diffuse_albedo] = albedo;
         in[SLAB_f0] = ir_const_splat(b->graph, IR_TYPE_VEC3, 0.0f);
     }
-    return ir_build(b->graph, IR_SLAB, IR_TYPE_BSDF, build_slab_lacks(b), in, NUM_SLAB_OPERANDS);
+    return made(b, in);
 }
 
 bool build_fits_slab(struct builder *b, ir_ref leaf)
@@ -159,5 +166,5 @@ ir_ref build_slab_like(struct builder *b, ir_ref leaf, ir_ref albedo)
         return slab;
     memcpy(in, ir_args(b->graph, slab), sizeof in);
     in[SLAB_roughness] = roughness;
-    return ir_build(b->graph, IR_SLAB, IR_TYPE_BSDF, build_slab_lacks(b), in, NUM_SLAB_OPERANDS);
+    return made(b, in);
 }

@@ -393,6 +393,7 @@ static struct top look_along_normal(const struct slab_blend *blend, const struct
         .thickness = thickness,
         .below = FORMULA(shader, "mx_blend_seen", b->in[SLAB_f0], b->in[SLAB_diffuse_albedo]),
         .is_body = none,
+        .scatters = none,
         .walks = none,
         .unit = one};
     ir_ref lobes = blend->host->lobes(blend->host->user_data, in, &place);
@@ -559,7 +560,9 @@ ir_ref slab_blended(const struct slab_blend *blend, const struct slab_spot *spot
             blend_sum(blend, &a, &b, spot, out);
         else
             blend_beside(blend, &a, &b, ir_arg(g, spot->ref, 2), spot, out);
-        a.lacks &= b.lacks;
+        bool hides = slabs_is_layer(g, spot->ref) || node.op == IR_CLOSURE_ADD;
+        uint32_t regime = hides ? (a.lacks | b.lacks) & SLAB_NEVER_CLEAR : 0;
+        a.lacks = (a.lacks & b.lacks) | regime;
     }
     ir_ref slab = ir_build(g, IR_SLAB, IR_TYPE_BSDF, a.lacks, out, NUM_SLAB_OPERANDS);
     ir_pop_origin(g);

@@ -9,6 +9,7 @@
  *     interface over (slab times color)  a coat with that color, over the slab
  */
 #include "slabs/recognise.h"
+#include "slabs/regime.h"
 
 #include "shader/formula.h"
 
@@ -58,6 +59,13 @@ static bool is_clear(const struct ir_graph *g, ir_ref slab)
            && input_is(g, slab, SLAB_mean_free_path, SLABS_CLEAR_PATH);
 }
 
+/* A slab with other inputs. */
+static ir_ref made(struct ir_graph *g, ir_ref slab, const ir_ref *in)
+{
+    uint32_t attr = (ir_get(g, slab)->attr & ~(uint32_t)SLAB_NEVER_CLEAR) | slab_regime(g, in);
+    return ir_build(g, IR_SLAB, IR_TYPE_BSDF, attr, in, NUM_SLAB_OPERANDS);
+}
+
 /* A slab with some inputs of another one. */
 static ir_ref with(struct ir_graph *g, ir_ref slab, ir_ref from, const uint8_t *inputs,
                    unsigned num_inputs)
@@ -66,7 +74,7 @@ static ir_ref with(struct ir_graph *g, ir_ref slab, ir_ref from, const uint8_t *
     memcpy(in, ir_args(g, slab), sizeof in);
     for (unsigned i = 0; i < num_inputs; i++)
         in[inputs[i]] = ir_arg(g, from, inputs[i]);
-    return ir_build(g, IR_SLAB, IR_TYPE_BSDF, ir_get(g, slab)->attr, in, NUM_SLAB_OPERANDS);
+    return made(g, slab, in);
 }
 
 /* The interface and the fuzz of one slab, the medium of the other. */
@@ -109,7 +117,7 @@ static ir_ref colored(const struct recogniser *r, ir_ref coat, ir_ref color)
     memcpy(in, ir_args(g, coat), sizeof in);
     in[SLAB_mean_free_path] =
         FORMULA(r->shader, "mx_blend_path_of", ir_convert(g, IR_TYPE_VEC3, color), thickness, ways);
-    return ir_build(g, IR_SLAB, IR_TYPE_BSDF, ir_get(g, coat)->attr, in, NUM_SLAB_OPERANDS);
+    return made(g, coat, in);
 }
 
 static ir_ref layer(struct ir_graph *g, ir_ref top, ir_ref base)

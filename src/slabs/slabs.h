@@ -32,12 +32,15 @@ enum slab_feature {
  * the attribute of a SLAB has those that it lacks.
  */
 enum { SLAB_FEATURES_BELOW = 1u << SLAB_ROUGHNESS | 1u << SLAB_REFRACTION };
+/* The attribute of a SLAB whose medium is clear nowhere (regime.h). */
+enum { SLAB_NEVER_CLEAR = 1u << NUM_SLAB_FEATURES };
 
 /* Where a slab lies. */
 struct slab_place {
     ir_ref thickness; /* float, centimetres */
     ir_ref below;     /* vec3: albedo of everything below */
     ir_ref is_body;   /* float: 1 at the bottom of a body, 0 in a layer or sheet */
+    ir_ref scatters;  /* float: 1 where the medium is never clear (regime.h) */
     ir_ref walks;     /* float: 1 where light walks through the mesh of a body */
     ir_ref unit;      /* float: centimetres in a unit of the world */
     ir_ref blur; /* float, centimetres: deviation of light by rough interfaces above; 0: none */

@@ -16,6 +16,7 @@
 
 #include "ir/arithmetic.h"
 #include "shader/formula.h"
+#include "slabs/regime.h"
 #include "slabs/spread.h"
 
 #include "base/hash.h"
@@ -263,10 +264,14 @@ static ir_ref slab_at(struct walk *w, ir_ref slab, const struct where *where)
         if (has_mean((enum slab_operand)i))
             inputs[i] = seen_at(w, inputs[i], where);
     slab_widen(w->shader, where->spread, inputs);
+    inputs[SLAB_diffuse_albedo] =
+        slab_regime_albedo(g, ir_get(g, slab), inputs[SLAB_diffuse_albedo]);
+    bool never_clear = ir_get(g, slab)->attr & SLAB_NEVER_CLEAR;
     bool walks = where->is_body && w->host->walks;
     struct slab_place place = {.thickness = where->thickness,
                                .below = ir_const_splat(g, IR_TYPE_VEC3, 0.0f),
                                .is_body = ir_const_float(g, where->is_body ? 1.0f : 0.0f),
+                               .scatters = ir_const_float(g, never_clear ? 1.0f : 0.0f),
                                .walks = ir_const_float(g, walks ? 1.0f : 0.0f),
                                .unit = walks ? unit_of_world(w) : ir_const_float(g, 1.0f),
                                .blur = w->host->blurred ? ir_const_float(g, 0.0f)

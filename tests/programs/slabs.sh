@@ -61,6 +61,41 @@ check 'threads give a shader of OSL' exits 0 "$mxgen" "$slabs" -e WrappedSilk --
 check 'OSL adds vectors as vectors, not as colours' eval 'grep -qF "vector weft_reflection_sum = " out && ! grep -qF "color weft_reflection_sum" out'
 check 'a clear body gives a shader of OSL' exits 0 "$mxgen" "$examples/slab_bodies.mtlx" -e Amber --target osl --stdout
 check 'OSL lets light through a body in its colour, without total reflection from behind' eval 'grep -q "transparent_bsdf()" out && ! grep -q "vector(0.33333334)" out && grep -q "float(backfacing_)" out'
+cat >regimes.mtlx <<'END'
+<materialx version="1.39">
+  <image name="picture" type="color3"><input name="file" type="filename" value="skin.png"/></image>
+  <noise2d name="mask" type="float"/>
+  <constant name="host" type="color3"><input name="value" type="color3" value="0, 0, 0"/></constant>
+  <slab name="textured" type="BSDF">
+    <input name="diffuse_albedo" type="color3" nodename="picture"/><input name="mean_free_path" type="vector3" value="0.3, 0.1, 0.05"/>
+  </slab>
+  <slab name="pale" type="BSDF">
+    <input name="diffuse_albedo" type="color3" value="0.8, 0.6, 0.5"/><input name="mean_free_path" type="vector3" value="0.3, 0.1, 0.05"/>
+  </slab>
+  <slab name="mud" type="BSDF"><input name="diffuse_albedo" type="color3" value="0.2, 0.1, 0"/></slab>
+  <slab name="glass" type="BSDF">
+    <input name="diffuse_albedo" type="color3" nodename="host"/><input name="mean_free_path" type="vector3" value="0.3, 0.1, 0.05"/>
+  </slab>
+  <slab_mix name="muddy" type="BSDF">
+    <input name="fg" type="BSDF" nodename="mud"/><input name="bg" type="BSDF" nodename="pale"/><input name="mix" type="float" nodename="mask"/>
+  </slab_mix>
+  <slab_layer name="coated" type="BSDF">
+    <input name="top" type="BSDF" nodename="glass"/><input name="base" type="BSDF" nodename="pale"/><input name="thickness" type="float" value="0.1"/>
+  </slab_layer>
+  <slab_surface name="Textured" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="textured"/></slab_surface>
+  <slab_surface name="Muddy" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="muddy"/></slab_surface>
+  <slab_surface name="Coated" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="coated"/></slab_surface>
+  <slab_surface name="Glass" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="glass"/></slab_surface>
+</materialx>
+END
+for budget in '' '--max-slabs 1'; do
+    for name in Textured Muddy Coated; do
+        check "$name is stored ${budget:-without a budget}" exits 0 "$mxgen" regimes.mtlx -e $name --role deferred --target vulkan --interface reduced $budget -o made
+        check "$name is opaque ${budget:-without a budget}" eval '! grep -q drawn-forward out err && grep -q mx_word0 made/$name.frag'
+    done
+done
+check 'a clear body is no matter for pixels' exits 0 "$mxgen" regimes.mtlx -e Glass --role deferred --target vulkan -o made
+check 'it is drawn forward' grep -q drawn-forward err
 check 'glints are stored' exits 0 "$mxgen" glints.mtlx -e DustyFibre --role deferred --target vulkan -o made
 check 'stored glints are lit by a pass' eval 'grep -q mx_word0 made/DustyFibre.frag && ! grep -q drawn-forward out err'
 check 'fuzz can be left out' exits 0 "$mxgen" inspect --closures "$slabs" -e DustyFibre --features -fuzz
