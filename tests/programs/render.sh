@@ -476,4 +476,22 @@ for trace in '' --path-trace; do
     done
 done
 
+# A tile that is turned by 90 degrees has its +x downwards, and so has the lean of a normal.
+tile lean.ppm '191 128 238'
+cat >hextile.mtlx <<'X'
+<?xml version="1.0"?>
+<materialx version="1.39" colorspace="lin_rec709">
+  <hextilednormalmap name="h" type="vector3">
+    <input name="file" type="filename" value="lean.ppm"/><input name="rotation" type="float" value="1"/><input name="rotationrange" type="vector2" value="90, 90"/>
+  </hextilednormalmap>
+  <convert name="c" type="color3"><input name="in" type="vector3" nodename="h"/></convert>
+  <add name="above" type="color3"><input name="in1" type="color3" nodename="c"/><input name="in2" type="float" value="1"/></add>
+  <surface_unlit name="M" type="surfaceshader"><input name="emission_color" type="color3" nodename="above"/></surface_unlit>
+</materialx>
+X
+check 'turned tiles are drawn' exits 0 "$render" hextile.mtlx -e M -m plane --camera 0,0 --size 8 -o hextile.exr
+for channel in R=1 G=0.5 B=1.867; do
+    check "normals turn with their tile: $channel" near "$(python3 "$exr" hextile.exr ${channel%=*} 0.5 0.5)" ${channel#*=} 0.01
+done
+
 finish render
