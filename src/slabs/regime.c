@@ -17,7 +17,8 @@ static void add(struct search *s, ir_ref ref)
         s->seen[s->num++] = ref;
 }
 
-/* True if a value is not the same all over a surface; also if it is long, because then it never is. */
+/* True if a value is not the same all over a surface; also if it is long, because then it never is.
+ */
 static bool varies(const struct ir_graph *g, ir_ref value)
 {
     struct search s = {.seen = {value}, .num = 1};
