@@ -31,6 +31,7 @@ static ir_ref value_of(str_id input, const ir_ref *inputs, const struct slab_pla
     case STR_below: return place->below;
     case STR_is_body: return place->is_body;
     case STR_scatters: return place->scatters;
+    case STR_is_sheet: return place->is_sheet;
     case STR_walks: return place->walks;
     case STR_unit: return place->unit;
     case STR_blur: return place->blur;

@@ -394,6 +394,7 @@ static struct top look_along_normal(const struct slab_blend *blend, const struct
         .below = FORMULA(shader, "mx_blend_seen", b->in[SLAB_f0], b->in[SLAB_diffuse_albedo]),
         .is_body = none,
         .scatters = none,
+        .is_sheet = one,
         .walks = none,
         .unit = one};
     ir_ref lobes = blend->host->lobes(blend->host->user_data, in, &place);

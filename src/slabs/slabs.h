@@ -41,6 +41,7 @@ struct slab_place {
     ir_ref below;     /* vec3: albedo of everything below */
     ir_ref is_body;   /* float: 1 at the bottom of a body, 0 in a layer or sheet */
     ir_ref scatters;  /* float: 1 where the medium is never clear (regime.h) */
+    ir_ref is_sheet;  /* float: 0 in a body that is never clear */
     ir_ref walks;     /* float: 1 where light walks through the mesh of a body */
     ir_ref unit;      /* float: centimetres in a unit of the world */
     ir_ref blur; /* float, centimetres: deviation of light by rough interfaces above; 0: none */

@@ -268,14 +268,15 @@ static ir_ref slab_at(struct walk *w, ir_ref slab, const struct where *where)
         slab_regime_albedo(g, ir_get(g, slab), inputs[SLAB_diffuse_albedo]);
     bool never_clear = ir_get(g, slab)->attr & SLAB_NEVER_CLEAR;
     bool walks = where->is_body && w->host->walks;
-    struct slab_place place = {.thickness = where->thickness,
-                               .below = ir_const_splat(g, IR_TYPE_VEC3, 0.0f),
-                               .is_body = ir_const_float(g, where->is_body ? 1.0f : 0.0f),
-                               .scatters = ir_const_float(g, never_clear ? 1.0f : 0.0f),
-                               .walks = ir_const_float(g, walks ? 1.0f : 0.0f),
-                               .unit = walks ? unit_of_world(w) : ir_const_float(g, 1.0f),
-                               .blur = w->host->blurred ? ir_const_float(g, 0.0f)
-                                                        : deviation_at(w, where)};
+    struct slab_place place = {
+        .thickness = where->thickness,
+        .below = ir_const_splat(g, IR_TYPE_VEC3, 0.0f),
+        .is_body = ir_const_float(g, where->is_body ? 1.0f : 0.0f),
+        .scatters = ir_const_float(g, never_clear ? 1.0f : 0.0f),
+        .is_sheet = ir_const_float(g, never_clear && where->is_body ? 0.0f : 1.0f),
+        .walks = ir_const_float(g, walks ? 1.0f : 0.0f),
+        .unit = walks ? unit_of_world(w) : ir_const_float(g, 1.0f),
+        .blur = w->host->blurred ? ir_const_float(g, 0.0f) : deviation_at(w, where)};
     if (where->below && may_bounce(w, inputs))
         place.below = albedo_of(w, where->below);
     ir_ref lobes = w->host->lobes(w->host->user_data, inputs, &place);
