@@ -385,24 +385,6 @@ mxg_document *cli_load(struct cli *cli, const char *path)
     return NULL;
 }
 
-char *cli_file_name(const char *element_path)
-{
-    /*
-     * File systems allow names of 255 bytes. In a longer name a hash of the whole name replaces the
-     * end, so that names stay distinct.
-     */
-    enum { MAX_NAME = 200 };
-    unsigned hash = (unsigned)names_hash(NAMES_HASH_OF_NOTHING, element_path);
-    char *name = strlen(element_path) > MAX_NAME
-                     ? cli_format("%.*s-%08x", MAX_NAME, element_path, hash)
-                     : cli_format("%s", element_path);
-    for (char *c = name; *c; ++c) {
-        if (*c == '/')
-            *c = '.';
-    }
-    return name;
-}
-
 char *cli_copy(const char *text, size_t len)
 {
     char *copy = memory_alloc(len + 1);

@@ -93,9 +93,6 @@ bool cli_find_target(const char *name, size_t len, mxg_target *out);
  */
 bool cli_options_apply(const struct cli *cli, const char *const *targets, size_t num_targets);
 
-/* The file name for an element: its path with dots. The caller frees it. */
-char *cli_file_name(const char *element_path);
-
 /* The path of a file that the file `from` names, relative to its folder. The caller frees it. */
 char *cli_beside(const char *from, const char *file);
 

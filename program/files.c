@@ -208,17 +208,6 @@ bool files_find_program(const char *name)
     return found;
 }
 
-void files_put_make_name(FILE *out, const char *name)
-{
-    for (; *name; ++name) {
-        if (*name == ' ' || *name == '#')
-            putc('\\', out);
-        else if (*name == '$')
-            putc('$', out);
-        putc(*name, out);
-    }
-}
-
 bool files_is_regular(const char *path)
 {
     struct stat info;

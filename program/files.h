@@ -41,9 +41,6 @@ const char *files_make_folder(const char *path);
 /* True if a program of this name exists: a path, or a name in a folder of PATH. */
 bool files_find_program(const char *name);
 
-/* Writes a file name in make's syntax: spaces and '#' escaped, '$' doubled. */
-void files_put_make_name(FILE *out, const char *name);
-
 bool files_is_regular(const char *path);
 
 /* True if the file has at most `size` bytes; 0: any number. */
