@@ -102,8 +102,7 @@ static mxg_document *load(struct bind *bind, const char *path, const mxg_scene *
     mxg_document *own = path ? cli_load(&bind->cli, path) : NULL;
     if (path && !own)
         return NULL;
-    mxg_document *whole =
-        scene_file_document(bind->cli.context, bind->cli.library, &bind->cli.report, own, scene);
+    mxg_document *whole = scene_file_document(&bind->cli, own, scene);
     mxg_document_destroy(own);
     return whole;
 }
@@ -111,8 +110,7 @@ static mxg_document *load(struct bind *bind, const char *path, const mxg_scene *
 static void bind_file(struct bind *bind, const char *path)
 {
     mxg_document *document = NULL;
-    mxg_scene *scene =
-        scene_file_load(bind->cli.context, &bind->cli.report, bind->stage, bind->purpose);
+    mxg_scene *scene = scene_file_load(&bind->cli, bind->stage, bind->purpose);
     if (scene && (document = load(bind, path, scene)) != NULL)
         bind_document(bind, document, scene);
     mxg_scene_destroy(scene);

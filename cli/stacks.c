@@ -323,7 +323,7 @@ static bool bind_scene(struct stacks *s, const mxg_document *own)
 {
     struct cli *cli = &s->gen->cli;
     struct scene_place place = {s->gen->scene_file, s->gen->look, s->gen->purpose};
-    return scene_file_bind(cli->context, cli->library, &cli->report, &place, own, &s->stage);
+    return scene_file_bind(cli, &place, own, &s->stage);
 }
 
 static bool note_files(struct stacks *s, const mxg_document *own)

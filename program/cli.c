@@ -244,18 +244,46 @@ bool cli_has_budget(const struct cli *cli)
     return has;
 }
 
-static void forward(struct cli *cli, bool with_budgets, struct arg_list *args)
+/* Appends the common options that `is_wanted` accepts. */
+static void forward_args(struct cli *cli, bool (*is_wanted)(const struct arg *arg),
+                         struct arg_list *args)
 {
     struct arg table[MAX_ARGS];
     size_t num_args = add_common_args(cli, table);
     for (size_t i = 0; i < num_args; ++i)
-        if (!table[i].is_own && (with_budgets || !is_budget(table[i].name)))
+        if (!table[i].is_own && is_wanted(&table[i]))
             args_forward(&table[i], args);
     args_append(args, cli_format("--quiet"));
+}
+
+static bool is_any(const struct arg *arg)
+{
+    (void)arg;
+    return true;
+}
+
+static bool is_limit(const struct arg *arg)
+{
+    return arg->group == ARG_LIMITS;
+}
+
+static bool is_no_budget(const struct arg *arg)
+{
+    return !is_budget(arg->name);
+}
+
+static void forward(struct cli *cli, bool with_budgets, struct arg_list *args)
+{
+    forward_args(cli, with_budgets ? is_any : is_no_budget, args);
     for (size_t i = 0; i < cli->parser.num_settings; ++i)
         if (with_budgets || !is_budget(cli->parser.settings[i].key))
             args_append(args, cli_format("--%s=%s", cli->parser.settings[i].key,
                                          cli->parser.settings[i].value));
+}
+
+void cli_forward_limits(struct cli *cli, struct arg_list *args)
+{
+    forward_args(cli, is_limit, args);
 }
 
 void cli_forward(struct cli *cli, struct arg_list *args)

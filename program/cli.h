@@ -70,6 +70,8 @@ void cli_finish(struct cli *cli);
  * generation, and make it print only errors. The caller frees the items.
  */
 void cli_forward(struct cli *cli, struct arg_list *args);
+/* Forwards limits alone, and makes the program print only errors. */
+void cli_forward_limits(struct cli *cli, struct arg_list *args);
 /* Forwards the options without those that make slabs cheaper. */
 void cli_forward_full(struct cli *cli, struct arg_list *args);
 /* True if there are such options. */

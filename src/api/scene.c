@@ -136,12 +136,6 @@ const mxg_diagnostics *mxg_scene_diagnostics(const mxg_scene *scene)
     return scene ? &scene->object.diagnostics : NULL;
 }
 
-/* Inside, 0 is the root; the numbers of the interface leave it out. */
-static uint32_t number_of(prim_id prim)
-{
-    return prim ? prim - 1 : MXG_NONE;
-}
-
 struct addition {
     mxg_scene *scene;
     const char *const *paths;
@@ -204,7 +198,7 @@ static void add_each(void *arg)
     prim_id last = 0;
     for (;;) {
         mxg_primitive given = {.size = sizeof given, .parent = MXG_NONE};
-        if (!a->next(a->user_data, number_of(last), &given))
+        if (!a->next(a->user_data, scene_number(last), &given))
             return;
         last = add_given(a->scene, &given);
     }
@@ -262,9 +256,9 @@ mxg_status mxg_scene_primitive(const mxg_scene *scene, uint32_t index, mxg_primi
     if (!has_primitive(scene, index))
         return MXG_ERROR_ARGUMENT;
     const struct scene_prim *prim = &scene->scene.prims.items[index + 1];
-    mxg_primitive full = {.parent = number_of(prim->parent),
-                          .first_child = number_of(prim->first_child),
-                          .next_sibling = number_of(prim->next),
+    mxg_primitive full = {.parent = scene_number(prim->parent),
+                          .first_child = scene_number(prim->first_child),
+                          .next_sibling = scene_number(prim->next),
                           .name = prim->name,
                           .name_len = prim->name_len,
                           .type = ""};
@@ -283,7 +277,7 @@ mxg_status mxg_scene_primitive(const mxg_scene *scene, uint32_t index, mxg_primi
 
 uint32_t mxg_scene_find_primitive(const mxg_scene *scene, const char *path)
 {
-    return scene && path ? number_of(scene_find(&scene->scene, path, strlen(path))) : MXG_NONE;
+    return scene && path ? scene_number(scene_find(&scene->scene, path, strlen(path))) : MXG_NONE;
 }
 
 size_t mxg_scene_primitive_path(const mxg_scene *scene, uint32_t index, char *buffer,

@@ -136,15 +136,16 @@ size_t mxg_scene_property_word(const mxg_scene *scene, uint32_t primitive, const
                : 0;
 }
 
-uint32_t mxg_scene_property_target(const mxg_scene *scene, uint32_t primitive, const char *name,
-                                   uint32_t index)
+size_t mxg_scene_property_targets(const mxg_scene *scene, uint32_t primitive, const char *name,
+                                  uint32_t *out, size_t capacity)
 {
     uint32_t source = 0;
-    struct text_word path;
-    prim_id found = find_word(value_of(scene, primitive, name, &source), index, &path)
-                        ? scene_target(&scene->scene, source, path)
-                        : 0;
-    return found ? found - 1 : MXG_NONE;
+    struct text_word rest = value_of(scene, primitive, name, &source), path;
+    size_t num = 0;
+    for (; !usda_is(rest, "None") && usda_next_item(&rest, &path); num++)
+        if (out && num < capacity)
+            out[num] = scene_number(scene_target(&scene->scene, source, path));
+    return num;
 }
 
 char mxg_scene_up_axis(const mxg_scene *scene)

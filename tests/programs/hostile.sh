@@ -38,4 +38,47 @@ for name in $'a\nb' 'x;touch pwned;y' 'a=b' 'a|b'; do
     check "check: '$name.mtlx' leaves no depfile" test ! -e f.d
     rm -r "in"
 done
+
+# Stages and meshes of others, through mxgen-render.
+render=$(dirname "$mxgen")/mxgen-render
+if [ -x "$render" ]; then
+    mkdir -p stage/inside secret && cd stage || exit 1
+    python3 "$here/hostile_stages.py" . ../secret
+    mkfifo fifo.bin
+    material M | sed 's|</materialx>|<look name="L"><materialassign name="a" material="M" geom="/"/></look>&|' >look.mtlx
+    fails() { # ID FILE LIMIT...: an error of this kind, in seconds and with little memory
+        local id=$1 file=$2
+        shift 2
+        (ulimit -v 8000000; exits 1 timeout 60 "$mxgen" bind look.mtlx --stage "$file" "$@") && grep -q "\[$id\]" err
+    }
+    for file in nan_*.gltf deep.gltf deeper.gltf deep.dae deep.json.gltf expo.gltf fifo.gltf; do check "$file is an error" fails bad-mesh "$file"; done
+    check 'a whole mesh is bound' exits 0 "$mxgen" bind look.mtlx --stage whole.gltf --sandbox
+    for file in outside.gltf missing.gltf link.gltf outside.obj; do
+        check "$file: --sandbox refuses it" fails bad-mesh "$file" --sandbox
+        check "$file: the message is the same for all" grep -q "it is outside the folders that documents may read" err
+    done
+    check 'without --sandbox it is read' exits 0 "$mxgen" bind look.mtlx --stage outside.gltf
+    check 'an include root is read' exits 0 "$mxgen" bind look.mtlx --stage outside.gltf --sandbox --include-root ../secret
+    check '--max-file-size holds for files of a mesh' fails bad-mesh large.gltf --max-file-size 1
+    for file in dome.usda dome_missing.usda; do
+        check "$file: --sandbox refuses it" exits 1 "$render" look.mtlx --stage "$file" --sandbox -o p.png
+        check "$file: the message is the same for all" grep -q "it is outside the folders that documents may read" err
+    done
+    check '--mesh has the same sandbox' exits 1 "$render" look.mtlx --mesh outside.gltf --sandbox -o p.png
+    check '--mesh: the message is the same' grep -q "it is outside the folders that documents may read" err
+    for file in instances.usda visits.usda ops.usda rotate.usda index.usda; do
+        check "$file is an error" eval '(ulimit -v 8000000; exits 1 timeout 60 "$render" look.mtlx --stage "$file" -o p.png) && grep -q "\[bad-geometry\]" err'
+    done
+    # a killed command takes its renderer with it
+    "$mxgen" bind look.mtlx --stage "$PWD/slow.obj" >/dev/null 2>&1 &
+    command=$!
+    for _ in $(seq 100); do child=$(pgrep -P $command mxgen-render) && break; sleep 0.05; done
+    check 'the stage is read by another program' test -n "$child"
+    kill -9 $command
+    wait $command 2>/dev/null
+    check 'it ends with its parent' eval '(for _ in $(seq 100); do [ -e /proc/$child ] || exit 0; sleep 0.05; done; exit 1)'
+    cd ..
+else
+    skip 'mxgen-render is not built'
+fi
 finish hostile
