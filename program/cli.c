@@ -372,10 +372,16 @@ bool cli_options_apply(const struct cli *cli, const char *const *targets, size_t
     return true;
 }
 
+enum { DEFAULT_MIB = 256 }; /* of the library */
+
 size_t cli_max_file_size(const struct cli *cli)
 {
-    enum { DEFAULT_MIB = 256 }; /* of the library */
     return cli->max_file_size ? cli->max_file_size : DEFAULT_MIB;
+}
+
+size_t cli_max_output_size(const struct cli *cli)
+{
+    return cli->max_output_size ? cli->max_output_size : DEFAULT_MIB;
 }
 
 /* Includes are relative to the current folder. */

@@ -83,8 +83,9 @@ bool cli_has_budget(const struct cli *cli);
  */
 mxg_document *cli_load(struct cli *cli, const char *path);
 
-/* The limit of the size of an input file, in MiB. */
+/* The limits of the size of an input file, and of a shader or another output, in MiB. */
 size_t cli_max_file_size(const struct cli *cli);
+size_t cli_max_output_size(const struct cli *cli);
 
 /* The target by its name, or by MaterialX's; prints that there is none, and which there are. */
 bool cli_find_target(const char *name, size_t len, mxg_target *out);

@@ -93,8 +93,7 @@ static aiReturn seek(struct aiFile *file, size_t offset, enum aiOrigin origin)
 {
     static const int whence[] = {
         [aiOrigin_SET] = SEEK_SET, [aiOrigin_CUR] = SEEK_CUR, [aiOrigin_END] = SEEK_END};
-    bool good = origin <= aiOrigin_END
-                && fseek(stream_of(file), (long)offset, whence[origin]) == 0;
+    bool good = origin <= aiOrigin_END && fseek(stream_of(file), (long)offset, whence[origin]) == 0;
     return good ? aiReturn_SUCCESS : aiReturn_FAILURE;
 }
 

@@ -19,7 +19,7 @@ struct import_files {
     const mxg_context *context;
     const char *path; /* that the user names; it may be a link to anywhere */
     struct aiFileIO io;
-    char fault[200];       /* why the first refused file was refused; "": none was */
+    char fault[200]; /* why the first refused file was refused; "": none was */
     unsigned num_opened;
     uint64_t size, data_before; /* bytes of the files; of the program's data before */
 };

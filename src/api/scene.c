@@ -45,7 +45,8 @@ size_t mxg_slot_decode(const char *identifiers, char *buffer, size_t capacity)
 static void init_scene(void *arg)
 {
     mxg_scene *scene = arg;
-    scene_init(&scene->scene, &scene->object.arena);
+    uint32_t limit = scene->object.context->xml_limits.max_elements;
+    scene_init(&scene->scene, limit ? limit : 16000000, &scene->object.arena);
 }
 
 mxg_status mxg_scene_create(mxg_context *context, mxg_scene **out_scene)
@@ -184,7 +185,7 @@ static prim_id add_given(mxg_scene *scene, const mxg_primitive *given)
         diag_add(diags, DIAG_ID_bad_path, (struct diag_place){0},
                  arena_strndup(diags->arena, name.bytes, name.len),
                  "has a parent that the scene does not have");
-    if (!is_known || !scene_check_name(name, (struct diag_place){0}, diags))
+    if (!is_known || !scene_check_name(&scene->scene, given->parent + 1, name, diags))
         return 0;
     prim_id added = scene_add_below(&scene->scene, given->parent + 1, name.bytes, name.len);
     if (type.len)

@@ -39,13 +39,36 @@ for name in $'a\nb' 'x;touch pwned;y' 'a=b' 'a|b'; do
     rm -r "in"
 done
 
+# Scenes that multiply.
+material M | sed 's|</materialx>|<look name="L"><materialassign name="a" material="M" geom="/"/></look>&|' >scene.mtlx
+stage() { printf '#usda 1.0\n%s\n' "$1" >stage.usda; }
+refused() { # ID OPTION...
+    local id=$1
+    shift
+    (ulimit -v 4000000; exits 1 timeout 60 "$mxgen" bind scene.mtlx --stage stage.usda "$@") && grep -q "\[$id\]" err
+}
+stage "$(echo 'class "c0" { def Mesh "m" {} }'; for i in $(seq 40); do echo "class \"c$i\" { def \"a\" (references = </c$((i - 1))>) {}
+def \"b\" (references = </c$((i - 1))>) {} }"; done; echo 'def "r" (references = </c40>) {}')"
+check 'references that multiply are an error' refused usda-size
+stage "$(for _ in $(seq 1001); do printf 'def Xform "d"\n{\n'; done; for _ in $(seq 1001); do echo '}'; done)"
+check 'deep prims are an error' refused usda-syntax
+stage "$(for i in $(seq 100); do echo "def Mesh \"m$i\" { float p = 1 }"; done)"
+check 'the limit of elements holds for a stage' refused too-many-elements --max-elements 100
+printf '/a%s\n' $(seq 100) >stage.txt
+check 'the limit of elements holds for a list' eval 'exits 1 "$mxgen" bind scene.mtlx --stage stage.txt --max-elements 50 && grep -q "\[scene-size\]" err'
+printf '/%s' $(seq 1001) >stage.txt
+check 'a deep path is an error' eval 'exits 1 "$mxgen" bind scene.mtlx --stage stage.txt && grep -q "\[bad-path\]" err'
+(path=$(printf '/level%s' $(seq 500)); for i in $(seq 500); do echo "$path/$i"; done) >stage.txt
+check 'the limit of outputs holds for layers' eval 'exits 1 "$mxgen" bind scene.mtlx --stage stage.txt --max-output-size 1 --json big.json && grep -q "\[output-limit\]" err && [ ! -e big.json ]'
+check 'the limit of outputs holds for bindings.json' eval 'exits 1 "$mxgen" scene.mtlx --stage stage.txt --max-output-size 1 -o stacks && grep -q "\[output-limit\]" err && [ ! -e stacks/bindings.json ]'
+
 # Stages and meshes of others, through mxgen-render.
 render=$(dirname "$mxgen")/mxgen-render
 if [ -x "$render" ]; then
     mkdir -p stage/inside secret && cd stage || exit 1
     python3 "$here/hostile_stages.py" . ../secret
     mkfifo fifo.bin
-    material M | sed 's|</materialx>|<look name="L"><materialassign name="a" material="M" geom="/"/></look>&|' >look.mtlx
+    cp ../scene.mtlx look.mtlx
     fails() { # ID FILE LIMIT...: an error of this kind, in seconds and with little memory
         local id=$1 file=$2
         shift 2
