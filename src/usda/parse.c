@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /* Prims, properties and metadata (the grammar of OpenUSD's text format). */
+#include "usda/text.h"
 #include "usda/usda.h"
 
 #include <assert.h>
@@ -329,18 +330,6 @@ static bool read_specifier(struct parser *p, uint8_t *out)
     return false;
 }
 
-/* True if names of prims may be this string: a USD identifier. */
-static bool is_identifier(struct text_word name)
-{
-    bool good = name.len && !(name.bytes[0] >= '0' && name.bytes[0] <= '9');
-    for (size_t i = 0; i < name.len && good; i++) {
-        char c = name.bytes[i];
-        good = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9')
-               || c == '_' || (c & 0x80);
-    }
-    return good;
-}
-
 static void read_prim(struct parser *p, uint8_t specifier)
 {
     struct usda_prim prim = {.specifier = specifier, .line = p->token.line};
@@ -349,7 +338,7 @@ static void read_prim(struct parser *p, uint8_t specifier)
         prim.type = word_of(p->token);
         next(p);
     }
-    if (p->token.kind != USDA_STRING || !is_identifier(usda_unquoted(word_of(p->token))))
+    if (p->token.kind != USDA_STRING || !usda_is_identifier(usda_unquoted(word_of(p->token))))
         fail(p, "the name of a prim in quotes");
     if (p->failed)
         return;

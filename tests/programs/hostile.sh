@@ -62,6 +62,59 @@ check 'a deep path is an error' eval 'exits 1 "$mxgen" bind scene.mtlx --stage s
 check 'the limit of outputs holds for layers' eval 'exits 1 "$mxgen" bind scene.mtlx --stage stage.txt --max-output-size 1 --json big.json && grep -q "\[output-limit\]" err && [ ! -e big.json ]'
 check 'the limit of outputs holds for bindings.json' eval 'exits 1 "$mxgen" scene.mtlx --stage stage.txt --max-output-size 1 -o stacks && grep -q "\[output-limit\]" err && [ ! -e stacks/bindings.json ]'
 
+# Names in USD.
+name='M&gt;&#10;    asset x = @evil@&#10;    rel y = &lt;/Q&quot;\'
+printf '<materialx version="1.39"><surface name="s" type="surfaceshader"/><surfacematerial name="%s" type="material"><input name="surfaceshader" type="surfaceshader" nodename="s"/></surfacematerial>
+<look name="L"><materialassign name="a" material="%s" geom="/"/></look></materialx>' "$name" "$name" >usd.mtlx
+printf '%s\n' /a '/b" (references = @evil.usd@) {}' '/b_(references = @evil.usd@) {}' '/1' /é >usd.txt
+check 'bind --usda writes hostile names' exits 0 "$mxgen" bind usd.mtlx --stage usd.txt --usda usd.usda
+check 'a warning tells that names are changed' grep -q '\[usda-loss\]' err
+check 'names of USD are identifiers' eval 'sed "s/\"\(\\\\.\|[^\"\\]\)*\"//g" usd.usda >bare && ! grep -q "@" bare && [ "$(grep -c "^def " usd.usda)" -eq 5 ]'
+check 'the stage can be read' exits 0 "$mxgen" bind --stage usd.usda scene.mtlx --look L
+
+# Files that are written.
+material M | sed 's/"surfaceshader" type="surfaceshader"/"surfaceshader"   type="surfaceshader"/' >wide.mtlx
+sed 's/1.39/1.38/' wide.mtlx >old.mtlx
+for verb in format upgrade; do
+    cp wide.mtlx kept.mtlx && [ $verb = format ] || cp old.mtlx kept.mtlx
+    chmod 640 kept.mtlx && ln -f kept.mtlx twin.mtlx && ln -sf kept.mtlx link.mtlx
+    check "$verb -i of a link with another name" exits 0 "$mxgen" $verb -i link.mtlx
+    check "$verb -i: the link stays" test -L link.mtlx
+    check "$verb -i: the names share the file" test kept.mtlx -ef twin.mtlx
+    check "$verb -i: the mode stays" test "$(stat -c %a kept.mtlx)" = 640
+    check "$verb -i: the text is new" eval '! grep -q "   type" twin.mtlx && "$mxgen" $verb --check twin.mtlx'
+    rm twin.mtlx && cp wide.mtlx kept.mtlx && chmod 604 kept.mtlx && [ $verb = format ] || cp old.mtlx kept.mtlx
+    check "$verb -i: a single file keeps its mode, too" eval '"$mxgen" $verb -i link.mtlx && [ "$(stat -c %a kept.mtlx)" = 604 ] && [ -L link.mtlx ]'
+    rm -f kept.mtlx link.mtlx
+done
+check 'nothing else is left' eval '[ -z "$(find . -name "*.tmp*")" ]'
+printf '<?xml version="1.0"?>\n<materialx version="1.37">\n\n<aov name="a" type="color3"/>\n\n<!-- x -->\n\n<shader name="b"/>\n\n<material name="m"/>\n\n<opgraph name="o"/>\n\n</materialx>\n' >blank.mtlx
+check 'upgrades of old elements' exits 0 "$mxgen" upgrade -i blank.mtlx
+check 'an upgraded document is upgraded' exits 0 "$mxgen" upgrade --check blank.mtlx
+check 'an upgraded document is formatted' exits 0 "$mxgen" format --check blank.mtlx
+if unshare -rm true 2>/dev/null; then
+    mkdir small
+    cat >full.sh <<'X'
+mount -t tmpfs -o size=48k none small && cd small && cp ../wide.mtlx keep.mtlx && ln keep.mtlx twin.mtlx || exit 77
+head -c 100000 /dev/zero >filler 2>/dev/null
+before=$(md5sum <keep.mtlx)
+"$1" ../scene.mtlx -o . >out 2>../err; echo $? >../codes
+"$1" format -i keep.mtlx 2>>../err; echo $? >>../codes
+"$1" bind ../scene.mtlx --stage ../usd.txt --json layers.json 2>>../err; echo $? >>../codes
+"$1" check ../scene.mtlx --no-compile --json report.json 2>>../err; echo $? >>../codes
+"$1" ../scene.mtlx --stdout -q >/dev/full 2>>../err; echo $? >>../codes
+[ "$(md5sum <keep.mtlx)" = "$before" ] && ls >../names
+X
+    check 'a disk is filled' unshare -rm bash full.sh "$mxgen"
+    check 'a full disk fails each command' eval '[ "$(sort -u codes)" = 1 ] && [ "$(wc -l <codes)" -eq 5 ]'
+    check 'the reason is told' eval '[ "$(grep -c "No space left on device" err)" -ge 5 ]'
+    check 'no part of a file is left' eval '[ "$(grep -v "^out$" names | tr "\n" " ")" = "filler keep.mtlx twin.mtlx " ]'
+    touch M.frag.1.tmp M.frag.2.tmp
+    check 'process 1 writes beside old temporaries' unshare -rpf "$mxgen" scene.mtlx -o .
+else
+    skip 'no user namespaces'
+fi
+
 # Stages and meshes of others, through mxgen-render.
 render=$(dirname "$mxgen")/mxgen-render
 if [ -x "$render" ]; then
