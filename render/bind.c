@@ -213,12 +213,28 @@ static bool store_public(struct bind *bind, uint32_t object, const mxg_variable 
     return true;
 }
 
+/* Notes that an object lacks what the shader reads, so that its default stands in. */
+static void note_lack(struct bind *bind, uint32_t object, const mxg_variable *variable)
+{
+    static const char family[] = "geomprop";
+    size_t len = sizeof family - 1;
+    bool is_property = strncmp(variable->semantic, family, len) == 0;
+    if (bind->num_lacking++)
+        return;
+    bind->lacking = bind->objects[object].path;
+    bind->lacked = is_property ? variable->semantic + len + 1 : variable->name + 2;
+}
+
 static void store_private(struct bind *bind, uint32_t object, const mxg_variable *variable)
 {
     float values[MAX_COMPONENTS] = {0};
-    if (!scene_uniform(bind->scene, &bind->objects[object], variable->name, values)
-        && variable->num_values)
+    char buffer[SCENE_MAX_NAME];
+    const char *name = scene_name(variable->name, variable->semantic, buffer);
+    bool is_there = scene_uniform(bind->scene, &bind->objects[object], name, values) != 0;
+    if (!is_there && variable->num_values)
         memcpy(values, variable->values, sizeof values);
+    if (!is_there && name == buffer)
+        note_lack(bind, object, variable);
     if (strcmp(variable->name, "u_numActiveLightSources") == 0
         && values[0] > (float)bind->max_lights)
         values[0] = (float)bind->max_lights;
@@ -376,6 +392,8 @@ static struct draw_texture document_texture(struct bind *bind, uint32_t index,
 {
     struct image *image = &bind->images[bind->num_images];
     const char *file = bind_user_value(bind, variable);
+    if (strncmp(variable->semantic, "geomprop_", 9) == 0)
+        note_lack(bind, 0, variable);
     if (!file && bind->program)
         file = variable->file;
     bool is_checker = false,
@@ -437,6 +455,8 @@ static bool fill_attribute(struct bind *bind, uint32_t object, const mxg_variabl
                            const struct shape *shape)
 {
     const struct scene_object *from = &bind->objects[object];
+    char buffer[SCENE_MAX_NAME];
+    const char *name = scene_name(variable->name, variable->semantic, buffer);
     uint32_t count = from->mesh.num_vertices;
     float(*data)[4] = calloc(count, sizeof *data);
     if (!data)
@@ -448,11 +468,8 @@ static bool fill_attribute(struct bind *bind, uint32_t object, const mxg_variabl
                            INTEGER_ATTRIBUTE};
         for (uint32_t k = 0; !has_stand_in && k < 4; ++k)
             values[k] = k < variable->num_values ? variable->values[k] : 0.0f;
-        if (!has_stand_in && !scene_attribute(from, variable->name, i, values) && i == 0
-            && !bind->num_lacking++) {
-            bind->lacking = from->path;
-            bind->lacked = variable->name;
-        }
+        if (!has_stand_in && !scene_attribute(from, name, i, values) && i == 0)
+            note_lack(bind, object, variable);
         for (uint32_t k = 0; k < 4; ++k) {
             int32_t integer = (int32_t)values[k];
             if (shape->is_float)

@@ -58,7 +58,7 @@ struct bind {
     struct image images[DRAW_MAX_TEXTURES]; /* images for the textures */
     uint32_t num_images;
     uint32_t **orders;            /* by object: triangles from far to near, if the shader blends */
-    const char *lacking, *lacked; /* an object of a stage, and an attribute that it lacks */
+    const char *lacking, *lacked; /* an object, and a property that it lacks: "st" */
     uint32_t num_lacking;         /* how many there are */
     uint32_t max_lights;          /* array length in the shader */
     const char *id;               /* id of the error: "missing-texture"… */

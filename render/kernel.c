@@ -119,11 +119,13 @@ void kernel_values(const struct kernel *kernel, uint32_t object, float (*out)[4]
     const struct scene_object *from = &kernel->bind->objects[object];
     mxg_variable variable;
     for (uint32_t a = 0; find_attribute(kernel, a, &variable); ++a) {
-        char name[128];
-        snprintf(name, sizeof name, "i_%s", variable.name);
+        char buffer[SCENE_MAX_NAME], own[SCENE_MAX_NAME];
+        snprintf(own, sizeof own, "i_%s", variable.name);
+        const char *name = scene_name(own, variable.semantic, buffer);
         for (uint32_t i = 0; i < from->mesh.num_indices; ++i, ++out) {
             memset(*out, 0, sizeof *out);
-            scene_attribute(from, name, from->mesh.indices[i], *out);
+            if (!scene_attribute(from, name, from->mesh.indices[i], *out))
+                memcpy(*out, variable.values, variable.num_values * sizeof **out);
         }
     }
 }

@@ -35,7 +35,8 @@ static bool copy_primvar(const struct primvar *from, struct primvar *to)
 
 static bool copy_object(const struct scene_object *from, struct scene_object *to)
 {
-    *to = (struct scene_object){.world = from->world, .path = from->path};
+    *to = (struct scene_object){
+        .world = from->world, .path = from->path, .names_texcoords = from->names_texcoords};
     to->primvars = calloc(from->num_primvars + 1, sizeof *to->primvars);
     bool good =
         to->primvars && mesh_allocate(&to->mesh, from->mesh.num_vertices, from->mesh.num_indices);

@@ -223,12 +223,6 @@ static void init_bind(const struct painting *painting, const struct part *part,
                                 .checker = painter->checker};
 }
 
-/* "texcoord_1", "dirt": an attribute as materials name it. */
-static const char *property_of(const char *attribute)
-{
-    return strncmp(attribute, "i_geomprop_", 11) == 0 ? attribute + 11 : attribute + 2;
-}
-
 static void tell_warning(struct painter *painter, const struct bind *bind,
                          const struct subject *subject)
 {
@@ -237,7 +231,7 @@ static void tell_warning(struct painter *painter, const struct bind *bind,
             &painter->cli->report, "missing-primvar",
             "'%s' has no primvar for '%s', which '%s' reads%s; its default, or 0, stands "
             "in",
-            bind->lacking, property_of(bind->lacked), subject->element,
+            bind->lacking, bind->lacked, subject->element,
             bind->num_lacking > 1 ? " (and others)" : "");
     tell_textures(painter, bind, subject); /* checkers replace them */
     if (bind->reason[0])                   /* a texture has bad pixels */

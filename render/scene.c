@@ -51,8 +51,22 @@ static const float *frame_attribute(const struct vertex *vertex, const char *nam
     return NULL;
 }
 
+const char *scene_name(const char *name, const char *semantic, char buffer[SCENE_MAX_NAME])
+{
+    static const char *const families[][2] = {{"geomprop:", "i_geomprop_"},
+                                              {"geomprop_", "u_geomprop_"}};
+    for (size_t i = 0; i < sizeof families / sizeof *families; ++i) {
+        size_t len = strlen(families[i][0]);
+        if (strncmp(semantic, families[i][0], len) != 0)
+            continue;
+        snprintf(buffer, SCENE_MAX_NAME, "%s%s", families[i][1], semantic + len);
+        return buffer;
+    }
+    return name;
+}
+
 /* The name of the primvar that an attribute reads: "st1" of "i_texcoord_1". */
-static void primvar_name(const char *attribute, char out[64])
+static void primvar_name(const char *attribute, char out[SCENE_MAX_NAME])
 {
     static const struct {
         const char *prefix, *first, *others;
@@ -62,18 +76,18 @@ static void primvar_name(const char *attribute, char out[64])
         if (strncmp(attribute, families[i].prefix, len) != 0)
             continue;
         bool is_first = strcmp(attribute + len, "0") == 0;
-        snprintf(out, 64, "%s%s", is_first ? families[i].first : families[i].others,
+        snprintf(out, SCENE_MAX_NAME, "%s%s", is_first ? families[i].first : families[i].others,
                  is_first ? "" : attribute + len);
         return;
     }
-    snprintf(out, 64, "%s",
+    snprintf(out, SCENE_MAX_NAME, "%s",
              strncmp(attribute, "i_geomprop_", 11) == 0 ? attribute + 11 : attribute);
 }
 
 static bool primvar_attribute(const struct scene_object *object, const char *name, uint32_t index,
                               float out[4])
 {
-    char wanted[64];
+    char wanted[SCENE_MAX_NAME];
     primvar_name(name, wanted);
     for (uint32_t i = 0; i < object->num_primvars; ++i) {
         const struct primvar *primvar = &object->primvars[i];
@@ -86,6 +100,17 @@ static bool primvar_attribute(const struct scene_object *object, const char *nam
     return false;
 }
 
+/* Names of texture coordinates in USD, Blender and glTF's importers, Houdini, and Maya. */
+static bool is_name_of_texcoords(const char *name)
+{
+    static const char *const names[] = {"i_geomprop_st", "i_geomprop_UVMap", "i_geomprop_uv",
+                                        "i_geomprop_map1"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; ++i)
+        if (strcmp(name, names[i]) == 0)
+            return true;
+    return false;
+}
+
 bool scene_attribute(const struct scene_object *object, const char *name, uint32_t index,
                      float out[4])
 {
@@ -95,12 +120,15 @@ bool scene_attribute(const struct scene_object *object, const char *name, uint32
         memcpy(out, frame, 3 * sizeof *out);
         return true;
     }
-    if (strcmp(name, "i_texcoord_0") == 0) {
+    bool is_first = strcmp(name, "i_texcoord_0") == 0;
+    if (!is_first && object->path && primvar_attribute(object, name, index, out))
+        return true;
+    if (is_first || (object->names_texcoords && is_name_of_texcoords(name))) {
         memcpy(out, vertex->texcoord, sizeof vertex->texcoord);
         return true;
     }
     if (object->path)
-        return primvar_attribute(object, name, index, out);
+        return false;
     for (size_t i = 0; i < sizeof linear_attributes / sizeof *linear_attributes; ++i) {
         const struct linear *a = &linear_attributes[i];
         if (a->is_family ? strncmp(name, a->name, strlen(a->name)) != 0
@@ -208,12 +236,9 @@ unsigned scene_uniform(const struct scene *scene, const struct scene_object *obj
     if (strcmp(name, "u_envMatrix") == 0)
         return store_matrix(scene->environment, out);
     if (object->path && strncmp(name, "u_geomprop_", 11) == 0) {
-        float value[4] = {0};
-        char attribute[80];
+        char attribute[SCENE_MAX_NAME];
         snprintf(attribute, sizeof attribute, "i_%s", name + 2);
-        primvar_attribute(object, attribute, 0, value);
-        memcpy(out, value, sizeof value);
-        return 4;
+        return primvar_attribute(object, attribute, 0, out) ? 4 : 0;
     }
     if (strncmp(name, "u_geomprop_", 11) == 0) {
         for (size_t i = 0; i < 4; ++i)

@@ -31,10 +31,12 @@ struct scene_object {
     struct primvar *primvars;
     uint32_t num_primvars;
     /*
-     * its path on a stage: attributes that it lacks are 0. NULL: an object for comparisons, with
-     * stand-ins for all attributes
+     * its path on a stage, or its name: shaders get their defaults for attributes that it lacks.
+     * NULL: an object for comparisons, with stand-ins for all attributes
      */
     const char *path;
+    /* the texture coordinates are also the properties st, UVMap, uv and map1 */
+    bool names_texcoords;
 };
 
 /* The types of lights, as numbers of --lights. */
@@ -93,6 +95,12 @@ bool object_refine(const struct scene_object *object, uint32_t wanted, struct sc
 /* Moves the camera, and points it at the target. */
 void scene_set_camera(struct scene *scene, const double eye[3], const double target[3]);
 
+/*
+ * The name under which the scene has a variable: "i_geomprop_st" for the semantic "geomprop:st",
+ * which several variables may have; else its own. It may be written to the buffer, cut off there.
+ */
+enum { SCENE_MAX_NAME = 256 };
+const char *scene_name(const char *name, const char *semantic, char buffer[SCENE_MAX_NAME]);
 /*
  * Attribute "i_texcoord_0", "i_geomprop_st"… of a vertex; keeps other components. false: the object
  * has no such attribute.

@@ -139,6 +139,8 @@ bool studio_open(const struct studio *studio, double aspect, struct scene *scene
     bool good = open_mesh(studio, &mesh, out_made, fault);
     good = good && studio_open_light(studio, (struct image){0}, scene, fault);
     scene->object.mesh = mesh;
+    scene->object.path = studio->mesh;
+    scene->object.names_texcoords = true;
     if (good)
         studio_aim(studio, aspect, 0, scene);
     return good;

@@ -5,7 +5,9 @@
  *
  * A stream that OSL provides is an expression; any other is a parameter with lockgeom=0, which
  * renderers fill from the primitive variable of that name. Streams of two and four components are
- * arrays in the parameter list, because renderers do not fill structs.
+ * arrays in the parameter list, because renderers do not fill structs. A property whose name no
+ * parameter can have, such as one with a second default, is a local that asks for it by
+ * getattribute (OSL specification, "Renderer state and message passing").
  */
 #include "generators/osl/osl.h"
 
@@ -62,6 +64,17 @@ static const char *primitive_name(const char *stream)
                                                      : stream;
 }
 
+/* The name of the geometric property that a variable stands for; NULL: it stands for none. */
+static const char *property_of(const struct osl *osl, const struct shader_variable *variable)
+{
+    static const char family[] = "geomprop";
+    const char *semantic = variable->semantic ? text_of(osl, variable->semantic) : "";
+    size_t len = sizeof family - 1;
+    bool is_property =
+        strncmp(semantic, family, len) == 0 && (semantic[len] == ':' || semantic[len] == '_');
+    return is_property ? semantic + len + 1 : NULL;
+}
+
 /*
  * True for the closure result of surfaces and volumes, which is OSL's variable Ci. Closures of AOVs
  * are parameters.
@@ -77,8 +90,10 @@ static unsigned array_length(const struct shader_variable *variable)
     return variable->type == IR_TYPE_VEC2 ? 2 : variable->type == IR_TYPE_VEC4 ? 4 : 0;
 }
 
-static bool is_stream(const struct shader_variable *variable)
+static bool is_stream(const struct osl *osl, const struct shader_variable *variable)
 {
+    if (variable->block == BLOCK_TEXTURES)
+        return property_of(osl, variable) != NULL;
     return variable->block == BLOCK_VERTEX_DATA
            || (shader_block_has_uniforms((enum shader_block)variable->block)
                && variable->block != BLOCK_PUBLIC_UNIFORMS);
@@ -101,11 +116,11 @@ void osl_name_interface(struct osl *osl)
         const struct shader_variable *variable = spell_interface_variable(osl->spell, i);
         const char *name = text_of(osl, variable->name);
         const struct known_row *known = known_of(osl, variable);
-        if (is_stream(variable) && !known && array_length(variable))
+        if (is_stream(osl, variable) && !known && array_length(variable))
             osl->arrays[i] =
                 names_unique(&spell->names, primitive_name(name), strlen(primitive_name(name)))
                     .text;
-        else if (is_stream(variable) && !known)
+        else if (is_stream(osl, variable) && !known)
             name = primitive_name(name);
         if (is_result(osl, variable))
             name = "Ci";
@@ -113,7 +128,7 @@ void osl_name_interface(struct osl *osl)
             name = known->text;
         else if (osl->arrays[i])
             name = value_name(spell, name);
-        else if (is_stream(variable))
+        else if (is_stream(osl, variable))
             name = names_unique(&spell->names, primitive_name(name), strlen(primitive_name(name)))
                        .text;
         spell->variables[spell->shader->interface.used.items[i]] =
@@ -217,7 +232,7 @@ static void write_inputs(struct osl *osl, enum shader_block block, unsigned *cou
     struct spell *spell = osl->spell;
     for (uint32_t i = 0; i < spell->shader->interface.used.len; i++) {
         const struct shader_variable *variable = spell_interface_variable(osl->spell, i);
-        if (variable->block != block || !osl_is_read(osl, variable))
+        if (variable->block != block || !osl_is_read(osl, variable) || is_stream(osl, variable))
             continue;
         next_parameter(spell, count);
         SPELL(spell, type_name(osl, variable), " ", text_of(osl, variable->name), " = ");
@@ -226,23 +241,49 @@ static void write_inputs(struct osl *osl, enum shader_block block, unsigned *cou
     }
 }
 
+/* The variable that a renderer fills: the array of a stream of two or four components, or itself.
+ */
+static const char *filled_name(const struct osl *osl, uint32_t place)
+{
+    const struct spell *spell = osl->spell;
+    return osl->arrays[place] ? osl->arrays[place]
+                              : spell->variables[spell->shader->interface.used.items[place]].text;
+}
+
+/* The property that a local asks for, because no parameter has its name; NULL: it is no local. */
+static const char *asked_property(const struct osl *osl, uint32_t place)
+{
+    const struct shader_variable *variable = spell_interface_variable(osl->spell, place);
+    const char *property = is_stream(osl, variable) ? property_of(osl, variable) : NULL;
+    return property && strcmp(property, filled_name(osl, place)) != 0 ? property : NULL;
+}
+
+/* "float st[2] = {0, 0}" */
+static void write_stream(struct osl *osl, uint32_t place)
+{
+    struct spell *spell = osl->spell;
+    const struct shader_variable *variable = spell_interface_variable(spell, place);
+    SPELL(spell, array_length(variable) ? "float" : type_name(osl, variable), " ",
+          filled_name(osl, place));
+    if (array_length(variable)) {
+        spell_text(spell, "[");
+        spell_number(spell, array_length(variable));
+        spell_text(spell, "]");
+    }
+    spell_text(spell, " = ");
+    write_default(osl, variable);
+}
+
 static void write_stream_parameters(struct osl *osl, unsigned *count)
 {
     struct spell *spell = osl->spell;
     for (uint32_t i = 0; i < spell->shader->interface.used.len; i++) {
         const struct shader_variable *variable = spell_interface_variable(osl->spell, i);
-        if (!is_stream(variable) || !osl_is_read(osl, variable) || known_of(osl, variable))
+        if (!is_stream(osl, variable) || !osl_is_read(osl, variable) || known_of(osl, variable)
+            || asked_property(osl, i))
             continue;
         next_parameter(spell, count);
-        if (array_length(variable)) {
-            SPELL(spell, "float ", osl->arrays[i], "[");
-            spell_number(spell, array_length(variable));
-            spell_text(spell, "] = ");
-        } else {
-            SPELL(spell, type_name(osl, variable), " ",
-                  spell->variables[spell->shader->interface.used.items[i]].text, " = ");
-        }
-        write_default(osl, variable);
+        write_stream(osl, i);
         spell_text(spell, " [[ int lockgeom = 0 ]]");
     }
 }
@@ -271,27 +312,48 @@ void osl_write_parameters(struct osl *osl)
     spell_text(osl->spell, count ? ")\n" : "()\n");
 }
 
+static void write_vector(struct osl *osl, uint32_t place)
+{
+    struct spell *spell = osl->spell;
+    const struct shader_variable *variable = spell_interface_variable(spell, place);
+    SPELL(spell, osl_type(osl, variable->type), "(");
+    for (unsigned k = 0; k < array_length(variable); k++) {
+        SPELL(spell, k ? ", " : "", osl->arrays[place], "[");
+        spell_number(spell, k);
+        spell_text(spell, "]");
+    }
+    spell_text(spell, ");\n");
+}
+
+static void write_question(struct osl *osl, uint32_t place, const char *property)
+{
+    struct spell *spell = osl->spell;
+    spell_text(spell, "    ");
+    write_stream(osl, place);
+    spell_text(spell, ";\n    getattribute(");
+    text_json_string(spell->out, property, strlen(property));
+    SPELL(spell, ", ", filled_name(osl, place), ");\n");
+}
+
 void osl_write_streams(struct osl *osl)
 {
     struct spell *spell = osl->spell;
     for (uint32_t i = 0; i < spell->shader->interface.used.len; i++) {
         const struct shader_variable *variable = spell_interface_variable(osl->spell, i);
         const struct known_row *known = known_of(osl, variable);
-        const char *name = spell->variables[spell->shader->interface.used.items[i]].text;
+        const char *name = spell->variables[spell->shader->interface.used.items[i]].text,
+                   *property = known ? NULL : asked_property(osl, i);
         bool is_local = known ? known->kind == EXPRESSION : array_length(variable) > 0;
-        if (!is_stream(variable) || !osl_is_read(osl, variable) || !is_local)
+        if (!is_stream(osl, variable) || !osl_is_read(osl, variable))
+            continue;
+        if (property)
+            write_question(osl, i, property);
+        if (!is_local)
             continue;
         SPELL(spell, "    ", type_name(osl, variable), " ", name, " = ");
-        if (known) {
+        if (known)
             SPELL(spell, known->text, ";\n");
-            continue;
-        }
-        SPELL(spell, osl_type(osl, variable->type), "(");
-        for (unsigned k = 0; k < array_length(variable); k++) {
-            SPELL(spell, k ? ", " : "", osl->arrays[i], "[");
-            spell_number(spell, k);
-            spell_text(spell, "]");
-        }
-        spell_text(spell, ");\n");
+        else
+            write_vector(osl, i);
     }
 }

@@ -118,12 +118,13 @@ vec3 mx_surface_gradient(vec3 normal, vec3 bumped)
     return (d * normal - bumped) / max(1e-8, abs(d));
 }
 
-// The surface gradient of the normal that a tile stores, whose tangents turn with the tile.
+// The surface gradient of the normal that a tile stores, which turns with the tile: clockwise in texture space.
 vec3 mx_hextile_gradient(sampler2D file, mx_HexTile tile, float strength, bool flip_g, vec3 normal, vec3 tangent, vec3 bitangent)
 {
     vec3 texel = textureGrad(file, tile.uv, tile.dx, tile.dy).xyz;
     vec3 n = 2.0 * vec3(texel.x, flip_g ? 1.0 - texel.y : texel.y, texel.z) - 1.0;
-    vec3 slope = mx_rotate3d(tangent, -tile.rotation, normal) * n.x + mx_rotate3d(bitangent, -tile.rotation, normal) * n.y;
+    vec2 lean = mx_rotate2d(n.xy, tile.rotation);
+    vec3 slope = tangent * lean.x + bitangent * lean.y;
     return mx_surface_gradient(normal, normalize(slope * strength + normal * n.z));
 }
 

@@ -463,7 +463,7 @@ vec2 mx_worley_vec2(vec3 p, float jitter, int style) { return mx_worley_vec3(p, 
 // A random number between low and high for a signal: the cell noise of (signal, seed).
 float mx_randomfloat(float signal, float low, float high, float seed)
 {
-    return clamp(low + mx_cellnoise_float(vec2(signal, seed)) * (high - low), low, high);
+    return clamp(low + mx_cellnoise_float(vec2(signal, seed)) * (high - low), min(low, high), max(low, high));
 }
 
 // A random colour between low and high for a signal, by hue, saturation and value.
@@ -484,7 +484,7 @@ const float MX_JITTER_TURN = 90000.0; // degrees
 float mx_fit(float value, float low, float high, bool limit)
 {
     float fitted = low + value * (high - low);
-    return limit ? clamp(fitted, low, high) : fitted;
+    return limit ? clamp(fitted, min(low, high), max(low, high)) : fitted;
 }
 
 float mx_unifiednoise2d(vec2 texcoord, vec2 freq, vec2 offset, float jitter, float outmin, float outmax, bool clampoutput,

@@ -239,8 +239,21 @@ const char *build_uniform_fault(const struct builder *b, str_id name, ir_type_id
 ir_ref build_constant(struct builder *b, const struct port *port, str_id text, elem_id element);
 /* The default of an input: default value, geometric property, or absent (0 for closures). */
 ir_ref build_default(struct builder *b, const struct port *port);
-/* The value of a geometric property by name: defaultgeomprop. */
-ir_ref build_geomprop(struct builder *b, str_id name, doc_type type, struct diag_place place);
+/* property.c */
+struct property {
+    str_id name; /* "st" */
+    ir_type_id type;
+    /* of a geometry without the property; NULL: 0, or no file */
+    const struct ir_value *value;          /* of the type */
+    const struct shader_variable *texture; /* for the type SAMPLER */
+};
+/* A property of the geometry: a stream, or for booleans and textures a uniform. */
+ir_ref build_property(struct builder *b, const struct property *property);
+
+/* The value of a geometric property. */
+ir_ref build_geomprop(struct builder *b, const struct geomprop *prop);
+/* The same for the attribute `defaultgeomprop` of an input of a type; poison after a report. */
+ir_ref build_default_geomprop(struct builder *b, elem_id element, doc_type type);
 /*
  * The value of a constant, or the initial value of a uniform, for compile-time decisions; false for
  * other nodes. The uniform is then listed as compiled in, because another value may decide

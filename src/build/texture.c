@@ -155,7 +155,7 @@ static uint32_t variable_for(struct builder *b, uint32_t index,
     for (uint32_t i = index; i < b->shader->interface.variables.len; i++) {
         const struct shader_variable *v = &b->shader->interface.variables.items[i];
         if (v->block == BLOCK_TEXTURES && v->path == wanted->path && v->file == wanted->file
-            && reads_alike(v, wanted))
+            && v->semantic == wanted->semantic && reads_alike(v, wanted))
             return i;
     }
     return shader_add_variable(b->shader, wanted);

@@ -98,15 +98,6 @@ static ir_ref geomprop_arg(struct builder *b, const struct geomprop *prop, const
     return build_default(b, port);
 }
 
-static ir_ref property_stream(struct builder *b, const struct geomprop *prop)
-{
-    struct text name;
-    text_init(&name, b->arena);
-    text_fmt(&name, "geomprop_%s", build_text(b, prop->name));
-    return shader_stream(b->shader, str_intern(b->shader->strings, name.data, name.len),
-                         build_type(b, prop->type));
-}
-
 /*
  * A property with a node is this node, with the property's space and index. Any other property is a
  * stream of its name, or in a network the node that reads it.
@@ -116,7 +107,8 @@ static ir_ref make_geomprop(struct builder *b, const struct geomprop *prop)
     uint32_t nodedef = prop->nodedef;
     assert(nodedef == LIBRARY_NONE || nodedef < library_num_nodedefs(b->lib));
     if (nodedef == LIBRARY_NONE && !b->recorder)
-        return property_stream(b, prop);
+        return build_property(
+            b, &(struct property){.name = prop->name, .type = build_type(b, prop->type)});
     if (nodedef == LIBRARY_NONE)
         nodedef = build_definition_of(b, "geompropvalue", library_type_name(b->lib, prop->type));
     if (nodedef == LIBRARY_NONE)
@@ -133,21 +125,22 @@ static ir_ref make_geomprop(struct builder *b, const struct geomprop *prop)
     return results[0];
 }
 
-ir_ref build_geomprop(struct builder *b, str_id name, doc_type type, struct diag_place place)
+ir_ref build_geomprop(struct builder *b, const struct geomprop *prop)
 {
     assert(b->geomprops.len % 2 == 0);
     for (uint32_t i = 0; i < b->geomprops.len; i += 2)
-        if (b->geomprops.items[i] == name)
+        if (b->geomprops.items[i] == prop->name)
             return b->geomprops.items[i + 1];
-    const struct geomprop *prop = library_geomprop(b->lib, name);
-    if (!prop) {
-        diag_add(b->diags, DIAG_ID_unknown_geomprop, place, build_text(b, name), "");
-        return ir_poison(b->graph, build_type(b, type));
-    }
     ir_ref value = make_geomprop(b, prop);
-    vec_push(b->arena, &b->geomprops, name);
+    vec_push(b->arena, &b->geomprops, prop->name);
     vec_push(b->arena, &b->geomprops, value);
     return value;
+}
+
+ir_ref build_default_geomprop(struct builder *b, elem_id element, doc_type type)
+{
+    const struct geomprop *prop = library_default_geomprop(b->lib, element, type, b->diags);
+    return prop ? build_geomprop(b, prop) : ir_poison(b->graph, build_type(b, type));
 }
 
 static ir_ref zero(struct builder *b, ir_type_id type)
@@ -159,8 +152,7 @@ static ir_ref zero(struct builder *b, ir_type_id type)
 ir_ref build_default(struct builder *b, const struct port *port)
 {
     if (port->geomprop)
-        return build_geomprop(b, port->geomprop, port->type,
-                              doc_attr_place(build_doc(b), port->element, STR_defaultgeomprop));
+        return build_default_geomprop(b, port->element, port->type);
     ir_type_id type = build_type(b, port->type);
     if (type == IR_TYPE_STRING)
         return ir_const_string(b->graph, port->value);

@@ -160,71 +160,6 @@ static bool build_bitangent(void *user_data, mxg_build *build, mxg_ref *results)
     return build_axis(build, "bitangentObject", "bitangentWorld", true, results);
 }
 
-/* Records the value that hosts bind if the geometry lacks the property. */
-static void record_default(mxg_build *build, uint32_t index)
-{
-    struct builder *b = build->b;
-    assert(index < b->shader->interface.variables.len);
-    struct shader_variable *variable = &b->shader->interface.variables.items[index];
-    struct ir_value value;
-    if (!variable->has_default && build_initial(b, dynamic_arg(build, STR_default), &value)
-        && value.type == variable->type) {
-        variable->has_default = true;
-        variable->value = value;
-    }
-}
-
-static ir_ref geomprop_uniform(mxg_build *build, const char *name)
-{
-    struct builder *b = build->b;
-    struct text full;
-    text_init(&full, b->arena);
-    text_fmt(&full, "u_geomprop_%s", name);
-    str_id id = str_intern(b->shader->strings, full.data, full.len);
-    uint32_t variable = shader_private_uniform(b->shader, id, build->type, 0);
-    if (build->type == IR_TYPE_BOOL)
-        record_default(build, variable);
-    return ir_build(b->graph, build->type == IR_TYPE_SAMPLER ? IR_TEXTURE : IR_UNIFORM, build->type,
-                    variable, NULL, 0);
-}
-
-static ir_ref geomprop_stream(mxg_build *build, const char *name)
-{
-    struct builder *b = build->b;
-    struct text full;
-    uint32_t attribute;
-    text_init(&full, b->arena);
-    text_fmt(&full, "geomprop_%s", name);
-    ir_ref stream =
-        shader_stream(b->shader, str_intern(b->shader->strings, full.data, full.len), build->type);
-    if (ir_get(b->graph, stream)->op == IR_STREAM) {
-        record_default(build, ir_get(b->graph, stream)->attr);
-        if (shader_attribute(b->shader, ir_get(b->graph, stream)->attr, &attribute))
-            record_default(build, attribute);
-    }
-    return stream;
-}
-
-/*
- * Booleans cannot be interpolated, and strings cannot be streams: hosts set them per object (as in
- * MaterialX 1.39).
- */
-static bool build_geompropvalue(void *user_data, mxg_build *build, mxg_ref *results)
-{
-    mxg_value name = MXG_INIT(mxg_value);
-    (void)user_data;
-    if (!mxg_build_require_constant(build, "geomprop", &name))
-        return false;
-    if (!name.text[0] || build->type == IR_TYPE_STRING) { /* the node names no property */
-        results[0] = mxg_build_input(build, "default");
-        return true;
-    }
-    bool is_uniform = build->type == IR_TYPE_BOOL || build->type == IR_TYPE_SAMPLER;
-    results[0] = code_issue(build, is_uniform ? geomprop_uniform(build, name.text)
-                                              : geomprop_stream(build, name.text));
-    return true;
-}
-
 static bool blur(void *user_data, mxg_build *build, mxg_ref *results)
 {
     (void)user_data;
@@ -441,11 +376,11 @@ static const struct dynamic_node {
     {STR_tangent, build_tangent, OF(VEC3), {{STR_space, OF(STRING)}, {STR_index, OF(INT)}}},
     {STR_bitangent, build_bitangent, OF(VEC3), {{STR_space, OF(STRING)}, {STR_index, OF(INT)}}},
     {STR_geompropvalue,
-     build_geompropvalue,
+     dynamic_geomprop,
      VECTORS | OF(BOOL) | OF(INT),
      {{STR_geomprop, OF(STRING)}, {STR_default, SAME}}},
     {STR_geompropvalueuniform,
-     build_geompropvalue,
+     dynamic_geomprop,
      OF(STRING) | OF(SAMPLER),
      {{STR_geomprop, OF(STRING)}, {STR_default, SAME}}},
     {STR_blur,

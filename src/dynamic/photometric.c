@@ -183,6 +183,16 @@ static unsigned used_length(const float table[LENGTH])
     return length;
 }
 
+/* From the viewer to the surface; poison after a report. */
+static ir_ref view_direction(struct builder *b)
+{
+    static const char name[] = "Vworld";
+    const struct geomprop *view = library_geomprop(b->lib, str_intern_z(b->shader->strings, name));
+    if (!view)
+        diag_add(b->diags, DIAG_ID_unknown_geomprop, (struct diag_place){0}, name, "");
+    return view ? build_geomprop(b, view) : ir_poison(b->graph, IR_TYPE_VEC3);
+}
+
 /* The table's value at the angle between the normal and the viewer. */
 static ir_ref look_up(struct builder *b, const float table[LENGTH], ir_ref normal)
 {
@@ -194,8 +204,7 @@ static ir_ref look_up(struct builder *b, const float table[LENGTH], ir_ref norma
         entries[i] = ir_const_float(g, table[i]);
     ir_ref array =
         ir_construct(g, (ir_type_id)ir_add_array(g, IR_TYPE_FLOAT, length), entries, length);
-    ir_ref from_viewer = build_geomprop(b, str_intern_z(b->shader->strings, "Vworld"),
-                                        DOC_TYPE_vector3, (struct diag_place){0});
+    ir_ref from_viewer = view_direction(b);
     ir_ref cosine =
         ir_op1(g, IR_NEG, ir_op2(g, IR_DOT, ir_op1(g, IR_NORMALIZE, normal), from_viewer));
     ir_ref least = ir_const_float(g, -1.0f), most = ir_const_float(g, 1.0f);

@@ -403,6 +403,13 @@ int library_resolve_interface(const struct library *lib, elem_id asker, uint32_t
                               const struct binding *binding, const struct port *port,
                               struct diag_list *diags);
 
+/*
+ * geomprop.c: the property of an input's attribute `defaultgeomprop`, which it has. NULL after a
+ * report: no layer defines it, or it is not of the type.
+ */
+const struct geomprop *library_default_geomprop(const struct library *lib, elem_id element,
+                                                doc_type type, struct diag_list *diags);
+
 /* colorspace.c */
 
 /* The canonical name of a colour space: `space` itself, or the name that it is an alias of. */

@@ -95,6 +95,11 @@ static void check_element(struct validate *v, elem_id element)
              && (kind == KIND_OUTPUT || (kind == KIND_INPUT && is_connected(v->doc, element))))
         check_connection(v, element,
                          library_type(v->lib, doc_attr_value(v->doc, element, STR_type)));
+    if (kind == KIND_INPUT && parent != KIND_NODEDEF && !is_connected(v->doc, element)
+        && doc_attr_value(v->doc, element, STR_defaultgeomprop))
+        library_default_geomprop(v->lib, element,
+                                 library_type(v->lib, doc_attr_value(v->doc, element, STR_type)),
+                                 v->diags);
     validate_attributes_of(v, element);
     validate_declaration(v, element);
 }

@@ -130,6 +130,8 @@ static void check_declared_input(struct validate *v, elem_id input)
         report(v, input, "has a defaultgeomprop, which needs the type vector2 or vector3");
     else if (takes_geometry && has(v, input, STR_value))
         report(v, input, "has a value and a defaultgeomprop; keep one of them");
+    else if (takes_geometry)
+        library_default_geomprop(v->lib, input, type, v->diags);
 }
 
 /* "NodeDef Output Elements" */

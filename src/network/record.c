@@ -54,14 +54,16 @@ static uint32_t *at(struct arena *arena, uint32_t **items, uint32_t *len, uint32
 
 /*
  * True for strings, which choose code; for nodes with dynamic implementations, which read streams
- * by index; for profiles; and for the uniform inputs of nodes in C, which may read their values.
+ * by index or have a default for geometry without a property; for profiles; and for the uniform
+ * inputs of nodes in C, which may read their values.
  */
 static bool is_settled(const struct builder *b, const struct implementation *impl,
                        const struct port *port)
 {
     ir_type_id type = library_type_ir(b->lib, port->type);
     bool is_read_by_code =
-        impl->kind == IMPL_DYNAMIC && (port->name == STR_index || type == IR_TYPE_SAMPLER);
+        impl->kind == IMPL_DYNAMIC
+        && (port->name == STR_index || port->name == STR_default || type == IR_TYPE_SAMPLER);
     bool is_uniform =
         impl->kind == IMPL_CODE && port->flags & PORT_UNIFORM && build_is_number(type);
     return type == IR_TYPE_STRING || is_read_by_code || is_uniform;

@@ -463,13 +463,16 @@ static bool is_flat(ir_type_id type)
     return scalar_of(type) == IR_TYPE_INT;
 }
 
-/* 1 + the first attribute with this semantic; 0: none. */
-static uint32_t find_attribute(const struct shader *shader, str_id semantic)
+/* 1 + the first attribute with this semantic and type; 0: none. */
+static uint32_t find_attribute(const struct shader *shader, str_id semantic, ir_type_id type)
 {
     uint32_t hash = hash_pair(semantic, 0);
-    for (uint32_t at = hash, found; (found = table_next(&shader->interface.attributes, hash, &at));)
-        if (shader->interface.variables.items[found - 1].semantic == semantic)
+    for (uint32_t at = hash, found;
+         (found = table_next(&shader->interface.attributes, hash, &at));) {
+        const struct shader_variable *v = &shader->interface.variables.items[found - 1];
+        if (v->semantic == semantic && v->type == type)
             return found;
+    }
     return 0;
 }
 
@@ -484,7 +487,7 @@ static ir_ref attribute(struct shader *shader, const struct stream_row *row, con
         variable.semantic = *suffix ? stream_semantic(shader, row, suffix)
                                     : concat(shader, row->attribute, ":", "object");
         index = bind(shader, &variable);
-        if (!find_attribute(shader, variable.semantic))
+        if (!find_attribute(shader, variable.semantic, type))
             table_add(&shader->interface.attributes, shader->arena, hash_pair(variable.semantic, 0),
                       index + 1);
     }
@@ -494,7 +497,8 @@ static ir_ref attribute(struct shader *shader, const struct stream_row *row, con
 bool shader_attribute(const struct shader *shader, uint32_t stream, uint32_t *out_index)
 {
     assert(stream < shader->interface.variables.len);
-    uint32_t found = find_attribute(shader, shader->interface.variables.items[stream].semantic);
+    const struct shader_variable *variable = &shader->interface.variables.items[stream];
+    uint32_t found = find_attribute(shader, variable->semantic, variable->type);
     *out_index = found - 1;
     return found != 0;
 }

@@ -284,7 +284,7 @@ struct shader_interface {
     uint32_t max_lights; /* elements of u_lightData */
     VEC(struct shader_binding) bindings;
     struct table binding_table;            /* by name, to indices + 1 */
-    struct table attributes;               /* by semantic, to the first variable of app data + 1 */
+    struct table attributes;               /* by semantic, to variables of app data + 1 */
     struct table names;                    /* names to variables + 1 */
     struct name_set taken[NUM_BLOCKS + 1]; /* by scope */
     struct name_rules naming;              /* of variables, functions and types */

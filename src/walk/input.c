@@ -44,11 +44,18 @@ static ir_ref literal(struct builder *b, const struct instance *scope, elem_id o
     return build_unit_conversion(b, value, element, port);
 }
 
+static str_id own_geomprop(const struct builder *b, elem_id element)
+{
+    return element ? doc_attr_value(build_doc(b), element, STR_defaultgeomprop) : 0;
+}
+
 static ir_ref unset(struct builder *b, const struct instance *scope, elem_id owner,
                     const struct port *port, elem_id element, bool outermost)
 {
     if (build_type(b, port->type) == IR_TYPE_SAMPLER)
         return texture(b, scope, owner, port, element, port->name);
+    if (own_geomprop(b, element))
+        return build_default_geomprop(b, element, port->type);
     ir_ref value = build_default(b, port);
     if (!value || port->geomprop || ir_type_of(b->graph, value) >= IR_NUM_TYPES)
         return value;
@@ -92,6 +99,23 @@ static ir_ref interface_arg(struct builder *b, struct instance *scope, const str
 }
 
 /*
+ * True after a warning: the input has a geometric property, so its value does not count. All
+ * MaterialX generators do so, and materials depend on it. The port's property is one of its node.
+ */
+static bool ignores_value(struct builder *b, elem_id node, elem_id owner, const struct port *port,
+                          elem_id element)
+{
+    str_id name = own_geomprop(b, element);
+    if (!name && owner == node)
+        name = port->geomprop;
+    if (!name)
+        return false;
+    diag_add(b->diags, DIAG_ID_geomprop_literal, doc_attr_place(build_doc(b), element, STR_value),
+             build_text(b, doc_element(build_doc(b), element)->name), build_text(b, name));
+    return true;
+}
+
+/*
  * The value at the end of a chain of connections. In the document it exists once for all readers,
  * and belongs to the element with the value attribute. This can be an interface input further up;
  * the host changes that one.
@@ -109,14 +133,7 @@ static ir_ref end_of_chain(struct builder *b, struct instance *scope, elem_id no
     assert(!slot || element - scope->first < scope->num_slots);
     if (slot && *slot >= SLOT_RESULTS)
         return b->results.items[*slot - SLOT_RESULTS];
-    bool says_value = binding->kind == BIND_VALUE;
-    /* all MaterialX generators do so, and materials depend on it */
-    if (says_value && port->geomprop && owner == node) {
-        diag_add(b->diags, DIAG_ID_geomprop_literal,
-                 doc_attr_place(build_doc(b), element, STR_value), build_text(b, port->name),
-                 build_text(b, port->geomprop));
-        says_value = false;
-    }
+    bool says_value = binding->kind == BIND_VALUE && !ignores_value(b, node, owner, port, element);
     b->reader.node = node;
     b->reader.input = port->name;
     ir_ref value = says_value ? literal(b, scope, owner, port, element, outermost)

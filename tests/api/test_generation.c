@@ -60,7 +60,9 @@ static void test_targets(const struct bench *b)
                 size_t size = 0;
                 const char *source = mxg_result_source(result, (mxg_stage)stage, &size);
                 /* nothing is displaced */
-                bool is_optional = strcmp(target.name, "osl") == 0 && stage == MXG_STAGE_VERTEX;
+                bool has_closures =
+                         strcmp(target.name, "osl") == 0 || strcmp(target.name, "mdl") == 0,
+                     is_optional = has_closures && stage == MXG_STAGE_VERTEX;
                 REQUIRE((source != NULL) == (target.stage_suffix[stage] != NULL && !is_optional));
                 REQUIRE(!source || strlen(source) == size);
             }
@@ -221,6 +223,107 @@ static void test_user_interface(void)
     result = generate(&b, "osl", "G", MXG_OK);
     REQUIRE(
         strstr(mxg_result_source(result, MXG_STAGE_PIXEL, NULL), "id = 3 [[ int lockgeom = 0 ]]"));
+    mxg_result_destroy(result);
+    bench_close(&b);
+}
+
+/* Readers of a property: each default that differs has a variable of its own. */
+static const char properties[] =
+    "<materialx version=\"1.39\">\n"
+    "  <geompropdef name=\"bare\" type=\"vector2\"/>\n"
+    "  <nodegraph name=\"G\">\n"
+    "    <input name=\"b\" type=\"vector2\" defaultgeomprop=\"bare\"/>\n"
+    "    <UsdPrimvarReader name=\"a\" type=\"float\"><input name=\"varname\" type=\"string\" "
+    "value=\"fade\"/><input name=\"fallback\" type=\"float\" value=\"0.25\"/></UsdPrimvarReader>\n"
+#define READER(name, type, prop, value) \
+    "    <geompropvalue name=\"" name "\" type=\"" type "\"><input name=\"geomprop\" " \
+    "type=\"string\" value=\"" prop "\"/><input name=\"default\" type=\"" type "\" " \
+    "value=\"" value "\"/></geompropvalue>\n"
+    READER("c", "float", "fade", "0.75") READER("d", "float", "fade", "0.25") READER(
+        "e", "vector2", "fade",
+        "0.5, 1") READER("f", "integer", "fade",
+                         "7") READER("g", "boolean", "on",
+                                     "true") READER("h", "boolean", "on",
+                                                    "false") READER("i", "float", "a b",
+                                                                    "0.5") READER("j", "vector2",
+                                                                                  "bare", "0, 0")
+#undef READER
+        "    <geompropvalueuniform name=\"k\" type=\"filename\"><input name=\"geomprop\" "
+        "type=\"string\" "
+        "value=\"picture\"/><input name=\"default\" type=\"filename\" value=\"wood.png\"/>"
+        "</geompropvalueuniform>\n"
+        "    <convert name=\"fi\" type=\"float\"><input name=\"in\" type=\"integer\" "
+        "nodename=\"f\"/></convert>\n"
+        "    <convert name=\"gf\" type=\"float\"><input name=\"in\" type=\"boolean\" "
+        "nodename=\"g\"/></convert>\n"
+        "    <convert name=\"hf\" type=\"float\"><input name=\"in\" type=\"boolean\" "
+        "nodename=\"h\"/></convert>\n"
+        "    <image name=\"kf\" type=\"float\"><input name=\"file\" type=\"filename\" "
+        "nodename=\"k\"/></image>\n"
+        "    <dotproduct name=\"ef\" type=\"float\"><input name=\"in1\" type=\"vector2\" "
+        "nodename=\"e\"/><input name=\"in2\" type=\"vector2\" interfacename=\"b\"/></dotproduct>\n"
+        "    <magnitude name=\"jf\" type=\"float\"><input name=\"in\" type=\"vector2\" "
+        "nodename=\"j\"/></magnitude>\n"
+        "    <combine4 name=\"x\" type=\"vector4\"><input name=\"in1\" type=\"float\" "
+        "nodename=\"a\"/><input name=\"in2\" type=\"float\" nodename=\"c\"/><input name=\"in3\" "
+        "type=\"float\" nodename=\"d\"/><input name=\"in4\" type=\"float\" "
+        "nodename=\"ef\"/></combine4>\n"
+        "    <combine4 name=\"y\" type=\"vector4\"><input name=\"in1\" type=\"float\" "
+        "nodename=\"fi\"/><input name=\"in2\" type=\"float\" nodename=\"gf\"/><input name=\"in3\" "
+        "type=\"float\" nodename=\"hf\"/><input name=\"in4\" type=\"float\" "
+        "nodename=\"i\"/></combine4>\n"
+        "    <combine2 name=\"z2\" type=\"vector2\"><input name=\"in1\" type=\"float\" "
+        "nodename=\"jf\"/><input name=\"in2\" type=\"float\" nodename=\"kf\"/></combine2>\n"
+        "    <convert name=\"z\" type=\"vector4\"><input name=\"in\" type=\"vector2\" "
+        "nodename=\"z2\"/></convert>\n"
+        "    <add name=\"xy\" type=\"vector4\"><input name=\"in1\" type=\"vector4\" "
+        "nodename=\"x\"/><input name=\"in2\" type=\"vector4\" nodename=\"y\"/></add>\n"
+        "    <add name=\"xyz\" type=\"vector4\"><input name=\"in1\" type=\"vector4\" "
+        "nodename=\"xy\"/><input name=\"in2\" type=\"vector4\" nodename=\"z\"/></add>\n"
+        "    <output name=\"out\" type=\"vector4\" nodename=\"xyz\"/></nodegraph>\n"
+        "</materialx>\n";
+
+/* How many variables of the host have the semantic, the type and the default. */
+static unsigned num_properties(const mxg_result *result, const char *semantic, const char *type,
+                               float value)
+{
+    unsigned num = 0;
+    for (uint32_t i = 0; i < mxg_result_num_variables(result); i++) {
+        mxg_variable v = MXG_INIT(mxg_variable);
+        REQUIRE_EQ(mxg_result_variable(result, i, &v), MXG_OK);
+        num += v.block != MXG_BLOCK_VERTEX_DATA && strcmp(v.semantic, semantic) == 0
+               && strcmp(v.type, type) == 0 && (v.num_values ? v.values[0] : 0.0f) == value;
+    }
+    return num;
+}
+
+static void test_properties(void)
+{
+    static const struct {
+        const char *semantic, *type;
+        float value;
+    } wanted[] = {{"geomprop:fade", "float", 0.25f},      {"geomprop:fade", "float", 0.75f},
+                  {"geomprop:fade", "vec2", 0.5f},        {"geomprop:fade", "int", 7.0f},
+                  {"geomprop_on", "bool", 1.0f},          {"geomprop_on", "bool", 0.0f},
+                  {"geomprop:a b", "float", 0.5f},        {"geomprop:bare", "vec2", 0.0f},
+                  {"geomprop_picture", "sampler2D", 0.0f}};
+    static const char *const texts[] = {
+        "int on = 1 [[ int lockgeom = 0 ]]",
+        "float fade = 0.25 [[ int lockgeom = 0 ]]",
+        "string picture = \"wood.png\" [[ int lockgeom = 0 ]]",
+        "    float fade_2 = 0.75;\n    getattribute(\"fade\", fade_2);\n",
+        "    float fade_3[2] = {0.5, 1};\n    getattribute(\"fade\", fade_3);\n",
+        "    float a_b = 0.5;\n    getattribute(\"a b\", a_b);\n"};
+    struct bench b;
+    bench_open(&b, properties);
+    mxg_result *result = generate(&b, "glsl", "G", MXG_OK);
+    for (size_t i = 0; i < sizeof wanted / sizeof *wanted; i++)
+        REQUIRE_EQ(num_properties(result, wanted[i].semantic, wanted[i].type, wanted[i].value), 1);
+    REQUIRE(strstr(mxg_result_reflection_json(result, NULL), "\"file\": \"wood.png\""));
+    mxg_result_destroy(result);
+    result = generate(&b, "osl", "G", MXG_OK);
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
+        REQUIRE(strstr(mxg_result_source(result, MXG_STAGE_PIXEL, NULL), texts[i]));
     mxg_result_destroy(result);
     bench_close(&b);
 }
@@ -645,6 +748,7 @@ int main(void)
     test_elements();
     test_tokens();
     test_user_interface();
+    test_properties();
     test_network();
     test_options_of_targets();
     test_lifetimes();

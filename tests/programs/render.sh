@@ -445,4 +445,53 @@ check 'a light sends nothing behind its cone' test "$("$mean_ratio" away.exr glo
 check 'an unknown member of a light fails the run' exits 1 "$render" light.mtlx -e S --lights bulb=1 --set 'u_lightData[0].colour=1' -o x.png
 check 'the error of an unknown member is no-uniform' grep -q no-uniform err
 
+# Properties of the geometry: a mesh has texture coordinates under the names that programs give them; the default of a node stands in for
+# what it lacks, for each reader its own.
+tile wood.ppm '255 0 0'
+read_property() { echo "<$1 name='$2' type='$3'><input name='$4' type='string' value='$5'/>${7:+<input name='$6' type='$3' value='$7'/>}</$1>"; }
+{
+    echo '<materialx version="1.39" colorspace="lin_rec709">'
+    read_property UsdPrimvarReader usd float varname fade fallback 0.25
+    read_property geompropvalue own float geomprop fade default 0.75
+    read_property geompropvalue shown boolean geomprop shown default true
+    read_property geompropvalueuniform picture filename geomprop picture default wood.ppm
+    echo '<texcoord name="first" type="vector2"/><convert name="off0" type="float"><input name="in" type="boolean" nodename="shown"/></convert>'
+    last=0
+    for name in st UVMap uv map1; do
+        read_property geompropvalue "$name" vector2 geomprop "$name" default '7, 7'
+        echo "<distance name='d$name' type='float'><input name='in1' type='vector2' nodename='first'/><input name='in2' type='vector2' nodename='$name'/></distance>
+          <add name='off$((last + 1))' type='float'><input name='in1' type='float' nodename='off$last'/><input name='in2' type='float' nodename='d$name'/></add>"
+        last=$((last + 1))
+    done
+    echo '<image name="i" type="float"><input name="file" type="filename" nodename="picture"/></image>
+      <multiply name="usd_i" type="float"><input name="in1" type="float" nodename="usd"/><input name="in2" type="float" nodename="i"/></multiply>
+      <combine3 name="c" type="color3"><input name="in1" type="float" nodename="usd_i"/><input name="in2" type="float" nodename="own"/><input name="in3" type="float" nodename="off4"/></combine3>
+      <surface_unlit name="M" type="surfaceshader"><input name="emission_color" type="color3" nodename="c"/></surface_unlit></materialx>'
+} >properties.mtlx
+for trace in '' --path-trace; do
+    check "properties are drawn $trace" exits 0 "$render" properties.mtlx -e M -m plane --camera 0,0 --size 8 $trace -o properties.exr
+    check "a property that the mesh lacks is a warning $trace" grep -q "'plane' has no primvar for '[a-z]*', which 'M' reads (and others); .*\[missing-primvar\]" err
+    for channel in R=0.25 G=0.75 B=1; do
+        check "defaults and texture coordinates: $channel $trace" near "$(python3 "$exr" properties.exr ${channel%=*} 0.5 0.5)" ${channel#*=} 0.002
+    done
+done
+
+# A tile that is turned by 90 degrees has its +x downwards, and so has the lean of a normal.
+tile lean.ppm '191 128 238'
+cat >hextile.mtlx <<'X'
+<?xml version="1.0"?>
+<materialx version="1.39" colorspace="lin_rec709">
+  <hextilednormalmap name="h" type="vector3">
+    <input name="file" type="filename" value="lean.ppm"/><input name="rotation" type="float" value="1"/><input name="rotationrange" type="vector2" value="90, 90"/>
+  </hextilednormalmap>
+  <convert name="c" type="color3"><input name="in" type="vector3" nodename="h"/></convert>
+  <add name="above" type="color3"><input name="in1" type="color3" nodename="c"/><input name="in2" type="float" value="1"/></add>
+  <surface_unlit name="M" type="surfaceshader"><input name="emission_color" type="color3" nodename="above"/></surface_unlit>
+</materialx>
+X
+check 'turned tiles are drawn' exits 0 "$render" hextile.mtlx -e M -m plane --camera 0,0 --size 8 -o hextile.exr
+for channel in R=1 G=0.5 B=1.867; do
+    check "normals turn with their tile: $channel" near "$(python3 "$exr" hextile.exr ${channel%=*} 0.5 0.5)" ${channel#*=} 0.01
+done
+
 finish render

@@ -32,17 +32,21 @@ vec2 mx_roughness_dual(vec2 roughness)
 }
 
 // Linear Rec. 709 of a black body at a temperature in kelvins (Kang et al. 2002, "Design of Advanced Color
-// Temperature Control System for HDTV Applications").
+// Temperature Control System for HDTV Applications"), which holds from 1667 K. Below it a fit to Planck's law through
+// the CIE 1931 observer, whose colours differ by 0.03 at most.
 vec3 mx_blackbody(float temperature)
 {
     const mat3 XYZ_TO_RGB = mat3(3.2406, -0.9689, 0.0557, -1.5372, 1.8758, -0.2040, -0.4986, 0.0415, 1.0570);
     float kelvin = clamp(temperature, 800.0, 25000.0);
     float t = 1000.0 / kelvin;
     vec4 powers = vec4(t * t * t, t * t, t, 1.0);
-    float x = dot(powers, kelvin < 4000.0 ? vec4(-0.2661239, -0.2343580, 0.8776956, 0.179910)
-                                          : vec4(-3.0258469, 2.1070379, 0.2226347, 0.240390));
+    float x = dot(powers, kelvin < 1667.0   ? vec4(0.1925412, -0.7066381, 0.9731853, 0.1935682)
+                          : kelvin < 4000.0 ? vec4(-0.2661239, -0.2343580, 0.8776956, 0.179910)
+                                            : vec4(-3.0258469, 2.1070379, 0.2226347, 0.240390));
     vec4 cubic = vec4(3.0817580, -5.87338670, 3.75112997, -0.37001483);
-    if (kelvin < 2222.0)
+    if (kelvin < 1667.0)
+        cubic = vec4(6.2622599, -14.2638258, 9.7298432, -1.6707199);
+    else if (kelvin < 2222.0)
         cubic = vec4(-1.1063814, -1.34811020, 2.18555832, -0.20219683);
     else if (kelvin < 4000.0)
         cubic = vec4(-0.9549476, -1.37418593, 2.09137015, -0.16748867);

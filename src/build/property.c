@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * Properties of the geometry by name: variables that hosts fill. A variable also has the value of a
+ * geometry without the property, so readers with different values have a variable each, and these
+ * share the semantic, by which hosts find the property.
+ */
+#include "build/build_priv.h"
+
+/* "geomprop_fade" for the first variable; the others have a name that no property can have. */
+static str_id asked_name(struct builder *b, const struct property *property, bool is_stream,
+                         unsigned number)
+{
+    struct text name;
+    text_init(&name, b->arena);
+    text_fmt(&name, "%sgeomprop_%s", is_stream ? "" : "u_", build_text(b, property->name));
+    if (number > 1)
+        text_fmt(&name, ":%u", number);
+    return str_intern(b->shader->strings, name.data, name.len);
+}
+
+static str_id semantic_of(struct builder *b, const struct property *property, bool is_stream)
+{
+    struct text name;
+    text_init(&name, b->arena);
+    text_fmt(&name, "geomprop%s%s", is_stream ? ":" : "_", build_text(b, property->name));
+    return str_intern(b->shader->strings, name.data, name.len);
+}
+
+/* True if a variable has the same value for a geometry without the property; 0 without any. */
+static bool has_value(const struct shader_variable *variable, const struct property *property)
+{
+    if (property->type == IR_TYPE_SAMPLER)
+        return variable->file == (property->texture ? property->texture->file : 0);
+    for (unsigned i = 0; i < ir_type_info(property->type)->components; i++) {
+        uint32_t mine = property->value ? property->value->w[i].u : 0;
+        if (mine != (variable->has_default ? variable->value.w[i].u : 0))
+            return false;
+    }
+    return true;
+}
+
+static void set_value(struct builder *b, uint32_t index, const struct property *property,
+                      str_id semantic)
+{
+    struct shader_variable *variable = &b->shader->interface.variables.items[index];
+    if (property->texture) {
+        struct shader_variable of_property = *variable;
+        *variable = *property->texture;
+        variable->name = of_property.name;
+        variable->has_reader = false;
+    }
+    variable->semantic = semantic;
+    if (property->value) {
+        variable->has_default = true;
+        variable->value = *property->value;
+    }
+}
+
+static ir_ref variable_of(struct builder *b, const struct property *property, bool is_stream,
+                          unsigned number)
+{
+    str_id name = asked_name(b, property, is_stream, number);
+    return is_stream
+               ? shader_stream(b->shader, name, property->type)
+               : shader_read(b->shader, shader_private_uniform(b->shader, name, property->type, 0));
+}
+
+ir_ref build_property(struct builder *b, const struct property *property)
+{
+    bool is_stream = property->type != IR_TYPE_BOOL && property->type != IR_TYPE_SAMPLER;
+    str_id semantic = semantic_of(b, property, is_stream);
+    for (unsigned number = 1;; number++) {
+        uint32_t known = b->shader->interface.variables.len, attribute;
+        ir_ref ref = variable_of(b, property, is_stream, number);
+        const struct ir_node *node = ir_get(b->graph, ref);
+        bool is_variable =
+            node->op == IR_STREAM || node->op == IR_UNIFORM || node->op == IR_TEXTURE;
+        if (!is_variable) /* of another type */
+            continue;
+        uint32_t index = node->attr;
+        if (index < known && !has_value(&b->shader->interface.variables.items[index], property))
+            continue;
+        if (index < known)
+            return ref;
+        if (is_stream && shader_attribute(b->shader, index, &attribute))
+            set_value(b, attribute, property, semantic);
+        set_value(b, index, property, semantic);
+        return shader_read(b->shader, index);
+    }
+}
