@@ -197,35 +197,6 @@ float mx_ggx_smith_lobe(const vec2 roughness, const mat3 frame, const vec3 V, co
         alpha);
 }
 
-// A body whose medium scatters is seen through nowhere.
-float mx_slab_is_thick(const vec3 color, const vec3 mean_free_path, const float is_body, const float scatters)
-{
-    return max(mean_free_path.x, max(mean_free_path.y, mean_free_path.z)) <= 0.0 || scatters == 0.0
-        && max(color.x, max(color.y, color.z)) <= 0.0 ? 0.0 : is_body;
-}
-
-// Light that arrives at a point of a circle of this curvature by subsurface scattering, where the cosine of the light
-// is cos_l: Burley's normalised diffusion (Christensen 2015) around the circle (after Penner 2011, "Pre-integrated skin
-// shading").
-// Here curvature = 1.0.
-float mx_subsurface_light(const float radius, const float cos_l)
-{
-    float x = max(radius, 1e-6);
-    vec3 bend = (vec3(0.1573, 0.0104, 0.1632) + x * (vec3(0.662, 0.1732, 0.6079) + x * vec3(0.6075, 0.4138, 0.8133)))
-        / (6.2831855 * (0.1602 + x * (0.6652 + x)));
-    return bend.x * cos_l + sqrt(bend.y * bend.y + (bend.z * bend.z - bend.y * bend.y) * (cos_l * cos_l));
-}
-
-// Light that arrives by subsurface scattering, with a radius for each channel.
-// Here curvature = 1.0.
-vec3 mx_subsurface_light(const vec3 radius, const float cos_l)
-{
-    vec3 light = vec3(0.0);
-    for (int i = 0; i < 3; ++i)
-        light[i] = mx_subsurface_light(radius[i], cos_l);
-    return light;
-}
-
 // The angle, over pi, with this sine and cosine; the cosine is not negative. It errs by 2.9e-5 at most.
 float mx_half_turn(const float sine, const float cosine)
 {
@@ -314,6 +285,35 @@ mx_GgxLight mx_ggx_reflected_by_direction(const mx_GgxSamples s, const int i, co
     return mx_GgxLight(mx_filtered_light(s.to_map * l, facet.texels), u_envLightIntensity * s.step * cos_l
         / (s.v.z * length(vec3(l.xy * s.stretch.xy, l.z)) + cos_l * s.reach),
         sqrt(clamp(0.5 * (facet.mirror * facet.cosine), 1e-8, 1.0)));
+}
+
+// A body whose medium scatters is seen through nowhere.
+float mx_slab_is_thick(const vec3 color, const vec3 mean_free_path, const float is_body, const float scatters)
+{
+    return max(mean_free_path.x, max(mean_free_path.y, mean_free_path.z)) <= 0.0 || scatters == 0.0
+        && max(color.x, max(color.y, color.z)) <= 0.0 ? 0.0 : is_body;
+}
+
+// Light that arrives at a point of a circle of this curvature by subsurface scattering, where the cosine of the light
+// is cos_l: Burley's normalised diffusion (Christensen 2015) around the circle (after Penner 2011, "Pre-integrated skin
+// shading").
+// Here curvature = 1.0.
+float mx_subsurface_light(const float radius, const float cos_l)
+{
+    float x = max(radius, 1e-6);
+    vec3 bend = (vec3(0.1573, 0.0104, 0.1632) + x * (vec3(0.662, 0.1732, 0.6079) + x * vec3(0.6075, 0.4138, 0.8133)))
+        / (6.2831855 * (0.1602 + x * (0.6652 + x)));
+    return bend.x * cos_l + sqrt(bend.y * bend.y + (bend.z * bend.z - bend.y * bend.y) * (cos_l * cos_l));
+}
+
+// Light that arrives by subsurface scattering, with a radius for each channel.
+// Here curvature = 1.0.
+vec3 mx_subsurface_light(const vec3 radius, const float cos_l)
+{
+    vec3 light = vec3(0.0);
+    for (int i = 0; i < 3; ++i)
+        light[i] = mx_subsurface_light(radius[i], cos_l);
+    return light;
 }
 
 // Light that the layer of a medium reflects and lets through (`transmitted`), with all orders of scattering, on a way:
@@ -445,7 +445,7 @@ vec3 mx_slab_medium_bsdf_eval(const vec3 color, const float roughness, const vec
 void surface()
 {
     vec3 color = vec3(0.0);
-    // lights: fuzz, second_reflection, reflection, subsurface
+    // lights: fuzz, second_reflection, reflection
     // complex_slab
     float fuzz_weight = clamp(vd.geomprop_fuzz_amount, 0.0, 1.0);
     vec3 V = normalize(u_viewPosition - vd.positionWorld);
@@ -489,14 +489,6 @@ void surface()
     vec2 reflection_albedo = mx_ggx_facing_more(mx_ggx_albedo_fit(reflection_a, reflection_a
         / (reflection_round_lobe.y + reflection_a), reflection_round_lobe.y), reflection_round_lobe.z);
     vec3 reflection_scale = blend * (1.0 / reflection_albedo.x - 1.0) + vec3(1.0);
-    float inside_subsurface_weight = clamp(mx_slab_is_thick(vd.geomprop_diffuse_albedo, vd.geomprop_free_path,
-        vd.geomprop_is_thick, vd.geomprop_is_thick), 0.0, 1.0);
-    vec3 reflection_throughput = max(vec3(1.0) - mix(fresnel_f0, grazing, reflection_albedo.y) * reflection_albedo.x
-        * reflection_scale, 0.0);
-    vec3 inside_weight = fuzz_throughput
-        * mix(reflection_throughput, max(vec3(1.0) - mix(fresnel_f0, grazing, second_reflection_albedo.y)
-        * second_reflection_albedo.x * second_reflection_scale, 0.0), second_reflection_weight);
-    vec3 product = vd.geomprop_steady * inside_weight;
     // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         vec3 L;
@@ -543,24 +535,14 @@ void surface()
                 * (reflection_scale * (fresnel
                 * (reflection_ggx_smith_lobe * ((1.0 - second_reflection_weight) * sum)))));
         }
-        // subsurface
-        if (inside_subsurface_weight > 0.0) {
-            vec3 subsurface_weight = inside_subsurface_weight * (product + inside_weight * choice * power_2);
-            color += light_color * (intensity
-                * (vd.geomprop_diffuse_albedo
-                * (mx_subsurface_light(vd.geomprop_free_path, dot(Nf, L)) * subsurface_weight)));
-        }
     }
     // environment: fuzz
     float cosine = dot(V, N);
     vec3 power_3 = pow(choice_2, vec3(inversesqrt(cosine * cosine + 1.25) * 1.5));
     vec3 part = textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * Nf)), 0.0).xyz;
-    color += fuzz_weight * (vd.geomprop_steady + choice * power_3) * (vd.geomprop_fuzz_color * part)
-        * (sheen_albedo * u_envLightIntensity);
-    // environment: subsurface
-    if (inside_subsurface_weight > 0.0)
-        color += u_envLightIntensity * (inside_subsurface_weight * (product + inside_weight * choice * power_3)
-            * (vd.geomprop_diffuse_albedo * part));
+    if (fuzz_weight > 0.0)
+        color += fuzz_weight * (vd.geomprop_steady + choice * power_3) * (vd.geomprop_fuzz_color * part)
+            * (sheen_albedo * u_envLightIntensity);
     // environment: second_reflection
     vec3 sum = vd.geomprop_steady * fuzz_throughput + fuzz_throughput * choice * power_3;
     if (second_reflection_weight > 0.0) {
@@ -591,9 +573,16 @@ void surface()
             turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
         }
     }
-    // lights: medium
-    bool medium_visible = 1.0 - inside_subsurface_weight > 0.0;
-    vec3 sheet_path = vd.geomprop_free_path * (1.0 - vd.geomprop_is_thick * vd.geomprop_is_thick);
+    // lights: subsurface, medium
+    float subsurface_weight = clamp(mx_slab_is_thick(vd.geomprop_diffuse_albedo, vd.geomprop_free_path,
+        vd.geomprop_is_thick, vd.geomprop_is_thick), 0.0, 1.0);
+    vec3 reflection_throughput = max(vec3(1.0) - mix(fresnel_f0, grazing, reflection_albedo.y) * reflection_albedo.x
+        * reflection_scale, 0.0);
+    vec3 inside_weight = fuzz_throughput
+        * mix(reflection_throughput, max(vec3(1.0) - mix(fresnel_f0, grazing, second_reflection_albedo.y)
+        * second_reflection_albedo.x * second_reflection_scale, 0.0), second_reflection_weight);
+    vec3 product = vd.geomprop_steady * inside_weight;
+    bool medium_visible = 1.0 - subsurface_weight > 0.0;
     // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         vec3 L;
@@ -617,35 +606,48 @@ void surface()
                     -dot(u_lightData[i].direction, spot_light_direction)) : 0.0;
             }
         }
+        // subsurface
+        float cosine_2 = dot(N, L);
+        vec3 fuzz_vector = vec3(inversesqrt(cosine_2 * cosine_2 + 1.25) * 1.5);
+        if (subsurface_weight > 0.0) {
+            vec3 subsurface_product = subsurface_weight
+                * (product + inside_weight * choice * pow(choice_2, fuzz_vector));
+            color += u_lightData[i].color
+                * (intensity * (vd.geomprop_diffuse_albedo
+                * (mx_subsurface_light(vd.geomprop_free_path, dot(Nf, L)) * subsurface_product)));
+        }
         // medium
         if (medium_visible) {
-            float cosine_2 = dot(N, L);
-            vec3 medium_product = (1.0 - inside_subsurface_weight)
-                * (product + vd.geomprop_color * inside_weight
-                * pow(vd.geomprop_decay, vec3(inversesqrt(cosine_2 * cosine_2 + 1.25) * 1.5)));
+            vec3 medium_slab_medium_bsdf_eval = mx_slab_medium_bsdf_eval(vd.geomprop_diffuse_albedo,
+                vd.geomprop_roughness, vd.geomprop_free_path, vd.geomprop_phase_anisotropy, vd.geomprop_normal, V, L);
             color += u_lightData[i].color
-                * (intensity * (mx_slab_medium_bsdf_eval(vd.geomprop_diffuse_albedo, vd.geomprop_roughness, sheet_path,
-                vd.geomprop_phase_anisotropy, vd.geomprop_normal, V, L) * medium_product));
+                * (intensity * (medium_slab_medium_bsdf_eval
+                * ((1.0 - subsurface_weight)
+                * (product + vd.geomprop_color * inside_weight * pow(vd.geomprop_decay, fuzz_vector)))));
         }
     }
+    // environment: subsurface
+    if (subsurface_weight > 0.0)
+        color += u_envLightIntensity * (subsurface_weight * (product + inside_weight * choice * power_3)
+            * (vd.geomprop_diffuse_albedo * part));
     // environment: medium
     if (medium_visible) {
-        bool medium_is_below = max(sheet_path.x, max(sheet_path.y, sheet_path.z)) <= 0.0;
+        bool is_below = max(vd.geomprop_free_path.x, max(vd.geomprop_free_path.y, vd.geomprop_free_path.z)) <= 0.0;
         float way = inversesqrt(c * c + 1.25) * 1.5;
-        vec3 slab_medium_bsdf_albedo = medium_is_below ? vd.geomprop_diffuse_albedo
-            : mx_medium_reflected(vd.geomprop_diffuse_albedo, sheet_path, vd.geomprop_phase_anisotropy, way);
+        vec3 slab_medium_bsdf_albedo = is_below ? vd.geomprop_diffuse_albedo
+            : mx_medium_reflected(vd.geomprop_diffuse_albedo, vd.geomprop_free_path, vd.geomprop_phase_anisotropy, way);
         float square = clamp(scaled_roughness, 0.001, 1.0);
         float chan_gloss = clamp(log2(2.0 / (square * square) - 1.0) / 18.0, 0.0, 1.0);
         float s = clamp(chan_gloss * 2.2 - 0.5, 0.0, 1.0);
         float medium_product = (1.0 - chan_gloss * 1.085) * (1.0 - s * (s * 1.1414));
         vec2 medium_map_point = mx_map_point(normalize(mat3(u_envMatrix)
-            * (medium_is_below ? Nf + V * ((cos_v * (cos_v * 0.5624 - 0.7155) + 0.4353) * medium_product) : Nf)));
+            * (is_below ? Nf + V * ((cos_v * (cos_v * 0.5624 - 0.7155) + 0.4353) * medium_product) : Nf)));
         vec3 medium_light = slab_medium_bsdf_albedo
             * (u_envLightIntensity * textureLod(u_envIrradiance, medium_map_point, 0.0).xyz);
         vec3 slab_medium_bsdf_environment = max(vd.geomprop_diffuse_albedo.x,
             max(vd.geomprop_diffuse_albedo.y, vd.geomprop_diffuse_albedo.z)) <= 0.0 ? vec3(0.0) : medium_light;
         color += slab_medium_bsdf_environment
-            * ((1.0 - inside_subsurface_weight) * (product + power * (vd.geomprop_color * inside_weight)));
+            * ((1.0 - subsurface_weight) * (product + power * (vd.geomprop_color * inside_weight)));
     }
     out1 = vec4(color, 1.0);
 }
