@@ -60,9 +60,9 @@ static ir_ref variable_of(struct builder *b, const struct property *property, bo
                           unsigned number)
 {
     str_id name = asked_name(b, property, is_stream, number);
-    return is_stream ? shader_stream(b->shader, name, property->type)
-                     : shader_read(b->shader,
-                                   shader_private_uniform(b->shader, name, property->type, 0));
+    return is_stream
+               ? shader_stream(b->shader, name, property->type)
+               : shader_read(b->shader, shader_private_uniform(b->shader, name, property->type, 0));
 }
 
 ir_ref build_property(struct builder *b, const struct property *property)
