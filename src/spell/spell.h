@@ -65,11 +65,18 @@ struct spell {
     /* by id: names of the portable functions that the stage reaches */
     const char **functions;
     const char **graph_functions; /* by index: names of IR functions */
-    const char **user_types;      /* by index in the unit: names of structs */
-    struct spell_name *locals;    /* by index: names of the stage's mutable variables */
+    /* by index: indices of the variables of the interface that the function gets; NULL: none */
+    struct spell_passed {
+        VEC(uint32_t) variables;
+    } * passed;
+    const char **user_types;   /* by index in the unit: names of structs */
+    struct spell_name *locals; /* by index: names of the stage's mutable variables */
     /* by node: 1 + index of the first name of its LET in let_names; 0: the node is an expression */
     uint32_t *local_of;
     VEC(struct spell_name) let_names;
+    /* the struct of the results of the graph's function that is written, and their number; NULL */
+    const char *graph_results;
+    uint32_t num_graph_results;
     VEC(str_id) wanted_names; /* names that several locals of the function want, sorted */
     /* of a shader that is a function: its parameters are copied to file scope */
     bool shares_vertex_data;
@@ -143,6 +150,13 @@ struct spell_name spell_local_base(struct spell *spell, ir_ref ref);
 /* Writes statements with this indentation. Their locals are named in a new scope. */
 void spell_statements(struct spell *spell, const struct effect_list *statements, unsigned indent);
 void spell_graph_function(struct spell *spell, const struct shader_function *function);
+
+/* ---- passed.c: what functions of graphs cannot see ---- */
+
+/* Called when the variables of the interface have their names. */
+void spell_find_passed(struct spell *spell);
+/* The end of a list of parameters or arguments; `is_first`: the list is empty before it. */
+void spell_passed(struct spell *spell, uint32_t function, bool declares, bool is_first);
 
 /* ---- declare.c: declarations above the functions, for frames ---- */
 

@@ -240,6 +240,7 @@ static void write_functions(struct spell *spell)
         spell_text(spell, "\n");
     spell_verbatim_sources(spell);
     write_portable_functions(spell);
+    spell_find_passed(spell);
     for (uint32_t i = 0; i < spell->stage->functions.len; i++)
         spell_graph_function(spell, &spell->stage->functions.items[i]);
 }

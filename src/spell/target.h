@@ -14,13 +14,15 @@ struct spell; /* spell/spell.h */
 
 /* For a language with closures: the renderer handles lights, layers and weights. */
 struct target_closures {
+    /* no shader knows where it is seen from: weights of layers are those along the normal */
+    bool lacks_view;
     /*
      * Replaces closure_emit: writes the effects for a root of any type. false if the type has no
-     * meaning, or if the language has no closure for a leaf; *out_unknown is then the family of the
-     * leaf, otherwise unchanged.
+     * meaning, or if the language lacks something; *out_lacks then says what, otherwise it is
+     * unchanged: "no closure for 'x'".
      */
     bool (*emit)(struct shader *shader, const struct closure_host *host, ir_ref root,
-                 str_id *out_unknown);
+                 const char **out_lacks);
 };
 
 struct reflect; /* shader/reflect.h */
@@ -37,7 +39,7 @@ struct target_network {
      * false as for target_closures.emit.
      */
     bool (*emit_node)(struct shader *shader, const struct closure_host *host,
-                      const struct network_output *outputs, unsigned n, str_id *out_unknown);
+                      const struct network_output *outputs, unsigned n, const char **out_lacks);
     /* Adds the shaders that do not belong to a node, after the shaders of nodes. */
     void (*add_parts)(struct network *network);
     /* The text of a stage; empty: there is no such stage. */
@@ -65,6 +67,11 @@ struct target_frame {
     void (*open_context)(struct spell *spell);
     /* after main; may not be NULL beside the other, and may stand without it */
     void (*close_context)(struct spell *spell);
+    /*
+     * The type of a parameter that functions of graphs cannot see, and get as an argument of its
+     * name; NULL: they see the variable.
+     */
+    const char *(*passed_type)(struct spell *spell, const struct shader_variable *variable);
     /*
      * Declares structs, uniforms and textures for a shader that is a function in a file of the host
      * (spell/function_frame.c); nothing that stands once per file.
