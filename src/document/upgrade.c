@@ -568,6 +568,22 @@ static bool is_outdated(const struct document *doc, elem_id root, elem_id end)
     return false;
 }
 
+/* Documents of 1.38 and 1.39 still contain the type color2, which 1.38 removed. */
+static void replace_color2(struct upgrade *u)
+{
+    str_id color2 = str_find(u->doc->strings, "color2", 6);
+    bool has_it = false;
+    for (elem_id e = color2 ? u->root : u->end; e < u->end && !has_it; e++)
+        has_it = doc_attr_value(u->doc, e, STR_type) == color2;
+    if (!has_it)
+        return;
+    doc_index_names(u->doc, NULL);
+    u->minor = 38;
+    upgrade_color2_channels(u);
+    for (elem_id e = upgrade_first(u); e; e = upgrade_next(u, e))
+        rename_type(u, e);
+}
+
 void doc_upgrade(struct document *doc, elem_id root, elem_id end, struct diag_list *diags)
 {
     assert(root < end && end <= doc->first_element + doc->elements.len);
@@ -581,6 +597,10 @@ void doc_upgrade(struct document *doc, elem_id root, elem_id end, struct diag_li
      * Documents that declare 1.38 or 1.39 still contain constructs which these versions removed.
      * Ignoring them would change the look.
      */
+    u.minor = CURRENT_MINOR;
+    upgrade_always(&u);
+    if (minor >= 38)
+        replace_color2(&u);
     u.outdated = minor >= CURRENT_MINOR;
     if (u.outdated && !is_outdated(doc, root, end))
         return;

@@ -1,5 +1,5 @@
 #version 300 es
-// open_pbr_surface · surfacematerial · mxgen 0.1 · essl · complete · 12 closures · 0 textures
+// open_pbr_surface · surfacematerial · mxgen 0.1 · essl · complete · 13 closures · 0 textures
 precision highp float;
 precision highp int;
 precision highp sampler2D;
@@ -525,10 +525,6 @@ void main()
         * (SR_open_pbr_surface_coat_weight * (coat_front * (1.0 - pow(1.0 - min(absolute, 1.0), 5.0))))));
     // lights
     vec3 subsurface_positive = max(SR_open_pbr_surface_subsurface_color, 0.0);
-    float thin = float(SR_open_pbr_surface_geometry_thin_walled);
-    float dielectric_weight = 1.0 - SR_open_pbr_surface_base_metalness;
-    float opaque_weight = dielectric_weight * (1.0 - SR_open_pbr_surface_transmission_weight);
-    float sheet_transmission_weight = thin * (SR_open_pbr_surface_subsurface_weight * opaque_weight) * 0.5;
     float ior_relative = mix(SR_open_pbr_surface_specular_ior,
         max(SR_open_pbr_surface_specular_ior / SR_open_pbr_surface_coat_ior, SR_open_pbr_surface_coat_ior
         / SR_open_pbr_surface_specular_ior), SR_open_pbr_surface_coat_weight);
@@ -580,17 +576,17 @@ void main()
         1.0);
     vec3 body_weight = mix(reflection_throughput, vec3(1.0) - product * reflection_film_scale,
         SR_open_pbr_surface_thin_film_weight) * substrate_weight;
-    vec3 sheet_front_product = subsurface_positive
-        * (sheet_transmission_weight * (body_weight
-        * clamp(SR_open_pbr_surface_subsurface_color * (1.0 - SR_open_pbr_surface_subsurface_scatter_anisotropy), 0.0,
-        1.0)));
+    float backward_share = (1.0 - SR_open_pbr_surface_subsurface_scatter_anisotropy) * 0.5;
+    float thin = float(SR_open_pbr_surface_geometry_thin_walled);
+    float dielectric_weight = 1.0 - SR_open_pbr_surface_base_metalness;
+    float opaque_weight = dielectric_weight * (1.0 - SR_open_pbr_surface_transmission_weight);
+    float sheet_weight = thin * (SR_open_pbr_surface_subsurface_weight * opaque_weight);
+    vec3 sheet_front_product = subsurface_positive * (body_weight * (backward_share * sheet_weight));
     vec3 Nf = faceforward(N, -V, N);
     float r2 = SR_open_pbr_surface_base_diffuse_roughness * SR_open_pbr_surface_base_diffuse_roughness;
     vec2 ab = r2 * vec2(-0.5, 0.45) / (r2 + vec2(0.33, 0.09)) + vec2(1.0, 0.0);
-    vec3 sheet_back_product = subsurface_positive
-        * (sheet_transmission_weight * (body_weight
-        * clamp(SR_open_pbr_surface_subsurface_color * (SR_open_pbr_surface_subsurface_scatter_anisotropy + 1.0), 0.0,
-        1.0)));
+    float sheet_back_weight = sheet_weight * (1.0 - backward_share);
+    vec3 sheet_back_product = subsurface_positive * (body_weight * sheet_back_weight);
     float limited_cos_v = min(cos_v, 1.0);
     vec3 fuzz_product_3 = SR_open_pbr_surface_fuzz_color * fuzz_product_2;
     vec3 X = normalize(vd_tangentWorld);
@@ -605,15 +601,17 @@ void main()
     vec3 limited_specular_color = max(SR_open_pbr_surface_specular_color, 0.0);
     vec3 schlick_bend = mix(fresnel_facing, vec3(1.0), 0.4626644) * (vec3(1.0) - limited_specular_color) * 17.651384;
     mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, X, V);
+    float one_minus_thin_film_weight = 1.0 - SR_open_pbr_surface_thin_film_weight;
     float metal_bare_weight = SR_open_pbr_surface_specular_weight
-        * (SR_open_pbr_surface_base_metalness * (1.0 - SR_open_pbr_surface_thin_film_weight));
+        * (SR_open_pbr_surface_base_metalness * one_minus_thin_film_weight);
     vec3 metal_bare_product = (difference * mix(fresnel_facing, vec3(1.0), 0.04761905) + vec3(1.0))
         * (substrate_weight * metal_bare_weight);
     bool reflection_film_visible = SR_open_pbr_surface_thin_film_weight * dielectric_weight > 0.0;
     vec3 reflection_film_product = substrate_weight * (SR_open_pbr_surface_thin_film_weight * dielectric_weight)
         * (reflection_film_scale * limited_specular_color);
-    float reflection_weight = dielectric_weight * (1.0 - SR_open_pbr_surface_thin_film_weight);
-    vec3 reflection_product = reflection_scale * (limited_specular_color * (substrate_weight * reflection_weight));
+    bool reflection_visible = dielectric_weight * one_minus_thin_film_weight > 0.0;
+    vec3 reflection_product = reflection_scale
+        * (limited_specular_color * (substrate_weight * (dielectric_weight * one_minus_thin_film_weight)));
     float scaled_ior = ior * ior;
     float scatter_weight = SR_open_pbr_surface_subsurface_weight * opaque_weight * (1.0 - thin);
     vec3 scatter_radius = SR_open_pbr_surface_subsurface_radius * SR_open_pbr_surface_subsurface_radius_scale;
@@ -686,7 +684,7 @@ void main()
                 * (reflection_film_product
                 * (ggx_light * mx_fresnel(cosine, vec3(ior), film_thickness, SR_open_pbr_surface_thin_film_ior))));
         // reflection
-        if (reflection_weight > 0.0)
+        if (reflection_visible)
             color += light_color * (intensity
                 * (reflection_product * (ggx_light * mx_fresnel_permittivity(cosine, scaled_ior))));
         // scatter
@@ -714,7 +712,7 @@ void main()
     vec3 sum = SR_open_pbr_surface_fuzz_color * part * (fuzz_product_2 * u_envLightIntensity) + sheet_front_response;
     color += u_envLightIntensity * (scatter_product * part) + sum;
     // environment: sheet_back
-    if (sheet_transmission_weight > 0.0)
+    if (sheet_back_weight > 0.0)
         color += u_envLightIntensity * (sheet_back_product
             * textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * -Nf)), 0.0).xyz);
     // environment: diffuse
@@ -734,7 +732,7 @@ void main()
     }
     // environment: metal_film, metal_bare, reflection_film, reflection
     mx_GgxSamples samples = mx_ggx_samples(roughness, N, X, V);
-    if (reflection_weight > 0.0 || (reflection_film_visible || (metal_film_weight > 0.0 || metal_bare_weight > 0.0))) {
+    if (reflection_visible || (reflection_film_visible || (metal_film_weight > 0.0 || metal_bare_weight > 0.0))) {
         if (film_thickness > 0.0) {
             vec2 turn = vec2(1.0, 0.0);
             for (int i = 0; i < u_envRadianceSamples; ++i) {
@@ -756,7 +754,7 @@ void main()
                         * (metal_film_ggx_reflected.weight
                         * mx_film_index(metal_film_ggx_reflected.cosine, vec3(scaled_ior), film_thickness,
                         SR_open_pbr_surface_thin_film_ior)));
-                if (reflection_weight > 0.0)
+                if (reflection_visible)
                     color += reflection_product
                         * (metal_film_ggx_reflected.color
                         * (metal_film_ggx_reflected.weight
@@ -779,31 +777,56 @@ void main()
                     * mx_fresnel_permittivity(metal_film_ggx_reflected.cosine, scaled_ior));
                 if (reflection_film_visible)
                     color += reflection_film_product * reflection_product_2;
-                if (reflection_weight > 0.0)
+                if (reflection_visible)
                     color += reflection_product * reflection_product_2;
                 turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
             }
         }
     }
-    // environment: refraction
-    if (SR_open_pbr_surface_transmission_weight * dielectric_weight > 0.0) {
+    // environment: refraction_film, refraction
+    float refraction_film_weight = SR_open_pbr_surface_thin_film_weight
+        * (SR_open_pbr_surface_transmission_weight * dielectric_weight);
+    float refraction_weight = SR_open_pbr_surface_transmission_weight * dielectric_weight * one_minus_thin_film_weight;
+    if (refraction_film_weight > 0.0 || refraction_weight > 0.0) {
         vec3 tint = max(SR_open_pbr_surface_transmission_depth > 0.0 ? vec3(1.0)
             : SR_open_pbr_surface_transmission_color, 0.0);
         vec3 absorbed = -(SR_open_pbr_surface_transmission_scatter + log(SR_open_pbr_surface_transmission_color))
             / SR_open_pbr_surface_transmission_depth;
-        vec3 refraction_product = exp(-(SR_open_pbr_surface_transmission_depth > 0.0 ? absorbed
+        vec3 product_2 = exp(-(SR_open_pbr_surface_transmission_depth > 0.0 ? absorbed
             - min(min(min(absorbed.x, absorbed.y), absorbed.z), 0.0) : vec3(0.0))) * tint;
-        vec3 refraction_product_2 = (u_refractionTwoSided ? tint : vec3(1.0)) * refraction_product;
-        vec3 refraction_product_3 = body_weight * (SR_open_pbr_surface_transmission_weight * dielectric_weight)
-            * refraction_product_2;
-        vec2 turn = vec2(1.0, 0.0);
-        for (int i = 0; i < u_envRadianceSamples; ++i) {
-            mx_GgxLight refraction_ggx_transmitted = mx_ggx_transmitted(samples, ior, i, turn);
-            color += refraction_product_3
-                * (refraction_ggx_transmitted.color
-                * (refraction_ggx_transmitted.weight
-                * (1.0 - mx_fresnel_permittivity(refraction_ggx_transmitted.cosine, scaled_ior))));
-            turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+        vec3 product_3 = (u_refractionTwoSided ? tint : vec3(1.0)) * product_2;
+        vec3 refraction_film_product = body_weight * refraction_film_weight * product_3;
+        vec3 refraction_product = product_3 * (body_weight * refraction_weight);
+        if (film_thickness > 0.0) {
+            vec2 turn = vec2(1.0, 0.0);
+            for (int i = 0; i < u_envRadianceSamples; ++i) {
+                mx_GgxLight refraction_film_ggx_transmitted = mx_ggx_transmitted(samples, ior, i, turn);
+                if (refraction_film_weight > 0.0)
+                    color += refraction_film_product
+                        * (refraction_film_ggx_transmitted.color
+                        * (refraction_film_ggx_transmitted.weight
+                        * (vec3(1.0) - mx_film_index(refraction_film_ggx_transmitted.cosine, vec3(scaled_ior),
+                        film_thickness, SR_open_pbr_surface_thin_film_ior))));
+                if (refraction_weight > 0.0)
+                    color += refraction_product
+                        * (refraction_film_ggx_transmitted.color
+                        * (refraction_film_ggx_transmitted.weight
+                        * (1.0 - mx_fresnel_permittivity(refraction_film_ggx_transmitted.cosine, scaled_ior))));
+                turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+            }
+        } else {
+            vec2 turn = vec2(1.0, 0.0);
+            for (int i = 0; i < u_envRadianceSamples; ++i) {
+                mx_GgxLight refraction_film_ggx_transmitted = mx_ggx_transmitted(samples, ior, i, turn);
+                vec3 refraction_product_2 = refraction_film_ggx_transmitted.color
+                    * (refraction_film_ggx_transmitted.weight
+                    * (1.0 - mx_fresnel_permittivity(refraction_film_ggx_transmitted.cosine, scaled_ior)));
+                if (refraction_film_weight > 0.0)
+                    color += refraction_film_product * refraction_product_2;
+                if (refraction_weight > 0.0)
+                    color += refraction_product * refraction_product_2;
+                turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+            }
         }
     }
     // opacity

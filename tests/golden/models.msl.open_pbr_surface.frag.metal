@@ -1,4 +1,4 @@
-// open_pbr_surface · surfacematerial · mxgen 0.1 · msl · complete · 12 closures · 0 textures
+// open_pbr_surface · surfacematerial · mxgen 0.1 · msl · complete · 13 closures · 0 textures
 // Metal Shading Language 2.3
 #include <metal_stdlib>
 using namespace metal;
@@ -604,10 +604,6 @@ void FragmentMain()
         * (coat_weight * (coat_front * (1.0 - pow(1.0 - min(absolute, 1.0), 5.0))))));
     // lights
     float3 subsurface_positive = max(u_pub.SR_open_pbr_surface_subsurface_color, 0.0);
-    float thin = float(u_pub.SR_open_pbr_surface_geometry_thin_walled);
-    float dielectric_weight = 1.0 - u_pub.SR_open_pbr_surface_base_metalness;
-    float opaque_weight = dielectric_weight * (1.0 - u_pub.SR_open_pbr_surface_transmission_weight);
-    float sheet_transmission_weight = thin * (u_pub.SR_open_pbr_surface_subsurface_weight * opaque_weight) * 0.5;
     float ior_relative = mix(u_pub.SR_open_pbr_surface_specular_ior,
         max(u_pub.SR_open_pbr_surface_specular_ior / coat_ior, coat_ior / u_pub.SR_open_pbr_surface_specular_ior),
         coat_weight);
@@ -626,11 +622,11 @@ void FragmentMain()
     float product = mix(r * r, 1.0, albedo.y) * albedo.x;
     float difference = 1.0 / albedo.x - 1.0;
     float reflection_scale = difference * mix(r * r, 1.0, 0.04761905) + 1.0;
-    float3 reflection_throughput = float3(1.0 - product * reflection_scale);
     float film_thickness = u_pub.SR_open_pbr_surface_thin_film_thickness * 1000.0;
     float thin_film_ior = u_pub.SR_open_pbr_surface_thin_film_ior;
     float3 reflection_film_scale = mix(mx_fresnel_facing(float3(ior), film_thickness, thin_film_ior), float3(1.0),
         0.04761905) * difference + float3(1.0);
+    float thin_film_weight = u_pub.SR_open_pbr_surface_thin_film_weight;
     float fuzz_r = clamp(u_pub.SR_open_pbr_surface_fuzz_roughness, 0.01, 1.0);
     float width = fuzz_r * (fuzz_r * 1.58491 + 0.0206607) / (fuzz_r * (fuzz_r + 1.32227) + 0.0379424);
     float x = (cos_v - fuzz_r * (fuzz_r * (fuzz_r * (1.7932 - fuzz_r * (fuzz_r * 0.95943)) - 1.14885) - 0.193854)
@@ -657,27 +653,27 @@ void FragmentMain()
     float3 darkening = coat_front / coat_ior2 / (float3(1.0) - albedo_2 * (1.0 - coat_front / coat_ior2));
     float3 substrate_weight = substrate_darkened_weight
         * clamp(mix(float3(1.0), darkening, coat_weight * u_pub.SR_open_pbr_surface_coat_darkening), 0.0, 1.0);
-    float3 body_weight = mix(reflection_throughput, float3(1.0) - product * reflection_film_scale,
-        u_pub.SR_open_pbr_surface_thin_film_weight) * substrate_weight;
-    float3 sheet_front_product = subsurface_positive
-        * (sheet_transmission_weight * (body_weight
-        * clamp(u_pub.SR_open_pbr_surface_subsurface_color
-        * (1.0 - u_pub.SR_open_pbr_surface_subsurface_scatter_anisotropy), 0.0, 1.0)));
+    float3 body_weight = mix(float3(1.0 - product * reflection_scale), float3(1.0) - product * reflection_film_scale,
+        thin_film_weight) * substrate_weight;
+    float backward_share = (1.0 - u_pub.SR_open_pbr_surface_subsurface_scatter_anisotropy) * 0.5;
+    float thin = float(u_pub.SR_open_pbr_surface_geometry_thin_walled);
+    float dielectric_weight = 1.0 - u_pub.SR_open_pbr_surface_base_metalness;
+    float opaque_weight = dielectric_weight * (1.0 - u_pub.SR_open_pbr_surface_transmission_weight);
+    float sheet_weight = thin * (u_pub.SR_open_pbr_surface_subsurface_weight * opaque_weight);
+    float3 sheet_front_product = subsurface_positive * (body_weight * (backward_share * sheet_weight));
     float3 Nf = faceforward(N, -V, N);
     float base_diffuse_roughness = u_pub.SR_open_pbr_surface_base_diffuse_roughness;
     float2 ab = base_diffuse_roughness * base_diffuse_roughness * float2(-0.5, 0.45)
         / (base_diffuse_roughness * base_diffuse_roughness + float2(0.33, 0.09)) + float2(1.0, 0.0);
-    float3 sheet_back_product = subsurface_positive
-        * (sheet_transmission_weight * (body_weight
-        * clamp(u_pub.SR_open_pbr_surface_subsurface_color
-        * (u_pub.SR_open_pbr_surface_subsurface_scatter_anisotropy + 1.0), 0.0, 1.0)));
+    float sheet_back_weight = sheet_weight * (1.0 - backward_share);
+    float3 sheet_back_product = subsurface_positive * (body_weight * sheet_back_weight);
     float limited_cos_v = min(cos_v, 1.0);
     float3 fuzz_product_3 = u_pub.SR_open_pbr_surface_fuzz_color * fuzz_product_2;
     float3 X = normalize(vd.tangentWorld);
     mx_GgxLobe coating_lobe = mx_ggx_lobe(coat_lobe, N, X, V);
     float coating_product = coating_scale * (coat_weight * (1.0 - fuzz_product_2));
     float metal_film_weight = u_pub.SR_open_pbr_surface_specular_weight
-        * (u_pub.SR_open_pbr_surface_base_metalness * u_pub.SR_open_pbr_surface_thin_film_weight);
+        * (u_pub.SR_open_pbr_surface_base_metalness * thin_film_weight);
     float3 fresnel_facing = max(u_pub.SR_open_pbr_surface_base_weight * u_pub.SR_open_pbr_surface_base_color, 0.0);
     float3 metal_film_product = (difference
         * mix(mx_fresnel_facing_2(fresnel_facing, film_thickness, thin_film_ior), float3(1.0), 0.04761905)
@@ -687,13 +683,13 @@ void FragmentMain()
         * 17.651384;
     mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, X, V);
     float metal_bare_weight = u_pub.SR_open_pbr_surface_specular_weight
-        * (u_pub.SR_open_pbr_surface_base_metalness * (1.0 - u_pub.SR_open_pbr_surface_thin_film_weight));
+        * (u_pub.SR_open_pbr_surface_base_metalness * (1.0 - thin_film_weight));
     float3 metal_bare_product = (difference * mix(fresnel_facing, float3(1.0), 0.04761905) + float3(1.0))
         * (substrate_weight * metal_bare_weight);
-    bool reflection_film_visible = u_pub.SR_open_pbr_surface_thin_film_weight * dielectric_weight > 0.0;
-    float3 reflection_film_product = substrate_weight * (u_pub.SR_open_pbr_surface_thin_film_weight * dielectric_weight)
+    bool reflection_film_visible = thin_film_weight * dielectric_weight > 0.0;
+    float3 reflection_film_product = substrate_weight * (thin_film_weight * dielectric_weight)
         * (reflection_film_scale * limited_specular_color);
-    float reflection_weight = dielectric_weight * (1.0 - u_pub.SR_open_pbr_surface_thin_film_weight);
+    float reflection_weight = dielectric_weight * (1.0 - thin_film_weight);
     float3 reflection_product = reflection_scale * (limited_specular_color * (substrate_weight * reflection_weight));
     float scaled_ior = ior * ior;
     float scatter_weight = u_pub.SR_open_pbr_surface_subsurface_weight * opaque_weight * (1.0 - thin);
@@ -800,7 +796,7 @@ void FragmentMain()
         + sheet_front_response;
     color += envLightIntensity * (scatter_product * part) + sum;
     // environment: sheet_back
-    if (sheet_transmission_weight > 0.0)
+    if (sheet_back_weight > 0.0)
         color += envLightIntensity * (sheet_back_product
             * u_envIrradiance.tex.sample(u_envIrradiance.s, mx_map_point(normalize(cut_3(u_prv.u_envMatrix) * -Nf)),
             level(0.0)).xyz);
@@ -872,25 +868,51 @@ void FragmentMain()
             }
         }
     }
-    // environment: refraction
-    if (u_pub.SR_open_pbr_surface_transmission_weight * dielectric_weight > 0.0) {
+    // environment: refraction_film, refraction
+    float refraction_film_weight = thin_film_weight
+        * (u_pub.SR_open_pbr_surface_transmission_weight * dielectric_weight);
+    float refraction_weight = u_pub.SR_open_pbr_surface_transmission_weight * dielectric_weight
+        * (1.0 - thin_film_weight);
+    if (refraction_film_weight > 0.0 || refraction_weight > 0.0) {
         float3 tint = max(u_pub.SR_open_pbr_surface_transmission_depth > 0.0 ? float3(1.0)
             : u_pub.SR_open_pbr_surface_transmission_color, 0.0);
         float3 absorbed = -(u_pub.SR_open_pbr_surface_transmission_scatter
             + log(u_pub.SR_open_pbr_surface_transmission_color)) / u_pub.SR_open_pbr_surface_transmission_depth;
-        float3 refraction_product = exp(-(u_pub.SR_open_pbr_surface_transmission_depth > 0.0 ? absorbed
+        float3 product_2 = exp(-(u_pub.SR_open_pbr_surface_transmission_depth > 0.0 ? absorbed
             - min(min(min(absorbed.x, absorbed.y), absorbed.z), 0.0) : float3(0.0))) * tint;
-        float3 refraction_product_2 = (u_prv.u_refractionTwoSided ? tint : float3(1.0)) * refraction_product;
-        float3 refraction_product_3 = body_weight * (u_pub.SR_open_pbr_surface_transmission_weight * dielectric_weight)
-            * refraction_product_2;
-        float2 turn = float2(1.0, 0.0);
-        for (int i = 0; i < u_prv.u_envRadianceSamples; ++i) {
-            mx_GgxLight refraction_ggx_transmitted = mx_ggx_transmitted(samples, ior, i, turn);
-            color += refraction_product_3
-                * (refraction_ggx_transmitted.color
-                * (refraction_ggx_transmitted.weight
-                * (1.0 - mx_fresnel_permittivity(refraction_ggx_transmitted.cosine, scaled_ior))));
-            turn = float2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+        float3 product_3 = (u_prv.u_refractionTwoSided ? tint : float3(1.0)) * product_2;
+        float3 refraction_film_product = body_weight * refraction_film_weight * product_3;
+        float3 refraction_product = product_3 * (body_weight * refraction_weight);
+        if (film_thickness > 0.0) {
+            float2 turn = float2(1.0, 0.0);
+            for (int i = 0; i < u_prv.u_envRadianceSamples; ++i) {
+                mx_GgxLight refraction_film_ggx_transmitted = mx_ggx_transmitted(samples, ior, i, turn);
+                if (refraction_film_weight > 0.0)
+                    color += refraction_film_product
+                        * (refraction_film_ggx_transmitted.color
+                        * (refraction_film_ggx_transmitted.weight
+                        * (float3(1.0) - mx_film_index(refraction_film_ggx_transmitted.cosine, float3(scaled_ior),
+                        film_thickness, thin_film_ior))));
+                if (refraction_weight > 0.0)
+                    color += refraction_product
+                        * (refraction_film_ggx_transmitted.color
+                        * (refraction_film_ggx_transmitted.weight
+                        * (1.0 - mx_fresnel_permittivity(refraction_film_ggx_transmitted.cosine, scaled_ior))));
+                turn = float2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+            }
+        } else {
+            float2 turn = float2(1.0, 0.0);
+            for (int i = 0; i < u_prv.u_envRadianceSamples; ++i) {
+                mx_GgxLight refraction_film_ggx_transmitted = mx_ggx_transmitted(samples, ior, i, turn);
+                float3 refraction_product_2 = refraction_film_ggx_transmitted.color
+                    * (refraction_film_ggx_transmitted.weight
+                    * (1.0 - mx_fresnel_permittivity(refraction_film_ggx_transmitted.cosine, scaled_ior)));
+                if (refraction_film_weight > 0.0)
+                    color += refraction_film_product * refraction_product_2;
+                if (refraction_weight > 0.0)
+                    color += refraction_product * refraction_product_2;
+                turn = float2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+            }
         }
     }
     // opacity

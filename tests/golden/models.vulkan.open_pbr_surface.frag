@@ -1,5 +1,5 @@
 #version 450
-// open_pbr_surface · surfacematerial · mxgen 0.1 · vulkan · complete · 12 closures · 0 textures
+// open_pbr_surface · surfacematerial · mxgen 0.1 · vulkan · complete · 13 closures · 0 textures
 
 struct mx_GgxLobe {
     vec3 N;
@@ -531,10 +531,6 @@ void main()
         * (coat_weight * (coat_front * (1.0 - pow(1.0 - min(absolute, 1.0), 5.0))))));
     // lights
     vec3 subsurface_positive = max(SR_open_pbr_surface_subsurface_color, 0.0);
-    float thin = float(SR_open_pbr_surface_geometry_thin_walled);
-    float dielectric_weight = 1.0 - SR_open_pbr_surface_base_metalness;
-    float opaque_weight = dielectric_weight * (1.0 - SR_open_pbr_surface_transmission_weight);
-    float sheet_transmission_weight = thin * (SR_open_pbr_surface_subsurface_weight * opaque_weight) * 0.5;
     float ior_relative = mix(SR_open_pbr_surface_specular_ior,
         max(SR_open_pbr_surface_specular_ior / coat_ior, coat_ior / SR_open_pbr_surface_specular_ior), coat_weight);
     float amplitude_bound = clamp((ior_relative - 1.0) / (ior_relative + 1.0)
@@ -551,11 +547,11 @@ void main()
     float product = mix(r * r, 1.0, albedo.y) * albedo.x;
     float difference = 1.0 / albedo.x - 1.0;
     float reflection_scale = difference * mix(r * r, 1.0, 0.04761905) + 1.0;
-    vec3 reflection_throughput = vec3(1.0 - product * reflection_scale);
     float film_thickness = SR_open_pbr_surface_thin_film_thickness * 1000.0;
     float thin_film_ior = SR_open_pbr_surface_thin_film_ior;
     vec3 reflection_film_scale = mix(mx_fresnel_facing(vec3(ior), film_thickness, thin_film_ior), vec3(1.0), 0.04761905)
         * difference + vec3(1.0);
+    float thin_film_weight = SR_open_pbr_surface_thin_film_weight;
     float fuzz_r = clamp(SR_open_pbr_surface_fuzz_roughness, 0.01, 1.0);
     float width = fuzz_r * (fuzz_r * 1.58491 + 0.0206607) / (fuzz_r * (fuzz_r + 1.32227) + 0.0379424);
     float x = (cos_v - fuzz_r * (fuzz_r * (fuzz_r * (1.7932 - fuzz_r * (fuzz_r * 0.95943)) - 1.14885) - 0.193854)
@@ -582,27 +578,27 @@ void main()
     vec3 darkening = coat_front / coat_ior2 / (vec3(1.0) - albedo_2 * (1.0 - coat_front / coat_ior2));
     vec3 substrate_weight = substrate_darkened_weight
         * clamp(mix(vec3(1.0), darkening, coat_weight * SR_open_pbr_surface_coat_darkening), 0.0, 1.0);
-    vec3 body_weight = mix(reflection_throughput, vec3(1.0) - product * reflection_film_scale,
-        SR_open_pbr_surface_thin_film_weight) * substrate_weight;
-    vec3 sheet_front_product = subsurface_positive
-        * (sheet_transmission_weight * (body_weight
-        * clamp(SR_open_pbr_surface_subsurface_color * (1.0 - SR_open_pbr_surface_subsurface_scatter_anisotropy), 0.0,
-        1.0)));
+    vec3 body_weight = mix(vec3(1.0 - product * reflection_scale), vec3(1.0) - product * reflection_film_scale,
+        thin_film_weight) * substrate_weight;
+    float backward_share = (1.0 - SR_open_pbr_surface_subsurface_scatter_anisotropy) * 0.5;
+    float thin = float(SR_open_pbr_surface_geometry_thin_walled);
+    float dielectric_weight = 1.0 - SR_open_pbr_surface_base_metalness;
+    float opaque_weight = dielectric_weight * (1.0 - SR_open_pbr_surface_transmission_weight);
+    float sheet_weight = thin * (SR_open_pbr_surface_subsurface_weight * opaque_weight);
+    vec3 sheet_front_product = subsurface_positive * (body_weight * (backward_share * sheet_weight));
     vec3 Nf = faceforward(N, -V, N);
     float base_diffuse_roughness = SR_open_pbr_surface_base_diffuse_roughness;
     vec2 ab = base_diffuse_roughness * base_diffuse_roughness * vec2(-0.5, 0.45)
         / (base_diffuse_roughness * base_diffuse_roughness + vec2(0.33, 0.09)) + vec2(1.0, 0.0);
-    vec3 sheet_back_product = subsurface_positive
-        * (sheet_transmission_weight * (body_weight
-        * clamp(SR_open_pbr_surface_subsurface_color * (SR_open_pbr_surface_subsurface_scatter_anisotropy + 1.0), 0.0,
-        1.0)));
+    float sheet_back_weight = sheet_weight * (1.0 - backward_share);
+    vec3 sheet_back_product = subsurface_positive * (body_weight * sheet_back_weight);
     float limited_cos_v = min(cos_v, 1.0);
     vec3 fuzz_product_3 = SR_open_pbr_surface_fuzz_color * fuzz_product_2;
     vec3 X = normalize(vd.tangentWorld);
     mx_GgxLobe coating_lobe = mx_ggx_lobe(coat_lobe, N, X, V);
     float coating_product = coating_scale * (coat_weight * (1.0 - fuzz_product_2));
     float metal_film_weight = SR_open_pbr_surface_specular_weight
-        * (SR_open_pbr_surface_base_metalness * SR_open_pbr_surface_thin_film_weight);
+        * (SR_open_pbr_surface_base_metalness * thin_film_weight);
     vec3 fresnel_facing = max(SR_open_pbr_surface_base_weight * SR_open_pbr_surface_base_color, 0.0);
     vec3 metal_film_product = (difference
         * mix(mx_fresnel_facing_2(fresnel_facing, film_thickness, thin_film_ior), vec3(1.0), 0.04761905) + vec3(1.0))
@@ -611,13 +607,13 @@ void main()
     vec3 schlick_bend = mix(fresnel_facing, vec3(1.0), 0.4626644) * (vec3(1.0) - limited_specular_color) * 17.651384;
     mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, X, V);
     float metal_bare_weight = SR_open_pbr_surface_specular_weight
-        * (SR_open_pbr_surface_base_metalness * (1.0 - SR_open_pbr_surface_thin_film_weight));
+        * (SR_open_pbr_surface_base_metalness * (1.0 - thin_film_weight));
     vec3 metal_bare_product = (difference * mix(fresnel_facing, vec3(1.0), 0.04761905) + vec3(1.0))
         * (substrate_weight * metal_bare_weight);
-    bool reflection_film_visible = SR_open_pbr_surface_thin_film_weight * dielectric_weight > 0.0;
-    vec3 reflection_film_product = substrate_weight * (SR_open_pbr_surface_thin_film_weight * dielectric_weight)
+    bool reflection_film_visible = thin_film_weight * dielectric_weight > 0.0;
+    vec3 reflection_film_product = substrate_weight * (thin_film_weight * dielectric_weight)
         * (reflection_film_scale * limited_specular_color);
-    float reflection_weight = dielectric_weight * (1.0 - SR_open_pbr_surface_thin_film_weight);
+    float reflection_weight = dielectric_weight * (1.0 - thin_film_weight);
     vec3 reflection_product = reflection_scale * (limited_specular_color * (substrate_weight * reflection_weight));
     float scaled_ior = ior * ior;
     float scatter_weight = SR_open_pbr_surface_subsurface_weight * opaque_weight * (1.0 - thin);
@@ -719,7 +715,7 @@ void main()
     vec3 sum = SR_open_pbr_surface_fuzz_color * part * (fuzz_product_2 * envLightIntensity) + sheet_front_response;
     color += envLightIntensity * (scatter_product * part) + sum;
     // environment: sheet_back
-    if (sheet_transmission_weight > 0.0)
+    if (sheet_back_weight > 0.0)
         color += envLightIntensity * (sheet_back_product
             * textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * -Nf)), 0.0).xyz);
     // environment: diffuse
@@ -790,25 +786,49 @@ void main()
             }
         }
     }
-    // environment: refraction
-    if (SR_open_pbr_surface_transmission_weight * dielectric_weight > 0.0) {
+    // environment: refraction_film, refraction
+    float refraction_film_weight = thin_film_weight * (SR_open_pbr_surface_transmission_weight * dielectric_weight);
+    float refraction_weight = SR_open_pbr_surface_transmission_weight * dielectric_weight * (1.0 - thin_film_weight);
+    if (refraction_film_weight > 0.0 || refraction_weight > 0.0) {
         vec3 tint = max(SR_open_pbr_surface_transmission_depth > 0.0 ? vec3(1.0)
             : SR_open_pbr_surface_transmission_color, 0.0);
         vec3 absorbed = -(SR_open_pbr_surface_transmission_scatter + log(SR_open_pbr_surface_transmission_color))
             / SR_open_pbr_surface_transmission_depth;
-        vec3 refraction_product = exp(-(SR_open_pbr_surface_transmission_depth > 0.0 ? absorbed
+        vec3 product_2 = exp(-(SR_open_pbr_surface_transmission_depth > 0.0 ? absorbed
             - min(min(min(absorbed.x, absorbed.y), absorbed.z), 0.0) : vec3(0.0))) * tint;
-        vec3 refraction_product_2 = (u_refractionTwoSided ? tint : vec3(1.0)) * refraction_product;
-        vec3 refraction_product_3 = body_weight * (SR_open_pbr_surface_transmission_weight * dielectric_weight)
-            * refraction_product_2;
-        vec2 turn = vec2(1.0, 0.0);
-        for (int i = 0; i < u_envRadianceSamples; ++i) {
-            mx_GgxLight refraction_ggx_transmitted = mx_ggx_transmitted(samples, ior, i, turn);
-            color += refraction_product_3
-                * (refraction_ggx_transmitted.color
-                * (refraction_ggx_transmitted.weight
-                * (1.0 - mx_fresnel_permittivity(refraction_ggx_transmitted.cosine, scaled_ior))));
-            turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+        vec3 product_3 = (u_refractionTwoSided ? tint : vec3(1.0)) * product_2;
+        vec3 refraction_film_product = body_weight * refraction_film_weight * product_3;
+        vec3 refraction_product = product_3 * (body_weight * refraction_weight);
+        if (film_thickness > 0.0) {
+            vec2 turn = vec2(1.0, 0.0);
+            for (int i = 0; i < u_envRadianceSamples; ++i) {
+                mx_GgxLight refraction_film_ggx_transmitted = mx_ggx_transmitted(samples, ior, i, turn);
+                if (refraction_film_weight > 0.0)
+                    color += refraction_film_product
+                        * (refraction_film_ggx_transmitted.color
+                        * (refraction_film_ggx_transmitted.weight
+                        * (vec3(1.0) - mx_film_index(refraction_film_ggx_transmitted.cosine, vec3(scaled_ior),
+                        film_thickness, thin_film_ior))));
+                if (refraction_weight > 0.0)
+                    color += refraction_product
+                        * (refraction_film_ggx_transmitted.color
+                        * (refraction_film_ggx_transmitted.weight
+                        * (1.0 - mx_fresnel_permittivity(refraction_film_ggx_transmitted.cosine, scaled_ior))));
+                turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+            }
+        } else {
+            vec2 turn = vec2(1.0, 0.0);
+            for (int i = 0; i < u_envRadianceSamples; ++i) {
+                mx_GgxLight refraction_film_ggx_transmitted = mx_ggx_transmitted(samples, ior, i, turn);
+                vec3 refraction_product_2 = refraction_film_ggx_transmitted.color
+                    * (refraction_film_ggx_transmitted.weight
+                    * (1.0 - mx_fresnel_permittivity(refraction_film_ggx_transmitted.cosine, scaled_ior)));
+                if (refraction_film_weight > 0.0)
+                    color += refraction_film_product * refraction_product_2;
+                if (refraction_weight > 0.0)
+                    color += refraction_product * refraction_product_2;
+                turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+            }
         }
     }
     // opacity

@@ -1,4 +1,4 @@
-// open_pbr_surface · surfacematerial · mxgen 0.1 · wgsl · complete · 12 closures · 0 textures
+// open_pbr_surface · surfacematerial · mxgen 0.1 · wgsl · complete · 13 closures · 0 textures
 
 struct mx_GgxLobe {
     N: vec3f,
@@ -549,10 +549,6 @@ fn main(vd: VertexData) -> @location(0) vec4f
         * (coat_weight * (coat_front * (1.0 - pow(1.0 - min(absolute, 1.0), 5.0))))));
     // lights
     let subsurface_positive: vec3f = max(u_pub.SR_open_pbr_surface_subsurface_color, vec3f(0.0));
-    let thin: f32 = f32(u_pub.SR_open_pbr_surface_geometry_thin_walled != 0u);
-    let dielectric_weight: f32 = 1.0 - u_pub.SR_open_pbr_surface_base_metalness;
-    let opaque_weight: f32 = dielectric_weight * (1.0 - u_pub.SR_open_pbr_surface_transmission_weight);
-    let sheet_transmission_weight: f32 = thin * (u_pub.SR_open_pbr_surface_subsurface_weight * opaque_weight) * 0.5;
     let ior_relative: f32 = mix(u_pub.SR_open_pbr_surface_specular_ior,
         max(u_pub.SR_open_pbr_surface_specular_ior / coat_ior, coat_ior / u_pub.SR_open_pbr_surface_specular_ior),
         coat_weight);
@@ -571,11 +567,11 @@ fn main(vd: VertexData) -> @location(0) vec4f
     let product: f32 = mix(r * r, 1.0, albedo.y) * albedo.x;
     let difference: f32 = 1.0 / albedo.x - 1.0;
     let reflection_scale: f32 = difference * mix(r * r, 1.0, 0.04761905) + 1.0;
-    let reflection_throughput: vec3f = vec3f(1.0 - product * reflection_scale);
     let film_thickness: f32 = u_pub.SR_open_pbr_surface_thin_film_thickness * 1000.0;
     let thin_film_ior: f32 = u_pub.SR_open_pbr_surface_thin_film_ior;
     let reflection_film_scale: vec3f = mix(mx_fresnel_facing(vec3f(ior), film_thickness, thin_film_ior), vec3f(1.0),
         0.04761905) * difference + vec3f(1.0);
+    let thin_film_weight: f32 = u_pub.SR_open_pbr_surface_thin_film_weight;
     let fuzz_r: f32 = clamp(u_pub.SR_open_pbr_surface_fuzz_roughness, 0.01, 1.0);
     let width: f32 = fuzz_r * (fuzz_r * 1.58491 + 0.0206607) / (fuzz_r * (fuzz_r + 1.32227) + 0.0379424);
     let x: f32 = (cos_v - fuzz_r * (fuzz_r * (fuzz_r * (1.7932 - fuzz_r * (fuzz_r * 0.95943)) - 1.14885) - 0.193854)
@@ -603,27 +599,27 @@ fn main(vd: VertexData) -> @location(0) vec4f
     let substrate_weight: vec3f = substrate_darkened_weight
         * clamp(mix(vec3f(1.0), darkening, coat_weight * u_pub.SR_open_pbr_surface_coat_darkening), vec3f(0.0),
         vec3f(1.0));
-    let body_weight: vec3f = mix(reflection_throughput, vec3f(1.0) - product * reflection_film_scale,
-        u_pub.SR_open_pbr_surface_thin_film_weight) * substrate_weight;
-    let sheet_front_product: vec3f = subsurface_positive
-        * (sheet_transmission_weight * (body_weight
-        * clamp(u_pub.SR_open_pbr_surface_subsurface_color
-        * (1.0 - u_pub.SR_open_pbr_surface_subsurface_scatter_anisotropy), vec3f(0.0), vec3f(1.0))));
+    let body_weight: vec3f = mix(vec3f(1.0 - product * reflection_scale), vec3f(1.0) - product * reflection_film_scale,
+        thin_film_weight) * substrate_weight;
+    let backward_share: f32 = (1.0 - u_pub.SR_open_pbr_surface_subsurface_scatter_anisotropy) * 0.5;
+    let thin: f32 = f32(u_pub.SR_open_pbr_surface_geometry_thin_walled != 0u);
+    let dielectric_weight: f32 = 1.0 - u_pub.SR_open_pbr_surface_base_metalness;
+    let opaque_weight: f32 = dielectric_weight * (1.0 - u_pub.SR_open_pbr_surface_transmission_weight);
+    let sheet_weight: f32 = thin * (u_pub.SR_open_pbr_surface_subsurface_weight * opaque_weight);
+    let sheet_front_product: vec3f = subsurface_positive * (body_weight * (backward_share * sheet_weight));
     let Nf: vec3f = faceForward(N, -V, N);
     let base_diffuse_roughness: f32 = u_pub.SR_open_pbr_surface_base_diffuse_roughness;
     let ab: vec2f = base_diffuse_roughness * base_diffuse_roughness * vec2f(-0.5, 0.45)
         / (base_diffuse_roughness * base_diffuse_roughness + vec2f(0.33, 0.09)) + vec2f(1.0, 0.0);
-    let sheet_back_product: vec3f = subsurface_positive
-        * (sheet_transmission_weight * (body_weight
-        * clamp(u_pub.SR_open_pbr_surface_subsurface_color
-        * (u_pub.SR_open_pbr_surface_subsurface_scatter_anisotropy + 1.0), vec3f(0.0), vec3f(1.0))));
+    let sheet_back_weight: f32 = sheet_weight * (1.0 - backward_share);
+    let sheet_back_product: vec3f = subsurface_positive * (body_weight * sheet_back_weight);
     let limited_cos_v: f32 = min(cos_v, 1.0);
     let fuzz_product_3: vec3f = u_pub.SR_open_pbr_surface_fuzz_color * fuzz_product_2;
     let X: vec3f = normalize(vd.tangentWorld);
     let coating_lobe: mx_GgxLobe = mx_ggx_lobe(coat_lobe, N, X, V);
     let coating_product: f32 = coating_scale * (coat_weight * (1.0 - fuzz_product_2));
     let metal_film_weight: f32 = u_pub.SR_open_pbr_surface_specular_weight
-        * (u_pub.SR_open_pbr_surface_base_metalness * u_pub.SR_open_pbr_surface_thin_film_weight);
+        * (u_pub.SR_open_pbr_surface_base_metalness * thin_film_weight);
     let fresnel_facing: vec3f = max(u_pub.SR_open_pbr_surface_base_weight * u_pub.SR_open_pbr_surface_base_color,
         vec3f(0.0));
     let metal_film_product: vec3f = (difference
@@ -634,14 +630,13 @@ fn main(vd: VertexData) -> @location(0) vec4f
         * 17.651384;
     let lobe: mx_GgxLobe = mx_ggx_lobe(roughness, N, X, V);
     let metal_bare_weight: f32 = u_pub.SR_open_pbr_surface_specular_weight
-        * (u_pub.SR_open_pbr_surface_base_metalness * (1.0 - u_pub.SR_open_pbr_surface_thin_film_weight));
+        * (u_pub.SR_open_pbr_surface_base_metalness * (1.0 - thin_film_weight));
     let metal_bare_product: vec3f = (difference * mix(fresnel_facing, vec3f(1.0), 0.04761905) + vec3f(1.0))
         * (substrate_weight * metal_bare_weight);
-    let reflection_film_visible: bool = u_pub.SR_open_pbr_surface_thin_film_weight * dielectric_weight > 0.0;
-    let reflection_film_product: vec3f = substrate_weight
-        * (u_pub.SR_open_pbr_surface_thin_film_weight * dielectric_weight)
+    let reflection_film_visible: bool = thin_film_weight * dielectric_weight > 0.0;
+    let reflection_film_product: vec3f = substrate_weight * (thin_film_weight * dielectric_weight)
         * (reflection_film_scale * limited_specular_color);
-    let reflection_weight: f32 = dielectric_weight * (1.0 - u_pub.SR_open_pbr_surface_thin_film_weight);
+    let reflection_weight: f32 = dielectric_weight * (1.0 - thin_film_weight);
     let reflection_product: vec3f = reflection_scale
         * (limited_specular_color * (substrate_weight * reflection_weight));
     let scaled_ior: f32 = ior * ior;
@@ -753,7 +748,7 @@ fn main(vd: VertexData) -> @location(0) vec4f
         + sheet_front_response;
     color += envLightIntensity * (scatter_product * part) + sum;
     // environment: sheet_back
-    if (sheet_transmission_weight > 0.0) {
+    if (sheet_back_weight > 0.0) {
         color += envLightIntensity * (sheet_back_product
             * textureSampleLevel(u_envIrradiance, u_envIrradiance_sampler,
             mx_map_point(normalize(wgsl_mat3x3f_of_mat4x4f(u_prv.u_envMatrix) * -Nf)), 0.0).xyz);
@@ -835,27 +830,56 @@ fn main(vd: VertexData) -> @location(0) vec4f
             }
         }
     }
-    // environment: refraction
-    if (u_pub.SR_open_pbr_surface_transmission_weight * dielectric_weight > 0.0) {
+    // environment: refraction_film, refraction
+    let refraction_film_weight: f32 = thin_film_weight
+        * (u_pub.SR_open_pbr_surface_transmission_weight * dielectric_weight);
+    let refraction_weight: f32 = u_pub.SR_open_pbr_surface_transmission_weight * dielectric_weight
+        * (1.0 - thin_film_weight);
+    if (refraction_film_weight > 0.0 || refraction_weight > 0.0) {
         let tint: vec3f = max(select(u_pub.SR_open_pbr_surface_transmission_color, vec3f(1.0),
             u_pub.SR_open_pbr_surface_transmission_depth > 0.0), vec3f(0.0));
         let absorbed: vec3f = -(u_pub.SR_open_pbr_surface_transmission_scatter
             + log(u_pub.SR_open_pbr_surface_transmission_color)) / u_pub.SR_open_pbr_surface_transmission_depth;
-        let refraction_product: vec3f = exp(-select(vec3f(0.0), absorbed
+        let product_2: vec3f = exp(-select(vec3f(0.0), absorbed
             - min(min(min(absorbed.x, absorbed.y), absorbed.z), 0.0), u_pub.SR_open_pbr_surface_transmission_depth
             > 0.0)) * tint;
-        let refraction_product_2: vec3f = select(vec3f(1.0), tint, u_prv.u_refractionTwoSided != 0u)
-            * refraction_product;
-        let refraction_product_3: vec3f = body_weight
-            * (u_pub.SR_open_pbr_surface_transmission_weight * dielectric_weight) * refraction_product_2;
-        var turn: vec2f = vec2f(1.0, 0.0);
-        for (var i: i32 = 0; i < u_prv.u_envRadianceSamples; i++) {
-            let refraction_ggx_transmitted: mx_GgxLight = mx_ggx_transmitted(samples, ior, i, turn);
-            color += refraction_product_3
-                * (refraction_ggx_transmitted.color
-                * (refraction_ggx_transmitted.weight
-                * (1.0 - mx_fresnel_permittivity(refraction_ggx_transmitted.cosine, scaled_ior))));
-            turn = vec2f(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+        let product_3: vec3f = select(vec3f(1.0), tint, u_prv.u_refractionTwoSided != 0u) * product_2;
+        let refraction_film_product: vec3f = body_weight * refraction_film_weight * product_3;
+        let refraction_product: vec3f = product_3 * (body_weight * refraction_weight);
+        if (film_thickness > 0.0) {
+            var turn: vec2f = vec2f(1.0, 0.0);
+            for (var i: i32 = 0; i < u_prv.u_envRadianceSamples; i++) {
+                let refraction_film_ggx_transmitted: mx_GgxLight = mx_ggx_transmitted(samples, ior, i, turn);
+                if (refraction_film_weight > 0.0) {
+                    color += refraction_film_product
+                        * (refraction_film_ggx_transmitted.color
+                        * (refraction_film_ggx_transmitted.weight
+                        * (vec3f(1.0) - mx_film_index(refraction_film_ggx_transmitted.cosine, vec3f(scaled_ior),
+                        film_thickness, thin_film_ior))));
+                }
+                if (refraction_weight > 0.0) {
+                    color += refraction_product
+                        * (refraction_film_ggx_transmitted.color
+                        * (refraction_film_ggx_transmitted.weight
+                        * (1.0 - mx_fresnel_permittivity(refraction_film_ggx_transmitted.cosine, scaled_ior))));
+                }
+                turn = vec2f(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+            }
+        } else {
+            var turn: vec2f = vec2f(1.0, 0.0);
+            for (var i: i32 = 0; i < u_prv.u_envRadianceSamples; i++) {
+                let refraction_film_ggx_transmitted: mx_GgxLight = mx_ggx_transmitted(samples, ior, i, turn);
+                let refraction_product_2: vec3f = refraction_film_ggx_transmitted.color
+                    * (refraction_film_ggx_transmitted.weight
+                    * (1.0 - mx_fresnel_permittivity(refraction_film_ggx_transmitted.cosine, scaled_ior)));
+                if (refraction_film_weight > 0.0) {
+                    color += refraction_film_product * refraction_product_2;
+                }
+                if (refraction_weight > 0.0) {
+                    color += refraction_product * refraction_product_2;
+                }
+                turn = vec2f(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+            }
         }
     }
     // opacity
