@@ -413,6 +413,17 @@ static void upgrade_subsurface(struct upgrade *u, elem_id node)
     doc_set_attr(u->doc, radius, STR_type, STR_color3);
 }
 
+/* The same in the definition of a library. */
+static void upgrade_subsurface_definition(struct upgrade *u, elem_id nodedef)
+{
+    elem_id radius = upgrade_child(u, nodedef, "radius");
+    if (!upgrade_is(u, doc_attr_value(u->doc, nodedef, STR_node), "subsurface_bsdf") || !radius
+        || doc_attr_value(u->doc, radius, STR_type) != STR_vector3)
+        return;
+    doc_set_attr(u->doc, radius, STR_type, STR_color3);
+    upgrade_note(u, radius, "the input 'radius' of <subsurface_bsdf> is now a color3");
+}
+
 /* 1.39: <switch> has ten inputs; before, a value above 5 selected the first. */
 static void upgrade_switch(struct upgrade *u, elem_id node)
 {
@@ -503,6 +514,8 @@ static void upgrade_nodes(struct upgrade *u)
     upgrade_thin_films(u);
     upgrade_swizzles(u);
     for (elem_id e = upgrade_first(u); e; e = upgrade_next(u, e)) {
+        if (doc_element(u->doc, e)->kind == KIND_NODEDEF)
+            upgrade_subsurface_definition(u, e);
         if (!upgrade_is_node(u, e))
             continue;
         if (upgrade_is_category(u, e, "subsurface_bsdf"))

@@ -29,6 +29,22 @@ static void make_uniform(struct upgrade *u, elem_id node)
                  str_text(u->doc->strings, type));
 }
 
+/* Libraries until 1.39.1 define the node for strings under the name of the others. */
+static void make_definition_uniform(struct upgrade *u, elem_id nodedef)
+{
+    if (doc_attr_value(u->doc, nodedef, STR_node) != STR_geompropvalue)
+        return;
+    str_id type = 0; /* of the output; names have no index yet */
+    for (elem_id e = doc_element(u->doc, nodedef)->first_child; e; e = doc_element(u->doc, e)->next)
+        if (doc_element(u->doc, e)->kind == KIND_OUTPUT)
+            type = doc_attr_value(u->doc, e, STR_type);
+    if (type != STR_string && type != STR_filename)
+        return;
+    doc_set_attr(u->doc, nodedef, STR_node, STR_geompropvalueuniform);
+    upgrade_note(u, nodedef, "<geompropvalue> of a %s is <geompropvalueuniform>",
+                 str_text(u->doc->strings, type));
+}
+
 void upgrade_always(struct upgrade *u)
 {
     static const str_id switches[] = {STR_uniform, STR_isdefaultversion, STR_uiadvanced,
@@ -38,6 +54,9 @@ void upgrade_always(struct upgrade *u)
             lower_boolean(u, e, STR_value);
         for (size_t i = 0; i < sizeof switches / sizeof *switches; i++)
             lower_boolean(u, e, switches[i]);
-        make_uniform(u, e);
+        if (doc_element(u->doc, e)->kind == KIND_NODEDEF)
+            make_definition_uniform(u, e);
+        else
+            make_uniform(u, e);
     }
 }

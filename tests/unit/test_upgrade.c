@@ -81,6 +81,16 @@ static void test_always(void)
                     "<geompropvalueuniform name=\"a\" type=\"string\"/>\n<geompropvalueuniform "
                     "name=\"b\" type=\"filename\"/>\n<geompropvalue name=\"c\" type=\"float\"/>\n");
     require_upgrade("1.39",
+                    "<nodedef name=\"N\" node=\"geompropvalue\"><output name=\"out\" "
+                    "type=\"string\"/></nodedef>",
+                    "<nodedef name=\"N\" node=\"geompropvalueuniform\">\n  <output name=\"out\" "
+                    "type=\"string\"/>\n</nodedef>\n");
+    require_upgrade("1.38",
+                    "<nodedef name=\"N\" node=\"subsurface_bsdf\"><input name=\"radius\" "
+                    "type=\"vector3\" value=\"1, 1, 1\"/></nodedef>",
+                    "<nodedef name=\"N\" node=\"subsurface_bsdf\">\n  <input name=\"radius\" "
+                    "type=\"color3\" value=\"1, 1, 1\"/>\n</nodedef>\n");
+    require_upgrade("1.39",
                     "<constant name=\"a\" type=\"color2\"><input name=\"value\" "
                     "type=\"color2\" value=\"0, 1\"/></constant><separate2 name=\"s\" "
                     "type=\"multioutput\"><input name=\"in\" type=\"color2\" "
