@@ -4,13 +4,22 @@
  * files changes.
  */
 #include "check/sink.h"
+#include "program/file_name.h"
+
+/* The report is not written with a name that make would read as something else. */
+static void put_name(struct sink *sink, const char *path)
+{
+    if (!file_name_put_make(sink->out, path) && !sink->fault)
+        sink->fault = "make cannot read the name of a file; rename files with control characters, "
+                      "';', '=', '|' or '\\' in their names";
+}
 
 static void begin(struct sink *sink)
 {
     for (size_t i = 0; i < sink->run->num_outputs; ++i) {
         if (i)
             putc(' ', sink->out);
-        files_put_make_name(sink->out, sink->run->outputs[i]);
+        put_name(sink, sink->run->outputs[i]);
     }
     putc(':', sink->out);
 }
@@ -18,7 +27,7 @@ static void begin(struct sink *sink)
 static void put_input(struct sink *sink, const char *path)
 {
     fputs(" \\\n ", sink->out);
-    files_put_make_name(sink->out, path);
+    put_name(sink, path);
 }
 
 /* Omits missing images, because a rule cannot depend on them. */

@@ -21,7 +21,7 @@ enum rank { FAILS_THE_RUN, KNOWN_FAILURE, OTHER, NUM_RANKS };
 
 /* The cards wait in spools, because the totals and the failures precede them. */
 struct html_state {
-    FILE *cards[NUM_RANKS];
+    struct markup cards[NUM_RANKS];
 };
 
 /* A card: an element, or a document without elements (NULL). */
@@ -35,9 +35,9 @@ static void begin(struct sink *sink)
 {
     struct html_state *state = sink->state = calloc(1, sizeof *state);
     for (int i = 0; state && i < NUM_RANKS; ++i)
-        state->cards[i] = spool_begin();
+        state->cards[i].file = spool_begin();
     for (int i = 0; i < NUM_RANKS; ++i)
-        if (!state || !state->cards[i])
+        if (!state || !state->cards[i].file)
             sink->fault = strerror(errno);
 }
 
@@ -97,78 +97,77 @@ static enum rank rank_of(const struct check_run *run, const struct card *card)
 
 /* ---- Parts of a card ---- */
 
-static void write_picture(FILE *out, const char *png, const char *about)
+static void write_picture(struct markup *out, const char *png, const char *about)
 {
     if (*png)
-        fprintf(out,
-                "<img alt=\"%s\" title=\"%s\" loading=\"lazy\" "
-                "src=\"data:image/png;base64,%s\"/>",
-                about, about, png);
+        markup_put(out,
+                   "<img alt=\"%s\" title=\"%s\" loading=\"lazy\" "
+                   "src=\"data:image/png;base64,%s\"/>",
+                   about, about, png);
 }
 
-static void write_head(FILE *out, const struct check_run *run, const struct card *card)
+static void write_head(struct markup *out, const struct check_run *run, const struct card *card)
 {
     enum rank rank = rank_of(run, card);
     bool failed = stage_of(card) != CHECK_PASSED, warned = has_message(card, MXG_SEVERITY_WARNING),
          errors = has_message(card, MXG_SEVERITY_ERROR);
-    fprintf(out, "<article class=\"%s%s%s%s%s%s\"",
-            card->is_gone ? "gone"
-            : failed      ? "failed"
-                          : "passed",
-            rank == FAILS_THE_RUN ? " fails" : "", warned ? " warned" : "",
-            has_change(card, ~0u) ? " changed" : "", warned || errors ? " wide" : "",
-            card->element && card->element->num_shaders > 4 ? " wide" : "");
+    markup_put(out, "<article class=\"%s%s%s%s%s%s\"",
+               card->is_gone ? "gone"
+               : failed      ? "failed"
+                             : "passed",
+               rank == FAILS_THE_RUN ? " fails" : "", warned ? " warned" : "",
+               has_change(card, ~0u) ? " changed" : "", warned || errors ? " wide" : "",
+               card->element && card->element->num_shaders > 4 ? " wide" : "");
     for (size_t i = 0; card->element && i < NUM_MEASURES; ++i)
-        fprintf(out, " data-%s=\"%" PRIu64 "\"", measure_infos[i].option + strlen("max-"),
-                largest(card->element, i));
-    putc('>', out);
+        markup_put(out, " data-%s=\"%" PRIu64 "\"", measure_infos[i].option + strlen("max-"),
+                   largest(card->element, i));
+    markup_put(out, ">");
     write_picture(out, card->element ? card->element->picture : "", "");
     write_picture(out, card->element ? card->element->full : "", "without a budget");
-    fputs("<h2>", out);
-    markup_text(out, card->element ? card->element->path : "document");
-    fprintf(out, " <b>%s</b></h2><p>",
-            card->is_gone           ? "gone"
-            : rank == KNOWN_FAILURE ? "failed, as in the baseline"
-            : failed                ? "failed"
-            : rank == FAILS_THE_RUN ? "passed, but changed"
-                                    : "passed");
-    markup_text(out, card->document->file);
-    fputs("</p>", out);
+    markup_put(out, "<h2>");
+    markup_put(out, "%s", card->element ? card->element->path : "document");
+    markup_put(out, " <b>%s</b></h2><p>",
+               card->is_gone           ? "gone"
+               : rank == KNOWN_FAILURE ? "failed, as in the baseline"
+               : failed                ? "failed"
+               : rank == FAILS_THE_RUN ? "passed, but changed"
+                                       : "passed");
+    markup_put(out, "%s", card->document->file);
+    markup_put(out, "</p>");
     if (card->element && *card->element->drawn_error)
-        fprintf(out, "<p>drawn error of the budget: %s</p>", card->element->drawn_error);
+        markup_put(out, "<p>drawn error of the budget: %s</p>", card->element->drawn_error);
 }
 
-static void write_slabs(FILE *out, const struct check_element *element)
+static void write_slabs(struct markup *out, const struct check_element *element)
 {
     if (*element->slabs)
-        fprintf(out,
-                "<details><summary>slabs</summary><img alt=\"\" loading=\"lazy\" "
-                "src=\"data:image/svg+xml;base64,%s\"/></details>",
-                element->slabs);
+        markup_put(out,
+                   "<details><summary>slabs</summary><img alt=\"\" loading=\"lazy\" "
+                   "src=\"data:image/svg+xml;base64,%s\"/></details>",
+                   element->slabs);
 }
 
-static void write_steps(FILE *out, const struct check_element *element)
+static void write_steps(struct markup *out, const struct check_element *element)
 {
     if (!element->num_steps)
         return;
-    fputs("<table><tr><th>step</th><th>closures</th><th>bytes</th><th>estimated</th>"
-          "<th>drawn</th></tr>",
-          out);
+    markup_put(out, "<table><tr><th>step</th><th>closures</th><th>bytes</th><th>estimated</th>"
+                    "<th>drawn</th></tr>");
     for (size_t i = 0; i < element->num_steps; ++i) {
         const struct check_step *step = &element->steps[i];
-        fputs("<tr><td>", out);
-        markup_text(out, step->text);
-        fprintf(out,
-                "</td><td>%" PRIu32 " to %" PRIu32 "</td><td>%" PRIu32 " to %" PRIu32
-                "</td><td>%s</td><td>%s</td></tr>",
-                step->closures_before, step->closures_after, step->bytes_before, step->bytes_after,
-                step->estimated, step->drawn);
+        markup_put(out, "<tr><td>");
+        markup_put(out, "%s", step->text);
+        markup_put(out,
+                   "</td><td>%" PRIu32 " to %" PRIu32 "</td><td>%" PRIu32 " to %" PRIu32
+                   "</td><td>%s</td><td>%s</td></tr>",
+                   step->closures_before, step->closures_after, step->bytes_before,
+                   step->bytes_after, step->estimated, step->drawn);
     }
-    fputs("</table>", out);
+    markup_put(out, "</table>");
 }
 
 /* "The compiler rejects the shader for glsl: 'x' is undeclared": the first failure in words. */
-static void write_reason(FILE *out, const struct card *card)
+static void write_reason(struct markup *out, const struct card *card)
 {
     static const char *const words[NUM_CHECK_STAGES] = {
         [CHECK_LOAD] = "The document cannot be loaded",
@@ -184,93 +183,94 @@ static void write_reason(FILE *out, const struct card *card)
     const struct check_message *first = NULL;
     if (stage == CHECK_PASSED)
         return;
-    fprintf(out, "<p class=\"why\">%s", words[stage]);
+    markup_put(out, "<p class=\"why\">%s", words[stage]);
     const char *before = " for ";
     for (size_t i = 0; card->element && i < card->element->num_shaders; ++i) {
         if (card->element->shaders[i].failed != stage)
             continue;
-        fprintf(out, "%s%s", before, card->element->shaders[i].target);
+        markup_put(out, "%s%s", before, card->element->shaders[i].target);
         before = ", ";
     }
     for (size_t i = 0; i < card->document->num_messages && !first; ++i)
         if (card->document->messages[i].severity == MXG_SEVERITY_ERROR
             && is_about(card->document->messages[i].element, card))
             first = &card->document->messages[i];
-    fputs(first ? ": " : "", out);
-    markup_text(out, first ? first->text : "");
-    fputs("</p>", out);
+    markup_put(out, first ? ": " : "");
+    markup_put(out, "%s", first ? first->text : "");
+    markup_put(out, "</p>");
 }
 
 /* A row per measure and a column per target. */
-static void write_table(FILE *out, const struct check_element *element)
+static void write_table(struct markup *out, const struct check_element *element)
 {
-    fputs("<table><tr><th></th>", out);
+    markup_put(out, "<table><tr><th></th>");
     for (size_t k = 0; k < element->num_shaders; ++k)
-        fprintf(out, "<th>%s</th>", element->shaders[k].target);
-    fputs("</tr><tr><th>result</th>", out);
+        markup_put(out, "<th>%s</th>", element->shaders[k].target);
+    markup_put(out, "</tr><tr><th>result</th>");
     for (size_t k = 0; k < element->num_shaders; ++k)
-        fprintf(out, "<td>%s</td>",
-                element->shaders[k].failed ? check_stage_names[element->shaders[k].failed]
-                                           : "passed");
+        markup_put(out, "<td>%s</td>",
+                   element->shaders[k].failed ? check_stage_names[element->shaders[k].failed]
+                                              : "passed");
     for (size_t i = 0; i < NUM_MEASURES; ++i) {
-        fprintf(out, "</tr><tr><th>%s</th>", measure_infos[i].noun);
+        markup_put(out, "</tr><tr><th>%s</th>", measure_infos[i].noun);
         for (size_t k = 0; k < element->num_shaders; ++k)
-            fprintf(out,
-                    !*element->shaders[k].topology
-                            || (i == MEASURE_INSTRUCTIONS && !element->shaders[k].compiled)
-                        ? "<td></td>"
-                        : "<td>%" PRIu64 "</td>",
-                    element->shaders[k].measures[i]);
+            markup_put(out,
+                       !*element->shaders[k].topology
+                               || (i == MEASURE_INSTRUCTIONS && !element->shaders[k].compiled)
+                           ? "<td></td>"
+                           : "<td>%" PRIu64 "</td>",
+                       element->shaders[k].measures[i]);
     }
-    fputs("</tr></table>", out);
+    markup_put(out, "</tr></table>");
 }
 
 /* New messages are shown as messages. */
-static void write_changes(FILE *out, const struct check_run *run, const struct card *card)
+static void write_changes(struct markup *out, const struct check_run *run, const struct card *card)
 {
     for (size_t i = 0; i < card->document->num_changes; ++i) {
         const struct check_change *change = &card->document->changes[i];
         if (!is_about(change->element, card) || change->message)
             continue;
-        fprintf(out,
-                "<p class=\"change%s\">%s: ", run->fail_on >> change->kind & 1u ? " fails" : "",
-                check_change_names[change->kind]);
+        markup_put(out,
+                   "<p class=\"change%s\">%s: ", run->fail_on >> change->kind & 1u ? " fails" : "",
+                   check_change_names[change->kind]);
         if (!card->element && *change->element) {
-            fputs("'", out);
-            markup_text(out, change->element);
-            fputs("': ", out);
+            markup_put(out, "'");
+            markup_put(out, "%s", change->element);
+            markup_put(out, "': ");
         }
-        fprintf(out, "%s%s", change->target, *change->target ? ": " : "");
-        markup_text(out, change->text);
-        fputs("</p>", out);
+        markup_put(out, "%s%s", change->target, *change->target ? ": " : "");
+        markup_put(out, "%s", change->text);
+        markup_put(out, "</p>");
     }
 }
 
 /*
  * A printed message: its sentences can wrap, but source lines and the carets under them must not.
  */
-static void write_message(FILE *out, const struct check_message *message)
+static void write_message(struct markup *out, const struct check_message *message)
 {
     static const char margin[] = "    ";
     bool in_source = false;
-    fprintf(out, "<div class=\"message %s\">%s",
-            message->severity == MXG_SEVERITY_ERROR ? "error" : "warning",
-            strcmp(message->state, "new") == 0 ? "<b>new</b>" : "");
+    markup_put(out, "<div class=\"message %s\">",
+               message->severity == MXG_SEVERITY_ERROR ? "error" : "warning");
+    if (strcmp(message->state, "new") == 0)
+        markup_put(out, "<b>new</b>");
     for (const char *line = message->rendered; *line;) {
         size_t len = strcspn(line, "\n");
         bool is_source = strncmp(line, margin, strlen(margin)) == 0;
         char *text = cli_copy(line, len);
         if (in_source && !is_source)
-            fputs("</pre>", out);
+            markup_put(out, "</pre>");
         if (!in_source || !is_source)
-            fputs(is_source ? "<pre>" : "<p>", out);
-        markup_text(out, text);
-        fputs(is_source ? "\n" : "</p>", out);
+            markup_put(out, is_source ? "<pre>" : "<p>");
+        markup_put(out, "%s", text);
+        markup_put(out, is_source ? "\n" : "</p>");
         in_source = is_source;
         line += len + (line[len] == '\n');
         free(text);
     }
-    fputs(in_source ? "</pre></div>" : "</div>", out);
+    markup_put(out, in_source ? "</pre></div>" : "</div>");
 }
 
 static bool key_of_warning(const void *messages, uint32_t index, struct group_key *out_key)
@@ -281,7 +281,7 @@ static bool key_of_warning(const void *messages, uint32_t index, struct group_ke
     return message->severity == MXG_SEVERITY_WARNING && is_about(message->element, card);
 }
 
-static void write_rest(FILE *out, const struct card *card, const struct groups *groups,
+static void write_rest(struct markup *out, const struct card *card, const struct groups *groups,
                        uint32_t first)
 {
     struct group_rest rest = {0};
@@ -289,12 +289,12 @@ static void write_rest(FILE *out, const struct card *card, const struct groups *
         group_rest_add(&rest, card->document->messages[i].line);
     if (!rest.count)
         return;
-    fputs("<p class=\"rest\">", out);
-    group_rest_print(&rest, out);
-    fputs("</p>", out);
+    markup_put(out, "<p class=\"rest\">");
+    group_rest_print(&rest, out->file);
+    markup_put(out, "</p>");
 }
 
-static void write_messages(FILE *out, const struct card *card)
+static void write_messages(struct markup *out, const struct card *card)
 {
     uint32_t count = card->is_gone ? 0 : (uint32_t)card->document->num_messages;
     struct groups groups = groups_make(card, count, key_of_warning);
@@ -308,13 +308,13 @@ static void write_messages(FILE *out, const struct card *card)
 }
 
 /* The elements that a document had. */
-static void write_lost(FILE *out, const struct check_document *document)
+static void write_lost(struct markup *out, const struct check_document *document)
 {
     for (size_t i = 0; i < document->num_elements; ++i) {
-        fputs(i ? ", " : "<p>Its elements were ", out);
-        markup_text(out, document->elements[i].path);
+        markup_put(out, i ? ", " : "<p>Its elements were ");
+        markup_put(out, "%s", document->elements[i].path);
     }
-    fputs(document->num_elements ? ".</p>" : "", out);
+    markup_put(out, document->num_elements ? ".</p>" : "");
 }
 
 /* ---- Cards ---- */
@@ -324,7 +324,7 @@ static void write_card(struct sink *sink, const struct card *card)
     struct html_state *state = sink->state;
     if (sink->fault)
         return;
-    FILE *out = state->cards[rank_of(sink->run, card)];
+    struct markup *out = &state->cards[rank_of(sink->run, card)];
     write_head(out, sink->run, card);
     write_reason(out, card);
     if (card->element)
@@ -337,7 +337,7 @@ static void write_card(struct sink *sink, const struct card *card)
     write_messages(out, card);
     if (card->is_gone)
         write_lost(out, card->document);
-    fputs("</article>\n", out);
+    markup_put(out, "</article>\n");
 }
 
 static void write_document(struct sink *sink, const struct check_document *document)
@@ -355,7 +355,7 @@ static void write_gone(struct sink *sink, const struct check_document *document)
 
 /* ---- The page ---- */
 
-static void write_controls(FILE *out)
+static void write_controls(struct markup *out)
 {
     static const struct {
         const char *value, *text;
@@ -366,24 +366,22 @@ static void write_controls(FILE *out)
                     {"changed", "changed"},
                     {"gone", "gone"},
                     {"passed", "passed"}};
-    fputs("<header><h1>mxgen check</h1>"
-          "<input type=\"search\" placeholder=\"file, element, message\" "
-          "aria-label=\"filter\"/>"
-          "<select id=\"status\" aria-label=\"status\">",
-          out);
+    markup_put(out, "<header><h1>mxgen check</h1>"
+                    "<input type=\"search\" placeholder=\"file, element, message\" "
+                    "aria-label=\"filter\"/>"
+                    "<select id=\"status\" aria-label=\"status\">");
     for (size_t i = 0; i < sizeof statuses / sizeof *statuses; ++i)
-        fprintf(out, "<option value=\"%s\">%s</option>", statuses[i].value, statuses[i].text);
-    fputs("</select><select id=\"order\" aria-label=\"order\">"
-          "<option value=\"index\">failures first</option>",
-          out);
+        markup_put(out, "<option value=\"%s\">%s</option>", statuses[i].value, statuses[i].text);
+    markup_put(out, "</select><select id=\"order\" aria-label=\"order\">"
+                    "<option value=\"index\">failures first</option>");
     for (size_t i = 0; i < NUM_MEASURES; ++i)
-        fprintf(out, "<option value=\"%s\">most %s</option>", measure_infos[i].key,
-                measure_infos[i].noun);
-    fputs("</select><output></output></header>\n", out);
+        markup_put(out, "<option value=\"%s\">most %s</option>", measure_infos[i].key,
+                   measure_infos[i].noun);
+    markup_put(out, "</select><output></output></header>\n");
 }
 
 /* The time of the report, which SOURCE_DATE_EPOCH can set (reproducible-builds.org). */
-static void write_date(FILE *out)
+static void write_date(struct markup *out)
 {
     const char *fixed = getenv("SOURCE_DATE_EPOCH");
     time_t now = fixed ? (time_t)strtoll(fixed, NULL, 10) : time(NULL);
@@ -391,22 +389,23 @@ static void write_date(FILE *out)
     char text[32] = "";
     if (utc)
         strftime(text, sizeof text, "%Y-%m-%d %H:%M UTC", utc);
-    fprintf(out, "<time>%s</time>", text);
+    markup_put(out, "<time>%s</time>", text);
 }
 
-static void write_total(FILE *out, const char *class, uint64_t count, const char *noun)
+static void write_total(struct markup *out, const char *class, uint64_t count, const char *noun)
 {
-    fprintf(out, "<li class=\"%s\"><b>%" PRIu64 "</b> %s</li>", count ? class : "", count, noun);
+    markup_put(out, "<li class=\"%s\"><b>%" PRIu64 "</b> %s</li>", count ? class : "", count, noun);
 }
 
-static void write_totals(FILE *out, const struct check_run *run, const struct check_totals *totals)
+static void write_totals(struct markup *out, const struct check_run *run,
+                         const struct check_totals *totals)
 {
-    fputs("<section><p>", out);
+    markup_put(out, "<section><p>");
     write_date(out);
-    fprintf(out, ", mxgen %s, targets", mxg_version_string());
+    markup_put(out, ", mxgen %s, targets", mxg_version_string());
     for (size_t i = 0; i < run->num_targets; ++i)
-        fprintf(out, "%s %s", i ? "," : "", run->targets[i]);
-    fputs(run->compiles ? "</p><ul>" : ", not compiled</p><ul>", out);
+        markup_put(out, "%s %s", i ? "," : "", run->targets[i]);
+    markup_put(out, run->compiles ? "</p><ul>" : ", not compiled</p><ul>");
     write_total(out, "bad", totals->documents - totals->failed[CHECK_PASSED], "failed");
     for (int stage = CHECK_PASSED + 1; stage < NUM_CHECK_STAGES; ++stage)
         if (totals->failed[stage])
@@ -417,9 +416,9 @@ static void write_totals(FILE *out, const struct check_run *run, const struct ch
     write_total(out, "", totals->shaders, "shaders");
     write_total(out, "bad", totals->errors, "errors");
     write_total(out, "warn", totals->warnings, "warnings");
-    fputs("</ul>", out);
+    markup_put(out, "</ul>");
     if (run->is_compared) {
-        fputs("<ul>", out);
+        markup_put(out, "<ul>");
         write_total(out, totals->failing ? "bad" : "good", totals->failing,
                     "failing since the baseline");
         write_total(out, "", totals->known, "known to fail");
@@ -427,31 +426,30 @@ static void write_totals(FILE *out, const struct check_run *run, const struct ch
             if (totals->changes[kind])
                 write_total(out, run->fail_on >> kind & 1u ? "bad" : "part", totals->changes[kind],
                             check_change_names[kind]);
-        fputs("</ul>", out);
+        markup_put(out, "</ul>");
     }
-    fputs("</section>\n", out);
+    markup_put(out, "</section>\n");
 }
 
 static void end(struct sink *sink, const struct check_totals *totals)
 {
     struct html_state *state = sink->state;
-    FILE *out = sink->out;
-    fputs("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"/>"
-          "<meta name=\"viewport\" content=\"width=device-width\"/><title>mxgen "
-          "check</title>\n<style>\n",
-          out);
+    struct markup page = {sink->out}, *out = &page;
+    markup_put(out, "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"/>"
+                    "<meta name=\"viewport\" content=\"width=device-width\"/><title>mxgen "
+                    "check</title>\n<style>\n");
     markup_lines(out, gallery_style);
-    fputs("</style></head><body>\n", out);
+    markup_put(out, "</style></head><body>\n");
     write_controls(out);
     write_totals(out, sink->run, totals);
-    fputs("<main>\n", out);
+    markup_put(out, "<main>\n");
     for (int i = 0; state && i < NUM_RANKS; ++i) {
-        const char *fault = spool_end(state->cards[i], out);
+        const char *fault = spool_end(state->cards[i].file, page.file);
         sink->fault = sink->fault ? sink->fault : fault;
     }
-    fputs("</main>\n<script>\n//<![CDATA[\n", out);
+    markup_put(out, "</main>\n<script>\n//<![CDATA[\n");
     markup_lines(out, gallery_script);
-    fputs("//]]>\n</script></body></html>\n", out);
+    markup_put(out, "//]]>\n</script></body></html>\n");
     free(state);
 }
 

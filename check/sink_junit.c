@@ -18,7 +18,7 @@ enum outcome { PASSED, FAILED, SKIPPED, NUM_OUTCOMES };
 
 /* The suites wait in a spool, because the sums precede them. */
 struct junit_state {
-    FILE *suites;
+    struct markup suites;
     uint64_t tests, counts[NUM_OUTCOMES];
     double ms;
 };
@@ -27,8 +27,8 @@ static void begin(struct sink *sink)
 {
     struct junit_state *state = sink->state = calloc(1, sizeof *state);
     if (state)
-        state->suites = spool_begin();
-    if (!state || !state->suites)
+        state->suites.file = spool_begin();
+    if (!state || !state->suites.file)
         sink->fault = strerror(errno);
 }
 
@@ -108,23 +108,23 @@ static const struct check_message *find_error(const struct junit_case *test)
 }
 
 /* All errors of a failed case, then all changes that fail the run. */
-static void write_text(struct sink *sink, FILE *out, const struct junit_case *test)
+static void write_text(struct sink *sink, struct markup *out, const struct junit_case *test)
 {
     const struct check_message *message;
     for (size_t i = 0; stage_of(test) && (message = message_at(test, i)) != NULL; ++i)
         if (is_error(message))
-            markup_text(out, message->rendered);
+            markup_put(out, "%s", message->rendered);
     for (size_t i = 0; i < test->document->num_changes; ++i) {
         const struct check_change *change = &test->document->changes[i];
         if (!(sink->run->fail_on >> change->kind & 1u) || !is_change_of(change, test))
             continue;
-        fprintf(out, "%s: ", check_change_names[change->kind]);
-        markup_text(out, change->text);
-        fputc('\n', out);
+        markup_put(out, "%s: ", check_change_names[change->kind]);
+        markup_put(out, "%s", change->text);
+        markup_put(out, "\n");
     }
 }
 
-static void write_outcome(struct sink *sink, FILE *out, const struct junit_case *test)
+static void write_outcome(struct sink *sink, struct markup *out, const struct junit_case *test)
 {
     enum outcome outcome = outcome_of(sink->run, test);
     const struct check_change *change = find_failing(sink->run, test);
@@ -134,37 +134,41 @@ static void write_outcome(struct sink *sink, FILE *out, const struct junit_case 
                                                          : NULL;
     const char *stage = check_stage_names[stage_of(test)];
     if (outcome == PASSED) {
-        fputs("/>\n", out);
+        markup_put(out, "/>\n");
     } else if (outcome == SKIPPED) {
-        fputs(is_gone(test) ? "><skipped message=\"gone: " : "><skipped message=\"known failure: ",
-              out);
-        markup_text(out, is_gone(test) ? test->document->changes[0].text
-                         : first       ? first->text
-                                       : stage);
-        fputs("\"/></testcase>\n", out);
+        markup_put(out, is_gone(test) ? "><skipped message=\"gone: "
+                                      : "><skipped message=\"known failure: ");
+        markup_put(out, "%s",
+                   is_gone(test) ? test->document->changes[0].text
+                   : first       ? first->text
+                                 : stage);
+        markup_put(out, "\"/></testcase>\n");
     } else {
-        fprintf(out, "><failure type=\"%s\" message=\"",
-                first    ? first->id
-                : change ? check_change_names[change->kind]
-                         : stage);
-        markup_text(out, first ? first->text : change ? change->text : stage);
-        fputs("\">", out);
+        markup_put(out, "><failure type=\"%s\" message=\"",
+                   first    ? first->id
+                   : change ? check_change_names[change->kind]
+                            : stage);
+        markup_put(out, "%s", first ? first->text : change ? change->text : stage);
+        markup_put(out, "\">");
         write_text(sink, out, test);
-        fputs("</failure></testcase>\n", out);
+        markup_put(out, "</failure></testcase>\n");
     }
 }
 
 /* ---- Cases ---- */
 
-static void begin_case(struct sink *sink, FILE *out, const struct junit_case *test, double ms)
+static void begin_case(struct sink *sink, struct markup *out, const struct junit_case *test,
+                       double ms)
 {
-    fputs("<testcase classname=\"", out);
-    markup_text(out, test->document->file);
-    fputs("\" name=\"", out);
-    markup_text(out, test->element ? test->element->path : "document");
-    fprintf(out, test->shader ? ", %s\"" : "\"", test->shader ? test->shader->target : "");
+    markup_put(out, "<testcase classname=\"");
+    markup_put(out, "%s", test->document->file);
+    markup_put(out, "\" name=\"");
+    markup_put(out, "%s", test->element ? test->element->path : "document");
+    if (test->shader)
+        markup_put(out, ", %s", test->shader->target);
+    markup_put(out, "\"");
     if (sink->run->with_times)
-        fprintf(out, " time=\"%.3f\"", ms / 1e3);
+        markup_put(out, " time=\"%.3f\"", ms / 1e3);
 }
 
 /* Calls a function for each case of a document. */
@@ -195,18 +199,18 @@ static void count_case(struct sink *sink, const struct junit_case *test)
 static void write_case(struct sink *sink, const struct junit_case *test)
 {
     struct junit_state *state = sink->state;
-    begin_case(sink, state->suites, test, time_of(test));
-    write_outcome(sink, state->suites, test);
+    begin_case(sink, &state->suites, test, time_of(test));
+    write_outcome(sink, &state->suites, test);
 }
 
-static void write_counts(struct sink *sink, FILE *out, const struct junit_state *state)
+static void write_counts(struct sink *sink, struct markup *out, const struct junit_state *state)
 {
-    fprintf(out,
-            " tests=\"%" PRIu64 "\" failures=\"%" PRIu64 "\" errors=\"0\" skipped=\"%" PRIu64 "\"",
-            state->tests, state->counts[FAILED], state->counts[SKIPPED]);
+    markup_put(
+        out, " tests=\"%" PRIu64 "\" failures=\"%" PRIu64 "\" errors=\"0\" skipped=\"%" PRIu64 "\"",
+        state->tests, state->counts[FAILED], state->counts[SKIPPED]);
     if (sink->run->with_times)
-        fprintf(out, " time=\"%.3f\"", state->ms / 1e3);
-    fputs(">\n", out);
+        markup_put(out, " time=\"%.3f\"", state->ms / 1e3);
+    markup_put(out, ">\n");
 }
 
 static void write_document(struct sink *sink, const struct check_document *document)
@@ -220,12 +224,12 @@ static void write_document(struct sink *sink, const struct check_document *docum
     own.ms = state->ms - before.ms;
     for (int i = 0; i < NUM_OUTCOMES; ++i)
         own.counts[i] = state->counts[i] - before.counts[i];
-    fputs("<testsuite name=\"", state->suites);
-    markup_text(state->suites, document->file);
-    fputs("\"", state->suites);
-    write_counts(sink, state->suites, &own);
+    markup_put(&state->suites, "<testsuite name=\"");
+    markup_put(&state->suites, "%s", document->file);
+    markup_put(&state->suites, "\"");
+    write_counts(sink, &state->suites, &own);
     for_each_case(sink, document, write_case);
-    fputs("</testsuite>\n", state->suites);
+    markup_put(&state->suites, "</testsuite>\n");
 }
 
 /* A document that is gone has one case: it fails, or is skipped. */
@@ -240,13 +244,14 @@ static void write_gone(struct sink *sink, const struct check_document *document)
 static void end(struct sink *sink, const struct check_totals *totals)
 {
     struct junit_state *state = sink->state;
+    struct markup out = {sink->out};
     (void)totals;
     if (!sink->fault) {
-        fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"mxgen check\"",
-              sink->out);
-        write_counts(sink, sink->out, state);
-        sink->fault = spool_end(state->suites, sink->out);
-        fputs("</testsuites>\n", sink->out);
+        markup_put(&out,
+                   "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"mxgen check\"");
+        write_counts(sink, &out, state);
+        sink->fault = spool_end(state->suites.file, sink->out);
+        markup_put(&out, "</testsuites>\n");
     }
     free(state);
 }

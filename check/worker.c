@@ -7,6 +7,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "check/examine.h"
 #include "check/record_json.h"
+#include "program/limit.h"
 #include "program/json.h"
 #include "program/parent.h"
 #include "program/memory.h"
@@ -15,7 +16,6 @@
 #include <malloc.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 /*
@@ -46,33 +46,6 @@ static void tell_no_memory(void)
 {
     if (desk_of_worker)
         atomic_store(&desk_of_worker->is_out_of_memory, 1);
-}
-
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define HAS_ADDRESS_SANITIZER true
-#endif
-#endif
-#if !defined(HAS_ADDRESS_SANITIZER) && defined(__SANITIZE_ADDRESS__)
-#define HAS_ADDRESS_SANITIZER true
-#elif !defined(HAS_ADDRESS_SANITIZER)
-#define HAS_ADDRESS_SANITIZER false
-#endif
-
-/*
- * Allocations past the limit fail. Its children, which render and compile, inherit the limit. The
- * address sanitizer maps terabytes, so there is no limit with it.
- */
-static void limit_memory(size_t mib)
-{
-    if (HAS_ADDRESS_SANITIZER)
-        return;
-    struct rlimit limit;
-    if (getrlimit(RLIMIT_DATA, &limit) != 0)
-        return;
-    rlim_t bytes = (rlim_t)mib << 20;
-    limit.rlim_cur = limit.rlim_max < bytes ? limit.rlim_max : bytes;
-    setrlimit(RLIMIT_DATA, &limit);
 }
 
 static bool serve(struct examiner *examiner, int output)
@@ -124,7 +97,7 @@ int main(int argc, char **argv)
         cli.report.colour = false;
         examiner.memory_limit = memory_limit;
         if (memory_limit)
-            limit_memory(memory_limit);
+            limit_data((uint64_t)memory_limit << 20);
         code = serve(&examiner, output) ? EXIT_DONE : EXIT_USAGE;
     }
     examiner_finish(&examiner);

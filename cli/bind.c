@@ -17,9 +17,35 @@ struct bind {
     struct arg_list solo, mute;
 };
 
+/* A file that --max-output-size limits: paths of deep scenes are much longer than the scene. */
+struct output {
+    FILE *out;
+    size_t left;
+    bool is_full;
+};
+
+static struct output output_of(const struct bind *bind, FILE *out)
+{
+    return (struct output){out, cli_max_output_size(&bind->cli) << 20, false};
+}
+
 static bool put(void *user_data, const char *data, size_t size)
 {
-    return fwrite(data, 1, size, user_data) == size;
+    struct output *output = user_data;
+    output->is_full = output->is_full || size > output->left;
+    output->left -= output->is_full ? 0 : size;
+    return !output->is_full && fwrite(data, 1, size, output->out) == size;
+}
+
+/* False after an error: the output was larger than its limit. */
+static bool was_enough(struct bind *bind, const struct output *output)
+{
+    if (output->is_full)
+        report_error(&bind->cli.report, "output-limit",
+                     "the layers have more than %zu MiB; raise the limit 'max-output-size' if this "
+                     "is intended",
+                     cli_max_output_size(&bind->cli));
+    return !output->is_full;
 }
 
 /* Writes a file with `write`, which gives false where something is missing in it. */
@@ -29,15 +55,17 @@ static void write_file(struct bind *bind, const mxg_bindings *bindings, const ch
     struct files_stream stream;
     const char *reason = files_begin(&stream, path);
     if (!reason) {
-        mxg_status status = mxg_bindings_write(bindings, format, put, stream.out);
+        struct output output = output_of(bind, stream.out);
+        mxg_status status = mxg_bindings_write(bindings, format, put, &output);
         if (status == MXG_ERROR_DOCUMENT)
             report_warning(&bind->cli.report, "usda-loss",
                            "'%s' lacks products of weaker assignments, variants, or volumes beside "
-                           "layers: slot bindings have no place for them",
+                           "layers, or has other names: slot bindings have no place for them, and "
+                           "names of USD have letters, digits and '_'",
                            path);
         else
             report_status(&bind->cli.report, status);
-        reason = files_end(&stream, true);
+        reason = files_end(&stream, was_enough(bind, &output));
     }
     if (reason)
         report_error(&bind->cli.report, "output-failed", "cannot write '%s': %s", path, reason);
@@ -45,12 +73,13 @@ static void write_file(struct bind *bind, const mxg_bindings *bindings, const ch
 
 static void explain(struct bind *bind, const mxg_scene *scene, const mxg_bindings *bindings)
 {
+    struct output output = output_of(bind, stdout);
     uint32_t primitive = mxg_scene_find_primitive(scene, bind->geom);
     if (primitive == UINT32_MAX)
         scene_file_report_unknown(&bind->cli.report, scene, bind->geom);
     else
         report_status(&bind->cli.report,
-                      mxg_bindings_write_reasons(bindings, primitive, put, stdout));
+                      mxg_bindings_write_reasons(bindings, primitive, put, &output));
 }
 
 /* The files for programs. */
@@ -65,14 +94,14 @@ static void write_bindings(struct bind *bind, const mxg_bindings *bindings)
 /* Shows the bindings to people. */
 static void show_bindings(struct bind *bind, const mxg_scene *scene, const mxg_bindings *bindings)
 {
+    mxg_bindings_format format =
+        isatty(STDOUT_FILENO) ? MXG_BINDINGS_TABLE_COLOUR : MXG_BINDINGS_TABLE;
+    struct output output = output_of(bind, stdout);
     if (bind->geom)
         explain(bind, scene, bindings);
     else if (!bind->json && !bind->usda)
-        report_status(&bind->cli.report,
-                      mxg_bindings_write(bindings,
-                                         isatty(STDOUT_FILENO) ? MXG_BINDINGS_TABLE_COLOUR
-                                                               : MXG_BINDINGS_TABLE,
-                                         put, stdout));
+        report_status(&bind->cli.report, mxg_bindings_write(bindings, format, put, &output));
+    was_enough(bind, &output);
 }
 
 static void bind_document(struct bind *bind, const mxg_document *document, mxg_scene *scene)
@@ -102,8 +131,7 @@ static mxg_document *load(struct bind *bind, const char *path, const mxg_scene *
     mxg_document *own = path ? cli_load(&bind->cli, path) : NULL;
     if (path && !own)
         return NULL;
-    mxg_document *whole =
-        scene_file_document(bind->cli.context, bind->cli.library, &bind->cli.report, own, scene);
+    mxg_document *whole = scene_file_document(&bind->cli, own, scene);
     mxg_document_destroy(own);
     return whole;
 }
@@ -111,8 +139,7 @@ static mxg_document *load(struct bind *bind, const char *path, const mxg_scene *
 static void bind_file(struct bind *bind, const char *path)
 {
     mxg_document *document = NULL;
-    mxg_scene *scene =
-        scene_file_load(bind->cli.context, &bind->cli.report, bind->stage, bind->purpose);
+    mxg_scene *scene = scene_file_load(&bind->cli, bind->stage, bind->purpose);
     if (scene && (document = load(bind, path, scene)) != NULL)
         bind_document(bind, document, scene);
     mxg_scene_destroy(scene);

@@ -35,7 +35,9 @@ static void write_text(struct cli *cli, const struct format_args *args, const ch
         fwrite(text, 1, size, stdout);
         return;
     }
-    const char *reason = args->in_place && is_equal ? NULL : files_write(place, text, size);
+    const char *reason = !args->in_place ? files_write(place, text, size)
+                         : is_equal      ? NULL
+                                         : files_replace(place, text, size);
     if (reason)
         report_error(&cli->report, "output-failed", "cannot write '%s': %s", place, reason);
 }

@@ -4,6 +4,7 @@
  * output.
  */
 #include "cli/commands.h"
+#include "program/file_name.h"
 #include "program/files.h"
 #include "program/folder.h"
 #include "cli/generate.h"
@@ -22,7 +23,8 @@ static char *file_path(const struct generate *gen, const char *folder, const cha
 {
     if (gen->is_file)
         return cli_format("%s", gen->output);
-    char *name = cli_file_name(element), *path = cli_format("%s/%s.%s", folder, name, suffix);
+    char *name = file_name_of_element(element),
+         *path = cli_format("%s/%s.%s", folder, name, suffix);
     size_t skipped = strncmp(path, "./", 2) == 0 ? 2 : 0;
     memmove(path, path + skipped, strlen(path + skipped) + 1);
     free(name);
@@ -48,7 +50,7 @@ static void write_file(struct generate *gen, const char *folder, const char *ele
                        const char *suffix, const char *text, size_t size)
 {
     if (gen->to_stdout) {
-        char *name = cli_file_name(element);
+        char *name = file_name_of_element(element);
         printf("// %s.%s\n", name, suffix);
         fwrite(text, 1, size, stdout);
         free(name);
@@ -303,9 +305,13 @@ static char *output_folder(const struct generate *gen, const char *argument, con
                                                   : files_base_name(document);
     const char *base = files_base_name(name), *dot = strrchr(base, '.');
     int name_len = (int)(dot && dot != base ? (size_t)(dot - name) : strlen(name));
-    return gen->cli.parser.inputs.len > 1 || is_in_folder
-               ? cli_format("%s/%.*s", gen->output, name_len, name)
-               : cli_format("%s", gen->output);
+    if (gen->cli.parser.inputs.len <= 1 && !is_in_folder)
+        return cli_format("%s", gen->output);
+    char *part = cli_format("%.*s", name_len, name), *clean = file_name_clean(part);
+    char *folder = cli_format("%s/%s", gen->output, clean);
+    free(clean);
+    free(part);
+    return folder;
 }
 
 /* Lists the documents of the arguments with their output folders, which must differ. */
@@ -340,23 +346,35 @@ static bool find_documents(struct generate *gen)
     return good;
 }
 
+/* Writes names with a space between them. NULL, or the name that make cannot read. */
+static const char *put_names(FILE *out, const struct arg_list *names)
+{
+    for (size_t i = 0; i < names->len; ++i) {
+        if (i)
+            putc(' ', out);
+        if (!file_name_put_make(out, names->items[i]))
+            return names->items[i];
+    }
+    return NULL;
+}
+
 /* "out1 out2: in1 in2": the dependencies for make and ninja. */
 static void write_depfile(struct generate *gen)
 {
     struct files_stream stream;
-    const char *reason = files_begin(&stream, gen->depfile);
-    for (size_t i = 0; !reason && i < gen->outputs.len; ++i) {
-        files_put_make_name(stream.out, gen->outputs.items[i]);
-        putc(i + 1 < gen->outputs.len ? ' ' : ':', stream.out);
-    }
-    for (size_t i = 0; !reason && gen->outputs.len && i < gen->sources.len; ++i) {
-        putc(' ', stream.out);
-        files_put_make_name(stream.out, gen->sources.items[i]);
-    }
-    if (!reason && gen->outputs.len)
+    const char *reason = files_begin(&stream, gen->depfile), *unfit = NULL;
+    if (!reason && gen->outputs.len) {
+        unfit = put_names(stream.out, &gen->outputs);
+        fputs(": ", stream.out);
+        if (!unfit)
+            unfit = put_names(stream.out, &gen->sources);
         putc('\n', stream.out);
+    }
     if (!reason)
-        reason = files_end(&stream, true);
+        reason = files_end(&stream, !unfit);
+    if (unfit)
+        report_error(&gen->cli.report, "depfile-name",
+                     "a depfile cannot name '%s'; rename the file", unfit);
     if (reason)
         report_error(&gen->cli.report, "output-failed", "cannot write '%s': %s", gen->depfile,
                      reason);

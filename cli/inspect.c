@@ -109,7 +109,7 @@ static void print_views(struct cli *cli, const mxg_document *document,
 static void print_stack(struct cli *cli, const mxg_document *own, struct inspect *inspect)
 {
     struct bound_scene stage;
-    if (scene_file_bind(cli->context, cli->library, &cli->report, &inspect->place, own, &stage)) {
+    if (scene_file_bind(cli, &inspect->place, own, &stage)) {
         const char *path = inspect->element;
         uint32_t primitive = path ? mxg_scene_find_primitive(stage.scene, path) : 0;
         inspect->bindings = stage.bindings;

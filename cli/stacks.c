@@ -4,6 +4,7 @@
  * equal topology share a program: that of the first one, with other values. A network has its
  * values in it, so each stack has its own.
  */
+#define _POSIX_C_SOURCE 200809L /* ftello */
 #include "program/json.h"
 #include "program/files.h"
 #include "cli/generate.h"
@@ -11,6 +12,7 @@
 #include "program/scene_file.h"
 
 #include <stddef.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -265,14 +267,33 @@ static void put_facts(const struct stacks *s, uint32_t primitive, FILE *out)
     }
 }
 
-/* A line for each primitive, written at once: a scene may have a million of them. */
-static void put_primitives(const struct stacks *s, FILE *out)
+/* False after an error: bindings.json is larger than the limit. */
+static bool is_small(const struct stacks *s, FILE *out)
+{
+    size_t most = cli_max_output_size(&s->gen->cli);
+    off_t size = ftello(out);
+    if (size < 0 || (uintmax_t)size <= (uintmax_t)most << 20)
+        return true;
+    report_error(
+        &s->gen->cli.report, "output-limit",
+        "bindings.json has more than %zu MiB; raise the limit 'max-output-size' if this is "
+        "intended",
+        most);
+    return false;
+}
+
+/*
+ * A line for each primitive, written at once: a scene may have a million of them. False after an
+ * error.
+ */
+static bool put_primitives(const struct stacks *s, FILE *out)
 {
     uint32_t num = mxg_scene_num_primitives(s->stage.scene);
     char *path = NULL;
     size_t capacity = 0;
+    bool good = true;
     fputs("  \"primitives\": [", out);
-    for (uint32_t i = 0; i < num; ++i) {
+    for (uint32_t i = 0; i < num && (good = is_small(s, out)); ++i) {
         size_t size = mxg_scene_primitive_path(s->stage.scene, i, NULL, 0) + 1;
         if (size > capacity) {
             capacity = 2 * size;
@@ -291,6 +312,7 @@ static void put_primitives(const struct stacks *s, FILE *out)
     }
     fputs("\n  ]\n}\n", out);
     free(path);
+    return good;
 }
 
 static void write_bindings(struct stacks *s)
@@ -306,8 +328,7 @@ static void write_bindings(struct stacks *s)
         fputs(",\n", stream.out);
         put_list(stream.out, "programs", programs);
         put_list(stream.out, "stacks", s->stacks);
-        put_primitives(s, stream.out);
-        reason = files_end(&stream, true);
+        reason = files_end(&stream, put_primitives(s, stream.out));
         json_decref(programs);
         json_decref(target);
         args_append(&s->gen->outputs, cli_format("%s", path));
@@ -323,7 +344,7 @@ static bool bind_scene(struct stacks *s, const mxg_document *own)
 {
     struct cli *cli = &s->gen->cli;
     struct scene_place place = {s->gen->scene_file, s->gen->look, s->gen->purpose};
-    return scene_file_bind(cli->context, cli->library, &cli->report, &place, own, &s->stage);
+    return scene_file_bind(cli, &place, own, &s->stage);
 }
 
 static bool note_files(struct stacks *s, const mxg_document *own)

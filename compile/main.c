@@ -156,12 +156,11 @@ static bool bind_stage(struct check *check, mxg_document **document)
 {
     mxg_bindings_desc desc = MXG_BINDINGS_DESC_INIT;
     desc.look = check->look;
-    mxg_scene *scene = scene_file_load(check->cli.context, &check->cli.report, check->stage, NULL);
+    mxg_scene *scene = scene_file_load(&check->cli, check->stage, NULL);
     if (!scene)
         return false;
     mxg_document *own = *document;
-    *document =
-        scene_file_document(check->cli.context, check->cli.library, &check->cli.report, own, scene);
+    *document = scene_file_document(&check->cli, own, scene);
     mxg_document_destroy(own);
     if (!*document) {
         mxg_scene_destroy(scene);

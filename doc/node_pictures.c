@@ -5,6 +5,7 @@
  */
 #define _POSIX_C_SOURCE 200809L
 #include "doc/manual.h"
+#include "program/file_name.h"
 #include "program/files.h"
 
 #include <errno.h>
@@ -270,9 +271,10 @@ static bool draw_node(struct manual *manual, struct cli *cli, struct manual_node
     struct shown shown;
     if (!choose(manual, node, &shown))
         return true;
-    const char *picture = manual_keep(manual, cli_format("pictures/%s.png", node->id));
+    const char *name = manual_keep(manual, file_name_of_element(node->id));
+    const char *picture = manual_keep(manual, cli_format("pictures/%s.png", name));
     argv[ARGUMENT_DOCUMENT] =
-        (char *)(uintptr_t)manual_keep(manual, cli_format("%s/pictures/%s.mtlx", folder, node->id));
+        (char *)(uintptr_t)manual_keep(manual, cli_format("%s/pictures/%s.mtlx", folder, name));
     argv[ARGUMENT_PICTURE] =
         (char *)(uintptr_t)manual_keep(manual, cli_format("%s/%s", folder, picture));
     argv[ARGUMENT_SCENE] = (char *)(uintptr_t)(shown.on_plane ? "plane" : "sphere");

@@ -244,18 +244,46 @@ bool cli_has_budget(const struct cli *cli)
     return has;
 }
 
-static void forward(struct cli *cli, bool with_budgets, struct arg_list *args)
+/* Appends the common options that `is_wanted` accepts. */
+static void forward_args(struct cli *cli, bool (*is_wanted)(const struct arg *arg),
+                         struct arg_list *args)
 {
     struct arg table[MAX_ARGS];
     size_t num_args = add_common_args(cli, table);
     for (size_t i = 0; i < num_args; ++i)
-        if (!table[i].is_own && (with_budgets || !is_budget(table[i].name)))
+        if (!table[i].is_own && is_wanted(&table[i]))
             args_forward(&table[i], args);
     args_append(args, cli_format("--quiet"));
+}
+
+static bool is_any(const struct arg *arg)
+{
+    (void)arg;
+    return true;
+}
+
+static bool is_limit(const struct arg *arg)
+{
+    return arg->group == ARG_LIMITS;
+}
+
+static bool is_no_budget(const struct arg *arg)
+{
+    return !is_budget(arg->name);
+}
+
+static void forward(struct cli *cli, bool with_budgets, struct arg_list *args)
+{
+    forward_args(cli, with_budgets ? is_any : is_no_budget, args);
     for (size_t i = 0; i < cli->parser.num_settings; ++i)
         if (with_budgets || !is_budget(cli->parser.settings[i].key))
             args_append(args, cli_format("--%s=%s", cli->parser.settings[i].key,
                                          cli->parser.settings[i].value));
+}
+
+void cli_forward_limits(struct cli *cli, struct arg_list *args)
+{
+    forward_args(cli, is_limit, args);
 }
 
 void cli_forward(struct cli *cli, struct arg_list *args)
@@ -344,10 +372,16 @@ bool cli_options_apply(const struct cli *cli, const char *const *targets, size_t
     return true;
 }
 
+enum { DEFAULT_MIB = 256 }; /* of the library */
+
 size_t cli_max_file_size(const struct cli *cli)
 {
-    enum { DEFAULT_MIB = 256 }; /* of the library */
     return cli->max_file_size ? cli->max_file_size : DEFAULT_MIB;
+}
+
+size_t cli_max_output_size(const struct cli *cli)
+{
+    return cli->max_output_size ? cli->max_output_size : DEFAULT_MIB;
 }
 
 /* Includes are relative to the current folder. */
@@ -383,24 +417,6 @@ mxg_document *cli_load(struct cli *cli, const char *path)
         return document;
     mxg_document_destroy(document);
     return NULL;
-}
-
-char *cli_file_name(const char *element_path)
-{
-    /*
-     * File systems allow names of 255 bytes. In a longer name a hash of the whole name replaces the
-     * end, so that names stay distinct.
-     */
-    enum { MAX_NAME = 200 };
-    unsigned hash = (unsigned)names_hash(NAMES_HASH_OF_NOTHING, element_path);
-    char *name = strlen(element_path) > MAX_NAME
-                     ? cli_format("%.*s-%08x", MAX_NAME, element_path, hash)
-                     : cli_format("%s", element_path);
-    for (char *c = name; *c; ++c) {
-        if (*c == '/')
-            *c = '.';
-    }
-    return name;
 }
 
 char *cli_copy(const char *text, size_t len)

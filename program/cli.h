@@ -70,6 +70,8 @@ void cli_finish(struct cli *cli);
  * generation, and make it print only errors. The caller frees the items.
  */
 void cli_forward(struct cli *cli, struct arg_list *args);
+/* Forwards limits alone, and makes the program print only errors. */
+void cli_forward_limits(struct cli *cli, struct arg_list *args);
 /* Forwards the options without those that make slabs cheaper. */
 void cli_forward_full(struct cli *cli, struct arg_list *args);
 /* True if there are such options. */
@@ -81,8 +83,9 @@ bool cli_has_budget(const struct cli *cli);
  */
 mxg_document *cli_load(struct cli *cli, const char *path);
 
-/* The limit of the size of an input file, in MiB. */
+/* The limits of the size of an input file, and of a shader or another output, in MiB. */
 size_t cli_max_file_size(const struct cli *cli);
+size_t cli_max_output_size(const struct cli *cli);
 
 /* The target by its name, or by MaterialX's; prints that there is none, and which there are. */
 bool cli_find_target(const char *name, size_t len, mxg_target *out);
@@ -92,9 +95,6 @@ bool cli_find_target(const char *name, size_t len, mxg_target *out);
  * exist.
  */
 bool cli_options_apply(const struct cli *cli, const char *const *targets, size_t num_targets);
-
-/* The file name for an element: its path with dots. The caller frees it. */
-char *cli_file_name(const char *element_path);
 
 /* The path of a file that the file `from` names, relative to its folder. The caller frees it. */
 char *cli_beside(const char *from, const char *file);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#define _POSIX_C_SOURCE 200809L
+#define _GNU_SOURCE /* O_TMPFILE */
 #include "program/files.h"
 
 #include "program/temporary.h"
@@ -56,79 +56,91 @@ char *files_read(const char *path, size_t *out_size)
     return data;
 }
 
-/* Writes all bytes and closes; 0 or errno. Some file systems report a full disk only at close. */
+/* ---- Writing ---- */
+
+/* 0 or errno. */
 static int write_all(int fd, const char *data, size_t size)
 {
-    int reason = 0;
-    while (size && !reason) {
+    while (size) {
         ssize_t n = write(fd, data, size);
-        if (n >= 0) {
-            data += n;
-            size -= (size_t)n;
-        } else if (errno != EINTR) {
-            reason = errno;
-        }
+        if (n < 0 && errno != EINTR)
+            return errno;
+        data += n > 0 ? n : 0;
+        size -= n > 0 ? (size_t)n : 0;
     }
-    if (close(fd) != 0 && !reason)
-        reason = errno;
-    return reason;
+    return 0;
 }
 
-static const char *write_direct(const char *path, const void *data, size_t size)
+/* The folder of a file, which the caller frees; NULL: out of memory. */
+static char *folder_of(const char *path)
 {
-    int fd = open(path, O_WRONLY | O_CLOEXEC);
-    if (fd < 0)
-        return strerror(errno);
-    int reason = write_all(fd, data, size);
-    return reason ? strerror(reason) : NULL;
+    size_t len = (size_t)(files_base_name(path) - path);
+    char *folder = malloc(len + 2);
+    if (folder)
+        snprintf(folder, len + 2, "%.*s", (int)(len ? len : 1), len ? path : ".");
+    return folder;
 }
 
-const char *files_write(const char *path, const void *data, size_t size)
+/*
+ * A file beside `path` without a name, which disappears with the process (open(2), O_TMPFILE); -1
+ * where the file system or the lack of /proc does not allow it.
+ */
+static int open_unnamed(const char *path)
 {
-    struct stat info;
-    if (stat(path, &info) == 0 && !S_ISREG(info.st_mode))
-        return S_ISDIR(info.st_mode) ? strerror(EISDIR) : write_direct(path, data, size);
-    size_t room = strlen(path) + 32;
-    char *temporary = malloc(room);
-    if (!temporary)
-        return strerror(ENOMEM);
-    snprintf(temporary, room, "%s.%ld.tmp", path, (long)getpid());
-    int reason = 0;
-    temporary_note(temporary);
-    int fd = open(temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (fd < 0) {
-        reason = errno;
-    } else {
-        reason = write_all(fd, data, size);
-        if (!reason && rename(temporary, path) != 0)
-            reason = errno;
-        if (reason)
-            unlink(temporary);
+    char *folder = access("/proc/self/fd", X_OK) == 0 ? folder_of(path) : NULL;
+    int fd = folder ? open(folder, O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666) : -1;
+    free(folder);
+    return fd;
+}
+
+/* A new file beside `path`; -1 with errno. The stream keeps its name. */
+static int open_named(struct files_stream *stream, const char *path)
+{
+    enum { MAX_TRIES = 100 };
+    for (int i = 0; i < MAX_TRIES; ++i) {
+        stream->temporary = temporary_name(path, ".tmp");
+        if (!stream->temporary)
+            return -1;
+        temporary_note(stream->temporary);
+        int fd = open(stream->temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (fd >= 0)
+            return fd;
+        int reason = errno;
+        temporary_forget(stream->temporary);
+        free(stream->temporary);
+        stream->temporary = NULL;
+        errno = reason;
+        if (reason != EEXIST)
+            break;
     }
-    temporary_forget(temporary);
-    free(temporary);
-    return reason ? strerror(reason) : NULL;
+    return -1;
 }
 
 /* Opens the file of the stream; 0 or errno. */
 static int open_stream(struct files_stream *stream, const char *path)
 {
     struct stat info;
-    bool is_direct = stat(path, &info) == 0 && !S_ISREG(info.st_mode);
-    size_t room = strlen(path) + 32;
-    stream->path = malloc(room);
-    stream->temporary = is_direct ? NULL : malloc(room);
-    if (!stream->path || (!is_direct && !stream->temporary))
+    stream->is_direct = stat(path, &info) == 0 && !S_ISREG(info.st_mode);
+    stream->path = strdup(path);
+    if (!stream->path)
         return ENOMEM;
-    snprintf(stream->path, room, "%s", path);
-    if (stream->temporary) {
-        snprintf(stream->temporary, room, "%s.%ld.tmp", path, (long)getpid());
-        temporary_note(stream->temporary);
-    }
-    int flags = is_direct ? O_WRONLY | O_CLOEXEC : O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC;
-    int fd = open(is_direct ? path : stream->temporary, flags, 0666);
+    int fd = stream->is_direct ? open(path, O_WRONLY | O_CLOEXEC) : open_unnamed(path);
+    if (fd < 0 && !stream->is_direct)
+        fd = open_named(stream, path);
     stream->out = fd < 0 ? NULL : fdopen(fd, "w");
     return stream->out ? 0 : errno;
+}
+
+/* Forgets all but the reason, which it returns. */
+static int finish_stream(struct files_stream *stream, int reason)
+{
+    if (stream->temporary) {
+        temporary_forget(stream->temporary);
+        free(stream->temporary);
+    }
+    free(stream->path);
+    *stream = (struct files_stream){0};
+    return reason;
 }
 
 const char *files_begin(struct files_stream *stream, const char *path)
@@ -136,39 +148,129 @@ const char *files_begin(struct files_stream *stream, const char *path)
     *stream = (struct files_stream){0};
     if (strcmp(path, "-") == 0) {
         stream->out = stdout;
+        stream->is_direct = true;
         return NULL;
     }
     int reason = open_stream(stream, path);
-    if (!reason)
-        return NULL;
-    if (stream->temporary)
-        temporary_forget(stream->temporary);
-    free(stream->path);
-    free(stream->temporary);
-    *stream = (struct files_stream){0};
-    return strerror(reason);
+    return reason ? strerror(finish_stream(stream, reason)) : NULL;
+}
+
+/* Gives a file without a name the temporary one; 0 or errno. */
+static int name_file(struct files_stream *stream)
+{
+    enum { MAX_TRIES = 100 };
+    char link[64];
+    int reason = EEXIST;
+    snprintf(link, sizeof link, "/proc/self/fd/%d", fileno(stream->out));
+    for (int i = 0; i < MAX_TRIES && reason == EEXIST; ++i) {
+        free(stream->temporary);
+        stream->temporary = temporary_name(stream->path, ".tmp");
+        if (!stream->temporary)
+            return ENOMEM;
+        temporary_note(stream->temporary);
+        reason =
+            linkat(AT_FDCWD, link, AT_FDCWD, stream->temporary, AT_SYMLINK_FOLLOW) == 0 ? 0 : errno;
+        if (reason)
+            temporary_forget(stream->temporary);
+    }
+    if (reason) {
+        free(stream->temporary);
+        stream->temporary = NULL;
+    }
+    return reason;
+}
+
+/* Why a stream has failed, which stdio does not keep: the next write fails for the same reason. */
+static int fault_of(FILE *out)
+{
+    errno = 0;
+    if (fflush(out) != 0 && errno)
+        return errno;
+    if (!ferror(out))
+        return 0;
+    return write(fileno(out), "", 1) < 0 ? errno : EIO;
 }
 
 const char *files_end(struct files_stream *stream, bool keep)
 {
     if (!stream->out)
         return NULL;
-    int reason = ferror(stream->out) ? EIO : 0;
-    errno = 0;
-    if ((stream->out == stdout ? fflush(stream->out) : fclose(stream->out)) != 0)
-        reason = errno ? errno : EIO;
-    if (stream->temporary) {
-        if (keep && !reason && rename(stream->temporary, stream->path) != 0)
-            reason = errno;
-        if (!keep || reason)
-            unlink(stream->temporary);
-        temporary_forget(stream->temporary);
-    }
-    free(stream->path);
-    free(stream->temporary);
-    *stream = (struct files_stream){0};
+    int reason = fault_of(stream->out);
+    bool is_kept = keep && !reason && !stream->is_direct;
+    if (is_kept && !stream->temporary)
+        reason = name_file(stream);
+    if (stream->out != stdout && fclose(stream->out) != 0 && !reason)
+        reason = errno;
+    if (is_kept && !reason && rename(stream->temporary, stream->path) != 0)
+        reason = errno;
+    if (stream->temporary && (!is_kept || reason))
+        unlink(stream->temporary);
+    finish_stream(stream, 0);
     return keep && reason ? strerror(reason) : NULL;
 }
+
+const char *files_write(const char *path, const void *data, size_t size)
+{
+    struct files_stream stream;
+    if (files_is_folder(path))
+        return strerror(EISDIR);
+    const char *reason = files_begin(&stream, path);
+    if (reason)
+        return reason;
+    fwrite(data, 1, size, stream.out);
+    return files_end(&stream, true);
+}
+
+/* Overwrites a file in its place; 0 or errno. */
+static int overwrite(const char *path, const void *data, size_t size)
+{
+    int fd = open(path, O_WRONLY | O_CLOEXEC);
+    int reason = fd < 0 ? errno : write_all(fd, data, size);
+    if (fd >= 0 && !reason && ftruncate(fd, (off_t)size) != 0)
+        reason = errno;
+    if (fd >= 0 && close(fd) != 0 && !reason)
+        reason = errno;
+    return reason;
+}
+
+/* Gives the new file of a stream the mode and the owner of an old one, as far as it may. */
+static void copy_mode(const struct files_stream *stream, const struct stat *old)
+{
+    int fd = fileno(stream->out);
+    bool is_own = fchown(fd, old->st_uid, old->st_gid) == 0;
+    mode_t mode = old->st_mode & (is_own ? 07777 : 0777);
+    if (fchmod(fd, mode) != 0)
+        errno = 0; /* the file keeps the usual mode */
+}
+
+const char *files_replace(const char *path, const void *data, size_t size)
+{
+    struct stat old;
+    struct files_stream stream;
+    char *real = realpath(path, NULL);
+    if (!real || stat(real, &old) != 0) {
+        free(real);
+        return strerror(errno);
+    }
+    const char *reason = files_begin(&stream, real);
+    if (!reason) {
+        fwrite(data, 1, size, stream.out);
+        if (!stream.is_direct)
+            copy_mode(&stream, &old);
+        /* other names of the file see the new text, and by now it is known that the disk has room
+         */
+        bool is_linked = old.st_nlink > 1 && !stream.is_direct;
+        int fault = is_linked ? fault_of(stream.out) : 0;
+        if (is_linked && !fault)
+            fault = overwrite(real, data, size);
+        reason = files_end(&stream, !is_linked);
+        reason = fault ? strerror(fault) : reason;
+    }
+    free(real);
+    return reason;
+}
+
+/* ---- Folders ---- */
 
 const char *files_make_folder(const char *path)
 {
@@ -206,17 +308,6 @@ bool files_find_program(const char *name)
         at += len + (at[len] == ':');
     }
     return found;
-}
-
-void files_put_make_name(FILE *out, const char *name)
-{
-    for (; *name; ++name) {
-        if (*name == ' ' || *name == '#')
-            putc('\\', out);
-        else if (*name == '$')
-            putc('$', out);
-        putc(*name, out);
-    }
 }
 
 bool files_is_regular(const char *path)

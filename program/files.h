@@ -18,10 +18,18 @@ char *files_read(const char *path, size_t *out_size);
  */
 const char *files_write(const char *path, const void *data, size_t size);
 
+/*
+ * Writes a file over an old one, which keeps its mode, its owner, links that lead to it and its
+ * other names. Only with other names its bytes are overwritten in their place, after a copy shows
+ * that the disk has room. Returns NULL, or the reason for a failure.
+ */
+const char *files_replace(const char *path, const void *data, size_t size);
+
 /* A file that is written in pieces, and appears as a whole or not at all. */
 struct files_stream {
     FILE *out;
-    char *path, *temporary; /* temporary NULL: written directly */
+    char *path, *temporary; /* temporary NULL: the new file has no name yet, so a kill removes it */
+    bool is_direct;         /* a pipe, a device or standard output: there is no new file */
 };
 
 /*
@@ -40,9 +48,6 @@ const char *files_make_folder(const char *path);
 
 /* True if a program of this name exists: a path, or a name in a folder of PATH. */
 bool files_find_program(const char *name);
-
-/* Writes a file name in make's syntax: spaces and '#' escaped, '$' doubled. */
-void files_put_make_name(FILE *out, const char *name);
 
 bool files_is_regular(const char *path);
 

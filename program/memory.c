@@ -11,14 +11,19 @@ void memory_on_exhaustion(void (*tell)(void))
     tell_exhaustion = tell;
 }
 
-static void *require(void *memory)
+_Noreturn void memory_fail(void)
 {
-    if (memory)
-        return memory;
     if (tell_exhaustion)
         tell_exhaustion();
     fputs("mxgen: out of memory\n", stderr);
     exit(1);
+}
+
+static void *require(void *memory)
+{
+    if (!memory)
+        memory_fail();
+    return memory;
 }
 
 void *memory_alloc(size_t size)

@@ -8,6 +8,9 @@
 /* `tell` is called before the program ends because memory is exhausted. */
 void memory_on_exhaustion(void (*tell)(void));
 
+/* Ends the program because memory is exhausted. */
+_Noreturn void memory_fail(void);
+
 /* Zeroed, and aligned for any object. */
 void *memory_alloc(size_t size);
 /* Like realloc. */

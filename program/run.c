@@ -2,6 +2,7 @@
 /* Finds the mxgen programs, which lie in one folder, and runs them. */
 #define _POSIX_C_SOURCE 200809L
 #include "program/cli.h"
+#include "program/parent.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -45,6 +46,7 @@ int cli_run_logged(char *const *arguments, const char *log, int *out_status)
                                          0600);
         posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
     }
+    parent_announce();
     int reason = posix_spawnp(&process, arguments[0], &actions, NULL, arguments, environ);
     posix_spawn_file_actions_destroy(&actions);
     while (!reason && waitpid(process, out_status, 0) < 0)

@@ -5,9 +5,11 @@
 #include "program/cli.h"
 #include "program/files.h"
 #include "program/memory.h"
+#include "program/parent.h"
 
 #include <errno.h>
 #include <spawn.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
@@ -41,35 +43,55 @@ static mxg_status read_paths(FILE *in, mxg_scene *scene)
     return status;
 }
 
-/* Starts mxgen-render, whose messages go to standard error. Returns 0 or a reason of errno. */
-static int start(const char *program, const char *path, pid_t *out_child, int *out_output)
+/*
+ * Starts mxgen-render with the limits of this program; its messages go to standard error. Returns 0
+ * or a reason of errno.
+ */
+static int start(struct cli *cli, const char *program, const char *path, pid_t *out_child,
+                 int *out_output)
 {
-    char *stage = cli_format("--stage=%s", path), list[] = "--list", quiet[] = "--quiet";
-    char *const argv[] = {(char *)(uintptr_t)program, stage, list, quiet, NULL};
+    struct arg_list args = {0};
+    args_append(&args, cli_format("%s", program));
+    args_append(&args, cli_format("--stage=%s", path));
+    args_append(&args, cli_format("--list"));
+    cli_forward_limits(cli, &args);
+    args_append(&args, NULL);
     int ends[2], reason = pipe(ends) < 0 ? errno : 0;
+    parent_announce();
     if (!reason) {
         posix_spawn_file_actions_t actions;
         posix_spawn_file_actions_init(&actions);
         posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
         posix_spawn_file_actions_addclose(&actions, ends[0]);
         posix_spawn_file_actions_addclose(&actions, ends[1]);
-        reason = posix_spawnp(out_child, program, &actions, NULL, argv, environ);
+        reason = posix_spawnp(out_child, program, &actions, NULL,
+                              (char *const *)(uintptr_t)args.items, environ);
         posix_spawn_file_actions_destroy(&actions);
         close(ends[1]);
         *out_output = ends[0];
         if (reason)
             close(ends[0]);
     }
-    free(stage);
+    args_free(&args);
     return reason;
 }
 
-/* The child has reported its own errors. */
-static bool import(struct report *report, const char *path, mxg_scene *scene)
+/* Counts what the child has reported itself, and tells why it died. */
+static void count_fault(struct report *report, const char *path, int code)
+{
+    if (WIFSIGNALED(code))
+        report_error(report, "bad-mesh",
+                     "cannot use the stage '%s': mxgen-render died of signal %d", path,
+                     WTERMSIG(code));
+    else if (code)
+        ++report->errors;
+}
+
+static bool import(struct cli *cli, const char *path, mxg_scene *scene)
 {
     char *program = cli_program("mxgen-render");
     pid_t child;
-    int output, code = -1, reason = start(program, path, &child, &output);
+    int output, code = -1, reason = start(cli, program, path, &child, &output);
     mxg_status status = MXG_OK;
     if (!reason) {
         FILE *in = fdopen(output, "r");
@@ -78,41 +100,38 @@ static bool import(struct report *report, const char *path, mxg_scene *scene)
             fclose(in);
         while (waitpid(child, &code, 0) < 0 && errno == EINTR) {
         }
+        count_fault(&cli->report, path, code);
+    } else {
+        report_error(&cli->report, "no-renderer", "cannot start '%s', which reads '%s': %s",
+                     program, path, strerror(reason));
     }
-    if (reason)
-        report_error(report, "no-renderer", "cannot start '%s', which reads '%s': %s", program,
-                     path, strerror(reason));
-    else if (code)
-        ++report->errors;
     free(program);
-    return !reason && !code && report_status(report, status);
+    return !reason && !code && report_status(&cli->report, status);
 }
 
 /* ---- All files ---- */
 
-mxg_scene *scene_file_load(mxg_context *context, struct report *report, const char *path,
-                           const char *purpose)
+mxg_scene *scene_file_load(struct cli *cli, const char *path, const char *purpose)
 {
     mxg_scene *scene = NULL;
     bool is_other = scene_file_kind(path) == SCENE_FILE_OTHER;
-    mxg_status status = is_other ? mxg_scene_create(context, &scene)
-                                 : mxg_scene_load(context, path, purpose, &scene);
+    mxg_status status = is_other ? mxg_scene_create(cli->context, &scene)
+                                 : mxg_scene_load(cli->context, path, purpose, &scene);
     if (scene && !is_other)
-        report_list(report, mxg_scene_diagnostics(scene));
-    if (report_status(report, status) && (!is_other || import(report, path, scene)))
+        report_list(&cli->report, mxg_scene_diagnostics(scene));
+    if (report_status(&cli->report, status) && (!is_other || import(cli, path, scene)))
         return scene;
     mxg_scene_destroy(scene);
     return NULL;
 }
 
-mxg_document *scene_file_document(mxg_context *context, mxg_library *library, struct report *report,
-                                  const mxg_document *own, const mxg_scene *scene)
+mxg_document *scene_file_document(struct cli *cli, const mxg_document *own, const mxg_scene *scene)
 {
     mxg_document *whole = NULL;
-    mxg_status status = mxg_document_import(context, library, own, scene, &whole);
+    mxg_status status = mxg_document_import(cli->context, cli->library, own, scene, &whole);
     if (whole)
-        report_list(report, mxg_document_diagnostics(whole));
-    if (report_status(report, status))
+        report_list(&cli->report, mxg_document_diagnostics(whole));
+    if (report_status(&cli->report, status))
         return whole;
     mxg_document_destroy(whole);
     return NULL;
@@ -142,23 +161,21 @@ void scene_file_report_unknown(struct report *report, const mxg_scene *scene, co
     args_free(&paths);
 }
 
-bool scene_file_bind(mxg_context *context, mxg_library *library, struct report *report,
-                     const struct scene_place *place, const mxg_document *own,
+bool scene_file_bind(struct cli *cli, const struct scene_place *place, const mxg_document *own,
                      struct bound_scene *out)
 {
     mxg_bindings_desc desc = MXG_BINDINGS_DESC_INIT;
     desc.look = place->look;
-    *out = (struct bound_scene){.scene =
-                                    scene_file_load(context, report, place->file, place->purpose)};
+    *out = (struct bound_scene){.scene = scene_file_load(cli, place->file, place->purpose)};
     if (out->scene)
-        out->document = scene_file_document(context, library, report, own, out->scene);
+        out->document = scene_file_document(cli, own, out->scene);
     if (!out->document)
         return false;
     mxg_status status =
-        mxg_bindings_create(context, out->document, out->scene, &desc, &out->bindings);
+        mxg_bindings_create(cli->context, out->document, out->scene, &desc, &out->bindings);
     if (out->bindings)
-        report_list(report, mxg_bindings_diagnostics(out->bindings));
-    return report_status(report, status);
+        report_list(&cli->report, mxg_bindings_diagnostics(out->bindings));
+    return report_status(&cli->report, status);
 }
 
 void scene_file_unbind(struct bound_scene *stage)

@@ -6,9 +6,7 @@
 #ifndef MXG_PROGRAM_SCENE_FILE_H
 #define MXG_PROGRAM_SCENE_FILE_H
 
-#include "program/report.h"
-
-#include <mxgen/mxgen.h>
+#include "program/cli.h"
 
 /* By the ending of the name; a list ends in ".txt", or has no ending. */
 enum scene_file_kind { SCENE_FILE_LIST, SCENE_FILE_USD, SCENE_FILE_OTHER };
@@ -18,15 +16,13 @@ enum scene_file_kind scene_file_kind(const char *path);
  * Loads a stage, as mxg_scene_load does, and reports its diagnostics; files of other kinds become
  * scenes without properties. The caller destroys the scene. NULL after a message.
  */
-mxg_scene *scene_file_load(mxg_context *context, struct report *report, const char *path,
-                           const char *purpose);
+mxg_scene *scene_file_load(struct cli *cli, const char *path, const char *purpose);
 
 /*
  * A copy of a document, which may be NULL, with the materials of a stage that it lacks. Reports
  * what is new in it. The caller destroys it. NULL after a message.
  */
-mxg_document *scene_file_document(mxg_context *context, mxg_library *library, struct report *report,
-                                  const mxg_document *own, const mxg_scene *scene);
+mxg_document *scene_file_document(struct cli *cli, const mxg_document *own, const mxg_scene *scene);
 
 struct scene_place {
     const char *file, *look, *purpose; /* look and purpose may be NULL */
@@ -41,8 +37,7 @@ struct bound_scene {
 
 /* Binds a stage, and reports diagnostics. The caller finishes it in any case. False: it has none.
  */
-bool scene_file_bind(mxg_context *context, mxg_library *library, struct report *report,
-                     const struct scene_place *place, const mxg_document *own,
+bool scene_file_bind(struct cli *cli, const struct scene_place *place, const mxg_document *own,
                      struct bound_scene *out);
 void scene_file_unbind(struct bound_scene *stage);
 

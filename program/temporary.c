@@ -1,16 +1,42 @@
 // SPDX-License-Identifier: Apache-2.0
-#define _POSIX_C_SOURCE 200809L
+#define _DEFAULT_SOURCE /* getentropy */
 #include "program/temporary.h"
 
 #include <signal.h>
 #include <stdatomic.h>
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
 #include <unistd.h>
 
 enum { MAX_FILES = 32 }; /* a program writes a few files at a time; more are not removed */
 
 static _Atomic(const char *) files[MAX_FILES];
+
+static uint32_t random_number(void)
+{
+    static atomic_uint count;
+    uint32_t number;
+    struct timespec now;
+    if (getentropy(&number, sizeof number) == 0)
+        return number;
+    clock_gettime(CLOCK_REALTIME, &now);
+    return (uint32_t)now.tv_nsec * 2654435761u ^ (uint32_t)getpid() << 8
+           ^ atomic_fetch_add(&count, 1);
+}
+
+char *temporary_name(const char *before, const char *after)
+{
+    size_t size = strlen(before) + strlen(after) + 16;
+    char *name = malloc(size);
+    if (name)
+        snprintf(name, size, "%s.%08x%s", before, (unsigned)random_number(), after);
+    return name;
+}
 
 /* unlink and raise are safe in a handler; the second delivery has the default effect. */
 static void remove_all(int number)

@@ -10,6 +10,12 @@
 extern "C" {
 #endif
 
+/*
+ * "BEFORE.", eight random digits, "AFTER": the name of a file that no other process makes, whatever
+ * its number. The caller frees it. NULL: out of memory.
+ */
+char *temporary_name(const char *before, const char *after);
+
 /* Notes a file before it exists; the caller keeps the name alive until temporary_forget. */
 void temporary_note(const char *path);
 /* After the file got its name, or was removed. */

@@ -2,6 +2,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "program/texels.h"
 #include "program/cli.h"
+#include "program/parent.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -20,6 +21,7 @@ static pid_t start(char *const *arguments, int to, int from)
     pid_t process = -1;
     if (posix_spawn_file_actions_init(&actions))
         return -1;
+    parent_announce();
     bool good =
         !posix_spawn_file_actions_adddup2(&actions, to, STDOUT_FILENO)
         && !posix_spawn_file_actions_addclose(&actions, from)

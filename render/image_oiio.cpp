@@ -11,6 +11,8 @@
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <memory>
+#include <new>
 #include <string>
 #include <strings.h>
 #include <sys/stat.h>
@@ -332,7 +334,13 @@ bool image_write(const char *path, const struct image *image, char *reason, size
         /* The ending selects the format, so the temporary name keeps it. */
         std::string name(path);
         size_t base = name.rfind('/') + 1;
-        std::string temporary = name.substr(0, base) + ".tmp-" + name.substr(base);
+        std::unique_ptr<char, decltype(&std::free)> made(
+            temporary_name((name.substr(0, base) + ".tmp").c_str(),
+                           ("-" + name.substr(base)).c_str()),
+            &std::free);
+        if (!made)
+            throw std::bad_alloc();
+        const std::string temporary = made.get();
         temporary_note(temporary.c_str());
         bool good = guard(reason, capacity,
                           [&] { return write_file(temporary, *image, reason, capacity); });

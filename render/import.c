@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#define _POSIX_C_SOURCE 200809L
+#define _XOPEN_SOURCE 700 /* realpath */
 #include "render/import.h"
 
 #include "program/files.h"
+#include "render/import_files.h"
 
 #include <assimp/cimport.h>
 #include <assimp/config.h>
@@ -11,6 +12,7 @@
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -18,6 +20,7 @@
 #define TEXT_OF(macro) TEXT_OF_VALUE(macro)
 #define CREASE_DEGREES 60.0f /* sharper edges stay edges where normals are made */
 #define MAX_TRIANGLES (1u << 26)
+#define MAX_DEPTH 1000   /* of nodes */
 #define MAX_CORNERS 4096 /* of a face: the time of triangulation grows with the square */
 
 static bool fail(struct mesh_fault *fault, const char *id, const char *text)
@@ -36,45 +39,113 @@ static bool has_large_face(const struct aiScene *scene)
     return false;
 }
 
-static bool is_finite(const struct aiScene *scene)
+static bool are_finite(const struct aiVector3D *vectors, unsigned num)
 {
-    for (unsigned i = 0; i < scene->mNumMeshes; ++i)
-        for (unsigned v = 0; v < scene->mMeshes[i]->mNumVertices; ++v) {
-            const struct aiVector3D *at = &scene->mMeshes[i]->mVertices[v];
-            if (!isfinite(at->x) || !isfinite(at->y) || !isfinite(at->z))
-                return false;
-        }
+    for (unsigned i = 0; vectors && i < num; ++i)
+        if (!isfinite(vectors[i].x) || !isfinite(vectors[i].y) || !isfinite(vectors[i].z))
+            return false;
     return true;
 }
 
-const struct aiScene *import_read(const char *path, bool keeps_nodes, struct mesh_fault *fault)
+static bool is_finite(const struct aiMesh *mesh)
 {
-    if (!files_is_regular(path)) { /* a device or a pipe may never end */
-        fail(fault, "bad-mesh", access(path, F_OK) == 0 ? "it is not a file" : strerror(errno));
-        return NULL;
+    bool good = are_finite(mesh->mVertices, mesh->mNumVertices)
+                && are_finite(mesh->mNormals, mesh->mNumVertices)
+                && are_finite(mesh->mTangents, mesh->mNumVertices)
+                && are_finite(mesh->mBitangents, mesh->mNumVertices);
+    for (unsigned k = 0; good && k < AI_MAX_NUMBER_OF_TEXTURECOORDS; ++k)
+        good = are_finite(mesh->mTextureCoords[k], mesh->mNumVertices);
+    for (unsigned k = 0; good && k < AI_MAX_NUMBER_OF_COLOR_SETS && mesh->mColors[k]; ++k)
+        for (unsigned v = 0; good && v < mesh->mNumVertices; ++v) {
+            const struct aiColor4D *c = &mesh->mColors[k][v];
+            good = isfinite(c->r) && isfinite(c->g) && isfinite(c->b) && isfinite(c->a);
+        }
+    return good;
+}
+
+static bool is_finite_matrix(const struct aiMatrix4x4 *m)
+{
+    const ai_real numbers[] = {m->a1, m->a2, m->a3, m->a4, m->b1, m->b2, m->b3, m->b4,
+                               m->c1, m->c2, m->c3, m->c4, m->d1, m->d2, m->d3, m->d4};
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; ++i)
+        if (!isfinite(numbers[i]))
+            return false;
+    return true;
+}
+
+/* The fault of the nodes, which Assimp and its releases visit by recursion; NULL: none. */
+static const char *nodes_fault(const struct aiScene *scene)
+{
+    const struct aiNode *at = scene->mRootNode;
+    unsigned depth = 0, child[MAX_DEPTH + 1] = {0};
+    while (at) {
+        if (!child[depth] && !is_finite_matrix(&at->mTransformation))
+            return "a node has a matrix with numbers that are NaN or infinite";
+        if (child[depth] < at->mNumChildren) {
+            at = at->mChildren[child[depth]++];
+            if (depth == MAX_DEPTH)
+                return "its nodes are nested more than " TEXT_OF(MAX_DEPTH) " deep";
+            child[++depth] = 0;
+        } else {
+            at = depth-- ? at->mParent : NULL;
+        }
     }
+    return NULL;
+}
+
+/* Why the scene cannot be used; NULL: it can. */
+static const char *fault_of(const struct aiScene *scene)
+{
+    if (has_large_face(scene))
+        return "it has a face of more than " TEXT_OF(MAX_CORNERS) " corners";
+    for (unsigned i = 0; i < scene->mNumMeshes; ++i)
+        if (!is_finite(scene->mMeshes[i]))
+            return "it has corners with numbers that are NaN or infinite";
+    return scene->mRootNode ? nodes_fault(scene) : "it has no nodes";
+}
+
+/* Reads a file, and makes triangles. NULL with a reason. */
+static const struct aiScene *read_file(struct import_files *files, bool keeps_nodes,
+                                       const char **out_reason)
+{
     struct aiPropertyStore *properties = aiCreatePropertyStore();
     aiSetImportPropertyInteger(properties, AI_CONFIG_PP_SBP_REMOVE,
                                aiPrimitiveType_POINT | aiPrimitiveType_LINE);
     aiSetImportPropertyFloat(properties, AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, CREASE_DEGREES);
-    const struct aiScene *scene = aiImportFileExWithProperties(path, 0, NULL, properties);
+    const struct aiScene *scene =
+        aiImportFileExWithProperties(files->path, 0, &files->io, properties);
     aiReleasePropertyStore(properties);
-    const char *reason = NULL;
-    if (scene && has_large_face(scene))
-        reason = "it has a face of more than " TEXT_OF(MAX_CORNERS) " corners";
-    else if (scene && !is_finite(scene))
-        reason = "it has corners whose coordinates are NaN or infinite";
-    if (reason) {
+    *out_reason = *files->fault ? files->fault : scene ? fault_of(scene) : aiGetErrorString();
+    if (scene && *out_reason) {
         aiReleaseImport(scene);
-        fail(fault, "bad-mesh", reason);
         return NULL;
     }
     if (scene) /* this releases the scene if it fails */
         scene = aiApplyPostProcessing(
             scene, aiProcess_Triangulate | aiProcess_SortByPType
                        | (keeps_nodes ? 0u : (unsigned)aiProcess_PreTransformVertices));
+    if (!scene && !*out_reason)
+        *out_reason = aiGetErrorString();
+    return scene;
+}
+
+const struct aiScene *import_read(const mxg_context *context, const char *path, bool keeps_nodes,
+                                  struct mesh_fault *fault)
+{
+    if (!files_is_regular(path)) { /* a device or a pipe may never end */
+        fail(fault, "bad-mesh", access(path, F_OK) == 0 ? "it is not a file" : strerror(errno));
+        return NULL;
+    }
+    char *real = realpath(path, NULL); /* the sandbox does not hold for what the user names */
+    const char *reason = real ? mxg_context_file_fault(context, real, real) : strerror(errno);
+    free(real);
+    struct import_files files;
+    import_files_begin(&files, context, path);
+    const struct aiScene *scene = reason ? NULL : read_file(&files, keeps_nodes, &reason);
+    import_files_end(&files);
     if (!scene)
-        fail(fault, "bad-mesh", aiGetErrorString());
+        fail(fault, "bad-mesh",
+             strstr(reason, "bad_alloc") ? "it needs too much memory for its size" : reason);
     return scene;
 }
 
@@ -157,10 +228,11 @@ static bool convert(const struct aiScene *scene, unsigned made, struct mesh *out
            || fail(fault, "bad-mesh", "out of memory");
 }
 
-bool mesh_import(const char *path, struct mesh *out, unsigned *out_made, struct mesh_fault *fault)
+bool mesh_import(const mxg_context *context, const char *path, struct mesh *out, unsigned *out_made,
+                 struct mesh_fault *fault)
 {
     *out = (struct mesh){0};
-    const struct aiScene *scene = import_read(path, false, fault);
+    const struct aiScene *scene = import_read(context, path, false, fault);
     if (!scene)
         return false;
     *out_made = missing_parts(scene);

@@ -11,7 +11,8 @@
  * Triangles; lines and points are dropped. Without nodes they are in the space of the scene.
  * aiReleaseImport frees it. NULL after a fault.
  */
-const struct aiScene *import_read(const char *path, bool keeps_nodes, struct mesh_fault *fault);
+const struct aiScene *import_read(const mxg_context *context, const char *path, bool keeps_nodes,
+                                  struct mesh_fault *fault);
 /* The parts that a mesh lacks: bits of enum mesh_part. */
 unsigned import_missing(const struct aiMesh *mesh);
 /* Copies what the mesh has. */

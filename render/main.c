@@ -44,8 +44,7 @@ static void render_stage(struct job *job, const char *path)
 {
     mxg_document *own = path ? job_load(job, path) : NULL, *document = NULL;
     if ((!path || own) && job_prepare(job))
-        document = scene_file_document(job->cli.context, job->cli.library, &job->cli.report, own,
-                                       job->site.scene);
+        document = scene_file_document(&job->cli, own, job->site.scene);
     if (document)
         draw_stage(job, document, path ? path : job->options.stage);
     mxg_document_destroy(document);
@@ -153,6 +152,7 @@ int main(int argc, char **argv)
         job.painter.cli = &job.cli;
         job.painter.files = &job.files;
         job.painter.studio.mesh = job.options.mesh;
+        job.painter.studio.context = job.cli.context;
         /*
          * llvmpipe's optimiser takes minutes for large shaders. Without it the pictures are the
          * same after seconds.

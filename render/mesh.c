@@ -169,12 +169,17 @@ struct twin {
     uint32_t vertex;
 };
 
+/* A total order: NaN comes last, and is equal to itself. */
 static int compare_twins(const void *a, const void *b)
 {
     const struct twin *x = a, *y = b;
-    for (size_t i = 0; i < 8; ++i)
-        if (x->at[i] != y->at[i])
+    for (size_t i = 0; i < 8; ++i) {
+        bool is_nan = isnan(x->at[i]), is_other_nan = isnan(y->at[i]);
+        if (is_nan != is_other_nan)
+            return is_nan ? 1 : -1;
+        if (!is_nan && x->at[i] != y->at[i])
             return x->at[i] < y->at[i] ? -1 : 1;
+    }
     return 0;
 }
 

@@ -3,6 +3,8 @@
 #ifndef MXG_RENDER_MESH_H
 #define MXG_RENDER_MESH_H
 
+#include <mxgen/mxgen.h>
+
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -63,12 +65,14 @@ bool shape_make(const char *name, unsigned detail, struct mesh *out);
 
 /*
  * import.c: reads a file in OBJ, glTF or another format of Assimp. *out_made are the parts that it
- * added. On failure returns false with an id and a reason.
+ * added. `context` says which files it may refer to. On failure returns false with an id and a
+ * reason.
  */
 struct mesh_fault {
     const char *id;
     char text[256];
 };
-bool mesh_import(const char *path, struct mesh *out, unsigned *out_made, struct mesh_fault *fault);
+bool mesh_import(const mxg_context *context, const char *path, struct mesh *out, unsigned *out_made,
+                 struct mesh_fault *fault);
 
 #endif

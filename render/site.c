@@ -21,6 +21,19 @@ char *site_path(const mxg_scene *scene, uint32_t primitive)
     return path;
 }
 
+bool site_has_room(struct site *site, uint32_t primitive, uint64_t num_triangles)
+{
+    enum { MAX_OBJECTS = 1 << 20, MAX_TRIANGLES = 1 << 26 };
+    site->num_triangles += num_triangles;
+    if (site->has_fault)
+        return false;
+    if (site->num_objects == MAX_OBJECTS)
+        site_fail(site, primitive, NULL, "and others are more than %d objects", MAX_OBJECTS);
+    else if (site->num_triangles > MAX_TRIANGLES)
+        site_fail(site, primitive, NULL, "and others have more than %d triangles", MAX_TRIANGLES);
+    return !site->has_fault;
+}
+
 struct scene_object *site_add(struct site *site, uint32_t primitive, struct matrix world)
 {
     if (site->num_objects == site->capacity) {
@@ -32,6 +45,20 @@ struct scene_object *site_add(struct site *site, uint32_t primitive, struct matr
         (struct site_object){.object = {.world = world, .path = site_path(site->scene, primitive)},
                              .primitive = primitive};
     return &added->object;
+}
+
+void site_repeat(struct site *site, uint32_t first, uint32_t num, struct matrix world)
+{
+    for (uint32_t i = first; i < first + num; ++i) {
+        struct site_object again = site->objects[i];
+        if (!site_has_room(site, again.primitive, again.object.mesh.num_indices / 3))
+            return;
+        struct scene_object *added = site_add(site, again.primitive, world);
+        again.object.path = added->path;
+        again.object.world = world;
+        *added = again.object;
+        site->objects[site->num_objects - 1].is_shared = true;
+    }
 }
 
 /* Names the subject of a message: "'/a.points' (a.usda:3:5)", or the path. The caller frees it. */
@@ -100,7 +127,7 @@ static bool open_usd(struct site *site, mxg_context *context, const char *path, 
 bool site_open(struct site *site, mxg_context *context, struct report *report, const char *path,
                const char *purpose)
 {
-    *site = (struct site){.report = report, .file = path};
+    *site = (struct site){.report = report, .context = context, .file = path};
     if (!(scene_file_kind(path) == SCENE_FILE_USD ? open_usd(site, context, path, purpose)
                                                   : site_import(site, context, path)))
         return false;
@@ -123,7 +150,8 @@ void site_close(struct site *site)
 {
     for (uint32_t i = 0; i < site->num_objects; ++i) {
         free((void *)(uintptr_t)site->objects[i].object.path);
-        object_finish(&site->objects[i].object);
+        if (!site->objects[i].is_shared)
+            object_finish(&site->objects[i].object);
     }
     for (uint32_t i = 0; i < site->num_cameras; ++i)
         free(site->cameras[i].path);

@@ -12,6 +12,7 @@
 struct site_object {
     struct scene_object object;
     uint32_t primitive; /* of the scene */
+    bool is_shared;     /* an object before it has the mesh and the primvars */
 };
 
 struct site_camera {
@@ -22,6 +23,7 @@ struct site_camera {
 
 struct site {
     struct report *report;
+    const mxg_context *context; /* which says what the stage may refer to */
     const char *file;
     mxg_scene *scene;
     struct site_object *objects;
@@ -36,7 +38,8 @@ struct site {
     bool lights_scene;        /* they are the light of the picture */
     double meters_per_unit;   /* 0: unknown */
     bool is_z_up;
-    bool has_fault; /* an error was reported */
+    bool has_fault;         /* an error was reported */
+    uint64_t num_triangles; /* of all objects */
 };
 
 /*
@@ -65,8 +68,17 @@ bool site_aim(const struct site *site, const struct studio *studio, const char *
 
 /* ---- Shared by the readers ---- */
 
+/*
+ * Counts what a new object has. false after an error: the stage is larger than mxgen draws, or a
+ * fault came before.
+ */
+bool site_has_room(struct site *site, uint32_t primitive, uint64_t num_triangles);
 /* A new object of a primitive, which the caller fills: its path is set. */
 struct scene_object *site_add(struct site *site, uint32_t primitive, struct matrix world);
+/*
+ * Adds objects again in another place, as an instance does: `num` of them from `first` on.
+ */
+void site_repeat(struct site *site, uint32_t first, uint32_t num, struct matrix world);
 /* The path of a primitive, which the caller frees. */
 char *site_path(const mxg_scene *scene, uint32_t primitive);
 /* Reports a fault of a primitive, at the property's place if it is not NULL. */

@@ -7,6 +7,7 @@
 #include "render/site.h"
 
 #include "program/memory.h"
+#include "program/name_table.h"
 
 #include <assimp/cimport.h>
 #include <assimp/postprocess.h>
@@ -15,10 +16,20 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum { MAX_BESIDE = 1 << 16 }; /* cameras, and lights: nodes of one name share theirs */
+
+/* Finds things by the name of their node: 1 + index of the first, and of the next of the name. */
+struct index {
+    struct name_table first;
+    uint32_t *next;
+};
+
 struct importer {
     struct site *site;
     const struct aiScene *scene;
     bool is_gltf, good;
+    struct name_table paths; /* with the number of the last primitive that took a path */
+    struct index cameras, lights;
 };
 
 /* A node to visit, with the path and the matrix of its parent. */
@@ -42,10 +53,12 @@ static char *part_of(const char *name)
 static char *add_primitive(struct importer *in, const char *parent, const char *name)
 {
     char *part = part_of(name), *path = cli_format("%s/%s", parent, part);
-    for (unsigned number = 2; mxg_scene_find_primitive(in->site->scene, path) != UINT32_MAX;
-         ++number) {
+    bool is_new;
+    struct name_entry *taken = names_add(&in->paths, path, &is_new);
+    taken->value += is_new;
+    while (mxg_scene_find_primitive(in->site->scene, path) != UINT32_MAX) {
         free(path);
-        path = cli_format("%s/%s_%u", parent, part, number);
+        path = cli_format("%s/%s_%llu", parent, part, (unsigned long long)++taken->value);
     }
     free(part);
     in->good = report_status(in->site->report,
@@ -95,8 +108,13 @@ static void add_object(struct importer *in, const struct aiMesh *mesh, const cha
 {
     struct mesh made;
     uint32_t index = 0;
+    uint32_t primitive = mxg_scene_find_primitive(in->site->scene, path);
+    if (!site_has_room(in->site, primitive, mesh->mNumFaces)) {
+        in->good = false;
+        return;
+    }
     if (!mesh_allocate(&made, mesh->mNumVertices, 3 * mesh->mNumFaces))
-        abort();
+        memory_fail();
     import_vertices(mesh, made.vertices);
     for (unsigned f = 0; f < mesh->mNumFaces; ++f)
         for (unsigned k = 0; mesh->mFaces[f].mNumIndices == 3 && k < 3; ++k)
@@ -106,12 +124,11 @@ static void add_object(struct importer *in, const struct aiMesh *mesh, const cha
         mesh_finish(&made);
         return;
     }
-    struct scene_object *object =
-        site_add(in->site, mxg_scene_find_primitive(in->site->scene, path), world);
+    struct scene_object *object = site_add(in->site, primitive, world);
     object->mesh = made;
     add_primvars(mesh, object);
     if (!mesh_complete(&object->mesh, import_missing(mesh)))
-        abort();
+        memory_fail();
 }
 
 /* A node's meshes are its own, or several primitives below it. */
@@ -126,14 +143,59 @@ static void add_node(struct importer *in, const struct aiNode *node, const char 
     }
 }
 
+/* ---- What has a place by the name of a node ---- */
+
+static void add_name(struct index *index, uint32_t number, const char *name)
+{
+    bool is_new;
+    struct name_entry *entry = names_add(&index->first, name, &is_new);
+    index->next[number] = (uint32_t)entry->value;
+    entry->value = number + 1;
+}
+
+/* The first of a name is found first. */
+static void index_names(struct importer *in)
+{
+    const struct aiScene *scene = in->scene;
+    in->cameras.next = memory_alloc(scene->mNumCameras * sizeof(uint32_t));
+    in->lights.next = memory_alloc(scene->mNumLights * sizeof(uint32_t));
+    for (unsigned i = scene->mNumCameras; i-- > 0;)
+        add_name(&in->cameras, i, scene->mCameras[i]->mName.data);
+    for (unsigned i = scene->mNumLights; i-- > 0;)
+        add_name(&in->lights, i, scene->mLights[i]->mName.data);
+}
+
+/* 1 + the first thing of a node; 0: there is none, or there are too many. */
+static uint32_t first_of(struct importer *in, const struct index *index, const struct aiNode *node)
+{
+    const struct name_entry *entry = names_find(&index->first, node->mName.data);
+    bool is_full = in->site->num_cameras >= MAX_BESIDE || in->site->num_lights >= MAX_BESIDE;
+    if (entry && is_full && in->good) {
+        report_error(in->site->report, "bad-geometry",
+                     "'%s' and others are more than %d cameras or lights", node->mName.data,
+                     MAX_BESIDE);
+        in->good = false;
+    }
+    return entry && !is_full ? (uint32_t)entry->value : 0;
+}
+
+static void finish_indices(struct importer *in)
+{
+    names_finish(&in->paths);
+    names_finish(&in->cameras.first);
+    names_finish(&in->lights.first);
+    free(in->cameras.next);
+    free(in->lights.next);
+}
+
 /* ---- Cameras ---- */
 
 static void add_camera(struct importer *in, const struct aiNode *node, const char *path,
                        struct matrix world)
 {
-    for (unsigned i = 0; i < in->scene->mNumCameras; ++i) {
-        const struct aiCamera *camera = in->scene->mCameras[i];
-        if (strcmp(camera->mName.data, node->mName.data) != 0 || camera->mHorizontalFOV <= 0.0f)
+    for (uint32_t i = first_of(in, &in->cameras, node); i; i = in->cameras.next[i - 1]) {
+        const struct aiCamera *camera = in->scene->mCameras[i - 1];
+        if (!(camera->mHorizontalFOV > 0.0f))
             continue;
         double width = tan((double)camera->mHorizontalFOV / 2), aspect = (double)camera->mAspect;
         struct site *site = in->site;
@@ -161,10 +223,8 @@ static void add_light(struct importer *in, const struct aiNode *node, const char
 {
     const double radius = 1e-4, area = 3.14159265358979323846 * radius * radius;
     struct site *site = in->site;
-    for (unsigned i = 0; i < in->scene->mNumLights; ++i) {
-        const struct aiLight *light = in->scene->mLights[i];
-        if (strcmp(light->mName.data, node->mName.data) != 0)
-            continue;
+    for (uint32_t i = first_of(in, &in->lights, node); i; i = in->lights.next[i - 1]) {
+        const struct aiLight *light = in->scene->mLights[i - 1];
         bool is_far = light->mType == aiLightSource_DIRECTIONAL,
              is_spot = light->mType == aiLightSource_SPOT;
         if (!is_far && !is_spot && light->mType != aiLightSource_POINT) {
@@ -205,6 +265,18 @@ static bool is_made_root(const struct importer *in)
     return !root->mNumMeshes && (!in->is_gltf || strcmp(root->mName.data, "ROOT") == 0);
 }
 
+/* Adds what a node has. Its path; free. */
+static char *visit_node(struct importer *in, const struct visit *at, struct matrix world)
+{
+    bool is_root = at->node == in->scene->mRootNode && is_made_root(in);
+    char *path =
+        is_root ? cli_format("%s", "") : add_primitive(in, at->parent, at->node->mName.data);
+    add_node(in, at->node, path, world);
+    add_camera(in, at->node, path, world);
+    add_light(in, at->node, path, world);
+    return path;
+}
+
 static void walk(struct importer *in)
 {
     size_t num = 1, capacity = 64;
@@ -212,13 +284,12 @@ static void walk(struct importer *in)
     visits[0] = (struct visit){in->scene->mRootNode, cli_format("%s", ""), matrix_identity()};
     while (num) {
         struct visit at = visits[--num];
-        bool is_root = at.node == in->scene->mRootNode && is_made_root(in);
+        if (!in->good) {
+            free(at.parent);
+            continue;
+        }
         struct matrix world = matrix_multiply(at.world, matrix_of(&at.node->mTransformation));
-        char *path =
-            is_root ? cli_format("%s", "") : add_primitive(in, at.parent, at.node->mName.data);
-        add_node(in, at.node, path, world);
-        add_camera(in, at.node, path, world);
-        add_light(in, at.node, path, world);
+        char *path = visit_node(in, &at, world);
         if (num + at.node->mNumChildren > capacity) {
             capacity = 2 * (num + at.node->mNumChildren);
             visits = memory_resize(visits, capacity * sizeof *visits);
@@ -236,7 +307,7 @@ bool site_import(struct site *site, mxg_context *context, const char *path)
     struct mesh_fault fault = {"bad-mesh", "it has no normals"};
     if (!report_status(site->report, mxg_scene_create(context, &site->scene)))
         return false;
-    const struct aiScene *scene = import_read(path, true, &fault);
+    const struct aiScene *scene = import_read(context, path, true, &fault);
     bool has_normals = true;
     for (unsigned i = 0; scene && i < scene->mNumMeshes; ++i)
         has_normals = has_normals && scene->mMeshes[i]->mNormals;
@@ -251,7 +322,9 @@ bool site_import(struct site *site, mxg_context *context, const char *path)
     struct importer in = {.site = site, .scene = scene, .good = true};
     in.is_gltf = dot && (strcmp(dot, ".gltf") == 0 || strcmp(dot, ".glb") == 0);
     site->meters_per_unit = in.is_gltf ? 1 : 0;
+    index_names(&in);
     walk(&in);
+    finish_indices(&in);
     aiReleaseImport(scene);
     return in.good;
 }

@@ -46,10 +46,17 @@ struct visit {
 struct walk {
     struct site *site;
     struct visit *visits;
-    size_t num_visits, capacity;
+    size_t num_visits, capacity, num_instances;
+    struct made *made; /* by primitive */
 };
 
-enum { MAX_DEPTH = 16, MAX_OBJECTS = 1 << 20 };
+/* The objects of a primitive, which its other instances share. */
+struct made {
+    uint32_t first, num;
+    bool is_known;
+};
+
+enum { MAX_DEPTH = 16, MAX_INSTANCES = 1 << 20 };
 
 static void push(struct walk *walk, struct visit visit)
 {
@@ -115,16 +122,61 @@ static void add_camera(struct site *site, uint32_t primitive, struct matrix worl
 /* The arrays of a PointInstancer. */
 struct instances {
     double *positions, *orientations, *scales, *prototypes, *hidden, *ids;
-    size_t num, num_orientations, num_scales, num_prototypes, num_hidden, num_ids;
+    uint32_t *targets; /* by number of prototype */
+    size_t num, num_orientations, num_scales, num_prototypes, num_hidden, num_ids, num_targets;
 };
+
+static int compare_numbers(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return x < y ? -1 : x > y;
+}
 
 static bool is_invisible(const struct instances *instances, size_t i)
 {
     double id = i < instances->num_ids ? instances->ids[i] : (double)i;
-    for (size_t k = 0; k < instances->num_hidden; ++k)
-        if (instances->hidden[k] == id)
-            return true;
-    return false;
+    return instances->num_hidden
+           && bsearch(&id, instances->hidden, instances->num_hidden, sizeof id, compare_numbers);
+}
+
+/* The prototypes of an instancer by their numbers; MXG_NONE: the stage lacks one. */
+static uint32_t *find_prototypes(const struct site *site, uint32_t primitive, size_t *out_num)
+{
+    *out_num = mxg_scene_property_targets(site->scene, primitive, "prototypes", NULL, 0);
+    uint32_t *targets = memory_alloc(*out_num * sizeof *targets + 1);
+    mxg_scene_property_targets(site->scene, primitive, "prototypes", targets, *out_num);
+    return targets;
+}
+
+/* Reads the arrays; false after an error. */
+static bool read_instances(struct site *site, uint32_t primitive, struct instances *out)
+{
+    *out = (struct instances){0};
+    out->positions = usd_numbers(site, primitive, "positions", &out->num);
+    out->orientations = usd_numbers(site, primitive, "orientations", &out->num_orientations);
+    out->scales = usd_numbers(site, primitive, "scales", &out->num_scales);
+    out->prototypes = usd_numbers(site, primitive, "protoIndices", &out->num_prototypes);
+    out->hidden = usd_numbers(site, primitive, "invisibleIds", &out->num_hidden);
+    out->ids = usd_numbers(site, primitive, "ids", &out->num_ids);
+    out->targets = find_prototypes(site, primitive, &out->num_targets);
+    out->num /= 3;
+    out->num_orientations /= 4;
+    out->num_scales /= 3;
+    if (out->num_hidden)
+        qsort(out->hidden, out->num_hidden, sizeof *out->hidden, compare_numbers);
+    if (out->num_prototypes != out->num)
+        site_fail(site, primitive, "protoIndices", "has %zu numbers for %zu positions",
+                  out->num_prototypes, out->num);
+    return out->num_prototypes == out->num;
+}
+
+static void free_instances(struct instances *instances)
+{
+    double *const arrays[] = {instances->positions,  instances->orientations, instances->scales,
+                              instances->prototypes, instances->hidden,       instances->ids};
+    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; ++i)
+        free(arrays[i]);
+    free(instances->targets);
 }
 
 static struct matrix instance_matrix(const struct instances *instances, size_t i)
@@ -143,37 +195,45 @@ static struct matrix instance_matrix(const struct instances *instances, size_t i
 static void add_instances(struct walk *walk, struct visit at, struct matrix world)
 {
     struct site *site = walk->site;
-    struct instances in = {0};
-    in.positions = usd_numbers(site, at.primitive, "positions", &in.num);
-    in.orientations = usd_numbers(site, at.primitive, "orientations", &in.num_orientations);
-    in.scales = usd_numbers(site, at.primitive, "scales", &in.num_scales);
-    in.prototypes = usd_numbers(site, at.primitive, "protoIndices", &in.num_prototypes);
-    in.hidden = usd_numbers(site, at.primitive, "invisibleIds", &in.num_hidden);
-    in.ids = usd_numbers(site, at.primitive, "ids", &in.num_ids);
-    in.num /= 3;
-    in.num_orientations /= 4;
-    in.num_scales /= 3;
-    if (in.num_prototypes != in.num)
-        site_fail(site, at.primitive, "protoIndices", "has %zu numbers for %zu positions",
-                  in.num_prototypes, in.num);
-    for (size_t i = in.num_prototypes == in.num ? in.num : 0; i-- > 0;) {
-        uint32_t prototype =
-            in.prototypes[i] >= 0 && in.prototypes[i] < UINT32_MAX ? mxg_scene_property_target(
-                site->scene, at.primitive, "prototypes", (uint32_t)in.prototypes[i])
-                                                                   : UINT32_MAX;
-        if (prototype == UINT32_MAX) {
-            site_fail(site, at.primitive, "protoIndices", "has %g, which is no prototype",
-                      in.prototypes[i]);
+    struct instances in;
+    bool good = read_instances(site, at.primitive, &in);
+    walk->num_instances += in.num;
+    if (good && walk->num_instances > MAX_INSTANCES) {
+        site_fail(site, at.primitive, NULL, "and others have more than %d instances",
+                  MAX_INSTANCES);
+        good = false;
+    }
+    for (size_t i = good ? in.num : 0; i-- > 0;) {
+        double number = in.prototypes[i];
+        bool is_known = number >= 0 && number < (double)in.num_targets;
+        uint32_t prototype = is_known ? in.targets[(size_t)number] : MXG_NONE;
+        if (prototype == MXG_NONE) {
+            site_fail(site, at.primitive, "protoIndices", "has %g, which is no prototype", number);
             break;
         }
         if (!is_invisible(&in, i))
             push(walk, (struct visit){prototype, matrix_multiply(world, instance_matrix(&in, i)),
                                       at.depth + 1});
     }
-    double *const arrays[] = {in.positions,  in.orientations, in.scales,
-                              in.prototypes, in.hidden,       in.ids};
-    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; ++i)
-        free(arrays[i]);
+    free_instances(&in);
+}
+
+/* Adds the geometry of a primitive, for the first time or again. */
+static void add_geometry(struct walk *walk, uint32_t primitive, const char *type,
+                         struct matrix world)
+{
+    struct site *site = walk->site;
+    struct made *made = &walk->made[primitive];
+    if (made->is_known) {
+        site_repeat(site, made->first, made->num, world);
+        return;
+    }
+    *made = (struct made){.first = site->num_objects, .is_known = true};
+    if (strcmp(type, "Mesh") == 0)
+        usd_add_mesh(site, primitive, world);
+    else
+        usd_add_shape(site, primitive, type, world);
+    made->num = site->num_objects - made->first;
 }
 
 static void visit(struct walk *walk, struct visit at)
@@ -193,10 +253,8 @@ static void visit(struct walk *walk, struct visit at)
         site_fail(site, at.primitive, NULL, "has instances that contain it");
     else if (strcmp(type, "PointInstancer") == 0)
         add_instances(walk, at, world);
-    else if (strcmp(type, "Mesh") == 0 && is_regular(world))
-        usd_add_mesh(site, at.primitive, world);
     else if (is_regular(world))
-        usd_add_shape(site, at.primitive, type, world);
+        add_geometry(walk, at.primitive, type, world);
     if (is_regular(world))
         usd_add_light(site, at.primitive, type, world);
     /* prototypes below an instancer are drawn as its instances only */
@@ -210,14 +268,14 @@ void site_read_usd(struct site *site)
     struct walk walk = {.site = site};
     mxg_primitive at = {sizeof at};
     uint32_t num = mxg_scene_num_primitives(site->scene);
+    walk.made = memory_alloc(num * sizeof *walk.made);
     for (uint32_t i = num; i-- > 0;) { /* roots in their order: the first is visited first */
         mxg_scene_primitive(site->scene, i, &at);
         if (at.parent == UINT32_MAX)
             push(&walk, (struct visit){i, matrix_identity(), 0});
     }
-    while (walk.num_visits && site->num_objects < MAX_OBJECTS && !site->has_fault)
+    while (walk.num_visits && !site->has_fault)
         visit(&walk, walk.visits[--walk.num_visits]);
-    if (walk.num_visits && !site->has_fault)
-        site_fail(site, 0, NULL, "and others are more than %d objects", MAX_OBJECTS);
+    free(walk.made);
     free(walk.visits);
 }

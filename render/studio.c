@@ -60,7 +60,7 @@ static bool open_mesh(const struct studio *studio, struct mesh *out, unsigned *o
         return shape_make(studio->mesh, 1, out)
                || fail(fault, "render-failed", "cannot make", studio->mesh, "out of memory");
     struct mesh_fault mesh_fault;
-    if (mesh_import(studio->mesh, out, out_made, &mesh_fault))
+    if (mesh_import(studio->context, studio->mesh, out, out_made, &mesh_fault))
         return true;
     return strpbrk(studio->mesh, "./")
                ? fail(fault, mesh_fault.id, "cannot use the mesh", studio->mesh, mesh_fault.text)

@@ -5,6 +5,8 @@
 
 #include "render/scene.h"
 
+#include <mxgen/mxgen.h>
+
 struct studio {
     const char *mesh; /* the name of a shape or a file */
     /* camera angles in degrees; from the front, to the right and upwards */
@@ -13,7 +15,8 @@ struct studio {
     double distance, fov;
     /* file of a latitude-longitude map, or a baked folder; NULL: the built-in sky with lights */
     const char *environment;
-    bool prefiltered; /* shaders read prefiltered maps */
+    bool prefiltered;           /* shaders read prefiltered maps */
+    const mxg_context *context; /* whose sandbox holds for the files of a mesh */
 };
 
 #define STUDIO_DEFAULTS \

@@ -239,8 +239,11 @@ static bool read_map(struct lamp *lamp, struct image *out)
     size_t marks = strncmp(file, "@@@", 3) == 0 ? 3 : 1, len = strlen(file);
     file[len - marks] = '\0';
     char *path = cli_beside(lamp->site->file, file + marks);
-    bool good = environment_read(path, out, reason, sizeof reason);
-    if (!good)
+    const char *fault = mxg_context_file_fault(lamp->site->context, lamp->site->file, path);
+    bool good = !fault && environment_read(path, out, reason, sizeof reason);
+    if (fault)
+        site_fail(lamp->site, lamp->primitive, name, "cannot be used: %s", fault);
+    else if (!good)
         site_fail(lamp->site, lamp->primitive, name, "cannot be used: %s", reason);
     free(path);
     return good;

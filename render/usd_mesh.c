@@ -212,11 +212,11 @@ static void add_object(struct usd_mesh *mesh, uint32_t subset, uint32_t primitiv
 {
     struct corner_list list = {0};
     add_faces(mesh, subset, &list);
-    if (list.count) {
+    if (list.count && site_has_room(mesh->site, primitive, list.count / 3)) {
         struct scene_object *object = site_add(mesh->site, primitive, world);
         const struct usd_corners corners = {list.count, list.faces, list.points, list.numbers};
         if (!mesh_allocate(&object->mesh, list.count, list.count))
-            abort();
+            memory_fail();
         for (uint32_t i = 0; i < list.count; ++i) {
             fill_vertex(mesh, &list, i, &object->mesh.vertices[i]);
             object->mesh.indices[i] = i;

@@ -62,7 +62,8 @@ static size_t value_of(const struct authored *from, const struct usd_corners *co
                 : strcmp(from->interpolation, "faceVarying") == 0 ? corners->numbers[i]
                                                                   : corners->points[i];
     if (from->indices) {
-        if (at >= from->num_indices || !(from->indices[at] >= 0))
+        if (at >= from->num_indices
+            || !(from->indices[at] >= 0 && from->indices[at] < (double)from->num_values))
             return SIZE_MAX;
         at = (size_t)from->indices[at];
     }

@@ -28,7 +28,17 @@ struct shape {
 static void begin(struct shape *shape, uint32_t num_vertices, uint32_t num_indices)
 {
     if (!mesh_allocate(&shape->mesh, num_vertices, num_indices))
-        abort();
+        memory_fail();
+}
+
+/* Gives back the memory that the shape does not need. */
+static void end(struct shape *shape)
+{
+    struct mesh *mesh = &shape->mesh;
+    mesh->num_vertices = shape->num_vertices;
+    mesh->num_indices = shape->num_indices;
+    mesh->vertices = memory_resize(mesh->vertices, mesh->num_vertices * sizeof *mesh->vertices);
+    mesh->indices = memory_resize(mesh->indices, mesh->num_indices * sizeof *mesh->indices);
 }
 
 static void add_vertex(struct shape *shape, const double at[3], const double normal[3], double s,
@@ -185,6 +195,14 @@ bool usd_add_shape(struct site *site, uint32_t primitive, const char *type, stru
                         {"Cylinder", 1, 2, make_cylinder},
                         {"Cone", 1, 2, make_cone},
                         {"Capsule", 0.5, 1, make_capsule}};
+    static const char *const flat_shapes[] = {"Cube", "Plane"};
+    bool is_shape = false;
+    for (size_t i = 0; i < sizeof round_shapes / sizeof *round_shapes; ++i)
+        is_shape = is_shape || strcmp(type, round_shapes[i].type) == 0;
+    for (size_t i = 0; i < sizeof flat_shapes / sizeof *flat_shapes; ++i)
+        is_shape = is_shape || strcmp(type, flat_shapes[i]) == 0;
+    if (!is_shape)
+        return false;
     struct shape shape = {0};
     begin(&shape, 3 * ROUND_VERTICES, 3 * ROUND_INDICES);
     for (size_t i = 0; i < sizeof round_shapes / sizeof *round_shapes; ++i)
@@ -199,12 +217,11 @@ bool usd_add_shape(struct site *site, uint32_t primitive, const char *type, stru
                  (const double[3]){usd_number(site, primitive, "width", 2) / 2, 0, 0},
                  (const double[3]){0, usd_number(site, primitive, "length", 2) / 2, 0},
                  (const double[3]){0, 0, 1});
-    if (!shape.num_indices) {
+    end(&shape);
+    if (!site_has_room(site, primitive, shape.num_indices / 3)) {
         mesh_finish(&shape.mesh);
         return false;
     }
-    shape.mesh.num_vertices = shape.num_vertices;
-    shape.mesh.num_indices = shape.num_indices;
     set_axis(&shape.mesh, axis_of(site, primitive));
     struct scene_object *object = site_add(site, primitive, world);
     object->mesh = shape.mesh;

@@ -33,15 +33,16 @@ static bool is_op(const char *op, const char *type)
     return strncmp(op, type, len) == 0 && (!op[len] || op[len] == ':');
 }
 
-static bool is_rotation(const char *op)
+/* The number of angles that a rotation has; 0: the operation is none. */
+static size_t num_angles(const char *op)
 {
     static const char *const types[] = {"rotateX",   "rotateY",   "rotateZ",
                                         "rotateXYZ", "rotateXZY", "rotateYXZ",
                                         "rotateYZX", "rotateZXY", "rotateZYX"};
     for (size_t i = 0; i < sizeof types / sizeof *types; ++i)
         if (is_op(op, types[i]))
-            return true;
-    return false;
+            return i < 3 ? 1 : 3;
+    return 0;
 }
 
 /* The matrix of an operation with its numbers; false: it is none. */
@@ -55,7 +56,7 @@ static bool make_matrix(const char *op, const double *v, size_t count, struct ma
         *out = matrix_orientation(v);
     else if (is_op(op, "transform") && count == 16)
         *out = stored_matrix(v);
-    else if (is_rotation(op) && (count == 1 || count == 3))
+    else if (count && count == num_angles(op))
         *out = rotation(op + strlen("rotate"), v);
     else
         return false;
@@ -82,12 +83,17 @@ static struct matrix read_op(struct site *site, uint32_t primitive, const char *
 
 struct matrix usd_transform(struct site *site, uint32_t primitive, bool *out_resets)
 {
+    enum { MAX_OPS = 64 }; /* each is found from the first word on */
     char name[256];
     struct matrix out = matrix_identity();
     *out_resets = false;
     for (uint32_t i = 0;
          mxg_scene_property_word(site->scene, primitive, "xformOpOrder", i, name, sizeof name);
          ++i) {
+        if (i == MAX_OPS) {
+            site_fail(site, primitive, "xformOpOrder", "lists more than %d operations", MAX_OPS);
+            break;
+        }
         if (strcmp(name, "!resetXformStack!") == 0) {
             *out_resets = true;
             out = matrix_identity();

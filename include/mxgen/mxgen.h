@@ -223,6 +223,15 @@ typedef struct mxg_context_desc {
 MXG_API mxg_status mxg_context_create(const mxg_context_desc *desc, mxg_context **out_context);
 MXG_API void mxg_context_destroy(mxg_context *context);
 
+/*
+ * Why `from`, a file that the caller names, may not refer to the file at `path`: in a sandbox it is
+ * outside of the folder of `from` and of the include roots; it is a pipe, a device or a folder; it
+ * is larger than max_file_mib. NULL: it may, or there is no such file. For hosts that open the
+ * files of scenes; a text outside does not tell whether the file exists. The text is constant.
+ */
+MXG_API const char *mxg_context_file_fault(const mxg_context *context, const char *from,
+                                           const char *path);
+
 /* ---- Diagnostics ---- */
 
 typedef enum mxg_severity {

@@ -144,9 +144,12 @@ MXG_API size_t mxg_scene_property_numbers(const mxg_scene *scene, uint32_t primi
  */
 MXG_API size_t mxg_scene_property_word(const mxg_scene *scene, uint32_t primitive, const char *name,
                                        uint32_t index, char *buffer, size_t capacity);
-/* The primitive that word `index` of a relationship names; MXG_NONE: none. */
-MXG_API uint32_t mxg_scene_property_target(const mxg_scene *scene, uint32_t primitive,
-                                           const char *name, uint32_t index);
+/*
+ * The primitives that a relationship names in a row; MXG_NONE: the scene does not have it. Writes
+ * at most `capacity` of them, and returns how many there are.
+ */
+MXG_API size_t mxg_scene_property_targets(const mxg_scene *scene, uint32_t primitive,
+                                          const char *name, uint32_t *out, size_t capacity);
 /* 'Y' or 'Z'. */
 MXG_API char mxg_scene_up_axis(const mxg_scene *scene);
 /* Metres in a unit of the scene; 0.01 if a file of USD does not say it, 0 of a list. */

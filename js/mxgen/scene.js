@@ -112,8 +112,13 @@ export class Primitive {
     /** The primitives that a relationship names; null for a path that the scene does not have. */
     targets(name) {
         const native = this.#native;
-        return this.words(name).map((_, index) => native.using(() => this.scene._primitive(
-            native.lib.mxg_scene_property_target(this.scene._pointer, this.number, native.newText(name, "name"), index))));
+        return native.using(() => {
+            const key = native.newText(name, "name");
+            const read = (out, capacity) => native.lib.mxg_scene_property_targets(this.scene._pointer, this.number, key, out, capacity);
+            const count = read(0, 0), out = native.space(count * 4);
+            read(out, count);
+            return Array.from({ length: count }, (_, index) => this.scene._primitive(native.view.getUint32(out + index * 4, true)));
+        });
     }
 
     /** Whether both are the same primitive of the same scene. */

@@ -372,6 +372,14 @@ class Context(Native):
 
     # ---- Scenes ----
 
+    def file_fault(self, origin: str | os.PathLike[str], path: str | os.PathLike[str]) -> str | None:
+        """Why `origin`, a file that the caller names, may not refer to the file at `path`: it is outside the sandbox, no regular
+        file, or too large. None: it may, or there is no such file."""
+        origin_text, path_text = c_path(origin, "origin"), c_path(path, "path")
+        with self._turn() as pointer:
+            fault = lib.mxg_context_file_fault(pointer, origin_text, path_text)
+        return py_text(fault) if fault else None
+
     def scene(self, *paths: str) -> Scene:
         """A scene of primitives by their paths, "/set/table", and those above them. Raises DocumentError if a path is none."""
         scene = Scene(self._make("mxg_scene", lib.mxg_scene_create, lib.mxg_scene_destroy, ())[0])

@@ -154,8 +154,10 @@ class Primitive:
         """The primitives that a relationship names; None for a path that the scene does not have."""
         key = c_text(name, "name")
         pointer = self.scene._handle.pointer
-        return tuple(self.scene._primitive(lib.mxg_scene_property_target(pointer, self.number, key, index))
-                     for index in range(len(self.words(name))))
+        count = lib.mxg_scene_property_targets(pointer, self.number, key, ffi.NULL, 0)
+        out = ffi.new("uint32_t[]", count)
+        lib.mxg_scene_property_targets(pointer, self.number, key, out, count)
+        return tuple(self.scene._primitive(number) for number in out)
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Primitive) and other.scene is self.scene and other.number == self.number

@@ -22,17 +22,17 @@ struct sandbox_root {
     char path[];
 };
 
-static bool is_below(const struct sandbox_root *root, const char *path)
+static bool is_below(const char *root, size_t len, const char *path)
 {
-    if (strncmp(path, root->path, root->len) != 0)
+    if (strncmp(path, root, len) != 0)
         return false;
-    return root->len == 1 || path[root->len] == '/' || path[root->len] == '\0';
+    return len == 1 || path[len] == '/' || path[len] == '\0';
 }
 
 static bool is_known(const struct mxg_context *context, const char *path)
 {
     for (const struct sandbox_root *root = context->roots; root; root = root->next)
-        if (is_below(root, path))
+        if (is_below(root->path, root->len, path))
             return true;
     return false;
 }
@@ -58,23 +58,36 @@ bool sandbox_admit_folder(struct mxg_context *context, const char *folder)
     return !context->sandbox || !realpath(folder, real) || add(context, real);
 }
 
+/* The folder of a file, "." without one; false: its path is too long. */
+static bool folder_of(const char *file, char out[PATH_MAX])
+{
+    const char *slash = strrchr(file, '/');
+    size_t len = slash ? (size_t)(slash - file) + (slash == file) : 1;
+    if (len >= PATH_MAX)
+        return false;
+    memcpy(out, slash ? file : ".", len);
+    out[len] = '\0';
+    return true;
+}
+
 bool sandbox_admit_file(struct mxg_context *context, const char *file)
 {
     char folder[PATH_MAX];
-    const char *slash = strrchr(file, '/');
-    size_t len = slash ? (size_t)(slash - file) + (slash == file) : 1;
-    if (!context->sandbox || len >= sizeof folder)
-        return true;
-    memcpy(folder, slash ? file : ".", len);
-    folder[len] = '\0';
-    return sandbox_admit_folder(context, folder);
+    return !context->sandbox || !folder_of(file, folder) || sandbox_admit_folder(context, folder);
+}
+
+/* True if a real path is in or below the folder of a file. */
+static bool is_beside(const char *file, const char *path)
+{
+    char folder[PATH_MAX], real[PATH_MAX];
+    return folder_of(file, folder) && realpath(folder, real) && is_below(real, strlen(real), path);
 }
 
 /*
- * True if the path, or the innermost folder of it that exists, is in a known folder. So the answer
- * for a path outside does not depend on the files there.
+ * True if the path, or the innermost folder of it that exists, is in a known folder, or in that of
+ * `from`, which may be NULL. So the answer for a path outside does not depend on the files there.
  */
-static bool is_inside(const struct mxg_context *context, const char *path)
+static bool is_inside(const struct mxg_context *context, const char *from, const char *path)
 {
     char part[PATH_MAX], real[PATH_MAX];
     struct stat info;
@@ -91,23 +104,40 @@ static bool is_inside(const struct mxg_context *context, const char *path)
         else
             memcpy(part, ".", 2);
     }
-    return is_known(context, real);
+    return is_known(context, real) || (from && is_beside(from, real));
 }
+
+static const char outside[] = "it is outside the folders that documents may read";
+static const char irregular[] = "it is not a regular file";
 
 const char *sandbox_texture_fault(const struct mxg_context *context, const char *path)
 {
-    return context->sandbox && !is_inside(context, path)
-               ? "it is outside the folders that documents may read"
-               : NULL;
+    return context->sandbox && !is_inside(context, NULL, path) ? outside : NULL;
 }
 
 const char *sandbox_fault(const struct mxg_context *context, const char *path)
 {
     struct stat info;
-    const char *outside = sandbox_texture_fault(context, path);
-    if (outside || stat(path, &info) != 0)
-        return outside; /* NULL: the attempt to open it gives the reason */
-    return S_ISREG(info.st_mode) || S_ISDIR(info.st_mode) ? NULL : "it is not a regular file";
+    const char *fault = sandbox_texture_fault(context, path);
+    if (fault || stat(path, &info) != 0)
+        return fault; /* NULL: the attempt to open it gives the reason */
+    return S_ISREG(info.st_mode) || S_ISDIR(info.st_mode) ? NULL : irregular;
+}
+
+const char *mxg_context_file_fault(const mxg_context *context, const char *from, const char *path)
+{
+    struct stat info;
+    if (!context || !from || !path)
+        return "it has no name";
+    if (context->sandbox && !is_inside(context, from, path))
+        return outside;
+    if (stat(path, &info) != 0)
+        return NULL;
+    if (!S_ISREG(info.st_mode))
+        return irregular;
+    return (uintmax_t)info.st_size > (uintmax_t)context->xml_limits.max_file_mib << 20
+               ? "it is too large; raise the limit 'max-file-size' if this is intended"
+               : NULL;
 }
 
 void sandbox_finish(struct mxg_context *context)

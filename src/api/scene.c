@@ -45,7 +45,8 @@ size_t mxg_slot_decode(const char *identifiers, char *buffer, size_t capacity)
 static void init_scene(void *arg)
 {
     mxg_scene *scene = arg;
-    scene_init(&scene->scene, &scene->object.arena);
+    uint32_t limit = scene->object.context->xml_limits.max_elements;
+    scene_init(&scene->scene, limit ? limit : 16000000, &scene->object.arena);
 }
 
 mxg_status mxg_scene_create(mxg_context *context, mxg_scene **out_scene)
@@ -136,12 +137,6 @@ const mxg_diagnostics *mxg_scene_diagnostics(const mxg_scene *scene)
     return scene ? &scene->object.diagnostics : NULL;
 }
 
-/* Inside, 0 is the root; the numbers of the interface leave it out. */
-static uint32_t number_of(prim_id prim)
-{
-    return prim ? prim - 1 : MXG_NONE;
-}
-
 struct addition {
     mxg_scene *scene;
     const char *const *paths;
@@ -190,7 +185,7 @@ static prim_id add_given(mxg_scene *scene, const mxg_primitive *given)
         diag_add(diags, DIAG_ID_bad_path, (struct diag_place){0},
                  arena_strndup(diags->arena, name.bytes, name.len),
                  "has a parent that the scene does not have");
-    if (!is_known || !scene_check_name(name, (struct diag_place){0}, diags))
+    if (!is_known || !scene_check_name(&scene->scene, given->parent + 1, name, diags))
         return 0;
     prim_id added = scene_add_below(&scene->scene, given->parent + 1, name.bytes, name.len);
     if (type.len)
@@ -204,7 +199,7 @@ static void add_each(void *arg)
     prim_id last = 0;
     for (;;) {
         mxg_primitive given = {.size = sizeof given, .parent = MXG_NONE};
-        if (!a->next(a->user_data, number_of(last), &given))
+        if (!a->next(a->user_data, scene_number(last), &given))
             return;
         last = add_given(a->scene, &given);
     }
@@ -262,9 +257,9 @@ mxg_status mxg_scene_primitive(const mxg_scene *scene, uint32_t index, mxg_primi
     if (!has_primitive(scene, index))
         return MXG_ERROR_ARGUMENT;
     const struct scene_prim *prim = &scene->scene.prims.items[index + 1];
-    mxg_primitive full = {.parent = number_of(prim->parent),
-                          .first_child = number_of(prim->first_child),
-                          .next_sibling = number_of(prim->next),
+    mxg_primitive full = {.parent = scene_number(prim->parent),
+                          .first_child = scene_number(prim->first_child),
+                          .next_sibling = scene_number(prim->next),
                           .name = prim->name,
                           .name_len = prim->name_len,
                           .type = ""};
@@ -283,7 +278,7 @@ mxg_status mxg_scene_primitive(const mxg_scene *scene, uint32_t index, mxg_primi
 
 uint32_t mxg_scene_find_primitive(const mxg_scene *scene, const char *path)
 {
-    return scene && path ? number_of(scene_find(&scene->scene, path, strlen(path))) : MXG_NONE;
+    return scene && path ? scene_number(scene_find(&scene->scene, path, strlen(path))) : MXG_NONE;
 }
 
 size_t mxg_scene_primitive_path(const mxg_scene *scene, uint32_t index, char *buffer,

@@ -18,6 +18,12 @@ static inline bool has_primitive(const mxg_scene *scene, uint32_t primitive)
     return primitive < mxg_scene_num_primitives(scene) && scene_has(&scene->scene, primitive + 1);
 }
 
+/* Inside, 0 is the root; the numbers of the interface leave it out. */
+static inline uint32_t scene_number(prim_id prim)
+{
+    return prim ? prim - 1 : MXG_NONE;
+}
+
 struct mxg_bindings {
     struct object object; /* keeps the document alive */
     mxg_scene *scene;

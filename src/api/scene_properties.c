@@ -34,12 +34,38 @@ static mxg_property describe(const struct scene *scene, const struct usda_proper
 static bool is_hidden(const struct scene *scene, prim_id prim, uint32_t source,
                       struct text_word name)
 {
-    const struct usda_property *all = scene->layer.properties.items;
-    for (uint32_t i = scene_source(scene, prim); i != source; i = scene->sources.items[i - 1].next)
-        for (uint32_t k = prim_of(scene, i)->first_property; k; k = all[k].next)
-            if (all[k].name.len == name.len && memcmp(all[k].name.bytes, name.bytes, name.len) == 0)
-                return true;
+    for (uint32_t i = scene_source(scene, prim); i != source;
+         i = scene->sources.items[i - 1].next) {
+        const struct usda_named *named =
+            usda_find_named(&scene->layer, scene->sources.items[i - 1].prim, name);
+        if (named && named->first)
+            return true;
+    }
     return false;
+}
+
+/* The properties of a source that no stronger one hides: `index` counts down to the wanted one. */
+static const struct usda_property *find_in(const struct scene *scene, prim_id prim, uint32_t source,
+                                           uint32_t *index, const struct usda_property *wanted,
+                                           uint32_t *num)
+{
+    const struct usda_prim *from = prim_of(scene, source);
+    const struct usda_property *all = scene->layer.properties.items + from->first_property;
+    if (source == scene_source(scene, prim) && !wanted) { /* none is hidden */
+        uint32_t skipped = *index < from->num_properties ? *index : from->num_properties;
+        *num += skipped;
+        *index -= skipped;
+        return skipped < from->num_properties ? &all[skipped] : NULL;
+    }
+    for (uint32_t k = 0; k < from->num_properties; k++) {
+        if (is_hidden(scene, prim, source, all[k].name))
+            continue;
+        if (wanted ? &all[k] == wanted : !*index)
+            return &all[k];
+        *index -= !wanted;
+        ++*num;
+    }
+    return NULL;
 }
 
 /*
@@ -49,17 +75,10 @@ static bool is_hidden(const struct scene *scene, prim_id prim, uint32_t source,
 static const struct usda_property *find(const struct scene *scene, prim_id prim, uint32_t index,
                                         const struct usda_property *wanted, uint32_t *out_num)
 {
-    const struct usda_property *all = scene->layer.properties.items, *found = NULL;
+    const struct usda_property *found = NULL;
     *out_num = 0;
-    for (uint32_t i = scene_source(scene, prim); i; i = scene->sources.items[i - 1].next)
-        for (uint32_t k = prim_of(scene, i)->first_property; k && !found; k = all[k].next) {
-            if (is_hidden(scene, prim, i, all[k].name))
-                continue;
-            if (*out_num == index || &all[k] == wanted)
-                found = &all[k];
-            else
-                ++*out_num;
-        }
+    for (uint32_t i = scene_source(scene, prim); i && !found; i = scene->sources.items[i - 1].next)
+        found = find_in(scene, prim, i, &index, wanted, out_num);
     return found;
 }
 
@@ -136,15 +155,16 @@ size_t mxg_scene_property_word(const mxg_scene *scene, uint32_t primitive, const
                : 0;
 }
 
-uint32_t mxg_scene_property_target(const mxg_scene *scene, uint32_t primitive, const char *name,
-                                   uint32_t index)
+size_t mxg_scene_property_targets(const mxg_scene *scene, uint32_t primitive, const char *name,
+                                  uint32_t *out, size_t capacity)
 {
     uint32_t source = 0;
-    struct text_word path;
-    prim_id found = find_word(value_of(scene, primitive, name, &source), index, &path)
-                        ? scene_target(&scene->scene, source, path)
-                        : 0;
-    return found ? found - 1 : MXG_NONE;
+    struct text_word rest = value_of(scene, primitive, name, &source), path;
+    size_t num = 0;
+    for (; !usda_is(rest, "None") && usda_next_item(&rest, &path); num++)
+        if (out && num < capacity)
+            out[num] = scene_number(scene_target(&scene->scene, source, path));
+    return num;
 }
 
 char mxg_scene_up_axis(const mxg_scene *scene)

@@ -152,7 +152,7 @@ static void check_look(struct generation *g, elem_id element, struct told *told)
     struct diag_list *diags = &g->result->object.diagnostics.list, found;
     struct bind_look look = {0};
     struct scene scene;
-    scene_init(&scene, &g->scratch);
+    scene_init(&scene, UINT32_MAX, &g->scratch);
     diag_list_init(&found, diags->arena);
     look_read(&look, &g->document->layer.doc, element, &scene, &g->scratch, &found);
     look_finish(&look);

@@ -278,14 +278,17 @@ static void match_prim(struct bind_look *look, prim_id prim)
     vec_last(&look->matchers).num_prims++;
 }
 
-/* A matcher of the members of a collection that are excluded, or of those that are not. */
+/*
+ * A matcher of the members of a collection that are excluded, or of those that are not. Members
+ * that were removed from the scene match nothing.
+ */
 static uint32_t match_members(struct bind_look *look, const struct scene_binding *binding,
                               bool is_excluded)
 {
     const struct scene_member *members = &look->scene->members.items[binding->first_member];
     uint32_t added = add_matcher(look, look->collections.len, MATCHER_MEMBER);
     for (uint32_t i = 0; i < binding->num_members; i++)
-        if (members[i].is_excluded == is_excluded)
+        if (members[i].is_excluded == is_excluded && scene_has(look->scene, members[i].prim))
             match_prim(look, members[i].prim);
     return added;
 }

@@ -202,22 +202,34 @@ uint32_t look_read_collection(struct bind_look *look, str_id name, elem_id user,
     return number;
 }
 
+/* Adds a nested collection, and what it contains. */
+static void add_contained(struct bind_look *look, uint64_t *own, uint32_t inner, uint32_t words)
+{
+    uint32_t row = look->rows[inner];
+    own[inner / 64] |= (uint64_t)1 << inner % 64;
+    for (uint32_t w = 0; row && w < words; w++)
+        own[w] |= look->contains.items[(size_t)(row - 1) * words + w];
+}
+
 void look_close_collections(struct bind_look *look)
 {
-    uint32_t num = look->collections.len, words = (num + 63) / 64;
-    size_t size = (size_t)num * words;
+    uint32_t num = look->collections.len, words = (num + 63) / 64, num_rows = 0;
     if (!num)
         return;
-    look->contains.items = ARENA_ARRAY(look->arena, uint64_t, size);
+    look->rows = ARENA_ARRAY(look->arena, uint32_t, num);
+    for (uint32_t i = 0; i < num; i++)
+        if (look->collections.items[i].num_nested)
+            look->rows[i] = ++num_rows;
+    if (!num_rows)
+        return;
+    look->contains.items = ARENA_ARRAY(look->arena, uint64_t, (size_t)num_rows * words);
     for (uint32_t i = 0; i < num; i++) {
         const struct look_collection *c = &look->collections.items[i];
-        uint64_t *own = look->contains.items + (size_t)i * words;
         for (uint32_t n = 0; n < c->num_nested; n++) {
             uint32_t inner = look->nested.items[c->first_nested + n];
             assert(inner < i);
-            own[inner / 64] |= (uint64_t)1 << inner % 64;
-            for (uint32_t w = 0; w < words; w++)
-                own[w] |= look->contains.items[(size_t)inner * words + w];
+            add_contained(look, look->contains.items + (size_t)(look->rows[i] - 1) * words, inner,
+                          words);
         }
     }
 }

@@ -94,7 +94,8 @@ struct bind_look {
     VEC(struct look_collection) collections; /* a nested one stands before its users */
     VEC(uint32_t) nested;
     struct table collection_table;
-    VEC(uint64_t) contains;            /* bit sets: the collections in a collection, at any depth */
+    VEC(uint64_t) contains; /* bit sets: the collections in a collection, at any depth */
+    uint32_t *rows;         /* by collection: 1 + its row in `contains`; 0: it contains none */
     VEC(struct look_variant) variants; /* those of the looks, then those of the assignments */
     uint32_t num_look_variants;
     elem_id order; /* the look whose slotorder counts; 0: none */
@@ -145,9 +146,10 @@ void look_guess(const struct bind_look *look, struct diag_guess *guess, enum ele
 /* True if collection `outer` includes collection `inner`, at any depth. Numbers from 1. */
 static inline bool look_contains(const struct bind_look *look, uint32_t outer, uint32_t inner)
 {
-    uint32_t words = (look->collections.len + 63) / 64;
-    return look->contains.items[(size_t)(outer - 1) * words + (inner - 1) / 64] >> (inner - 1) % 64
-           & 1;
+    uint32_t words = (look->collections.len + 63) / 64, row = look->rows[outer - 1];
+    return row
+           && look->contains.items[(size_t)(row - 1) * words + (inner - 1) / 64] >> (inner - 1) % 64
+                  & 1;
 }
 
 /* ---- Shared by the files of the room that read a look ---- */
@@ -163,7 +165,7 @@ void look_read_binding(struct bind_look *look, uint32_t binding);
 /* collection.c: the number of a collection, from 1; 0 after a diagnostic at the element's
  * attribute. */
 uint32_t look_read_collection(struct bind_look *look, str_id name, elem_id user, str_id attr);
-/* Fills `contains`, after all collections are read. */
+/* Fills `contains` and `rows`, after all collections are read. */
 void look_close_collections(struct bind_look *look);
 /*
  * Adds the names of a list of geometry to the patterns, as a new matcher; gives 1 + its number, 0

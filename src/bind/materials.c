@@ -7,6 +7,8 @@
 #include "bind/materials.h"
 #include "bind/shade_type.h"
 
+#include "base/hash.h"
+
 #include <assert.h>
 
 /* A node that was made; its inputs are read later, so no network is too deep. */
@@ -34,6 +36,9 @@ struct maker {
     VEC(struct made_node) nodes; /* of the material */
     VEC(struct made_output) outputs;
     VEC(str_id) interface;
+    struct table node_table;      /* (prim, material) → 1 + index in `nodes` */
+    struct table output_table;    /* (node, port) → the same in `outputs` */
+    struct table interface_table; /* (name, material) → the same in `interface` */
     bool is_broken;
 };
 
@@ -210,9 +215,10 @@ static elem_id graph_of(struct maker *m)
 /* The node of a Shader prim: 1 + index; makes it on first use. 0: it has no definition. */
 static uint32_t node_of(struct maker *m, usda_prim_id prim)
 {
-    for (uint32_t i = 0; i < m->nodes.len; i++)
-        if (m->nodes.items[i].prim == prim)
-            return i + 1;
+    uint32_t hash = hash_pair(prim, m->material);
+    for (uint32_t at = hash, found; (found = table_next(&m->node_table, hash, &at));)
+        if (found <= m->nodes.len && m->nodes.items[found - 1].prim == prim)
+            return found;
     uint32_t nodedef = definition_of(m, prim), num;
     if (nodedef == LIBRARY_NONE)
         return 0;
@@ -227,6 +233,7 @@ static uint32_t node_of(struct maker *m, usda_prim_id prim)
                  : str_intern_z(m->doc->strings, "multioutput"));
     set(m, element, "nodedef", library_nodedef(m->lib, nodedef)->name);
     vec_push(m->scratch, &m->nodes, (struct made_node){prim, element, nodedef});
+    table_add(&m->node_table, m->scratch, hash, m->nodes.len);
     return m->nodes.len;
 }
 
@@ -305,10 +312,11 @@ static struct source follow(struct maker *m, const struct usda_property *connect
 /* The output of the nodegraph for a port of its node. */
 static str_id output_of(struct maker *m, const struct made_node *node, str_id port)
 {
-    for (uint32_t i = 0; i < m->outputs.len; i++)
-        if (m->outputs.items[i].node == node->element && m->outputs.items[i].port == port)
-            return m->outputs.items[i].name;
-    uint32_t num;
+    uint32_t num, hash = hash_pair(node->element, port);
+    for (uint32_t at = hash, found; (found = table_next(&m->output_table, hash, &at));)
+        if (found <= m->outputs.len && m->outputs.items[found - 1].node == node->element
+            && m->outputs.items[found - 1].port == port)
+            return m->outputs.items[found - 1].name;
     const struct port *outputs = outputs_of(m, node->nodedef, &num);
     struct text text;
     text_init(&text, m->scratch);
@@ -324,6 +332,7 @@ static str_id output_of(struct maker *m, const struct made_node *node, str_id po
     if (num > 1)
         set(m, output, "output", port);
     vec_push(m->scratch, &m->outputs, (struct made_output){node->element, port, name});
+    table_add(&m->output_table, m->scratch, hash, m->outputs.len);
     return name;
 }
 
@@ -347,10 +356,12 @@ static void connect(struct maker *m, elem_id input, elem_id user, const struct s
 static void add_interface(struct maker *m, str_id name, str_id type,
                           const struct usda_property *property)
 {
-    for (uint32_t i = 0; i < m->interface.len; i++)
-        if (m->interface.items[i] == name)
+    uint32_t hash = hash_pair(name, m->material);
+    for (uint32_t at = hash, found; (found = table_next(&m->interface_table, hash, &at));)
+        if (found <= m->interface.len && m->interface.items[found - 1] == name)
             return;
     vec_push(m->scratch, &m->interface, name);
+    table_add(&m->interface_table, m->scratch, hash, m->interface.len);
     elem_id input = add(m, graph_of(m), "input", name, property->line, property->column);
     set(m, input, "type", type);
     set(m, input, "value", value_text(m, property));
@@ -454,8 +465,8 @@ static void read_inputs(struct maker *m)
     const struct usda_property *properties = m->layer->properties.items;
     for (uint32_t i = 0; i < m->nodes.len; i++) { /* grows while it is read */
         struct made_node node = m->nodes.items[i];
-        for (uint32_t k = m->layer->prims.items[node.prim].first_property; k;
-             k = properties[k].next)
+        const struct usda_prim *prim = &m->layer->prims.items[node.prim];
+        for (uint32_t k = prim->first_property; k < usda_end_property(prim); k++)
             read_input(m, &node, &properties[k]);
     }
 }
@@ -513,7 +524,7 @@ static bool is_override(const struct maker *m, const struct usda_prim *prim)
     static const char prefix[] = "outputs:";
     const struct usda_property *properties = m->layer->properties.items;
     bool found = false;
-    for (uint32_t i = prim->first_property; i; i = properties[i].next) {
+    for (uint32_t i = prim->first_property; i < usda_end_property(prim); i++) {
         struct text_word name = properties[i].name;
         bool is_output = name.len > strlen(prefix) && !memcmp(name.bytes, prefix, strlen(prefix));
         if (is_output && !override_name(&properties[i]).len)
@@ -578,19 +589,31 @@ static void add_override(struct maker *m, usda_prim_id prim)
     begin(m, prim);
     m->graph = add(m, m->doc->root, "nodegraph", intern(m, at->name), at->line, at->column);
     doc_index_element(m->doc, m->graph);
-    for (uint32_t i = at->first_property; i; i = properties[i].next)
+    for (uint32_t i = at->first_property; i < usda_end_property(at); i++)
         add_override_output(m, &properties[i]);
     read_inputs(m);
 }
 
-/* True if a binding of the scene has an override of this name. */
-static bool is_bound(const struct scene *scene, struct text_word name)
+static bool is_bound(const struct scene *scene, const struct table *bound, struct text_word name)
 {
-    for (uint32_t i = 0; i < scene->bindings.len; i++)
-        if (!scene->bindings.items[i].is_removed && strstr(scene->bindings.items[i].name, "::")
-            && usda_is(name, scene->bindings.items[i].material))
+    uint32_t hash = hash_bytes(name.bytes, name.len);
+    for (uint32_t at = hash, found; (found = table_next(bound, hash, &at));)
+        if (usda_is(name, scene->bindings.items[found - 1].material))
             return true;
     return false;
+}
+
+/* The materials of overrides that the scene binds. */
+static struct table bound_overrides(const struct scene *scene, struct arena *scratch)
+{
+    struct table table = {0};
+    for (uint32_t i = 0; i < scene->bindings.len; i++) {
+        const struct scene_binding *binding = &scene->bindings.items[i];
+        struct text_word name = {binding->material, strlen(binding->material)};
+        if (!binding->is_removed && strstr(binding->name, "::") && !is_bound(scene, &table, name))
+            table_add(&table, scratch, hash_bytes(name.bytes, name.len), i + 1);
+    }
+    return table;
 }
 
 /* ---- All prims ---- */
@@ -600,9 +623,10 @@ void bind_add_materials(const struct scene *scene, struct library *lib, struct a
 {
     struct maker m = {
         .layer = &scene->layer, .lib = lib, .doc = &lib->doc, .scratch = scratch, .diags = diags};
+    const struct table bound = bound_overrides(scene, scratch);
     for (usda_prim_id prim = 1; prim < scene->layer.prims.len; prim++) {
         const struct usda_prim *at = &scene->layer.prims.items[prim];
-        bool is_graph = usda_is(at->type, "NodeGraph") && is_bound(scene, at->name);
+        bool is_graph = usda_is(at->type, "NodeGraph") && is_bound(scene, &bound, at->name);
         if ((!usda_is(at->type, "Material") && !is_graph) || at->is_variant || at->is_inactive)
             continue;
         if (doc_child(m.doc, m.doc->root, intern(&m, at->name)))

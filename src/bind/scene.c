@@ -5,9 +5,9 @@
 
 #include <assert.h>
 
-void scene_init(struct scene *scene, struct arena *arena)
+void scene_init(struct scene *scene, uint32_t max_prims, struct arena *arena)
 {
-    *scene = (struct scene){.arena = arena};
+    *scene = (struct scene){.arena = arena, .max_prims = max_prims};
     vec_push(arena, &scene->prims, (struct scene_prim){.name = ""});
     vec_push(arena, &scene->words, "");
     text_init(&scene->written, arena);
@@ -55,8 +55,10 @@ prim_id scene_child(struct scene *scene, prim_id parent, const char *name, size_
     if (found)
         return found;
     prim_id added = scene->prims.len;
-    struct scene_prim prim = {
-        .name = keep_name(scene, name, len), .name_len = (uint32_t)len, .parent = parent};
+    struct scene_prim prim = {.name = keep_name(scene, name, len),
+                              .name_len = (uint32_t)len,
+                              .parent = parent,
+                              .depth = scene->prims.items[parent].depth + 1};
     vec_push(scene->arena, &scene->prims, prim);
     struct scene_prim *above = &scene->prims.items[parent];
     if (above->last_child)
@@ -180,14 +182,6 @@ void scene_remove(struct scene *scene, const prim_id *prims, size_t num)
             forget(scene, prim);
 }
 
-uint32_t scene_depth(const struct scene *scene, prim_id prim)
-{
-    uint32_t depth = 0;
-    for (; prim; prim = scene->prims.items[prim].parent)
-        depth++;
-    return depth;
-}
-
 /* Fills the text from its end, because a primitive knows its parent. */
 void scene_path(const struct scene *scene, prim_id prim, struct text *out)
 {
@@ -251,23 +245,42 @@ static const char *name_fault(const char *name, const char *end)
     return has_empty_name(name, end) ? "has an empty name" : NULL;
 }
 
-bool scene_check_name(struct text_word name, struct diag_place place, struct diag_list *diags)
+/* True if `num` levels below a primitive are not too many. */
+static bool has_depth(const struct scene *scene, prim_id prim, const char *path, const char *end)
 {
-    const char *fault = name_fault(name.bytes, name.bytes + name.len);
-    if (fault)
-        diag_add(diags, DIAG_ID_bad_path, place, arena_strndup(diags->arena, name.bytes, name.len),
-                 fault);
-    return !fault;
+    uint32_t depth = scene->prims.items[prim].depth + (prim != 0);
+    for (; path < end && depth <= SCENE_MAX_DEPTH; path++)
+        depth += *path == '/';
+    return depth <= SCENE_MAX_DEPTH;
 }
 
-static bool check_path(const char *path, const char *end, struct diag_place place,
-                       struct diag_list *diags)
+/* Reports a fault of a path below a primitive, or that the scene is full. */
+static bool check(const struct scene *scene, prim_id prim, struct text_word path,
+                  struct diag_place place, const char *fault, struct diag_list *diags)
 {
-    const char *fault = path_fault(path, end);
+    if (!fault && !has_depth(scene, prim, path.bytes, path.bytes + path.len))
+        fault = "is nested more than 1,000 deep";
+    bool is_full = !fault && scene->prims.len > scene->max_prims;
     if (fault)
-        diag_add(diags, DIAG_ID_bad_path, place,
-                 arena_strndup(diags->arena, path, (size_t)(end - path)), fault);
-    return !fault;
+        diag_add(diags, DIAG_ID_bad_path, place, arena_strndup(diags->arena, path.bytes, path.len),
+                 fault);
+    else if (is_full)
+        diag_add(diags, DIAG_ID_scene_size, place, (unsigned)scene->max_prims);
+    return !fault && !is_full;
+}
+
+bool scene_check_name(const struct scene *scene, prim_id prim, struct text_word name,
+                      struct diag_list *diags)
+{
+    return check(scene, prim, name, (struct diag_place){0},
+                 name_fault(name.bytes, name.bytes + name.len), diags);
+}
+
+static bool check_path(const struct scene *scene, const char *path, const char *end,
+                       struct diag_place place, struct diag_list *diags)
+{
+    return check(scene, 0, (struct text_word){path, (size_t)(end - path)}, place,
+                 path_fault(path, end), diags);
 }
 
 static void add_path(struct scene *scene, const char *path, const char *end)
@@ -309,14 +322,14 @@ static void read_line(struct list_reader *r, const char *begin, const char *end)
         return;
     struct diag_place place = {r->file, r->line, (uint32_t)(text - begin) + 1,
                                (uint32_t)(end - text)};
-    if (check_path(text, end, place, r->diags))
+    if (check_path(r->scene, text, end, place, r->diags))
         add_path(r->scene, text, end);
 }
 
 void scene_add_path(struct scene *scene, const char *path, size_t len, struct diag_place place,
                     struct diag_list *diags)
 {
-    if (check_path(path, path + len, place, diags))
+    if (check_path(scene, path, path + len, place, diags))
         add_path(scene, path, path + len);
 }
 

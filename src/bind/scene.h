@@ -16,7 +16,9 @@ struct scene_prim {
     const char *name;
     uint32_t name_len;
     prim_id parent, first_child, last_child, next; /* 0: none */
+    uint32_t depth;                                /* 0 of the root */
 };
+enum { SCENE_MAX_DEPTH = 1000 };
 #define PRIM_REMOVED UINT32_MAX /* as a parent: the primitive is gone; its number stays unused */
 
 /* A binding that the scene brings itself; it is weaker than those of a look at the same path. */
@@ -52,11 +54,13 @@ struct scene_source {
 
 struct scene {
     struct arena *arena;          /* owns everything */
+    uint32_t max_prims;           /* a limit of the context; readers report more */
     VEC(struct scene_prim) prims; /* a parent stands before its children */
     struct table table;           /* (parent, name) → primitive */
     VEC(prim_id) last; /* the levels of the path that was added last; the next often shares some */
     VEC(struct scene_binding) bindings;
     VEC(uint32_t) first_binding; /* by primitive, like first_source */
+    VEC(uint32_t) last_binding;  /* as long as first_binding */
     uint32_t removed_binding;    /* the first one; 1 + index; 0: none */
     uint32_t num_bindings;       /* without those that are removed */
     VEC(prim_id) emptied;        /* whose last child was removed, in this order */
@@ -74,15 +78,19 @@ struct scene {
     size_t names_left;
 };
 
-void scene_init(struct scene *scene, struct arena *arena);
+void scene_init(struct scene *scene, uint32_t max_prims, struct arena *arena);
 
 /* The child of this name; adds it if there is none. Keeps `name`, which lives as long as the scene.
  */
 prim_id scene_child(struct scene *scene, prim_id parent, const char *name, size_t len);
 /* Adds a path below a primitive, "b/c"; an empty path is the primitive. Copies it. */
 prim_id scene_add_below(struct scene *scene, prim_id prim, const char *path, size_t len);
-/* Reports a path below a primitive that is none, "/b" or "b//c"; false then. */
-bool scene_check_name(struct text_word name, struct diag_place place, struct diag_list *diags);
+/*
+ * Reports a path below a primitive that is none, "/b" or "b//c", or for which the scene has no
+ * room; false then.
+ */
+bool scene_check_name(const struct scene *scene, prim_id prim, struct text_word name,
+                      struct diag_list *diags);
 /* Keeps a text with a NUL, once for all equal ones. */
 const char *scene_keep_word(struct scene *scene, struct text_word word);
 /* True if a number is that of a primitive, or of the root. */
@@ -108,7 +116,10 @@ prim_id scene_find_below(const struct scene *scene, prim_id prim, const char *pa
 /* Writes the path of a primitive: "/a/b"; "/" for 0. */
 void scene_path(const struct scene *scene, prim_id prim, struct text *out);
 /* The number of levels below the root: 0 for 0. */
-uint32_t scene_depth(const struct scene *scene, prim_id prim);
+static inline uint32_t scene_depth(const struct scene *scene, prim_id prim)
+{
+    return scene->prims.items[prim].depth;
+}
 /* The next primitive in the order of the tree; 0 after the last. Begins with 0. */
 prim_id scene_next(const struct scene *scene, prim_id prim);
 

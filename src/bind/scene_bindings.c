@@ -9,12 +9,13 @@ static void link_binding(struct scene *scene, uint32_t index)
 {
     struct scene_binding *items = scene->bindings.items;
     prim_id prim = items[index].prim;
+    while (scene->last_binding.len <= prim)
+        vec_push(scene->arena, &scene->last_binding, 0);
     while (scene->first_binding.len <= prim)
         vec_push(scene->arena, &scene->first_binding, 0);
-    uint32_t *link = &scene->first_binding.items[prim];
-    while (*link)
-        link = &items[*link - 1].next;
-    *link = index + 1;
+    uint32_t *last = &scene->last_binding.items[prim];
+    *(*last ? &items[*last - 1].next : &scene->first_binding.items[prim]) = index + 1;
+    *last = index + 1;
     items[index].next = 0;
     scene->num_bindings++;
 }
@@ -40,13 +41,14 @@ static void remove_bindings(struct scene *scene, prim_id prim, struct text_word 
     struct scene_binding *items = scene->bindings.items;
     if (!scene_first_binding(scene, prim))
         return;
-    uint32_t *link = &scene->first_binding.items[prim];
+    uint32_t *link = &scene->first_binding.items[prim], last = 0;
     while (*link) {
         uint32_t index = *link - 1;
         struct scene_binding *binding = &items[index];
         if (binding->is_collection || strlen(binding->name) != name.len
             || memcmp(binding->name, name.bytes, name.len) != 0) {
             link = &binding->next;
+            last = index + 1;
             continue;
         }
         *link = binding->next;
@@ -54,6 +56,7 @@ static void remove_bindings(struct scene *scene, prim_id prim, struct text_word 
         scene->removed_binding = index + 1;
         scene->num_bindings--;
     }
+    scene->last_binding.items[prim] = last;
 }
 
 void scene_unbind_all(struct scene *scene, prim_id prim)
@@ -65,6 +68,8 @@ void scene_unbind_all(struct scene *scene, prim_id prim)
         scene->removed_binding = at;
         scene->num_bindings--;
         scene->first_binding.items[prim] = next;
+        if (!next)
+            scene->last_binding.items[prim] = 0;
     }
 }
 

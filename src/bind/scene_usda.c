@@ -11,7 +11,7 @@
 struct visit {
     usda_prim_id prim, from; /* from, to: as in struct scene_source */
     prim_id parent, to;
-    uint32_t above; /* 1 + index in `open`; 0: none */
+    uint32_t above; /* 1 + index in `open`; 0: the prim is no part of an instance */
 };
 
 /* A prim whose children are visited, for cycles of references. */
@@ -35,10 +35,11 @@ struct reader {
     VEC(struct visit) visits;
     VEC(struct open_prim) open;
     VEC(struct pending) pending;
+    uint32_t num_instanced; /* prims that were visited as parts of instances */
 };
 
 /* Nested instances multiply, so both have a limit. */
-enum { MAX_REFERENCES = 64, MAX_PRIMS = 1 << 25 };
+enum { MAX_REFERENCES = 64, MAX_INSTANCED = 1 << 22 };
 
 static struct diag_place place_of(const struct reader *s, uint32_t line, uint32_t column)
 {
@@ -219,7 +220,7 @@ static void add_bindings(struct reader *s, prim_id prim, const struct usda_prim 
 {
     const struct usda_property *properties = s->layer->properties.items;
     VEC(uint32_t) bindings = {0};
-    for (uint32_t i = source->first_property; i; i = properties[i].next)
+    for (uint32_t i = source->first_property; i < usda_end_property(source); i++)
         if (begins(properties[i].name, "material:"))
             vec_push(s->scratch, &bindings, i);
     for (unsigned with_slots = 0; with_slots < 2; with_slots++)
@@ -316,8 +317,14 @@ static void visit(struct reader *s, struct visit at)
     const struct usda_prim *prim = &s->layer->prims.items[at.prim];
     struct open_prim chain[MAX_CHAIN];
     uint32_t num = 0, depth = at.above ? s->open.items[at.above - 1].depth + 1 : 1;
+    s->num_instanced += at.above != 0;
     if (!is_primitive(s, prim, at.parent))
         return;
+    if (s->scene->prims.items[at.parent].depth == SCENE_MAX_DEPTH) {
+        diag_add(s->diags, DIAG_ID_usda_cycle, place_of(s, prim->line, prim->column),
+                 text_of(s, prim->name), text_of(s, prim->name));
+        return;
+    }
     prim_id added = scene_child(s->scene, at.parent, prim->name.bytes, prim->name.len);
     uint32_t above = at.above;
     for (usda_prim_id next = at.prim; num < MAX_CHAIN && (next = reference_of(s, next, above));) {
@@ -505,19 +512,22 @@ void scene_read_usda(struct scene *scene, const char *file, const char *text, si
                        .purpose = purpose,
                        .scratch = scratch,
                        .diags = diags};
-    if (!usda_read(&scene->layer, file, text, len, scene->arena, diags))
+    if (!usda_read(&scene->layer, file, text, len, scene->max_prims, scene->arena, diags))
         return;
     if (s.layer->prims.items[0].arc.len)
         diag_add(diags, DIAG_ID_usda_arc, place_of(&s, 1, 1), file,
                  text_of(&s, s.layer->prims.items[0].arc));
     read_slot_order(&s);
     push_children(&s, 0, (struct visit){0});
-    while (s.visits.len && scene->prims.len < MAX_PRIMS) {
+    while (s.visits.len && scene->prims.len <= scene->max_prims
+           && s.num_instanced <= MAX_INSTANCED) {
         struct visit at = vec_pop(&s.visits);
         visit(&s, at);
     }
-    if (s.visits.len)
-        diag_add(diags, DIAG_ID_usda_size, place_of(&s, 0, 0), file, (unsigned)MAX_PRIMS);
+    if (s.num_instanced > MAX_INSTANCED)
+        diag_add(diags, DIAG_ID_usda_size, place_of(&s, 0, 0), file, (unsigned)MAX_INSTANCED);
+    else if (s.visits.len)
+        diag_add(diags, DIAG_ID_scene_size, place_of(&s, 0, 0), (unsigned)scene->max_prims);
     for (uint32_t i = 0; i < s.pending.len; i++)
         read_members(&s, &s.pending.items[i]);
 }

@@ -84,6 +84,33 @@ static bool steps_back(const struct bind_look *look, const struct stand *a, cons
     return outer && inner && look_contains(look, outer, inner);
 }
 
+/* True if the collection of a stand contains others: only then it steps back. */
+static bool may_step_back(const struct bind_look *look, const struct stand *stand)
+{
+    uint32_t collection = look->assigns.items[stand->assign].collection;
+    return collection && look->rows[collection - 1];
+}
+
+/*
+ * Counts for each stand behind how many others it steps back, and keeps the stands in `rest`. The
+ * number of those that step back at all.
+ */
+static uint32_t count_behind(const struct bind_look *look, const struct stand *stands, uint32_t num,
+                             struct stands *work)
+{
+    uint32_t num_back = 0;
+    work->rest.len = work->behind.len = 0;
+    for (uint32_t i = 0; i < num; i++) {
+        uint32_t behind = 0;
+        for (uint32_t k = 0; k < num && may_step_back(look, &stands[i]); k++)
+            behind += steps_back(look, &stands[i], &stands[k]);
+        num_back += behind != 0;
+        vec_push(work->scratch, &work->rest, stands[i]);
+        vec_push(work->scratch, &work->behind, behind);
+    }
+    return num_back;
+}
+
 /*
  * Sorts the stands of one name at one path, which are sorted by look and place in the file: again
  * and again the first of those that step back behind none of the rest.
@@ -91,25 +118,23 @@ static bool steps_back(const struct bind_look *look, const struct stand *a, cons
 static void sort_by_collections(const struct bind_look *look, struct stand *stands, uint32_t num,
                                 struct stands *work)
 {
-    uint32_t placed = 0;
-    work->rest.len = work->behind.len = 0;
-    for (uint32_t i = 0; i < num; i++) {
-        uint32_t behind = 0;
-        for (uint32_t k = 0; k < num; k++)
-            behind += steps_back(look, &stands[i], &stands[k]);
-        vec_push(work->scratch, &work->rest, stands[i]);
-        vec_push(work->scratch, &work->behind, behind);
-    }
-    while (placed < num) {
-        uint32_t best = 0;
+    enum { PLACED = UINT32_MAX / 2 };
+    uint32_t first = 0;
+    if (!count_behind(look, stands, num, work))
+        return;
+    for (uint32_t placed = 0; placed < num; placed++) {
+        while (work->behind.items[first] == PLACED)
+            first++;
+        uint32_t best = first;
         while (work->behind.items[best])
             best++;
         assert(best < num); /* inclusion has no cycle */
-        stands[placed++] = work->rest.items[best];
-        for (uint32_t i = 0; i < num; i++)
-            work->behind.items[i] -=
-                steps_back(look, &work->rest.items[i], &work->rest.items[best]);
-        work->behind.items[best] = UINT32_MAX / 2; /* it is placed */
+        stands[placed] = work->rest.items[best];
+        for (uint32_t i = first; i < num; i++)
+            if (work->behind.items[i] && work->behind.items[i] < PLACED)
+                work->behind.items[i] -=
+                    steps_back(look, &work->rest.items[i], &work->rest.items[best]);
+        work->behind.items[best] = PLACED;
     }
 }
 

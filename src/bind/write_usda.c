@@ -4,6 +4,7 @@
  * says what its parent does not (docs/slots.md, "In USD").
  */
 #include "bind/bind.h"
+#include "usda/text.h"
 
 #include <assert.h>
 
@@ -19,16 +20,12 @@ struct said_list {
 
 struct usda_writer {
     struct bind_writer *w;
+    struct usda_text text;
     struct said_list own, above;
     VEC(uint32_t) materials; /* marks by assignment target, in order of appearance */
     struct table seen;
     uint32_t num_lost; /* items that slot bindings cannot hold */
 };
-
-static void indent(struct text *out, uint32_t depth)
-{
-    text_fmt(out, "%*s", (int)(4 * depth), "");
-}
 
 /* The layers, overrides and vertical layers of a state, by name. */
 static void collect(struct usda_writer *u, const struct bind_state *state, struct said_list *out)
@@ -55,10 +52,11 @@ static const struct said *find_said(const struct said_list *list, uint32_t name)
     return NULL;
 }
 
-static const char *target_name(const struct usda_writer *u, uint32_t target)
+static struct text_word target_name(const struct usda_writer *u, uint32_t target)
 {
     const struct document *doc = u->w->b->look.doc;
-    return str_text(doc->strings, doc_element(doc, target)->name);
+    const char *name = str_text(doc->strings, doc_element(doc, target)->name);
+    return (struct text_word){name, strlen(name)};
 }
 
 static void note_material(struct usda_writer *u, uint32_t target)
@@ -81,17 +79,19 @@ static bool is_base(const struct usda_writer *u, uint32_t name)
  */
 static void put_binding(struct usda_writer *u, uint32_t depth, uint32_t name, uint32_t target)
 {
-    struct text *out = u->w->out;
+    struct usda_text *out = &u->text;
     bool is_plain = target && is_base(u, name);
-    indent(out, depth);
-    text_str(out, is_plain ? "rel material:binding" : "rel material:slotBinding:");
+    usda_put_indent(out, depth);
+    usda_put(out, is_plain ? "rel material:binding" : "rel material:slotBinding:");
     if (!is_plain)
-        slot_encode(&u->w->b->look.names.items[name].name, out);
+        slot_encode(&u->w->b->look.names.items[name].name, out->out);
     if (target) {
-        text_fmt(out, " = </Looks/%s>\n", target_name(u, target));
+        usda_put(out, " = </Looks/");
+        usda_put_name(out, target_name(u, target));
+        usda_put(out, ">\n");
         note_material(u, target);
     } else {
-        text_str(out, " = None\n");
+        usda_put(out, " = None\n");
     }
 }
 
@@ -131,14 +131,13 @@ static void put_order(struct usda_writer *u)
     const struct bind_look *look = &u->w->b->look;
     if (!look->order_parts.len)
         return;
-    indent(u->w->out, 1);
-    text_str(u->w->out, "uniform token[] material:slotOrder = [");
+    usda_put_indent(&u->text, 1);
+    usda_put(&u->text, "uniform token[] material:slotOrder = [");
     for (uint32_t i = 0; i < look->order_parts.len; i++) {
-        text_str(u->w->out, i ? ", \"" : "\"");
-        text_put(u->w->out, look->order_parts.items[i]);
-        text_char(u->w->out, '"');
+        usda_put(&u->text, i ? ", " : "");
+        usda_put_string(&u->text, look->order_parts.items[i]);
     }
-    text_str(u->w->out, "]\n");
+    usda_put(&u->text, "]\n");
 }
 
 /* The names of the materials, which a file with their networks may fill. */
@@ -147,44 +146,60 @@ static void put_materials(struct usda_writer *u)
     const struct document *doc = u->w->b->look.doc;
     if (!u->materials.len)
         return;
-    text_str(u->w->out, "over \"Looks\"\n{\n");
+    usda_put(&u->text, "over \"Looks\"\n{\n");
     for (uint32_t i = 0; i < u->materials.len; i++) {
         bool is_graph = doc_element(doc, u->materials.items[i])->kind == KIND_NODEGRAPH;
-        text_fmt(u->w->out, "    over %s \"%s\"\n    {\n    }\n",
-                 is_graph ? "NodeGraph" : "Material", target_name(u, u->materials.items[i]));
+        usda_put(&u->text, is_graph ? "    over NodeGraph \"" : "    over Material \"");
+        usda_put_name(&u->text, target_name(u, u->materials.items[i]));
+        usda_put(&u->text, "\"\n    {\n    }\n");
     }
-    text_str(u->w->out, "}\n");
+    usda_put(&u->text, "}\n");
+}
+
+static void put_prim_name(struct usda_writer *u, prim_id prim)
+{
+    const struct scene_prim *at = &u->w->b->scene->prims.items[prim];
+    usda_put(&u->text, "\"");
+    usda_put_name(&u->text, (struct text_word){at->name, at->name_len});
+    usda_put(&u->text, "\"\n");
+}
+
+/* Opens a primitive, and closes the bodies that end before `next`; 0: all. */
+static void put_prim(struct usda_writer *u, prim_id prim, prim_id next)
+{
+    const struct scene *scene = u->w->b->scene;
+    uint32_t depth = scene_depth(scene, prim), open = next ? scene_depth(scene, next) : 1;
+    usda_put_indent(&u->text, depth - 1);
+    usda_put(&u->text, "def ");
+    put_prim_name(u, prim);
+    usda_put_indent(&u->text, depth - 1);
+    usda_put(&u->text, "{\n");
+    if (prim == scene->prims.items[0].first_child)
+        put_order(u);
+    put_bindings(u, prim, depth);
+    for (; depth >= open; depth--) {
+        usda_put_indent(&u->text, depth - 1);
+        usda_put(&u->text, "}\n");
+    }
 }
 
 uint32_t bind_write_usda(struct bind_writer *w)
 {
     const struct scene *scene = w->b->scene;
-    const struct scene_prim *prims = scene->prims.items;
-    struct usda_writer u = {.w = w};
-    prim_id first = prims[0].first_child;
-    text_str(w->out, "#usda 1.0\n(\n");
-    if (first)
-        text_fmt(w->out, "    defaultPrim = \"%.*s\"\n", (int)prims[first].name_len,
-                 prims[first].name);
-    text_str(w->out, ")\n");
+    struct usda_writer u = {.w = w, .text = {.out = w->out}};
+    prim_id first = scene->prims.items[0].first_child;
+    usda_put(&u.text, "#usda 1.0\n(\n");
+    if (first) {
+        usda_put(&u.text, "    defaultPrim = ");
+        put_prim_name(&u, first);
+    }
+    usda_put(&u.text, ")\n");
     for (prim_id prim = scene_next(scene, 0), next; prim; prim = next) {
-        uint32_t depth = scene_depth(scene, prim);
-        indent(w->out, depth - 1);
-        text_fmt(w->out, "def \"%.*s\"\n", (int)prims[prim].name_len, prims[prim].name);
-        indent(w->out, depth - 1);
-        text_str(w->out, "{\n");
-        if (prim == first)
-            put_order(&u);
-        put_bindings(&u, prim, depth);
         next = scene_next(scene, prim);
-        uint32_t open = next ? scene_depth(scene, next) : 1;
-        for (; depth >= open; depth--) { /* the bodies that end here */
-            indent(w->out, depth - 1);
-            text_str(w->out, "}\n");
-        }
+        put_prim(&u, prim, next);
         if (w->flush)
             w->flush(w->user_data, w->out);
     }
     put_materials(&u);
-    return u.num_lost;
+    return u.num_lost + u.text.num_changed;
 }

@@ -39,16 +39,35 @@ static void write_comment(const struct document *doc, str_id text, struct text *
     text_str(out, "-->");
 }
 
+/*
+ * Blank lines as the reader counts them, also where elements between them are gone: several count
+ * as one, and those at the begin and at the end of an element do not count.
+ */
+struct layout {
+    bool is_first;  /* nothing stands in the element yet */
+    bool has_blank; /* a blank line comes before what follows */
+};
+
+static void begin_line(struct layout *layout, struct text *out)
+{
+    if (layout->has_blank)
+        text_char(out, '\n');
+    *layout = (struct layout){0};
+}
+
 /* Comments and blank lines on lines of their own. */
 static void write_comments(const struct document *doc, elem_id element, enum comment_place place,
-                           uint32_t depth, struct text *out)
+                           uint32_t depth, struct layout *layout, struct text *out)
 {
     for (uint32_t i = doc_first_comment(doc, element, place); i; i = doc_comment_at(doc, i)->next) {
         str_id text = doc_comment_at(doc, i)->text;
-        if (text) {
-            indent(out, depth);
-            write_comment(doc, text, out);
+        if (!text) {
+            layout->has_blank = !layout->is_first;
+            continue;
         }
+        begin_line(layout, out);
+        indent(out, depth);
+        write_comment(doc, text, out);
         text_char(out, '\n');
     }
 }
@@ -75,14 +94,19 @@ static bool has_includes(const struct document *doc, elem_id root)
 
 static bool has_content(const struct document *doc, elem_id element)
 {
-    return doc_element(doc, element)->first_child || doc_first_comment(doc, element, COMMENT_LAST);
+    uint32_t last = doc_first_comment(doc, element, COMMENT_LAST);
+    while (last && !doc_comment_at(doc, last)->text)
+        last = doc_comment_at(doc, last)->next;
+    return doc_element(doc, element)->first_child || last;
 }
 
 static void write_start_tag(const struct document *doc, elem_id element, uint32_t depth,
-                            struct text *out)
+                            struct layout *layout, struct text *out)
 {
     const struct element *e = doc_element(doc, element);
-    write_comments(doc, element, COMMENT_BEFORE, depth, out);
+    write_comments(doc, element, COMMENT_BEFORE, depth, layout, out);
+    begin_line(layout, out);
+    layout->is_first = has_content(doc, element);
     indent(out, depth);
     text_char(out, '<');
     text_str(out, str_text(doc->strings, e->category));
@@ -102,9 +126,10 @@ static void write_start_tag(const struct document *doc, elem_id element, uint32_
 }
 
 static void write_end_tag(const struct document *doc, elem_id element, uint32_t depth,
-                          struct text *out)
+                          struct layout *layout, struct text *out)
 {
-    write_comments(doc, element, COMMENT_LAST, depth + 1, out);
+    write_comments(doc, element, COMMENT_LAST, depth + 1, layout, out);
+    *layout = (struct layout){0};
     indent(out, depth);
     text_fmt(out, "</%s>", str_text(doc->strings, doc_element(doc, element)->category));
     end_line(doc, element, out);
@@ -114,23 +139,24 @@ void doc_write_part(const struct document *doc, elem_id root, const struct doc_c
                     struct text *out)
 {
     uint32_t depth = 0;
+    struct layout layout = {0};
     if (!doc_element(doc, root)->parent)
         text_str(out, "<?xml version=\"1.0\"?>\n");
     for (elem_id element = root, next; element; element = next) {
         bool is_left_out = choice && depth == 1 && !choice->take(choice->user_data, element, out);
         if (!is_left_out)
-            write_start_tag(doc, element, depth, out);
+            write_start_tag(doc, element, depth, &layout, out);
         next = is_left_out ? 0 : doc_element(doc, element)->first_child;
         if (next) {
             depth++;
             continue;
         }
         if (!is_left_out && has_content(doc, element))
-            write_end_tag(doc, element, depth, out);
+            write_end_tag(doc, element, depth, &layout, out);
         while (element != root && !(next = doc_element(doc, element)->next)) {
             element = doc_element(doc, element)->parent;
             assert(depth > 0);
-            write_end_tag(doc, element, --depth, out);
+            write_end_tag(doc, element, --depth, &layout, out);
         }
     }
 }

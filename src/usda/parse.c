@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /* Prims, properties and metadata (the grammar of OpenUSD's text format). */
+#include "usda/text.h"
 #include "usda/usda.h"
 
 #include <assert.h>
@@ -14,6 +15,8 @@ struct parser {
     usda_prim_id prim;     /* the one whose body is read */
     VEC(char) bodies;      /* open braces: 'p' of a prim, 'v' of a variant, 's' of a variant set */
     uint32_t num_variants; /* of the bodies, those of variants */
+    uint32_t max_elements;
+    VEC(usda_prim_id) owners; /* of the properties */
     bool failed;
 };
 
@@ -238,6 +241,17 @@ static struct text_word read_type(struct parser *p)
     return (struct text_word){begin, p->failed ? 0 : (size_t)(end - begin)};
 }
 
+static void count_element(struct parser *p)
+{
+    if (p->layer->prims.len + p->layer->properties.len <= p->max_elements || p->failed)
+        return;
+    p->failed = true;
+    p->token.kind = USDA_END;
+    diag_add(p->diags, DIAG_ID_too_many_elements,
+             (struct diag_place){p->layer->file, p->token.line, usda_column(&p->token), 0},
+             (unsigned)p->max_elements);
+}
+
 static void read_property(struct parser *p)
 {
     struct usda_property property = {.line = p->token.line};
@@ -269,14 +283,10 @@ static void read_property(struct parser *p)
     property.color_space = metadata.color_space;
     if (p->failed || is_deletion || p->num_variants)
         return;
+    count_element(p);
     vec_push(p->layer->arena, &p->layer->properties, property);
-    struct usda_prim *prim = &p->layer->prims.items[p->prim];
-    uint32_t added = p->layer->properties.len - 1;
-    if (prim->last_property)
-        p->layer->properties.items[prim->last_property].next = added;
-    else
-        prim->first_property = added;
-    prim->last_property = added;
+    vec_push(p->layer->arena, &p->owners, p->prim);
+    usda_index_property(p->layer, p->prim, p->layer->properties.len - 1);
 }
 
 /* ---- Prims ---- */
@@ -284,6 +294,8 @@ static void read_property(struct parser *p)
 static void open_body(struct parser *p, char kind)
 {
     skip_newlines(p);
+    if (p->bodies.len == USDA_MAX_DEPTH)
+        fail(p, "at most 1,000 nested prims");
     expect(p, '{', "'{'");
     vec_push(p->layer->arena, &p->bodies, kind);
     p->num_variants += kind == 'v';
@@ -301,7 +313,9 @@ static void add_prim(struct parser *p, struct usda_prim added)
     else
         above->first_child = id;
     above->last_child = id;
+    usda_index_prim(layer, id);
     p->prim = id;
+    count_element(p);
 }
 
 static bool read_specifier(struct parser *p, uint8_t *out)
@@ -316,18 +330,6 @@ static bool read_specifier(struct parser *p, uint8_t *out)
     return false;
 }
 
-/* True if names of prims may be this string: a USD identifier. */
-static bool is_identifier(struct text_word name)
-{
-    bool good = name.len && !(name.bytes[0] >= '0' && name.bytes[0] <= '9');
-    for (size_t i = 0; i < name.len && good; i++) {
-        char c = name.bytes[i];
-        good = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9')
-               || c == '_' || (c & 0x80);
-    }
-    return good;
-}
-
 static void read_prim(struct parser *p, uint8_t specifier)
 {
     struct usda_prim prim = {.specifier = specifier, .line = p->token.line};
@@ -336,7 +338,7 @@ static void read_prim(struct parser *p, uint8_t specifier)
         prim.type = word_of(p->token);
         next(p);
     }
-    if (p->token.kind != USDA_STRING || !is_identifier(usda_unquoted(word_of(p->token))))
+    if (p->token.kind != USDA_STRING || !usda_is_identifier(usda_unquoted(word_of(p->token))))
         fail(p, "the name of a prim in quotes");
     if (p->failed)
         return;
@@ -430,10 +432,11 @@ static void read_header(struct parser *p, const char *text, size_t len)
 }
 
 bool usda_read(struct usda_layer *layer, const char *file, const char *text, size_t len,
-               struct arena *arena, struct diag_list *diags)
+               uint32_t max_elements, struct arena *arena, struct diag_list *diags)
 {
     *layer = (struct usda_layer){.arena = arena, .file = file};
-    struct parser p = {.layer = layer, .diags = diags};
+    struct parser p = {.layer = layer, .max_elements = max_elements, .diags = diags};
+    vec_push(arena, &p.owners, 0);
     vec_push(arena, &layer->prims, (struct usda_prim){.line = 1, .column = 1});
     vec_push(arena, &layer->properties, (struct usda_property){0});
     usda_lexer_init(&p.lexer, text, len);
@@ -442,5 +445,6 @@ bool usda_read(struct usda_layer *layer, const char *file, const char *text, siz
         read_statement(&p);
     if (p.bodies.len)
         fail(&p, "'}'");
+    usda_index_rows(layer, p.owners.items, arena);
     return !p.failed;
 }

@@ -7,6 +7,7 @@
 #ifndef MXG_USDA_USDA_H
 #define MXG_USDA_USDA_H
 
+#include "base/table.h"
 #include "base/text.h"
 #include "diag/diag.h"
 
@@ -21,7 +22,6 @@ struct usda_property {
     struct text_word bind_as; /* the metadata bindMaterialAs, without quotes */
     struct text_word interpolation, color_space; /* the same for other metadata */
     uint32_t line, column;
-    uint32_t next; /* of the same prim; 0: none */
 };
 
 struct usda_prim {
@@ -29,11 +29,19 @@ struct usda_prim {
     struct text_word references; /* value of the metadata; len 0: none */
     struct text_word arc;        /* the name of another arc: "payload"; len 0: none */
     usda_prim_id parent, first_child, last_child, next;
-    uint32_t first_property, last_property; /* 0: none */
+    uint32_t first_property, num_properties; /* in a row */
     uint32_t line, column;
     uint8_t specifier; /* enum usda_specifier */
     bool is_variant;   /* it stands in a variant set */
     bool is_inactive;  /* active = false */
+};
+
+/* What a prim has under a name. */
+struct usda_named {
+    usda_prim_id prim;
+    uint32_t first;     /* property of this name; 0: it has samples alone */
+    uint32_t attribute; /* usda_find_attribute */
+    struct text_word name;
 };
 
 struct usda_layer {
@@ -43,18 +51,39 @@ struct usda_layer {
     struct text_word meters_per_unit;       /* a number; len 0: none */
     VEC(struct usda_prim) prims;            /* a parent stands before its children */
     VEC(struct usda_property) properties;   /* 0 unused */
+    VEC(struct usda_named) named;
+    struct table children; /* (parent, name) → the first prim */
+    struct table names;    /* (prim, name) → 1 + index in `named` */
 };
 
+enum { USDA_MAX_DEPTH = 1000 }; /* of prims in each other */
+
 /*
- * Reads a layer. The text ends with a NUL and lives as long as the layer. false after a diagnostic;
- * the layer then has what stands before the fault.
+ * Reads a layer of at most `max_elements` prims and properties. The text ends with a NUL and lives
+ * as long as the layer. false after a diagnostic; the layer then has what stands before the fault.
  */
 bool usda_read(struct usda_layer *layer, const char *file, const char *text, size_t len,
-               struct arena *arena, struct diag_list *diags);
+               uint32_t max_elements, struct arena *arena, struct diag_list *diags);
+
+/* index.c: prims and properties by their names. */
+void usda_index_prim(struct usda_layer *layer, usda_prim_id id);
+/* Before usda_index_rows, for properties in the order of the file. */
+void usda_index_property(struct usda_layer *layer, usda_prim_id prim, uint32_t property);
+/* Puts the properties of each prim in a row; `prims` has the prim of each property. */
+void usda_index_rows(struct usda_layer *layer, const usda_prim_id *prims, struct arena *scratch);
+/* What a prim has under a name; NULL: nothing. */
+const struct usda_named *usda_find_named(const struct usda_layer *layer, usda_prim_id prim,
+                                         struct text_word name);
 
 /* The property of a name; NULL: none. */
 const struct usda_property *usda_find_property(const struct usda_layer *layer,
                                                const struct usda_prim *prim, const char *name);
+/* The property after the last one of a prim. */
+static inline uint32_t usda_end_property(const struct usda_prim *prim)
+{
+    return prim->first_property + prim->num_properties;
+}
+
 /* The prim at an absolute path, "/a/b"; 0: none. */
 usda_prim_id usda_find(const struct usda_layer *layer, const char *path, size_t len);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Finds prims and properties of a layer, and reads their values. */
+/* Reads the values of properties. */
 #include "usda/usda.h"
 
 #include "base/num.h"
@@ -10,43 +10,6 @@ struct text_word usda_unquoted(struct text_word word)
 {
     size_t quotes = word.len >= 6 && memcmp(word.bytes, word.bytes + 1, 2) == 0 ? 3 : 1;
     return (struct text_word){word.bytes + quotes, word.len - 2 * quotes};
-}
-
-const struct usda_property *usda_find_property(const struct usda_layer *layer,
-                                               const struct usda_prim *prim, const char *name)
-{
-    for (uint32_t i = prim->first_property; i; i = layer->properties.items[i].next)
-        if (usda_is(layer->properties.items[i].name, name))
-            return &layer->properties.items[i];
-    return NULL;
-}
-
-static usda_prim_id find_child(const struct usda_layer *layer, usda_prim_id parent,
-                               const char *name, size_t len)
-{
-    for (usda_prim_id id = layer->prims.items[parent].first_child; id;
-         id = layer->prims.items[id].next) {
-        const struct usda_prim *prim = &layer->prims.items[id];
-        if (prim->name.len == len && memcmp(prim->name.bytes, name, len) == 0)
-            return id;
-    }
-    return 0;
-}
-
-usda_prim_id usda_find(const struct usda_layer *layer, const char *path, size_t len)
-{
-    const char *end = path + len;
-    usda_prim_id prim = 0;
-    while (path < end) {
-        path += *path == '/';
-        const char *slash = memchr(path, '/', (size_t)(end - path));
-        size_t name = (size_t)((slash ? slash : end) - path);
-        prim = find_child(layer, prim, path, name);
-        if (!prim)
-            return 0;
-        path += name;
-    }
-    return prim;
 }
 
 bool usda_next_item(struct text_word *at, struct text_word *out)
@@ -120,22 +83,4 @@ struct text_word usda_value(const struct usda_property *property)
 {
     return ends_with(property->name, USDA_SAMPLES) ? first_sample(property->value)
                                                    : property->value;
-}
-
-const struct usda_property *usda_find_attribute(const struct usda_layer *layer,
-                                                const struct usda_prim *prim, const char *name)
-{
-    const struct usda_property *found = NULL;
-    size_t len = strlen(name);
-    for (uint32_t i = prim->first_property; i; i = layer->properties.items[i].next) {
-        const struct usda_property *property = &layer->properties.items[i];
-        if (usda_is(property->name, name) && property->value.len)
-            return property;
-        bool is_sampled = ends_with(property->name, USDA_SAMPLES)
-                          && property->name.len == len + strlen(USDA_SAMPLES)
-                          && memcmp(property->name.bytes, name, len) == 0;
-        if (is_sampled || usda_is(property->name, name))
-            found = property;
-    }
-    return found;
 }

@@ -437,6 +437,54 @@ static void test_stacks(mxg_context *context)
     mxg_document_destroy(other);
 }
 
+/* ---- A stage of USD ---- */
+
+/* The scene of a text, from a file that the test removes. */
+static mxg_scene *load_usda(mxg_context *context, const char *text, mxg_status expected)
+{
+    static const char name[] = "test_bind.usda";
+    mxg_scene *scene = NULL;
+    FILE *file = fopen(name, "wb");
+    REQUIRE(file && fputs(text, file) >= 0 && fclose(file) == 0);
+    REQUIRE(mxg_scene_load(context, name, NULL, &scene) == expected);
+    remove(name);
+    return scene;
+}
+
+/* A collection loses members, those that it excludes, its own primitive, and all. */
+static void test_removed_members(mxg_context *context)
+{
+    static const char stage[] =
+        "#usda 1.0\ndef Xform \"r\" (prepend apiSchemas = [\"CollectionAPI:c\"])\n{\n"
+        "rel collection:c:includes = [</r/a>, </r/b>]\nrel collection:c:excludes = </r/b/x>\n"
+        "rel material:binding:collection:c = [</r.collection:c>, </M>]\n"
+        "def Mesh \"a\" {}\ndef Xform \"b\" { def Mesh \"x\" {}\n def Mesh \"y\" {} }\n}\n"
+        "def Material \"M\" {}\n";
+    static const char *const removed[] = {"/r/a", "/r/b/x", "/r/b/y", "/r/b", "/r"};
+    static const struct rule rule = {
+        .looks = "<surface name='s9' type='surfaceshader'/><surfacematerial name='M' "
+                 "type='material'><input name='surfaceshader' type='surfaceshader' "
+                 "nodename='s9'/></surfacematerial>"};
+    mxg_document *document = parse_rule(context, &rule);
+    for (unsigned set = 1; set < 1u << (sizeof removed / sizeof *removed); set++) {
+        mxg_scene *scene = load_usda(context, stage, MXG_OK);
+        mxg_bindings *bindings = NULL;
+        for (size_t i = 0; i < sizeof removed / sizeof *removed; i++) {
+            uint32_t primitive = mxg_scene_find_primitive(scene, removed[i]);
+            if (set >> i & 1 && primitive != MXG_NONE)
+                REQUIRE(mxg_scene_remove_primitives(scene, &primitive, 1) == MXG_OK);
+        }
+        REQUIRE(mxg_bindings_create(context, document, scene, NULL, &bindings) == MXG_OK);
+        uint32_t y = mxg_scene_find_primitive(scene, "/r/b/y");
+        REQUIRE(y == MXG_NONE || mxg_bindings_num_layers(bindings, y) == 1);
+        uint32_t x = mxg_scene_find_primitive(scene, "/r/b/x");
+        REQUIRE(x == MXG_NONE || mxg_bindings_num_layers(bindings, x) == 0);
+        mxg_bindings_destroy(bindings);
+        mxg_scene_destroy(scene);
+    }
+    mxg_document_destroy(document);
+}
+
 /* With a number: only a scene with so many leaves. */
 int main(int argc, char **argv)
 {
@@ -455,6 +503,7 @@ int main(int argc, char **argv)
         check_rule(context, &rules[i], true); /* the order of the primitives does not matter */
     }
     test_many_layers(context);
+    test_removed_members(context);
     mxg_context_destroy(context);
     test_many_primitives(200000);
     test_memory();

@@ -41,8 +41,7 @@ def annotate(src):
         parts = [re.sub(r'\s+', '', p) for p in re.findall(r'\w+(?:\s*\([^()]*\))?', m.group(1))]
         if all(p.split('(')[0] in STD_ATTRS for p in parts): return m.group(0)
         return '[[%s]]' % ', '.join('clang::annotate("msl:%s")' % p for p in parts) + '\n' * m.group(0).count('\n')
-    src = re.sub(r'/\*.*?\*/', lambda m: '\n' * m.group(0).count('\n') or ' ', src, flags=re.S)
-    src = re.sub(r'//[^\n]*', '', src)
+    src = re.sub(r'//[^\n]*|/\*.*?\*/', lambda m: '\n' * m.group(0).count('\n') or ' ', src, flags=re.S)
     src = re.sub(r'(?<![\w.])(\d+\.?\d*(?:[eE][+-]?\d+)?)[hH]\b', r'half(\1)', src)          # 1.0h
     return re.sub(r'\[\[([^\[\]]*)\]\]', one, src)
 

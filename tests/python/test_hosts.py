@@ -2,6 +2,7 @@
 """Callbacks, wrong types, limits, lifetimes, threads."""
 import copy
 import gc
+import os
 import pickle
 import threading
 import unittest
@@ -207,6 +208,11 @@ class Types(unittest.TestCase):
             for number in range(3):
                 edit.add("noise2d", f"n{number}", "float")
         folder = common.EXAMPLES
+        origin = os.path.join(folder, "marble.mtlx")
+        sandbox = mxgen.Context(sandbox=True)
+        self.assertIsNone(sandbox.file_fault(origin, origin))
+        self.assertIn("outside", sandbox.file_fault(origin, os.path.join(folder, "..", "README.md")))
+        self.assertIn("regular", mxgen.Context().file_fault(origin, "/dev/null"))
         with self.assertRaises(mxgen.DocumentError):
             mxgen.Context(sandbox=True, include_roots=[folder]).parse(MAIN, name="elsewhere/main.mtlx")
 

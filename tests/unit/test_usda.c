@@ -77,7 +77,7 @@ static bool read_copy(struct fixture *f, struct usda_layer *layer, const char *t
 {
     char *copy = malloc(len ? len : 1);
     memcpy(copy, text, len);
-    bool good = usda_read(layer, "x.usda", copy, len, &f->arena, &f->diags);
+    bool good = usda_read(layer, "x.usda", copy, len, 1000000, &f->arena, &f->diags);
     free(copy);
     return good;
 }
@@ -143,18 +143,22 @@ static void test_nesting(void)
         return;
     start(&f);
     text_init(&text, &f.arena);
-    text_str(&text, HEAD);
-    for (int i = 0; i < DEPTH; i++)
-        text_str(&text, "def \"a\" {");
-    for (int i = 0; i < DEPTH; i++)
-        text_char(&text, '}');
-    REQUIRE(usda_read(&layer, "deep.usda", text.data, text.len, &f.arena, &f.diags));
-    REQUIRE_EQ(layer.prims.len, DEPTH + 1);
+    for (int extra = 0; extra < 2; extra++) {
+        text.len = 0;
+        text_str(&text, HEAD);
+        for (int i = 0; i < USDA_MAX_DEPTH + extra; i++)
+            text_str(&text, "def \"a\" {");
+        for (int i = 0; i < USDA_MAX_DEPTH + extra; i++)
+            text_char(&text, '}');
+        REQUIRE_EQ(usda_read(&layer, "deep.usda", text.data, text.len, 1000000, &f.arena, &f.diags),
+                   !extra);
+        REQUIRE(extra || layer.prims.len == USDA_MAX_DEPTH + 1);
+    }
     text.len = 0;
     text_str(&text, HEAD "def \"a\" { int x = ");
     for (int i = 0; i < DEPTH; i++)
         text_char(&text, '[');
-    REQUIRE(!usda_read(&layer, "deep.usda", text.data, text.len, &f.arena, &f.diags));
+    REQUIRE(!usda_read(&layer, "deep.usda", text.data, text.len, 1000000, &f.arena, &f.diags));
     arena_finish(&f.arena);
 }
 
@@ -171,7 +175,7 @@ static void test_queries(void)
     if (setjmp(f.trap.place))
         return;
     start(&f);
-    REQUIRE(usda_read(&layer, "q.usda", text, strlen(text), &f.arena, &f.diags));
+    REQUIRE(usda_read(&layer, "q.usda", text, strlen(text), 1000000, &f.arena, &f.diags));
     usda_prim_id a = usda_find(&layer, "/a", 2), b = usda_find(&layer, "/a/b", 4);
     REQUIRE(a && b && !usda_find(&layer, "/a/c", 4));
     REQUIRE(usda_is(layer.default_prim, "a"));
@@ -192,8 +196,45 @@ static void test_queries(void)
     arena_finish(&f.arena);
 }
 
+/* Prims and properties of equal names, in different orders, and the limit of elements. */
+static void test_names(void)
+{
+    static const char text[] = HEAD "def \"a\" {\n"
+                                    "  float x\n  def \"b\" { int of = 1 }\n  float x = 1\n"
+                                    "  float y.timeSamples = { 1: 2 }\n  float x = 3\n"
+                                    "  float z.timeSamples = { 1: 4 }\n  float z\n"
+                                    "  def \"b\" { int of = 2 }\n  float y = 5\n }\n"
+                                    "def \"a\" { float x = 6 }\n";
+    static const struct {
+        const char *name, *value;
+        bool is_property; /* also without samples */
+    } names[] = {
+        {"x", "1", true}, {"y", "5", true}, {"z", "", true}, {"z.timeSamples", "4 ", true}};
+    struct fixture f;
+    struct usda_layer layer;
+    if (setjmp(f.trap.place))
+        return;
+    start(&f);
+    REQUIRE(usda_read(&layer, "n.usda", text, strlen(text), 16, &f.arena, &f.diags));
+    const struct usda_prim *a = &layer.prims.items[usda_find(&layer, "/a", 2)];
+    REQUIRE_EQ(a->num_properties, 7);
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        const struct usda_property *found = usda_find_attribute(&layer, a, names[i].name);
+        REQUIRE(found && usda_is(usda_value(found), names[i].value));
+        REQUIRE((usda_find_property(&layer, a, names[i].name) != NULL) == names[i].is_property);
+    }
+    for (uint32_t i = a->first_property; i < usda_end_property(a); i++)
+        REQUIRE(!usda_is(layer.properties.items[i].name, "of")); /* those of a prim are in a row */
+    const struct usda_prim *b = &layer.prims.items[usda_find(&layer, "/a/b", 4)];
+    REQUIRE(usda_is(usda_find_property(&layer, b, "of")->value, "1"));
+    REQUIRE(!usda_find_property(&layer, b, "x"));
+    REQUIRE(!usda_read(&layer, "n.usda", text, strlen(text), 14, &f.arena, &f.diags));
+    arena_finish(&f.arena);
+}
+
 int main(void)
 {
+    test_names();
     test_layers();
     test_damage();
     test_nesting();

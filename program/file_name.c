@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program/file_name.h"
+
+#include "program/cli.h"
+#include "program/memory.h"
+#include "program/name_table.h"
+#include "program/utf8.h"
+
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Code points that display as nothing, or that change the direction of text. */
+static const struct {
+    uint32_t first, last;
+} controls[] = {{0x01, 0x1f},     {0x7f, 0x9f},     {0x200e, 0x200f}, {0x2028, 0x202e},
+                {0x2066, 0x2069}, {0xfeff, 0xfeff}, {0xfff9, 0xfffb}};
+
+static uint32_t decode(const char *text, size_t len)
+{
+    static const unsigned char lead_bits[] = {0, 0x7f, 0x1f, 0x0f, 0x07};
+    uint32_t code = (unsigned char)text[0] & lead_bits[len];
+    for (size_t i = 1; i < len; ++i)
+        code = code << 6 | ((unsigned char)text[i] & 0x3f);
+    return code;
+}
+
+/* `len` 0: the byte is no UTF-8. */
+static bool is_control(const char *text, size_t len)
+{
+    uint32_t code = len ? decode(text, len) : 1;
+    for (size_t i = 0; i < sizeof controls / sizeof *controls; ++i)
+        if (code >= controls[i].first && code <= controls[i].last)
+            return true;
+    return false;
+}
+
+/*
+ * make ends a rule at ';', reads an assignment at '=', and has no escape for '|' and a last '\'.
+ */
+static bool is_unfit(const char *text, size_t len)
+{
+    return is_control(text, len) || strchr(";=|\\", *text);
+}
+
+static unsigned hash_of(const char *name)
+{
+    return (unsigned)names_hash(NAMES_HASH_OF_NOTHING, name);
+}
+
+char *file_name_clean(const char *path)
+{
+    char *clean = memory_alloc(strlen(path) + 1), *out = clean;
+    bool is_changed = false;
+    for (const char *c = path; *c;) {
+        size_t len = utf8_length(c), step = len ? len : 1;
+        bool is_bad = is_unfit(c, len);
+        if (is_bad)
+            *out = '_';
+        else
+            memcpy(out, c, step);
+        out += is_bad ? 1 : step;
+        c += step;
+        is_changed |= is_bad;
+    }
+    *out = '\0';
+    if (!is_changed)
+        return clean;
+    char *marked = cli_format("%s-%08x", clean, hash_of(path));
+    free(clean);
+    return marked;
+}
+
+char *file_name_of_element(const char *element_path)
+{
+    /*
+     * File systems allow names of 255 bytes. In a longer name a hash of the whole name replaces the
+     * end, so that names stay distinct.
+     */
+    enum { MAX_NAME = 200 };
+    size_t len = strlen(element_path);
+    if (len > MAX_NAME)
+        len = MAX_NAME;
+    while (element_path[len] && ((unsigned char)element_path[len] & 0xc0) == 0x80)
+        --len; /* not inside a character */
+    char *part = element_path[len]
+                     ? cli_format("%.*s-%08x", (int)len, element_path, hash_of(element_path))
+                     : cli_format("%s", element_path);
+    char *name = file_name_clean(part);
+    free(part);
+    for (char *c = name; *c; ++c)
+        if (*c == '/')
+            *c = '.';
+    return name;
+}
+
+static bool suits_make(const char *name)
+{
+    bool is_good = true;
+    size_t len = 1;
+    for (const char *c = name; *c && is_good; c += len) {
+        len = utf8_length(c);
+        bool is_inner = *c == '\\' && c[1];
+        is_good = len && (is_inner || !is_unfit(c, len));
+    }
+    return is_good;
+}
+
+bool file_name_put_make(FILE *out, const char *name)
+{
+    if (!suits_make(name))
+        return false;
+    for (size_t slashes = 0; *name; ++name) {
+        bool is_special = *name == ' ' || *name == '#' || *name == ':';
+        for (size_t i = 0; is_special && i < slashes + 1; ++i)
+            putc('\\', out);
+        if (*name == '$')
+            putc('$', out);
+        putc(*name, out);
+        slashes = *name == '\\' ? slashes + 1 : 0;
+    }
+    return true;
+}

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+/* The tables of a layer: from names to prims and properties. */
+#include "usda/usda.h"
+
+#include "base/hash.h"
+
+static uint32_t hash_of(uint32_t owner, const char *name, size_t len)
+{
+    return hash_pair(owner, hash_bytes(name, len));
+}
+
+static bool is_equal(struct text_word word, const char *name, size_t len)
+{
+    return word.len == len && memcmp(word.bytes, name, len) == 0;
+}
+
+/* ---- Prims ---- */
+
+static usda_prim_id find_child(const struct usda_layer *layer, usda_prim_id parent, uint32_t hash,
+                               const char *name, size_t len)
+{
+    for (uint32_t at = hash, found; (found = table_next(&layer->children, hash, &at));)
+        if (layer->prims.items[found].parent == parent
+            && is_equal(layer->prims.items[found].name, name, len))
+            return found;
+    return 0;
+}
+
+void usda_index_prim(struct usda_layer *layer, usda_prim_id id)
+{
+    const struct usda_prim *prim = &layer->prims.items[id];
+    uint32_t hash = hash_of(prim->parent, prim->name.bytes, prim->name.len);
+    if (!find_child(layer, prim->parent, hash, prim->name.bytes, prim->name.len))
+        table_add(&layer->children, layer->arena, hash, id);
+}
+
+usda_prim_id usda_find(const struct usda_layer *layer, const char *path, size_t len)
+{
+    const char *end = path + len;
+    usda_prim_id prim = 0;
+    while (path < end) {
+        path += *path == '/';
+        const char *slash = memchr(path, '/', (size_t)(end - path));
+        size_t name = (size_t)((slash ? slash : end) - path);
+        prim = find_child(layer, prim, hash_of(prim, path, name), path, name);
+        if (!prim)
+            return 0;
+        path += name;
+    }
+    return prim;
+}
+
+/* ---- Properties ---- */
+
+const struct usda_named *usda_find_named(const struct usda_layer *layer, usda_prim_id prim,
+                                         struct text_word name)
+{
+    uint32_t hash = hash_of(prim, name.bytes, name.len);
+    for (uint32_t at = hash, found; (found = table_next(&layer->names, hash, &at));) {
+        const struct usda_named *named = &layer->named.items[found - 1];
+        if (named->prim == prim && is_equal(named->name, name.bytes, name.len))
+            return named;
+    }
+    return NULL;
+}
+
+static struct usda_named *add_named(struct usda_layer *layer, usda_prim_id prim,
+                                    struct text_word name)
+{
+    const struct usda_named *found = usda_find_named(layer, prim, name);
+    if (found)
+        return &layer->named.items[found - layer->named.items];
+    vec_push(layer->arena, &layer->named, (struct usda_named){.prim = prim, .name = name});
+    table_add(&layer->names, layer->arena, hash_of(prim, name.bytes, name.len), layer->named.len);
+    return &vec_last(&layer->named);
+}
+
+/* The first property with a value counts; without one, the last. */
+static void offer(const struct usda_layer *layer, struct usda_named *named, uint32_t property)
+{
+    const struct usda_property *before = &layer->properties.items[named->attribute];
+    bool is_final = named->attribute && before->value.len && before->name.len == named->name.len;
+    if (!is_final)
+        named->attribute = property;
+}
+
+void usda_index_property(struct usda_layer *layer, usda_prim_id prim, uint32_t property)
+{
+    size_t end = strlen(USDA_SAMPLES);
+    struct text_word name = layer->properties.items[property].name;
+    struct usda_named *named = add_named(layer, prim, name);
+    if (!named->first)
+        named->first = property;
+    offer(layer, named, property);
+    if (name.len <= end || memcmp(name.bytes + name.len - end, USDA_SAMPLES, end) != 0)
+        return;
+    name.len -= end;
+    offer(layer, add_named(layer, prim, name), property);
+}
+
+void usda_index_rows(struct usda_layer *layer, const usda_prim_id *prims, struct arena *scratch)
+{
+    uint32_t num = layer->properties.len, next = 1;
+    uint32_t *places = ARENA_ARRAY(scratch, uint32_t, num);
+    struct usda_property *sorted = ARENA_ARRAY(scratch, struct usda_property, num);
+    for (uint32_t i = 1; i < num; i++)
+        layer->prims.items[prims[i]].num_properties++;
+    for (uint32_t i = 0; i < layer->prims.len; i++) {
+        layer->prims.items[i].first_property = next;
+        next += layer->prims.items[i].num_properties;
+        layer->prims.items[i].num_properties = 0;
+    }
+    for (uint32_t i = 1; i < num; i++) {
+        struct usda_prim *prim = &layer->prims.items[prims[i]];
+        places[i] = prim->first_property + prim->num_properties++;
+        sorted[places[i]] = layer->properties.items[i];
+    }
+    for (uint32_t i = 0; i < layer->named.len; i++) {
+        struct usda_named *named = &layer->named.items[i];
+        named->first = named->first ? places[named->first] : 0;
+        named->attribute = places[named->attribute];
+    }
+    memcpy(layer->properties.items + 1, sorted + 1, (num - 1) * sizeof *sorted);
+    arena_release(scratch, sorted, num * sizeof *sorted);
+    arena_release(scratch, places, num * sizeof *places);
+}
+
+const struct usda_property *usda_find_property(const struct usda_layer *layer,
+                                               const struct usda_prim *prim, const char *name)
+{
+    const struct usda_named *named = usda_find_named(
+        layer, (usda_prim_id)(prim - layer->prims.items), (struct text_word){name, strlen(name)});
+    return named && named->first ? &layer->properties.items[named->first] : NULL;
+}
+
+const struct usda_property *usda_find_attribute(const struct usda_layer *layer,
+                                                const struct usda_prim *prim, const char *name)
+{
+    const struct usda_named *named = usda_find_named(
+        layer, (usda_prim_id)(prim - layer->prims.items), (struct text_word){name, strlen(name)});
+    return named && named->attribute ? &layer->properties.items[named->attribute] : NULL;
+}

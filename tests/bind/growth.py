@@ -1,0 +1,99 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""A stage of twice the size takes at most 2.2 times the instructions to bind, whatever it consists of: members of a collection,
+collections, references, siblings, properties, slots, networks, prims of equal names.
+
+Arguments: mxgen, the smaller number of things."""
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent))
+from checks import check, finish, skip
+
+MXGEN, COUNT, MOST = pathlib.Path(sys.argv[1]).resolve(), int(sys.argv[2]), 2.2
+LOOK = """<?xml version="1.0"?><materialx version="1.39"><surface name="s" type="surfaceshader"/>
+<surfacematerial name="A" type="material"><input name="surfaceshader" type="surfaceshader" nodename="s"/></surfacematerial>
+<look name="L"><materialassign name="a" material="A" geom="/"/></look></materialx>
+"""
+COLLECTION = 'rel collection:c{0}:includes = [{1}]\nrel material:binding:collection:c{0} = [</r.collection:c{0}>, </M>]\n'
+
+
+def each(count, line):
+    return "".join(line.format(i=i, next=i + 1) for i in range(count))
+
+
+def members(count):
+    names = ", ".join(f"</r/p{i}>" for i in range(count))
+    return 'def Xform "r"\n{\n' + COLLECTION.format("", names) + each(count, 'def Mesh "p{i}" {{}}\n') + '}\ndef Material "M" {}\n'
+
+
+def collections(count):
+    return 'def Xform "r"\n{\n' + "".join(COLLECTION.format(i, "</r/p>") for i in range(count)) + 'def Mesh "p" {}\n}\ndef Material "M" {}\n'
+
+
+def references(count):
+    return 'class "c"\n{\n' + each(count, 'def Mesh "p{i}" {{}}\n') + "}\n" + each(count, 'def "q{i}" (references = </c/p{i}>) {{}}\n')
+
+
+def siblings(count):
+    return each(count, 'def Mesh "m{i}" {{}}\n')
+
+
+def properties(count):
+    return 'def Mesh "m" {\n' + each(count, "float p{i} = {i}\n") + each(count, "float p{i}.timeSamples = {{ 1: {i} }}\n") + "}\n"
+
+
+def slots(count):
+    return 'def Mesh "m" {\n' + each(count, "rel material:slotBinding:_s{i} = </M{i}>\n") + "}\n" + each(count, 'def Material "M{i}" {{}}\n')
+
+
+def networks(count):
+    node = ('def Shader "n{i}" {{ uniform token info:id = "ND_add_color3"\n color3f inputs:in1.connect = </M/n{next}.outputs:out>\n'
+            " color3f inputs:in2.connect = </M/n{next}.outputs:out> }}\n")
+    return ('def Material "M" {\ntoken outputs:surface.connect = </M/s.outputs:out>\n'
+            'def Shader "s" { uniform token info:id = "ND_standard_surface_surfaceshader"\n'
+            " color3f inputs:base_color.connect = </M/n0.outputs:out> }\n" + each(count, node)
+            + f'def Shader "n{count}" {{ uniform token info:id = "ND_add_color3" }}\n}}\ndef Mesh "m" {{ rel material:binding = </M> }}\n')
+
+
+def equal_names(count):
+    return each(count, 'def Mesh "m" {{ float p = {i} }}\n')
+
+
+def overrides(count):
+    return (each(count, 'def Mesh "m{i}" {{ rel material:slotBinding:_000:over:_x = </N{i}> }}\n')
+            + each(count, 'def NodeGraph "N{i}" {{ float outputs:base = 0.5 }}\n'))
+
+
+def work(folder, text):
+    """Instructions, in millions."""
+    (folder / "stage.usda").write_text("#usda 1.0\n" + text, encoding="utf-8")
+    counter = ["valgrind", "--tool=cachegrind", "--cache-sim=no", "--cachegrind-out-file=/dev/null"]
+    command = [MXGEN, "bind", folder / "look.mtlx", "--look", "L", "--stage", folder / "stage.usda", "--json", "/dev/null", "--quiet"]
+    result = subprocess.run(counter + command, capture_output=True, check=False)
+    found = re.findall(rb"I +refs: +([\d,]+)", result.stderr)
+    check(found, f"no instructions are counted: {result.stderr[-500:]}")
+    return float(found[-1].replace(b",", b"")) / 1e6 if found else 1
+
+
+def main():
+    if not shutil.which("valgrind") or os.environ.get("SANITIZER"):
+        skip("valgrind is not installed, or a sanitizer is in the program: no instructions are counted")
+        return
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        (folder / "look.mtlx").write_text(LOOK, encoding="utf-8")
+        start = work(folder, 'def Mesh "m" {}\n')
+        for make in members, collections, references, siblings, properties, slots, networks, equal_names, overrides:
+            few, many = work(folder, make(COUNT)) - start, work(folder, make(2 * COUNT)) - start
+            print(f"{make.__name__}: {few:.0f} M instructions, {many / few:.2f} times as many for twice the size")
+            check(many / few < MOST, f"{make.__name__}: {many / few:.2f} times the work for twice the size")
+
+
+main()
+finish("bind-growth")

@@ -1,0 +1,160 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# What an attacker may write into names, documents, stages and reports. Arguments: mxgen
+mxgen=$(realpath "$1")
+here=$(cd "$(dirname "$0")" && pwd)
+. "$here/common.sh"
+
+material() { # NAME in XML
+    printf '<?xml version="1.0"?>\n<materialx version="1.39"><standard_surface name="S" type="surfaceshader"/>
+<surfacematerial name="%s" type="material"><input name="surfaceshader" type="surfaceshader" nodename="S"/></surfacematerial></materialx>\n' "$1"
+}
+
+# Names become files and rules of make.
+names=('x:&#10;all:&#10;&#9;touch&#9;pwned&#10;y' 'x:;touch${IFS}pwned;y' 'SHELL=touch' 'x&#13;y' 'x&#127;y' 'x&#x85;y' 'x&#x2028;y' 'x&#x202e;y' 'x\' 'x|y' 'x$(shell touch pwned)' 'x:y' 'x y' 'x#y' 'x\ y')
+for name in "${names[@]}"; do
+    rm -rf made pwned d.d
+    material "$name" >name.mtlx
+    check "'$name' gives files" exits 0 "$mxgen" --sandbox name.mtlx -o made --depfile d.d
+    check "'$name': two files without control characters" eval '[ "$(find made -type f | LC_ALL=C grep -c "^[ -~]*$")" -eq 2 ] && [ "$(find made -type f | wc -l)" -eq 2 ]'
+    check "'$name': the depfile is one line without control characters" eval '[ "$(wc -l <d.d)" -eq 1 ] && ! LC_ALL=C grep -q "[^ -~]" d.d'
+    printf 'default: stamp\nstamp:\n\ttouch stamp\n-include d.d\n' >rules
+    check "'$name': make runs nothing" eval 'rm -f stamp; make -f rules >/dev/null && [ ! -e pwned ] && [ -e stamp ]'
+    check "'$name': make knows the files" eval 'make -rR -f rules -pn 2>/dev/null >data; find made -type f | while read -r file; do grep -qF "$file: name.mtlx" data || exit 1; done'
+done
+two='<materialx version="1.39"><constant name="c" type="float"/><output name="a&#10;b" type="float" nodename="c"/><output name="a&#13;b" type="float" nodename="c"/></materialx>'
+echo "$two" >two.mtlx
+check 'names that differ in control characters give different files' eval '"$mxgen" two.mtlx -o different && [ "$(find different -name "*.frag" | wc -l)" -eq 2 ]'
+check 'a printed file has a name in one line' eval '"$mxgen" two.mtlx --stdout | grep "^// a_b" | wc -l | grep -qx 4'
+
+# Files of an attacker stand in a folder.
+mkdir folder && cp two.mtlx folder/$'a\nb.mtlx' && cp two.mtlx 'folder/x;touch pwned;y.mtlx'
+check 'folders of outputs have no control characters' eval '"$mxgen" folder -o tree && [ -z "$(find tree | LC_ALL=C grep "[^ -~]")" ]'
+for name in $'a\nb' 'x;touch pwned;y' 'a=b' 'a|b'; do
+    mkdir "in" && cp two.mtlx "in/$name.mtlx"
+    check "a depfile with '$name.mtlx' is an error" exits 1 "$mxgen" in -o tree --depfile f.d
+    check "'$name.mtlx': the error is depfile-name" eval 'grep -q "\[depfile-name\]" err && [ ! -e f.d ]'
+    check "check --depfile with '$name.mtlx' is an error" exits 1 "$mxgen" check in --no-compile --json r.json --depfile f.d
+    check "check: '$name.mtlx' leaves no depfile" test ! -e f.d
+    rm -r "in"
+done
+
+# Scenes that multiply.
+material M | sed 's|</materialx>|<look name="L"><materialassign name="a" material="M" geom="/"/></look>&|' >scene.mtlx
+stage() { printf '#usda 1.0\n%s\n' "$1" >stage.usda; }
+refused() { # ID OPTION...
+    local id=$1
+    shift
+    (ulimit -v 4000000; exits 1 timeout 60 "$mxgen" bind scene.mtlx --stage stage.usda "$@") && grep -q "\[$id\]" err
+}
+stage "$(echo 'class "c0" { def Mesh "m" {} }'; for i in $(seq 40); do echo "class \"c$i\" { def \"a\" (references = </c$((i - 1))>) {}
+def \"b\" (references = </c$((i - 1))>) {} }"; done; echo 'def "r" (references = </c40>) {}')"
+check 'references that multiply are an error' refused usda-size
+stage "$(for _ in $(seq 1001); do printf 'def Xform "d"\n{\n'; done; for _ in $(seq 1001); do echo '}'; done)"
+check 'deep prims are an error' refused usda-syntax
+stage "$(for i in $(seq 100); do echo "def Mesh \"m$i\" { float p = 1 }"; done)"
+check 'the limit of elements holds for a stage' refused too-many-elements --max-elements 100
+printf '/a%s\n' $(seq 100) >stage.txt
+check 'the limit of elements holds for a list' eval 'exits 1 "$mxgen" bind scene.mtlx --stage stage.txt --max-elements 50 && grep -q "\[scene-size\]" err'
+printf '/%s' $(seq 1001) >stage.txt
+check 'a deep path is an error' eval 'exits 1 "$mxgen" bind scene.mtlx --stage stage.txt && grep -q "\[bad-path\]" err'
+(path=$(printf '/level%s' $(seq 500)); for i in $(seq 500); do echo "$path/$i"; done) >stage.txt
+check 'the limit of outputs holds for layers' eval 'exits 1 "$mxgen" bind scene.mtlx --stage stage.txt --max-output-size 1 --json big.json && grep -q "\[output-limit\]" err && [ ! -e big.json ]'
+check 'the limit of outputs holds for bindings.json' eval 'exits 1 "$mxgen" scene.mtlx --stage stage.txt --max-output-size 1 -o stacks && grep -q "\[output-limit\]" err && [ ! -e stacks/bindings.json ]'
+
+# Names in USD.
+name='M&gt;&#10;    asset x = @evil@&#10;    rel y = &lt;/Q&quot;\'
+printf '<materialx version="1.39"><surface name="s" type="surfaceshader"/><surfacematerial name="%s" type="material"><input name="surfaceshader" type="surfaceshader" nodename="s"/></surfacematerial>
+<look name="L"><materialassign name="a" material="%s" geom="/"/></look></materialx>' "$name" "$name" >usd.mtlx
+printf '%s\n' /a '/b" (references = @evil.usd@) {}' '/b_(references = @evil.usd@) {}' '/1' /é >usd.txt
+check 'bind --usda writes hostile names' exits 0 "$mxgen" bind usd.mtlx --stage usd.txt --usda usd.usda
+check 'a warning tells that names are changed' grep -q '\[usda-loss\]' err
+check 'names of USD are identifiers' eval 'sed "s/\"\(\\\\.\|[^\"\\]\)*\"//g" usd.usda >bare && ! grep -q "@" bare && [ "$(grep -c "^def " usd.usda)" -eq 5 ]'
+check 'the stage can be read' exits 0 "$mxgen" bind --stage usd.usda scene.mtlx --look L
+
+# Files that are written.
+material M | sed 's/"surfaceshader" type="surfaceshader"/"surfaceshader"   type="surfaceshader"/' >wide.mtlx
+sed 's/1.39/1.38/' wide.mtlx >old.mtlx
+for verb in format upgrade; do
+    cp wide.mtlx kept.mtlx && [ $verb = format ] || cp old.mtlx kept.mtlx
+    chmod 640 kept.mtlx && ln -f kept.mtlx twin.mtlx && ln -sf kept.mtlx link.mtlx
+    check "$verb -i of a link with another name" exits 0 "$mxgen" $verb -i link.mtlx
+    check "$verb -i: the link stays" test -L link.mtlx
+    check "$verb -i: the names share the file" test kept.mtlx -ef twin.mtlx
+    check "$verb -i: the mode stays" test "$(stat -c %a kept.mtlx)" = 640
+    check "$verb -i: the text is new" eval '! grep -q "   type" twin.mtlx && "$mxgen" $verb --check twin.mtlx'
+    rm twin.mtlx && cp wide.mtlx kept.mtlx && chmod 604 kept.mtlx && [ $verb = format ] || cp old.mtlx kept.mtlx
+    check "$verb -i: a single file keeps its mode, too" eval '"$mxgen" $verb -i link.mtlx && [ "$(stat -c %a kept.mtlx)" = 604 ] && [ -L link.mtlx ]'
+    rm -f kept.mtlx link.mtlx
+done
+check 'nothing else is left' eval '[ -z "$(find . -name "*.tmp*")" ]'
+printf '<?xml version="1.0"?>\n<materialx version="1.37">\n\n<aov name="a" type="color3"/>\n\n<!-- x -->\n\n<shader name="b"/>\n\n<material name="m"/>\n\n<opgraph name="o"/>\n\n</materialx>\n' >blank.mtlx
+check 'upgrades of old elements' exits 0 "$mxgen" upgrade -i blank.mtlx
+check 'an upgraded document is upgraded' exits 0 "$mxgen" upgrade --check blank.mtlx
+check 'an upgraded document is formatted' exits 0 "$mxgen" format --check blank.mtlx
+if unshare -rm true 2>/dev/null; then
+    mkdir small
+    cat >full.sh <<'X'
+mount -t tmpfs -o size=48k none small && cd small && cp ../wide.mtlx keep.mtlx && ln keep.mtlx twin.mtlx || exit 77
+head -c 100000 /dev/zero >filler 2>/dev/null
+before=$(md5sum <keep.mtlx)
+"$1" ../scene.mtlx -o . >out 2>../err; echo $? >../codes
+"$1" format -i keep.mtlx 2>>../err; echo $? >>../codes
+"$1" bind ../scene.mtlx --stage ../usd.txt --json layers.json 2>>../err; echo $? >>../codes
+"$1" check ../scene.mtlx --no-compile --json report.json 2>>../err; echo $? >>../codes
+"$1" ../scene.mtlx --stdout -q >/dev/full 2>>../err; echo $? >>../codes
+[ "$(md5sum <keep.mtlx)" = "$before" ] && ls >../names
+X
+    check 'a disk is filled' unshare -rm bash full.sh "$mxgen"
+    check 'a full disk fails each command' eval '[ "$(sort -u codes)" = 1 ] && [ "$(wc -l <codes)" -eq 5 ]'
+    check 'the reason is told' eval '[ "$(grep -c "No space left on device" err)" -ge 5 ]'
+    check 'no part of a file is left' eval '[ "$(grep -v "^out$" names | tr "\n" " ")" = "filler keep.mtlx twin.mtlx " ]'
+    touch M.frag.1.tmp M.frag.2.tmp
+    check 'process 1 writes beside old temporaries' unshare -rpf "$mxgen" scene.mtlx -o .
+else
+    skip 'no user namespaces'
+fi
+
+# Stages and meshes of others, through mxgen-render.
+render=$(dirname "$mxgen")/mxgen-render
+if [ -x "$render" ]; then
+    mkdir -p stage/inside secret && cd stage || exit 1
+    python3 "$here/hostile_stages.py" . ../secret
+    mkfifo fifo.bin
+    cp ../scene.mtlx look.mtlx
+    fails() { # ID FILE LIMIT...: an error of this kind, in seconds and with little memory
+        local id=$1 file=$2
+        shift 2
+        (ulimit -v 8000000; exits 1 timeout 60 "$mxgen" bind look.mtlx --stage "$file" "$@") && grep -q "\[$id\]" err
+    }
+    for file in nan_*.gltf deep.gltf deeper.gltf deep.dae deep.json.gltf expo.gltf fifo.gltf; do check "$file is an error" fails bad-mesh "$file"; done
+    check 'a whole mesh is bound' exits 0 "$mxgen" bind look.mtlx --stage whole.gltf --sandbox
+    for file in outside.gltf missing.gltf link.gltf outside.obj; do
+        check "$file: --sandbox refuses it" fails bad-mesh "$file" --sandbox
+        check "$file: the message is the same for all" grep -q "it is outside the folders that documents may read" err
+    done
+    check 'without --sandbox it is read' exits 0 "$mxgen" bind look.mtlx --stage outside.gltf
+    check 'an include root is read' exits 0 "$mxgen" bind look.mtlx --stage outside.gltf --sandbox --include-root ../secret
+    check '--max-file-size holds for files of a mesh' fails bad-mesh large.gltf --max-file-size 1
+    for file in dome.usda dome_missing.usda; do
+        check "$file: --sandbox refuses it" exits 1 "$render" look.mtlx --stage "$file" --sandbox -o p.png
+        check "$file: the message is the same for all" grep -q "it is outside the folders that documents may read" err
+    done
+    check '--mesh has the same sandbox' exits 1 "$render" look.mtlx --mesh outside.gltf --sandbox -o p.png
+    check '--mesh: the message is the same' grep -q "it is outside the folders that documents may read" err
+    for file in instances.usda visits.usda ops.usda rotate.usda index.usda; do
+        check "$file is an error" eval '(ulimit -v 8000000; exits 1 timeout 60 "$render" look.mtlx --stage "$file" -o p.png) && grep -q "\[bad-geometry\]" err'
+    done
+    # a killed command takes its renderer with it
+    "$mxgen" bind look.mtlx --stage "$PWD/slow.obj" >/dev/null 2>&1 &
+    command=$!
+    for _ in $(seq 100); do child=$(pgrep -P $command mxgen-render) && break; sleep 0.05; done
+    check 'the stage is read by another program' test -n "$child"
+    kill -9 $command
+    wait $command 2>/dev/null
+    check 'it ends with its parent' eval '(for _ in $(seq 100); do [ -e /proc/$child ] || exit 0; sleep 0.05; done; exit 1)'
+    cd ..
+else
+    skip 'mxgen-render is not built'
+fi
+finish hostile
