@@ -20,6 +20,7 @@ const mat3 MX_XYZ_TO_REC709 = mat3( // CIE 1931, scaled so that D65 is white
     -0.498610760293,  0.041555057407,  1.056971514243);
 
 vec3 mx_g18_ap1_to_lin_rec709(vec3 color) { return MX_AP1_TO_REC709 * mx_decode_gamma(color, 1.8); }
+vec3 mx_srgb_ap1_to_lin_rec709(vec3 color) { return MX_AP1_TO_REC709 * mx_srgb_texture_to_lin_rec709(color); }
 vec3 mx_lin_ap0_to_lin_rec709(vec3 color) { return MX_AP0_TO_REC709 * color; }
 vec3 mx_lin_rec2020_to_lin_rec709(vec3 color) { return MX_REC2020_TO_REC709 * color; }
 vec3 mx_lin_ciexyzd65_to_lin_rec709(vec3 color) { return MX_XYZ_TO_REC709 * color; }

@@ -273,9 +273,24 @@ void build_check_distance_unit(struct builder *b);
 /* The colour space of an element, from itself or an ancestor; 0: none, or the working space. */
 str_id build_colorspace(struct builder *b, elem_id element);
 
-/* Converts a value in `unit` to the unit of the target; without a unit the value is unchanged. */
-ir_ref build_unit_conversion(struct builder *b, ir_ref value, elem_id element,
-                             const struct port *port);
+/*
+ * The colour space and the unit of a value. The element that has the value says it, wherever it
+ * stands; otherwise the input that reads the value through an interface; of spaces otherwise the
+ * parents of the value.
+ */
+struct build_meaning {
+    const struct port *port;
+    elem_id of_space, of_unit; /* the elements that say so; of_unit 0: no unit */
+    str_id space;              /* 0: the working space */
+};
+/* `node` has the input with the binding: a value, or BIND_INTERFACE. */
+struct build_meaning build_meaning_of(struct builder *b, elem_id node, const struct port *port,
+                                      const struct binding *binding);
+/* The default of a definition: in the space that its input, or the user's document, says. */
+struct build_meaning build_meaning_of_default(struct builder *b, const struct port *port);
+/* A value of a type in the working space and the unit of the target; other types stay. */
+ir_ref build_convert(struct builder *b, ir_ref value, doc_type type,
+                     const struct build_meaning *meaning);
 
 /* texture.c: the file of the document that has an element; "": the library has it. */
 const char *build_file_of(const struct builder *b, elem_id element);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Colour spaces and units of literals. */
+/* Colour spaces and units of values and files. */
 #include "build/build_priv.h"
 
 static str_id canonical_space(struct builder *b, str_id space)
@@ -71,20 +71,19 @@ ir_ref build_color_transform(struct builder *b, ir_ref value, doc_type type, str
 
 /* ---- units ---- */
 
-ir_ref build_unit_conversion(struct builder *b, ir_ref value, elem_id element,
-                             const struct port *port)
+/* A value of a port in the unit that an element names, in the unit of the target. */
+static ir_ref convert_unit(struct builder *b, ir_ref value, const struct build_meaning *meaning)
 {
     const struct document *doc = &b->lib->doc;
-    str_id unit = doc_attr_value(doc, element, STR_unit);
-    if (!unit || !ir_type_is_float(ir_type_of(b->graph, value)))
-        return value;
-    str_id type = doc_attr_value(doc, port->element, STR_unittype);
+    str_id unit = doc_attr_value(doc, meaning->of_unit, STR_unit);
+    str_id type = doc_attr_value(doc, meaning->port->element, STR_unittype);
     if (!type)
-        type = doc_attr_value(doc, element, STR_unittype);
+        type = doc_attr_value(doc, meaning->of_unit, STR_unittype);
     if (!type)
         type = library_unit_type_of(b->lib, unit);
     /* The unit that the definition declares, else the option's unit (specification, "Units"). */
-    str_id target = doc_attr_value(doc, port->element, STR_unit);
+    elem_id declared = meaning->port->element; /* of an <output>: itself */
+    str_id target = declared == meaning->of_unit ? 0 : doc_attr_value(doc, declared, STR_unit);
     if (!target)
         target = type == STR_angle ? b->options->angle_unit : b->options->distance_unit;
     if (target == b->options->distance_unit && !b->has_distance_unit)
@@ -92,9 +91,62 @@ ir_ref build_unit_conversion(struct builder *b, ir_ref value, elem_id element,
     float from, to;
     if (!library_unit_scale(b->lib, type, unit, &from)
         || !library_unit_scale(b->lib, type, target, &to)) {
-        library_report_unit(b->lib, type, unit, doc_attr_place(doc, element, STR_unit), b->diags);
+        library_report_unit(b->lib, type, unit, doc_attr_place(doc, meaning->of_unit, STR_unit),
+                            b->diags);
         return value;
     }
     return from == to ? value
                       : ir_op2(b->graph, IR_MUL, value, ir_const_float(b->graph, from / to));
+}
+
+/* ---- what a value means ---- */
+
+/* The first of two elements that has the attribute itself; 0: neither. */
+static elem_id first_with(const struct builder *b, str_id attr, elem_id holder, elem_id asker)
+{
+    if (holder && doc_attr_value(&b->lib->doc, holder, attr))
+        return holder;
+    return asker && doc_attr_value(&b->lib->doc, asker, attr) ? asker : 0;
+}
+
+struct build_meaning build_meaning_of(struct builder *b, elem_id node, const struct port *port,
+                                      const struct binding *binding)
+{
+    const struct document *doc = &b->lib->doc;
+    bool is_value = binding->kind == BIND_VALUE;
+    elem_id holder = is_value ? binding->element : 0,
+            owner = holder ? doc_element(doc, holder)->parent : 0, asker = binding->element;
+    if (holder && owner != node && doc_element(doc, node)->kind == KIND_NODE)
+        asker = doc_child_of_kind(doc, node, KIND_INPUT, port->name);
+    /* arguments have the working space; files are read inside */
+    bool may_ask = is_value || port->type == DOC_TYPE_filename;
+    elem_id of_space = first_with(b, STR_colorspace, holder, may_ask ? asker : 0);
+    of_space = of_space ? of_space : holder;
+    return (struct build_meaning){.port = port,
+                                  .of_space = of_space,
+                                  .space = of_space ? build_colorspace(b, of_space) : 0,
+                                  .of_unit = first_with(b, STR_unit, holder, asker)};
+}
+
+struct build_meaning build_meaning_of_default(struct builder *b, const struct port *port)
+{
+    const struct document *doc = &b->lib->doc;
+    bool says = port->element >= doc->first_element
+                || (port->element && doc_attr_value(doc, port->element, STR_colorspace));
+    return (struct build_meaning){.port = port,
+                                  .of_space = port->element,
+                                  .space = says ? build_colorspace(b, port->element) : 0};
+}
+
+ir_ref build_convert(struct builder *b, ir_ref value, doc_type type,
+                     const struct build_meaning *meaning)
+{
+    bool is_color = type == DOC_TYPE_color3 || type == DOC_TYPE_color4;
+    bool is_measure = type == DOC_TYPE_float || type == DOC_TYPE_vector2 || type == DOC_TYPE_vector3
+                      || type == DOC_TYPE_vector4;
+    if (value && is_color && meaning->space)
+        return build_color_transform(
+            b, value, type, meaning->space,
+            doc_attr_place(&b->lib->doc, meaning->of_space, STR_colorspace));
+    return value && is_measure && meaning->of_unit ? convert_unit(b, value, meaning) : value;
 }

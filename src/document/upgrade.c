@@ -413,6 +413,17 @@ static void upgrade_subsurface(struct upgrade *u, elem_id node)
     doc_set_attr(u->doc, radius, STR_type, STR_color3);
 }
 
+/* The same in the definition of a library. */
+static void upgrade_subsurface_definition(struct upgrade *u, elem_id nodedef)
+{
+    elem_id radius = upgrade_child(u, nodedef, "radius");
+    if (!upgrade_is(u, doc_attr_value(u->doc, nodedef, STR_node), "subsurface_bsdf") || !radius
+        || doc_attr_value(u->doc, radius, STR_type) != STR_vector3)
+        return;
+    doc_set_attr(u->doc, radius, STR_type, STR_color3);
+    upgrade_note(u, radius, "the input 'radius' of <subsurface_bsdf> is now a color3");
+}
+
 /* 1.39: <switch> has ten inputs; before, a value above 5 selected the first. */
 static void upgrade_switch(struct upgrade *u, elem_id node)
 {
@@ -503,6 +514,8 @@ static void upgrade_nodes(struct upgrade *u)
     upgrade_thin_films(u);
     upgrade_swizzles(u);
     for (elem_id e = upgrade_first(u); e; e = upgrade_next(u, e)) {
+        if (doc_element(u->doc, e)->kind == KIND_NODEDEF)
+            upgrade_subsurface_definition(u, e);
         if (!upgrade_is_node(u, e))
             continue;
         if (upgrade_is_category(u, e, "subsurface_bsdf"))
@@ -568,6 +581,22 @@ static bool is_outdated(const struct document *doc, elem_id root, elem_id end)
     return false;
 }
 
+/* Documents of 1.38 and 1.39 still contain the type color2, which 1.38 removed. */
+static void replace_color2(struct upgrade *u)
+{
+    str_id color2 = str_find(u->doc->strings, "color2", 6);
+    bool has_it = false;
+    for (elem_id e = color2 ? u->root : u->end; e < u->end && !has_it; e++)
+        has_it = doc_attr_value(u->doc, e, STR_type) == color2;
+    if (!has_it)
+        return;
+    doc_index_names(u->doc, NULL);
+    u->minor = 38;
+    upgrade_color2_channels(u);
+    for (elem_id e = upgrade_first(u); e; e = upgrade_next(u, e))
+        rename_type(u, e);
+}
+
 void doc_upgrade(struct document *doc, elem_id root, elem_id end, struct diag_list *diags)
 {
     assert(root < end && end <= doc->first_element + doc->elements.len);
@@ -581,6 +610,10 @@ void doc_upgrade(struct document *doc, elem_id root, elem_id end, struct diag_li
      * Documents that declare 1.38 or 1.39 still contain constructs which these versions removed.
      * Ignoring them would change the look.
      */
+    u.minor = CURRENT_MINOR;
+    upgrade_always(&u);
+    if (minor >= 38)
+        replace_color2(&u);
     u.outdated = minor >= CURRENT_MINOR;
     if (u.outdated && !is_outdated(doc, root, end))
         return;

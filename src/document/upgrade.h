@@ -79,6 +79,9 @@ void upgrade_materials(struct upgrade *u);          /* 1.38 */
 void upgrade_closures(struct upgrade *u);   /* 1.38 */
 void upgrade_thin_films(struct upgrade *u); /* 1.39 */
 
+/* upgrade_always.c: every version */
+void upgrade_always(struct upgrade *u);
+
 /* upgrade_channels.c */
 void upgrade_color2_channels(struct upgrade *u); /* 1.38 */
 void upgrade_channels(struct upgrade *u);        /* 1.39: attributes, then swizzle nodes */

@@ -28,6 +28,8 @@ static const char *const aliases[][2] = {
     {"g18_rec709_scene", "g18_rec709"},
     {"g22_rec709_scene", "g22_rec709"},
     {"g22_ap1_scene", "g22_ap1"},
+    {"srgb_ap1_scene", "srgb_ap1"},
+    {"g24_rec709_scene", "rec709_display"},
     {"g22_adobergb_scene", "adobergb"},
     {"lin_ap0_scene", "lin_ap0"},
     {"lin_rec2020_scene", "lin_rec2020"},

@@ -143,25 +143,22 @@ static void build_args(struct builder *b, struct frame *frame)
 }
 
 /*
- * Converts the results of image nodes from the colour space of their file (specification, "Color
- * Spaces").
+ * Converts the results of image nodes from the colour space and the unit of their file
+ * (specification, "Color Spaces" and "Units").
  */
-static void convert_colors(struct builder *b, const struct frame *frame, ir_ref *results)
+static void convert_results(struct builder *b, const struct frame *frame, ir_ref *results)
 {
     assert(frame->impl->nodedef == frame->node.nodedef);
     const struct nodedef *def = library_nodedef(b->lib, frame->node.nodedef);
     const struct port *ports = library_ports(b->lib, frame->node.nodedef, NULL);
     for (uint32_t i = 0; i < def->num_inputs; i++) {
-        if (ports[i].type != DOC_TYPE_filename || frame->bindings[i].kind != BIND_VALUE)
+        const struct binding *binding = &frame->bindings[i];
+        if (ports[i].type != DOC_TYPE_filename
+            || (binding->kind != BIND_VALUE && binding->kind != BIND_INTERFACE))
             continue;
-        str_id space = build_colorspace(b, frame->bindings[i].element);
-        for (uint32_t o = 0; space && o < def->num_outputs; o++) {
-            doc_type type = ports[def->num_inputs + o].type;
-            if (type == DOC_TYPE_color3 || type == DOC_TYPE_color4)
-                results[o] = build_color_transform(
-                    b, results[o], type, space,
-                    doc_attr_place(build_doc(b), frame->bindings[i].element, STR_colorspace));
-        }
+        struct build_meaning meaning = build_meaning_of(b, frame->node.element, &ports[i], binding);
+        for (uint32_t o = 0; o < def->num_outputs; o++)
+            results[o] = build_convert(b, results[o], ports[def->num_inputs + o].type, &meaning);
         return;
     }
 }
@@ -196,7 +193,7 @@ static void name_results(struct builder *b, const struct frame *frame, const ir_
 static void finish_graph(struct builder *b, struct frame *frame, ir_ref *results)
 {
     assert(frame->has_tokens || frame->memo_key < b->memos.len);
-    convert_colors(b, frame, results);
+    convert_results(b, frame, results);
     name_results(b, frame, results);
     uint32_t first =
         add_results(b, results, library_nodedef(b->lib, frame->node.nodedef)->num_outputs);
@@ -279,7 +276,7 @@ static void step_inputs(struct builder *b)
     } else {
         ir_ref results[LIBRARY_MAX_OUTPUTS];
         build_node(b, &use, results);
-        convert_colors(b, &use, results);
+        convert_results(b, &use, results);
         name_results(b, &use, results);
         finish(b, add_results(b, results, def->num_outputs));
     }

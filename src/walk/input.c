@@ -11,9 +11,7 @@ static ir_ref texture(struct builder *b, const struct instance *scope, elem_id n
     return build_texture(b, v, element ? element : node);
 }
 
-/*
- * The value attribute of an element of the document or of a graph, with its colour space and unit.
- */
+/* The value attribute of an element of the document or of a graph, as it stands there. */
 static ir_ref literal(struct builder *b, const struct instance *scope, elem_id owner,
                       const struct port *port, elem_id element, bool outermost)
 {
@@ -29,19 +27,11 @@ static ir_ref literal(struct builder *b, const struct instance *scope, elem_id o
         return build_struct(b, port, text, element);
     }
     ir_ref value = build_constant(b, port, text, element);
-    bool is_color = port->type == DOC_TYPE_color3 || port->type == DOC_TYPE_color4,
-         has_space = outermost || doc_attr(build_doc(b), element, STR_colorspace);
-    str_id space = is_color && has_space ? build_colorspace(b, element) : 0;
-    b->reader.transforms = space != 0;
     if (outermost)
-        value = build_publish(b, owner, port, element, name, value, true);
-    else if (ir_is_const(b->graph, value))
+        return build_publish(b, owner, port, element, name, value, true);
+    if (ir_is_const(b->graph, value))
         build_compile_in(b, owner, port, element);
-    b->reader.transforms = false;
-    if (space)
-        value = build_color_transform(b, value, port->type, space,
-                                      doc_attr_place(build_doc(b), element, STR_colorspace));
-    return build_unit_conversion(b, value, element, port);
+    return value;
 }
 
 static str_id own_geomprop(const struct builder *b, elem_id element)
@@ -59,14 +49,14 @@ static ir_ref unset(struct builder *b, const struct instance *scope, elem_id own
     ir_ref value = build_default(b, port);
     if (!value || port->geomprop || ir_type_of(b->graph, value) >= IR_NUM_TYPES)
         return value;
-    if (!outermost) {
-        if (ir_is_const(b->graph, value))
-            build_compile_in(b, owner, port, element);
-        return value;
-    }
-    return build_publish(b, owner, port, element,
-                         element ? doc_element(build_doc(b), element)->name : port->name, value,
-                         false);
+    struct build_meaning meaning = build_meaning_of_default(b, port);
+    if (!outermost && ir_is_const(b->graph, value))
+        build_compile_in(b, owner, port, element);
+    if (outermost)
+        value = build_publish(b, owner, port, element,
+                              element ? doc_element(build_doc(b), element)->name : port->name,
+                              value, false);
+    return build_convert(b, value, port->type, &meaning);
 }
 
 static elem_id graph_around(const struct builder *b, elem_id element)
@@ -115,29 +105,42 @@ static bool ignores_value(struct builder *b, elem_id node, elem_id owner, const 
     return true;
 }
 
+/* The node or graph whose input an element is; for other elements the node that asks. */
+static elem_id owner_of(const struct builder *b, elem_id node, elem_id element)
+{
+    return element && doc_element(build_doc(b), element)->kind == KIND_INPUT
+               ? doc_element(build_doc(b), element)->parent
+               : node;
+}
+
+static bool is_color(doc_type type)
+{
+    return type == DOC_TYPE_color3 || type == DOC_TYPE_color4;
+}
+
 /*
- * The value at the end of a chain of connections. In the document it exists once for all readers,
+ * The value at the end of a chain of connections, as its element has it, or without a meaning the
+ * default. In the document it exists once for all readers,
  * and belongs to the element with the value attribute. This can be an interface input further up;
  * the host changes that one.
  */
 static ir_ref end_of_chain(struct builder *b, struct instance *scope, elem_id node,
-                           const struct port *port, const struct binding *binding)
+                           const struct port *port, const struct binding *binding,
+                           const struct build_meaning *meaning)
 {
-    elem_id element = binding->element;
-    bool outermost = !scope->graph;
-    elem_id owner = element && doc_element(build_doc(b), element)->kind == KIND_INPUT
-                        ? doc_element(build_doc(b), element)->parent
-                        : node;
+    elem_id element = binding->element, owner = owner_of(b, node, element);
+    bool outermost = !scope->graph, says_value = meaning != NULL;
     uint32_t *slot = element && outermost ? &scope->slots[element - scope->first] : NULL;
     assert(!slot || *slot < SLOT_RESULTS + b->results.len);
     assert(!slot || element - scope->first < scope->num_slots);
     if (slot && *slot >= SLOT_RESULTS)
         return b->results.items[*slot - SLOT_RESULTS];
-    bool says_value = binding->kind == BIND_VALUE && !ignores_value(b, node, owner, port, element);
     b->reader.node = node;
     b->reader.input = port->name;
+    b->reader.transforms = meaning && is_color(port->type) && meaning->space;
     ir_ref value = says_value ? literal(b, scope, owner, port, element, outermost)
                               : unset(b, scope, owner, port, element, outermost);
+    b->reader.transforms = false;
     if (slot) {
         assert(*slot == SLOT_EMPTY);
         *slot = SLOT_RESULTS + b->results.len;
@@ -149,12 +152,20 @@ static ir_ref end_of_chain(struct builder *b, struct instance *scope, elem_id no
 ir_ref build_input(struct builder *b, struct instance *scope, elem_id node, const struct port *port,
                    const struct binding *binding)
 {
+    struct build_meaning meaning;
     switch ((enum binding_kind)binding->kind) {
     case BIND_NODE: return build_result(b, scope, binding->ref, binding->output, port->type);
-    case BIND_INTERFACE: return interface_arg(b, scope, port, binding);
+    case BIND_INTERFACE:
+        meaning = build_meaning_of(b, node, port, binding);
+        return build_convert(b, interface_arg(b, scope, port, binding), port->type, &meaning);
     case BIND_ERROR: return ir_poison(b->graph, build_type(b, port->type));
     case BIND_VALUE:
+        if (ignores_value(b, node, owner_of(b, node, binding->element), port, binding->element))
+            break;
+        meaning = build_meaning_of(b, node, port, binding);
+        return build_convert(b, end_of_chain(b, scope, node, port, binding, &meaning), port->type,
+                             &meaning);
     case BIND_DEFAULT: break;
     }
-    return end_of_chain(b, scope, node, port, binding);
+    return end_of_chain(b, scope, node, port, binding, NULL);
 }

@@ -61,11 +61,13 @@ static str_id attr_value(struct xml_reader *reader, const xmlChar *value, const 
 {
     const char *text = (const char *)value;
     size_t len = (size_t)(end - value);
-    if (!reader->source->raw_less.len || !memchr(text, XML_RAW_LESS, len))
+    if (!reader->source->raw.len)
         return str_intern(reader->doc->strings, text, len);
     char *copy = arena_strndup(&reader->scratch, text, len);
-    for (char *p = copy; (p = memchr(p, XML_RAW_LESS, (size_t)(copy + len - p))) != NULL;)
-        *p = '<';
+    for (unsigned i = 0; i < XML_NUM_RAW; i++)
+        for (char *p = copy;
+             (p = memchr(p, reader->source->stand_ins[i], (size_t)(copy + len - p))) != NULL;)
+            *p = XML_RAW_CHARACTERS[i];
     return str_intern(reader->doc->strings, copy, len);
 }
 
@@ -380,6 +382,22 @@ static bool is_trailing_text(const struct xml_reader *reader, const xmlError *er
            && !memchr(source->text + offset, '<', source->size - offset);
 }
 
+/* The raw character in an attribute value that may cause an error; 0: none. */
+static char raw_character(const xmlError *error)
+{
+    switch (error->code) {
+    case XML_ERR_LT_IN_ATTRIBUTE: return '<';
+    case XML_ERR_NAME_REQUIRED:
+    case XML_ERR_ENTITYREF_SEMICOL_MISSING:
+    case XML_ERR_UNDECLARED_ENTITY:
+    case XML_WAR_UNDECLARED_ENTITY:
+    case XML_ERR_INVALID_CHARREF:
+    case XML_ERR_INVALID_DEC_CHARREF:
+    case XML_ERR_INVALID_HEX_CHARREF: return '&';
+    default: return 0;
+    }
+}
+
 static void report_error(void *arg)
 {
     const struct parser_error *e = arg;
@@ -388,10 +406,10 @@ static void report_error(void *arg)
     size_t offset = parser_offset(reader);
     struct diag_place place = xml_place(reader, offset);
     const char *message = message_of(reader, e->error);
-    if (e->error->code == XML_ERR_LT_IN_ATTRIBUTE && !source->raw_less.len) {
-        reader->raw_less = true;
-        reader->raw_less_place = place;
-    } else if (source->raw_less.len) {
+    if (raw_character(e->error) && !source->raw.len) {
+        reader->raw_character = raw_character(e->error);
+        reader->raw_place = place;
+    } else if (source->raw.len) {
         reader->repair_failed = true; /* the author did not write the repaired text */
     } else if (is_trailing_text(reader, e->error, offset)) {
         diag_add(reader->diags, DIAG_ID_xml_text_after, place);
@@ -468,7 +486,8 @@ static void parse_once(struct xml_reader *reader)
 {
     struct xml_source *source = reader->source;
     source->is_ascii = is_ascii(source->text, source->size);
-    reader->stopped = reader->raw_less = false;
+    reader->stopped = false;
+    reader->raw_character = 0;
     source->position = (struct xml_position){.line = 1};
     source->current = source->ended = 0;
     source->depth = source->num_line_ends = source->comments.len = 0;
@@ -495,18 +514,22 @@ static void parse_once(struct xml_reader *reader)
         mem_fail(reader->mem);
 }
 
-static void report_raw_less(struct xml_reader *reader)
+/* `first` was the error without a repair. */
+static void report_raw(struct xml_reader *reader, char first)
 {
-    if (reader->repair_failed) {
-        diag_add(
-            reader->diags, DIAG_ID_xml_syntax, reader->raw_less_place,
-            "unescaped '<' in an attribute value, or a missing quotation mark before it; write "
-            "'&lt;'");
-        return;
-    }
     const struct xml_source *source = reader->source;
-    for (uint32_t i = 0; i < source->raw_less.len; i++)
-        diag_add(reader->diags, DIAG_ID_xml_raw_less, xml_place(reader, source->raw_less.items[i]));
+    if (reader->repair_failed)
+        diag_add(
+            reader->diags, DIAG_ID_xml_syntax, reader->raw_place,
+            first == '&'
+                ? "unescaped '&'; write '&amp;'"
+                : "unescaped '<' in an attribute value, or a missing quotation mark before it; "
+                  "write '&lt;'");
+    for (uint32_t i = 0; !reader->repair_failed && i < source->raw.len; i++)
+        diag_add(reader->diags,
+                 source->raw.items[i].character == '&' ? DIAG_ID_xml_raw_ampersand
+                                                       : DIAG_ID_xml_raw_less,
+                 xml_place(reader, source->raw.items[i].at));
 }
 
 bool xml_parse_source(struct xml_reader *reader)
@@ -523,13 +546,14 @@ bool xml_parse_source(struct xml_reader *reader)
     uint32_t num_includes = reader->includes.len;
     reader->repair_failed = false;
     parse_once(reader);
-    if (reader->raw_less) {
+    char first = reader->raw_character;
+    if (first) {
         doc_rollback(reader->doc, source->root, &mark);
         reader->includes.len = num_includes;
         reader->repair_failed = !xml_repair_text(reader);
         if (!reader->repair_failed)
             parse_once(reader);
-        report_raw_less(reader);
+        report_raw(reader, first);
     }
     bool parsed = !reader->stopped && !reader->repair_failed;
     assert(reader->includes.len >= num_includes);

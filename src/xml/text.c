@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
  * Converts the bytes of a file to UTF-8 text: encodings, byte-order marks, text before the XML, raw
- * '<' in attribute values.
+ * characters in attribute values.
  */
 #include "xml/xml_priv.h"
 
@@ -187,16 +187,48 @@ bool xml_prepare_text(struct xml_reader *reader, const char *data, size_t size)
     return find_start(reader) && apply_declared_encoding(reader);
 }
 
-/* Replaces every '<' in the quoted value at `at`; returns the end of the value. */
+/* True at "&lt;", "&#38;" or "&#x26;": without a DOCTYPE there are no other references. */
+static bool is_reference(const char *text, size_t len)
+{
+    static const char *const names[] = {"&lt;", "&gt;", "&amp;", "&quot;", "&apos;"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (has_prefix(text, len, names[i], strlen(names[i])))
+            return true;
+    if (!has_prefix(text, len, "&#", 2))
+        return false;
+    bool is_hex = len > 2 && text[2] == 'x';
+    const char *digits = is_hex ? "0123456789abcdefABCDEF" : "0123456789";
+    size_t first = is_hex ? 3 : 2, at = first;
+    while (at < len && text[at] && strchr(digits, text[at]))
+        at++;
+    return at > first && at < len && text[at] == ';';
+}
+
+/* Replaces what is raw in the quoted value at `at`; returns the end of the value. */
 static size_t repair_value(struct xml_reader *reader, char *text, size_t len, size_t at, char quote)
 {
     for (; at < len && text[at] != quote; at++) {
-        if (text[at] == '<') {
-            text[at] = XML_RAW_LESS;
-            vec_push(&reader->scratch, &reader->source->raw_less, at);
-        }
+        const char *raw = text[at] ? strchr(XML_RAW_CHARACTERS, text[at]) : NULL;
+        if (!raw || (*raw == '&' && is_reference(text + at, len - at)))
+            continue;
+        text[at] = reader->source->stand_ins[raw - XML_RAW_CHARACTERS];
+        vec_push(&reader->scratch, &reader->source->raw, (struct xml_raw){at, *raw});
     }
     return at;
+}
+
+/*
+ * Finds bytes that XML allows and that the text does not have; false: there are too few. Real files
+ * do not contain DEL.
+ */
+static bool choose_stand_ins(struct xml_source *source)
+{
+    static const char candidates[] = "\x7f`~^|$%@*{}[]+\\";
+    unsigned num = 0;
+    for (const char *c = candidates; *c && num < XML_NUM_RAW; c++)
+        if (!memchr(source->text, *c, source->size))
+            source->stand_ins[num++] = *c;
+    return num == XML_NUM_RAW;
 }
 
 static size_t skip_past(const char *text, size_t len, size_t at, const char *end)
@@ -253,9 +285,9 @@ bool xml_check_attributes(struct xml_reader *reader)
 bool xml_repair_text(struct xml_reader *reader)
 {
     struct xml_source *source = reader->source;
-    assert(source->raw_less.len == 0);
+    assert(source->raw.len == 0);
     size_t len = source->size;
-    if (memchr(source->text, XML_RAW_LESS, len))
+    if (!choose_stand_ins(source))
         return false;
     char *text = arena_strndup(&reader->scratch, source->text, len);
     for (size_t at = source->start; at < len;) {
@@ -269,5 +301,5 @@ bool xml_repair_text(struct xml_reader *reader)
                 at = repair_value(reader, text, len, at + 1, text[at]);
     }
     source->text = text;
-    return source->raw_less.len > 0;
+    return source->raw.len > 0;
 }

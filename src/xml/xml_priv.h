@@ -14,6 +14,17 @@ struct xml_position {
     uint32_t before; /* code points of the line before the offset */
 };
 
+/*
+ * Characters that attribute values should not have as they are, but files do. For each a byte that
+ * the file does not have stands in, so positions stay.
+ */
+enum { XML_NUM_RAW = 2 };
+#define XML_RAW_CHARACTERS "<&"
+struct xml_raw {
+    size_t at;
+    char character;
+};
+
 /* The current file. Its text is UTF-8 without a byte-order mark; mxgen converts other encodings. */
 struct xml_source {
     const char *name; /* canonical; includes in the file are relative to it */
@@ -21,8 +32,9 @@ struct xml_source {
     const char *text;
     size_t size;
     size_t start; /* start of the XML after skipped text */
-    /* offsets of raw '<' in attribute values, which the text replaces by XML_RAW_LESS */
-    VEC(size_t) raw_less;
+    /* raw '<' and '&' in attribute values, which the text replaces by stand-ins */
+    VEC(struct xml_raw) raw;
+    char stand_ins[XML_NUM_RAW]; /* as long as there are raw ones */
     elem_id root;
     bool is_ascii;                /* a column is a byte */
     struct xml_position position; /* the last tag or value */
@@ -34,12 +46,6 @@ struct xml_source {
     bool is_first;                /* nothing stands between the last start tag and here */
     bool warned_prefix, warned_text;
 };
-
-/*
- * Replaces a raw '<' inside an attribute value. DEL is one byte, so positions stay, and XML allows
- * it, but real files do not contain it. A file that contains it is not repaired.
- */
-enum { XML_RAW_LESS = 0x7f };
 
 /* A file of this document, to detect cycles and to include each file once. */
 struct xml_file {
@@ -64,9 +70,9 @@ struct xml_reader {
     VEC(elem_id) includes;
     VEC(struct xml_file) opened;
     uint32_t include_depth;
-    bool stopped;  /* the current source has an error: further callbacks do nothing */
-    bool raw_less; /* the error is a raw '<' in an attribute value … */
-    struct diag_place raw_less_place; /* … here */
+    bool stopped;       /* the current source has an error: further callbacks do nothing */
+    char raw_character; /* the error may be a raw one in an attribute value; 0: it is not … */
+    struct diag_place raw_place; /* … here */
     bool repair_failed;
     bool out_of_memory; /* inside a callback or in libxml2 */
 };
@@ -81,8 +87,8 @@ bool xml_prepare_text(struct xml_reader *reader, const char *data, size_t size);
 /* false after an error: a start tag has too many attributes. */
 bool xml_check_attributes(struct xml_reader *reader);
 /*
- * Replaces raw '<' in attribute values by XML_RAW_LESS, in a copy of the source's text. false if
- * this is impossible.
+ * Replaces raw characters of attribute values by stand-ins, in a copy of the source's text. false
+ * if there are none, or no bytes to stand in.
  */
 bool xml_repair_text(struct xml_reader *reader);
 

@@ -1,5 +1,5 @@
 #version 450
-// open_pbr_surface · surfacematerial · mxgen 0.1 · vulkan · complete · 12 closures · 0 textures
+// open_pbr_surface · surfacematerial · mxgen 0.1 · vulkan · complete · 13 closures · 0 textures
 
 layout(set = 0, binding = 0, std140) uniform PrivateUniforms {
     mat4 u_worldMatrix;

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Several libraries, and the folders in which mxgen looks for their files. Argument: mxgen.
-mxgen=$(realpath "$1")
+mxgen=$(realpath "$1") root=$(cd "$(dirname "$0")/../.." && pwd)
 . "$(dirname "$0")/common.sh"
 
 # A library in parts, as vendors have them: "folder/maker" with definitions, and source whose `file` begins at the folder above.
@@ -228,5 +228,13 @@ callee "ND_both" verbatim 3
 callee "ND_both" verbatim 4 derivative
 END
 check 'derivatives are those of the functions that have them' diff <(grep '^callee' out) callees
+
+# A checkout of MaterialX that is a copy of mxgen's own library, then with another default.
+mkdir -p checkout/libraries
+check 'the library is written as MaterialX' exits 0 "$mxgen" library expand -q -o checkout/libraries/all.mtlx
+compare() { python3 "$root/libraries/compare.py" "$mxgen" "$1"; }
+check 'a copy does not differ' eval 'compare checkout | grep -q "; 0 differences"'
+sed -i '/nodedef name="ND_checkerboard_color3"/,/nodedef>/s/name="color1" type="color3" value="[^"]*"/name="color1" type="color3" value="0.25, 0, 0"/' checkout/libraries/all.mtlx
+check 'a default that differs is told' eval "compare checkout/libraries | grep -qF \"ND_checkerboard_color3.color1: value is\""
 
 finish libraries

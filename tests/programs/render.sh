@@ -476,6 +476,39 @@ for trace in '' --path-trace; do
     done
 done
 
+# A thin sheet under light of 1 from everywhere sends back its colour, whatever its anisotropy: (1 - g) / 2 and (1 + g) / 2 of it. Files have
+# the unit and the space of their inputs, through interfaces, too: a foot, and sRGB's 128 of 255 in linear light.
+write_white white.hdr
+tile grey.ppm '128 128 128'
+cat >values.mtlx <<'X'
+<?xml version="1.0"?>
+<materialx version="1.39" colorspace="lin_rec709">
+  <open_pbr_surface name="sheet" type="surfaceshader">
+    <input name="specular_weight" type="float" value="0"/><input name="subsurface_weight" type="float" value="1"/>
+    <input name="subsurface_color" type="color3" value="0.5, 0.25, 0.75"/><input name="subsurface_scatter_anisotropy" type="float" value="0.5"/>
+    <input name="geometry_thin_walled" type="boolean" value="true"/>
+  </open_pbr_surface>
+  <image name="feet" type="float"><input name="file" type="filename" value="wood.ppm" unit="foot" unittype="distance"/></image>
+  <nodegraph name="G">
+    <input name="f" type="filename" value="wood.ppm" unit="foot" unittype="distance"/>
+    <input name="g" type="filename" value="grey.ppm" colorspace="srgb_texture"/>
+    <image name="i" type="vector2"><input name="file" type="filename" interfacename="f"/></image>
+    <image name="j" type="color3"><input name="file" type="filename" interfacename="g"/></image>
+    <output name="feet" type="vector2" nodename="i"/><output name="grey" type="color3" nodename="j"/>
+  </nodegraph>
+  <extract name="x" type="float"><input name="in" type="vector2" nodegraph="G" output="feet"/></extract>
+  <extract name="r" type="float"><input name="in" type="color3" nodegraph="G" output="grey"/></extract>
+  <combine3 name="c" type="color3"><input name="in1" type="float" nodename="feet"/><input name="in2" type="float" nodename="x"/><input name="in3" type="float" nodename="r"/></combine3>
+  <surface_unlit name="files" type="surfaceshader"><input name="emission_color" type="color3" nodename="c"/></surface_unlit>
+</materialx>
+X
+check 'a thin sheet is drawn' exits 0 "$render" values.mtlx -e sheet -m plane --camera 0,0 --size 8 --environment white.hdr -o sheet.exr
+check 'files with units are drawn' exits 0 "$render" values.mtlx -e files -m plane --camera 0,0 --size 8 -o files.exr
+for value in sheet.exr,R,0.5 sheet.exr,G,0.25 sheet.exr,B,0.75 files.exr,R,0.3048 files.exr,G,0.3048 files.exr,B,0.2158; do
+    IFS=, read -r file channel value <<<"$value"
+    check "$file: $channel is $value" near "$(python3 "$exr" "$file" "$channel" 0.5 0.5)" "$value" 0.005
+done
+
 # A tile that is turned by 90 degrees has its +x downwards, and so has the lean of a normal.
 tile lean.ppm '191 128 238'
 cat >hextile.mtlx <<'X'

@@ -65,6 +65,44 @@ static void test_renames(void)
                     "name=\"v\" geomprop=\"a\"/>\n");
 }
 
+/* What documents of the current version contain, too. */
+static void test_always(void)
+{
+    require_upgrade("1.39",
+                    "<input name=\"a\" type=\"boolean\" value=\"True\" uniform=\"False\"/>"
+                    "<input name=\"b\" type=\"string\" value=\"True\"/>",
+                    "<input name=\"a\" type=\"boolean\" value=\"true\" uniform=\"false\"/>\n"
+                    "<input name=\"b\" type=\"string\" value=\"True\"/>\n");
+    require_upgrade("1.37", "<input name=\"a\" type=\"boolean\" value=\"FALSE\"/>",
+                    "<input name=\"a\" type=\"boolean\" value=\"false\"/>\n");
+    require_upgrade("1.39",
+                    "<geompropvalue name=\"a\" type=\"string\"/><geompropvalue name=\"b\" "
+                    "type=\"filename\"/><geompropvalue name=\"c\" type=\"float\"/>",
+                    "<geompropvalueuniform name=\"a\" type=\"string\"/>\n<geompropvalueuniform "
+                    "name=\"b\" type=\"filename\"/>\n<geompropvalue name=\"c\" type=\"float\"/>\n");
+    require_upgrade("1.39",
+                    "<nodedef name=\"N\" node=\"geompropvalue\"><output name=\"out\" "
+                    "type=\"string\"/></nodedef>",
+                    "<nodedef name=\"N\" node=\"geompropvalueuniform\">\n  <output name=\"out\" "
+                    "type=\"string\"/>\n</nodedef>\n");
+    require_upgrade("1.38",
+                    "<nodedef name=\"N\" node=\"subsurface_bsdf\"><input name=\"radius\" "
+                    "type=\"vector3\" value=\"1, 1, 1\"/></nodedef>",
+                    "<nodedef name=\"N\" node=\"subsurface_bsdf\">\n  <input name=\"radius\" "
+                    "type=\"color3\" value=\"1, 1, 1\"/>\n</nodedef>\n");
+    require_upgrade("1.39",
+                    "<constant name=\"a\" type=\"color2\"><input name=\"value\" "
+                    "type=\"color2\" value=\"0, 1\"/></constant><separate2 name=\"s\" "
+                    "type=\"multioutput\"><input name=\"in\" type=\"color2\" "
+                    "nodename=\"a\"/></separate2><dot name=\"d\" type=\"float\"><input name=\"in\" "
+                    "type=\"float\" nodename=\"s\" output=\"outa\"/></dot>",
+                    "<constant name=\"a\" type=\"vector2\">\n  <input name=\"value\" "
+                    "type=\"vector2\" value=\"0, 1\"/>\n</constant>\n<separate2 name=\"s\" "
+                    "type=\"multioutput\">\n  <input name=\"in\" type=\"vector2\" "
+                    "nodename=\"a\"/>\n</separate2>\n<dot name=\"d\" type=\"float\">\n  <input "
+                    "name=\"in\" type=\"float\" nodename=\"s\" output=\"outy\"/>\n</dot>\n");
+}
+
 static void test_structure(void)
 {
     require_upgrade(
@@ -347,6 +385,7 @@ int main(void)
 {
     xml_startup();
     test_renames();
+    test_always();
     test_structure();
     test_materials();
     test_closures();

@@ -66,7 +66,8 @@ static void test_refused(void)
     REQUIRE_MESSAGES(ROOT "\n<nodegraph name=\"g\"", NULL, "2:20 xml-truncated");
     REQUIRE_MESSAGES(ROOT "\n<a></b></materialx>", NULL, "2:8 xml-syntax");
     REQUIRE_MESSAGES(ROOT "<a x=\"1\" x=\"2\"/></materialx>", NULL, "1:41 xml-syntax");
-    REQUIRE_MESSAGES(ROOT "<a x=\"&unknown;\"/></materialx>", NULL, "1:42 xml-syntax");
+    REQUIRE_MESSAGES(ROOT "<a>this & that</a></materialx>", NULL,
+                     "1:27 xml-stray-text, 1:36 xml-syntax");
     REQUIRE_MESSAGES(ROOT "<a x=\"\xff\"/></materialx>", NULL, "1:33 xml-encoding");
     REQUIRE_MESSAGES("<?xml version=\"1.0\" encoding=\"klingon\"?>" ROOT "</materialx>", NULL,
                      "1:1 xml-unknown-encoding");
@@ -80,7 +81,12 @@ static void test_tolerated(void)
     REQUIRE_TREE(ROOT "<a b=\"x < y\"/></materialx>", NULL, "<a b=\"x &lt; y\"/>\n");
     /* a quote is missing */
     REQUIRE_MESSAGES(ROOT "<a b=\"c/>\n<d e=\"f\"/></materialx>", NULL, "2:1 xml-syntax");
-    REQUIRE_MESSAGES(ROOT "<a b=\"<x>\x7f\"/></materialx>", NULL, "1:33 xml-syntax");
+    REQUIRE_TREE(ROOT "<a b=\"<x> & &y; &amp;\x7f\"/></materialx>", NULL,
+                 "<a b=\"&lt;x&gt; &amp; &amp;y; &amp;\x7f\"/>\n");
+    REQUIRE_MESSAGES(ROOT "<a b='x && y'/></materialx>", NULL,
+                     "1:35 xml-raw-ampersand, 1:36 xml-raw-ampersand");
+    /* no byte can stand in */
+    REQUIRE_MESSAGES(ROOT "<a b=\"<x>\x7f`~^|$%@*{}[]+\\\"/></materialx>", NULL, "1:33 xml-syntax");
     REQUIRE_MESSAGES("\xef\xbb\xbf" ROOT "<a/></materialx>", NULL, "1:1 xml-byte-order-mark");
     REQUIRE_MESSAGES("\n\n<?xml version=\"1.0\"?>\n" ROOT "<a></materialx>", NULL,
                      "1:1 xml-text-before-declaration, 4:42 xml-syntax");

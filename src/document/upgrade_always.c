@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+/* What documents of every version still contain: spellings of other programs, and removed types. */
+#include "document/upgrade.h"
+
+/* "True" and "FALSE" are what Python and Houdini write. */
+static void lower_boolean(struct upgrade *u, elem_id element, str_id attr)
+{
+    static const char *const words[][2] = {
+        {"True", "true"}, {"TRUE", "true"}, {"False", "false"}, {"FALSE", "false"}};
+    str_id value = doc_attr_value(u->doc, element, attr);
+    for (size_t i = 0; value && i < sizeof words / sizeof *words; i++) {
+        if (!upgrade_is(u, value, words[i][0]))
+            continue;
+        doc_set_attr(u->doc, element, attr, upgrade_word(u, words[i][1]));
+        upgrade_note(u, element, "'%s' is written '%s'", words[i][0], words[i][1]);
+    }
+}
+
+/* Strings are uniform properties. */
+static void make_uniform(struct upgrade *u, elem_id node)
+{
+    str_id type = doc_attr_value(u->doc, node, STR_type);
+    if (doc_element(u->doc, node)->category != STR_geompropvalue
+        || (type != STR_string && type != STR_filename))
+        return;
+    doc_set_category(u->doc, node, STR_geompropvalueuniform);
+    doc_remove_attr(u->doc, node, STR_nodedef);
+    upgrade_note(u, node, "<geompropvalue> of a %s is <geompropvalueuniform>",
+                 str_text(u->doc->strings, type));
+}
+
+/* Libraries until 1.39.1 define the node for strings under the name of the others. */
+static void make_definition_uniform(struct upgrade *u, elem_id nodedef)
+{
+    if (doc_attr_value(u->doc, nodedef, STR_node) != STR_geompropvalue)
+        return;
+    str_id type = 0; /* of the output; names have no index yet */
+    for (elem_id e = doc_element(u->doc, nodedef)->first_child; e; e = doc_element(u->doc, e)->next)
+        if (doc_element(u->doc, e)->kind == KIND_OUTPUT)
+            type = doc_attr_value(u->doc, e, STR_type);
+    if (type != STR_string && type != STR_filename)
+        return;
+    doc_set_attr(u->doc, nodedef, STR_node, STR_geompropvalueuniform);
+    upgrade_note(u, nodedef, "<geompropvalue> of a %s is <geompropvalueuniform>",
+                 str_text(u->doc->strings, type));
+}
+
+void upgrade_always(struct upgrade *u)
+{
+    static const str_id switches[] = {STR_uniform, STR_isdefaultversion, STR_uiadvanced,
+                                      STR_uivisible};
+    for (elem_id e = upgrade_first(u); e; e = upgrade_next(u, e)) {
+        if (doc_attr_value(u->doc, e, STR_type) == STR_boolean)
+            lower_boolean(u, e, STR_value);
+        for (size_t i = 0; i < sizeof switches / sizeof *switches; i++)
+            lower_boolean(u, e, switches[i]);
+        if (doc_element(u->doc, e)->kind == KIND_NODEDEF)
+            make_definition_uniform(u, e);
+        else
+            make_uniform(u, e);
+    }
+}
