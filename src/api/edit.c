@@ -753,7 +753,7 @@ mxg_status mxg_document_import(mxg_context *context, mxg_library *library,
     status = object_run(&edit->document->object, add_materials, &job);
     arena_finish(&job.scratch);
     if (status == MXG_OK)
-        return mxg_edit_commit(edit, out_document);
+        status = mxg_edit_commit(edit, out_document);
     mxg_edit_destroy(edit);
     return status;
 }
