@@ -45,7 +45,8 @@ static const mxg_document *origin_of(const mxg_document *from)
     return from;
 }
 
-static void begin_from(mxg_document *document, const mxg_document *from)
+/* True if elements are in the tree again that the edited document leaves out. */
+static bool begin_from(mxg_document *document, const mxg_document *from)
 {
     struct arena *arena = &document->object.arena;
     struct library *layer = &document->layer;
@@ -54,11 +55,13 @@ static void begin_from(mxg_document *document, const mxg_document *from)
     strpool_init(&layer->strings, arena, &document->origin->layer.strings);
     doc_begin_edit(&layer->doc, arena, &layer->strings, &from->layer.doc,
                    &document->origin->layer.doc);
+    bool is_restored = doc_restore_left_out(&layer->doc, &from->layer.doc);
     renderables_begin(document, from);
     for (uint32_t i = 0; i < from->files.len; i++) {
         const char *file = from->files.items[i];
         vec_push(arena, &document->files, arena_strndup(arena, file, strlen(file)));
     }
+    return is_restored;
 }
 
 static void begin_document(void *arg)
@@ -68,7 +71,7 @@ static void begin_document(void *arg)
     struct arena *arena = &document->object.arena;
     struct library *layer = &document->layer;
     if (job->from) {
-        begin_from(document, job->from);
+        job->edit->is_unchecked = begin_from(document, job->from);
     } else {
         const char *name = job->name ? job->name : "<edit>";
         library_init(layer, arena, job->base);
@@ -191,13 +194,21 @@ fail(struct change *change, const char *format, ...)
     va_end(args);
 }
 
+static void index_restored(void *arg)
+{
+    doc_index_restored(arg);
+}
+
 static mxg_status run(struct change *change, void (*work)(void *arg))
 {
     if (!change->edit->document) {
         fail(change, "the edit has made its document");
         return MXG_ERROR_ARGUMENT;
     }
+    struct document *doc = tree_of(change->edit);
     mxg_status status = object_run(&change->edit->document->object, work, change);
+    if (status == MXG_OK && doc->origin && doc->whole->left_out.len)
+        status = object_run(&change->edit->document->object, index_restored, doc);
     return status == MXG_OK && change->failed ? MXG_ERROR_ARGUMENT : status;
 }
 
@@ -742,7 +753,7 @@ mxg_status mxg_document_import(mxg_context *context, mxg_library *library,
     status = object_run(&edit->document->object, add_materials, &job);
     arena_finish(&job.scratch);
     if (status == MXG_OK)
-        return mxg_edit_commit(edit, out_document);
+        status = mxg_edit_commit(edit, out_document);
     mxg_edit_destroy(edit);
     return status;
 }

@@ -7,7 +7,7 @@ void doc_complete(struct document *doc, struct diag_list *diags)
     doc_expand_templates(doc, diags);
     doc_rewrite_aovs(doc);
     doc_fix_paths(doc, diags);
-    doc_qualify_names(doc);
+    doc_qualify_names(doc, diags);
     doc_index_names(doc, diags);
     doc_index_references(doc);
 }

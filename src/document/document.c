@@ -273,7 +273,7 @@ void doc_set_place(struct document *doc, elem_id element, uint16_t file, uint32_
     e->column = column;
 }
 
-static void unlink_element(struct document *doc, elem_id element)
+void doc_unlink_element(struct document *doc, elem_id element)
 {
     struct element *e = own(doc, element);
     if (!e->parent)
@@ -302,18 +302,27 @@ void doc_remove_element(struct document *doc, elem_id element)
     if (link_of(doc, element)->comments)
         doc_move_comments(doc, element, e->next ? e->next : e->parent,
                           e->next ? COMMENT_BEFORE : COMMENT_LAST);
-    unlink_element(doc, element);
+    doc_unlink_element(doc, element);
 }
 
 void doc_move_element(struct document *doc, elem_id element, elem_id new_parent)
 {
-    unlink_element(doc, element);
+    doc_unlink_element(doc, element);
     link_last(doc, new_parent, element);
+}
+
+void doc_link_after(struct document *doc, elem_id element, elem_id sibling)
+{
+    elem_id next = own(doc, sibling)->next;
+    if (next)
+        doc_move_before(doc, element, next);
+    else
+        doc_move_element(doc, element, own(doc, sibling)->parent);
 }
 
 void doc_move_before(struct document *doc, elem_id element, elem_id sibling)
 {
-    unlink_element(doc, element);
+    doc_unlink_element(doc, element);
     struct element *e = own(doc, element);
     elem_id previous = link_of(doc, sibling)->previous;
     assert(!previous || own(doc, previous)->next == sibling);
@@ -549,69 +558,6 @@ static elem_id find_name(const struct document *doc, elem_id parent, str_id name
     return found;
 }
 
-/* True if two elements have equal content, so that the second one is redundant. */
-static bool are_equal(const struct document *doc, elem_id a, elem_id b)
-{
-    elem_id root_a = a, root_b = b;
-    while (a && b) {
-        const struct element *ea = doc_element(doc, a), *eb = doc_element(doc, b);
-        if (ea->category != eb->category || ea->name != eb->name || ea->num_attrs != eb->num_attrs
-            || !ea->first_child != !eb->first_child || (a != root_a && !ea->next != !eb->next))
-            return false;
-        for (uint32_t i = 0; i < ea->num_attrs; i++) {
-            const struct attribute *attr = &doc_attrs(doc, a)[i],
-                                   *other = doc_attr(doc, b, attr->name);
-            if (!other || other->value != attr->value)
-                return false;
-        }
-        a = doc_next_in_tree(doc, root_a, a);
-        b = doc_next_in_tree(doc, root_b, b);
-    }
-    return a == b;
-}
-
-/*
- * True for implementations in two files: libraries may replace each other's, so their index decides
- * between them. Equal text with a `file` names another file in another folder.
- */
-static bool are_rivals(const struct document *doc, elem_id first, elem_id second, bool equal)
-{
-    if (doc_element(doc, first)->kind != KIND_IMPLEMENTATION
-        || doc_element(doc, second)->kind != KIND_IMPLEMENTATION
-        || (equal && !doc_attr(doc, second, STR_file)))
-        return false;
-    const char *file = doc_place(doc, first).file, *other = doc_place(doc, second).file;
-    return file && other && strcmp(file, other) != 0;
-}
-
-static void report_duplicate(struct document *doc, elem_id first, elem_id second,
-                             struct diag_list *diags)
-{
-    bool equal = are_equal(doc, first, second);
-    if (are_rivals(doc, first, second, equal))
-        return;
-    diag_add(diags, equal ? DIAG_ID_repeated_element : DIAG_ID_duplicate_name,
-             doc_name_place(doc, second), str_text(doc->strings, doc_element(doc, second)->name));
-    diag_add(diags, DIAG_ID_previous_definition, doc_name_place(doc, first));
-    doc_remove_element(doc, second);
-    if (equal || doc_second_of_name(doc, first))
-        return;
-    vec_push(doc->arena, &doc->doubles, (struct doc_double){first, second});
-    table_add(&doc->double_table, doc->arena, hash_pair(first, 0), doc->doubles.len);
-}
-
-elem_id doc_second_of_name(const struct document *doc, elem_id element)
-{
-    doc = doc_layer(doc, element);
-    doc = doc->origin ? doc->whole : doc;
-    uint32_t at = hash_pair(element, 0);
-    for (uint32_t found;
-         doc->doubles.len && (found = table_next(&doc->double_table, hash_pair(element, 0), &at));)
-        if (doc->doubles.items[found - 1].first == element)
-            return doc->doubles.items[found - 1].second;
-    return 0;
-}
-
 void doc_index_names(struct document *doc, struct diag_list *diags)
 {
     assert(!doc->origin);
@@ -624,8 +570,8 @@ void doc_index_names(struct document *doc, struct diag_list *diags)
         const struct element *e = &doc->elements.items[i];
         uint32_t at;
         elem_id first = find_name(doc, e->parent, e->name, &at);
-        if (first && diags)
-            report_duplicate(doc, first, element, diags);
+        if (first && diags && doc_has_element(doc, element))
+            doc_leave_out_duplicate(doc, first, element, diags);
         if (!first)
             table_add(&doc->names, doc->arena, hash_pair(e->parent, e->name), element);
     }

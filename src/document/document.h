@@ -110,6 +110,13 @@ struct doc_double {
     elem_id first, second;
 };
 
+/* An element that is left out of the tree, because another one of its scope has its name. */
+struct doc_left_out {
+    elem_id element, anchor; /* it stands behind the anchor */
+    uint32_t next;           /* the next one behind the same anchor: an index plus 1; 0 = none */
+    uint32_t last;           /* of the first one behind the anchor: the last one, an index plus 1 */
+};
+
 /* The place of a comment relative to its element. */
 enum comment_place {
     COMMENT_BEFORE, /* on the lines before the element */
@@ -186,6 +193,8 @@ struct document {
     /* names that differing elements share, and a table by the first element */
     VEC(struct doc_double) doubles;
     struct table double_table;
+    VEC(struct doc_left_out) left_out; /* in the order in which they left the tree */
+    struct table left_out_table;       /* by element, and the first one by anchor: index plus 1 */
     /* who names whom, and a table (scope, name) → the last reference + 1: doc_index_references */
     VEC(struct doc_reference) references;
     struct table reference_table;
@@ -224,6 +233,10 @@ void doc_set_place(struct document *doc, elem_id element, uint16_t file, uint32_
  * or to the end of the parent.
  */
 void doc_remove_element(struct document *doc, elem_id element);
+/* The same, but the element keeps its comments. */
+void doc_unlink_element(struct document *doc, elem_id element);
+/* Puts an element, which may be outside the tree, behind another one. */
+void doc_link_after(struct document *doc, elem_id element, elem_id sibling);
 /* Appends the element to the children of another parent. */
 void doc_move_element(struct document *doc, elem_id element, elem_id new_parent);
 void doc_move_before(struct document *doc, elem_id element, elem_id sibling);
@@ -263,9 +276,23 @@ bool doc_is_within(const struct document *doc, elem_id element, elem_id outer);
 
 /*
  * Builds the index for doc_child and doc_find. Call it after the tree is complete, and again after
- * additions. With `diags` it reports duplicate names and removes the second element.
+ * additions. With `diags` it reports duplicate names and leaves out the second element.
  */
 void doc_index_names(struct document *doc, struct diag_list *diags);
+
+/* duplicates.c: reports the second element of a name, and takes it out of the tree. */
+void doc_leave_out_duplicate(struct document *doc, elem_id first, elem_id second,
+                             struct diag_list *diags);
+/* The sibling and the parent of an element in the tree with those that were left out; 0: none. */
+elem_id doc_next_written(const struct document *doc, elem_id element);
+elem_id doc_parent_written(const struct document *doc, elem_id element);
+/*
+ * Puts the elements that `from` leaves out into an edited copy of it, which must then be indexed as
+ * a whole. false: there are none.
+ */
+bool doc_restore_left_out(struct document *doc, const struct document *from);
+/* Indexes those whose name no other element has any more, after a change. */
+void doc_index_restored(struct document *doc);
 /* The second element of this one's scope and name, which the index left out; 0: none. */
 elem_id doc_second_of_name(const struct document *doc, elem_id element);
 /* Indexes one element that was added, renamed or moved since. */
@@ -388,7 +415,7 @@ void doc_upgrade(struct document *doc, elem_id root, elem_id end, struct diag_li
  * them from inside the namespace ("MaterialX Namespaces"). Afterwards every reference equals the
  * name of its target.
  */
-void doc_qualify_names(struct document *doc);
+void doc_qualify_names(struct document *doc, struct diag_list *diags);
 
 /*
  * paths.c: replaces the backslashes of file names by '/', with a warning for each name: the names

@@ -152,11 +152,38 @@ static bool has_namespaces(const struct document *doc)
     return false;
 }
 
-void doc_qualify_names(struct document *doc)
+/* True if elements of XML may have the prefix: those of its own keep their meaning. */
+static bool is_prefix(const char *namespace)
+{
+    static const char later[] = "0123456789-.";
+    for (const char *c = namespace; *c; c++) {
+        bool is_letter =
+            (*c >= 'a' && *c <= 'z') || (*c >= 'A' && *c <= 'Z') || *c == '_' || (*c & 0x80);
+        if (!is_letter && (c == namespace || !strchr(later, *c)))
+            return false;
+    }
+    return strcmp(namespace, "xmlns") != 0 && strcmp(namespace, "xml") != 0
+           && strcmp(namespace, "xi") != 0;
+}
+
+/* Takes away the namespaces that names of elements cannot have. */
+static void check_namespaces(struct document *doc, struct diag_list *diags)
+{
+    for (elem_id e = doc->root; e; e = doc_next_in_tree(doc, doc->root, e)) {
+        const char *namespace = str_text(doc->strings, doc_attr_value(doc, e, STR_namespace));
+        if (!*namespace || is_prefix(namespace))
+            continue;
+        diag_add(diags, DIAG_ID_bad_namespace, doc_attr_place(doc, e, STR_namespace), namespace);
+        doc_remove_attr(doc, e, STR_namespace);
+    }
+}
+
+void doc_qualify_names(struct document *doc, struct diag_list *diags)
 {
     doc->is_global = !has_namespaces(doc);
     if (doc->is_global)
         return;
+    check_namespaces(doc, diags);
     struct qualifier q = {.doc = doc};
     text_init(&q.scratch, doc->arena);
     elem_id first = doc_element(doc, doc->root)->first_child;

@@ -76,7 +76,7 @@ static void end_line(const struct document *doc, elem_id element, struct text *o
 {
     for (uint32_t i = doc_first_comment(doc, element, COMMENT_BEHIND); i;
          i = doc_comment_at(doc, i)->next) {
-        text_char(out, doc_element(doc, element)->parent ? ' ' : '\n');
+        text_char(out, element != doc->root ? ' ' : '\n');
         write_comment(doc, doc_comment_at(doc, i)->text, out);
     }
     text_char(out, '\n');
@@ -115,7 +115,7 @@ static void write_start_tag(const struct document *doc, elem_id element, uint32_
     const struct attribute *attrs = doc_attrs(doc, element);
     for (uint32_t i = 0; i < e->num_attrs; i++)
         write_attr(doc, attrs[i].name, attrs[i].value, out);
-    if (!e->parent && has_includes(doc, element))
+    if (element == doc->root && has_includes(doc, element))
         text_str(out, " xmlns:xi=\"http://www.w3.org/2001/XInclude\"");
     if (has_content(doc, element)) {
         text_str(out, ">\n");
@@ -153,8 +153,8 @@ void doc_write_part(const struct document *doc, elem_id root, const struct doc_c
         }
         if (!is_left_out && has_content(doc, element))
             write_end_tag(doc, element, depth, &layout, out);
-        while (element != root && !(next = doc_element(doc, element)->next)) {
-            element = doc_element(doc, element)->parent;
+        while (element != root && !(next = doc_next_written(doc, element))) {
+            element = doc_parent_written(doc, element);
             assert(depth > 0);
             write_end_tag(doc, element, --depth, &layout, out);
         }

@@ -69,9 +69,11 @@ static void take_in_order(struct spender *s)
 static void take_smallest(struct spender *s)
 {
     struct slab_candidates steps = {0};
-    slabs_search(&s->saver, s->budget, &steps);
+    bool is_whole = slabs_search(&s->saver, s->budget, &steps);
     for (uint32_t i = 0; i < steps.items.len && goes_on(s); i++)
         record(s, steps.items.items[i].step, steps.items.items[i].root);
+    if (!is_whole)
+        take_in_order(s);
 }
 
 /* ---- Before the limits ---- */

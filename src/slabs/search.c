@@ -9,6 +9,11 @@
 /* Trees that go on for each number of steps: large trees take longer, and have more steps. */
 enum { WIDTH = 3, WIDTH_OF_LARGE = 1, LARGE = 8 /* closures */ };
 #define MARGIN 1.5f
+/*
+ * The time of a search grows with the closures of all trees whose errors it estimates. A material
+ * of 8 closures needs up to 700; a stack of five of them would need 7,000.
+ */
+enum { MAX_WORK = 2000 };
 
 /* A tree, and the step that leads to it. */
 struct state {
@@ -23,6 +28,7 @@ struct search {
     struct slab_saver saver; /* at any tree */
     const struct slab_budget *limits;
     VEC(struct state) states;
+    uint32_t work; /* closures of the trees so far */
 };
 
 /* ---- Ends ---- */
@@ -74,10 +80,11 @@ static void expand(struct search *s, uint32_t from)
     struct slab_candidates steps = {0};
     slab_saver_set_root(&s->saver, s->states.items[from].by.root);
     slab_find_steps(&s->saver, &steps);
-    for (uint32_t i = 0; i < steps.items.len; i++) {
+    for (uint32_t i = 0; i < steps.items.len && s->work < MAX_WORK; i++) {
         struct state next = {.by = steps.items.items[i], .parent = from, .is_open = true};
         if (!is_new(s, next.by.root))
             continue;
+        s->work += s->saver.cost.closures + 1;
         next.error = slab_saver_error(&s->saver, next.by.root);
         next.cost = slab_saver_cost(&s->saver, next.by.root);
         if (next.error >= 0.0f)
@@ -116,7 +123,7 @@ static void search_levels(struct search *s)
     }
 }
 
-void slabs_search(const struct slab_saver *saver, const struct slab_budget *limits,
+bool slabs_search(const struct slab_saver *saver, const struct slab_budget *limits,
                   struct slab_candidates *out)
 {
     struct search s = {.saver = *saver, .limits = limits};
@@ -136,4 +143,5 @@ void slabs_search(const struct slab_saver *saver, const struct slab_budget *limi
         out->items.items[num - 1 - i] = out->items.items[i];
         out->items.items[i] = last;
     }
+    return s.work < MAX_WORK;
 }

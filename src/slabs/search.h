@@ -9,9 +9,10 @@
  * Finds the steps, the first one first, from the saver's tree to the smallest one that keeps to the
  * limits of a budget: with the fewest closures, then bytes, then features, then the least error.
  * Where none does, to the nearest one that keeps to closures and bytes, or else to the smallest
- * one. The host has estimates; the caller gives an empty vector.
+ * one. The host has estimates; the caller gives an empty vector. False: the tree is so large that
+ * the search was cut short, so that more steps may help.
  */
-void slabs_search(const struct slab_saver *saver, const struct slab_budget *limits,
+bool slabs_search(const struct slab_saver *saver, const struct slab_budget *limits,
                   struct slab_candidates *out_steps);
 
 #endif

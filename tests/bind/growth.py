@@ -7,6 +7,7 @@ Arguments: mxgen, the smaller number of things."""
 import os
 import pathlib
 import re
+import resource
 import shutil
 import subprocess
 import sys
@@ -70,6 +71,30 @@ def overrides(count):
             + each(count, 'def NodeGraph "N{i}" {{ float outputs:base = 0.5 }}\n'))
 
 
+def write_stack(path, layers):
+    """So many materials with noise over each other, which a budget has to blend."""
+    parts, looks = [], []
+    for i in range(layers):
+        parts.append(f'<standard_surface name="S{i}" type="surfaceshader"><input name="coat" type="float" value="0.5"/>'
+                     f'<input name="sheen" type="float" value="0.{i + 1}"/></standard_surface><surfacematerial name="M{i}" type="material">'
+                     f'<input name="surfaceshader" type="surfaceshader" nodename="S{i}"/></surfacematerial><nodegraph name="N{i}">'
+                     '<noise2d name="n" type="float"/><output name="specular_roughness" type="float" nodename="n"/></nodegraph>')
+        looks.append(f'<materialassign name="a{i}" slot="{i:03}" material="M{i}" geom="/"/>'
+                     f'<materialassign name="b{i}" slot="{i:03}::x" nodegraph="N{i}" geom="/"/>')
+    path.write_text(f'<materialx version="1.39">{"".join(parts)}<look name="L">{"".join(looks)}</look></materialx>', encoding="utf-8")
+
+
+def seconds(folder, layers):
+    """The processor time of a budget by its error."""
+    write_stack(folder / "stack.mtlx", layers)
+    (folder / "one.txt").write_text("/a\n", encoding="utf-8")
+    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+    result = subprocess.run([MXGEN, "stack.mtlx", "--stage", "one.txt", "--max-error", "100", "-o", "out"], cwd=folder, capture_output=True,
+                            check=False)
+    check(result.returncode == 0, f"{layers} layers: {result.stderr[-300:]}")
+    return resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
+
+
 def work(folder, text):
     """Instructions, in millions."""
     (folder / "stage.usda").write_text("#usda 1.0\n" + text, encoding="utf-8")
@@ -93,6 +118,9 @@ def main():
             few, many = work(folder, make(COUNT)) - start, work(folder, make(2 * COUNT)) - start
             print(f"{make.__name__}: {few:.0f} M instructions, {many / few:.2f} times as many for twice the size")
             check(many / few < MOST, f"{make.__name__}: {many / few:.2f} times the work for twice the size")
+        few, many = seconds(folder, 3), seconds(folder, 6)
+        print(f"budget of a stack: {few:.1f} s for 3 layers, {many:.1f} s for 6")
+        check(many < 3 * few, f"a budget of 6 layers takes {many / few:.2f} times as long as one of 3")
 
 
 main()
