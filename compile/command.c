@@ -12,14 +12,22 @@
 
 extern char **environ;
 
-enum { PATH_CAPACITY = 4096, MAX_ARGUMENTS = 8 };
+enum { PATH_CAPACITY = 4096, MAX_ARGUMENTS = 24 };
 
-/* "$SOURCE" and "$OBJECT" stand for the files that the compiler reads and writes. */
+/*
+ * "$SOURCE" and "$OBJECT" stand for the files that the compiler reads and writes, and "$FOLDER" for
+ * theirs, where the source is shader.ENDING.
+ */
 static const struct command {
     const char *target, *ending;
     const char *argv[MAX_ARGUMENTS];
 } commands[] = {
     {"osl", "osl", {"oslc", "-q", "-O2", "-o", "$OBJECT", "$SOURCE"}},
+    /* without warnings of what is unused, of infinite numbers and of textures that are elsewhere */
+    {"mdl",
+     "mdl",
+     {"mdlc", "--no-resolve-resources", "-W", "181=off", "-W", "182=off", "-W", "183=off", "-W",
+      "225=off", "-W", "230=off", "-W", "350=off", "-p", "$FOLDER", "::shader"}},
 };
 
 static bool is_installed(const char *program)
@@ -82,6 +90,14 @@ static void remove_work(const struct work *work)
     rmdir(work->folder);
 }
 
+static const char *argument(const char *text, const struct work *work)
+{
+    return strcmp(text, "$SOURCE") == 0   ? work->source
+           : strcmp(text, "$OBJECT") == 0 ? work->object
+           : strcmp(text, "$FOLDER") == 0 ? work->folder
+                                          : text;
+}
+
 /* Returns what waitpid tells of it; -1 where it did not run. */
 static int run(const struct command *command, const struct work *work)
 {
@@ -93,10 +109,7 @@ static int run(const struct command *command, const struct work *work)
     posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
     char *argv[MAX_ARGUMENTS + 1] = {NULL};
     for (int i = 0; i < MAX_ARGUMENTS && command->argv[i]; ++i)
-        argv[i] =
-            (char *)(uintptr_t)(strcmp(command->argv[i], "$SOURCE") == 0   ? work->source
-                                : strcmp(command->argv[i], "$OBJECT") == 0 ? work->object
-                                                                           : command->argv[i]);
+        argv[i] = (char *)(uintptr_t)argument(command->argv[i], work);
     pid_t process;
     int status = -1;
     if (posix_spawnp(&process, argv[0], &actions, NULL, argv, environ) != 0
@@ -108,22 +121,36 @@ static int run(const struct command *command, const struct work *work)
 
 /* ---- What it says ---- */
 
+/* The line of a place that ends at `end`: "shader.osl:12", "shader.mdl(12,5)". 0: there is none. */
+static uint32_t line_of(const char *text, const char *end)
+{
+    const char *begin = end;
+    while (begin > text && strchr("0123456789,()", begin[-1]))
+        --begin;
+    return (uint32_t)strtoul(begin + (*begin == '('), NULL, 10);
+}
+
 /*
- * "shader.osl:12: error: text"; lines without a place go on from the one before and are left out.
+ * "shader.osl:12: error: text", "shader.mdl(12,5): Error C109: text"; lines without a place go on
+ * from the one before and are left out.
  */
 static void read_line(struct compiled *out, mxg_stage stage, const char *text)
 {
-    static const char *const severities[] = {": error: ", ": warning: "};
-    for (int i = 0; i < 2; ++i) {
-        const char *at = strstr(text, severities[i]);
+    static const struct {
+        const char *mark;
+        mxg_severity severity;
+    } marks[] = {{": error: ", MXG_SEVERITY_ERROR},
+                 {": Error C", MXG_SEVERITY_ERROR},
+                 {": warning: ", MXG_SEVERITY_WARNING},
+                 {": Warning C", MXG_SEVERITY_WARNING}};
+    for (size_t i = 0; i < sizeof marks / sizeof *marks; ++i) {
+        const char *at = strstr(text, marks[i].mark);
         if (!at)
             continue;
-        const char *number = at;
-        while (number > text && number[-1] >= '0' && number[-1] <= '9')
-            --number;
-        const char *message = at + strlen(severities[i]);
-        compiled_add(out, stage, i == 0 ? MXG_SEVERITY_ERROR : MXG_SEVERITY_WARNING,
-                     (uint32_t)strtoul(number, NULL, 10), message, strcspn(message, "\n"));
+        const char *message = strstr(at + strlen(marks[i].mark) - 2, ": ");
+        message = message ? message + 2 : at + strlen(marks[i].mark);
+        compiled_add(out, stage, marks[i].severity, line_of(text, at), message,
+                     strcspn(message, "\n"));
         return;
     }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Compilers that are commands, one process for each stage: oslc for OSL. They are used where they
- * are installed.
+ * Compilers that are commands, one process for each stage: oslc for OSL, mdlc for MDL. They are
+ * used where they are installed.
  */
 #ifndef MXG_COMPILE_COMMAND_H
 #define MXG_COMPILE_COMMAND_H

@@ -42,8 +42,8 @@ void compile_end(void);
 void compile_on_exhaustion(void (*tell)(void));
 
 /*
- * Whether shaders of the target can be compiled here: "glsl", "vulkan", "essl"; "osl" where there
- * is an oslc, "slang" where there is slang-wasm.
+ * Whether shaders of the target can be compiled here: "glsl", "vulkan", "essl"; others where
+ * their compilers are (command.h, worker.h).
  */
 bool compile_knows_target(const char *target);
 

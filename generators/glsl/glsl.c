@@ -44,9 +44,9 @@ const struct target target_glsl = {
     .materialx_name = "genglsl",
     .brief = "GLSL for desktop OpenGL 3.3 and later",
     .caps = GLSL_CAPS | CAP_UNIFORM_DEFAULTS | CAP_BLOCK_OPTION | CAP_BLOCK_STAGE_IO | CAP_STORES
-            | CAP_TWO_SOURCES,
+            | CAP_PASSES | CAP_TWO_SOURCES,
     .versions = versions,
-    .since = {CAP_STORES, "430"}, /* the passes are compute stages */
+    .since = {CAP_STORES | CAP_PASSES, "430"}, /* the passes are compute stages */
     .syntax = &glsl_syntax,
     .frame = &glsl_frame,
     .source = &glsl_source,

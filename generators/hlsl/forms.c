@@ -8,27 +8,25 @@ static const char *const hlsl_helpers[NUM_HLSL_HELPERS] = {
 #undef HELPER
 };
 
-static void add_helper(struct spell *spell, const struct lang_use *use, const char *const *own,
-                       unsigned helper)
+/* A dialect has texts of its own for some. */
+static void add_helper(struct spell *spell, const struct lang_use *use, unsigned helper)
 {
-    spell_add_helper(spell, use, own[helper] ? own[helper] : hlsl_helpers[helper]);
+    const char *const *own = spell->target->helpers;
+    spell_add_helper(spell, use, own && own[helper] ? own[helper] : hlsl_helpers[helper]);
 }
 
 /* ---- Operators ---- */
 
 /* Matrices are transposed: hlsl.h. */
-static const struct lang_pieces *product(struct spell *spell, const struct lang_use *use,
-                                         const char *const *own)
+static const struct lang_pieces *product(struct spell *spell, const struct lang_use *use)
 {
-    (void)own;
     ir_type_id a = use->operands[0], b = use->operands[1];
     bool is_linear = (ir_type_is_matrix(a) && ir_type_components(b) > 1)
                      || (ir_type_components(a) > 1 && ir_type_is_matrix(b));
     return is_linear ? spell_call_form(spell, "mul($1, $0)") : NULL;
 }
 
-static const struct lang_pieces *equality(struct spell *spell, const struct lang_use *use,
-                                          const char *const *own)
+static const struct lang_pieces *equality(struct spell *spell, const struct lang_use *use)
 {
     ir_type_id type = use->operands[0];
     bool same = use->op == IR_EQ;
@@ -36,48 +34,41 @@ static const struct lang_pieces *equality(struct spell *spell, const struct lang
         return spell_call_form(spell, same ? "all($0 == $1)" : "any($0 != $1)");
     if (!ir_type_is_matrix(type))
         return NULL;
-    add_helper(spell, use, own, HELPER_EQUAL_2 + ir_type_rows(type) - 2);
+    add_helper(spell, use, HELPER_EQUAL_2 + ir_type_rows(type) - 2);
     return same ? spell_call_form(spell, "equal($0, $1)")
                 : lang_form_of(spell->scratch, "!equal($0, $1)", LANG_PREC_UNARY);
 }
 
-static const struct lang_pieces *choice(struct spell *spell, const struct lang_use *use,
-                                        const char *const *own)
+static const struct lang_pieces *choice(struct spell *spell, const struct lang_use *use)
 {
     if (use->type < IR_TYPE_FIRST_USER)
         return NULL;
-    add_helper(spell, use, own, HELPER_CHOOSE);
+    add_helper(spell, use, HELPER_CHOOSE);
     return spell_call_form(spell, "choose($0, $1, $2)");
 }
 
 /* ---- Conversions of matrices; the syntax has those of vectors ---- */
 
-static const struct lang_pieces *grow(struct spell *spell, const struct lang_use *use,
-                                      const char *const *own)
+static const struct lang_pieces *grow(struct spell *spell, const struct lang_use *use)
 {
     bool is_small = ir_type_rows(use->operands[0]) == 2, is_3 = ir_type_rows(use->type) == 3;
-    add_helper(spell, use, own,
-               is_3       ? HELPER_GROW_2_3
-               : is_small ? HELPER_GROW_2_4
-                          : HELPER_GROW_3_4);
+    add_helper(spell, use, is_3 ? HELPER_GROW_2_3 : is_small ? HELPER_GROW_2_4 : HELPER_GROW_3_4);
     return spell_call_form(spell, is_3 ? "grow_3($0)" : "grow_4($0)");
 }
 
-static const struct lang_pieces *convert(struct spell *spell, const struct lang_use *use,
-                                         const char *const *own)
+static const struct lang_pieces *convert(struct spell *spell, const struct lang_use *use)
 {
     ir_type_id from = use->operands[0], to = use->type;
     if (!ir_type_is_matrix(from) || !ir_type_is_matrix(to))
         return NULL;
     return ir_type_rows(from) < ir_type_rows(to)
-               ? grow(spell, use, own)
+               ? grow(spell, use)
                : lang_form_of(spell->scratch, "($T)$0", LANG_PREC_UNARY);
 }
 
 /* ---- Hooks ---- */
 
-typedef const struct lang_pieces *form_writer(struct spell *spell, const struct lang_use *use,
-                                              const char *const *own);
+typedef const struct lang_pieces *form_writer(struct spell *spell, const struct lang_use *use);
 
 static form_writer *const writers[IR_NUM_OPS] = {
     [IR_MUL] = product,   [IR_EQ] = equality,     [IR_NE] = equality,
@@ -102,26 +93,19 @@ static const struct {
     [IR_TEX_SIZE] = {HELPER_SIZE, false, "texture_size($0, $1)"},
 };
 
-static const struct lang_pieces *call_helper(struct spell *spell, const struct lang_use *use,
-                                             const char *const *own)
+static const struct lang_pieces *call_helper(struct spell *spell, const struct lang_use *use)
 {
     bool is_array = use->num_operands > 0 && use->operands[0] == IR_TYPE_SAMPLER_ARRAY;
     unsigned version = helped[use->op].is_by_rows ? ir_type_rows(use->type) - 2 : is_array;
-    add_helper(spell, use, own, helped[use->op].helper + version);
+    add_helper(spell, use, helped[use->op].helper + version);
     return spell_call_form(spell, helped[use->op].call);
-}
-
-const struct lang_pieces *hlsl_form_of(struct spell *spell, const struct lang_use *use,
-                                       const char *const *own)
-{
-    if (use->is_store)
-        return NULL;
-    if (helped[use->op].call)
-        return call_helper(spell, use, own);
-    return writers[use->op] ? writers[use->op](spell, use, own) : NULL;
 }
 
 const struct lang_pieces *hlsl_form(void *user_data, const struct lang_use *use)
 {
-    return hlsl_form_of(user_data, use, hlsl_helpers);
+    if (use->is_store)
+        return NULL;
+    if (helped[use->op].call)
+        return call_helper(user_data, use);
+    return writers[use->op] ? writers[use->op](user_data, use) : NULL;
 }

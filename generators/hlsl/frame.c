@@ -110,6 +110,23 @@ static void write_textures(struct spell *spell)
     }
 }
 
+void hlsl_image(struct spell *spell, const struct spell_resource *r)
+{
+    SPELL(spell, spell_image(spell, r)->type, " mx_", r->resource->name);
+}
+
+static void write_resources(struct spell *spell)
+{
+    SPELL_EACH_RESOURCE(r, spell)
+    {
+        write_binding(spell, r.binding, r.set);
+        hlsl_image(spell, &r);
+        bool is_view = strcmp(r.resource->kind, "sampler2D") == 0;
+        text_fmt(spell->out, " : register(%c%u, space%u);\n", is_view ? 't' : 'u',
+                 (unsigned)r.binding, (unsigned)r.set);
+    }
+}
+
 static void declare_structs(struct spell *spell)
 {
     spell_structs(spell);
@@ -137,6 +154,7 @@ static void declare(struct spell *spell)
     write_buffers(spell);
     write_lights(spell);
     write_textures(spell);
+    write_resources(spell);
     hlsl_declare_io(spell, &io);
 }
 

@@ -85,6 +85,20 @@ const struct lang_syntax hlsl_syntax = {
     .nan = "asfloat(0x7fc00000u)",
 };
 
+const struct target_function hlsl_functions[] = {
+#define FUNCTION(name, text) {name, text},
+#include "generators/hlsl/functions.def"
+#undef FUNCTION
+    {NULL, NULL},
+};
+
+const struct target_image hlsl_images[] = {
+#define IMAGE(kind, format, access, type, load, store) {kind, format, access, type, load, store},
+#include "generators/hlsl/images.def"
+#undef IMAGE
+    {.kind = NULL},
+};
+
 static const char *const versions[] = {"6.0", "5.1", NULL};
 
 const struct target target_hlsl = {
@@ -93,12 +107,15 @@ const struct target target_hlsl = {
     .brief = "HLSL of shader model 5.1 and 6, for Direct3D 12 and Vulkan",
     .caps = CAP_VERTEX_STAGE | CAP_HOST_FILES | CAP_OVERLOADS | CAP_BITWISE | CAP_IMPLICIT_LOD
             | CAP_TEXTURE_ARRAYS | CAP_UNIFORM_BLOCKS | CAP_BINDINGS | CAP_SETS | CAP_BLOCK_STAGE_IO
-            | CAP_SAMPLERS | CAP_VULKAN_ATTRIBUTES,
+            | CAP_SAMPLERS | CAP_VULKAN_ATTRIBUTES | CAP_STORES,
     .versions = versions,
     .syntax = &hlsl_syntax,
     .frame = &hlsl_frame,
     .form = hlsl_form,
     .maker = spell_helper_maker,
+    .array_type = "typedef $T $N[$L];",
+    .functions = hlsl_functions,
+    .images = hlsl_images,
     .packing = PACKING_CBUFFER,
     .position = ".position",
     .stage_suffix = {"vs.hlsl", "ps.hlsl"},

@@ -13,21 +13,17 @@
 
 extern const struct target target_hlsl;
 extern const struct lang_syntax hlsl_syntax;
+extern const struct target_function hlsl_functions[];
+extern const struct target_image hlsl_images[];
 
-/* forms.c: hooks of struct target. */
+/* forms.c: hook of struct target, and the helpers, for `helpers` of a dialect. */
 const struct lang_pieces *hlsl_form(void *user_data, const struct lang_use *use);
-/*
- * The same for a dialect: `own` has its texts of helpers, by enum helper; NULL entries: those of
- * HLSL.
- */
 enum helper {
 #define HELPER(ID, text) HELPER_##ID,
 #include "generators/hlsl/helpers.def"
 #undef HELPER
     NUM_HLSL_HELPERS
 };
-const struct lang_pieces *hlsl_form_of(struct spell *spell, const struct lang_use *use,
-                                       const char *const *own);
 
 /* ---- frame.c ---- */
 
@@ -36,6 +32,8 @@ extern const struct target_frame hlsl_frame;
 void hlsl_variable(struct spell *spell, const struct shader_variable *variable);
 /* "    row_major float4x4 u_m": a line of a constant buffer without its end. */
 void hlsl_member(struct spell *spell, const struct shader_variable *variable);
+/* "RWTexture2D<uint> mx_word0": an image of programs. */
+void hlsl_image(struct spell *spell, const struct spell_resource *r);
 void hlsl_light_struct(struct spell *spell); /* "struct LightData {…};" */
 void hlsl_light_member(struct spell *spell); /* "    LightData u_lightData[3];" */
 

@@ -58,8 +58,9 @@ static void write_location(struct spell *spell, uint32_t location)
 /* Both stages declare the whole struct, also members that they do not read, so that they match. */
 static void write_vertex_data(struct spell *spell, const struct hlsl_io *io)
 {
-    SPELL(spell, "struct ", spell_frame_name(spell, "VertexData"),
-          " {\n    float4 position : SV_Position;\n");
+    bool agrees = spell->stage_id == STAGE_VERTEX && spell->shader->role->stages == STAGES_OF_PASS;
+    SPELL(spell, "struct ", spell_frame_name(spell, "VertexData"), " {\n    ",
+          agrees ? "precise " : "", "float4 position : SV_Position;\n");
     SPELL_EACH_OF_BLOCK(i, spell, BLOCK_VERTEX_DATA)
     {
         const struct shader_variable *variable = spell_interface_variable(spell, i);
@@ -79,7 +80,8 @@ static void write_vertex_data(struct spell *spell, const struct hlsl_io *io)
 
 static bool reads_vertex_data(const struct spell *spell)
 {
-    return spell->stage_id == STAGE_VERTEX || spell_uses_block(spell, BLOCK_VERTEX_DATA);
+    return spell->stage_id == STAGE_VERTEX || spell_uses_block(spell, BLOCK_VERTEX_DATA)
+           || spell_reads_position(spell);
 }
 
 /* True for a function of other code, which sets the vertex data. */
@@ -160,7 +162,8 @@ void hlsl_open_main(struct spell *spell, const struct hlsl_io *io)
     const char *vd = spell_frame_name(spell, "vd");
     bool is_pixel = spell->stage_id == STAGE_PIXEL, shares = shares_vertex_data(spell),
          is_first = true;
-    spell_text(spell, io->heads[spell->stage_id]);
+    SPELL(spell, spell_tests_early(spell) ? "[earlydepthstencil]\n" : "",
+          io->heads[spell->stage_id]);
     if (!is_pixel)
         write_parameters(spell, io, BLOCK_APP_DATA, &is_first);
     if (reads_vertex_data(spell)) {

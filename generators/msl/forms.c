@@ -76,7 +76,7 @@ static const struct lang_pieces *equality(struct spell *spell, const struct lang
 
 static const struct lang_pieces *choice(struct spell *spell, const struct lang_use *use)
 {
-    if (!ir_type_is_matrix(use->type))
+    if (use->type < IR_TYPE_FIRST_USER && !ir_type_is_matrix(use->type))
         return NULL;
     add_helper(spell, use, HELPER_CHOOSE);
     return spell_call_form(spell, "choose($0, $1, $2)");

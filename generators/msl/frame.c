@@ -19,6 +19,13 @@ static bool is_called(const struct spell *spell)
     return spell->shader->role->stages == STAGES_NONE;
 }
 
+/* A pass that only discards has none. */
+static bool has_outputs(const struct spell *spell)
+{
+    const uint32_t *first = &spell->shader->interface.first_of_block[BLOCK_OUTPUTS];
+    return !is_vertex(spell) && first[1] > first[0];
+}
+
 static const char *entry_name(const struct spell *spell)
 {
     const char *entry = is_called(spell)   ? spell->shader->role->entry
@@ -121,8 +128,9 @@ static void write_inputs(struct spell *spell)
 static void write_vertex_data(struct spell *spell)
 {
     open_struct(spell, "VertexData");
+    bool agrees = is_vertex(spell) && spell->shader->role->stages == STAGES_OF_PASS;
     if (!is_called(spell))
-        spell_text(spell, "    float4 pos [[position]];\n");
+        SPELL(spell, "    float4 pos [[position", agrees ? ", invariant" : "", "]];\n");
     SPELL_EACH_OF_BLOCK(i, spell, BLOCK_VERTEX_DATA)
     {
         const struct shader_variable *variable = spell_interface_variable(spell, i);
@@ -179,7 +187,7 @@ static void declare(struct spell *spell)
     if (is_vertex(spell))
         write_inputs(spell);
     write_vertex_data(spell);
-    if (!is_vertex(spell))
+    if (has_outputs(spell))
         write_outputs(spell);
 }
 
@@ -243,6 +251,19 @@ static void list_texture(struct spell *spell, enum list list,
     spell_text(spell, ends[list]);
 }
 
+/* An image of programs. */
+static void list_resource(struct spell *spell, enum list list, const struct spell_resource *r)
+{
+    spell_text(spell, begins[list]);
+    if (list != ARGUMENTS)
+        SPELL(spell, spell_image(spell, r)->type, " ");
+    SPELL(spell, "mx_", r->resource->name);
+    if (list == PARAMETERS)
+        text_fmt(spell->out, " [[texture(%u)]]",
+                 (unsigned)(spell->target->first_resource + r->binding));
+    spell_text(spell, ends[list]);
+}
+
 /* MaterialX's order: lights, textures, blocks. */
 static void list_bound(struct spell *spell, enum list list)
 {
@@ -254,6 +275,8 @@ static void list_bound(struct spell *spell, enum list list)
     list_block(spell, list, BLOCK_PUBLIC_UNIFORMS);
     for (int block = BLOCK_OWN; block < NUM_BLOCKS; block++)
         list_block(spell, list, (enum shader_block)block);
+    SPELL_EACH_RESOURCE(r, spell)
+    list_resource(spell, list, &r);
 }
 
 /* ---- The context ---- */
@@ -281,7 +304,7 @@ static void write_inputs_and_outputs(struct spell *spell)
         SPELL(spell, "    ", spell_frame_name(spell, "VertexInputs"), " ",
               spell_instance(spell, BLOCK_APP_DATA), ";\n");
     SPELL(spell, "    ", vertex_data, " ", vd, ";\n");
-    if (!is_vertex(spell))
+    if (has_outputs(spell))
         SPELL(spell, "    ", spell_frame_name(spell, "PixelOutputs"), " ",
               spell_instance(spell, BLOCK_OUTPUTS), ";\n");
 }
@@ -318,9 +341,16 @@ static void close_context(struct spell *spell)
     spell_text(spell, "};\n");
     if (is_called(spell))
         return;
-    const char *entry = entry_name(spell);
-    SPELL(spell, "\n", is_vertex(spell) ? "vertex " : "fragment ",
-          spell_frame_name(spell, is_vertex(spell) ? "VertexData" : "PixelOutputs"), " ", entry);
+    const char *entry = entry_name(spell), *vd = spell_frame_name(spell, "vd");
+    const char *inputs = is_vertex(spell) ? spell_instance(spell, BLOCK_APP_DATA) : vd,
+               *outputs = is_vertex(spell) ? vd : spell_instance(spell, BLOCK_OUTPUTS);
+    bool returns = is_vertex(spell) || has_outputs(spell);
+    SPELL(spell, "\n", spell_tests_early(spell) ? "[[early_fragment_tests]]\n" : "",
+          is_vertex(spell) ? "vertex " : "fragment ",
+          is_vertex(spell) ? spell_frame_name(spell, "VertexData")
+          : returns        ? spell_frame_name(spell, "PixelOutputs")
+                           : "void",
+          " ", entry);
     write_parameters(spell);
     SPELL(spell, "    ", spell_frame_name(spell, "GlobalContext"), " context = {");
     size_t begin = spell->out->len;
@@ -331,10 +361,10 @@ static void close_context(struct spell *spell)
         spell->out->len -= 2;
         spell_text(spell, ", ");
     }
-    const char *vd = spell_frame_name(spell, "vd");
-    SPELL(spell, is_vertex(spell) ? spell_instance(spell, BLOCK_APP_DATA) : vd,
-          ", {}};\n    context.", entry, "();\n    return context.",
-          is_vertex(spell) ? vd : spell_instance(spell, BLOCK_OUTPUTS), ";\n}\n");
+    SPELL(spell, inputs, returns ? ", {}};\n" : "};\n", "    context.", entry, "();\n");
+    if (returns)
+        SPELL(spell, "    return context.", outputs, ";\n");
+    spell_text(spell, "}\n");
 }
 
 const struct target_frame msl_frame = {.declare = declare,

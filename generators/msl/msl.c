@@ -63,9 +63,8 @@ static const char *const type_names[IR_NUM_TYPES] = {
 };
 
 static const char *const phrases[NUM_PHRASES] = {
-    [PHRASE_CONSTANT] = "constant $T $N = $V;",
-    [PHRASE_PARAM_OUT] = "thread $T& $N",
-    [PHRASE_PARAM_INOUT] = "thread $T& $N",
+    [PHRASE_CONSTANT] = "constant $T $N = $V;", [PHRASE_ARRAY] = "array<$T, $L>",
+    [PHRASE_PARAM_OUT] = "thread $T& $N",       [PHRASE_PARAM_INOUT] = "thread $T& $N",
     [PHRASE_DISCARD] = "discard_fragment()",
 };
 
@@ -93,6 +92,20 @@ static const char *const instances[NUM_BLOCKS] = {
     [BLOCK_OUTPUTS] = "out",
 };
 
+static const struct target_function functions[] = {
+#define FUNCTION(name, text) {name, text},
+#include "generators/msl/functions.def"
+#undef FUNCTION
+    {NULL, NULL},
+};
+
+static const struct target_image images[] = {
+#define IMAGE(kind, format, access, type, load, store) {kind, format, access, type, load, store},
+#include "generators/msl/images.def"
+#undef IMAGE
+    {.kind = NULL},
+};
+
 static const char *const versions[] = {"2.3", "3.0", NULL};
 
 const struct target target_msl = {
@@ -101,13 +114,16 @@ const struct target target_msl = {
     .brief = "Metal Shading Language 2.3 and 3.0",
     .caps = CAP_VERTEX_STAGE | CAP_OVERLOADS | CAP_BITWISE | CAP_IMPLICIT_LOD | CAP_TEXTURE_ARRAYS
             | CAP_UNIFORM_BLOCKS | CAP_BINDINGS | CAP_OWN_NUMBERS | CAP_BLOCK_STAGE_IO
-            | CAP_SAMPLERS | CAP_HOST_FILES,
+            | CAP_SAMPLERS | CAP_HOST_FILES | CAP_STORES,
     .max_textures = 16, /* section 2.10: samplers of a function */
     .versions = versions,
     .syntax = &syntax,
     .frame = &msl_frame,
     .form = msl_form,
     .maker = spell_helper_maker,
+    .functions = functions,
+    .first_resource = 16, /* behind the textures that have samplers, and buffers of uniforms */
+    .images = images,
     .packing = PACKING_METAL,
     .instances = instances,
     .position = ".pos",

@@ -389,7 +389,7 @@ static struct osl_tree start(struct shader *shader, const struct closure_host *h
 }
 
 static bool emit(struct shader *shader, const struct closure_host *host, ir_ref root,
-                 str_id *out_unknown)
+                 const char **out_lacks)
 {
     struct osl_tree t = start(shader, host);
     ir_ref front = root, back = 0,
@@ -411,8 +411,8 @@ static bool emit(struct shader *shader, const struct closure_host *host, ir_ref 
     shader->reflection.kind =
         type == IR_TYPE_VOLUME || type == IR_TYPE_VDF ? SHADER_VOLUME : SHADER_SURFACE;
     emit_sides(&t, front, back);
-    *out_unknown = t.unknown;
-    return !t.unknown;
+    *out_lacks = t.lacks;
+    return !t.lacks;
 }
 
 const struct target_closures osl_closures = {.emit = emit};
@@ -441,7 +441,7 @@ static void emit_output(struct osl_tree *t, const struct network_output *of)
 }
 
 bool osl_emit_node(struct shader *shader, const struct closure_host *host,
-                   const struct network_output *outputs, unsigned n, str_id *out_unknown)
+                   const struct network_output *outputs, unsigned n, const char **out_lacks)
 {
     struct osl_tree t = start(shader, host);
     shader->reflection.kind = SHADER_VALUE;
@@ -454,6 +454,6 @@ bool osl_emit_node(struct shader *shader, const struct closure_host *host,
     const struct effect_list *effects = &shader->stages[STAGE_PIXEL].effects;
     for (uint32_t i = 0; i < effects->len; i++)
         add_closures(&t, effects->items[i].value);
-    *out_unknown = t.unknown;
-    return good && !t.unknown;
+    *out_lacks = t.lacks;
+    return good && !t.lacks;
 }

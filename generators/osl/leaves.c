@@ -525,7 +525,11 @@ ir_ref osl_leaf(struct osl_tree *t, ir_ref ref)
     } else if (node.type == IR_TYPE_VDF) {
         result = medium(t, ref);
     } else {
-        t->unknown = family;
+        struct text lacks;
+        text_init(&lacks, t->shader->arena);
+        text_fmt(&lacks, "no closure for '%s', and a function cannot replace it",
+                 str_text(t->shader->strings, family));
+        t->lacks = text_cstr(&lacks);
     }
     return osl_scaled(t, result, ir_arg(t->graph, ref, 0));
 }

@@ -20,7 +20,7 @@ struct osl_tree {
     bool seen_through;    /* rays come straight through the surface, and see it from behind */
     uint32_t *aovs;       /* the outputs of the shader's AOVs */
     struct table counted; /* the leaves among the shader's closures */
-    str_id unknown;       /* the family of a leaf without an OSL closure; 0: none */
+    const char *lacks;    /* what OSL lacks for a leaf (struct target_closures); NULL: nothing */
 };
 
 /*
@@ -36,7 +36,7 @@ ir_ref osl_sum(struct osl_tree *tree, ir_ref a, ir_ref b);
 ir_ref osl_mixed(struct osl_tree *tree, ir_ref bg, ir_ref fg, ir_ref mix);
 ir_ref osl_layered(struct osl_tree *tree, ir_ref top, ir_ref base);
 
-/* leaves.c: the closure of a LEAF node; 0, and tree->unknown, if it has none. */
+/* leaves.c: the closure of a LEAF node; 0, and tree->lacks, if it has none. */
 ir_ref osl_leaf(struct osl_tree *tree, ir_ref leaf);
 
 /* combine.c: true if the ray comes from behind the surface. */
@@ -48,6 +48,6 @@ bool osl_is_false(const struct osl_tree *tree, ir_ref value);
 /* closures.c: hooks of the target. */
 extern const struct target_closures osl_closures;
 bool osl_emit_node(struct shader *shader, const struct closure_host *host,
-                   const struct network_output *outputs, unsigned n, str_id *out_unknown);
+                   const struct network_output *outputs, unsigned n, const char **out_lacks);
 
 #endif

@@ -74,6 +74,15 @@ static void write_buffer(struct spell *spell)
     spell_text(spell, "};\n");
 }
 
+static void write_resources(struct spell *spell)
+{
+    SPELL_EACH_RESOURCE(r, spell)
+    {
+        hlsl_image(spell, &r);
+        spell_text(spell, ";\n");
+    }
+}
+
 static void declare_for_function(struct spell *spell)
 {
     spell_structs(spell);
@@ -91,6 +100,7 @@ static void declare(struct spell *spell)
     spell_title(spell);
     SPELL(spell, "\n// Slang ", version, "\n\n");
     declare_for_function(spell);
+    write_resources(spell);
     hlsl_declare_io(spell, &io);
 }
 

@@ -47,11 +47,6 @@ static const char *const helpers[NUM_HLSL_HELPERS] = {
 #undef HELPER
 };
 
-static const struct lang_pieces *form(void *user_data, const struct lang_use *use)
-{
-    return hlsl_form_of(user_data, use, helpers);
-}
-
 static const char *const versions[] = {"2025.3", NULL};
 
 const struct target target_slang = {
@@ -59,11 +54,15 @@ const struct target target_slang = {
     .materialx_name = "genslang",
     .brief = "Slang 2025.3, with the names of MaterialX's generator",
     .caps = CAP_VERTEX_STAGE | CAP_OVERLOADS | CAP_BITWISE | CAP_IMPLICIT_LOD | CAP_TEXTURE_ARRAYS
-            | CAP_BLOCK_STAGE_IO | CAP_SAMPLERS | CAP_HOST_FILES,
+            | CAP_BLOCK_STAGE_IO | CAP_SAMPLERS | CAP_HOST_FILES | CAP_STORES,
     .versions = versions,
     .syntax = &syntax,
     .frame = &slang_frame,
-    .form = form,
+    .form = hlsl_form,
+    .helpers = helpers,
+    .array_type = "typealias $N = $T[$L];",
+    .functions = hlsl_functions,
+    .images = hlsl_images,
     .position = ".position",
     .stage_suffix = {"vert.slang", "frag.slang"},
 };

@@ -10,7 +10,7 @@ const struct target target_vulkan = {
     .base = &target_glsl,
     .brief = "GLSL 4.50 for SPIR-V and Vulkan",
     .caps = GLSL_CAPS | CAP_UNIFORM_BLOCKS | CAP_BINDINGS | CAP_SETS | CAP_BLOCK_STAGE_IO
-            | CAP_STORES | CAP_MEDIUMP | CAP_TWO_SOURCES,
+            | CAP_STORES | CAP_PASSES | CAP_MEDIUMP | CAP_TWO_SOURCES,
     .versions = versions,
     .syntax = &glsl_syntax,
     .stage_suffix = {"vert", "frag"},

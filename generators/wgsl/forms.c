@@ -160,7 +160,7 @@ static const struct lang_pieces *convert(struct spell *spell, const struct lang_
     if (!is_matrix(from) || !is_matrix(to) || from == to)
         return NULL;
     static const uint8_t helpers[5][5] = {
-        [2] = {[3] = HELPER_TO_2_FROM_3, [4] = HELPER_TO_2_FROM_4},
+        [2] = {[3] = HELPER_TO_2, [4] = HELPER_TO_2},
         [3] = {[2] = HELPER_TO_3_FROM_2, [4] = HELPER_TO_3_FROM_4},
         [4] = {[2] = HELPER_TO_4_FROM_2, [3] = HELPER_TO_4_FROM_3},
     };

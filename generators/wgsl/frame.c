@@ -95,8 +95,9 @@ static void write_located(struct spell *spell, const struct shader_variable *var
 /* Both stages declare the whole struct, also members that they do not read, so that they match. */
 static void write_vertex_data(struct spell *spell)
 {
-    SPELL(spell, "struct ", spell_frame_name(spell, "VertexData"),
-          " {\n    @builtin(position) position: vec4f,\n");
+    bool agrees = spell->stage_id == STAGE_VERTEX && spell->shader->role->stages == STAGES_OF_PASS;
+    SPELL(spell, "struct ", spell_frame_name(spell, "VertexData"), " {\n    ",
+          agrees ? "@invariant " : "", "@builtin(position) position: vec4f,\n");
     SPELL_EACH_OF_BLOCK(i, spell, BLOCK_VERTEX_DATA)
     {
         spell_indent(spell, 1);

@@ -2,9 +2,22 @@
 /* The deferred pipeline in a generation, for materials and for the passes that light them. */
 #include "api/generation.h"
 
+#include "parse/parse.h"
 #include "slabs/bytes.h"
 
 #include <assert.h>
+
+static const struct lang_unit *parse_program(struct shader *shader, const struct text *text)
+{
+    struct lang_unit *unit = ARENA_NEW(shader->arena, struct lang_unit);
+    struct diag_list faults;
+    diag_list_init(&faults, shader->arena);
+    lang_unit_init(unit, shader->arena, shader->strings, NULL);
+    uint32_t file = lang_parse_program(unit, "mxgen", text->data, text->len, &faults);
+    assert(file == 0 && !faults.num_errors);
+    (void)file;
+    return unit;
+}
 
 struct deferred_layout generation_storage(const struct generation *g)
 {
@@ -15,6 +28,10 @@ struct deferred_layout generation_storage(const struct generation *g)
             is_payload ? STORAGE_ROUND : (enum deferred_storage)options[OPTION_storage].number,
         .set = (uint32_t)options[OPTION_binding_set].number + 1,
         .sets = g->result->target->caps & CAP_SETS,
+        .has_bindings =
+            g->result->target->syntax->in_images || g->result->target->caps & CAP_BINDINGS,
+        .first = g->result->target->first_resource,
+        .parse = g->result->target->syntax->in_images ? NULL : parse_program,
         .is_payload = is_payload,
         .diffuses = options[OPTION_sss].number != 0,
         .blurs = !is_payload && options[OPTION_rough_refraction].number,

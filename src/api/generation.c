@@ -259,9 +259,8 @@ void generation_report_not_renderable(struct generation *g, const char *why)
     const struct document *doc = &g->document->layer.doc;
     struct text unknown;
     text_init(&unknown, &g->scratch);
-    if (g->unknown_leaf) {
-        text_fmt(&unknown, "%s has no closure for '%s', and a function cannot replace it",
-                 g->result->target->name, str_text(doc->strings, g->unknown_leaf));
+    if (g->lacks) {
+        text_fmt(&unknown, "%s has %s", g->result->target->name, g->lacks);
         why = text_cstr(&unknown);
     }
     diag_add(diags_of(g), DIAG_ID_not_renderable, doc_place(doc, g->element),
@@ -328,6 +327,8 @@ void generation_start_closures(struct generation *g)
     if (g->result->shader.role->lights == LIGHTS_IN_SHADER)
         build_lights(g->builder, lights->list.items, lights->list.len, lights->is_set);
     g->closure_host = build_closure_host(g->builder, &g->point);
+    if (g->result->target->closures && g->result->target->closures->lacks_view)
+        g->point.view = closure_normal(&g->result->shader, &g->closure_host);
     g->lighting = (struct closure_lighting){
         .lights = has_lights(g),
         .environment = g->options[OPTION_environment].number != 0,
@@ -370,7 +371,7 @@ static bool emit(struct generation *g)
     struct shader *shader = &g->result->shader;
     const struct target_closures *closures = g->result->target->closures;
     if (closures)
-        return closures->emit(shader, &g->closure_host, g->root, &g->unknown_leaf);
+        return closures->emit(shader, &g->closure_host, g->root, &g->lacks);
     return closure_emit(shader, &g->closure_host, &g->lighting, g->root);
 }
 

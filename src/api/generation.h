@@ -66,7 +66,7 @@ struct generation {
     struct closure_point point;
     struct closure_lighting lighting;
     ir_ref root;
-    str_id unknown_leaf; /* the family of a leaf for which the target has no closure; 0: none */
+    const char *lacks; /* by what the target cannot have the closures; NULL: it can */
     struct arena scratch;
     struct arena estimates;   /* of the looks of slabs; empty between them */
     struct file_source files; /* the files that the generation reads */

@@ -56,8 +56,8 @@ static bool emit_node(struct generation *g, struct shader *shader, struct networ
         outputs[i].name = build_network_output(builder, node, i, &outputs[i].doc_type);
     }
     struct closure_host host = build_closure_host(builder, point);
-    bool is_emitted = g->result->target->network->emit_node(shader, &host, outputs,
-                                                            node->num_outputs, &g->unknown_leaf);
+    bool is_emitted =
+        g->result->target->network->emit_node(shader, &host, outputs, node->num_outputs, &g->lacks);
     ir_assert_valid(shader->graph, "after closures");
     if (!tell_own_faults(g, own) || !is_emitted
         || !generation_effects_are_defined(g, shader, g->element))

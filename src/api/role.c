@@ -34,6 +34,7 @@ static const struct ability {
     uint32_t cap;
     const char *text;
 } abilities[] = {{CAP_STORES, "store slabs"},
+                 {CAP_PASSES, "have passes"},
                  {CAP_TWO_SOURCES, "blend with two sources"},
                  {CAP_HOST_FILES, "be a function in a file of the host"},
                  {CAP_LIGHTING, "compute light in the shader"},
@@ -165,7 +166,10 @@ bool generation_find_role(struct generation *g)
     if (!is_pass)
         g->role = role_of_options(g);
     const struct role *asked = is_pass ? check_pass(g) : g->role;
-    check_target(g, option_key(OPTION_role), asked->name, asked->caps);
+    if (is_pass)
+        check_target(g, "pass", deferred_pass_name(g->result->pass), g->role->caps);
+    else
+        check_target(g, option_key(OPTION_role), asked->name, asked->caps);
     if (has_value(g, OPTION_transparency, "dual"))
         check_target(g, option_key(OPTION_transparency), "dual", CAP_TWO_SOURCES);
     check_tasks(g, asked);

@@ -129,7 +129,8 @@ static void put_storage(const struct deferred_layout *layout, enum deferred_bind
     json_put_text(json, "format", r->format);
     if (layout->sets)
         json_put_number(json, "set", layout->set);
-    json_put_number(json, "binding", binding);
+    if (layout->has_bindings)
+        json_put_number(json, "binding", layout->first + binding);
     json_put_nonzero(json, "layers", r->layers);
     json_put_nonzero(json, "size", r->size);
 }

@@ -269,8 +269,9 @@ const struct source_leaf *closure_source(const struct shader *shader, ir_ref lea
 bool closure_has(const struct shader *shader, const struct closure_host *host, ir_ref leaf,
                  enum leaf_function which);
 
-/* Unit direction to the viewer. */
+/* Unit direction to the viewer, and the unit normal. */
 ir_ref closure_view(struct shader *shader, const struct closure_host *host);
+ir_ref closure_normal(struct shader *shader, const struct closure_host *host);
 
 /* occlusion_maps.c: the part of the environment's light that reaches the point, by the host's map.
  */

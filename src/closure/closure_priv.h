@@ -31,7 +31,6 @@ void closure_describe_weight(const struct shader *shader, const struct closure_l
                              struct text *out);
 
 /* Its unit normal. */
-ir_ref closure_normal(struct shader *shader, const struct closure_host *host);
 
 /* closure_call for functions with several results; false if the family lacks the function. */
 bool closure_call_all(struct shader *shader, const struct closure_host *host, ir_ref leaf,

@@ -24,8 +24,15 @@ enum deferred_storage { STORAGE_DITHER, STORAGE_ROUND, STORAGE_FLOAT };
 /* The texts of all passes agree by these values. */
 struct deferred_layout {
     enum deferred_storage storage;
-    uint32_t set;    /* of the resources below */
-    bool sets;       /* the target has descriptor sets */
+    uint32_t set;      /* of the resources below */
+    bool sets;         /* the target has descriptor sets */
+    bool has_bindings; /* the target says where resources are bound; otherwise its compiler does */
+    uint32_t first;    /* the binding of the first resource */
+    /*
+     * Parses a program (parse/parse.h) without faults, in the shader's arena; NULL: the target's
+     * language is that of the texts
+     */
+    const struct lang_unit *(*parse)(struct shader *shader, const struct text *text);
     bool is_payload; /* of a ray, in place of a pixel */
     bool diffuses;   /* the option `sss`: the pass "diffuse" spreads the light of bodies */
     bool blurs;      /* the option `rough-refraction`: the pass "blur" */

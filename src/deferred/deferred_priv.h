@@ -5,10 +5,19 @@
 
 #include "deferred/deferred.h"
 
+#include "shader/verbatim.h"
+
 /* passes.c: writes lines of texts.h. */
 void deferred_write_lines(const char *const *lines, struct text *out);
 /* Writes the numbers that C and the texts share, and record.glsl: the first part of every pass. */
 void deferred_write_storage(const struct deferred_layout *layout, struct text *out);
+
+/*
+ * program.c: writes texts of passes as a program (parse/parse.h) that reads and writes these
+ * resources.
+ */
+void deferred_make_program(const char *glsl, const struct source_resources *resources,
+                           struct text *out);
 
 /* closure.c, for record.glsl: the struct MxClosure. */
 void deferred_write_struct(struct text *out);

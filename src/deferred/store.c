@@ -293,6 +293,11 @@ static void store_leaf(struct shader *shader, const struct closure_leaf *leaf, b
     shader_add_closure(shader, leaf->leaf);
 }
 
+/* Outputs of a program are those of the shader. finished: the result of mx_finish_closures. */
+static const char stored_word[] = "uint mx_stored_word(int finished, int index)\n{\n"
+                                  "    return index == 0 ? mx_word0 : index == 1 ? mx_word1 "
+                                  ": mx_word2;\n}\n";
+
 static uint32_t add_source(struct shader *shader, const struct deferred_layout *layout)
 {
     bool has_layers =
@@ -302,13 +307,23 @@ static uint32_t add_source(struct shader *shader, const struct deferred_layout *
     text_init(&text, shader->arena);
     deferred_write_storage(layout, &text);
     text_fmt(&text, "#define MX_WORDS %u\n", (unsigned)shader->reflection.stored_words);
-    if (has_layers)
+    if (has_layers && !layout->parse)
         deferred_declare(RESOURCE_WORDS, layout, false, true, &text);
     deferred_write_lines(layout->is_payload ? deferred_pack : deferred_write, &text);
     if (has_layers && layout->storage == STORAGE_FLOAT)
         deferred_write_put(&text);
     deferred_write_lines(deferred_store_closure, &text);
     deferred_write_store(&text);
+    if (layout->parse) {
+        struct source_resources resources = {.writes = has_layers ? 1u << RESOURCE_WORDS : 0,
+                                             .set = layout->set};
+        struct text program;
+        text_init(&program, shader->arena);
+        text_str(&text, layout->is_payload ? "" : stored_word);
+        deferred_make_program(text_cstr(&text), &resources, &program);
+        return shader_add_program(shader, str_intern(shader->strings, program.data, program.len),
+                                  layout->parse(shader, &program), resources);
+    }
     uint32_t source = shader_add_source(shader, str_intern(shader->strings, text.data, text.len),
                                         NULL, 0, &fault);
     assert(source != UINT32_MAX);
@@ -327,13 +342,31 @@ static void write_color(struct shader *shader, ir_ref emission)
     assign(shader, EFFECT_OUTPUT, out, ir_construct(g, IR_TYPE_VEC4, parts, 2));
 }
 
+/* Outputs of words, by the function of the program that has them by number. */
+static void write_words(struct shader *shader, const char *function, const char *name,
+                        uint32_t source, ir_ref stored, int num)
+{
+    for (int i = 0; i < num; i++) {
+        struct text text;
+        text_init(&text, shader->arena);
+        text_fmt(&text, name, i);
+        str_id word = str_intern(shader->strings, text.data, text.len);
+        ir_ref place[2] = {stored, ir_const_int(shader->graph, i)};
+        assign(shader, EFFECT_OUTPUT, shader_output(shader, word, IR_TYPE_UINT),
+               call(shader, function, IR_TYPE_UINT, source, place, 2));
+    }
+}
+
 /* The end of a material pass. */
-static void finish_pass(struct shader *shader, uint32_t source, uint32_t local, ir_ref emission)
+static void finish_pass(struct shader *shader, const struct deferred_layout *layout,
+                        uint32_t source, uint32_t local, ir_ref emission)
 {
     ir_ref stored = ir_build(shader->graph, IR_LOCAL, IR_TYPE_INT, local, NULL, 0);
     assign(shader, EFFECT_ASSIGN, local,
            call(shader, "mx_finish_closures", IR_TYPE_INT, source, &stored, 1));
     write_color(shader, emission);
+    if (layout->parse)
+        write_words(shader, "mx_stored_word", "word%d", source, stored, DEFERRED_TARGET_WORDS);
 }
 
 /* ---- Payloads ---- */
@@ -366,15 +399,7 @@ static void finish_payload(struct shader *shader, uint32_t source, uint32_t loca
         args[2] = ir_const_float(g, 1.0f);
     assign(shader, EFFECT_ASSIGN, local,
            call(shader, "mx_finish_payload", IR_TYPE_INT, source, args, 3));
-    for (int i = 0; i < DEFERRED_PAYLOAD_WORDS; i++) {
-        struct text name;
-        text_init(&name, shader->arena);
-        text_fmt(&name, "word_%d", i);
-        str_id word = str_intern(shader->strings, name.data, name.len);
-        ir_ref place[2] = {stored, ir_const_int(g, i)};
-        assign(shader, EFFECT_OUTPUT, shader_output(shader, word, IR_TYPE_UINT),
-               call(shader, "mx_payload_word", IR_TYPE_UINT, source, place, 2));
-    }
+    write_words(shader, "mx_payload_word", "word_%d", source, stored, DEFERRED_PAYLOAD_WORDS);
 }
 
 /* ---- Entry ---- */
@@ -404,5 +429,5 @@ void deferred_store(struct shader *shader, const struct closure_host *host,
     if (layout->is_payload)
         finish_payload(shader, source, local, emission, surface->alpha);
     else
-        finish_pass(shader, source, local, emission);
+        finish_pass(shader, layout, source, local, emission);
 }

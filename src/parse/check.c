@@ -268,6 +268,9 @@ bool check_assignable(struct parser *p, lang_ref target, const char *doing)
             return refuse_assignment(p, target, doing, "a component stands in it twice");
         node = tree_node(p, node->a);
     }
+    if (node->kind == LANG_GLOBAL && p->is_program
+        && lang_global(p->unit, node->a, NULL)->kind != LANG_GLOBAL_CONST)
+        return true;
     if (node->kind == LANG_GLOBAL) {
         static const char *const reasons[] = {[LANG_GLOBAL_CONST] = "it is a constant",
                                               [LANG_GLOBAL_UNIFORM] = "it is a uniform",

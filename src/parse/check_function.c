@@ -154,7 +154,7 @@ bool check_finish_functions(struct parser *p, uint32_t first_function)
     struct body body = {.p = p};
     for (uint32_t i = 0; i < num; i++) {
         struct lang_function *function = &unit->functions.items[first + i];
-        if (!function->body)
+        if (!function->body && !p->is_program)
             PARSE_TYPE_ERROR(p, function->place, "'%s' is declared here but nowhere defined",
                              parse_text(p, function->name));
         find_uses(&body, function);

@@ -251,6 +251,43 @@ static void parse_globals(struct parser *p)
     parse_expect(p, TOKEN_SEMICOLON);
 }
 
+/* Variables of a program */
+
+/* The words of a first value; none: it has no value. */
+static void parse_first_value(struct parser *p, const struct token *at, struct lang_global *global)
+{
+    struct parse_mark mark = parse_mark(p->unit);
+    lang_ref value = parse_initialiser(p, global->type, false);
+    if (value && !check_words(p, value, &global->words, &global->num_words))
+        PARSE_ERROR(p, parse_where_token(p, at), lang_not_constant,
+                    parse_say(p, "the value of '%s'", parse_text(p, global->name)));
+    parse_drop_tree(p, &mark, global->num_words);
+    global->words = mark.words;
+}
+
+static void parse_variable(struct parser *p, const struct token *at, str_id name, ir_type_id type)
+{
+    struct lang_global global = {.name = name, .kind = LANG_GLOBAL_VARIABLE, .type = type};
+    if (p->token.kind == TOKEN_OPEN_INDEX)
+        global.type = parse_array_suffix(p, type, NULL);
+    if (parse_accept(p, TOKEN_SET))
+        parse_first_value(p, at, &global);
+    if (global.type != IR_TYPE_VOID)
+        declare_global(p, at, global, false);
+}
+
+static void parse_variables(struct parser *p, const struct token *at, str_id name, ir_type_id type)
+{
+    parse_variable(p, at, name, type);
+    while (!p->panic && parse_accept(p, TOKEN_COMMA)) {
+        struct token next = p->token;
+        str_id other = parse_name(p);
+        if (other)
+            parse_variable(p, &next, other, type);
+    }
+    parse_expect(p, TOKEN_SEMICOLON);
+}
+
 /* Functions */
 
 /* [const] [in|out|inout] TYPE [NAME] */
@@ -458,6 +495,10 @@ static void parse_function_or_global(struct parser *p)
     str_id name = p->panic ? 0 : parse_name(p);
     if (!name)
         return;
+    if (p->token.kind != TOKEN_OPEN && p->is_program) {
+        parse_variables(p, &at, name, type);
+        return;
+    }
     if (p->token.kind != TOKEN_OPEN) {
         PARSE_TYPE_ERROR(p, parse_place(&at),
                          "'%s' must be const, uniform or in: there are no other global variables",

@@ -216,6 +216,11 @@ static lang_ref parse_selector(struct parser *p, lang_ref a)
     return tree_const(p, &value, parse_place(&name));
 }
 
+static bool is_step(enum token_kind kind)
+{
+    return kind == TOKEN_INCREMENT || kind == TOKEN_DECREMENT;
+}
+
 static lang_ref parse_postfix(struct parser *p)
 {
     lang_ref a = parse_primary(p);
@@ -228,6 +233,10 @@ static lang_ref parse_postfix(struct parser *p)
             if (!parse_expect(p, TOKEN_CLOSE_INDEX))
                 return 0;
             a = a && index ? check_index(p, a, index, place) : 0;
+        } else if (p->is_program && is_step(p->token.kind)) {
+            enum token_kind kind = p->token.kind;
+            parse_advance(p);
+            a = a ? parse_step_inside(p, kind, a, false, place) : 0;
         } else {
             break;
         }
@@ -261,8 +270,15 @@ static lang_ref parse_unary(struct parser *p)
         parse_leave(p);
         return a;
     }
-    default: return parse_postfix(p);
+    default: break;
     }
+    enum token_kind kind = p->token.kind;
+    uint32_t place = parse_place(&p->token);
+    if (!p->is_program || !is_step(kind))
+        return parse_postfix(p);
+    parse_advance(p);
+    lang_ref a = parse_postfix(p);
+    return a ? parse_step_inside(p, kind, a, true, place) : 0;
 }
 
 static lang_ref parse_binary(struct parser *p, unsigned min_precedence)
@@ -290,6 +306,7 @@ lang_ref parse_expression(struct parser *p)
         lang_ref b = parse_expression(p);
         lang_ref c = parse_expect(p, TOKEN_COLON) ? parse_expression(p) : 0;
         a = a && b && c ? check_select(p, a, b, c, place) : 0;
+        a = a && p->is_program ? parse_choice(p, a) : a;
     }
     parse_leave(p);
     return p->panic ? 0 : a;

@@ -228,3 +228,13 @@ uint32_t lang_parse_file(struct lang_unit *unit, const struct lang_reader *reade
 {
     return parse_file(unit, reader, from, ref, where, diags, NULL);
 }
+
+uint32_t lang_parse_program(struct lang_unit *unit, const char *name, const char *text, size_t len,
+                            struct diag_list *diags)
+{
+    struct parser p;
+    parse_init(&p, unit, diags);
+    p.file_name = name;
+    p.is_program = true;
+    return parse_text_of_file(&p, str_intern_z(unit->strings, name), text, len);
+}

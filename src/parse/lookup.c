@@ -209,3 +209,37 @@ const char *lookup_suggest(struct parser *p, const char *word, enum lookup_sugge
         suggest_types(p, &guess);
     return diag_guess_text(&guess);
 }
+
+/* New locals */
+
+static void check_redeclared(struct parser *p, str_id name, const struct token *at)
+{
+    for (uint32_t i = p->scope; i < p->locals.len; i++)
+        if (name && p->locals.items[i].name == name) {
+            PARSE_ERROR(p, parse_where_token(p, at), redefinition, parse_text(p, name));
+            if (p->reported)
+                diag_add(p->diags, DIAG_ID_previous_definition,
+                         parse_where(p, p->locals.items[i].place, 0));
+            return;
+        }
+}
+
+struct local *parse_add_local(struct parser *p, const struct token *name_token, str_id name,
+                              ir_type_id type, bool is_const)
+{
+    check_redeclared(p, name, name_token);
+    uint32_t slot = p->unit->slots.len - p->first_slot;
+    if (slot >= UINT16_MAX) {
+        PARSE_ERROR(p, parse_where_token(p, name_token), lang_limit,
+                    "the function has too many variables");
+        p->panic = true;
+    }
+    vec_push(p->unit->arena, &p->unit->slots, (struct lang_slot){.name = name, .type = type});
+    vec_push(p->unit->arena, &p->locals,
+             (struct local){.name = name,
+                            .type = type,
+                            .slot = (uint16_t)slot,
+                            .read_only = is_const,
+                            .place = parse_place(name_token)});
+    return &vec_last(&p->locals);
+}

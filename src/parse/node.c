@@ -123,3 +123,11 @@ void tree_append(struct parser *p, struct tree_chain *chain, lang_ref ref)
         chain->first = ref;
     chain->last = ref;
 }
+
+void tree_join(struct parser *p, struct tree_chain *chain, struct tree_chain more)
+{
+    if (!more.first)
+        return;
+    tree_append(p, chain, more.first);
+    chain->last = more.last;
+}

@@ -23,6 +23,16 @@ struct lang_reader {
 uint32_t lang_parse_file(struct lang_unit *unit, const struct lang_reader *reader, const char *from,
                          const char *ref, struct diag_place where, struct diag_list *diags);
 
+/*
+ * Parses a program: functions that no node of a document calls and nothing evaluates, which are
+ * only printed. Beside the portable language it has variables at file scope, "++" and "--" inside
+ * of expressions (not of the conditions of loops), functions without a body, and assignments to
+ * uniforms and inputs: what the frame around the program declares. `name` stands in messages.
+ * LANG_NONE after errors, which go to diags.
+ */
+uint32_t lang_parse_program(struct lang_unit *unit, const char *name, const char *text, size_t len,
+                            struct diag_list *diags);
+
 struct lang_input {
     str_id name;
     ir_type_id type;

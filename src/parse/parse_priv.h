@@ -182,6 +182,10 @@ struct tree_origin { /* data of a node that only the parser needs */
     uint8_t height;  /* height as an expression */
 };
 
+struct tree_chain {
+    lang_ref first, last;
+};
+
 struct parser {
     struct lang_unit *unit;
     struct diag_list *diags;
@@ -199,7 +203,10 @@ struct parser {
     unsigned depth, num_errors;
     /* after a syntax error, until parse_recover: suppresses messages */
     bool panic;
-    bool stopped; /* stopped after too many errors */
+    bool stopped;    /* stopped after too many errors */
+    bool is_program; /* lang_parse_program */
+    /* of the current statement of a program: what comes before it */
+    struct tree_chain before;
     /* the last message was reported, so its notes may follow */
     bool reported;
     uint32_t first_node;             /* the first node of this parse … */
@@ -279,8 +286,22 @@ void parse_begin(struct parser *p, const char *file_name, const char *text, size
 
 void parse_declarations(struct parser *p); /* a whole file */
 void parse_define(struct parser *p);       /* after #define, to the end of the line */
-void parse_directive(struct parser *p);    /* file.c: at a TOKEN_DIRECTIVE */
-bool parse_at_type(struct parser *p);      /* true if a type begins here (a struct's name counts) */
+/* program.c */
+/*
+ * In a program, "++" or "--" before or behind a target inside of an expression: the value is a
+ * local, which p->before sets.
+ */
+lang_ref parse_step_inside(struct parser *p, enum token_kind kind, lang_ref target, bool is_prefix,
+                           uint32_t place);
+/*
+ * In a program, a choice of which only one arm may run: then p->before has a branch. Languages
+ * compute both operands of a choice.
+ */
+lang_ref parse_choice(struct parser *p, lang_ref choice);
+/* Empties p->before into a chain. */
+void parse_flush(struct parser *p, struct tree_chain *chain);
+void parse_directive(struct parser *p); /* file.c: at a TOKEN_DIRECTIVE */
+bool parse_at_type(struct parser *p);   /* true if a type begins here (a struct's name counts) */
 /* A type without array suffix; VOID, with *out_bad set, after an error. */
 ir_type_id parse_type(struct parser *p, bool may_be_void, bool *out_bad);
 /*
@@ -293,6 +314,10 @@ lang_ref parse_initialiser(struct parser *p, ir_type_id type, bool unsized);
 lang_ref parse_block(struct parser *p); /* from '{' to '}'; the caller opens the scope */
 bool parse_returns(const struct parser *p, lang_ref block); /* every path ends in a return */
 lang_ref parse_expression(struct parser *p); /* 0 after an error, which is already reported */
+
+/* lookup.c: a new variable of the function; type VOID if its declaration had an error */
+struct local *parse_add_local(struct parser *p, const struct token *name_token, str_id name,
+                              ir_type_id type, bool is_const);
 
 /* node.c: building nodes */
 
@@ -319,10 +344,8 @@ static inline ir_type_id tree_type(const struct parser *p, lang_ref ref)
     return p->unit->nodes.items[ref].type;
 }
 
-struct tree_chain {
-    lang_ref first, last;
-};
 void tree_append(struct parser *p, struct tree_chain *chain, lang_ref ref); /* ignores 0 */
+void tree_join(struct parser *p, struct tree_chain *chain, struct tree_chain more);
 
 /* types.c */
 

@@ -89,39 +89,6 @@ static bool check_local_type(struct parser *p, ir_type_id type, const struct tok
     return false;
 }
 
-static void check_redeclared(struct parser *p, str_id name, const struct token *at)
-{
-    for (uint32_t i = p->scope; i < p->locals.len; i++)
-        if (name && p->locals.items[i].name == name) {
-            PARSE_ERROR(p, parse_where_token(p, at), redefinition, parse_text(p, name));
-            if (p->reported)
-                diag_add(p->diags, DIAG_ID_previous_definition,
-                         parse_where(p, p->locals.items[i].place, 0));
-            return;
-        }
-}
-
-/* Declares a new variable of the function; type VOID if its declaration had an error. */
-static struct local *declare(struct parser *p, const struct token *name_token, str_id name,
-                             ir_type_id type, bool is_const)
-{
-    check_redeclared(p, name, name_token);
-    uint32_t slot = p->unit->slots.len - p->first_slot;
-    if (slot >= UINT16_MAX) {
-        PARSE_ERROR(p, parse_where_token(p, name_token), lang_limit,
-                    "the function has too many variables");
-        p->panic = true;
-    }
-    vec_push(p->unit->arena, &p->unit->slots, (struct lang_slot){.name = name, .type = type});
-    vec_push(p->unit->arena, &p->locals,
-             (struct local){.name = name,
-                            .type = type,
-                            .slot = (uint16_t)slot,
-                            .read_only = is_const,
-                            .place = parse_place(name_token)});
-    return &vec_last(&p->locals);
-}
-
 /*
  * Parses NAME [n] = value; the name is in scope after its initialiser. `unsized`: an array of
  * `type` with the length of the initialiser.
@@ -145,7 +112,7 @@ static lang_ref parse_declarator(struct parser *p, ir_type_id type, bool unsized
         parse_unexpected(p, is_const ? "the value of the constant" : "the elements of the array");
     if (unsized)
         type = value ? tree_type(p, value) : IR_TYPE_VOID;
-    struct local *local = declare(p, &name_token, name, type, is_const);
+    struct local *local = parse_add_local(p, &name_token, name, type, is_const);
     uint32_t num_words;
     local->has_value = value && is_const && type < IR_NUM_TYPES
                        && check_words(p, value, &local->words, &num_words);
@@ -166,9 +133,11 @@ static struct tree_chain parse_declaration(struct parser *p)
         ir_type_id array = parse_array_suffix(p, type, &unsized);
         type = unsized ? type : array;
     }
-    do
-        tree_append(p, &chain, parse_declarator(p, type, unsized, is_const));
-    while (!p->panic && parse_accept(p, TOKEN_COMMA));
+    do {
+        lang_ref ref = parse_declarator(p, type, unsized, is_const);
+        parse_flush(p, &chain);
+        tree_append(p, &chain, ref);
+    } while (!p->panic && parse_accept(p, TOKEN_COMMA));
     return chain;
 }
 
@@ -303,6 +272,16 @@ static lang_ref parse_if(struct parser *p, uint32_t place)
     return ref;
 }
 
+/* Each turn of a loop computes the condition, so nothing can come before it. */
+static lang_ref parse_loop_condition(struct parser *p)
+{
+    struct token at = p->token;
+    lang_ref condition = parse_condition(p);
+    if (p->before.first)
+        PARSE_SYNTAX_ERROR(p, &at, "the condition of a loop changes a variable");
+    return condition;
+}
+
 static lang_ref parse_loop_body(struct parser *p)
 {
     p->loops++;
@@ -336,7 +315,7 @@ static struct tree_chain parse_for(struct parser *p, uint32_t place)
     lang_ref condition = 0, step = 0;
     bool good = parse_expect(p, TOKEN_SEMICOLON);
     if (good && p->token.kind != TOKEN_SEMICOLON)
-        condition = parse_condition(p);
+        condition = parse_loop_condition(p);
     good = good && parse_expect(p, TOKEN_SEMICOLON);
     if (good && p->token.kind != TOKEN_CLOSE)
         step = parse_step(p);
@@ -357,7 +336,7 @@ static struct tree_chain parse_for(struct parser *p, uint32_t place)
 
 static lang_ref parse_while(struct parser *p, uint32_t place)
 {
-    lang_ref condition = parse_expect(p, TOKEN_OPEN) ? parse_condition(p) : 0;
+    lang_ref condition = parse_expect(p, TOKEN_OPEN) ? parse_loop_condition(p) : 0;
     if (!parse_expect(p, TOKEN_CLOSE))
         return 0;
     return loop_node(p, LANG_WHILE, condition, parse_loop_body(p), place);
@@ -371,7 +350,7 @@ static lang_ref parse_do(struct parser *p, uint32_t place)
     else
         parse_advance(p);
     if (parse_expect(p, TOKEN_OPEN))
-        condition = parse_condition(p);
+        condition = parse_loop_condition(p);
     return parse_expect(p, TOKEN_CLOSE) && parse_expect(p, TOKEN_SEMICOLON)
                ? loop_node(p, LANG_DO, condition, body, place)
                : 0;
@@ -432,14 +411,18 @@ static struct tree_chain parse_by_keyword(struct parser *p)
 
 static struct tree_chain parse_statement(struct parser *p)
 {
-    struct tree_chain chain = {0};
+    struct tree_chain chain = {0}, all = {0}, outer = p->before;
+    p->before = all;
     if (parse_enter(p)) {
         chain = parse_by_keyword(p);
         parse_leave(p);
     }
+    parse_flush(p, &all);
+    tree_join(p, &all, chain);
+    p->before = outer;
     if (p->panic)
         parse_recover(p, false);
-    return chain;
+    return all;
 }
 
 lang_ref parse_block(struct parser *p)
@@ -449,11 +432,7 @@ lang_ref parse_block(struct parser *p)
     if (!parse_expect(p, TOKEN_OPEN_BLOCK))
         return 0;
     while (p->token.kind != TOKEN_CLOSE_BLOCK && p->token.kind != TOKEN_END) {
-        struct tree_chain more = parse_statement(p);
-        if (!more.first)
-            continue;
-        tree_append(p, &chain, more.first);
-        chain.last = more.last;
+        tree_join(p, &chain, parse_statement(p));
     }
     parse_expect(p, TOKEN_CLOSE_BLOCK);
     assert(!chain.first == !chain.last);

@@ -138,7 +138,7 @@ const char *lang_member_name(const struct lang_style *style, const struct strpoo
         return text;
     struct text longer;
     text_init(&longer, style->arena);
-    text_fmt(&longer, "%s_", text);
+    text_fmt(&longer, "%s%s_", lang_syntax_beginning(style->syntax, text), text);
     return text_cstr(&longer);
 }
 

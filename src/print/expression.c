@@ -45,6 +45,7 @@ static struct text_word variant(struct printer *p, struct text_word name, uint32
     bool ends_low = name.len && name.bytes[name.len - 1] == '_';
     struct text text;
     text_init(&text, p->out->arena);
+    text_str(&text, lang_syntax_beginning(p->style->syntax, name.bytes));
     text_put(&text, name);
     if (!ends_low)
         text_char(&text, '_');
@@ -81,7 +82,8 @@ void print_variable(struct printer *p, enum lang_phrase phrase, uint32_t slot)
 static void print_local(struct printer *p, uint32_t slot)
 {
     assert(slot < p->fn->num_slots);
-    if (ast_slot(p->layer, p->fn, slot)->mode == LANG_IN)
+    bool is_plain = p->has_results || ast_slot(p->layer, p->fn, slot)->mode == LANG_IN;
+    if (is_plain)
         text_put(p->out, p->locals[slot]);
     else
         lang_put_phrase(p->style->phrases[PHRASE_REFERENCED], p->locals[slot], p->out);
@@ -112,16 +114,22 @@ static void print_reference(struct printer *p, const struct lang_node *node)
         print_expression(p, node, LANG_PREC_UNARY);
 }
 
-static void print_arguments(struct printer *p, const struct lang_node *call)
+void print_arguments(struct printer *p, const struct lang_node *call)
 {
     const struct lang_unit *layer;
     const struct lang_function *callee = lang_function(p->unit, call->a, &layer);
+    bool in_struct = p->style->syntax->results_in_struct, is_first = true;
     lang_ref ref = call->b;
     for (uint32_t i = 0; ref; i++) {
         const struct lang_node *node = node_at(p, ref);
         assert(i < callee->num_params);
-        text_str(p->out, i ? ", " : "");
-        if (ast_slot(layer, callee, i)->mode != LANG_IN)
+        uint8_t mode = ast_slot(layer, callee, i)->mode;
+        ref = node->next;
+        if (in_struct && mode == LANG_OUT)
+            continue;
+        text_str(p->out, is_first ? "" : ", ");
+        is_first = false;
+        if (mode != LANG_IN && !in_struct)
             print_reference(p, node);
         else
             print_expression(p, node, lang_argument_level(p->style->syntax));
@@ -130,8 +138,34 @@ static void print_arguments(struct printer *p, const struct lang_node *call)
             print_expression(p, node, LANG_PREC_POSTFIX);
             text_str(p->out, LANG_SAMPLER_SUFFIX);
         }
-        ref = node->next;
     }
+}
+
+/* "make_uint_4" in a language without array constructors; NULL: it has them. */
+static const char *array_maker(struct printer *p, ir_type_id type)
+{
+    struct lang_type_text text = lang_type_text(p->style, p->names, p->unit, type);
+    const char *name = print_array_name(p->names, text);
+    struct text maker;
+    if (!name)
+        return NULL;
+    text_init(&maker, p->out->arena);
+    text_fmt(&maker, "make_%s", name);
+    return text_cstr(&maker);
+}
+
+void print_initialiser(struct printer *p, const struct lang_node *node)
+{
+    bool is_array = node->kind == LANG_OP && node->op == IR_CONSTRUCT
+                    && ast_is_user_type(node->type)
+                    && lang_user_type(p->unit, node->type, NULL)->array_length;
+    if (!is_array) {
+        print_expression(p, node, LANG_PREC_ASSIGN);
+        return;
+    }
+    print_open_array(p->style, p->names, p->unit, node->type, p->out);
+    print_list(p, node->a);
+    text_char(p->out, p->style->syntax->array_braces ? '}' : ')');
 }
 
 static void print_construct(struct printer *p, const struct lang_node *node)
@@ -139,10 +173,14 @@ static void print_construct(struct printer *p, const struct lang_node *node)
     bool is_array =
         ast_is_user_type(node->type) && lang_user_type(p->unit, node->type, NULL)->array_length;
     bool is_struct = ast_is_user_type(node->type) && !is_array;
-    const char *maker = is_struct ? print_maker(p->names, p->unit, node->type) : NULL;
-    if (is_array) {
-        print_open_array(p->style, p->names, p->unit, node->type, p->out);
-    } else if (maker) {
+    const char *maker = is_struct  ? print_maker(p->names, p->unit, node->type)
+                        : is_array ? array_maker(p, node->type)
+                                   : NULL;
+    if (is_array && !maker) {
+        print_initialiser(p, node);
+        return;
+    }
+    if (maker) {
         text_str(p->out, maker);
         text_char(p->out, '(');
     } else {
@@ -150,7 +188,7 @@ static void print_construct(struct printer *p, const struct lang_node *node)
         text_char(p->out, '(');
     }
     print_list(p, node->a);
-    text_char(p->out, is_array && p->style->syntax->array_braces ? '}' : ')');
+    text_char(p->out, ')');
 }
 
 static void print_swizzle(struct printer *p, const struct lang_node *node)
@@ -289,6 +327,8 @@ static void print_op_or_part(struct printer *p, const struct lang_node *node,
 
 void print_expression(struct printer *p, const struct lang_node *node, enum lang_precedence least)
 {
+    if (print_result_value(p, node))
+        return;
     switch (node->kind) {
     case LANG_CONST:
         lang_print_value(p->style, p->unit->strings, node->type, ast_words(p->layer, node), least,

@@ -7,7 +7,8 @@
 static struct printer start(struct lang_style *style, const struct lang_names *names,
                             const struct lang_unit *unit, uint32_t id, struct text *out)
 {
-    struct printer p = {.style = style, .names = names, .unit = unit, .out = out};
+    struct printer p = {.style = style, .names = names, .unit = unit, .id = id, .out = out};
+    p.has_results = lang_has_results(style->syntax, unit, id);
     p.is_typed = lang_is_typed(style->syntax, names);
     p.fn = lang_function(unit, id, &p.layer);
     p.locals = arena_alloc(out->arena, p.fn->num_slots * sizeof *p.locals);
@@ -33,9 +34,10 @@ static struct text_word copied_name(struct printer *p, uint32_t slot)
     return (struct text_word){text_cstr(&name), name.len};
 }
 
-static enum lang_phrase param_phrase(const struct lang_slot *param)
+static enum lang_phrase param_phrase(const struct lang_syntax *syntax,
+                                     const struct lang_slot *param)
 {
-    if (param->mode != LANG_IN)
+    if (param->mode != LANG_IN && !syntax->results_in_struct)
         return param->mode == LANG_OUT ? PHRASE_PARAM_OUT : PHRASE_PARAM_INOUT;
     if (param->type == IR_TYPE_SAMPLER)
         return PHRASE_PLAIN;
@@ -46,8 +48,8 @@ static void print_param(struct printer *p, uint32_t slot)
 {
     const struct lang_slot *param = ast_slot(p->layer, p->fn, slot);
     struct text_word name = is_copied(p, param) ? copied_name(p, slot) : p->locals[slot];
-    lang_print_variable(p->style, p->names, p->unit, param_phrase(param), param->type, name,
-                        p->out);
+    lang_print_variable(p->style, p->names, p->unit, param_phrase(p->style->syntax, param),
+                        param->type, name, p->out);
     if (param->type == IR_TYPE_SAMPLER)
         lang_put_sampler(p->style, name, p->out);
 }
@@ -79,15 +81,22 @@ static void print_copies(struct printer *p)
 
 static void print_head(struct printer *p, uint32_t id)
 {
-    bool returns = p->fn->return_type != IR_TYPE_VOID;
+    bool returns = p->has_results || p->fn->return_type != IR_TYPE_VOID, is_first = true;
+    struct lang_type_text type =
+        p->has_results ? print_results_type(p, id)
+                       : lang_type_text(p->style, p->names, p->unit, p->fn->return_type);
+    const char *array = print_array_name(p->names, type);
+    if (array)
+        type = (struct lang_type_text){lang_word(array), 0};
     struct lang_declaration head =
-        lang_open(p->style, returns ? PHRASE_FUNCTION : PHRASE_PROCEDURE,
-                  lang_type_text(p->style, p->names, p->unit, p->fn->return_type),
+        lang_open(p->style, returns ? PHRASE_FUNCTION : PHRASE_PROCEDURE, type,
                   lang_word(print_function_name(p->names, p->unit, id)), p->out);
     for (uint32_t i = 0; i < p->fn->num_params; i++) {
-        if (i)
-            text_mem(p->out, ", ", 2);
+        if (p->has_results && ast_slot(p->layer, p->fn, i)->mode == LANG_OUT)
+            continue;
+        text_str(p->out, is_first ? "" : ", ");
         print_param(p, i);
+        is_first = false;
     }
     lang_declare(p->style, &head, p->out);
 }
@@ -98,11 +107,20 @@ void lang_print_function(struct lang_style *style, const struct lang_names *name
     if (print_from_image(style, names, unit, id, out))
         return;
     struct printer p = start(style, names, unit, id, out);
+    if (p.has_results)
+        print_results_struct(&p, id);
     print_head(&p, id);
     text_str(out, "\n{\n");
+    if (p.has_results)
+        print_result_locals(&p);
     print_constant_arrays(&p);
     print_copies(&p);
     print_body(&p, node_at(&p, p.fn->body));
     assert(p.num_visible == p.fn->num_params && p.indent == 0);
+    if (p.has_results && p.fn->return_type == IR_TYPE_VOID) {
+        text_str(out, "    ");
+        print_return_results(&p, id, 0);
+        text_str(out, ";\n");
+    }
     text_str(out, "}\n");
 }

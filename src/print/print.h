@@ -74,6 +74,7 @@ struct lang_syntax {
     const char *const *reserved; /* identifiers that must be renamed, sorted by byte value */
     uint32_t num_reserved;
     const char *reserved_prefix; /* no identifier begins with it; NULL: none */
+    bool begins_with_letter;     /* an identifier; otherwise it may begin with '_' */
     /*
      * [LANG_PREC_PRIMARY + 1], by the precedence of an infix operator: what its operands need, if
      * that is more than in C; 0: as in C. NULL: all are as in C.
@@ -82,8 +83,13 @@ struct lang_syntax {
     uint8_t argument_level; /* the precedence that an argument needs; 0: LANG_PREC_ASSIGN */
     /* parameters are read-only: an assigned parameter is copied to a local first */
     bool copies_params;
-    bool plain_scalars;    /* the language has no bool and uint: their literals are int literals */
-    bool arrays_are_local; /* functions declare the constant arrays that they read */
+    bool plain_scalars; /* the language has no bool and uint: their literals are int literals */
+    /*
+     * functions have no parameters for results: they return a struct of all results, which stands
+     * above the function (results.c). Needs a reserved_prefix.
+     */
+    bool results_in_struct;
+    bool arrays_are_local;    /* functions declare the constant arrays that they read */
     bool one_per_declaration; /* "float x, y;" is two declarations */
     bool always_braces;       /* also around a single statement */
     bool no_directives; /* nor prototypes: declarations stand in any order, and once in a file */
@@ -92,7 +98,9 @@ struct lang_syntax {
     /* max(v, vec3(0.0)), although the language also has max(v, 0.0) */
     bool wide_constants;
     bool lists_components; /* vec3(1.0, 1.0, 1.0), because the language has no vec3(1.0) */
-    bool array_braces;     /* array constructors are {a, b} instead of float[2](a, b) */
+    /* array constructors are {a, b} instead of float[2](a, b); behind PHRASE_ARRAY, if there is one
+     */
+    bool array_braces;
     /*
      * Constructors take as many components as they need: v.xy for vec2(v), and a product with the
      * identity for mat3(x).
@@ -133,6 +141,8 @@ const struct lang_form *lang_syntax_form(const struct lang_syntax *syntax, enum 
 const struct lang_form *lang_syntax_forms_alone(const struct lang_syntax *syntax);
 const char *lang_syntax_type(const struct lang_syntax *syntax, ir_type_id type);
 const char *lang_syntax_phrase(const struct lang_syntax *syntax, enum lang_phrase phrase);
+/* What an identifier needs before it, because none begins as it does: "x"; "": nothing. */
+const char *lang_syntax_beginning(const struct lang_syntax *syntax, const char *name);
 bool lang_syntax_is_reserved(const struct lang_syntax *syntax, const char *name, size_t len);
 
 /* style.c: a syntax prepared for printing, with the rows of its bases and with parsed forms. */
@@ -211,6 +221,12 @@ struct lang_names {
      */
     const char *(*maker)(void *user_data, const char *type);
     /*
+     * For a language whose arrays are no values (PHRASE_ARRAY is NULL): the name of the type of an
+     * array, for the result of a function; with "make_" before it the function that builds one. By
+     * the name of the element in the output. NULL: the language has array constructors.
+     */
+    const char *(*array)(void *user_data, struct text_word element, uint32_t length);
+    /*
      * The form of an op, also of CONSTRUCT, SWIZZLE and INDEX, for languages where types decide it;
      * NULL: the form of the syntax.
      */
@@ -237,6 +253,16 @@ const char *lang_member_name(const struct lang_style *style, const struct strpoo
                              str_id name);
 /* The suffix of the sampler beside a texture. No other name has it. */
 #define LANG_SAMPLER_SUFFIX "_sampler"
+
+/* results.c: functions of languages with results_in_struct, whose results are a struct. */
+
+/* "mdl_results_f": the struct of the results of a function, by its name in the output. */
+const char *lang_results_name(const struct lang_syntax *syntax, const char *function,
+                              struct arena *arena);
+/* The member of the value that the function returns in the portable language. */
+#define LANG_RESULTS_VALUE "value"
+/* True if a portable function returns such a struct. */
+bool lang_has_results(const struct lang_syntax *syntax, const struct lang_unit *unit, uint32_t id);
 
 /* declare.c: declarations by the phrases of the syntax. */
 

@@ -23,7 +23,7 @@ static void print_declaration(struct printer *p, const struct lang_node *node)
     print_variable(p, is_value ? PHRASE_VALUE : PHRASE_LOCAL, node->a);
     if (node->b) {
         text_mem(p->out, " = ", 3);
-        print_expression(p, node_at(p, node->b), LANG_PREC_ASSIGN);
+        print_initialiser(p, node_at(p, node->b));
     }
 }
 
@@ -162,6 +162,10 @@ static void print_simple(struct printer *p, const struct lang_node *node)
     case LANG_ASSIGN: print_assignment(p, node); break;
     case LANG_EXPR: print_expression(p, node_at(p, node->a), LANG_PREC_ASSIGN); break;
     case LANG_RETURN:
+        if (p->has_results) {
+            print_return_results(p, p->id, node->a);
+            break;
+        }
         text_str(p->out, node->a ? "return " : "return");
         if (node->a)
             print_expression(p, node_at(p, node->a), LANG_PREC_ASSIGN);
@@ -171,11 +175,32 @@ static void print_simple(struct printer *p, const struct lang_node *node)
     }
 }
 
+/* What a statement evaluates once, before anything else; 0: it is no such statement. */
+static lang_ref evaluated(const struct lang_node *node, lang_ref ref)
+{
+    switch (node->kind) {
+    case LANG_IF: return node->a;
+    case LANG_DECLARE:
+    case LANG_ASSIGN:
+    case LANG_EXPR:
+    case LANG_RETURN: return ref;
+    default: return 0;
+    }
+}
+
+/* A statement after the calls that it needs; an expression is such a call itself. */
+static void print_with_calls(struct printer *p, const struct lang_node *node)
+{
+    bool has_calls = print_result_calls(p, evaluated(node, (lang_ref)(node - node_at(p, 0))));
+    if (node->kind != LANG_EXPR || !has_calls)
+        print_statement(p, node);
+}
+
 static void print_statements(struct printer *p, lang_ref first)
 {
     for (lang_ref ref = first; ref;) {
         const struct lang_node *node = node_at(p, ref);
-        print_statement(p, node);
+        print_with_calls(p, node);
         ref = node->next;
     }
 }
@@ -187,7 +212,7 @@ void print_body(struct printer *p, const struct lang_node *body)
     if (body && body->kind == LANG_BLOCK)
         print_statements(p, body->a);
     else if (body)
-        print_statement(p, body);
+        print_with_calls(p, body);
     p->indent--;
     assert(p->num_visible >= mark);
     p->num_visible = mark;
@@ -236,11 +261,18 @@ static lang_ref else_if(const struct printer *p, const struct lang_node *node)
     return only && node_at(p, only)->kind == LANG_IF ? only : 0;
 }
 
+/* The `if` of an `else` whose condition needs no statements before it; 0: there is none. */
+static lang_ref chained_if(struct printer *p, const struct lang_node *node)
+{
+    lang_ref next = else_if(p, node);
+    return next && !print_has_result_calls(p, node_at(p, next)->a) ? next : 0;
+}
+
 /* If one branch of a chain needs braces, all have them. */
-static bool chain_needs_braces(const struct printer *p, const struct lang_node *node)
+static bool chain_needs_braces(struct printer *p, const struct lang_node *node)
 {
     for (;;) {
-        lang_ref next = else_if(p, node);
+        lang_ref next = chained_if(p, node);
         if (needs_braces(p, node->b) || (node->c && !next && needs_braces(p, node->c)))
             return true;
         if (!next)
@@ -264,7 +296,7 @@ static void print_if(struct printer *p, const struct lang_node *node)
         else
             print_indent(p);
         text_str(p->out, "else");
-        lang_ref next = else_if(p, node);
+        lang_ref next = chained_if(p, node);
         if (!next) {
             print_governed(p, node->c, braces);
             break;
@@ -325,6 +357,83 @@ static void print_do(struct printer *p, const struct lang_node *node)
     text_char(p->out, '\n');
 }
 
+/* ---- Loops whose heads have calls of results.c ---- */
+
+static void print_line(struct printer *p, const char *before, const char *name, const char *after)
+{
+    print_indent(p);
+    text_fmt(p->out, "%s%s%s\n", before, name, after);
+}
+
+/* Leaves the loop unless the condition is true. */
+static void print_exit(struct printer *p, lang_ref condition)
+{
+    (void)print_result_calls(p, condition);
+    print_indent(p);
+    text_str(p->out, "if (!(");
+    print_expression(p, node_at(p, condition), LANG_PREC_COMMA);
+    text_str(p->out, ")) {\n");
+    p->indent++;
+    print_line(p, "break;", "", "");
+    p->indent--;
+    print_line(p, "}", "", "");
+}
+
+/* What stands between two rounds: the step of a `for`, the condition of a `do`. */
+static void print_between(struct printer *p, const struct lang_node *loop, const char *again)
+{
+    lang_ref step = ast_step(p->layer, loop);
+    print_line(p, "if (", again, ") {");
+    p->indent++;
+    if (step)
+        print_with_calls(p, node_at(p, step));
+    else
+        print_exit(p, loop->b);
+    p->indent--;
+    print_line(p, "}", "", "");
+    print_line(p, again, " = true;", "");
+}
+
+/*
+ * Writes a loop whose head has such calls, with the head in the body. false: it has none.
+ *
+ *     bool again = false;
+ *     while (true) {
+ *         if (again) { … }
+ *         again = true;
+ *         if (!(condition)) { break; }
+ *         …
+ *     }
+ */
+static bool print_loop_with_calls(struct printer *p, const struct lang_node *loop)
+{
+    lang_ref init = loop->kind == LANG_FOR ? loop->a : 0, step = ast_step(p->layer, loop);
+    if (!print_has_result_calls(p, loop->b) && !print_has_result_calls(p, init)
+        && !print_has_result_calls(p, step))
+        return false;
+    uint32_t mark = p->num_visible;
+    const char *again = step || loop->kind == LANG_DO ? print_result_name(p) : NULL;
+    text_str(p->out, "{\n");
+    p->indent++;
+    if (init)
+        print_with_calls(p, node_at(p, init));
+    if (again)
+        print_line(p, "bool ", again, " = false;");
+    print_line(p, "while (true) {", "", "");
+    p->indent++;
+    if (again)
+        print_between(p, loop, again);
+    if (loop->kind != LANG_DO && loop->b)
+        print_exit(p, loop->b);
+    p->indent--;
+    print_body(p, node_at(p, loop->c));
+    print_line(p, "}", "", "");
+    p->indent--;
+    print_line(p, "}", "", "");
+    p->num_visible = mark;
+    return true;
+}
+
 /*
  * Writes "{ float made[2] = {a, b}; x = made; }". In these languages, braces initialise a variable,
  * but are no value for an assignment.
@@ -335,13 +444,13 @@ static bool print_array_assignment(struct printer *p, const struct lang_node *no
     bool is_array = value && value->kind == LANG_OP && value->op == IR_CONSTRUCT
                     && ast_is_user_type(value->type)
                     && lang_user_type(p->unit, value->type, NULL)->array_length;
-    if (!is_array || !p->style->syntax->array_braces)
+    if (!is_array || !p->style->syntax->array_braces || p->style->phrases[PHRASE_ARRAY])
         return false;
     struct text_word made = print_free_name(p, lang_word("made"));
     text_str(p->out, "{ ");
     lang_print_variable(p->style, p->names, p->unit, PHRASE_LOCAL, value->type, made, p->out);
     text_str(p->out, " = ");
-    print_expression(p, value, LANG_PREC_ASSIGN);
+    print_initialiser(p, value);
     text_str(p->out, "; ");
     print_expression(p, node_at(p, node->a), LANG_PREC_UNARY);
     text_fmt(p->out, " = %s; }\n", made.bytes);
@@ -351,7 +460,8 @@ static bool print_array_assignment(struct printer *p, const struct lang_node *no
 static void print_statement(struct printer *p, const struct lang_node *node)
 {
     print_indent(p);
-    if (print_array_assignment(p, node))
+    bool is_loop = node->kind == LANG_FOR || node->kind == LANG_WHILE || node->kind == LANG_DO;
+    if (print_array_assignment(p, node) || (is_loop && print_loop_with_calls(p, node)))
         return;
     switch (node->kind) {
     case LANG_IF: print_if(p, node); break;

@@ -154,6 +154,15 @@ const char *lang_syntax_phrase(const struct lang_syntax *syntax, enum lang_phras
     return NULL;
 }
 
+const char *lang_syntax_beginning(const struct lang_syntax *syntax, const char *name)
+{
+    bool is_refused =
+        (syntax->begins_with_letter && *name == '_')
+        || (syntax->reserved_prefix
+            && strncmp(name, syntax->reserved_prefix, strlen(syntax->reserved_prefix)) == 0);
+    return is_refused ? "x" : "";
+}
+
 /* The list of a target replaces that of its base: a word may be reserved in the base alone. */
 bool lang_syntax_is_reserved(const struct lang_syntax *syntax, const char *name, size_t len)
 {
@@ -161,8 +170,7 @@ bool lang_syntax_is_reserved(const struct lang_syntax *syntax, const char *name,
     if (syntax->sampler_type && len > suffix
         && memcmp(name + len - suffix, LANG_SAMPLER_SUFFIX, suffix) == 0)
         return true;
-    if (syntax->reserved_prefix
-        && strncmp(name, syntax->reserved_prefix, strlen(syntax->reserved_prefix)) == 0)
+    if (*lang_syntax_beginning(syntax, name))
         return true;
     while (!syntax->reserved && syntax->base)
         syntax = syntax->base;

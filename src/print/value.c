@@ -34,6 +34,13 @@ const char *print_maker(const struct lang_names *names, const struct lang_unit *
                : NULL;
 }
 
+const char *print_array_name(const struct lang_names *names, struct lang_type_text type)
+{
+    return type.length && names && names->array
+               ? names->array(names->user_data, type.name, type.length)
+               : NULL;
+}
+
 enum { SHORT_FLOAT = 7 }; /* characters of a number that has no shorter form */
 
 /*
@@ -165,7 +172,7 @@ const union ir_word *print_words(const struct lang_style *style, const struct la
 void print_open_array(const struct lang_style *style, const struct lang_names *names,
                       const struct lang_unit *unit, ir_type_id type, struct text *out)
 {
-    if (!style->syntax->array_braces)
+    if (!style->syntax->array_braces || style->phrases[PHRASE_ARRAY])
         lang_print_type(style, names, unit, type, out);
     text_char(out, style->syntax->array_braces ? '{' : '(');
 }

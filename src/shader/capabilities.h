@@ -38,12 +38,13 @@ enum target_caps {
     CAP_SETS = 1 << 18,              /* with CAP_BINDINGS: layout(set, binding) */
     CAP_METADATA = 1 << 19,          /* parameters have metadata */
     CAP_VULKAN_ATTRIBUTES = 1 << 20, /* can write bindings of Vulkan beside its own */
-    CAP_STORES = 1 << 21,            /* pixel stages can write images: the deferred pipeline */
+    CAP_STORES = 1 << 21,            /* pixel stages can write images; functions pack slabs */
     CAP_MEDIUMP = 1 << 22,           /* declarations can have a lower precision: --precision */
     CAP_TWO_SOURCES = 1 << 23,       /* a pixel stage has a second source for blending */
     CAP_SAMPLER_BINDINGS = 1 << 24, /* with CAP_BINDINGS: a texture and its sampler have one each */
     CAP_HOST_FILES = 1 << 25,  /* a shader can be a function in a file that has other functions */
     CAP_OWN_NUMBERS = 1 << 26, /* with CAP_BINDINGS: blocks and textures are numbered apart */
+    CAP_PASSES = 1 << 27,      /* compute stages: the passes of the deferred pipeline */
     /* not in the tables of targets, because they follow from their members */
     CAP_CLOSURES = 1 << 28, /* the language has closures: its renderer computes lights and layers */
     CAP_LIGHTING = 1 << 29, /* the shader computes lights and layers: it has no closures */

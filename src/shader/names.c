@@ -195,6 +195,11 @@ struct spell_name names_unique(struct name_set *names, const char *text, size_t 
         base = with_prefix(rules->prefix, base, base_len, names->arena);
         base_len = strlen(base);
     }
+    const char *beginning = names->syntax ? lang_syntax_beginning(names->syntax, base) : "";
+    if (*beginning) {
+        base = with_prefix(beginning, base, base_len, names->arena);
+        base_len = strlen(base);
+    }
     bool is_new, is_word = is_reserved(names, base, base_len);
     uint32_t entry = take(names, base, base_len, &is_new);
     if (is_new && !is_word)
@@ -213,6 +218,11 @@ struct spell_name names_unique(struct name_set *names, const char *text, size_t 
 
 bool names_is_free(const struct name_set *names, const char *text, size_t len)
 {
+    const char *beginning = names->syntax ? lang_syntax_beginning(names->syntax, text) : "";
+    if (*beginning) {
+        text = with_prefix(beginning, text, len, names->arena);
+        len = strlen(text);
+    }
     if (is_reserved(names, text, len))
         text = with_underscore(names, text, &len);
     uint32_t found = find(names, text, len, hash_bytes(text, len));

@@ -301,6 +301,17 @@ uint32_t shader_add_source(struct shader *shader, str_id text, const uint32_t *i
     return shader->sources.all.len - 1;
 }
 
+uint32_t shader_add_program(struct shader *shader, str_id text, const struct lang_unit *program,
+                            struct source_resources resources)
+{
+    struct source_fault fault;
+    uint32_t source = shader_add_source(shader, text, NULL, 0, &fault);
+    assert(source != UINT32_MAX);
+    shader->sources.all.items[source].program = program;
+    shader->sources.all.items[source].resources = resources;
+    return source;
+}
+
 static void add_once(struct source_list *out, uint32_t id, struct arena *arena)
 {
     for (uint32_t i = 0; i < out->len; i++)

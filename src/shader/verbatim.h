@@ -81,9 +81,19 @@ struct source_leaf {
     uint32_t nodedef;                       /* number of its definition */
 };
 
+/* Images and buffers beside the interface of the shader: deferred/deferred.h. */
+struct source_resources {
+    uint32_t reads, writes; /* bits by binding */
+    uint32_t set;           /* with CAP_SETS */
+};
+
 /* A text: a file. */
 struct shader_source {
     str_id text;
+    /* the text is a program (parse/parse.h), which the target's language has to be made of; NULL:
+     * it is in that language */
+    const struct lang_unit *program;
+    struct source_resources resources;      /* of a program */
     uint32_t first_include, num_includes;   /* in source_refs: a source per #include, in order */
     uint32_t first_variable, num_variables; /* in source_refs: variables of its tokens */
     uint32_t first_name, num_names;         /* in source_refs: str_id of the names it declares */
@@ -122,6 +132,10 @@ struct source_fault {
 };
 uint32_t shader_add_source(struct shader *shader, str_id text, const uint32_t *includes,
                            uint32_t num_includes, struct source_fault *out_fault);
+
+/* Adds a program, whose functions are called as those of a text, with its tree. */
+uint32_t shader_add_program(struct shader *shader, str_id text, const struct lang_unit *program,
+                            struct source_resources resources);
 
 /* Adds a source and its includes to `out`, each once. */
 struct source_list { /* layout of VEC(uint32_t) */

@@ -108,7 +108,7 @@ bool spell_functions_read_vertex_data(const struct spell *spell)
                 == LANG_GLOBAL_STREAM;
     for (uint32_t i = 0; i < spell->stage->verbatim.len && !reads; i++)
         reads = spell->shader->sources.calls.items[spell->stage->verbatim.items[i]].num_sources > 0;
-    return reads && of_block[0] < of_block[1];
+    return spell_reads_position(spell) || (reads && of_block[0] < of_block[1]);
 }
 
 /* ---- Declarations ---- */

@@ -46,6 +46,15 @@ static bool names(const char *text, const char *end, const char *name)
     return false;
 }
 
+void spell_comment(struct spell *spell, const char *text, size_t len)
+{
+    size_t begin = spell->out->len;
+    text_mem(spell->out, text, len);
+    for (char *c = spell->out->data + begin; len > 0; c++, len--)
+        if ((unsigned char)*c < 0x20 || *c == 0x7f || *c == '\\')
+            *c = '?';
+}
+
 /* True if a sentence names a parameter that the version lacks and that is no constant. */
 static bool explains_absent(const struct subject *s, const char *text, const char *end)
 {
@@ -105,6 +114,15 @@ static void write_constants(const struct subject *s)
     }
     if (before[0] == ',')
         spell_text(s->spell, ".\n");
+}
+
+void spell_doc(struct spell *spell, str_id doc)
+{
+    const struct lang_function none = {0};
+    const struct subject s = {.spell = spell, .function = &none};
+    const char *text = str_text(spell->shader->strings, doc);
+    if (spell->options->comments && !spell->shader->interface.rules.neutral_names)
+        write_doc(&s, text, text + str_len(spell->shader->strings, doc));
 }
 
 void spell_function_doc(struct spell *spell, uint32_t function)

@@ -113,7 +113,7 @@ static void write_construct(struct spell *spell, ir_ref ref, ir_type_id type)
                             : NULL;
     if (maker)
         spell_text(spell, maker);
-    else if (!braces)
+    else if (!braces || spell->style->phrases[PHRASE_ARRAY])
         spell_type(spell, type);
     text_char(spell->out, braces ? '{' : '(');
     write_list(spell, ref);
@@ -170,6 +170,9 @@ unsigned spell_call_open(struct spell *spell, ir_ref call)
     spell_text(spell, callee_name(spell, call));
     text_char(spell->out, '(');
     write_first(spell, call, n);
+    const struct ir_node *node = ir_get(spell->shader->graph, call);
+    if (node->op == IR_GRAPH_CALL)
+        spell_passed(spell, node->attr, false, n == 0);
     return n;
 }
 
@@ -369,6 +372,17 @@ static void write_result(struct spell *spell, ir_ref call, uint32_t index,
         spell_expression(spell, call, least);
 }
 
+/* A closure of the language, whose name may be a form: "f(a: $0, b: $1)". */
+static void write_leaf(struct spell *spell, ir_ref ref, const struct ir_node *node,
+                       enum lang_precedence least)
+{
+    const char *name = callee_name(spell, ref);
+    if (strchr(name, '('))
+        write_form(spell, node, lang_form_of(spell->scratch, name, LANG_PREC_POSTFIX), least);
+    else
+        write_call(spell, ref);
+}
+
 /* Writes a node without a local, for which the style has no form. */
 static void write_other_node(struct spell *spell, ir_ref ref, const struct ir_node *node,
                              enum lang_precedence least)
@@ -384,8 +398,8 @@ static void write_other_node(struct spell *spell, ir_ref ref, const struct ir_no
     case IR_CONSTRUCT: write_construct(spell, ref, node->type); break;
     case IR_CALL:
     case IR_VERBATIM:
-    case IR_GRAPH_CALL:
-    case IR_LEAF: write_call(spell, ref); break;
+    case IR_GRAPH_CALL: write_call(spell, ref); break;
+    case IR_LEAF: write_leaf(spell, ref, node, least); break;
     case IR_RESULT: write_result(spell, ir_arg(graph, ref, 0), node->attr, least); break;
     case IR_CONTEXT: /* an operand numbers the loop or the light, whose text is the same */
     case IR_SAMPLE:

@@ -6,12 +6,33 @@
 #ifndef MXG_SPELL_SPELL_H
 #define MXG_SPELL_SPELL_H
 
+#include "deferred/deferred.h"
 #include "shader/names.h"
+#include "shader/verbatim.h"
 #include "spell/target.h"
+#include "tree/reach.h"
+
+/* ---- program.c: functions that are no functions of a library ---- */
+
+struct spell_program {
+    const struct lang_unit *unit;
+    struct lang_reach reach; /* what the stage calls */
+    const char **functions;  /* by id: names in the output */
+    const struct source_resources *resources;
+};
+
+/* An image or buffer of the stage's programs. */
+struct spell_resource {
+    const struct deferred_resource *resource;
+    uint32_t binding, set;
+    unsigned access; /* 1 reads, 2 writes, 3 both */
+};
+enum { SPELL_READS = 1, SPELL_WRITES = 2 };
 
 /* ---- maker.c: functions that build structs ---- */
 
 struct spell_maker {
+    const struct lang_unit *unit;
     ir_type_id type;
     const char *type_name, *name;
     bool is_called; /* for the code that writes the maker beside the struct */
@@ -44,11 +65,18 @@ struct spell {
     /* by id: names of the portable functions that the stage reaches */
     const char **functions;
     const char **graph_functions; /* by index: names of IR functions */
-    const char **user_types;      /* by index in the unit: names of structs */
-    struct spell_name *locals;    /* by index: names of the stage's mutable variables */
+    /* by index: indices of the variables of the interface that the function gets; NULL: none */
+    struct spell_passed {
+        VEC(uint32_t) variables;
+    } * passed;
+    const char **user_types;   /* by index in the unit: names of structs */
+    struct spell_name *locals; /* by index: names of the stage's mutable variables */
     /* by node: 1 + index of the first name of its LET in let_names; 0: the node is an expression */
     uint32_t *local_of;
     VEC(struct spell_name) let_names;
+    /* the struct of the results of the graph's function that is written, and their number; NULL */
+    const char *graph_results;
+    uint32_t num_graph_results;
     VEC(str_id) wanted_names; /* names that several locals of the function want, sorted */
     /* of a shader that is a function: its parameters are copied to file scope */
     bool shares_vertex_data;
@@ -57,9 +85,11 @@ struct spell {
     struct name_set paths;       /* of the comments so far */
     VEC(const char *) helpers;   /* texts of spell_helper, each once */
     VEC(struct spell_maker) makers;
-    void *target_data;     /* belongs to the target while its hook runs */
-    uint8_t *origins_seen; /* origins whose path is known; NULL: no comments */
-    uint8_t *kinds;        /* by node: precision.c; NULL: all values have all bits */
+    VEC(struct spell_program) programs;
+    const struct spell_program *program; /* that is being written; NULL: none */
+    void *target_data;                   /* belongs to the target while its hook runs */
+    uint8_t *origins_seen;               /* origins whose path is known; NULL: no comments */
+    uint8_t *kinds;                      /* by node: precision.c; NULL: all values have all bits */
 };
 
 /* ---- precision.c: values that bear half floats, if the options ask for them. ---- */
@@ -121,6 +151,13 @@ struct spell_name spell_local_base(struct spell *spell, ir_ref ref);
 void spell_statements(struct spell *spell, const struct effect_list *statements, unsigned indent);
 void spell_graph_function(struct spell *spell, const struct shader_function *function);
 
+/* ---- passed.c: what functions of graphs cannot see ---- */
+
+/* Called when the variables of the interface have their names. */
+void spell_find_passed(struct spell *spell);
+/* The end of a list of parameters or arguments; `is_first`: the list is empty before it. */
+void spell_passed(struct spell *spell, uint32_t function, bool declares, bool is_first);
+
 /* ---- declare.c: declarations above the functions, for frames ---- */
 
 void spell_name_interface(struct spell *spell);
@@ -143,10 +180,38 @@ void spell_declare(struct spell *spell, enum lang_phrase phrase,
 /* Writes the structs of the stage's functions. */
 void spell_structs(struct spell *spell);
 
+/* ---- program.c ---- */
+
+void spell_find_programs(struct spell *spell); /* of the stage's calls */
+void spell_program_structs(struct spell *spell);
+/* Variables and functions of the programs: behind open_context. */
+void spell_programs(struct spell *spell);
+/*
+ * The resource with the lowest binding of at least `binding`; false: there is none. Each frame
+ * declares them.
+ */
+bool spell_resource_from(const struct spell *spell, uint32_t binding, struct spell_resource *out);
+#define SPELL_EACH_RESOURCE(r, spell) \
+    for (struct spell_resource r = {0}; spell_resource_from((spell), r.binding, &(r)); r.binding++)
+/* The row of the target's table for a resource. */
+const struct target_image *spell_image(const struct spell *spell, const struct spell_resource *r);
+/* True if a program reads gl_FragCoord: the position among the vertex data. */
+bool spell_reads_position(const struct spell *spell);
+/*
+ * True if depth is tested before the pixel stage, which writes images: only fragments that are
+ * seen may do so.
+ */
+bool spell_tests_early(const struct spell *spell);
+/* The name of a struct of the program that is being written. */
+const char *spell_program_type(struct spell *spell, ir_type_id type);
+
 /* ---- maker.c ---- */
 
 /* Gives a struct of the stage a maker with a name at file scope: "make_Outer". */
 void spell_name_maker(struct spell *spell, ir_type_id type);
+/* The same for a struct of a unit, whose name in the output is known. */
+void spell_add_maker(struct spell *spell, const struct lang_unit *unit, ir_type_id type,
+                     const char *type_name);
 /* The maker of a struct, by the struct's name in the output; NULL: it has none. */
 struct spell_maker *spell_find_maker(const struct spell *spell, const char *type_name);
 /* "Outer make_Outer(vec2 a, float b) { Outer made; made.a = a; … return made; }" */
@@ -178,6 +243,8 @@ void spell_add_helper(struct spell *spell, const struct lang_use *use, const cha
  * data is the spell.
  */
 const char *spell_helper_maker(void *user_data, const char *type);
+/* lang_names.array by target->array_type: a helper declares the type and builds an array. */
+const char *spell_array_type(void *user_data, struct text_word element, uint32_t length);
 
 /* ---- wrap.c ---- */
 
@@ -205,6 +272,8 @@ void spell_take_source_names(struct spell *spell);
 
 /* Writes "// …", the first sentence of the library's comment above a function, if there is one. */
 void spell_function_doc(struct spell *spell, uint32_t function);
+/* The same for a function of a program with this comment. */
+void spell_doc(struct spell *spell, str_id doc);
 
 /*
  * Writes words of a document as the text of a comment. Nothing in it ends the line or joins it with

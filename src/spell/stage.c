@@ -157,15 +157,6 @@ static void write_plural(struct text *out, uint32_t n, const char *what)
 }
 
 /* "Gold · surfacematerial · mxgen 0.1 · vulkan · reduced · 1 closure · 0 textures" */
-void spell_comment(struct spell *spell, const char *text, size_t len)
-{
-    size_t begin = spell->out->len;
-    text_mem(spell->out, text, len);
-    for (char *c = spell->out->data + begin; len > 0; c++, len--)
-        if ((unsigned char)*c < 0x20 || *c == 0x7f || *c == '\\')
-            *c = '?';
-}
-
 void spell_title(struct spell *spell)
 {
     const struct shader *shader = spell->shader;
@@ -231,6 +222,7 @@ static void write_portable_functions(struct spell *spell)
             write_function(spell, reach->functions.items[i]);
     if (readers)
         spell->frame->open_context(spell);
+    spell_programs(spell);
     for (uint32_t i = 0; i < reach->functions.len; i++)
         if (!readers || readers[i])
             write_function(spell, reach->functions.items[i]);
@@ -248,6 +240,7 @@ static void write_functions(struct spell *spell)
         spell_text(spell, "\n");
     spell_verbatim_sources(spell);
     write_portable_functions(spell);
+    spell_find_passed(spell);
     for (uint32_t i = 0; i < spell->stage->functions.len; i++)
         spell_graph_function(spell, &spell->stage->functions.items[i]);
 }
@@ -275,6 +268,7 @@ void spell_stage(struct spell *spell, enum shader_stage_id stage)
     const struct target_frame *frame = spell->shader->role->frame;
     frame = frame ? frame : spell->frame;
     frame->declare(spell);
+    spell_program_structs(spell);
     spell_text(spell, "\n");
     if (spell->lang_names.form || spell->lang_names.maker) {
         text_init(&body, spell->scratch);
@@ -321,12 +315,14 @@ static void init(struct spell *spell)
         ARENA_ARRAY(arena, const char *, unit->base_user_types + unit->user_types.len + 1);
     spell->locals = ARENA_ARRAY(arena, struct spell_name, shader->effects.locals.len + 1);
     spell->local_of = ARENA_ARRAY(arena, uint32_t, shader->graph->nodes.len);
-    spell->lang_names = (struct lang_names){.user_data = spell,
-                                            .function = function_name,
-                                            .global = global_name,
-                                            .user_type = user_type_name,
-                                            .maker = spell->target->maker,
-                                            .form = spell->target->form};
+    spell->lang_names =
+        (struct lang_names){.user_data = spell,
+                            .function = function_name,
+                            .global = global_name,
+                            .user_type = user_type_name,
+                            .maker = spell->target->maker,
+                            .array = spell->target->array_type ? spell_array_type : NULL,
+                            .form = spell->target->form};
     bool has_neighbours = spell->stage_id == STAGE_PIXEL
                               ? shader->role->derivatives == DERIVATIVES_OF_SCREEN
                               : !shader->reflection.displaced;
@@ -353,6 +349,7 @@ static void init(struct spell *spell)
     spell_take_source_names(spell);
     name_types(spell);
     name_functions(spell);
+    spell_find_programs(spell);
 }
 
 void spell_shader_stage(const struct target *target, const struct spell_options *options,

@@ -161,11 +161,16 @@ static void write_portable_arguments(struct spell *spell, ir_ref call, uint32_t 
     const struct lang_function *fn =
         lang_function(spell->shader->unit, shader_callee(spell->shader, call), &layer);
     uint32_t operand = 0, out = 0;
+    bool is_first = true;
     for (uint32_t i = 0; i < fn->num_params; i++) {
         uint8_t mode = layer->slots.items[fn->first_slot + i].mode;
-        if (i)
-            text_mem(spell->out, ", ", 2);
-        if (mode == LANG_IN)
+        bool in_struct = spell->style->syntax->results_in_struct;
+        out += in_struct && mode != LANG_IN;
+        if (in_struct && mode == LANG_OUT)
+            continue;
+        text_str(spell->out, is_first ? "" : ", ");
+        is_first = false;
+        if (mode == LANG_IN || in_struct)
             spell_argument(spell, ir_arg(spell->shader->graph, call, operand));
         else
             write_reference(spell, spell->let_names.items[first_name + 1 + out++]);
@@ -259,10 +264,61 @@ static void declare_outs(struct spell *spell, unsigned indent, ir_ref call, unsi
     text_mem(spell->out, ";\n", 2);
 }
 
+/* "mdl_r1.a": a result of a call that returns a struct. */
+static void name_member(struct spell *spell, struct spell_name made, const char *member)
+{
+    struct text text;
+    text_init(&text, spell->scratch);
+    text_mem(&text, made.text, made.len);
+    text_fmt(&text, ".%s", member);
+    vec_push(spell->scratch, &spell->let_names, (struct spell_name){text_cstr(&text), text.len});
+}
+
+/* The member of the struct for a result; those of a graph's function are "r1", "r2". */
+static const char *member_of(struct spell *spell, ir_ref call, unsigned index)
+{
+    if (ir_get(spell->shader->graph, call)->op != IR_GRAPH_CALL)
+        return lang_member_name(
+            spell->style, spell->shader->strings,
+            str_intern_z(spell->shader->strings, describe_out(spell, call, index).part));
+    struct text text;
+    text_init(&text, spell->scratch);
+    text_fmt(&text, "r%u", index + 1);
+    return text_cstr(&text);
+}
+
+/* "mdl_results_f metal = f(x);" */
+static void write_struct_let(struct spell *spell, unsigned indent, ir_ref call, unsigned outs)
+{
+    const struct ir_node *node = ir_get(spell->shader->graph, call);
+    struct spell_name base = with_slot(spell, spell_call_base(spell, call), call),
+                      made = names_unique(&spell->names, base.text, base.len);
+    const char *function = node->op == IR_CALL
+                               ? spell_function_name(spell, shader_callee(spell->shader, call))
+                               : spell->graph_functions[node->attr];
+    uint32_t first = spell->let_names.len;
+    name_member(spell, made, LANG_RESULTS_VALUE);
+    for (unsigned i = 0; i < outs; i++)
+        name_member(spell, made, member_of(spell, call, i));
+    open_line(spell, indent, node->origin);
+    SPELL(spell, lang_results_name(spell->style->syntax, function, spell->scratch), " ", made.text,
+          " = ");
+    if (node->op == IR_CALL)
+        write_call_arguments(spell, call, first, outs);
+    else
+        (void)spell_call_open(spell, call);
+    text_mem(spell->out, ");\n", 3);
+    spell->local_of[call] = first + 1;
+}
+
 static void write_call_let(struct spell *spell, unsigned indent, ir_ref call, unsigned outs)
 {
     const struct ir_node *node = ir_get(spell->shader->graph, call);
     uint32_t first = spell->let_names.len;
+    if (spell->style->syntax->results_in_struct) {
+        write_struct_let(spell, indent, call, outs);
+        return;
+    }
     if (node->type == IR_TYPE_VOID)
         vec_push(spell->scratch, &spell->let_names, (struct spell_name){0});
     else
@@ -443,8 +499,23 @@ static void write_variable(struct spell *spell, unsigned indent, const struct ef
     text_mem(spell->out, ";\n", 2);
 }
 
+/* "return mdl_results_f(x, r1)": a graph's function with several results in a struct. */
+static void write_return_struct(struct spell *spell, unsigned indent, const struct effect *effect)
+{
+    open_line(spell, indent, 0);
+    SPELL(spell, "return ", spell->graph_results, "(");
+    spell_expression(spell, effect->value, lang_argument_level(spell->style->syntax));
+    for (uint32_t i = 1; i < spell->num_graph_results; i++)
+        text_fmt(spell->out, ", r%u", (unsigned)i);
+    spell_text(spell, ");\n");
+}
+
 static void write_result(struct spell *spell, unsigned indent, const struct effect *effect)
 {
+    if (!effect->index && spell->graph_results) {
+        write_return_struct(spell, indent, effect);
+        return;
+    }
     if (!effect->index) {
         write_assignment(spell, indent, (struct spell_name){"return", 6}, " ", effect->value);
         return;
@@ -453,8 +524,8 @@ static void write_result(struct spell *spell, unsigned indent, const struct effe
     struct text name;
     size_t len = (size_t)snprintf(number, sizeof number, "r%u", (unsigned)effect->index);
     text_init(&name, spell->scratch);
-    lang_put_phrase(spell->style->phrases[PHRASE_REFERENCED], (struct text_word){number, len},
-                    &name);
+    lang_put_phrase(spell->graph_results ? "$0" : spell->style->phrases[PHRASE_REFERENCED],
+                    (struct text_word){number, len}, &name);
     write_assignment(spell, indent, (struct spell_name){text_cstr(&name), name.len}, " = ",
                      effect->value);
 }
@@ -568,6 +639,22 @@ static void write_parameter(struct spell *spell, enum lang_phrase phrase, ir_typ
         lang_put_sampler(spell->style, own, spell->out);
 }
 
+/* The struct of the results of a graph's function: "value", "r1", "r2". */
+static void write_results_struct(struct spell *spell, const ir_ref *results)
+{
+    SPELL(spell, "struct ", spell->graph_results, " {\n");
+    for (uint32_t i = 0; i < spell->num_graph_results; i++) {
+        struct text name;
+        text_init(&name, spell->scratch);
+        text_fmt(&name, i ? "r%u" : LANG_RESULTS_VALUE, (unsigned)i);
+        spell_indent(spell, 1);
+        spell_variable(spell, PHRASE_MEMBER, ir_type_of(spell->shader->graph, results[i]),
+                       (struct spell_name){text_cstr(&name), name.len});
+        spell_text(spell, "\n");
+    }
+    SPELL(spell, spell->style->phrases[PHRASE_STRUCT_END], "\n");
+}
+
 void spell_graph_function(struct spell *spell, const struct shader_function *function)
 {
     assert(function->function < spell->shader->graph->functions.len);
@@ -575,21 +662,36 @@ void spell_graph_function(struct spell *spell, const struct shader_function *fun
     const struct ir_function *fn = &graph->functions.items[function->function];
     const ir_ref *results = graph->function_results.items + fn->first_result;
     assert(fn->num_results > 0);
+    const char *name = spell->graph_functions[function->function];
+    bool in_struct = fn->num_results > 1 && spell->style->syntax->results_in_struct;
+    spell->graph_results =
+        in_struct ? lang_results_name(spell->style->syntax, name, spell->scratch) : NULL;
+    spell->num_graph_results = fn->num_results;
+    if (in_struct)
+        write_results_struct(spell, results);
     names_open_scope(&spell->names);
-    struct lang_declaration head = lang_open(
-        spell->style, PHRASE_FUNCTION, spell_type_text(spell, ir_type_of(graph, results[0])),
-        lang_word(spell->graph_functions[function->function]), spell->out);
+    struct lang_type_text type = in_struct
+                                     ? (struct lang_type_text){lang_word(spell->graph_results), 0}
+                                     : spell_type_text(spell, ir_type_of(graph, results[0]));
+    struct lang_declaration head =
+        lang_open(spell->style, PHRASE_FUNCTION, type, lang_word(name), spell->out);
     for (uint32_t i = 0; i < fn->num_params; i++) {
         spell_text(spell, i ? ", " : "");
         write_parameter(spell, PHRASE_PARAM_IN, graph->param_types.items[fn->first_param_type + i],
                         "p", i);
     }
-    for (uint32_t i = 1; i < fn->num_results; i++) {
+    spell_passed(spell, function->function, true, fn->num_params == 0);
+    for (uint32_t i = 1; i < fn->num_results && !in_struct; i++) {
         spell_text(spell, fn->num_params || i > 1 ? ", " : "");
         write_parameter(spell, PHRASE_PARAM_OUT, ir_type_of(graph, results[i]), "r", i);
     }
     lang_declare(spell->style, &head, spell->out);
     text_mem(spell->out, "\n{\n", 3);
+    for (uint32_t i = 1; i < fn->num_results && in_struct; i++) {
+        spell_indent(spell, 1);
+        write_parameter(spell, PHRASE_LOCAL, ir_type_of(graph, results[i]), "r", i);
+        spell_text(spell, ";\n");
+    }
     spell_statements(spell, &function->statements, 1);
     text_mem(spell->out, "}\n\n", 3);
 }

@@ -14,13 +14,15 @@ struct spell; /* spell/spell.h */
 
 /* For a language with closures: the renderer handles lights, layers and weights. */
 struct target_closures {
+    /* no shader knows where it is seen from: weights of layers are those along the normal */
+    bool lacks_view;
     /*
      * Replaces closure_emit: writes the effects for a root of any type. false if the type has no
-     * meaning, or if the language has no closure for a leaf; *out_unknown is then the family of the
-     * leaf, otherwise unchanged.
+     * meaning, or if the language lacks something; *out_lacks then says what, otherwise it is
+     * unchanged: "no closure for 'x'".
      */
     bool (*emit)(struct shader *shader, const struct closure_host *host, ir_ref root,
-                 str_id *out_unknown);
+                 const char **out_lacks);
 };
 
 struct reflect; /* shader/reflect.h */
@@ -37,7 +39,7 @@ struct target_network {
      * false as for target_closures.emit.
      */
     bool (*emit_node)(struct shader *shader, const struct closure_host *host,
-                      const struct network_output *outputs, unsigned n, str_id *out_unknown);
+                      const struct network_output *outputs, unsigned n, const char **out_lacks);
     /* Adds the shaders that do not belong to a node, after the shaders of nodes. */
     void (*add_parts)(struct network *network);
     /* The text of a stage; empty: there is no such stage. */
@@ -66,10 +68,31 @@ struct target_frame {
     /* after main; may not be NULL beside the other, and may stand without it */
     void (*close_context)(struct spell *spell);
     /*
+     * The type of a parameter that functions of graphs cannot see, and get as an argument of its
+     * name; NULL: they see the variable.
+     */
+    const char *(*passed_type)(struct spell *spell, const struct shader_variable *variable);
+    /*
      * Declares structs, uniforms and textures for a shader that is a function in a file of the host
      * (spell/function_frame.c); nothing that stands once per file.
      */
     void (*declare_for_function)(struct spell *spell);
+};
+
+/* A function without a body in a program (parse/parse.h): its text in the language. */
+struct target_function {
+    const char *name, *text;
+};
+
+/*
+ * An image of programs. In the texts, $N is the name of the resource.
+ */
+struct target_image {
+    const char *kind, *format; /* of struct deferred_resource */
+    unsigned access;           /* 1 reads, 2 writes, 3 both */
+    const char *type;          /* its type in the language */
+    /* the functions of programs that read and write it; NULL: it does not */
+    const char *load, *store;
 };
 
 /* Capabilities that the first versions of a language lack; caps 0: there are none. */
@@ -103,7 +126,21 @@ struct target {
      * lang_names)
      */
     const char *(*maker)(void *user_data, const char *type);
-    enum shader_packing packing; /* of blocks of uniforms */
+    /*
+     * Texts of helpers, by the enum of the language whose `form` the target has; NULL, also an
+     * entry: those of that language.
+     */
+    const char *const *helpers;
+    /*
+     * Declares the type of an array whose values functions return, with $T, $N and $L as in phrases
+     * (lang_names.array): "typedef $T $N[$L];". NULL: arrays are values.
+     */
+    const char *array_type;
+    /* functions of programs, NULL-terminated; NULL: from base */
+    const struct target_function *functions;
+    uint32_t first_resource;           /* the number of the first resource of programs */
+    const struct target_image *images; /* ends with kind NULL; NULL: from base */
+    enum shader_packing packing;       /* of blocks of uniforms */
     /*
      * By block: the variable that has the block's variables as members, "u_pub" of u_pub.base.
      * NULL, also for a block: they stand at file scope. Blocks of nodes in C have "u_" before their

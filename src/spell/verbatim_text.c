@@ -46,6 +46,8 @@ static void write_source(struct writer *w, uint32_t index)
     if (w->written[index])
         return;
     w->written[index] = true;
+    if (source->program) /* program.c writes it */
+        return;
     struct text own, *out = spell->out;
     text_init(&own, spell->scratch);
     spell->out = &own;

@@ -94,7 +94,7 @@ struct lang_function {
     ir_type_id return_type;
     uint16_t num_params, num_slots; /* parameters come first among the slots */
     uint32_t first_slot;            /* in unit->slots */
-    lang_ref body;                  /* a BLOCK */
+    lang_ref body;                  /* a BLOCK; 0: the frame of a program has it */
     uint32_t file;                  /* index in unit->files */
     uint32_t place;
     uint32_t num_nodes; /* size of the body: for inlining decisions */
@@ -115,7 +115,8 @@ enum lang_global_kind {
     LANG_GLOBAL_CONST,
     LANG_GLOBAL_UNIFORM,
     LANG_GLOBAL_STREAM,
-    LANG_GLOBAL_OPTION
+    LANG_GLOBAL_OPTION,
+    LANG_GLOBAL_VARIABLE /* of a program (lang_parse_program); num_words 0: without a first value */
 };
 
 struct lang_global {
@@ -124,8 +125,8 @@ struct lang_global {
     uint8_t reserved;
     ir_type_id type;
     /*
-     * value of a CONST or OPTION of built-in or array type, in unit->words (arrays: elements in
-     * order)
+     * value of a CONST, OPTION or VARIABLE of built-in or array type, in unit->words (arrays:
+     * elements in order)
      */
     uint32_t words;
     uint32_t num_words;

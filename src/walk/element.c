@@ -62,7 +62,8 @@ static ir_ref make_global(struct builder *b, struct ir_graph *graph, const struc
             return ir_const_int(graph, option);
         break;
     }
-    case LANG_GLOBAL_CONST: break;
+    case LANG_GLOBAL_CONST:
+    case LANG_GLOBAL_VARIABLE: break;
     }
     struct ir_value value = {.type = global->type};
     memcpy(value.w, layer->words.items + global->words, global->num_words * sizeof *value.w);

@@ -17,7 +17,9 @@ double picture_psnr(const float *a, const float *b);
  */
 enum { LIMIT_FLOAT = 45, LIMIT_ROUNDED = 38 };
 void picture_require(const struct bench *b, double db, int expected, int limit);
-/* Draws an element by each storage, and requires what pictures.def lists. */
-void picture_test(struct bench *b, const char *element, const int expected[NUM_STORAGES]);
+/* Draws an element by storages, a bit for each, and requires what pictures.def lists. */
+enum { ALL_STORAGES = (1 << NUM_STORAGES) - 1 };
+void picture_test(struct bench *b, const char *element, const int expected[NUM_STORAGES],
+                  unsigned storages);
 
 #endif

@@ -62,7 +62,7 @@ static void test_stack(struct bench *b, const char *name, uint32_t budget,
     char closures[12];
     snprintf(closures, sizeof closures, "%u", (unsigned)budget);
     mxg_options_set(b->options, "max-slabs", closures);
-    picture_test(b, name, expected);
+    picture_test(b, name, expected, ALL_STORAGES);
     if (drawing_open(b, name, "round", UINT32_MAX, &d))
         REQUIRE_EQ(most_closures(&d), budget ? budget : NUM_LAYERS);
     drawing_close(&d);

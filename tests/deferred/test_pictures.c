@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Materials drawn by the deferred pipeline look as they do by the forward pipeline. Argument: the
- * root of the sources.
+ * Materials drawn by the deferred pipeline look as they do by the forward pipeline. Arguments: the
+ * root of the sources, and "all" to draw each material by all storages, otherwise by one.
  */
 #include "deferred/pictures.h"
 #include "unit/test.h"
@@ -21,7 +21,7 @@ static const struct {
 #include "deferred/pictures.def"
 };
 
-static void test_pictures(struct bench *b, const char *root)
+static void test_pictures(struct bench *b, const char *root, bool is_all)
 {
     const char *document = "";
     for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
@@ -29,7 +29,8 @@ static void test_pictures(struct bench *b, const char *root)
             return;
         document = rows[i].document;
         mxg_options_set(b->options, "slabs", rows[i].is_model ? "true" : "false");
-        picture_test(b, rows[i].element, rows[i].expected);
+        picture_test(b, rows[i].element, rows[i].expected,
+                     is_all ? ALL_STORAGES : 1u << i % NUM_STORAGES);
     }
 }
 
@@ -78,11 +79,11 @@ static void test_bands(struct bench *b)
 int main(int argc, char **argv)
 {
     struct bench b = {0};
-    if (argc != 2)
+    if (argc < 2)
         return 2;
     if (!bench_open_ball(&b))
         return 77;
-    test_pictures(&b, argv[1]);
+    test_pictures(&b, argv[1], argc > 2 && strcmp(argv[2], "all") == 0);
     mxg_options_set(b.options, "slabs", "true");
     if (bench_load(&b, argv[1], "tests/deferred/materials.mtlx"))
         test_bands(&b);

@@ -65,7 +65,7 @@ check 'there are targets' test -n "$targets"
 for target in $targets; do # the shading models in every language
     check "models.mtlx has a run '$target'" ls "$golden/models.$target".standard_surface.*
 done
-for file in "$golden"/*.vert "$golden"/*.frag "$golden"/*.comp "$golden"/*.{hlsl,slang,metal,wgsl,osl,oslgroup,json}; do # what no run makes any more
+for file in "$golden"/*.vert "$golden"/*.frag "$golden"/*.comp "$golden"/*.{hlsl,slang,metal,wgsl,osl,oslgroup,mdl,json}; do # what no run makes any more
     [ -n "${kept[${file##*/}]:-}" ] && continue
     [ -n "$update" ] && rm -v "$file" || check "${file##*/} is made by a run" false
 done

@@ -1,12 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""mslcheck.py FILE.metal [--run HARNESS.inc [N]] | mslcheck.py --serve
-Checks Metal Shading Language source with stock clang, and optionally runs it on the CPU. Debian 12: clang python3-clang-14.
+"""mslcheck.py FILE.metal | mslcheck.py --serve
+Checks Metal Shading Language source with stock clang (draw.py runs it on the CPU). Debian 12: clang python3-clang-14.
  1. check pass: C++ for OpenCL with real address spaces     2. C++17 without address spaces (catches what 1 has to waive; the one that runs)
  3. lint on clang's AST: attributes and their targets, indices, address-space words, stage structs, what Metal bans
- --serve: answers requests of compile/worker.c, whose form is in compile/answer.mjs
- --run: HARNESS.inc is appended to the shader; it defines  extern "C" void msl_pixel(int i, float* rgba)  for i = 0..N-1."""
-import os, re, subprocess, sys, tempfile
+ --serve: answers requests of compile/worker.c, whose form is in compile/answer.mjs"""
+import os, re, sys, tempfile
 import clang.cindex as ci
 from clang.cindex import CursorKind as K, TypeKind as T
 
@@ -32,16 +31,6 @@ TYPES = {'position': 'float4', 'front_facing': 'bool', 'vertex_id': 'uint|ushort
 LIMITS = {'buffer': 31, 'texture': 128, 'sampler': 16, 'attribute': 31, 'color': 8, 'threadgroup': 31}
 BANNED = {K.LAMBDA_EXPR: 'lambda', K.GOTO_STMT: 'goto', K.CXX_NEW_EXPR: 'new', K.CXX_DELETE_EXPR: 'delete', K.CXX_TRY_STMT: 'try', K.CXX_THROW_EXPR: 'throw', K.CXX_DYNAMIC_CAST_EXPR: 'dynamic_cast'}
 
-HOST = """#include <stdio.h>
-#include <stdlib.h>
-#include <math.h>
-void msl_pixel(int, float*);
-float __gnu_h2f_ieee(unsigned short h) { int e = h >> 10 & 31, m = h & 1023; float f = e == 31 ? (m ? NAN : INFINITY) : e ? ldexpf(m + 1024, e - 25) : ldexpf(m, -24); return h & 0x8000 ? -f : f; }
-unsigned short __gnu_f2h_ieee(float f) {
-  unsigned short s = signbit(f) ? 0x8000 : 0; f = fabsf(f); int e; if (f != f) return s | 0x7e00; if (f >= 65520) return s | 0x7c00; if (f == 0) return s;
-  frexpf(f, &e); if (e < -13) return s | (int)rintf(ldexpf(f, 24)); return s + ((e + 13) << 10) + (int)rintf(ldexpf(f, 11 - e)); }
-int main(int c, char** v) { for (int i = 0; i < atoi(v[1]); i++) { float o[4]; msl_pixel(i, o); printf("%d %.7g %.7g %.7g %.7g\\n", i, o[0], o[1], o[2], o[3]); } }
-"""
 errors = []
 def err(line, msg):
     if (line, msg) not in errors: errors.append((line, msg))
@@ -166,13 +155,6 @@ def check(src, path):
     lint(tu, path)
     return sorted(errors)
 
-def run(path, tmp, harness, n):
-    open(path, 'a').write('\n#include "%s"\n' % os.path.abspath(harness))
-    open(tmp + '/host.c', 'w').write(HOST)
-    subprocess.check_call(['clang'] + RUN + ['-w', '-O1', '-ffp-contract=off', '-c', path, '-o', tmp + '/shader.o'])
-    subprocess.check_call(['clang', tmp + '/host.c', tmp + '/shader.o', '-lm', '-o', tmp + '/run'])
-    subprocess.check_call([tmp + '/run', n])
-
 def serve(path):
     requests, answers = sys.stdin.buffer, sys.stdout.buffer
     for line in iter(requests.readline, b''):
@@ -181,13 +163,10 @@ def serve(path):
         answers.write(b'%d 0 0\n' % len(log) + log); answers.flush()
 
 def main():
-    keep = tempfile.TemporaryDirectory(prefix='mslcheck', dir=os.environ.get('MSL_TMP')); tmp = keep.name; path = tmp + '/shader.metal'
+    keep = tempfile.TemporaryDirectory(prefix='mslcheck'); path = keep.name + '/shader.metal'
     if sys.argv[1] == '--serve': return serve(path)
     found = check(open(sys.argv[1]).read(), path)
     for line, msg in found: print('%s:%d: error: %s' % (sys.argv[1], line, msg))
     print('%s: %d errors' % (sys.argv[1], len(found)))
-    if not found and '--run' in sys.argv:
-        i = sys.argv.index('--run')
-        run(path, tmp, sys.argv[i + 1], sys.argv[i + 2] if len(sys.argv) > i + 2 else '1')
     sys.exit(1 if found else 0)
 main()

@@ -93,7 +93,7 @@ check 'such a folder gets all files' diff -r all folder.frag
 
 # Options of other targets
 check 'an option of OSL with glsl is wrong usage' exits 2 "$mxgen" two.mtlx -e A --metadata none -o other_target
-check 'the error says to which targets the option applies' grep -qx "mxgen: option '--metadata' does not apply to 'glsl'; it applies to 'osl'" err
+check 'the error says to which targets the option applies' grep -qx "mxgen: option '--metadata' does not apply to 'glsl'; it applies to 'osl', 'mdl'" err
 check 'lights with OSL are wrong usage' exits 2 "$mxgen" two.mtlx -e A -t osl --lights none -o other_target
 check 'the error says to which targets lights apply' grep -q "option '--lights' does not apply to 'osl'; it applies to 'glsl', 'vulkan'" err
 check 'an option of another target is wrong usage of inspect' exits 2 "$mxgen" inspect two.mtlx --ir --no-osl-network

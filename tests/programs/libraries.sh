@@ -10,7 +10,7 @@ cat >vendor/folder/maker/defs.mtlx <<'END'
 <materialx version="1.39">
   <nodedef name="ND_ash" node="ash"><input name="in" type="float" value="0.25"/><output name="out" type="float"/></nodedef>
   <implementation name="IM_ash" nodedef="ND_ash" target="genglsl" file="folder/maker/glsl/ash.glsl" function="ash"/>
-  <implementation name="IM_ash_genmsl" nodedef="ND_ash" target="genmsl" file="folder/maker/msl/ash.metal" function="ash"/>
+  <implementation name="IM_ash_genrsl" nodedef="ND_ash" target="genrsl" file="folder/maker/rsl/ash.sl" function="ash"/>
 </materialx>
 END
 cat >vendor/folder/maker/glsl/ash.glsl <<'END'
@@ -18,7 +18,7 @@ cat >vendor/folder/maker/glsl/ash.glsl <<'END'
 void ash(float in1, out float result) { result = twice(in1); }
 END
 echo 'float twice(float x) { return 2.0 * x; }' >vendor/folder/maker/glsl/twice.glsl
-sed 's/ash.glsl/grey.glsl/' vendor/folder/maker/defs.mtlx | grep -v 'nodedef name\|genmsl' >vendor/folder/changes/defs.mtlx
+sed 's/ash.glsl/grey.glsl/' vendor/folder/maker/defs.mtlx | grep -v 'nodedef name\|genrsl' >vendor/folder/changes/defs.mtlx
 mkdir -p vendor/folder/changes
 sed -i 's|folder/maker/glsl/||' vendor/folder/changes/defs.mtlx
 echo 'void ash(float in1, out float result) { result = 3.0 * in1; }' >vendor/folder/changes/grey.glsl
@@ -44,14 +44,14 @@ check 'a library that is given twice replaces nothing' test "$(grep -c replaced-
 
 # Implementations for targets that mxgen does not have are left aside, which `library list` says.
 check 'library list is accepted' exits 0 "$mxgen" library list ash vendor/folder
-check 'library list notes implementations for foreign targets' grep -q 'note: 1 implementations are for .*: genmsl (1) \[foreign-implementations\]' err
+check 'library list notes implementations for foreign targets' grep -q 'note: 1 implementations are for .*: genrsl (1) \[foreign-implementations\]' err
 check 'library list --quiet is accepted' exits 0 "$mxgen" library list ash vendor/folder --quiet
 check 'library list --quiet prints no note' test ! -s err
 check 'two libraries generate a document' draws 0.75 --library vendor/folder/maker --library vendor/folder/changes --source-path vendor
 check 'a generation prints no note about foreign targets' test "$(grep -c foreign-implementations err)" = 0
 check 'a library is packed' exits 0 "$mxgen" library pack vendor/folder/maker --source-path vendor -o maker.mxlib
 check 'an image is listed' exits 0 "$mxgen" library list ash maker.mxlib
-check 'an image keeps the note about foreign targets' grep -q 'genmsl (1) \[foreign-implementations\]' err
+check 'an image keeps the note about foreign targets' grep -q 'genrsl (1) \[foreign-implementations\]' err
 
 # A broken implementation is an error of the nodes that need it; the rest of its library works.
 cat >partly.mtlx <<'END'

@@ -207,7 +207,7 @@ reports() {
     shift
     exits 1 "$@" && grep -q "\[$id\]" err
 }
-check "a payload for HLSL is an error" reports options-clash "$mxgen" models.mtlx -e Paint --role payload --target hlsl -o other
+check "a payload for OpenGL ES is an error" reports options-clash "$mxgen" models.mtlx -e Paint --role payload --target essl -o other
 check "a payload with lights is an error" reports option-without-effect "$mxgen" models.mtlx -e Paint --role payload --max-lights 8 --target vulkan
 echo '<materialx version="1.39"><constant name="c" type="color3"/></materialx>' >value.mtlx
 check "a payload of a value is an error" reports not-renderable "$mxgen" value.mtlx -e c --role payload --target vulkan -o other
@@ -238,8 +238,11 @@ X
 aovs_are_told() { "$mxgen" aov.mtlx --target vulkan --interface reduced --role deferred -o aovs "$@" 2>&1 | grep -q "drawn forward: it has AOVs"; }
 check "a message says that AOVs are drawn forward" aovs_are_told
 check "nothing is drawn forward without AOVs" exits 1 aovs_are_told --aovs none
-for target in essl essl310 hlsl osl; do
-    check "passes for $target are an error" reports options-clash "$mxgen" "$examples/deferred.mtlx" -e Plain --target "$target" --role deferred -o no
+for target in essl essl310 wgsl osl; do
+    check "material passes for $target are an error" reports options-clash "$mxgen" "$examples/deferred.mtlx" -e Plain --target "$target" --role deferred -o no
+done
+for target in essl hlsl slang msl wgsl; do
+    check "passes for $target are an error" reports options-clash "$mxgen" pipeline no --target "$target"
 done
 check "passes for OpenGL 3.3 are an error" reports options-clash "$mxgen" pipeline no --target glsl --target-version 330
 check "passes do not light paths" reports options-clash "$mxgen" pipeline no --role scatter

@@ -52,6 +52,9 @@ for count in '--samples 0' '--samples 65537' '--frame 99999999999' '--paths 0 --
 done
 check 'wrong usage writes nothing' eval '! ls x.png y.png x.exr baked 2>/dev/null | grep -q .'
 
+# Gigabytes that are only promised take no time, but with this variable the allocator writes them.
+export MALLOC_PERTURB_=0
+
 # The file promises 65,536 x 4 pixels of 1,000 channels. OpenImageIO throws where it finds no memory for them, which depends on the
 # limit; an exception that leaves the reader would abort the program.
 python3 - <<'P'
@@ -72,7 +75,7 @@ P
 if [ -n "${SANITIZER:-}" ]; then
     skip 'a program with a sanitizer maps terabytes: its memory has no limit'
 else
-    for kilobytes in $(seq 700000 100000 2000000); do
+    for kilobytes in $(seq 700000 400000 1900000); do
         check "an image of 1,000 channels is an error in $kilobytes KB of memory" exits 1 bash -c "ulimit -v $kilobytes && '$mean_ratio' channels.exr channels.exr"
     done
 fi

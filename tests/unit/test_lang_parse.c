@@ -713,6 +713,96 @@ static void fuzz_file(const char *path, uint32_t rounds)
     fuzz(text, rounds);
 }
 
+/* ---- Programs ---- */
+
+static uint32_t parse_program(struct fixture *f, const char *text)
+{
+    return lang_parse_program(&f->unit, "program", text, strlen(text), &f->diags);
+}
+
+static const char *print_last(struct fixture *f)
+{
+    struct lang_style style;
+    struct text text;
+    text_init(&text, &f->arena);
+    lang_style_init(&style, &lang_syntax_portable, &f->arena);
+    lang_print_function(&style, NULL, &f->unit, f->unit.functions.len - 1, &text);
+    return text_cstr(&text);
+}
+
+/* Steps and choices with effects come before their statement, in their order. */
+static void test_program(void)
+{
+    struct fixture f;
+    setup(&f);
+    uint32_t file = parse_program(&f, "struct R { uint at, next; };\n"
+                                      "in uint level;\n"
+                                      "uint count = 2u, words[2];\n"
+                                      "uint load(uint at);\n"
+                                      "uint take(inout R r) { return load(r.at++); }\n"
+                                      "void run(inout R r, bool b)\n"
+                                      "{\n"
+                                      "    bool top = r.next == 0u, last = ++r.next == count;\n"
+                                      "    if (count++ == level)\n"
+                                      "        words[1] = b ? 0u : take(r);\n"
+                                      "    level = b ? 0u : load(1u);\n"
+                                      "    words[0] = top || last ? 1u : 0u;\n"
+                                      "}\n");
+    REQUIRE_STR(messages(&f), "");
+    REQUIRE_EQ(file, 0);
+    REQUIRE_STR(print_last(&f), "void run(inout R r, bool b)\n"
+                                "{\n"
+                                "    bool top = r.next == 0u;\n"
+                                "    r.next += 1u;\n"
+                                "    uint kept = r.next;\n"
+                                "    bool last = kept == count;\n"
+                                "    uint kept_ = count;\n"
+                                "    count += 1u;\n"
+                                "    if (kept_ == level) {\n"
+                                "        uint kept_2;\n"
+                                "        if (b)\n"
+                                "            kept_2 = 0u;\n"
+                                "        else\n"
+                                "            kept_2 = take(r);\n"
+                                "        words[1] = kept_2;\n"
+                                "    }\n"
+                                "    level = b ? 0u : load(1u);\n"
+                                "    words[0] = top || last ? 1u : 0u;\n"
+                                "}\n");
+    const struct lang_global *count = &f.unit.globals.items[1], *words = &f.unit.globals.items[2];
+    REQUIRE(count->kind == LANG_GLOBAL_VARIABLE && count->num_words == 1);
+    REQUIRE(f.unit.words.items[count->words].u == 2);
+    REQUIRE(words->kind == LANG_GLOBAL_VARIABLE && words->num_words == 0);
+    teardown(&f);
+}
+
+static void test_program_refused(void)
+{
+    static const struct {
+        const char *text, *message;
+    } cases[] = {
+        {"uint n;\nvoid f() { while (n++ < 3u) n = 0u; }", "the condition of a loop"},
+        {"uint n[2];\nuint f() { return n[0]++; }", "only a variable or its member"},
+        {"uint n = m;", "m"},
+        {"const uint n = 1u;\nvoid f() { n = 2u; }", "constant"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct fixture f;
+        setup(&f);
+        REQUIRE_EQ(parse_program(&f, cases[i].text), LANG_NONE);
+        if (!strstr(messages(&f), cases[i].message))
+            REQUIRE_STR(messages(&f), cases[i].message);
+        teardown(&f);
+    }
+    struct fixture f; /* none of it is in the portable language */
+    setup(&f);
+    REQUIRE_EQ(parse_text(&f, "uint n = 2u;"), LANG_NONE);
+    teardown(&f);
+    setup(&f);
+    REQUIRE_EQ(parse_text(&f, "uint f(uint n) { return n++; }"), LANG_NONE);
+    teardown(&f);
+}
+
 int main(int argc, char **argv)
 {
     uint32_t rounds = argc > 1 ? (uint32_t)strtoul(argv[1], NULL, 10) : 2000;
@@ -725,6 +815,8 @@ int main(int argc, char **argv)
     test_expressions();
     test_values();
     test_depth();
+    test_program();
+    test_program_refused();
     fuzz(everything, rounds);
     fuzz(
         "mix({{a}}.xyz, vec3({{b}}, 1.0, -2.0), clamp({{b}} * 2.0, 0, 1)) + ({{a}} * mat3(1.0))[1]",

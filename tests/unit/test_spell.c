@@ -668,6 +668,7 @@ static void check_infinities(const struct target *target)
                      {"genslang", "asfloat(0x7f800000u)", "asfloat(0x7fc00000u)"},
                      {"genmsl", "INFINITY", "NAN"},
                      {"genwgsl", "wgsl_infinity()", "wgsl_nan()"},
+                     {"mdl", "(1.0 / 0.0)", "(0.0 / 0.0)"},
                      {"genosl", "3.4028235e+38", "0.0"}};
     const float values[] = {INFINITY, -INFINITY, NAN};
     for (size_t i = 0; i < sizeof spellings / sizeof *spellings; i++) {

@@ -33,14 +33,19 @@ static void test_differs(void)
     REQUIRE((target_toy.caps ^ target_find("vulkan")->caps) & CAP_SAMPLER_BINDINGS);
 }
 
-static const char *print(struct fixture *f, const char *called)
+static const char *print_by(struct fixture *f, const struct lang_syntax *syntax, const char *called)
 {
     struct lang_style style;
     struct text text;
-    lang_style_init(&style, &toy_syntax, &f->arena);
+    lang_style_init(&style, syntax, &f->arena);
     text_init(&text, &f->arena);
     lang_print_function(&style, NULL, &f->unit, function(f, called), &text);
     return text_cstr(&text);
+}
+
+static const char *print(struct fixture *f, const char *called)
+{
+    return print_by(f, &toy_syntax, called);
 }
 
 static const char source[] =
@@ -240,6 +245,90 @@ static void test_bindings(void)
     fixture_close(&f);
 }
 
+/* A language whose functions have no parameters for results. */
+static void test_results_in_struct(void)
+{
+    struct fixture f;
+    struct lang_syntax syntax = toy_syntax;
+    syntax.base = &toy_syntax;
+    syntax.results_in_struct = true;
+    syntax.reserved_prefix = "toy_";
+    fixture_open(
+        &f, "float both(float a, out float b, inout float c) { b = a; c += a; return 2.0 * a; }\n"
+            "void none(out float b) { b = 1.0; }\n"
+            "float use(float a) { float b, c = 0.0; none(b); if (both(a, b, c) > 1.0) b += both(c, "
+            "c, b);\n"
+            "    return b + c; }\n");
+    const char *text = print_by(&f, &syntax, "both");
+    REQUIRE(has(text, "struct toy_results_both {\n"));
+    REQUIRE(has(text, "fn both(in a: f32, copy c: f32) -> toy_results_both\n{\n    var b: f32;\n"));
+    REQUIRE(has(text, "    return toy_results_both(2.0 * a, b, c);\n"));
+    REQUIRE(has(print_by(&f, &syntax, "none"), "    b = 1.0;\n    return toy_results_none(b);\n"));
+    text = print_by(&f, &syntax, "use");
+    REQUIRE(has(text,
+                "    toy_results_none toy_r1 = none();\n    b = toy_r1.b;\n"
+                "    toy_results_both toy_r2 = both(a, c);\n    b = toy_r2.b;\n    c = toy_r2.c;\n"
+                "    if (toy_r2.value > 1.0) {\n"));
+    REQUIRE(has(text, "        toy_results_both toy_r3 = both(c, b);\n        c = toy_r3.b;\n"
+                      "        b = toy_r3.c;\n        b += toy_r3.value;\n"));
+    fixture_close(&f);
+}
+
+/* In such a language, what a head evaluates more than once or not at all stands in the body. */
+static void test_results_in_heads(void)
+{
+    struct fixture f;
+    struct lang_syntax syntax = toy_syntax;
+    syntax.base = &toy_syntax;
+    syntax.results_in_struct = true;
+    syntax.reserved_prefix = "toy_";
+    syntax.always_braces = true;
+    fixture_open(
+        &f, "bool next(inout float a) { a += 1.0; return a < 8.0; }\n"
+            "float logic(float x) { if (x > 0.0 && next(x)) x = 2.0; return x; }\n"
+            "float chain(float x) { if (x > 0.0) x = 1.0; else if (next(x)) x = 2.0; return x; }\n"
+            "float loops(float x) { while (next(x)) { if (x > 5.0) continue; x += 0.5; }\n"
+            "    do { x -= 0.25; } while (next(x)); for (int i = 0; i < 3; next(x)) i++; return x; "
+            "}\n");
+    REQUIRE(has(print_by(&f, &syntax, "logic"),
+                "    bool toy_r1 = x > 0.0;\n    if (toy_r1) {\n"
+                "        toy_results_next toy_r2 = next(x);\n        x = toy_r2.a;\n"
+                "        toy_r1 = toy_r2.value;\n    }\n    if (toy_r1) {\n        x = 2.0;\n"));
+    REQUIRE(has(print_by(&f, &syntax, "chain"),
+                "    } else {\n        toy_results_next toy_r1 = next(x);\n        x = toy_r1.a;\n"
+                "        if (toy_r1.value) {\n"));
+    const char *text = print_by(&f, &syntax, "loops");
+    REQUIRE(has(text, "        while (true) {\n            toy_results_next toy_r1 = next(x);\n"
+                      "            x = toy_r1.a;\n            if (!(toy_r1.value)) {\n"
+                      "                break;\n            }\n            if (x > 5.0) {\n"));
+    REQUIRE(has(text,
+                "        bool toy_r2 = false;\n        while (true) {\n"
+                "            if (toy_r2) {\n                toy_results_next toy_r3 = next(x);\n"
+                "                x = toy_r3.a;\n                if (!(toy_r3.value)) {\n"));
+    REQUIRE(has(text, "            toy_r2 = true;\n            x -= 0.25;\n"));
+    REQUIRE(has(text, "        var i: i32 = 0;\n        bool toy_r4 = false;\n"));
+    REQUIRE(has(text, "            toy_r4 = true;\n            if (!(i < 3)) {\n"));
+    fixture_close(&f);
+}
+
+/* Names that begin as no name of the language does. */
+static void test_beginnings(void)
+{
+    struct fixture f;
+    struct lang_syntax syntax = toy_syntax;
+    syntax.base = &toy_syntax;
+    syntax.reserved_prefix = "toy_";
+    syntax.begins_with_letter = true;
+    fixture_open(&f, "struct S { float toy_m; float _m; };\n"
+                     "float names(float toy_a, float _b, S s) { float _c = toy_a; float x_c = _b;\n"
+                     "    return _c + x_c + s.toy_m + s._m; }\n");
+    const char *text = print_by(&f, &syntax, "names");
+    REQUIRE(has(text, "fn names(in xtoy_a_: f32, in x_b_: f32, in s: S) -> f32\n"));
+    REQUIRE(has(text, "val x_c_: f32 = xtoy_a_;\n    val x_c: f32 = x_b_;\n"));
+    REQUIRE(has(text, "return x_c_ + x_c + s.xtoy_m_ + s.x_m_;\n"));
+    fixture_close(&f);
+}
+
 int main(void)
 {
     test_differs();
@@ -249,5 +338,8 @@ int main(void)
     test_booleans();
     test_results();
     test_bindings();
+    test_results_in_struct();
+    test_results_in_heads();
+    test_beginnings();
     return test_report("syntax");
 }

@@ -1,0 +1,48 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# What a material of MDL cannot have, and its versions. Argument: mxgen.
+mxgen=$(realpath "$1")
+. "$(dirname "$0")/../programs/common.sh"
+
+cat >gold.mtlx <<'END'
+<materialx version="1.39">
+  <standard_surface name="gold" type="surfaceshader"><input name="metalness" type="float" value="1"/></standard_surface>
+  <viewdirection name="view" type="vector3"/>
+  <output name="seen" type="vector3" nodename="view"/>
+  <UsdUVTexture name="height" type="multioutput"/>
+  <heighttonormal name="bumps" type="vector3"><input name="in" type="float" nodename="height" output="r"/></heighttonormal>
+  <output name="slopes" type="vector3" nodename="bumps"/>
+  <constant name="word" type="string"><input name="value" type="string" value="x"/></constant>
+  <output name="text" type="string" nodename="word"/>
+  <constant name="grey" type="float"><input name="value" type="float" value="0.5"/></constant>
+  <output name="glow" type="float" nodename="grey"/>
+</materialx>
+END
+check 'a material knows no view' exits 1 "$mxgen" gold.mtlx --target mdl --element seen -o none
+check 'the error says so' grep -q 'gold.mtlx:.*mdl has no viewPosition' err
+check 'a material has no derivatives' exits 1 "$mxgen" gold.mtlx --target mdl --element slopes -o none
+check 'the error says so' grep -q 'gold.mtlx:.*mdl has no slopes' err
+check 'a text is no light' exits 1 "$mxgen" gold.mtlx --target mdl --element text -o none
+check 'a value is light' exits 0 "$mxgen" gold.mtlx --target mdl --element glow -o glow
+check 'a value is the intensity of an edf' grep -q 'emission: material_emission(emission: surface_emission' glow/glow.mdl
+
+# Names that begin as no identifier of MDL, and results in structs: the compiler of MDL reads the file where it is installed.
+cat >names.mtlx <<'END'
+<materialx version="1.39">
+  <nodegraph name="_graph">
+    <input name="_k" type="float" value="0.5"/>
+    <sin name="mdl_s" type="float"><input name="in" type="float" interfacename="_k"/></sin>
+    <multiply name="_m" type="float"><input name="in1" type="float" nodename="mdl_s"/><input name="in2" type="float" nodename="mdl_s"/></multiply>
+    <output name="_o" type="float" nodename="_m"/>
+  </nodegraph>
+</materialx>
+END
+check 'names that begin otherwise' exits 0 "$mxgen" names.mtlx --target mdl --element _graph/_o -o made
+check 'a material' grep -q '^export material x_graph_o(' made/_graph._o.mdl
+check 'a parameter' grep -q 'float x_k = 0.5' made/_graph._o.mdl
+
+for version in 1.8 1.9 1.10; do
+    check "version $version" exits 0 "$mxgen" gold.mtlx --target mdl --target-version "$version" --element gold -o made
+    check "it is version $version" grep -qx "mdl $version;" made/gold.mdl
+done
+finish mdl-limits
