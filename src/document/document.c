@@ -558,23 +558,10 @@ static elem_id find_name(const struct document *doc, elem_id parent, str_id name
     return found;
 }
 
-void doc_index_names(struct document *doc, struct diag_list *diags)
+bool doc_has_element(const struct document *doc, elem_id element)
 {
-    assert(!doc->origin);
-    doc->names = (struct table){0};
-    table_reserve(&doc->names, doc->arena, doc->elements.len / 3 * 2); /* three of four are used */
-    for (uint32_t i = 0; i < doc->elements.len; i++) {
-        elem_id element = doc->first_element + i;
-        if (!is_named_child(doc, element))
-            continue;
-        const struct element *e = &doc->elements.items[i];
-        uint32_t at;
-        elem_id first = find_name(doc, e->parent, e->name, &at);
-        if (first && diags && doc_has_element(doc, element))
-            doc_leave_out_duplicate(doc, first, element, diags);
-        if (!first)
-            table_add(&doc->names, doc->arena, hash_pair(e->parent, e->name), element);
-    }
+    return element >= doc->first_element && element - doc->first_element < doc_num_elements(doc)
+           && doc_is_within(doc, element, doc->root);
 }
 
 void doc_index_element(struct document *doc, elem_id element)

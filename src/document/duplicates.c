@@ -119,16 +119,6 @@ bool doc_restore_left_out(struct document *doc, const struct document *from)
     return from->left_out.len != 0;
 }
 
-void doc_index_restored(struct document *doc)
-{
-    for (uint32_t i = 0; i < doc->whole->left_out.len; i++) {
-        elem_id element = doc->whole->left_out.items[i].element;
-        const struct element *e = doc_element(doc, element);
-        if (e->parent && !doc_child(doc, e->parent, e->name))
-            doc_index_change(doc, element);
-    }
-}
-
 /* ---- Reports ---- */
 
 void doc_leave_out_duplicate(struct document *doc, elem_id first, elem_id second,
@@ -157,4 +147,22 @@ elem_id doc_second_of_name(const struct document *doc, elem_id element)
         if (doc->doubles.items[found - 1].first == element)
             return doc->doubles.items[found - 1].second;
     return 0;
+}
+
+void doc_index_names(struct document *doc, struct diag_list *diags)
+{
+    assert(!doc->origin);
+    doc->names = (struct table){0};
+    table_reserve(&doc->names, doc->arena, doc->elements.len / 3 * 2); /* three of four are used */
+    for (uint32_t i = 0; i < doc->elements.len; i++) {
+        elem_id element = doc->first_element + i;
+        const struct element *e = &doc->elements.items[i];
+        if (!e->name || !e->parent)
+            continue;
+        elem_id first = doc_child(doc, e->parent, e->name);
+        if (first && diags && doc_has_element(doc, element))
+            doc_leave_out_duplicate(doc, first, element, diags);
+        if (!first)
+            table_add(&doc->names, doc->arena, hash_pair(e->parent, e->name), element);
+    }
 }

@@ -251,12 +251,6 @@ elem_id doc_copy_element(struct document *doc, elem_id parent, const struct docu
     return copy;
 }
 
-bool doc_has_element(const struct document *doc, elem_id element)
-{
-    return element >= doc->first_element && element - doc->first_element < doc_num_elements(doc)
-           && doc_is_within(doc, element, doc->root);
-}
-
 /* ---- Names ---- */
 
 static bool is_digit(char c)

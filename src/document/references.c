@@ -154,6 +154,16 @@ void doc_index_change(struct document *doc, elem_id element)
         index_references(doc, child); /* the scope of its ports is another one */
 }
 
+void doc_index_restored(struct document *doc)
+{
+    for (uint32_t i = 0; i < doc->whole->left_out.len; i++) {
+        elem_id element = doc->whole->left_out.items[i].element;
+        const struct element *e = doc_element(doc, element);
+        if (e->parent && !doc_child(doc, e->parent, e->name))
+            doc_index_change(doc, element);
+    }
+}
+
 bool doc_is_used(const struct document *doc, elem_id node)
 {
     const struct element *e = doc_element(doc, node);

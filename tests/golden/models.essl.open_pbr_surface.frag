@@ -514,6 +514,7 @@ mx_GgxLight mx_ggx_transmitted(const mx_GgxSamples s, const float ior, const int
 void main()
 {
     // SR_open_pbr_surface
+    float coating_weight = clamp(SR_open_pbr_surface_coat_weight, 0.0, 1.0);
     float coat_plus = SR_open_pbr_surface_coat_ior + 1.0;
     float coat_front = SR_open_pbr_surface_coat_ior * 4.0 / (coat_plus * coat_plus);
     vec3 N = normalize(vd_normalWorld);
@@ -521,8 +522,8 @@ void main()
     float absolute = abs(dot(N, V));
     vec3 color = SR_open_pbr_surface_emission_luminance
         * (SR_open_pbr_surface_emission_color
-        * (1.0 - SR_open_pbr_surface_coat_weight + SR_open_pbr_surface_coat_color
-        * (SR_open_pbr_surface_coat_weight * (coat_front * (1.0 - pow(1.0 - min(absolute, 1.0), 5.0))))));
+        * (1.0 - coating_weight + SR_open_pbr_surface_coat_color
+        * (coating_weight * (coat_front * (1.0 - pow(1.0 - min(absolute, 1.0), 5.0))))));
     // lights
     vec3 subsurface_positive = max(SR_open_pbr_surface_subsurface_color, 0.0);
     float ior_relative = mix(SR_open_pbr_surface_specular_ior,
@@ -542,18 +543,25 @@ void main()
     float product = mix(r * r, 1.0, albedo.y) * albedo.x;
     float difference = 1.0 / albedo.x - 1.0;
     float reflection_scale = difference * mix(r * r, 1.0, 0.04761905) + 1.0;
-    vec3 reflection_throughput = vec3(1.0 - product * reflection_scale);
     float film_thickness = SR_open_pbr_surface_thin_film_thickness * 1000.0;
     vec3 reflection_film_scale = mix(mx_fresnel_facing(vec3(ior), film_thickness, SR_open_pbr_surface_thin_film_ior),
         vec3(1.0), 0.04761905) * difference + vec3(1.0);
+    float clamped_thin_film_weight = clamp(SR_open_pbr_surface_thin_film_weight, 0.0, 1.0);
+    float coat_ior2 = SR_open_pbr_surface_coat_ior * SR_open_pbr_surface_coat_ior;
+    vec3 albedo_2 = mix(mix(SR_open_pbr_surface_base_color, SR_open_pbr_surface_subsurface_color,
+        SR_open_pbr_surface_subsurface_weight), SR_open_pbr_surface_base_color * SR_open_pbr_surface_specular_weight,
+        SR_open_pbr_surface_base_metalness);
+    vec3 darkening = coat_front / coat_ior2 / (vec3(1.0) - albedo_2 * (1.0 - coat_front / coat_ior2));
+    vec3 clamped_darkened = clamp(mix(vec3(1.0), darkening, SR_open_pbr_surface_coat_weight
+        * SR_open_pbr_surface_coat_darkening), 0.0, 1.0);
+    float fuzz_weight = clamp(SR_open_pbr_surface_fuzz_weight, 0.0, 1.0);
     float fuzz_r = clamp(SR_open_pbr_surface_fuzz_roughness, 0.01, 1.0);
     float width = fuzz_r * (fuzz_r * 1.58491 + 0.0206607) / (fuzz_r * (fuzz_r + 1.32227) + 0.0379424);
     float x = (cos_v - fuzz_r * (fuzz_r * (fuzz_r * (1.7932 - fuzz_r * (fuzz_r * 0.95943)) - 1.14885) - 0.193854)
         / (fuzz_r + 0.046391)) / width;
     float fuzz_ratio = exp(x * (x * -0.5)) / (width * 2.5066283);
     float fuzz_product = fuzz_r * (fuzz_r * (fuzz_r * 0.119681 - 0.0207818) + 0.000654023);
-    float fuzz_product_2 = SR_open_pbr_surface_fuzz_weight
-        * max(fuzz_ratio + fuzz_product / (fuzz_r * (fuzz_r - 1.92021) + 1.26264), 0.0);
+    float fuzz_product_2 = fuzz_weight * max(fuzz_ratio + fuzz_product / (fuzz_r * (fuzz_r - 1.92021) + 1.26264), 0.0);
     float coating_r = (1.0 - SR_open_pbr_surface_coat_ior) / coat_plus;
     vec2 coat_lobe = mx_open_pbr_anisotropy(SR_open_pbr_surface_coat_roughness,
         SR_open_pbr_surface_coat_roughness_anisotropy);
@@ -562,38 +570,33 @@ void main()
     vec2 coating_albedo = mx_ggx_albedo_fit(coating_a, coating_a / (cos_v + coating_a), cos_v);
     float coating_scale = mix(coating_r * coating_r, 1.0, 0.04761905) * (1.0 / coating_albedo.x - 1.0) + 1.0;
     float coated_weight = (1.0 - fuzz_product_2)
-        * (1.0 - SR_open_pbr_surface_coat_weight
-        * (mix(coating_r * coating_r, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale));
-    vec3 substrate_darkened_weight = coated_weight
-        * clamp(mix(vec3(1.0), SR_open_pbr_surface_coat_color, SR_open_pbr_surface_coat_weight), 0.0, 1.0);
-    float coat_ior2 = SR_open_pbr_surface_coat_ior * SR_open_pbr_surface_coat_ior;
-    vec3 albedo_2 = mix(mix(SR_open_pbr_surface_base_color, SR_open_pbr_surface_subsurface_color,
-        SR_open_pbr_surface_subsurface_weight), SR_open_pbr_surface_base_color * SR_open_pbr_surface_specular_weight,
-        SR_open_pbr_surface_base_metalness);
-    vec3 darkening = coat_front / coat_ior2 / (vec3(1.0) - albedo_2 * (1.0 - coat_front / coat_ior2));
-    vec3 substrate_weight = substrate_darkened_weight
-        * clamp(mix(vec3(1.0), darkening, SR_open_pbr_surface_coat_weight * SR_open_pbr_surface_coat_darkening), 0.0,
-        1.0);
-    vec3 body_weight = mix(reflection_throughput, vec3(1.0) - product * reflection_film_scale,
-        SR_open_pbr_surface_thin_film_weight) * substrate_weight;
-    float backward_share = (1.0 - SR_open_pbr_surface_subsurface_scatter_anisotropy) * 0.5;
+        * (1.0 - coating_weight * (mix(coating_r * coating_r, 1.0, coating_albedo.y) * coating_albedo.x
+        * coating_scale));
+    vec3 substrate_weight = clamped_darkened
+        * (clamp(mix(vec3(1.0), SR_open_pbr_surface_coat_color, SR_open_pbr_surface_coat_weight), 0.0, 1.0)
+        * coated_weight);
+    vec3 body_weight = mix(vec3(1.0 - product * reflection_scale), vec3(1.0) - product * reflection_film_scale,
+        clamped_thin_film_weight) * substrate_weight;
+    float clamped_backward_share = clamp((1.0 - SR_open_pbr_surface_subsurface_scatter_anisotropy) * 0.5, 0.0, 1.0);
     float thin = float(SR_open_pbr_surface_geometry_thin_walled);
-    float dielectric_weight = 1.0 - SR_open_pbr_surface_base_metalness;
-    float opaque_weight = dielectric_weight * (1.0 - SR_open_pbr_surface_transmission_weight);
-    float sheet_weight = thin * (SR_open_pbr_surface_subsurface_weight * opaque_weight);
-    vec3 sheet_front_product = subsurface_positive * (body_weight * (backward_share * sheet_weight));
+    float clamped_subsurface_weight = clamp(SR_open_pbr_surface_subsurface_weight, 0.0, 1.0);
+    float metal_weight = clamp(SR_open_pbr_surface_base_metalness, 0.0, 1.0);
+    float clamped_transmission_weight = clamp(SR_open_pbr_surface_transmission_weight, 0.0, 1.0);
+    float opaque_weight = (1.0 - metal_weight) * (1.0 - clamped_transmission_weight);
+    float sheet_weight = thin * (clamped_subsurface_weight * opaque_weight);
+    vec3 sheet_front_product = subsurface_positive * (body_weight * (clamped_backward_share * sheet_weight));
     vec3 Nf = faceforward(N, -V, N);
     float r2 = SR_open_pbr_surface_base_diffuse_roughness * SR_open_pbr_surface_base_diffuse_roughness;
     vec2 ab = r2 * vec2(-0.5, 0.45) / (r2 + vec2(0.33, 0.09)) + vec2(1.0, 0.0);
-    float sheet_back_weight = sheet_weight * (1.0 - backward_share);
+    float sheet_back_weight = sheet_weight * (1.0 - clamped_backward_share);
     vec3 sheet_back_product = subsurface_positive * (body_weight * sheet_back_weight);
     float limited_cos_v = min(cos_v, 1.0);
     vec3 fuzz_product_3 = SR_open_pbr_surface_fuzz_color * fuzz_product_2;
     vec3 X = normalize(vd_tangentWorld);
     mx_GgxLobe coating_lobe = mx_ggx_lobe(coat_lobe, N, X, V);
-    float coating_product = coating_scale * (SR_open_pbr_surface_coat_weight * (1.0 - fuzz_product_2));
-    float metal_film_weight = SR_open_pbr_surface_specular_weight
-        * (SR_open_pbr_surface_base_metalness * SR_open_pbr_surface_thin_film_weight);
+    float coating_product = coating_scale * (coating_weight * (1.0 - fuzz_product_2));
+    float clamped_specular_weight = clamp(SR_open_pbr_surface_specular_weight, 0.0, 1.0);
+    float metal_film_weight = clamped_specular_weight * (clamped_thin_film_weight * metal_weight);
     vec3 fresnel_facing = max(SR_open_pbr_surface_base_weight * SR_open_pbr_surface_base_color, 0.0);
     vec3 metal_film_product = (difference
         * mix(mx_fresnel_facing_2(fresnel_facing, film_thickness, SR_open_pbr_surface_thin_film_ior), vec3(1.0),
@@ -601,24 +604,21 @@ void main()
     vec3 limited_specular_color = max(SR_open_pbr_surface_specular_color, 0.0);
     vec3 schlick_bend = mix(fresnel_facing, vec3(1.0), 0.4626644) * (vec3(1.0) - limited_specular_color) * 17.651384;
     mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, X, V);
-    float one_minus_thin_film_weight = 1.0 - SR_open_pbr_surface_thin_film_weight;
-    float metal_bare_weight = SR_open_pbr_surface_specular_weight
-        * (SR_open_pbr_surface_base_metalness * one_minus_thin_film_weight);
+    float metal_bare_weight = clamped_specular_weight * (metal_weight * (1.0 - clamped_thin_film_weight));
     vec3 metal_bare_product = (difference * mix(fresnel_facing, vec3(1.0), 0.04761905) + vec3(1.0))
         * (substrate_weight * metal_bare_weight);
-    bool reflection_film_visible = SR_open_pbr_surface_thin_film_weight * dielectric_weight > 0.0;
-    vec3 reflection_film_product = substrate_weight * (SR_open_pbr_surface_thin_film_weight * dielectric_weight)
+    float reflection_film_weight = clamped_thin_film_weight * (1.0 - metal_weight);
+    vec3 reflection_film_product = substrate_weight * reflection_film_weight
         * (reflection_film_scale * limited_specular_color);
-    bool reflection_visible = dielectric_weight * one_minus_thin_film_weight > 0.0;
-    vec3 reflection_product = reflection_scale
-        * (limited_specular_color * (substrate_weight * (dielectric_weight * one_minus_thin_film_weight)));
+    float reflection_weight = (1.0 - metal_weight) * (1.0 - clamped_thin_film_weight);
+    vec3 reflection_product = reflection_scale * (limited_specular_color * (substrate_weight * reflection_weight));
     float scaled_ior = ior * ior;
-    float scatter_weight = SR_open_pbr_surface_subsurface_weight * opaque_weight * (1.0 - thin);
+    float scatter_weight = clamped_subsurface_weight * opaque_weight * (1.0 - thin);
     vec3 scatter_radius = SR_open_pbr_surface_subsurface_radius * SR_open_pbr_surface_subsurface_radius_scale;
     float curvature = max(length(fwidth(Nf)) / length(fwidth(vd_positionWorld)), 0.01);
     vec3 scatter_product = subsurface_positive * (body_weight * scatter_weight);
-    float diffuse_weight = SR_open_pbr_surface_base_weight
-        * (opaque_weight * (1.0 - SR_open_pbr_surface_subsurface_weight));
+    float diffuse_weight = clamp(SR_open_pbr_surface_base_weight, 0.0, 1.0)
+        * (opaque_weight * (1.0 - clamped_subsurface_weight));
     vec3 base_positive = max(SR_open_pbr_surface_base_color, 0.0);
     vec3 diffuse_product = base_positive * (body_weight * diffuse_weight);
     float diffuse_sum = SR_open_pbr_surface_base_diffuse_roughness * 0.28779334 + 1.0;
@@ -660,11 +660,11 @@ void main()
             * (cos_l_2 * (ab.x + ab.y * max(s, 0.0) / greater));
         color += light_color * (intensity * (sheet_front_response + max(-cos_l, 0.0) / 3.1415927 * sheet_back_product));
         // fuzz
-        if (SR_open_pbr_surface_fuzz_weight > 0.0)
+        if (fuzz_weight > 0.0)
             color += light_color * (intensity * (mx_sheen_zeltner(Nf, V, L, limited_cos_v, fuzz_r) * fuzz_product_3));
         // coating
         float cosine = sqrt(clamp(v_dot_l * 0.5 + 0.500001, 0.0, 1.0));
-        if (SR_open_pbr_surface_coat_weight > 0.0) {
+        if (coating_weight > 0.0) {
             float coating_product_2 = mx_fresnel_permittivity(cosine, coat_ior2) * coating_product;
             color += light_color * (intensity * (mx_ggx_light(coating_lobe, V, L) * coating_product_2));
         }
@@ -679,12 +679,12 @@ void main()
             color += light_color * (intensity
                 * (metal_bare_product * (ggx_light * mx_fresnel_schlick(cosine, fresnel_facing, schlick_bend))));
         // reflection_film
-        if (reflection_film_visible)
+        if (reflection_film_weight > 0.0)
             color += light_color * (intensity
                 * (reflection_film_product
                 * (ggx_light * mx_fresnel(cosine, vec3(ior), film_thickness, SR_open_pbr_surface_thin_film_ior))));
         // reflection
-        if (reflection_visible)
+        if (reflection_weight > 0.0)
             color += light_color * (intensity
                 * (reflection_product * (ggx_light * mx_fresnel_permittivity(cosine, scaled_ior))));
         // scatter
@@ -720,7 +720,7 @@ void main()
         color += u_envLightIntensity * (mix(mx_fujii_multiple(base_positive, mean), vec3(1.0), diffuse_fujii_albedo)
             * (diffuse_product * part));
     // environment: coating
-    if (SR_open_pbr_surface_coat_weight > 0.0) {
+    if (coating_weight > 0.0) {
         mx_GgxSamples coating_ggx_samples = mx_ggx_samples(coat_lobe, N, X, V);
         vec2 turn = vec2(1.0, 0.0);
         for (int i = 0; i < u_envRadianceSamples; ++i) {
@@ -732,7 +732,8 @@ void main()
     }
     // environment: metal_film, metal_bare, reflection_film, reflection
     mx_GgxSamples samples = mx_ggx_samples(roughness, N, X, V);
-    if (reflection_visible || (reflection_film_visible || (metal_film_weight > 0.0 || metal_bare_weight > 0.0))) {
+    if (reflection_weight > 0.0 || (reflection_film_weight > 0.0
+        || (metal_film_weight > 0.0 || metal_bare_weight > 0.0))) {
         if (film_thickness > 0.0) {
             vec2 turn = vec2(1.0, 0.0);
             for (int i = 0; i < u_envRadianceSamples; ++i) {
@@ -748,13 +749,13 @@ void main()
                         * (metal_film_ggx_reflected.color
                         * (metal_film_ggx_reflected.weight
                         * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_facing, schlick_bend)));
-                if (reflection_film_visible)
+                if (reflection_film_weight > 0.0)
                     color += reflection_film_product
                         * (metal_film_ggx_reflected.color
                         * (metal_film_ggx_reflected.weight
                         * mx_film_index(metal_film_ggx_reflected.cosine, vec3(scaled_ior), film_thickness,
                         SR_open_pbr_surface_thin_film_ior)));
-                if (reflection_visible)
+                if (reflection_weight > 0.0)
                     color += reflection_product
                         * (metal_film_ggx_reflected.color
                         * (metal_film_ggx_reflected.weight
@@ -775,19 +776,19 @@ void main()
                 vec3 reflection_product_2 = metal_film_ggx_reflected.color
                     * (metal_film_ggx_reflected.weight
                     * mx_fresnel_permittivity(metal_film_ggx_reflected.cosine, scaled_ior));
-                if (reflection_film_visible)
+                if (reflection_film_weight > 0.0)
                     color += reflection_film_product * reflection_product_2;
-                if (reflection_visible)
+                if (reflection_weight > 0.0)
                     color += reflection_product * reflection_product_2;
                 turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
             }
         }
     }
     // environment: refraction_film, refraction
-    float refraction_film_weight = SR_open_pbr_surface_thin_film_weight
-        * (SR_open_pbr_surface_transmission_weight * dielectric_weight);
-    float refraction_weight = SR_open_pbr_surface_transmission_weight * dielectric_weight * one_minus_thin_film_weight;
-    if (refraction_film_weight > 0.0 || refraction_weight > 0.0) {
+    float filled_weight = clamped_transmission_weight * (1.0 - metal_weight);
+    bool refraction_film_visible = clamped_thin_film_weight * filled_weight > 0.0;
+    float refraction_weight = filled_weight * (1.0 - clamped_thin_film_weight);
+    if (refraction_film_visible || refraction_weight > 0.0) {
         vec3 tint = max(SR_open_pbr_surface_transmission_depth > 0.0 ? vec3(1.0)
             : SR_open_pbr_surface_transmission_color, 0.0);
         vec3 absorbed = -(SR_open_pbr_surface_transmission_scatter + log(SR_open_pbr_surface_transmission_color))
@@ -795,13 +796,13 @@ void main()
         vec3 product_2 = exp(-(SR_open_pbr_surface_transmission_depth > 0.0 ? absorbed
             - min(min(min(absorbed.x, absorbed.y), absorbed.z), 0.0) : vec3(0.0))) * tint;
         vec3 product_3 = (u_refractionTwoSided ? tint : vec3(1.0)) * product_2;
-        vec3 refraction_film_product = body_weight * refraction_film_weight * product_3;
+        vec3 refraction_film_product = body_weight * (clamped_thin_film_weight * filled_weight) * product_3;
         vec3 refraction_product = product_3 * (body_weight * refraction_weight);
         if (film_thickness > 0.0) {
             vec2 turn = vec2(1.0, 0.0);
             for (int i = 0; i < u_envRadianceSamples; ++i) {
                 mx_GgxLight refraction_film_ggx_transmitted = mx_ggx_transmitted(samples, ior, i, turn);
-                if (refraction_film_weight > 0.0)
+                if (refraction_film_visible)
                     color += refraction_film_product
                         * (refraction_film_ggx_transmitted.color
                         * (refraction_film_ggx_transmitted.weight
@@ -821,7 +822,7 @@ void main()
                 vec3 refraction_product_2 = refraction_film_ggx_transmitted.color
                     * (refraction_film_ggx_transmitted.weight
                     * (1.0 - mx_fresnel_permittivity(refraction_film_ggx_transmitted.cosine, scaled_ior)));
-                if (refraction_film_weight > 0.0)
+                if (refraction_film_visible)
                     color += refraction_film_product * refraction_product_2;
                 if (refraction_weight > 0.0)
                     color += refraction_product * refraction_product_2;
@@ -830,7 +831,8 @@ void main()
         }
     }
     // opacity
-    if (SR_open_pbr_surface_geometry_opacity < u_alphaThreshold)
+    float opacity = clamp(SR_open_pbr_surface_geometry_opacity, 0.0, 1.0);
+    if (opacity < u_alphaThreshold)
         discard;
-    out1 = vec4(SR_open_pbr_surface_geometry_opacity * color, SR_open_pbr_surface_geometry_opacity);
+    out1 = vec4(opacity * color, opacity);
 }

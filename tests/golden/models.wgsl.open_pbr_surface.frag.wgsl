@@ -538,6 +538,7 @@ fn main(vd: VertexData) -> @location(0) vec4f
 {
     var out1: vec4f;
     let coat_weight: f32 = u_pub.SR_open_pbr_surface_coat_weight;
+    let coating_weight: f32 = clamp(coat_weight, 0.0, 1.0);
     let coat_ior: f32 = u_pub.SR_open_pbr_surface_coat_ior;
     let coat_front: f32 = coat_ior * 4.0 / ((coat_ior + 1.0) * (coat_ior + 1.0));
     let N: vec3f = normalize(vd.normalWorld);
@@ -545,8 +546,8 @@ fn main(vd: VertexData) -> @location(0) vec4f
     let absolute: f32 = abs(dot(N, V));
     var color: vec3f = u_pub.SR_open_pbr_surface_emission_luminance
         * (u_pub.SR_open_pbr_surface_emission_color
-        * (1.0 - coat_weight + u_pub.SR_open_pbr_surface_coat_color
-        * (coat_weight * (coat_front * (1.0 - pow(1.0 - min(absolute, 1.0), 5.0))))));
+        * (1.0 - coating_weight + u_pub.SR_open_pbr_surface_coat_color
+        * (coating_weight * (coat_front * (1.0 - pow(1.0 - min(absolute, 1.0), 5.0))))));
     // lights
     let subsurface_positive: vec3f = max(u_pub.SR_open_pbr_surface_subsurface_color, vec3f(0.0));
     let ior_relative: f32 = mix(u_pub.SR_open_pbr_surface_specular_ior,
@@ -571,14 +572,22 @@ fn main(vd: VertexData) -> @location(0) vec4f
     let thin_film_ior: f32 = u_pub.SR_open_pbr_surface_thin_film_ior;
     let reflection_film_scale: vec3f = mix(mx_fresnel_facing(vec3f(ior), film_thickness, thin_film_ior), vec3f(1.0),
         0.04761905) * difference + vec3f(1.0);
-    let thin_film_weight: f32 = u_pub.SR_open_pbr_surface_thin_film_weight;
+    let clamped_thin_film_weight: f32 = clamp(u_pub.SR_open_pbr_surface_thin_film_weight, 0.0, 1.0);
+    let coat_ior2: f32 = coat_ior * coat_ior;
+    let albedo_2: vec3f = mix(mix(u_pub.SR_open_pbr_surface_base_color, u_pub.SR_open_pbr_surface_subsurface_color,
+        u_pub.SR_open_pbr_surface_subsurface_weight), u_pub.SR_open_pbr_surface_base_color
+        * u_pub.SR_open_pbr_surface_specular_weight, u_pub.SR_open_pbr_surface_base_metalness);
+    let darkening: vec3f = coat_front / coat_ior2 / (vec3f(1.0) - albedo_2 * (1.0 - coat_front / coat_ior2));
+    let clamped_darkened: vec3f = clamp(mix(vec3f(1.0), darkening, coat_weight
+        * u_pub.SR_open_pbr_surface_coat_darkening), vec3f(0.0), vec3f(1.0));
+    let fuzz_weight: f32 = clamp(u_pub.SR_open_pbr_surface_fuzz_weight, 0.0, 1.0);
     let fuzz_r: f32 = clamp(u_pub.SR_open_pbr_surface_fuzz_roughness, 0.01, 1.0);
     let width: f32 = fuzz_r * (fuzz_r * 1.58491 + 0.0206607) / (fuzz_r * (fuzz_r + 1.32227) + 0.0379424);
     let x: f32 = (cos_v - fuzz_r * (fuzz_r * (fuzz_r * (1.7932 - fuzz_r * (fuzz_r * 0.95943)) - 1.14885) - 0.193854)
         / (fuzz_r + 0.046391)) / width;
     let fuzz_ratio: f32 = exp(x * (x * -0.5)) / (width * 2.5066283);
     let fuzz_product: f32 = fuzz_r * (fuzz_r * (fuzz_r * 0.119681 - 0.0207818) + 0.000654023);
-    let fuzz_product_2: f32 = u_pub.SR_open_pbr_surface_fuzz_weight
+    let fuzz_product_2: f32 = fuzz_weight
         * max(fuzz_ratio + fuzz_product / (fuzz_r * (fuzz_r - 1.92021) + 1.26264), 0.0);
     let coating_r: f32 = (1.0 - coat_ior) / (coat_ior + 1.0);
     let coat_lobe: vec2f = mx_open_pbr_anisotropy(u_pub.SR_open_pbr_surface_coat_roughness,
@@ -588,38 +597,35 @@ fn main(vd: VertexData) -> @location(0) vec4f
     let coating_albedo: vec2f = mx_ggx_albedo_fit(coating_a, coating_a / (cos_v + coating_a), cos_v);
     let coating_scale: f32 = mix(coating_r * coating_r, 1.0, 0.04761905) * (1.0 / coating_albedo.x - 1.0) + 1.0;
     let coated_weight: f32 = (1.0 - fuzz_product_2)
-        * (1.0 - coat_weight * (mix(coating_r * coating_r, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale));
-    let substrate_darkened_weight: vec3f = coated_weight
-        * clamp(mix(vec3f(1.0), u_pub.SR_open_pbr_surface_coat_color, coat_weight), vec3f(0.0), vec3f(1.0));
-    let coat_ior2: f32 = coat_ior * coat_ior;
-    let albedo_2: vec3f = mix(mix(u_pub.SR_open_pbr_surface_base_color, u_pub.SR_open_pbr_surface_subsurface_color,
-        u_pub.SR_open_pbr_surface_subsurface_weight), u_pub.SR_open_pbr_surface_base_color
-        * u_pub.SR_open_pbr_surface_specular_weight, u_pub.SR_open_pbr_surface_base_metalness);
-    let darkening: vec3f = coat_front / coat_ior2 / (vec3f(1.0) - albedo_2 * (1.0 - coat_front / coat_ior2));
-    let substrate_weight: vec3f = substrate_darkened_weight
-        * clamp(mix(vec3f(1.0), darkening, coat_weight * u_pub.SR_open_pbr_surface_coat_darkening), vec3f(0.0),
-        vec3f(1.0));
+        * (1.0 - coating_weight * (mix(coating_r * coating_r, 1.0, coating_albedo.y) * coating_albedo.x
+        * coating_scale));
+    let substrate_weight: vec3f = clamped_darkened
+        * (clamp(mix(vec3f(1.0), u_pub.SR_open_pbr_surface_coat_color, coat_weight), vec3f(0.0), vec3f(1.0))
+        * coated_weight);
     let body_weight: vec3f = mix(vec3f(1.0 - product * reflection_scale), vec3f(1.0) - product * reflection_film_scale,
-        thin_film_weight) * substrate_weight;
-    let backward_share: f32 = (1.0 - u_pub.SR_open_pbr_surface_subsurface_scatter_anisotropy) * 0.5;
+        clamped_thin_film_weight) * substrate_weight;
+    let clamped_backward_share: f32 = clamp((1.0 - u_pub.SR_open_pbr_surface_subsurface_scatter_anisotropy) * 0.5, 0.0,
+        1.0);
     let thin: f32 = f32(u_pub.SR_open_pbr_surface_geometry_thin_walled != 0u);
-    let dielectric_weight: f32 = 1.0 - u_pub.SR_open_pbr_surface_base_metalness;
-    let opaque_weight: f32 = dielectric_weight * (1.0 - u_pub.SR_open_pbr_surface_transmission_weight);
-    let sheet_weight: f32 = thin * (u_pub.SR_open_pbr_surface_subsurface_weight * opaque_weight);
-    let sheet_front_product: vec3f = subsurface_positive * (body_weight * (backward_share * sheet_weight));
+    let clamped_subsurface_weight: f32 = clamp(u_pub.SR_open_pbr_surface_subsurface_weight, 0.0, 1.0);
+    let metal_weight: f32 = clamp(u_pub.SR_open_pbr_surface_base_metalness, 0.0, 1.0);
+    let clamped_transmission_weight: f32 = clamp(u_pub.SR_open_pbr_surface_transmission_weight, 0.0, 1.0);
+    let opaque_weight: f32 = (1.0 - metal_weight) * (1.0 - clamped_transmission_weight);
+    let sheet_weight: f32 = thin * (clamped_subsurface_weight * opaque_weight);
+    let sheet_front_product: vec3f = subsurface_positive * (body_weight * (clamped_backward_share * sheet_weight));
     let Nf: vec3f = faceForward(N, -V, N);
     let base_diffuse_roughness: f32 = u_pub.SR_open_pbr_surface_base_diffuse_roughness;
     let ab: vec2f = base_diffuse_roughness * base_diffuse_roughness * vec2f(-0.5, 0.45)
         / (base_diffuse_roughness * base_diffuse_roughness + vec2f(0.33, 0.09)) + vec2f(1.0, 0.0);
-    let sheet_back_weight: f32 = sheet_weight * (1.0 - backward_share);
+    let sheet_back_weight: f32 = sheet_weight * (1.0 - clamped_backward_share);
     let sheet_back_product: vec3f = subsurface_positive * (body_weight * sheet_back_weight);
     let limited_cos_v: f32 = min(cos_v, 1.0);
     let fuzz_product_3: vec3f = u_pub.SR_open_pbr_surface_fuzz_color * fuzz_product_2;
     let X: vec3f = normalize(vd.tangentWorld);
     let coating_lobe: mx_GgxLobe = mx_ggx_lobe(coat_lobe, N, X, V);
-    let coating_product: f32 = coating_scale * (coat_weight * (1.0 - fuzz_product_2));
-    let metal_film_weight: f32 = u_pub.SR_open_pbr_surface_specular_weight
-        * (u_pub.SR_open_pbr_surface_base_metalness * thin_film_weight);
+    let coating_product: f32 = coating_scale * (coating_weight * (1.0 - fuzz_product_2));
+    let clamped_specular_weight: f32 = clamp(u_pub.SR_open_pbr_surface_specular_weight, 0.0, 1.0);
+    let metal_film_weight: f32 = clamped_specular_weight * (clamped_thin_film_weight * metal_weight);
     let fresnel_facing: vec3f = max(u_pub.SR_open_pbr_surface_base_weight * u_pub.SR_open_pbr_surface_base_color,
         vec3f(0.0));
     let metal_film_product: vec3f = (difference
@@ -629,24 +635,23 @@ fn main(vd: VertexData) -> @location(0) vec4f
     let schlick_bend: vec3f = mix(fresnel_facing, vec3f(1.0), 0.4626644) * (vec3f(1.0) - limited_specular_color)
         * 17.651384;
     let lobe: mx_GgxLobe = mx_ggx_lobe(roughness, N, X, V);
-    let metal_bare_weight: f32 = u_pub.SR_open_pbr_surface_specular_weight
-        * (u_pub.SR_open_pbr_surface_base_metalness * (1.0 - thin_film_weight));
+    let metal_bare_weight: f32 = clamped_specular_weight * (metal_weight * (1.0 - clamped_thin_film_weight));
     let metal_bare_product: vec3f = (difference * mix(fresnel_facing, vec3f(1.0), 0.04761905) + vec3f(1.0))
         * (substrate_weight * metal_bare_weight);
-    let reflection_film_visible: bool = thin_film_weight * dielectric_weight > 0.0;
-    let reflection_film_product: vec3f = substrate_weight * (thin_film_weight * dielectric_weight)
+    let reflection_film_weight: f32 = clamped_thin_film_weight * (1.0 - metal_weight);
+    let reflection_film_product: vec3f = substrate_weight * reflection_film_weight
         * (reflection_film_scale * limited_specular_color);
-    let reflection_weight: f32 = dielectric_weight * (1.0 - thin_film_weight);
+    let reflection_weight: f32 = (1.0 - metal_weight) * (1.0 - clamped_thin_film_weight);
     let reflection_product: vec3f = reflection_scale
         * (limited_specular_color * (substrate_weight * reflection_weight));
     let scaled_ior: f32 = ior * ior;
-    let scatter_weight: f32 = u_pub.SR_open_pbr_surface_subsurface_weight * opaque_weight * (1.0 - thin);
+    let scatter_weight: f32 = clamped_subsurface_weight * opaque_weight * (1.0 - thin);
     let scatter_radius: vec3f = u_pub.SR_open_pbr_surface_subsurface_radius
         * u_pub.SR_open_pbr_surface_subsurface_radius_scale;
     let curvature: f32 = max(length(fwidth(Nf)) / length(fwidth(vd.positionWorld)), 0.01);
     let scatter_product: vec3f = subsurface_positive * (body_weight * scatter_weight);
-    let diffuse_weight: f32 = u_pub.SR_open_pbr_surface_base_weight
-        * (opaque_weight * (1.0 - u_pub.SR_open_pbr_surface_subsurface_weight));
+    let diffuse_weight: f32 = clamp(u_pub.SR_open_pbr_surface_base_weight, 0.0, 1.0)
+        * (opaque_weight * (1.0 - clamped_subsurface_weight));
     let base_positive: vec3f = max(u_pub.SR_open_pbr_surface_base_color, vec3f(0.0));
     let diffuse_product: vec3f = base_positive * (body_weight * diffuse_weight);
     let diffuse_sum: f32 = base_diffuse_roughness * 0.28779334 + 1.0;
@@ -687,12 +692,12 @@ fn main(vd: VertexData) -> @location(0) vec4f
             * (cos_l_2 * (ab.x + ab.y * max(s, 0.0) / greater));
         color += light_color * (intensity * (sheet_front_response + max(-cos_l, 0.0) / 3.1415927 * sheet_back_product));
         // fuzz
-        if (u_pub.SR_open_pbr_surface_fuzz_weight > 0.0) {
+        if (fuzz_weight > 0.0) {
             color += light_color * (intensity * (mx_sheen_zeltner(Nf, V, L, limited_cos_v, fuzz_r) * fuzz_product_3));
         }
         // coating
         let cosine: f32 = sqrt(clamp(v_dot_l * 0.5 + 0.500001, 0.0, 1.0));
-        if (coat_weight > 0.0) {
+        if (coating_weight > 0.0) {
             let coating_product_2: f32 = mx_fresnel_permittivity(cosine, coat_ior2) * coating_product;
             color += light_color * (intensity * (mx_ggx_light(coating_lobe, V, L) * coating_product_2));
         }
@@ -709,7 +714,7 @@ fn main(vd: VertexData) -> @location(0) vec4f
                 * (metal_bare_product * (ggx_light * mx_fresnel_schlick(cosine, fresnel_facing, schlick_bend))));
         }
         // reflection_film
-        if (reflection_film_visible) {
+        if (reflection_film_weight > 0.0) {
             color += light_color * (intensity
                 * (reflection_film_product
                 * (ggx_light * mx_fresnel_2(cosine, vec3f(ior), film_thickness, thin_film_ior))));
@@ -759,7 +764,7 @@ fn main(vd: VertexData) -> @location(0) vec4f
             * (diffuse_product * part));
     }
     // environment: coating
-    if (coat_weight > 0.0) {
+    if (coating_weight > 0.0) {
         let coating_ggx_samples: mx_GgxSamples = mx_ggx_samples(coat_lobe, N, X, V);
         var turn: vec2f = vec2f(1.0, 0.0);
         for (var i: i32 = 0; i < u_prv.u_envRadianceSamples; i++) {
@@ -771,7 +776,8 @@ fn main(vd: VertexData) -> @location(0) vec4f
     }
     // environment: metal_film, metal_bare, reflection_film, reflection
     let samples: mx_GgxSamples = mx_ggx_samples(roughness, N, X, V);
-    if (reflection_weight > 0.0 || (reflection_film_visible || (metal_film_weight > 0.0 || metal_bare_weight > 0.0))) {
+    if (reflection_weight > 0.0 || (reflection_film_weight > 0.0
+        || (metal_film_weight > 0.0 || metal_bare_weight > 0.0))) {
         if (film_thickness > 0.0) {
             var turn: vec2f = vec2f(1.0, 0.0);
             for (var i: i32 = 0; i < u_prv.u_envRadianceSamples; i++) {
@@ -789,7 +795,7 @@ fn main(vd: VertexData) -> @location(0) vec4f
                         * (metal_film_ggx_reflected.weight
                         * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_facing, schlick_bend)));
                 }
-                if (reflection_film_visible) {
+                if (reflection_film_weight > 0.0) {
                     color += reflection_film_product
                         * (metal_film_ggx_reflected.color
                         * (metal_film_ggx_reflected.weight
@@ -820,7 +826,7 @@ fn main(vd: VertexData) -> @location(0) vec4f
                 let reflection_product_2: vec3f = metal_film_ggx_reflected.color
                     * (metal_film_ggx_reflected.weight
                     * mx_fresnel_permittivity(metal_film_ggx_reflected.cosine, scaled_ior));
-                if (reflection_film_visible) {
+                if (reflection_film_weight > 0.0) {
                     color += reflection_film_product * reflection_product_2;
                 }
                 if (reflection_weight > 0.0) {
@@ -831,11 +837,10 @@ fn main(vd: VertexData) -> @location(0) vec4f
         }
     }
     // environment: refraction_film, refraction
-    let refraction_film_weight: f32 = thin_film_weight
-        * (u_pub.SR_open_pbr_surface_transmission_weight * dielectric_weight);
-    let refraction_weight: f32 = u_pub.SR_open_pbr_surface_transmission_weight * dielectric_weight
-        * (1.0 - thin_film_weight);
-    if (refraction_film_weight > 0.0 || refraction_weight > 0.0) {
+    let filled_weight: f32 = clamped_transmission_weight * (1.0 - metal_weight);
+    let refraction_film_visible: bool = clamped_thin_film_weight * filled_weight > 0.0;
+    let refraction_weight: f32 = filled_weight * (1.0 - clamped_thin_film_weight);
+    if (refraction_film_visible || refraction_weight > 0.0) {
         let tint: vec3f = max(select(u_pub.SR_open_pbr_surface_transmission_color, vec3f(1.0),
             u_pub.SR_open_pbr_surface_transmission_depth > 0.0), vec3f(0.0));
         let absorbed: vec3f = -(u_pub.SR_open_pbr_surface_transmission_scatter
@@ -844,13 +849,13 @@ fn main(vd: VertexData) -> @location(0) vec4f
             - min(min(min(absorbed.x, absorbed.y), absorbed.z), 0.0), u_pub.SR_open_pbr_surface_transmission_depth
             > 0.0)) * tint;
         let product_3: vec3f = select(vec3f(1.0), tint, u_prv.u_refractionTwoSided != 0u) * product_2;
-        let refraction_film_product: vec3f = body_weight * refraction_film_weight * product_3;
+        let refraction_film_product: vec3f = body_weight * (clamped_thin_film_weight * filled_weight) * product_3;
         let refraction_product: vec3f = product_3 * (body_weight * refraction_weight);
         if (film_thickness > 0.0) {
             var turn: vec2f = vec2f(1.0, 0.0);
             for (var i: i32 = 0; i < u_prv.u_envRadianceSamples; i++) {
                 let refraction_film_ggx_transmitted: mx_GgxLight = mx_ggx_transmitted(samples, ior, i, turn);
-                if (refraction_film_weight > 0.0) {
+                if (refraction_film_visible) {
                     color += refraction_film_product
                         * (refraction_film_ggx_transmitted.color
                         * (refraction_film_ggx_transmitted.weight
@@ -872,7 +877,7 @@ fn main(vd: VertexData) -> @location(0) vec4f
                 let refraction_product_2: vec3f = refraction_film_ggx_transmitted.color
                     * (refraction_film_ggx_transmitted.weight
                     * (1.0 - mx_fresnel_permittivity(refraction_film_ggx_transmitted.cosine, scaled_ior)));
-                if (refraction_film_weight > 0.0) {
+                if (refraction_film_visible) {
                     color += refraction_film_product * refraction_product_2;
                 }
                 if (refraction_weight > 0.0) {
@@ -883,9 +888,10 @@ fn main(vd: VertexData) -> @location(0) vec4f
         }
     }
     // opacity
-    if (u_pub.SR_open_pbr_surface_geometry_opacity < u_prv.u_alphaThreshold) {
+    let opacity: f32 = clamp(u_pub.SR_open_pbr_surface_geometry_opacity, 0.0, 1.0);
+    if (opacity < u_prv.u_alphaThreshold) {
         discard;
     }
-    out1 = vec4f(u_pub.SR_open_pbr_surface_geometry_opacity * color, u_pub.SR_open_pbr_surface_geometry_opacity);
+    out1 = vec4f(opacity * color, opacity);
     return out1;
 }
