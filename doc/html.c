@@ -32,7 +32,8 @@ static void put_cell(struct markup *out, const struct manual_texts *texts, const
 
 static void put_row(struct markup *out, const struct manual_port *port)
 {
-    markup_put(out, "<tr%s><th scope=\"row\">", port->is_output ? " class=\"output\"" : "");
+    markup_put(out, port->is_output ? "<tr class=\"output\"><th scope=\"row\">"
+                                    : "<tr><th scope=\"row\">");
     put_element(out, "code", port->name);
     if (port->uniform)
         markup_put(

@@ -41,8 +41,9 @@ uint32_t slab_regime(const struct ir_graph *g, const ir_ref *in)
     return is_opaque || is_lit ? SLAB_NEVER_CLEAR : 0;
 }
 
-ir_ref slab_regime_albedo(struct ir_graph *g, const struct ir_node *slab, ir_ref albedo)
+ir_ref slab_regime_albedo(struct ir_graph *g, uint32_t attr, ir_ref path, ir_ref albedo)
 {
-    bool may_be_black = slab->attr & SLAB_NEVER_CLEAR && !ir_is_const(g, albedo);
+    bool is_opaque = ir_const_is(g, path, 0.0f);
+    bool may_be_black = !is_opaque && (attr & SLAB_NEVER_CLEAR) && !ir_is_const(g, albedo);
     return may_be_black ? ir_op2(g, IR_MAX, albedo, ir_const_float(g, SLAB_BLACK)) : albedo;
 }

@@ -14,7 +14,7 @@
 
 /* SLAB_NEVER_CLEAR for the operands of a slab that nobody blends, or 0. */
 uint32_t slab_regime(const struct ir_graph *graph, const ir_ref *operands);
-/* The albedo of a slab at a place, which is black instead of 0. */
-ir_ref slab_regime_albedo(struct ir_graph *graph, const struct ir_node *slab, ir_ref albedo);
+/* The albedo of a slab with an attribute and a mean free path, which is black instead of 0. */
+ir_ref slab_regime_albedo(struct ir_graph *graph, uint32_t attr, ir_ref path, ir_ref albedo);
 
 #endif

@@ -258,6 +258,7 @@ static ir_ref slab_at(struct walk *w, ir_ref slab, const struct where *where)
 {
     struct ir_graph *g = w->graph;
     ir_ref inputs[NUM_SLAB_OPERANDS];
+    uint32_t attr = ir_get(g, slab)->attr;
     assert(ir_get(g, slab)->num_args == NUM_SLAB_OPERANDS);
     memcpy(inputs, ir_args(g, slab), sizeof inputs);
     for (int i = 0; i < NUM_SLAB_OPERANDS; i++)
@@ -265,8 +266,8 @@ static ir_ref slab_at(struct walk *w, ir_ref slab, const struct where *where)
             inputs[i] = seen_at(w, inputs[i], where);
     slab_widen(w->shader, where->spread, inputs);
     inputs[SLAB_diffuse_albedo] =
-        slab_regime_albedo(g, ir_get(g, slab), inputs[SLAB_diffuse_albedo]);
-    bool never_clear = ir_get(g, slab)->attr & SLAB_NEVER_CLEAR;
+        slab_regime_albedo(g, attr, inputs[SLAB_mean_free_path], inputs[SLAB_diffuse_albedo]);
+    bool never_clear = attr & SLAB_NEVER_CLEAR;
     bool walks = where->is_body && w->host->walks;
     struct slab_place place = {
         .thickness = where->thickness,

@@ -46,13 +46,32 @@ static bool names(const char *text, const char *end, const char *name)
     return false;
 }
 
+/*
+ * The bytes at `text` that end a line or join it with the next one; 0: it is another character. The
+ * line ends of Unicode (U+0085, U+2028 and U+2029) end comments of WGSL.
+ */
+static size_t ends_line(const char *text, size_t len)
+{
+    unsigned char byte = (unsigned char)*text;
+    if (byte < 0x20 || byte == 0x7f || byte == '\\')
+        return 1;
+    if (len > 1 && memcmp(text, "\xc2\x85", 2) == 0)
+        return 2;
+    bool is_separator =
+        len > 2 && memcmp(text, "\xe2\x80", 2) == 0 && (text[2] == '\xa8' || text[2] == '\xa9');
+    return is_separator ? 3 : 0;
+}
+
 void spell_comment(struct spell *spell, const char *text, size_t len)
 {
     size_t begin = spell->out->len;
     text_mem(spell->out, text, len);
-    for (char *c = spell->out->data + begin; len > 0; c++, len--)
-        if ((unsigned char)*c < 0x20 || *c == 0x7f || *c == '\\')
-            *c = '?';
+    char *out = spell->out->data + begin;
+    for (size_t i = 0, step; i < len; i += step) {
+        size_t ends = ends_line(out + i, len - i);
+        memset(out + i, '?', ends);
+        step = ends ? ends : 1;
+    }
 }
 
 /* True if a sentence names a parameter that the version lacks and that is no constant. */

@@ -151,7 +151,7 @@ else
     steps=("$mxgen" check paints.mtlx --no-compile --render --max-error 1.2 -t glsl)
     check 'the steps of a budget are drawn' exits 0 "${steps[@]}" --html steps.html --json steps.json
     check 'the text has cost and errors of each step' grep -Eq "^  'CarPaint': one slab for the layer 'coated': slabs 2 to 1, bytes 28 to 16, error estimated [01]\.[0-9]+, drawn [01]\.[0-9]+" out
-    check 'the page has cost and errors of each step' grep -q "<td>one slab for the layer 'coated'</td><td>2 to 1</td><td>28 to 16</td><td>" steps.html
+    check 'the page has cost and errors of each step' grep -q "<td>one slab for the layer &#39;coated&#39;</td><td>2 to 1</td><td>28 to 16</td><td>" steps.html
     check 'the page has the tree of slabs' python3 -c 'import base64, re, xml.etree.ElementTree as e
 svgs = [base64.b64decode(text) for text in re.findall("<summary>slabs</summary>.*?image/svg.xml;base64,([^\"]+)", open("steps.html").read())]
 trees = [[t.text or "" for t in e.fromstring(svg).findall("{*}text")] for svg in svgs]

@@ -43,12 +43,12 @@ check 'glass is generated with refraction' make Glass
 check 'refraction shows the environment' says 'refract' Glass.frag
 check 'transmission may be opacity' make Glass --transmission opacity
 check 'transmission as opacity shows no environment behind' eval '! says "ggx_refraction" Glass.frag'
-check 'transmission as opacity lowers alpha' says 'out1 = vec4\(opacity_grey \* color, opacity\);' Glass.frag
-check 'the transmitted part lowers alpha' says 'float opacity = opacity_grey \* \(1.0 - clamp\(dot\(S_transmission_color' Glass.frag
+check 'transmission as opacity lowers alpha' says 'out1 = vec4\(clamped_opacity_grey \* color, opacity\);' Glass.frag
+check 'the transmitted part lowers alpha' says '^ *\* \(1.0 - clamp\(dot\(S_transmission_color' Glass.frag
 check 'transmission may be opacity without an environment' make Glass --transmission opacity --environment none
-check 'transmission as opacity lowers alpha without an environment' says 'out1 = vec4\(opacity_grey \* color, opacity\);' Glass.frag
+check 'transmission as opacity lowers alpha without an environment' says 'out1 = vec4\(clamped_opacity_grey \* color, opacity\);' Glass.frag
 check 'a mirror may have transmission as opacity' make Mirror --transmission opacity
-check 'a mirror transmits nothing' says 'out1 = vec4\(Mirror_opacity \* color, Mirror_opacity\);' Mirror.frag
+check 'a mirror transmits nothing' says 'out1 = vec4\(opacity \* color, opacity\);' Mirror.frag
 check 'a clear pane may have transmission as opacity' make Pane --transmission opacity --interface reduced
 check 'a clear pane is invisible' says 'out1 = vec4\(.*0.0\);' Pane.frag
 
