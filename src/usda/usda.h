@@ -107,7 +107,7 @@ struct text_word usda_value(const struct usda_property *property);
 
 static inline bool usda_is(struct text_word word, const char *text)
 {
-    return word.len == strlen(text) && memcmp(word.bytes, text, word.len) == 0;
+    return word.len == strlen(text) && (!word.len || memcmp(word.bytes, text, word.len) == 0);
 }
 
 /* A string or a name in quotes without them. */
