@@ -372,24 +372,14 @@ static bool emit(struct shader *shader, const struct closure_host *host, ir_ref 
                  const char **out_lacks)
 {
     struct mdl_tree t = {.shader = shader, .graph = shader->graph, .host = host};
-    ir_ref front = root, back = 0,
-           displacement = root && ir_type_of(t.graph, root) == IR_TYPE_DISPLACEMENT ? root : 0;
+    struct closure_sides sides = closure_sides_of(t.graph, root);
     bool is_good = true;
-    if (root && ir_get(t.graph, root)->op == IR_MATERIAL) {
-        front = ir_arg(t.graph, root, 0);
-        back = ir_arg(t.graph, root, 1);
-        displacement = ir_arg(t.graph, root, 2);
-        if (!front)
-            front = ir_arg(t.graph, root, 3);
-    }
-    emit_displacement(&t, displacement);
-    if (displacement == root)
-        front = 0;
-    ir_type_id type = front ? ir_type_of(t.graph, front) : IR_TYPE_SURFACE;
+    emit_displacement(&t, sides.displacement);
+    ir_type_id type = sides.front ? ir_type_of(t.graph, sides.front) : IR_TYPE_SURFACE;
     if (!ir_type_is_closure(type) && !ir_type_is_shader(type))
-        is_good = emit_value(&t, front);
+        is_good = emit_value(&t, sides.front);
     else
-        emit_sides(&t, front, back);
+        emit_sides(&t, sides.front, sides.back);
     shader->reflection.kind = is_volume(type) ? SHADER_VOLUME : SHADER_SURFACE;
     t.lacks = t.lacks ? t.lacks : missing(&t);
     *out_lacks = t.lacks;

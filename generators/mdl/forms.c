@@ -92,19 +92,6 @@ static const struct lang_pieces *helper_form(struct spell *spell, const struct l
 
 /* ---- By component ---- */
 
-static enum ir_op op_of_component(enum ir_op op)
-{
-    switch (op) {
-    case IR_LESS: return IR_LT;
-    case IR_LESS_EQUAL: return IR_LE;
-    case IR_GREATER: return IR_GT;
-    case IR_GREATER_EQUAL: return IR_GE;
-    case IR_EQUAL: return IR_EQ;
-    case IR_NOT_EQUAL: return IR_NE;
-    default: return op;
-    }
-}
-
 /* The names of operators, which have no word of their own. */
 static const char *word_of(enum ir_op op)
 {
@@ -153,7 +140,7 @@ static const struct lang_pieces *component_form(struct spell *spell, const struc
 {
     ir_type_id scalars[4];
     struct lang_use each = *use;
-    each.op = op_of_component(use->op);
+    each.op = ir_op_of_component(use->op);
     each.type = scalar_of(use->type);
     each.operands = scalars;
     each.node = 0;

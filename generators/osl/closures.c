@@ -392,25 +392,17 @@ static bool emit(struct shader *shader, const struct closure_host *host, ir_ref 
                  const char **out_lacks)
 {
     struct osl_tree t = start(shader, host);
-    ir_ref front = root, back = 0,
-           displacement = root && ir_type_of(t.graph, root) == IR_TYPE_DISPLACEMENT ? root : 0;
-    if (root && ir_get(t.graph, root)->op == IR_MATERIAL) {
-        front = ir_arg(t.graph, root, 0);
-        back = ir_arg(t.graph, root, 1);
-        displacement = ir_arg(t.graph, root, 2);
-        if (!front)
-            front = ir_arg(t.graph, root, 3);
-    }
+    struct closure_sides sides = closure_sides_of(t.graph, root);
     closure_find_aovs(shader, root);
-    emit_displacement(&t, displacement);
-    if (displacement == root)
+    emit_displacement(&t, sides.displacement);
+    if (sides.displacement == root)
         return shader->reflection.displaced;
-    ir_type_id type = front ? ir_type_of(t.graph, front) : IR_TYPE_SURFACE;
+    ir_type_id type = sides.front ? ir_type_of(t.graph, sides.front) : IR_TYPE_SURFACE;
     if (!ir_type_is_closure(type) && !ir_type_is_shader(type))
-        return emit_value(&t, front);
+        return emit_value(&t, sides.front);
     shader->reflection.kind =
         type == IR_TYPE_VOLUME || type == IR_TYPE_VDF ? SHADER_VOLUME : SHADER_SURFACE;
-    emit_sides(&t, front, back);
+    emit_sides(&t, sides.front, sides.back);
     *out_lacks = t.lacks;
     return !t.lacks;
 }

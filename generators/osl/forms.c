@@ -208,25 +208,11 @@ static const struct lang_pieces *pair_form(struct osl *osl, const struct lang_us
     return lang_form_of(osl->spell->scratch, text_cstr(&text), LANG_PREC_POSTFIX);
 }
 
-/* The operation on one component: scalars have operators in place of relational functions. */
-static enum ir_op op_of_component(enum ir_op op)
-{
-    switch (op) {
-    case IR_LESS: return IR_LT;
-    case IR_LESS_EQUAL: return IR_LE;
-    case IR_GREATER: return IR_GT;
-    case IR_GREATER_EQUAL: return IR_GE;
-    case IR_EQUAL: return IR_EQ;
-    case IR_NOT_EQUAL: return IR_NE;
-    default: return op;
-    }
-}
-
 static const struct lang_pieces *component_form(struct osl *osl, const struct lang_use *use)
 {
     ir_type_id scalars[16];
     struct lang_use each = *use;
-    each.op = op_of_component(use->op);
+    each.op = ir_op_of_component(use->op);
     each.type = scalar_of(use->type);
     each.operands = scalars;
     each.node = 0;

@@ -197,6 +197,13 @@ ir_ref closure_aov_value(struct shader *shader, uint32_t index, ir_ref value);
 /* The parts of a surface shader, which may be made of others. root 0: a black one. */
 struct closure_surface closure_surface_of(struct shader *shader, const struct closure_host *host,
                                           ir_ref root);
+/* Two surfaces, or a volume in front, and a displacement; 0: there is none. */
+struct closure_sides {
+    ir_ref front, back, displacement;
+};
+/* The sides of a material. A displacement is one alone; any other root is a front. */
+struct closure_sides closure_sides_of(const struct ir_graph *graph, ir_ref root);
+
 /* The surface below its AOVs; 0 stays 0. */
 ir_ref closure_without_aovs(const struct ir_graph *graph, ir_ref surface);
 /*

@@ -30,8 +30,6 @@ ir_ref closure_shadow(struct shader *shader, const struct closure_host *host);
 void closure_describe_weight(const struct shader *shader, const struct closure_leaf *leaf,
                              struct text *out);
 
-/* Its unit normal. */
-
 /* closure_call for functions with several results; false if the family lacks the function. */
 bool closure_call_all(struct shader *shader, const struct closure_host *host, ir_ref leaf,
                       enum leaf_function which, const ir_ref *light, ir_ref *results);

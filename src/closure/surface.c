@@ -377,3 +377,14 @@ bool closure_emit(struct shader *shader, const struct closure_host *host,
     emit_surface(&e, root);
     return true;
 }
+
+struct closure_sides closure_sides_of(const struct ir_graph *g, ir_ref root)
+{
+    if (root && ir_get(g, root)->op == IR_MATERIAL)
+        return (struct closure_sides){.front = ir_arg(g, root, ir_arg(g, root, 0) ? 0 : 3),
+                                      .back = ir_arg(g, root, 1),
+                                      .displacement = ir_arg(g, root, 2)};
+    bool is_displacement = root && ir_type_of(g, root) == IR_TYPE_DISPLACEMENT;
+    return is_displacement ? (struct closure_sides){.displacement = root}
+                           : (struct closure_sides){.front = root};
+}

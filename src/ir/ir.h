@@ -150,6 +150,8 @@ static inline const struct ir_op_info *ir_op_info(enum ir_op op)
     assert(op < IR_NUM_OPS);
     return &ir_ops[op];
 }
+/* The op on one component: scalars have operators in place of relational functions. */
+enum ir_op ir_op_of_component(enum ir_op op);
 
 /*
  * The result type of an op for built-in operand types. VOID if the operands do not match, or if the

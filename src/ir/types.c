@@ -262,3 +262,16 @@ ir_type_id ir_op_result(enum ir_op op, const ir_type_id *args, unsigned num_args
     }
     return IR_TYPE_VOID;
 }
+
+enum ir_op ir_op_of_component(enum ir_op op)
+{
+    switch (op) {
+    case IR_LESS: return IR_LT;
+    case IR_LESS_EQUAL: return IR_LE;
+    case IR_GREATER: return IR_GT;
+    case IR_GREATER_EQUAL: return IR_GE;
+    case IR_EQUAL: return IR_EQ;
+    case IR_NOT_EQUAL: return IR_NE;
+    default: return op;
+    }
+}

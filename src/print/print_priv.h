@@ -83,6 +83,8 @@ void print_initialiser(struct printer *p, const struct lang_node *node);
 
 /* ---- statement.c ---- */
 
+void print_indent(struct printer *p);
+
 /*
  * Writes the statements between braces in their own scope. `body` is a block or a single statement;
  * NULL: it is empty.

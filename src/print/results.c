@@ -96,12 +96,6 @@ void print_return_results(struct printer *p, uint32_t id, lang_ref value)
 
 /* ---- Calls ---- */
 
-static void print_indent(struct printer *p)
-{
-    for (unsigned i = 0; i < p->indent; i++)
-        text_str(p->out, "    ");
-}
-
 static bool is_result_call(const struct printer *p, const struct lang_node *node)
 {
     return node->kind == LANG_CALL && lang_has_results(p->style->syntax, p->unit, node->a);

@@ -7,7 +7,7 @@
 
 static void print_statement(struct printer *p, const struct lang_node *node);
 
-static void print_indent(struct printer *p)
+void print_indent(struct printer *p)
 {
     static const char spaces[] = "                                ";
     size_t left = p->indent * 4u;

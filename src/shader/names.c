@@ -170,6 +170,17 @@ static char *with_underscore(const struct name_set *names, const char *text, siz
     return longer;
 }
 
+/* The name with the beginning that it needs. */
+static const char *well_begun(const struct name_set *names, const char *text, size_t *len)
+{
+    const char *beginning = names->syntax ? lang_syntax_beginning(names->syntax, text) : "";
+    if (!*beginning)
+        return text;
+    text = with_prefix(beginning, text, *len, names->arena);
+    *len = strlen(text);
+    return text;
+}
+
 /* True if the name waits for its use, and this is it. */
 static bool give(struct name_set *names, const char *name, size_t len)
 {
@@ -195,11 +206,7 @@ struct spell_name names_unique(struct name_set *names, const char *text, size_t 
         base = with_prefix(rules->prefix, base, base_len, names->arena);
         base_len = strlen(base);
     }
-    const char *beginning = names->syntax ? lang_syntax_beginning(names->syntax, base) : "";
-    if (*beginning) {
-        base = with_prefix(beginning, base, base_len, names->arena);
-        base_len = strlen(base);
-    }
+    base = well_begun(names, base, &base_len);
     bool is_new, is_word = is_reserved(names, base, base_len);
     uint32_t entry = take(names, base, base_len, &is_new);
     if (is_new && !is_word)
@@ -218,11 +225,7 @@ struct spell_name names_unique(struct name_set *names, const char *text, size_t 
 
 bool names_is_free(const struct name_set *names, const char *text, size_t len)
 {
-    const char *beginning = names->syntax ? lang_syntax_beginning(names->syntax, text) : "";
-    if (*beginning) {
-        text = with_prefix(beginning, text, len, names->arena);
-        len = strlen(text);
-    }
+    text = well_begun(names, text, &len);
     if (is_reserved(names, text, len))
         text = with_underscore(names, text, &len);
     uint32_t found = find(names, text, len, hash_bytes(text, len));
