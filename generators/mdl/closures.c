@@ -14,7 +14,7 @@ static const double HALF_PI = 1.57079632679489661923;
 /* ---- Layers ---- */
 
 /*
- * What a closure lets through at an angle from its normal. A material does not know the view, so
+ * The light that a closure lets through at an angle from its normal. No material knows the view, so
  * the normals of all leaves become the z axis, and the view a constant.
  */
 static ir_ref through_at(struct mdl_tree *t, ir_ref top, double angle)
@@ -346,7 +346,7 @@ static bool needs_slopes(const struct mdl_tree *t, ir_ref call)
            || strcmp(str_text(t->shader->strings, fn->name), "mx_heighttonormal") == 0;
 }
 
-/* What the effects read and a material cannot have; NULL: all is there. */
+/* Names something that the effects read and a material cannot have; NULL: all is there. */
 static const char *missing(struct mdl_tree *t)
 {
     const struct effect_list *effects = &t->shader->stages[STAGE_PIXEL].effects;

@@ -325,7 +325,7 @@ static ir_ref weighted(struct leaf *leaf)
                    IR_TYPE_BSDF);
 }
 
-/* What a leaf that splits light between both sides transmits. */
+/* The transmitted part of a leaf that splits light between both sides. */
 static ir_ref transmitted(struct leaf *leaf)
 {
     struct leaf other = *leaf;

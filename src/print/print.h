@@ -141,7 +141,7 @@ const struct lang_form *lang_syntax_form(const struct lang_syntax *syntax, enum 
 const struct lang_form *lang_syntax_forms_alone(const struct lang_syntax *syntax);
 const char *lang_syntax_type(const struct lang_syntax *syntax, ir_type_id type);
 const char *lang_syntax_phrase(const struct lang_syntax *syntax, enum lang_phrase phrase);
-/* What an identifier needs before it, because none begins as it does: "x"; "": nothing. */
+/* The prefix of a name as which no identifier begins: "x"; "": it needs none. */
 const char *lang_syntax_beginning(const struct lang_syntax *syntax, const char *name);
 bool lang_syntax_is_reserved(const struct lang_syntax *syntax, const char *name, size_t len);
 

@@ -175,7 +175,7 @@ static void print_simple(struct printer *p, const struct lang_node *node)
     }
 }
 
-/* What a statement evaluates once, before anything else; 0: it is no such statement. */
+/* The expression that a statement evaluates once, before anything else; 0: it has none. */
 static lang_ref evaluated(const struct lang_node *node, lang_ref ref)
 {
     switch (node->kind) {
@@ -379,7 +379,7 @@ static void print_exit(struct printer *p, lang_ref condition)
     print_line(p, "}", "", "");
 }
 
-/* What stands between two rounds: the step of a `for`, the condition of a `do`. */
+/* Writes the part between two rounds: the step of a `for`, the condition of a `do`. */
 static void print_between(struct printer *p, const struct lang_node *loop, const char *again)
 {
     lang_ref step = ast_step(p->layer, loop);

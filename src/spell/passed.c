@@ -15,7 +15,7 @@ static void add(struct spell *spell, struct spell_passed *passed, uint32_t varia
     vec_push(spell->scratch, &passed->variables, variable);
 }
 
-/* What a node of the function reads itself, or passes on to another function. */
+/* Adds the variables that a node of the function reads itself, or passes on to another function. */
 static void find_of_node(struct spell *spell, struct spell_passed *passed,
                          const struct ir_node *node)
 {
