@@ -177,14 +177,15 @@ static ir_ref mean_anisotropy(struct mdl_tree *t, const struct mdl_parts *a,
 
 struct mdl_parts mdl_parts_sum(struct mdl_tree *t, struct mdl_parts a, struct mdl_parts b)
 {
-    return (struct mdl_parts){
-        .bsdf = mdl_sum(t, a.bsdf, b.bsdf),
-        .hair = a.hair ? a.hair : b.hair,
-        .light = lights_sum(t, a.light, b.light),
-        .absorption = ir_sum(t->graph, a.absorption, b.absorption),
-        .scattering = ir_sum(t->graph, a.scattering, b.scattering),
-        .anisotropy = mean_anisotropy(t, &a, &b),
-    };
+    /* One statement each: an initializer has no order of evaluation, and the order of ops is that
+     * of the shader. */
+    struct mdl_parts sum = {.hair = a.hair ? a.hair : b.hair};
+    sum.bsdf = mdl_sum(t, a.bsdf, b.bsdf);
+    sum.light = lights_sum(t, a.light, b.light);
+    sum.absorption = ir_sum(t->graph, a.absorption, b.absorption);
+    sum.scattering = ir_sum(t->graph, a.scattering, b.scattering);
+    sum.anisotropy = mean_anisotropy(t, &a, &b);
+    return sum;
 }
 
 struct mdl_parts mdl_parts_mixed(struct mdl_tree *t, struct mdl_parts bg, struct mdl_parts fg,
@@ -194,9 +195,9 @@ struct mdl_parts mdl_parts_mixed(struct mdl_tree *t, struct mdl_parts bg, struct
     bool both = (bg.absorption || bg.scattering) && (fg.absorption || fg.scattering);
     bg.bsdf = fg.bsdf = 0;
     is_medium |= both;
-    struct mdl_parts sum =
-        mdl_parts_sum(t, mdl_parts_scaled(t, bg, ir_one_minus(t->graph, mix), is_medium),
-                      mdl_parts_scaled(t, fg, mix, is_medium));
+    struct mdl_parts behind = mdl_parts_scaled(t, bg, ir_one_minus(t->graph, mix), is_medium);
+    struct mdl_parts before = mdl_parts_scaled(t, fg, mix, is_medium);
+    struct mdl_parts sum = mdl_parts_sum(t, behind, before);
     sum.bsdf = bsdf;
     return sum;
 }
