@@ -30,7 +30,9 @@ void mesh_finish(struct mesh *mesh);
 /*
  * Adds the parts of `missing`: averages normals over the triangles at a vertex, projects texture
  * coordinates along the axis that a triangle faces, derives tangents from texture coordinates,
- * which vertices of equal position, normal and texture coordinates share. false: out of memory.
+ * which vertices of equal position, normal and texture coordinates share. Projected texture
+ * coordinates need a vertex for each corner: vertex i is then the former indices[i]. false: out of
+ * memory.
  */
 bool mesh_complete(struct mesh *mesh, unsigned missing);
 

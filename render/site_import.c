@@ -75,30 +75,34 @@ static struct matrix matrix_of(const struct aiMatrix4x4 *m)
                             {m->a4, m->b4, m->c4, m->d4}}};
 }
 
-static void add_primvar(struct scene_object *object, const char *name, unsigned components,
-                        const void *from, size_t stride)
+/* `origins` has the vertex of the file of each vertex of the object; NULL: its own number. */
+static void add_primvar(struct scene_object *object, const uint32_t *origins, const char *name,
+                        unsigned components, const void *from, size_t stride)
 {
     struct primvar made = {
         .name = cli_format("%s", name), .components = components, .num = object->mesh.num_vertices};
     made.values = memory_alloc(made.num * sizeof *made.values + 1);
     for (uint32_t i = 0; i < made.num; ++i)
-        memcpy(made.values[i], (const char *)from + i * stride, components * sizeof(float));
+        memcpy(made.values[i], (const char *)from + (origins ? origins[i] : i) * stride,
+               components * sizeof(float));
     object->primvars =
         memory_resize(object->primvars, (object->num_primvars + 1) * sizeof *object->primvars);
     object->primvars[object->num_primvars++] = made;
 }
 
 /* Colours and texture coordinates, under the names that USD gives them. */
-static void add_primvars(const struct aiMesh *mesh, struct scene_object *object)
+static void add_primvars(const struct aiMesh *mesh, const uint32_t *origins,
+                         struct scene_object *object)
 {
     for (unsigned i = 0; i < AI_MAX_NUMBER_OF_TEXTURECOORDS && mesh->mTextureCoords[i]; ++i) {
         char *name = i ? cli_format("st%u", i) : cli_format("st");
-        add_primvar(object, name, 2, mesh->mTextureCoords[i], sizeof *mesh->mTextureCoords[i]);
+        add_primvar(object, origins, name, 2, mesh->mTextureCoords[i],
+                    sizeof *mesh->mTextureCoords[i]);
         free(name);
     }
     for (unsigned i = 0; i < AI_MAX_NUMBER_OF_COLOR_SETS && mesh->mColors[i]; ++i) {
         char *name = i ? cli_format("displayColor%u", i) : cli_format("displayColor");
-        add_primvar(object, name, 4, mesh->mColors[i], sizeof *mesh->mColors[i]);
+        add_primvar(object, origins, name, 4, mesh->mColors[i], sizeof *mesh->mColors[i]);
         free(name);
     }
 }
@@ -125,10 +129,17 @@ static void add_object(struct importer *in, const struct aiMesh *mesh, const cha
         return;
     }
     struct scene_object *object = site_add(in->site, primitive, world);
+    unsigned missing = import_missing(mesh);
+    uint32_t *origins = NULL;
+    if (missing & MESH_TEXCOORDS) { /* mesh_complete gives each corner a vertex of its own */
+        origins = memory_alloc(index * sizeof *origins);
+        memcpy(origins, made.indices, index * sizeof *origins);
+    }
     object->mesh = made;
-    add_primvars(mesh, object);
-    if (!mesh_complete(&object->mesh, import_missing(mesh)))
+    if (!mesh_complete(&object->mesh, missing))
         memory_fail();
+    add_primvars(mesh, origins, object);
+    free(origins);
 }
 
 /* A node's meshes are its own, or several primitives below it. */

@@ -309,6 +309,24 @@ for more in '' '--path-trace --paths 4'; do
     check 'the right group has its material' test "$(cell two.ppm 1 0)" = g
 done
 
+# Colours of vertices follow the corners, which have projected texture coordinates.
+cat >painted.obj <<'OBJ'
+v -1 -1 0 1 0 0
+v -0.1 -1 0 1 0 0
+v -0.1 1 0 1 0 0
+v -1 1 0 1 0 0
+v 0.1 -1 0 0 0 1
+v 1 -1 0 0 0 1
+v 1 1 0 0 0 1
+v 0.1 1 0 0 0 1
+f 1 2 3 4
+f 5 6 7 8
+OBJ
+sed "s/value='paint'/value='displayColor'/; s/material=\"Red\" geom=\"[^\"]*\"/material=\"Painted\" geom=\"\/\"/" colors.mtlx >painted.mtlx
+check 'an OBJ with colours of vertices is drawn' exits 0 "$render" painted.mtlx --stage painted.obj --look parts --camera 0,0 -s 64 -o painted.ppm \
+    --background environment --environment black.ppm
+check 'each corner has the colour of its vertex' test "$(colors painted.ppm) $(cell painted.ppm -1 0)$(cell painted.ppm 1 0)" = 'rb rb'
+
 # fails ID TEXT ARGUMENT...
 fails() { exits 1 "$render" "${@:3}" -s 16 -o no.ppm && grep -F "[$1]" err | grep -qF "$2"; }
 broken() { sed "$1" scene.usda >broken.usda && ! cmp -s scene.usda broken.usda && fails bad-geometry "$2" colors.mtlx --stage broken.usda; }
