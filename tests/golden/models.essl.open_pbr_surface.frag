@@ -133,13 +133,15 @@ float mx_film_light(const float a, const vec2 r, const float d, const int i)
     float c = cos(gaussian.x * d);
     float s = sin(gaussian.x * d);
     float decay = exp(gaussian.z * d * d);
-    float x = r.x * c - r.y * s;
-    float y = r.x * s + r.y * c;
+    float decay2 = decay * decay;
+    vec2 path = -a * decay * vec2(r.x * c - r.y * s, r.x * s + r.y * c);
+    vec2 rest = vec2(1.0, 0.0) - decay2 * decay2 * path;
+    float series = path.x + decay2 * dot(vec2(path.x * path.x - path.y * path.y, 2.0 * path.x * path.y), rest)
+        / dot(rest, rest);
     float r23 = dot(r, r);
     float t = 1.0 - a * a;
     float even = t * t * r23 / (1.0 - a * a * r23);
-    return gaussian.w * (a * a + even) + 2.0 * (even - t)
-        * (gaussian.y * decay * a * (a * (decay * decay * decay) * (x * x - y * y) - x));
+    return gaussian.w * (a * a + even) + 2.0 * (even - t) * gaussian.y * series;
 }
 
 // Complex amplitude (x - u) / (x + u) of an interface in one polarisation: u is the index times the cosine behind it; x

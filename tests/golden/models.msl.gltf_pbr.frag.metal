@@ -173,13 +173,15 @@ float mx_film_light(float a, float2 r, float d, int i)
     float c = cos(gaussian.x * d);
     float s = sin(gaussian.x * d);
     float decay = exp(gaussian.z * d * d);
-    float x = r.x * c - r.y * s;
-    float y = r.x * s + r.y * c;
+    float decay2 = decay * decay;
+    float2 path = -a * decay * float2(r.x * c - r.y * s, r.x * s + r.y * c);
+    float2 rest = float2(1.0, 0.0) - decay2 * decay2 * path;
+    float series = path.x + decay2 * dot(float2(path.x * path.x - path.y * path.y, 2.0 * path.x * path.y), rest)
+        / dot(rest, rest);
     float r23 = dot(r, r);
     float t = 1.0 - a * a;
     float even = t * t * r23 / (1.0 - a * a * r23);
-    return gaussian.w * (a * a + even) + 2.0 * (even - t)
-        * (gaussian.y * decay * a * (a * (decay * decay * decay) * (x * x - y * y) - x));
+    return gaussian.w * (a * a + even) + 2.0 * (even - t) * gaussian.y * series;
 }
 
 // Amplitudes of an interface of reflectance f below a film of index `ior`: negative where f0 says that the index behind

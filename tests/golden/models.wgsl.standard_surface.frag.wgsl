@@ -124,13 +124,15 @@ fn mx_film_light(a: f32, r: vec2f, d: f32, i: i32) -> f32
     let c: f32 = cos(gaussian.x * d);
     let s: f32 = sin(gaussian.x * d);
     let decay: f32 = exp(gaussian.z * d * d);
-    let x: f32 = r.x * c - r.y * s;
-    let y: f32 = r.x * s + r.y * c;
+    let decay2: f32 = decay * decay;
+    let path: vec2f = -a * decay * vec2f(r.x * c - r.y * s, r.x * s + r.y * c);
+    let rest: vec2f = vec2f(1.0, 0.0) - decay2 * decay2 * path;
+    let series: f32 = path.x + decay2 * dot(vec2f(path.x * path.x - path.y * path.y, 2.0 * path.x * path.y), rest)
+        / dot(rest, rest);
     let r23: f32 = dot(r, r);
     let t: f32 = 1.0 - a * a;
     let even: f32 = t * t * r23 / (1.0 - a * a * r23);
-    return gaussian.w * (a * a + even) + 2.0 * (even - t)
-        * (gaussian.y * decay * a * (a * (decay * decay * decay) * (x * x - y * y) - x));
+    return gaussian.w * (a * a + even) + 2.0 * (even - t) * gaussian.y * series;
 }
 
 // Complex amplitude (x - u) / (x + u) of an interface in one polarisation: u is the index times the cosine behind it; x

@@ -122,21 +122,24 @@ const mat4 MX_FILM_GAUSSIANS = mat4(1.6810, 0.846590, -0.0043278, 1.0, // X
 // amplitude of the film's own interface, r the complex one of the interface below, and light in the film goes
 // further by d / (2 pi) micrometres (Belcour and Barla 2017, section 3.3).
 //
-// From behind, the film's own interface has the amplitude -a. Two terms of the series: the second is of the first
-// one's square, because its distance is twice as long.
+// From behind, the film's own interface has the amplitude -a. With z for a path through the film and D for its
+// decay, path m of Airy's series is z^m D^(m^2). From the second path on, the series is summed as a geometric one,
+// z^2 D^4 / (1 - z D^5): paths one to three are exact, all are without decay, and later ones hardly count with it.
 float mx_film_light(float a, vec2 r, float d, int i)
 {
     vec4 gaussian = MX_FILM_GAUSSIANS[i];
     float c = cos(gaussian.x * d);
     float s = sin(gaussian.x * d);
     float decay = exp(gaussian.z * d * d);
-    float x = r.x * c - r.y * s;
-    float y = r.x * s + r.y * c;
-    float terms = gaussian.y * decay * a * (a * (decay * decay * decay) * (x * x - y * y) - x);
+    float decay2 = decay * decay;
+    vec2 path = -a * decay * vec2(r.x * c - r.y * s, r.x * s + r.y * c);
+    vec2 squared = vec2(path.x * path.x - path.y * path.y, 2.0 * path.x * path.y);
+    vec2 rest = vec2(1.0, 0.0) - decay2 * decay2 * path;
+    float series = path.x + decay2 * dot(squared, rest) / dot(rest, rest);
     float r23 = dot(r, r);
     float t = 1.0 - a * a;
     float even = t * t * r23 / (1.0 - a * a * r23);
-    return gaussian.w * (a * a + even) + 2.0 * (even - t) * terms;
+    return gaussian.w * (a * a + even) + 2.0 * (even - t) * gaussian.y * series;
 }
 
 // Cosine inside of a film of index `ior`.
@@ -160,7 +163,7 @@ vec2 mx_film_amplitude(vec2 x, vec2 u)
     return vec2(dot(x, x) - dot(u, u), 2.0 * (x.y * u.x - x.x * u.y)) / dot(x + u, x + u);
 }
 
-// Linear Rec. 709 of the CIE XYZ of interference.
+// Linear RGB of the CIE XYZ of interference; the primaries are those of CIE 1931, and white has even energy.
 vec3 mx_film_rgb(vec3 xyz)
 {
     const mat3 XYZ_TO_RGB = mat3(2.3706743, -0.5138850, 0.0052982, -0.9000405, 1.4253036, -0.0146949,
