@@ -199,7 +199,8 @@ int main(void)
     static struct cell cells[CELLS];
     double reflected[FIT_PARAMETERS] = {0.1}, cosine[FIT_PARAMETERS] = {0.1};
     for (int i = 0; i < CELLS; ++i) {
-        double a = (i % STEPS + 0.5) / STEPS, c = (i / STEPS + 0.5) / STEPS;
+        double a = (i % STEPS + 0.5) / (STEPS - 0.5),
+               c = (i / STEPS + 0.5) / (STEPS - 0.5); /* to 1 */
         cells[i] = (struct cell){
             .alpha = a * a, .across = a * a, .cosine = LEAST_COSINE + (1.0 - LEAST_COSINE) * c};
         measure(&cells[i]);

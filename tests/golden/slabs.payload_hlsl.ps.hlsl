@@ -494,10 +494,11 @@ Surface surface(float3 normalWorld)
     vd.normalWorld = normalWorld;
     Surface result;
     int stored = 0;
-    stored = mx_store_closure(stored, float3(0.36747706, 0.17834313, 0.1186738),
-        float3(0.7791109, 0.5325904, 0.2900709), float3(1.0, 1.0, 1.0), 0.5433245, 0.0, normalize(vd.normalWorld),
-        float3(0.0, 0.0, 0.0), 0.1, 0.03745848, 0.0, float3(1.0, 1.0, 1.0), 0.5433245, float3(0.0, 0.0, 0.0), 0.0, 0.0,
-        0.0, float2(0.0, 0.0), 0.0, 0.0, 0.0, float3(1.0, 1.0, 1.0), float3(0.0, 0.0, 0.0), float3(0.0, 0.0, 0.0), 0.0);
+    stored = mx_store_closure(stored, float3(0.36743554, 0.17833364, 0.11866965),
+        float3(0.7790918, 0.5325779, 0.29006478), float3(1.0, 1.0, 1.0), 0.54332435, 0.0, normalize(vd.normalWorld),
+        float3(0.0, 0.0, 0.0), 0.1, 0.037459373, 0.0, float3(1.0, 1.0, 1.0), 0.54332435, float3(0.0, 0.0, 0.0), 0.0,
+        0.0, 0.0, float2(0.0, 0.0), 0.0, 0.0, 0.0, float3(1.0, 1.0, 1.0), float3(0.0, 0.0, 0.0), float3(0.0, 0.0, 0.0),
+        0.0);
     stored = mx_finish_payload(stored, float3(0.0, 0.09642637, 0.0), 1.0);
     result.word_0 = mx_payload_word(stored, 0);
     result.word_1 = mx_payload_word(stored, 1);

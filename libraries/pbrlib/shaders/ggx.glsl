@@ -101,12 +101,12 @@ uniform sampler2D u_albedoTable;
 // back adds none. `u` follows what happens where light grazes the facets.
 vec2 mx_ggx_albedo_fit(float a, float u, float c)
 {
-    const mat4 LOST = mat4(-0.1447, 2.7590, -5.4314, 2.8497, -0.9366, 1.4766, 0.5911, -1.0905,
-                           11.8506, -30.2645, 27.3289, -8.9414, -4.3199, 8.2596, -3.1648, -0.8054);
-    const mat4 COSINE = mat4(-0.2006, 5.2916, -3.7565, 0.2180, -10.2439, 6.6203, -0.9657, 2.5694,
-                             38.3042, -80.8059, 71.7310, -28.5214, -34.2000, 89.1079, -88.4065, 33.7820);
+    const mat4 LOST = mat4(-0.1449, 2.7808, -5.4855, 2.8822, -1.0694, 1.8502, 0.2967, -1.0447,
+                           12.5030, -32.5955, 30.0409, -9.9567, -5.0066, 10.9491, -6.6309, 0.6544);
+    const mat4 COSINE = mat4(-0.2174, 5.3819, -3.9110, 0.2674, -9.7298, 3.9904, 3.8225, -0.0277,
+                             36.4897, -72.9122, 58.0878, -20.9170, -31.4763, 79.0768, -73.9706, 26.5429);
     float x = clamp(1.0 - c - a * mx_bicubic(COSINE, u, a), 0.0, 1.0);
-    return vec2(min(1.0046 - u * mx_bicubic(LOST, u, a), 1.0), x * x * x * x * x);
+    return vec2(min(1.005 - u * mx_bicubic(LOST, u, a), 1.0), x * x * x * x * x);
 }
 
 // The light that a white GGX lobe reflects at the viewer's cosine c (x), and the mean of (1 - cos)^5 over it (y).
@@ -131,7 +131,7 @@ vec2 mx_ggx_albedo(vec2 roughness, float c)
 //
 // Divided by the roughness, visible normals are those of a unit sphere (Heitz 2018), so both lobes have the same
 // ones where v, times the roughness, has one cosine in both. What remains is the roughness, by fits/ggx.c: the
-// albedo is too small by 0.007 at most, and too large by 0.013, relatively.
+// albedo is too small by 0.007 at most, and too large by 0.014, relatively.
 vec3 mx_ggx_round_like(vec2 alpha, vec3 v)
 {
     vec2 slope = v.xy * alpha;
@@ -141,8 +141,8 @@ vec3 mx_ggx_round_like(vec2 alpha, vec3 v)
     float d = shape * shape;
     float w = shape * (slope.x * slope.x - slope.y * slope.y) / square;
     float z = v.z * inversesqrt(square);
-    float a = m * (1.0 + d * (1.3289 - 0.6942 * z - 0.4675 * m + d * (0.2424 * z - 0.3089))
-                   + w * (z * (1.5553 * m - 0.5866 * z - 0.4535) - 0.3702 + 0.2918 * d + w * (0.4769 * m - 0.5156)));
+    float a = m * (1.0 + d * (1.3394 - 0.6964 * z - 0.4846 * m + d * (0.2158 * z - 0.2872))
+                   + w * (z * (1.5821 * m - 0.5235 * z - 0.5466) - 0.3548 + 0.3007 * d + w * (0.7022 * m - 0.6604)));
     float stretch = sqrt(v.z * v.z + dot(slope, slope) / (a * a));
     return vec3(a, v.z / stretch, stretch);
 }
