@@ -102,17 +102,23 @@ void environment_lookup(const struct image *map, const double d[3], double out[3
         out[i] = (1 - t) * ((1 - s) * a[i] + s * b[i]) + t * ((1 - s) * c[i] + s * e[i]);
 }
 
-/* Averages boxes of texels, so that an integral over the sphere takes few of them. */
-static bool shrink(const struct image *map, uint32_t width, uint32_t height, struct image *out)
+static uint32_t most(uint32_t a, uint32_t b)
+{
+    return a > b ? a : b;
+}
+
+/* Averages boxes of texels, or repeats them, so that an integral over the sphere takes neither many
+ * nor too few. */
+static bool resample(const struct image *map, uint32_t width, uint32_t height, struct image *out)
 {
     *out = (struct image){.width = width,
                           .height = height,
                           .is_float = true,
                           .pixels = calloc((size_t)width * height * 4, sizeof(float))};
     for (uint32_t y = 0; out->pixels && y < height; ++y) {
-        uint32_t y0 = y * map->height / height, y1 = (y + 1) * map->height / height;
+        uint32_t y0 = y * map->height / height, y1 = most(y0 + 1, (y + 1) * map->height / height);
         for (uint32_t x = 0; x < width; ++x) {
-            uint32_t x0 = x * map->width / width, x1 = (x + 1) * map->width / width;
+            uint32_t x0 = x * map->width / width, x1 = most(x0 + 1, (x + 1) * map->width / width);
             double sum[3] = {0};
             for (uint32_t j = y0; j < y1; ++j)
                 for (uint32_t i = x0; i < x1; ++i)
@@ -125,11 +131,6 @@ static bool shrink(const struct image *map, uint32_t width, uint32_t height, str
         }
     }
     return out->pixels != NULL;
-}
-
-static uint32_t least(uint32_t a, uint32_t b)
-{
-    return a < b ? a : b;
 }
 
 /* A texel of a map as a light. */
@@ -164,7 +165,7 @@ bool environment_irradiance(const struct image *radiance, struct image *out)
     struct image small;
     *out = (struct image){
         .width = 64, .height = 32, .is_float = true, .pixels = malloc(64 * 32 * 4 * sizeof(float))};
-    bool good = shrink(radiance, least(radiance->width, 128), least(radiance->height, 64), &small);
+    bool good = resample(radiance, 128, 64, &small);
     struct texel_light *lights = good ? make_lights(&small) : NULL;
     size_t count = (size_t)small.width * small.height;
     float *texel = out->pixels;

@@ -36,14 +36,13 @@ vec3 mx_slab_haze_f0(vec3 f0, float roughness, float haziness, float extent)
     return f0 * (mx_slab_haze(f0, roughness, haziness, extent).x / max(core, MX_EPSILON));
 }
 
-// f0 with a film, at a cosine: f0 is the reflectance of a dielectric in air, and the film adds to Schlick's curve what
-// it adds to that dielectric (Belcour and Barla 2017, with the CIE's own XYZ of an RGB, so that no film changes nothing).
+// f0 with a film, at a cosine: f0 is that of a dielectric in air, and the film adds to Schlick's curve what it adds to
+// the dielectric (Belcour and Barla 2017; XYZ is that of the CIE's RGB).
 vec3 mx_slab_film_at(vec3 f0, float thickness, float ior, float cosine)
 {
     const mat3 RGB_TO_XYZ = mat3(0.49, 0.17697, 0.0, 0.31, 0.8124, 0.01, 0.2, 0.01063, 0.99);
     vec3 amplitude = sqrt(clamp(RGB_TO_XYZ * f0, 0.0, 0.999));
-    vec3 index = (1.0 + amplitude) / (1.0 - amplitude);
-    vec3 permittivity = index * index;
+    vec3 permittivity = pow((1.0 + amplitude) / (1.0 - amplitude), vec3(2.0));
     vec3 bare = mx_film_rgb(mx_fresnel_conductor(cosine, permittivity, vec3(0.0)));
     vec3 change = mx_film_index(cosine, permittivity, vec3(0.0), thickness, ior) - bare;
     return clamp(f0 + change / max(1.0 - mx_power5(1.0 - cosine), 0.001), 0.0, 1.0);

@@ -14,7 +14,7 @@ import random
 
 # wavenumber (in radians for 4 pi micrometres / wavelength of path), deviation, height of the Gaussians of X, Y, Z
 CURVES = [
-    [(1.6810, math.sqrt(2 * 0.0043278), 0.846590), (2.2399, math.sqrt(2 * 0.0045282), 0.153868)],
+    [(1.6810, math.sqrt(2 * 0.0043278), 0.846202), (2.2399, math.sqrt(2 * 0.0045282), 0.153798)],
     [(1.7953, math.sqrt(2 * 0.0093046), 1.0)],
     [(2.2084, math.sqrt(2 * 0.0066121), 1.0)],
 ]

@@ -184,12 +184,11 @@ float mx_fresnel_dielectric_facing(float ior)
 }
 
 // Light of one polarisation that interferes in a film, as Gaussian i of the CIE curves sees it: `a` is the amplitude of
-// the film's own interface, r the complex one of the interface below, and light in the film goes further by d / (2 pi)
-// micrometres (Belcour and Barla 2017, section 3.3).
+// the film's interface, r that of the interface below, and light in the film goes further by d / (2 pi) micrometres.
 float mx_film_light(float a, float2 r, float d, int i)
 {
-    float4 gaussian = float4x4(1.681, 0.84659, -0.0043278, 1.0, 2.2399, 0.153868, -0.0045282, 0.0, 1.7953, 1.000222,
-        -0.0093046, 1.0, 2.2084, 1.001122, -0.0066121, 1.0)[i];
+    float4 gaussian = float4x4(1.681, 0.846202, -0.0043278, 0.0, 2.2399, 0.153798, -0.0045282, 0.0, 1.7953, 1.0,
+        -0.0093046, 0.0, 2.2084, 1.0, -0.0066121, 0.0)[i];
     float c = cos(gaussian.x * d);
     float s = sin(gaussian.x * d);
     float decay = exp(gaussian.z * d * d);
@@ -201,7 +200,7 @@ float mx_film_light(float a, float2 r, float d, int i)
     float r23 = dot(r, r);
     float t = 1.0 - a * a;
     float even = t * t * r23 / (1.0 - a * a * r23);
-    return gaussian.w * (a * a + even) + 2.0 * (even - t) * gaussian.y * series;
+    return gaussian.y * (a * a + even + 2.0 * (even - t) * series);
 }
 
 // Complex amplitude (x - u) / (x + u) of an interface in one polarisation: u is the index times the cosine behind it; x

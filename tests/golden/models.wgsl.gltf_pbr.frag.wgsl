@@ -111,12 +111,11 @@ fn mx_ggx_albedo_fit(a: f32, u: f32, c: f32) -> vec2f
 }
 
 // Light of one polarisation that interferes in a film, as Gaussian i of the CIE curves sees it: `a` is the amplitude of
-// the film's own interface, r the complex one of the interface below, and light in the film goes further by d / (2 pi)
-// micrometres (Belcour and Barla 2017, section 3.3).
+// the film's interface, r that of the interface below, and light in the film goes further by d / (2 pi) micrometres.
 fn mx_film_light(a: f32, r: vec2f, d: f32, i: i32) -> f32
 {
-    let gaussian: vec4f = mat4x4f(1.681, 0.84659, -0.0043278, 1.0, 2.2399, 0.153868, -0.0045282, 0.0, 1.7953, 1.000222,
-        -0.0093046, 1.0, 2.2084, 1.001122, -0.0066121, 1.0)[i];
+    let gaussian: vec4f = mat4x4f(1.681, 0.846202, -0.0043278, 0.0, 2.2399, 0.153798, -0.0045282, 0.0, 1.7953, 1.0,
+        -0.0093046, 0.0, 2.2084, 1.0, -0.0066121, 0.0)[i];
     let c: f32 = cos(gaussian.x * d);
     let s: f32 = sin(gaussian.x * d);
     let decay: f32 = exp(gaussian.z * d * d);
@@ -128,7 +127,7 @@ fn mx_film_light(a: f32, r: vec2f, d: f32, i: i32) -> f32
     let r23: f32 = dot(r, r);
     let t: f32 = 1.0 - a * a;
     let even: f32 = t * t * r23 / (1.0 - a * a * r23);
-    return gaussian.w * (a * a + even) + 2.0 * (even - t) * gaussian.y * series;
+    return gaussian.y * (a * a + even + 2.0 * (even - t) * series);
 }
 
 // Amplitudes of an interface of reflectance f below a film of index `ior`: negative where f0 says that the index behind

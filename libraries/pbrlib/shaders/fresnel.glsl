@@ -111,20 +111,17 @@ vec3 mx_fresnel_schlick(float cosine, vec3 f0, vec3 bend, vec3 f90, float expone
 // ---- thin films -----------------------------------------------------------------------------------------------------
 // Belcour and Barla 2017, "A Practical Extension to Microfacet Theory for the Modeling of Varying Iridescence".
 
-// The CIE sensitivities, sums of Gaussians, after a Fourier transform: (frequency, height, -1 / width, weight of light that does not
-// interfere). X is the sum of two, hence the last number.
-const mat4 MX_FILM_GAUSSIANS = mat4(1.6810, 0.846590, -0.0043278, 1.0, // X
-                                    2.2399, 0.153868, -0.0045282, 0.0,
-                                    1.7953, 1.000222, -0.0093046, 1.0,  // Y
-                                    2.2084, 1.001122, -0.0066121, 1.0); // Z
+// The CIE sensitivities, sums of Gaussians, after a Fourier transform: (frequency, height, -1 / width, 0). X is the sum of two.
+const mat4 MX_FILM_GAUSSIANS = mat4(1.6810, 0.846202, -0.0043278, 0.0, // X
+                                    2.2399, 0.153798, -0.0045282, 0.0,
+                                    1.7953, 1.0, -0.0093046, 0.0,  // Y
+                                    2.2084, 1.0, -0.0066121, 0.0); // Z
 
-// Light of one polarisation that interferes in a film, as Gaussian i of the CIE curves sees it: `a` is the
-// amplitude of the film's own interface, r the complex one of the interface below, and light in the film goes
-// further by d / (2 pi) micrometres (Belcour and Barla 2017, section 3.3).
+// Light of one polarisation that interferes in a film, as Gaussian i of the CIE curves sees it: `a` is the amplitude
+// of the film's interface, r that of the interface below, and light in the film goes further by d / (2 pi) micrometres.
 //
-// From behind, the film's own interface has the amplitude -a. With z for a path through the film and D for its
-// decay, path m of Airy's series is z^m D^(m^2). From the second path on, the series is summed as a geometric one,
-// z^2 D^4 / (1 - z D^5): paths one to three are exact, all are without decay, and later ones hardly count with it.
+// From behind, the film's own interface has the amplitude -a. Path m of Airy's series is z^m D^(m^2), with the decay D.
+// From the second path on, it is summed as a geometric series, z^2 D^4 / (1 - z D^5): paths one to three are exact.
 float mx_film_light(float a, vec2 r, float d, int i)
 {
     vec4 gaussian = MX_FILM_GAUSSIANS[i];
@@ -133,13 +130,12 @@ float mx_film_light(float a, vec2 r, float d, int i)
     float decay = exp(gaussian.z * d * d);
     float decay2 = decay * decay;
     vec2 path = -a * decay * vec2(r.x * c - r.y * s, r.x * s + r.y * c);
-    vec2 squared = vec2(path.x * path.x - path.y * path.y, 2.0 * path.x * path.y);
     vec2 rest = vec2(1.0, 0.0) - decay2 * decay2 * path;
-    float series = path.x + decay2 * dot(squared, rest) / dot(rest, rest);
+    float series = path.x + decay2 * dot(vec2(path.x * path.x - path.y * path.y, 2.0 * path.x * path.y), rest) / dot(rest, rest);
     float r23 = dot(r, r);
     float t = 1.0 - a * a;
     float even = t * t * r23 / (1.0 - a * a * r23);
-    return gaussian.w * (a * a + even) + 2.0 * (even - t) * gaussian.y * series;
+    return gaussian.y * (a * a + even + 2.0 * (even - t) * series);
 }
 
 // Cosine inside of a film of index `ior`.
