@@ -26,9 +26,12 @@ static void check_constant(const struct image *map, float value)
 {
     const float *x = map->pixels;
     float worst = 0;
-    for (size_t i = 0; i < num_floats(map); ++i)
+    bool is_number = true;
+    for (size_t i = 0; i < num_floats(map); ++i) {
         worst = fmaxf(worst, i % 4 == 3 ? 0 : fabsf(x[i] - value));
-    REQUIRE(worst < 2e-3f * value);
+        is_number &= isfinite(x[i]);
+    }
+    REQUIRE(is_number && worst < 2e-3f * value);
 }
 
 static void test_constant(void)
@@ -43,6 +46,16 @@ static void test_constant(void)
     check_constant(&baked.irradiance, 2.5f);
     baked_finish(&baked);
     image_finish(&map);
+}
+
+/* A texel is the light of all directions, also of those that face away from its middle. */
+static void test_one_texel(void)
+{
+    float texel[4] = {2.5f, 2.5f, 2.5f, 1.0f};
+    struct image out, map = {.width = 1, .height = 1, .is_float = true, .pixels = texel};
+    REQUIRE(environment_irradiance(&map, &out));
+    check_constant(&out, 2.5f);
+    image_finish(&out);
 }
 
 /*
@@ -139,6 +152,7 @@ static void test_files(const char *folder)
 int main(int argc, char **argv)
 {
     test_constant();
+    test_one_texel();
     test_gradient();
     test_albedo();
     test_files(argc > 1 ? argv[1] : ".");
