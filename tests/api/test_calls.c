@@ -306,6 +306,7 @@ static void test_diagnostics(const struct objects *o)
            len = mxg_diagnostics_format(list, 0, line, size, false, whole, sizeof whole);
     REQUIRE_EQ(strlen(whole), len);
     REQUIRE(strstr(whole, "typo.mtlx:2:3: error: ") == whole && strchr(whole, '^'));
+    REQUIRE(len && whole[len - 1] != '\n');
     REQUIRE_EQ(mxg_diagnostics_format(list, 0, line, size, false, part, sizeof part), len);
     REQUIRE(strlen(part) == sizeof part - 1 && strncmp(part, whole, sizeof part - 1) == 0);
     REQUIRE_EQ(mxg_diagnostics_format(list, 0, line, size, false, NULL, 0), len);
