@@ -101,6 +101,9 @@ MXG_API mxg_status mxg_document_nodedef(const mxg_document *document, uint32_t i
                                         mxg_nodedef *out);
 MXG_API mxg_status mxg_document_port(const mxg_document *document, uint32_t nodedef, uint32_t index,
                                      mxg_port *out);
+MXG_API uint32_t mxg_document_num_implementations(const mxg_document *document, uint32_t nodedef);
+MXG_API mxg_status mxg_document_implementation(const mxg_document *document, uint32_t nodedef,
+                                               uint32_t index, mxg_implementation *out);
 
 /*
  * The document as MaterialX XML, in the layout of MXG_REWRITE_FORMAT; comments stay, includes are

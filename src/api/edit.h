@@ -13,9 +13,9 @@ struct lost_reference {
 };
 
 struct mxg_edit {
-    struct object object;   /* owns the texts of errors; holds the document */
-    mxg_document *document; /* NULL: the edit has made it */
-    bool is_unchecked;      /* it has elements that no call below checked and indexed */
+    struct object object;            /* owns the texts of errors; holds the document */
+    mxg_document *document;          /* NULL: the edit has made it */
+    bool is_unchecked;               /* it has elements that no call below checked and indexed */
     VEC(struct lost_reference) lost; /* in the arena of the document */
     struct text error;
 };

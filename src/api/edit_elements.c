@@ -102,7 +102,7 @@ bool edit_check_name(struct edit_change *change, const char *what, const char *n
         edit_fail(change, "the %s is missing", what);
     else if (edit_check_text(change, what, name) && !doc_is_name(name))
         edit_fail(change, "'%s' is no name; a name has letters, digits and '_', and no digit first",
-             name);
+                  name);
     return !change->failed;
 }
 
@@ -138,12 +138,13 @@ bool edit_check_room(struct edit_change *change)
     return !change->failed;
 }
 
-elem_id edit_add(struct edit_change *change, elem_id parent, const char *category,
-                           const char *name, const char *type)
+elem_id edit_add(struct edit_change *change, elem_id parent, const char *category, const char *name,
+                 const char *type)
 {
     struct document *doc = edit_tree(change->edit);
-    elem_id element = doc_add_element(doc, parent, edit_word(change, category), edit_word(change, name),
-                                      doc_element(doc, doc->root)->file, 0, 0);
+    elem_id element =
+        doc_add_element(doc, parent, edit_word(change, category), edit_word(change, name),
+                        doc_element(doc, doc->root)->file, 0, 0);
     if (type && *type)
         doc_set_attr(doc, element, STR_type, edit_word(change, type));
     doc_index_change(doc, element);
@@ -155,8 +156,8 @@ static void add(void *arg)
     struct edit_change *c = arg;
     bool is_named = c->name && *c->name;
     if (edit_check_element(c, &c->element, true) && edit_check_name(c, "category", c->category)
-        && (!is_named || check_new_name(c, c->element, c->name)) && edit_check_text(c, "type", c->type)
-        && edit_check_room(c))
+        && (!is_named || check_new_name(c, c->element, c->name))
+        && edit_check_text(c, "type", c->type) && edit_check_room(c))
         c->result = edit_add(c, c->element, c->category, c->name, c->type);
 }
 
@@ -205,7 +206,8 @@ mxg_status mxg_edit_set_attribute(mxg_edit *edit, mxg_element element, const cha
 {
     if (attribute && strcmp(attribute, "name") == 0)
         return mxg_edit_rename_element(edit, element, value);
-    struct edit_change change = {.edit = edit, .element = element, .name = attribute, .text = value};
+    struct edit_change change = {
+        .edit = edit, .element = element, .name = attribute, .text = value};
     return edit ? edit_run(&change, set) : MXG_ERROR_ARGUMENT;
 }
 
@@ -246,7 +248,7 @@ static void move(void *arg)
         edit_fail(c, "'%s' cannot move below or before itself", edit_label(c->edit, c->element));
     else if (c->before && doc_element(doc, c->before)->parent != c->other)
         edit_fail(c, "'%s' is not below the parent, so '%s' cannot move before it",
-             edit_label(c->edit, c->before), edit_label(c->edit, c->element));
+                  edit_label(c->edit, c->before), edit_label(c->edit, c->element));
     else if (*name && doc_element(doc, c->element)->parent != c->other
              && edit_child(c->edit, c->other, name))
         edit_fail(c, "there is an element '%s' already", name);
@@ -262,7 +264,8 @@ static void move(void *arg)
 mxg_status mxg_edit_move_element(mxg_edit *edit, mxg_element element, mxg_element parent,
                                  mxg_element before)
 {
-    struct edit_change change = {.edit = edit, .element = element, .other = parent, .before = before};
+    struct edit_change change = {
+        .edit = edit, .element = element, .other = parent, .before = before};
     return edit ? edit_run(&change, move) : MXG_ERROR_ARGUMENT;
 }
 
@@ -282,7 +285,8 @@ static void copy(void *arg)
         c->name ? c->name : str_text(from->strings, doc_element(from, c->other)->name);
     if (*name && !check_new_name(c, c->element, name))
         return;
-    c->result = doc_copy_element(edit_tree(c->edit), c->element, from, c->other, edit_word(c, name));
+    c->result =
+        doc_copy_element(edit_tree(c->edit), c->element, from, c->other, edit_word(c, name));
     if (!c->result)
         edit_fail(c, "the document would have more elements than the context allows");
 }

@@ -60,7 +60,10 @@ static uint32_t find_definition(const struct edit_change *c, elem_id node, struc
 /* The type of a port of a definition; "": there is no such port. */
 static const char *port_type(const struct library *view, uint32_t nodedef, int port)
 {
-    return port < 0 ? "" : str_text(&view->strings, library_type_name(view, library_ports(view, nodedef, NULL)[port].type));
+    return port < 0
+               ? ""
+               : str_text(&view->strings,
+                          library_type_name(view, library_ports(view, nodedef, NULL)[port].type));
 }
 
 static const char *type_by_definition(const struct edit_change *c)
@@ -68,7 +71,9 @@ static const char *type_by_definition(const struct edit_change *c)
     struct library view;
     uint32_t nodedef = find_definition(c, c->element, &view);
     str_id name = str_find(&view.strings, c->name, strlen(c->name));
-    return nodedef == LIBRARY_NONE ? "" : port_type(&view, nodedef, library_find_input(&view, nodedef, name));
+    return nodedef == LIBRARY_NONE
+               ? ""
+               : port_type(&view, nodedef, library_find_input(&view, nodedef, name));
 }
 
 /* Gives the change the type of its input. Fails if the input is new and has no type. */
@@ -78,7 +83,8 @@ static doc_type find_type(struct edit_change *c)
     elem_id input = edit_child(c->edit, c->element, c->name);
     if (!c->type && !input)
         c->type = type_by_definition(c);
-    const char *type = c->type ? c->type : str_text(doc->strings, doc_attr_value(doc, input, STR_type));
+    const char *type =
+        c->type ? c->type : str_text(doc->strings, doc_attr_value(doc, input, STR_type));
     if (!*type)
         edit_fail(c, "no definition has the input '%s'; give its type", c->name);
     return doc_type_of(str_find(doc->strings, type, strlen(type)));
@@ -88,7 +94,8 @@ static void set_value(void *arg)
 {
     struct edit_change *c = arg;
     struct document *doc = edit_tree(c->edit);
-    if (!check_input(c) || !edit_check_text(c, "type", c->type) || !edit_check_text(c, "value", c->text))
+    if (!check_input(c) || !edit_check_text(c, "type", c->type)
+        || !edit_check_text(c, "value", c->text))
         return;
     doc_type type = find_type(c);
     if (!c->text)
@@ -134,8 +141,8 @@ static void set_numbers(void *arg)
     if (!c->numbers)
         edit_fail(c, "the numbers of '%s' are missing", c->name);
     if (!c->failed && (!num || num != c->num_numbers))
-        edit_fail(c, "the type of '%s' does not have %u component%s", c->name, (unsigned)c->num_numbers,
-             c->num_numbers == 1 ? "" : "s");
+        edit_fail(c, "the type of '%s' does not have %u component%s", c->name,
+                  (unsigned)c->num_numbers, c->num_numbers == 1 ? "" : "s");
     for (uint32_t i = 0; !c->failed && i < num; i++)
         if (!isfinite(c->numbers[i]))
             edit_fail(c, "a value of '%s' is infinite or not a number", c->name);
@@ -152,11 +159,11 @@ mxg_status mxg_edit_set_numbers(mxg_edit *edit, mxg_element node, const char *in
                                 const char *type, const float *values, uint32_t num_values)
 {
     struct edit_change change = {.edit = edit,
-                            .element = node,
-                            .name = input,
-                            .type = type,
-                            .numbers = values,
-                            .num_numbers = num_values};
+                                 .element = node,
+                                 .name = input,
+                                 .type = type,
+                                 .numbers = values,
+                                 .num_numbers = num_values};
     return edit ? edit_run(&change, set_numbers) : MXG_ERROR_ARGUMENT;
 }
 
@@ -175,8 +182,9 @@ static str_id connecting_attr(struct edit_change *c, elem_id scope)
     if (from->kind == KIND_INPUT && from->parent == scope
         && doc_element(doc, scope)->kind == KIND_NODEGRAPH)
         return STR_interfacename;
-    edit_fail(c, "'%s' is no node or nodegraph beside the port, and no input of the graph around it",
-         edit_label(c->edit, c->other));
+    edit_fail(c,
+              "'%s' is no node or nodegraph beside the port, and no input of the graph around it",
+              edit_label(c->edit, c->other));
     return 0;
 }
 
@@ -187,7 +195,9 @@ static const char *output_type(const struct edit_change *c)
     uint32_t nodedef = find_definition(c, c->other, &view);
     str_id name = c->text ? str_find(&view.strings, c->text, strlen(c->text)) : STR_EMPTY;
     int output = nodedef == LIBRARY_NONE ? -1 : library_find_output(&view, nodedef, name);
-    return output < 0 ? "" : port_type(&view, nodedef, library_nodedef(&view, nodedef)->num_inputs + output);
+    return output < 0
+               ? ""
+               : port_type(&view, nodedef, library_nodedef(&view, nodedef)->num_inputs + output);
 }
 
 /* The type of the value that `from` gives; "" if it is unknown. */
@@ -224,9 +234,11 @@ static void connect(void *arg)
         return;
     if (!*type) {
         if (c->text)
-            edit_fail(c, "the type of output '%s' of '%s' is unknown", c->text, edit_label(c->edit, c->other));
+            edit_fail(c, "the type of output '%s' of '%s' is unknown", c->text,
+                      edit_label(c->edit, c->other));
         else
-            edit_fail(c, "the type of '%s' is unknown; name one of its outputs", edit_label(c->edit, c->other));
+            edit_fail(c, "the type of '%s' is unknown; name one of its outputs",
+                      edit_label(c->edit, c->other));
         return;
     }
     elem_id port = c->name ? make_input(c, type) : c->element;

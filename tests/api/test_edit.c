@@ -210,6 +210,13 @@ static void test_links(void)
     REQUIRE_EQ(mxg_document_port(d, nodedef, 1, &port), MXG_OK);
     REQUIRE_STR(port.name, "by");
     REQUIRE_EQ(mxg_document_port(d, nodedef, 3, &port), MXG_ERROR_ARGUMENT);
+    mxg_implementation implementation = MXG_INIT(mxg_implementation);
+    REQUIRE_EQ(mxg_document_num_implementations(d, nodedef), 1);
+    REQUIRE_EQ(mxg_document_implementation(d, nodedef, 0, &implementation), MXG_OK);
+    REQUIRE_STR(implementation.function, "tint");
+    REQUIRE_STR(implementation.nodegraph, "");
+    REQUIRE_EQ(mxg_document_implementation(d, nodedef, 1, &implementation), MXG_ERROR_ARGUMENT);
+    REQUIRE_EQ(mxg_document_num_implementations(d, nodedef + 1), 0);
     REQUIRE_EQ(mxg_document_find_nodedef(d, mxg_document_find_element(d, 0, "G")), MXG_NONE);
     close_fixture(&f);
 }
