@@ -47,6 +47,7 @@ void generation_defer(struct generation *g)
     }
     if (role_stores(g->role)) {
         g->closure_host.store = deferred_store;
+        g->closure_host.has_room = deferred_has_room;
         g->closure_host.store_data = &g->result->storage;
     }
 }
@@ -94,8 +95,7 @@ static const char *why_forward(struct generation *g)
     if (!closure_is_surface(shader, g->root))
         return "it is no surface";
     if (!g->misfit)
-        return shader->reflection.alpha == ALPHA_BLEND ? "its opacity may be between 0 and 1"
-                                                       : "it has AOVs";
+        return shader->reflection.not_stored;
     struct text why;
     text_init(&why, &g->scratch);
     text_fmt(

@@ -59,7 +59,9 @@ struct closure_stored {
 struct closure_host {
     void *user_data;
     const struct closure_above *above; /* NULL: nothing */
-    /* Takes a surface instead of lighting it, for roles that store; otherwise NULL. */
+    /* For roles that store; otherwise NULL: false if the weights of leaves have no room. */
+    bool (*has_room)(const struct shader *shader, const struct closure_list *list);
+    /* Takes a surface instead of lighting it. */
     void (*store)(struct shader *shader, const struct closure_host *host,
                   const struct closure_stored *surface);
     const void *store_data;
@@ -117,6 +119,10 @@ struct closure_list {
  */
 void closure_flatten(struct shader *shader, const struct closure_host *host, ir_ref root,
                      struct closure_list *out);
+
+/* weight_bound.c: the most that a leaf may weigh, without decay. INFINITY: it takes too long to
+ * say. */
+float closure_most_weight(const struct ir_graph *graph, const struct closure_leaf *leaf);
 
 /* The option `transparency`. */
 enum closure_transparency {

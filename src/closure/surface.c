@@ -264,25 +264,32 @@ static void emit_scattering(struct emitter *e, ir_ref root)
         emit_layer(e, &s, walks ? &pile : NULL);
 }
 
-static void store_surface(struct emitter *e, const struct closure_surface *s, bool is_whole)
+static void store_surface(struct emitter *e, const struct closure_surface *s,
+                          const struct closure_list *list, bool is_whole)
 {
-    struct closure_list list;
     e->shader->reflection.alpha = draws_all(e, s->alpha) ? ALPHA_OPAQUE
                                   : is_whole             ? ALPHA_MASK
                                                          : ALPHA_BLEND;
-    emitter_flatten(e, s, &list);
-    const struct closure_stored stored = {s->bsdf, &list, e->lit.base, s->alpha, s->premultiplied};
+    const struct closure_stored stored = {s->bsdf, list, e->lit.base, s->alpha, s->premultiplied};
     e->host->store(e->shader, e->host, &stored);
 }
 
-/* A pixel stores whole surfaces without AOVs; a payload every surface, and none of its AOVs. */
-static bool is_stored(const struct emitter *e, bool is_whole)
+/* A pixel stores whole surfaces without AOVs, if its slabs have room. NULL: this is one. */
+static const char *why_not_stored(const struct emitter *e, const struct closure_list *list,
+                                  bool is_whole)
 {
-    switch (e->shader->role->returns) {
-    case RETURNS_PAYLOAD: return true;
-    case RETURNS_SLABS: return is_whole && !has_aov_outputs(e);
-    default: return false;
-    }
+    return !is_whole                             ? "its opacity may be between 0 and 1"
+           : has_aov_outputs(e)                  ? "it has AOVs"
+           : !e->host->has_room(e->shader, list) ? "a sum of equal slabs may weigh more than 1"
+                                                 : NULL;
+}
+
+/* A payload stores every surface, and none of its AOVs. */
+static bool is_stored(struct emitter *e, const struct closure_list *list, bool is_whole)
+{
+    if (e->shader->role->returns == RETURNS_SLABS)
+        e->shader->reflection.not_stored = why_not_stored(e, list, is_whole);
+    return !e->shader->reflection.not_stored;
 }
 
 static void emit_surface(struct emitter *e, ir_ref root)
@@ -301,10 +308,14 @@ static void emit_surface(struct emitter *e, ir_ref root)
             alpha_test(e, s.alpha);
         return;
     }
-    bool is_whole = draws_all(e, s.alpha) || is_cut(e, s.alpha);
-    if (is_stored(e, is_whole)) {
-        store_surface(e, &s, is_whole);
-        return;
+    if (role_stores(e->shader->role)) {
+        struct closure_list list;
+        bool is_whole = draws_all(e, s.alpha) || is_cut(e, s.alpha);
+        emitter_flatten(e, &s, &list);
+        if (is_stored(e, &list, is_whole)) {
+            store_surface(e, &s, &list, is_whole);
+            return;
+        }
     }
     emitter_light_surface(e, &s);
     emitter_write_lit(e);

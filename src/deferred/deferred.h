@@ -41,6 +41,10 @@ struct deferred_layout {
 /* A hash of the storage: materials and passes with equal ones fit together. */
 uint32_t deferred_layout_number(const struct deferred_layout *layout);
 
+/* False if a slab may weigh more than the 1 that a pixel has room for, as in a sum of equal slabs.
+ */
+bool deferred_has_room(const struct shader *shader, const struct closure_list *list);
+
 /*
  * closure_host.store, whose store_data is a deferred_layout: the effects that write the closures of
  * a surface, or that pack its only one. Each slab has a mark (build_options.marks_slabs). Sets

@@ -404,6 +404,16 @@ static void finish_payload(struct shader *shader, uint32_t source, uint32_t loca
 
 /* ---- Entry ---- */
 
+bool deferred_has_room(const struct shader *shader, const struct closure_list *list)
+{
+    const float rounding = 1e-4f;
+    for (uint32_t i = 0; i < list->leaves.len; i++)
+        if (is_mark(shader, list->leaves.items[i].leaf)
+            && closure_most_weight(shader->graph, &list->leaves.items[i]) > 1.0f + rounding)
+            return false;
+    return true;
+}
+
 void deferred_store(struct shader *shader, const struct closure_host *host,
                     const struct closure_stored *surface)
 {

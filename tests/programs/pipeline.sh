@@ -238,6 +238,29 @@ X
 aovs_are_told() { "$mxgen" aov.mtlx --target vulkan --interface reduced --role deferred -o aovs "$@" 2>&1 | grep -q "drawn forward: it has AOVs"; }
 check "a message says that AOVs are drawn forward" aovs_are_told
 check "nothing is drawn forward without AOVs" exits 1 aovs_are_told --aovs none
+# sum NAME: two nodes and a mask, as the slab of a material; equal slabs are one closure, whose weights are added.
+sums() {
+    local name=$1
+    shift
+    cat >"$name.mtlx" <<X
+<materialx version="1.39">
+  <slab name="a" type="BSDF"/><slab name="b" type="BSDF"/>
+  <texcoord name="uv" type="vector2"/><extract name="m" type="float"><input name="in" type="vector2" nodename="uv"/></extract>
+  <slab_mix name="mixed" type="BSDF"><input name="fg" type="BSDF" nodename="a"/><input name="bg" type="BSDF" nodename="half"/><input name="mix" type="float" nodename="m"/></slab_mix>
+  <multiply name="half" type="BSDF"><input name="in1" type="BSDF" nodename="a"/><input name="in2" type="float" value="0.5"/></multiply>
+  <multiply name="rest" type="BSDF"><input name="in1" type="BSDF" nodename="b"/><input name="in2" type="float" value="0.5"/></multiply>
+  <slab_mix name="again" type="BSDF"><input name="fg" type="BSDF" nodename="b"/><input name="bg" type="BSDF" nodename="mixed"/><input name="mix" type="float" nodename="m"/></slab_mix>
+  <add name="whole" type="BSDF"><input name="in1" type="BSDF" nodename="$1"/><input name="in2" type="BSDF" nodename="$2"/></add>
+  <slab_surface name="SR" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="$3"/></slab_surface>
+</materialx>
+X
+    "$mxgen" "$name.mtlx" -e SR --target vulkan --role deferred -o sum 2>&1
+}
+too_heavy() { sums "$@" | grep -q 'drawn forward: a sum of equal slabs may weigh more than 1'; }
+check "a sum of equal slabs is drawn forward" too_heavy sum a b whole
+check "so is one that is too heavy in places" too_heavy sum mixed rest whole
+check "halves of equal slabs are stored" exits 1 too_heavy sum half rest whole
+check "mixes of equal slabs are stored" exits 1 too_heavy sum a b again
 for target in essl essl310 wgsl osl; do
     check "material passes for $target are an error" reports options-clash "$mxgen" "$examples/deferred.mtlx" -e Plain --target "$target" --role deferred -o no
 done
