@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from itertools import zip_longest
 from typing import TYPE_CHECKING, Any, Union
 
-from ._calls import Handle, Native, c_text, error_of, ffi, keep_text, lib, py_text, record, sized_text
+from ._calls import Handle, Native, c_number, c_text, error_of, lib, new, py_text, record, sized_text
 from .definition import OF_DOCUMENT, Library, NodeDef, read_nodedef, read_nodedefs
 from .diagnostic import Diagnostics
 from .error import ArgumentError, DocumentError, OutOfMemoryError
@@ -56,7 +56,7 @@ class Element:
             raise TypeError(f"document must be Document, not {type(document).__name__}")
         self.document = document
         #: documents made by edits keep the number
-        self.number = number
+        self.number = c_number(number, "number")
         self._info()
 
     def _info(self) -> dict[str, Any]:
@@ -189,7 +189,7 @@ class Element:
     @property
     def connection(self) -> Connection | None:
         """The connection of an input or output; None if it has none."""
-        out = ffi.new("mxg_connection *", {"size": ffi.sizeof("mxg_connection")})
+        out = new("mxg_connection")
         status = lib.mxg_document_connection(self.document._handle.pointer, self.number, out)
         if status == lib.MXG_ERROR_ARGUMENT:
             return None
@@ -304,7 +304,7 @@ class Document(Native):
 
     def xml(self) -> str:
         """The document as MaterialX XML. Reading the text gives an equal tree."""
-        text = lib.mxg_document_xml(self._handle.pointer, ffi.NULL)
+        text = lib.mxg_document_xml(self._handle.pointer, None)
         if not text:
             raise OutOfMemoryError("there is no memory for the text")
         return py_text(text)
@@ -329,9 +329,8 @@ class Document(Native):
         difference are resolved again. Raises DocumentError."""
         if not isinstance(scene, Scene):
             raise TypeError(f"scene must be Scene, not {type(scene).__name__}")
-        keep: list[Any] = []
-        handle, status = self.context._make("mxg_bindings", lib.mxg_bindings_create, lib.mxg_bindings_destroy, (self._handle, scene._handle),
-                                            self._handle.pointer, scene._handle.pointer, make_bind_desc(look, solo, mute, previous, keep))
+        handle, status = self.context._make(lib.mxg_bindings_create, lib.mxg_bindings_destroy, (self._handle, scene._handle),
+                                            self._handle.pointer, scene._handle.pointer, make_bind_desc(look, solo, mute, previous))
         bindings = Bindings(self, scene, handle)
         if status != lib.MXG_OK:
             raise DocumentError(bindings.diagnostics)
@@ -347,7 +346,7 @@ class Document(Native):
 
     def _call(self, context: Context | None, function: Callable[..., int], *arguments: Any) -> tuple[Shader, int]:
         """Makes a result with this document, and with another context if one is given."""
-        handle, status = self._context_for(context)._make("mxg_result", function, lib.mxg_result_destroy, (self._handle,),
+        handle, status = self._context_for(context)._make(function, lib.mxg_result_destroy, (self._handle,),
                                                           self._handle.pointer, *arguments)
         return Shader(handle), status
 
@@ -356,9 +355,9 @@ class Document(Native):
         return self._call(context, lib.mxg_validate)[0].diagnostics
 
     def _request(self, context: Context | None, target: str, element: str | Element | Stack | None,
-                 options: Mapping[str, OptionValue] | None, keep: list[Any]) -> Any:
-        """A mxg_generate_desc; it lives as long as `keep`."""
-        desc = ffi.new("mxg_generate_desc *", {"size": ffi.sizeof("mxg_generate_desc")})
+                 options: Mapping[str, OptionValue] | None) -> Any:
+        """A mxg_generate_desc, which keeps its options."""
+        desc = new("mxg_generate_desc")
         if isinstance(element, Stack):
             if element.bindings.document is not self:
                 raise ValueError("the stack is of another document")
@@ -369,12 +368,12 @@ class Document(Native):
             if element.document is not self:
                 raise ValueError("the element is of another document")
             element = element.path
-        desc.target = keep_text(c_text(target, "target"), keep)
+        desc.target = c_text(target, "target")
         if element is not None:
-            desc.element = keep_text(c_text(element, "element"), keep)
+            desc.element = c_text(element, "element")
         if options is not None:
             made_options = make_options(self._context_for(context), options)
-            keep.append(made_options)
+            desc.keep = made_options
             desc.options = made_options._handle.pointer
         return desc
 
@@ -386,8 +385,7 @@ class Document(Native):
 
         `without_source` leaves out the source, `only_diagnostics` everything but the diagnostics. A thread that generates at the
         same time as another one gives its own `context`."""
-        keep: list[Any] = []
-        desc = self._request(context, target, element, options, keep)
+        desc = self._request(context, target, element, options)
         desc.without_source = without_source
         desc.only_diagnostics = only_diagnostics
         shader, status = self._call(context, lib.mxg_generate, desc)
@@ -398,8 +396,7 @@ class Document(Native):
     def inspect(self, view: View, element: str | Element | Stack | None = None, *, target: str = "glsl",
                 options: Mapping[str, OptionValue] | None = None, context: Context | None = None) -> str:
         """A text for people: the tree, the graph, the IR or the closures. Raises DocumentError."""
-        keep: list[Any] = []
-        desc = self._request(context, target, element, options, keep)
+        desc = self._request(context, target, element, options)
         result, status = self._call(context, lib.mxg_inspect, View(view), desc)
         if status != lib.MXG_OK:
             raise DocumentError(result.diagnostics)

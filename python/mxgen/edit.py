@@ -2,12 +2,13 @@
 """Edits: documents made from nothing or from other documents."""
 from __future__ import annotations
 
+import ctypes
 from collections.abc import Sequence
 from numbers import Real
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Union
 
-from ._calls import Handle, Native, c_text, error_of, ffi, lib, sized_text
+from ._calls import Handle, Native, c_text, error_of, lib, optional_text, sized_text
 from .definition import Library
 from .document import Document, Element
 from .error import DocumentError, EditError, Error
@@ -35,8 +36,8 @@ class Draft:
 
     def add(self, category: str, name: str | None = None, type: str | None = None) -> Draft:
         """Appends an element below. The name must be new there."""
-        return self.edit._made(lib.mxg_edit_add_element, self.number, c_text(category, "category"), _optional(name, "name"),
-                               _optional(type, "type"))
+        return self.edit._made(lib.mxg_edit_add_element, self.number, c_text(category, "category"), optional_text(name, "name"),
+                               optional_text(type, "type"))
 
     def child(self, name: str) -> Draft | None:
         """The element of a name directly below."""
@@ -46,7 +47,7 @@ class Draft:
 
     def set(self, attribute: str, value: str | None) -> Draft:
         """Sets an attribute; None removes it."""
-        self.edit._change(lib.mxg_edit_set_attribute, self.number, c_text(attribute, "attribute"), _optional(value, "value"))
+        self.edit._change(lib.mxg_edit_set_attribute, self.number, c_text(attribute, "attribute"), optional_text(value, "value"))
         return self
 
     def rename(self, name: str) -> Draft:
@@ -56,19 +57,19 @@ class Draft:
 
     def value(self, input: str, value: NewValue, type: str | None = None) -> Draft:
         """Gives an input of a node a value, and removes its connection. An input that the node does not have yet needs a type."""
-        name, kind = c_text(input, "input"), _optional(type, "type")
-        if kind is ffi.NULL or isinstance(value, (str, int)):
+        name, kind = c_text(input, "input"), optional_text(type, "type")
+        if kind is None or isinstance(value, (str, int)):
             self.edit._change(lib.mxg_edit_set_value, self.number, name, kind, _text_of(value))
         else:
             numbers = _numbers_of(value)
-            self.edit._change(lib.mxg_edit_set_numbers, self.number, name, kind, ffi.new("float[]", numbers), len(numbers))
+            self.edit._change(lib.mxg_edit_set_numbers, self.number, name, kind, (ctypes.c_float * len(numbers))(*numbers), len(numbers))
         return self
 
     def connect(self, input: str | None, source: Draft, output: str | None = None) -> Draft:
         """Connects an input of a node, or an <output> element (then `input` is None), to a node, a nodegraph or an input of the
         nodegraph around it. `output` None: the only output of the source."""
         self.edit._own(source)
-        self.edit._change(lib.mxg_edit_connect_input, self.number, _optional(input, "input"), source.number, _optional(output, "output"))
+        self.edit._change(lib.mxg_edit_connect_input, self.number, optional_text(input, "input"), source.number, optional_text(output, "output"))
         return self
 
     def remove(self) -> None:
@@ -88,7 +89,7 @@ class Draft:
         if not isinstance(element, Element):
             raise TypeError(f"element must be Element, not {_type_name(element)}")
         return self.edit._made(lib.mxg_edit_copy_element, self.number, element.document._handle.pointer, element.number,
-                               _optional(name, "name"))
+                               optional_text(name, "name"))
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Draft) and other.edit is self.edit and other.number == self.number
@@ -108,8 +109,8 @@ class Edit(Native):
 
     def __init__(self, context: Context, library: Library, source: Document | None, name: str) -> None:
         parents = (library._handle,) if source is None else (library._handle, source._handle)
-        handle, _ = context._make("mxg_edit", lib.mxg_edit_create, lib.mxg_edit_destroy, parents, library._handle.pointer,
-                                  ffi.NULL if source is None else source._handle.pointer, c_text(name, "name"))
+        handle, _ = context._make(lib.mxg_edit_create, lib.mxg_edit_destroy, parents, library._handle.pointer,
+                                  None if source is None else source._handle.pointer, c_text(name, "name"))
         self._handle = handle
         self._context = context
         self._library = library
@@ -186,14 +187,14 @@ class Edit(Native):
     def end(self) -> Document:
         """Makes the document. The edit is over, also after an error. Raises DocumentError."""
         pointer, handle = self._pointer(), self._handle
-        out = ffi.new("mxg_document **")
+        out = ctypes.c_void_p()
         del self._handle
         made = None
         try:
             with self._context._turn():
                 status = lib.mxg_edit_commit(pointer, out)
-                if out[0]:
-                    made = Handle(out[0], lib.mxg_document_destroy, (self._context._handle, self._library._handle))
+                if out.value:
+                    made = Handle(out.value, lib.mxg_document_destroy, (self._context._handle, self._library._handle))
         except BaseException: # of a callback
             if made is not None:
                 made.release()
@@ -236,10 +237,6 @@ class Edit(Native):
 
 def _type_name(value: object) -> str:
     return type(value).__name__
-
-
-def _optional(text: str | None, what: str) -> Any:
-    return ffi.NULL if text is None else c_text(text, what)
 
 
 def _numbers_of(value: float | Sequence[float]) -> list[float]:
