@@ -6,7 +6,8 @@ import ctypes
 import os
 import pathlib
 from collections.abc import Callable, Iterable
-from typing import Any, cast
+from types import TracebackType
+from typing import Any, TypeVar, cast
 
 from . import _native
 from .error import ArgumentError, CancelledError, Error, InternalError, OutOfMemoryError
@@ -186,15 +187,38 @@ class Handle:
                 parent.release()
 
 
+_Self = TypeVar("_Self", bound="Native")
+
+
 class Native:
-    """A Python object that owns a handle."""
+    """A Python object that owns a handle. It ends with its last reference, or at `close`, or at the end of a `with` block; objects that
+    were made from it stay."""
 
     _handle: Handle
 
-    def __del__(self) -> None:
-        handle = getattr(self, "_handle", None)
+    def close(self) -> None:
+        """Frees the memory of the object. Every later use of it raises Error."""
+        handle = vars(self).pop("_handle", None)
         if handle is not None:
             handle.release()
+
+    @property
+    def _is_open(self) -> bool:
+        return "_handle" in vars(self)
+
+    def __getattr__(self, name: str) -> Any:
+        if name == "_handle":
+            raise Error(f"the {type(self).__name__.lower()} has ended")
+        raise AttributeError(f"'{type(self).__name__}' has no attribute '{name}'")
+
+    def __enter__(self: _Self) -> _Self:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None) -> None:
+        self.close()
+
+    def __del__(self) -> None:
+        self.close()
 
     def __reduce_ex__(self, protocol: Any) -> Any:
         raise TypeError(f"{type(self).__name__} is a native object, which cannot be copied or pickled")

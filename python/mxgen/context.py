@@ -16,7 +16,7 @@ from .definition import Library
 from .diagnostic import Diagnostics
 from .document import Document
 from .edit import Edit
-from .error import ArgumentError, DocumentError, Error, OutOfMemoryError
+from .error import ArgumentError, Error, OutOfMemoryError, document_error
 from .scene import Scene
 from .shader import OptionValue, Shader, make_options
 
@@ -192,6 +192,9 @@ class Context(Native):
             desc.texels = ctypes.addressof(made[-1])
         return made
 
+    def __repr__(self) -> str:
+        return "<Context>"
+
     # ---- Calls ----
 
     @contextmanager
@@ -244,7 +247,7 @@ class Context(Native):
             handle, status = self._make(lib.mxg_generate_pass, lib.mxg_result_destroy, (), index, desc)
             shader = Shader(handle)
             if status != lib.MXG_OK:
-                raise DocumentError(shader.diagnostics)
+                raise document_error(shader.diagnostics)
             if shader.pixel is not None:
                 found[py_text(lib.mxg_catalogue_pass(index))] = shader
         return found
@@ -277,7 +280,7 @@ class Context(Native):
                                     len(paths))
         library = Library(handle)
         if status != lib.MXG_OK:
-            raise DocumentError(library.diagnostics)
+            raise document_error(library.diagnostics)
         return library
 
     # ---- Documents ----
@@ -292,7 +295,7 @@ class Context(Native):
                                     library._handle.pointer, *arguments)
         document = Document(self, library, handle)
         if status != lib.MXG_OK:
-            raise DocumentError(document.diagnostics, document)
+            raise document_error(document.diagnostics, document)
         return document
 
     def load(self, path: str | os.PathLike[str], *, library: Library | None = None) -> Document:
@@ -336,7 +339,7 @@ class Context(Native):
         handle, status = self._make(lib.mxg_scene_load, lib.mxg_scene_destroy, (), c_path(path, "path"), purpose_text)
         scene = Scene(handle)
         if status != lib.MXG_OK:
-            raise DocumentError(scene.diagnostics)
+            raise document_error(scene.diagnostics)
         return scene
 
     def scene_materials(self, scene: Scene, *, library: Library | None = None) -> Document:
@@ -350,13 +353,13 @@ class Context(Native):
     def rewrite(self, rewriting: Rewriting, name: str | os.PathLike[str], text: str | bytes | None = None) -> Rewritten:
         """Reads a document and writes it again. `text` None: reads the file `name`. Raises DocumentError."""
         data = None if text is None else _document_bytes(text)
-        size = 0 if text is None else len(data)
+        size = 0 if data is None else len(data)
         handle, status = self._make(lib.mxg_rewrite, lib.mxg_result_destroy, (), Rewriting(rewriting),
                                     c_path(name, "name"), data, size)
         owner = _Holder(handle)
         diagnostics = Diagnostics(lib.mxg_result_diagnostics(handle.pointer), owner)
         if status != lib.MXG_OK:
-            raise DocumentError(diagnostics)
+            raise document_error(diagnostics)
         return Rewritten(py_text(lib.mxg_result_text(handle.pointer, None)), diagnostics)
 
     def format(self, text: str | bytes, *, name: str = "<text>") -> str:

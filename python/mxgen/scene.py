@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from ._calls import Handle, Native, c_number, c_text, c_texts, error_of, guarded, lib, new, optional_text, py_text, record, sized_text
 from .diagnostic import Diagnostics
-from .error import ArgumentError, DocumentError
+from .error import ArgumentError, document_error
 
 if TYPE_CHECKING:
     from .document import Document
@@ -269,7 +269,7 @@ class Scene(Native):
         names = c_texts(c_text(path, "a path") for path in paths)
         status = lib.mxg_scene_add_paths(self._handle.pointer, names, len(paths))
         if status == lib.MXG_ERROR_DOCUMENT:
-            raise DocumentError(self.diagnostics)
+            raise document_error(self.diagnostics)
         if status != lib.MXG_OK:
             raise error_of(status)
 
@@ -281,7 +281,7 @@ class Scene(Native):
         if adding.raised is not None:
             raise adding.raised
         if status == lib.MXG_ERROR_DOCUMENT:
-            raise DocumentError(self.diagnostics)
+            raise document_error(self.diagnostics)
         if status != lib.MXG_OK:
             raise error_of(status)
         return tuple(self._primitive(number) for number in adding.numbers)
@@ -306,7 +306,7 @@ class Scene(Native):
 
     def _change(self, status: int) -> None:
         if status == lib.MXG_ERROR_DOCUMENT:
-            raise DocumentError(self.diagnostics)
+            raise document_error(self.diagnostics)
         if status != lib.MXG_OK:
             raise error_of(status)
 
@@ -351,6 +351,9 @@ class Scene(Native):
         out = new("mxg_primitive")
         return (Primitive(self, number) for number in range(lib.mxg_scene_num_primitives(pointer))
                 if lib.mxg_scene_primitive(pointer, number, out) == lib.MXG_OK)
+
+    def __repr__(self) -> str:
+        return f"<Scene: {len(self)} primitives>"
 
     @property
     def up_axis(self) -> str:
@@ -499,6 +502,9 @@ class Bindings(Native):
         """The diagnostics of finding the layers."""
         return Diagnostics(lib.mxg_bindings_diagnostics(self._handle.pointer), self)
 
+    def __repr__(self) -> str:
+        return f"<Bindings: {lib.mxg_bindings_num_stacks(self._handle.pointer)} stacks>"
+
     @property
     def num_resolved(self) -> int:
         """The number of primitives whose assignments were found: all, or with `previous` those at or below a difference."""
@@ -541,7 +547,7 @@ class Bindings(Native):
         """All bindings as text. Raises DocumentError if USDA cannot express some of them."""
         made, status = _written(lib.mxg_bindings_write, self._handle.pointer, BindingsFormat(format))
         if status == lib.MXG_ERROR_DOCUMENT:
-            raise DocumentError(self.diagnostics)
+            raise document_error(self.diagnostics)
         if status != lib.MXG_OK:
             raise error_of(status)
         return made

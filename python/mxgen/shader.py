@@ -303,6 +303,10 @@ class Shader(Native):
     def __init__(self, handle: Handle) -> None:
         self._handle = handle
 
+    def __repr__(self) -> str:
+        values = record("mxg_shader_info", lib.mxg_result_info, self._handle.pointer)
+        return f"<Shader '{values['name']}' for {values['target']}>" if values else "<Shader: diagnostics only>"
+
     # ---- Source ----
 
     def source(self, stage: Stage) -> str | None:
