@@ -25,13 +25,15 @@ struct made_output {
 };
 
 struct maker {
+    const struct scene *scene;
     const struct usda_layer *layer;
     struct library *lib;
     struct document *doc;
     struct arena *scratch;
     struct diag_list *diags;
     usda_prim_id material;
-    elem_id graph; /* 0: not made yet */
+    const char *name; /* of the material in the document */
+    elem_id graph;    /* 0: not made yet */
     uint16_t file;
     VEC(struct made_node) nodes; /* of the material */
     VEC(struct made_output) outputs;
@@ -69,8 +71,29 @@ static elem_id add(struct maker *m, elem_id parent, const char *category, str_id
 
 /* ---- Names ---- */
 
+/* Adds an element whose name no other one below the parent has: a number follows one that is taken.
+ */
+static elem_id add_free(struct maker *m, elem_id parent, const char *category, struct text *name,
+                        const struct usda_prim *at)
+{
+    size_t len = name->len;
+    str_id id = str_intern(m->doc->strings, name->data, len);
+    for (unsigned suffix = 2;
+         doc_child(m->doc, parent, id)
+         || (parent == m->doc->root && scene_has_material(m->scene, text_cstr(name)));
+         suffix++) {
+        name->len = len;
+        text_fmt(name, "_%u", suffix);
+        id = str_intern(m->doc->strings, name->data, name->len);
+    }
+    elem_id added = add(m, parent, category, id, at->line, at->column);
+    doc_index_element(m->doc, added);
+    return added;
+}
+
 /* The names from below a prim down to another one, joined by '_'. */
-static str_id name_below(struct maker *m, usda_prim_id above, usda_prim_id prim, bool with_above)
+static struct text name_below(struct maker *m, usda_prim_id above, usda_prim_id prim,
+                              bool with_above)
 {
     const struct usda_prim *prims = m->layer->prims.items;
     usda_prim_id chain[64];
@@ -80,12 +103,12 @@ static str_id name_below(struct maker *m, usda_prim_id above, usda_prim_id prim,
         chain[num++] = prim;
     text_init(&text, m->scratch);
     if (with_above)
-        text_put(&text, prims[above].name);
+        text_str(&text, m->name);
     while (num) {
         text_str(&text, text.len ? "_" : "");
         text_put(&text, prims[chain[--num]].name);
     }
-    return str_intern(m->doc->strings, text.data, text.len);
+    return text;
 }
 
 /* ---- Values ---- */
@@ -203,11 +226,9 @@ static elem_id graph_of(struct maker *m)
         const struct usda_prim *material = &m->layer->prims.items[m->material];
         struct text name;
         text_init(&name, m->scratch);
-        text_put(&name, material->name);
+        text_str(&name, m->name);
         text_str(&name, "_graph");
-        m->graph =
-            add(m, m->doc->root, "nodegraph", str_intern(m->doc->strings, name.data, name.len),
-                material->line, material->column);
+        m->graph = add_free(m, m->doc->root, "nodegraph", &name, material);
     }
     return m->graph;
 }
@@ -226,8 +247,8 @@ static uint32_t node_of(struct maker *m, usda_prim_id prim)
     const struct port *outputs = outputs_of(m, nodedef, &num);
     bool is_shader = is_shader_type(m, outputs[0].type);
     const char *category = str_text(m->doc->strings, library_nodedef(m->lib, nodedef)->node);
-    elem_id element = add(m, is_shader ? m->doc->root : graph_of(m), category,
-                          name_below(m, m->material, prim, is_shader), at->line, at->column);
+    struct text name = name_below(m, m->material, prim, is_shader);
+    elem_id element = add_free(m, is_shader ? m->doc->root : graph_of(m), category, &name, at);
     set(m, element, "type",
         num == 1 ? library_type_name(m->lib, outputs[0].type)
                  : str_intern_z(m->doc->strings, "multioutput"));
@@ -471,23 +492,24 @@ static void read_inputs(struct maker *m)
     }
 }
 
-static void begin(struct maker *m, usda_prim_id prim)
+static void begin(struct maker *m, const struct scene_material *material)
 {
-    m->material = prim;
+    m->material = material->prim;
+    m->name = material->name;
     m->graph = 0;
     m->is_broken = false;
     m->nodes.len = m->outputs.len = m->interface.len = 0;
 }
 
-static void add_material(struct maker *m, usda_prim_id prim)
+static void add_material(struct maker *m, const struct scene_material *from)
 {
     static const char *const surfaces[] = {"outputs:mtlx:surface", "outputs:surface", NULL};
     static const char *const displacements[] = {"outputs:mtlx:displacement", "outputs:displacement",
                                                 NULL};
-    const struct usda_prim *at = &m->layer->prims.items[prim];
-    begin(m, prim);
-    elem_id material =
-        add(m, m->doc->root, "surfacematerial", intern(m, at->name), at->line, at->column);
+    const struct usda_prim *at = &m->layer->prims.items[from->prim];
+    begin(m, from);
+    elem_id material = add(m, m->doc->root, "surfacematerial",
+                           str_intern_z(m->doc->strings, from->name), at->line, at->column);
     set(m, material, "type", str_intern_z(m->doc->strings, "material"));
     doc_index_element(m->doc, material);
     add_product(m, material, surfaces, "surfaceshader");
@@ -582,23 +604,24 @@ static void add_override_output(struct maker *m, const struct usda_property *pro
 }
 
 /* A Material without terminals, or a NodeGraph, as a nodegraph of its name. */
-static void add_override(struct maker *m, usda_prim_id prim)
+static void add_override(struct maker *m, const struct scene_material *from)
 {
-    const struct usda_prim *at = &m->layer->prims.items[prim];
+    const struct usda_prim *at = &m->layer->prims.items[from->prim];
     const struct usda_property *properties = m->layer->properties.items;
-    begin(m, prim);
-    m->graph = add(m, m->doc->root, "nodegraph", intern(m, at->name), at->line, at->column);
+    begin(m, from);
+    m->graph = add(m, m->doc->root, "nodegraph", str_intern_z(m->doc->strings, from->name),
+                   at->line, at->column);
     doc_index_element(m->doc, m->graph);
     for (uint32_t i = at->first_property; i < usda_end_property(at); i++)
         add_override_output(m, &properties[i]);
     read_inputs(m);
 }
 
-static bool is_bound(const struct scene *scene, const struct table *bound, struct text_word name)
+static bool is_bound(const struct scene *scene, const struct table *bound, const char *name)
 {
-    uint32_t hash = hash_bytes(name.bytes, name.len);
+    uint32_t hash = hash_bytes(name, strlen(name));
     for (uint32_t at = hash, found; (found = table_next(bound, hash, &at));)
-        if (usda_is(name, scene->bindings.items[found - 1].material))
+        if (strcmp(name, scene->bindings.items[found - 1].material) == 0)
             return true;
     return false;
 }
@@ -609,33 +632,50 @@ static struct table bound_overrides(const struct scene *scene, struct arena *scr
     struct table table = {0};
     for (uint32_t i = 0; i < scene->bindings.len; i++) {
         const struct scene_binding *binding = &scene->bindings.items[i];
-        struct text_word name = {binding->material, strlen(binding->material)};
+        const char *name = binding->material;
         if (!binding->is_removed && strstr(binding->name, "::") && !is_bound(scene, &table, name))
-            table_add(&table, scratch, hash_bytes(name.bytes, name.len), i + 1);
+            table_add(&table, scratch, hash_bytes(name, strlen(name)), i + 1);
     }
     return table;
 }
 
 /* ---- All prims ---- */
 
+/* True if the document that takes the materials has an element of this name. */
+static bool has_element(struct maker *m, struct text_word name)
+{
+    elem_id found = doc_child(m->doc, m->doc->root, intern(m, name));
+    return found && doc_element(m->doc, found)->file != m->file;
+}
+
+/* True if the document has an element of the material's name, or of its prim's. */
+static bool is_replaced(struct maker *m, const struct scene_material *material)
+{
+    return has_element(m, (struct text_word){material->name, strlen(material->name)})
+           || has_element(m, m->layer->prims.items[material->prim].name);
+}
+
 void bind_add_materials(const struct scene *scene, struct library *lib, struct arena *scratch,
                         struct diag_list *diags)
 {
-    struct maker m = {
-        .layer = &scene->layer, .lib = lib, .doc = &lib->doc, .scratch = scratch, .diags = diags};
+    struct maker m = {.scene = scene,
+                      .layer = &scene->layer,
+                      .lib = lib,
+                      .doc = &lib->doc,
+                      .scratch = scratch,
+                      .diags = diags};
     const struct table bound = bound_overrides(scene, scratch);
-    for (usda_prim_id prim = 1; prim < scene->layer.prims.len; prim++) {
-        const struct usda_prim *at = &scene->layer.prims.items[prim];
-        bool is_graph = usda_is(at->type, "NodeGraph") && is_bound(scene, &bound, at->name);
-        if ((!usda_is(at->type, "Material") && !is_graph) || at->is_variant || at->is_inactive)
-            continue;
-        if (doc_child(m.doc, m.doc->root, intern(&m, at->name)))
+    for (uint32_t i = 0; i < scene->materials.len; i++) {
+        const struct scene_material *material = &scene->materials.items[i];
+        if (material->is_graph && !is_bound(scene, &bound, material->name))
             continue;
         if (!m.file)
             m.file = doc_add_file(m.doc, str_intern_z(m.doc->strings, scene->layer.file));
-        if (is_graph || is_override(&m, at))
-            add_override(&m, prim);
+        if (is_replaced(&m, material))
+            continue;
+        if (material->is_graph || is_override(&m, &m.layer->prims.items[material->prim]))
+            add_override(&m, material);
         else
-            add_material(&m, prim);
+            add_material(&m, material);
     }
 }

@@ -133,11 +133,11 @@ static const char *label_of(struct reader *s, prim_id prim, const struct usda_pr
 
 /* The material that a relationship names; false: it names none, or the binding does not count. */
 static bool read_target(struct reader *s, const struct usda_property *property,
-                        struct text_word *out_collection, const char **out_material)
+                        struct text_word *out_collection, struct scene_binding *out)
 {
     struct text_word rest = property->value, target;
     bool is_slot = begins(property->name, "material:slotBinding:");
-    *out_material = "";
+    out->material = "";
     /* on a plain binding it only clears what weaker layers say */
     if (usda_is(property->value, "None") || usda_is(property->value, "[]"))
         return is_slot && !out_collection;
@@ -148,7 +148,9 @@ static bool read_target(struct reader *s, const struct usda_property *property,
             report_binding(s, property, "names no material behind its collection");
         return false;
     }
-    *out_material = text_of(s, last_name(target));
+    const struct scene_material *material = scene_material_at(s->scene, target);
+    out->leaf = text_of(s, last_name(target));
+    out->material = material ? material->name : out->leaf;
     if (usda_next_item(&rest, &target))
         report_binding(s, property, "names several materials; expected one");
     return true;
@@ -200,7 +202,7 @@ static void add_binding(struct reader *s, prim_id prim, const struct usda_proper
     struct binding_rest said = read_rest(property, rest);
     if (said.is_collection != with_collections
         || !has_purpose(s, said.purpose.bytes, said.purpose.len, &added.is_purpose)
-        || !read_target(s, property, said.is_collection ? &collection : NULL, &added.material))
+        || !read_target(s, property, said.is_collection ? &collection : NULL, &added))
         return;
     added.label = label_of(s, prim, property);
     added.place = place_of(s, property->line, property->column);
@@ -517,6 +519,7 @@ void scene_read_usda(struct scene *scene, const char *file, const char *text, si
     if (s.layer->prims.items[0].arc.len)
         diag_add(diags, DIAG_ID_usda_arc, place_of(&s, 1, 1), file,
                  text_of(&s, s.layer->prims.items[0].arc));
+    scene_name_materials(scene);
     read_slot_order(&s);
     push_children(&s, 0, (struct visit){0});
     while (s.visits.len && scene->prims.len <= scene->max_prims

@@ -86,6 +86,8 @@ static inline uint32_t usda_end_property(const struct usda_prim *prim)
 
 /* The prim at an absolute path, "/a/b"; 0: none. */
 usda_prim_id usda_find(const struct usda_layer *layer, const char *path, size_t len);
+/* The same, where a prim also has the children of its references inside the layer. */
+usda_prim_id usda_find_composed(const struct usda_layer *layer, const char *path, size_t len);
 
 /*
  * Reads the paths or words of a list value, "[</a>, </b>]" or "</a>", one after the other: `at` is
