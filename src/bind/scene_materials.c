@@ -109,7 +109,8 @@ const struct scene_material *scene_material_at(const struct scene *scene, struct
 {
     usda_prim_id prim = usda_find_composed(&scene->layer, path.bytes, path.len);
     uint32_t hash = hash_pair(prim, 0);
-    for (uint32_t at = hash, found; prim && (found = table_next(&scene->material_prims, hash, &at));)
+    for (uint32_t at = hash, found;
+         prim && (found = table_next(&scene->material_prims, hash, &at));)
         if (scene->materials.items[found - 1].prim == prim)
             return &scene->materials.items[found - 1];
     return NULL;
