@@ -14,8 +14,8 @@ void maker_set(struct maker *m, elem_id element, const char *name, str_id value)
     doc_set_attr(m->doc, element, str_intern_z(m->doc->strings, name), value);
 }
 
-elem_id maker_add(struct maker *m, elem_id parent, const char *category, str_id name,
-                   uint32_t line, uint32_t column)
+elem_id maker_add(struct maker *m, elem_id parent, const char *category, str_id name, uint32_t line,
+                  uint32_t column)
 {
     return doc_add_element(m->doc, parent, str_intern_z(m->doc->strings, category), name, m->file,
                            line, (uint16_t)(column < UINT16_MAX ? column : UINT16_MAX));
@@ -24,7 +24,7 @@ elem_id maker_add(struct maker *m, elem_id parent, const char *category, str_id 
 /* ---- Names ---- */
 
 elem_id maker_add_free(struct maker *m, elem_id parent, const char *category, struct text *name,
-                        const struct usda_prim *at)
+                       const struct usda_prim *at)
 {
     size_t len = name->len;
     str_id id = str_intern(m->doc->strings, name->data, len);
@@ -189,10 +189,13 @@ uint32_t maker_node(struct maker *m, usda_prim_id prim)
     bool is_shader = is_shader_type(m, outputs[0].type);
     const char *category = str_text(m->doc->strings, library_nodedef(m->lib, nodedef)->node);
     struct text name = name_below(m, m->material, prim, is_shader);
-    elem_id element = maker_add_free(m, is_shader ? m->doc->root : maker_graph(m), category, &name, at);
+    elem_id element =
+        maker_add_free(m, is_shader ? m->doc->root : maker_graph(m), category, &name, at);
     maker_set(m, element, "type", type_of(m, outputs, num));
     maker_set(m, element, "nodedef", library_nodedef(m->lib, nodedef)->name);
-    vec_push(m->scratch, &m->nodes, (struct made_node){.prim = prim, .element = element, .nodedef = nodedef, .preview = preview});
+    vec_push(m->scratch, &m->nodes,
+             (struct made_node){
+                 .prim = prim, .element = element, .nodedef = nodedef, .preview = preview});
     table_add(&m->node_table, m->scratch, hash, m->nodes.len);
     return m->nodes.len;
 }

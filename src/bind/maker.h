@@ -12,8 +12,8 @@ struct made_node {
     elem_id element;
     uint32_t nodedef;
     const struct preview_shader *preview; /* NULL: the shader is a definition of MaterialX */
-    bool is_made;   /* for the prim, beside the node that it is */
-    uint32_t last;  /* 1 + the node that ends the arithmetic of a texture; 0: not known */
+    bool is_made;                         /* for the prim, beside the node that it is */
+    uint32_t last; /* 1 + the node that ends the arithmetic of a texture; 0: not known */
 };
 
 /* An input of the nodegraph. */

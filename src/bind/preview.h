@@ -35,7 +35,8 @@ static inline bool preview_is_texture(const struct preview_shader *shader)
 /* The row of an input; NULL: it is the same in MaterialX. */
 const struct preview_input *preview_find_input(const struct preview_shader *shader,
                                                struct text_word name);
-/* The rows of a shader, and the tokens of an input, one by one: `at` is NULL at first; NULL: the end. */
+/* The rows of a shader, and the tokens of an input, one by one: `at` is NULL at first; NULL: the
+ * end. */
 const struct preview_input *preview_next_input(const struct preview_shader *shader,
                                                const struct preview_input *at);
 const struct preview_token *preview_next_token(const char *input, const struct preview_token *at);

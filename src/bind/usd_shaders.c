@@ -15,9 +15,9 @@ static const struct usda_property *value_of(struct maker *m, usda_prim_id prim, 
     text_fmt(&text, "inputs:%s", name);
     const struct usda_property *connection =
         maker_connection(m, prim, (struct text_word){text.data, text.len});
-    return connection ? maker_follow(m, connection).value
-                      : usda_find_attribute(m->layer, &m->layer->prims.items[prim],
-                                            text_cstr(&text));
+    return connection
+               ? maker_follow(m, connection).value
+               : usda_find_attribute(m->layer, &m->layer->prims.items[prim], text_cstr(&text));
 }
 
 /* The token that a property has; len 0: it has none. */
@@ -50,7 +50,8 @@ static const char *word_of(struct maker *m, const struct made_node *node, const 
 
 str_id usd_input(struct maker *m, const struct made_node *node, struct text_word name)
 {
-    const struct preview_input *row = node->preview ? preview_find_input(node->preview, name) : NULL;
+    const struct preview_input *row =
+        node->preview ? preview_find_input(node->preview, name) : NULL;
     if (!row)
         return maker_intern(m, name);
     /* a value of older files, which is no token, is one of MaterialX */
@@ -63,9 +64,9 @@ static void add_value(struct maker *m, const struct made_node *node, const char 
 {
     const struct usda_prim *at = &m->layer->prims.items[node->prim];
     str_id id = str_intern_z(m->doc->strings, name);
-    doc_type type = library_ports(m->lib, node->nodedef,
-                                  NULL)[library_find_input(m->lib, node->nodedef, id)]
-                        .type;
+    doc_type type =
+        library_ports(m->lib, node->nodedef, NULL)[library_find_input(m->lib, node->nodedef, id)]
+            .type;
     elem_id input = maker_add(m, node->element, "input", id, at->line, at->column);
     maker_set(m, input, "type", library_type_name(m->lib, type));
     maker_set(m, input, "value", str_intern_z(m->doc->strings, value));
@@ -146,8 +147,7 @@ struct source usd_texture_output(struct maker *m, uint32_t texture, struct text_
         return maker_add_after(m, &whole, "ND_convert_color4_color3", "in", "rgb");
     for (size_t i = 0; i < sizeof ports / sizeof *ports; i++)
         if (usda_is(name, ports[i][0])) {
-            struct source out =
-                maker_add_after(m, &whole, "ND_separate4_color4", "in", "channels");
+            struct source out = maker_add_after(m, &whole, "ND_separate4_color4", "in", "channels");
             out.port = str_intern_z(m->doc->strings, ports[i][1]);
             return out;
         }
