@@ -48,7 +48,7 @@ static class Minimal
             int size = (int)mxg_diagnostics_format(list, index, null, UIntPtr.Zero, false, null, UIntPtr.Zero);
             byte[] text = new byte[size + 1];
             mxg_diagnostics_format(list, index, null, UIntPtr.Zero, false, text, (UIntPtr)text.Length);
-            Console.Error.Write(Encoding.UTF8.GetString(text, 0, size));
+            Console.Error.WriteLine(Encoding.UTF8.GetString(text, 0, size));
         }
     }
 

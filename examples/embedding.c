@@ -41,9 +41,9 @@ static mxg_status build(struct host *h)
                 shader = mxg_edit_add_element(edit, 0, "standard_surface", "SR", "surfaceshader"),
                 material = mxg_edit_add_element(edit, 0, "surfacematerial", "Copper", "material");
     const float tiling[] = {4, 4};
-    mxg_edit_set_value(edit, wood, "file", "filename", "textures/wood_color.png");
-    mxg_edit_set_numbers(edit, wood, "uvtiling", "vector2", tiling, 2);
-    mxg_edit_set_value(edit, shader, "metalness", "float", "1");
+    mxg_edit_set_value(edit, wood, "file", NULL, "textures/wood_color.png");
+    mxg_edit_set_numbers(edit, wood, "uvtiling", NULL, tiling, 2);
+    mxg_edit_set_value(edit, shader, "metalness", NULL, "1");
     mxg_edit_connect_input(edit, shader, "base_color", wood, NULL);
     mxg_edit_connect_input(edit, material, "surfaceshader", shader, NULL);
     char reason[256];

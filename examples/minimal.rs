@@ -46,7 +46,7 @@ unsafe fn print_diagnostics(list: *const Diagnostics) {
         let size = mxg_diagnostics_format(list, index, null(), 0, false, null_mut(), 0);
         let mut text = vec![0u8; size + 1];
         mxg_diagnostics_format(list, index, null(), 0, false, text.as_mut_ptr().cast(), text.len());
-        eprint!("{}", String::from_utf8_lossy(&text[..size]));
+        eprintln!("{}", String::from_utf8_lossy(&text[..size]));
     }
 }
 

@@ -117,7 +117,7 @@ static void render(struct report *report, const mxg_diagnostics *list, uint32_t 
         mxg_diagnostics_format(list, index, line, size, report->colour, report->text + report->len,
                                report->capacity - report->len);
     report->len += len;
-    if (len && report->text[report->len - 1] != '\n')
+    if (len)
         report->text[report->len++] = '\n';
     report->text[report->len] = '\0';
 }

@@ -101,6 +101,9 @@ MXG_API mxg_status mxg_document_nodedef(const mxg_document *document, uint32_t i
                                         mxg_nodedef *out);
 MXG_API mxg_status mxg_document_port(const mxg_document *document, uint32_t nodedef, uint32_t index,
                                      mxg_port *out);
+MXG_API uint32_t mxg_document_num_implementations(const mxg_document *document, uint32_t nodedef);
+MXG_API mxg_status mxg_document_implementation(const mxg_document *document, uint32_t nodedef,
+                                               uint32_t index, mxg_implementation *out);
 
 /*
  * The document as MaterialX XML, in the layout of MXG_REWRITE_FORMAT; comments stay, includes are
@@ -120,8 +123,9 @@ MXG_API const char *mxg_document_xml(const mxg_document *document, size_t *out_s
  *
  *     mxg_edit *edit;
  *     mxg_edit_create(ctx, lib, NULL, "gold", &edit);
- *     mxg_element shader = mxg_edit_add_element(edit, 0, "standard_surface", "SR",
- * "surfaceshader"); mxg_edit_set_value(edit, shader, "base_color", "color3", "0.9, 0.6, 0.2");
+ *     mxg_element shader =
+ *         mxg_edit_add_element(edit, 0, "standard_surface", "SR", "surfaceshader");
+ *     mxg_edit_set_value(edit, shader, "base_color", NULL, "0.9, 0.6, 0.2");
  *     mxg_element material = mxg_edit_add_element(edit, 0, "surfacematerial", "Gold", "material");
  *     mxg_edit_connect_input(edit, material, "surfaceshader", shader, NULL);
  *     mxg_edit_commit(edit, &doc);
@@ -160,7 +164,8 @@ MXG_API mxg_status mxg_edit_set_attribute(mxg_edit *edit, mxg_element element,
 MXG_API mxg_status mxg_edit_rename_element(mxg_edit *edit, mxg_element element, const char *name);
 /*
  * Gives an input of a node a value, and removes its connection. Adds the input if the node has
- * none of this name. `type` NULL: the type of the input that is there.
+ * none of this name. `type` NULL: the type of the input that is there, or else the type that the
+ * definition of the node gives it. An edit does not know the definitions that it adds itself.
  */
 MXG_API mxg_status mxg_edit_set_value(mxg_edit *edit, mxg_element node, const char *input,
                                       const char *type, const char *value);
@@ -175,8 +180,9 @@ MXG_API mxg_status mxg_edit_set_numbers(mxg_edit *edit, mxg_element node, const 
  */
 MXG_API mxg_status mxg_edit_connect_input(mxg_edit *edit, mxg_element node, const char *input,
                                           mxg_element from, const char *output);
-/* Removes an element with all below it. References to it become errors of mxg_edit_commit's
- * document.
+/*
+ * Removes an element with all below it. References to it that are still there at the end are errors
+ * of mxg_edit_commit's document.
  */
 MXG_API mxg_status mxg_edit_remove_element(mxg_edit *edit, mxg_element element);
 /* Moves an element before another one (`before` 0: to the end) below `parent` (0: the root). */

@@ -54,7 +54,21 @@ MXG_API mxg_status mxg_library_nodedef(const mxg_library *library, uint32_t inde
 /* Port `index` of a definition: first the inputs, then the outputs. */
 MXG_API mxg_status mxg_library_port(const mxg_library *library, uint32_t nodedef, uint32_t index,
                                     mxg_port *out);
-/* True if the definition has an implementation for the target (by name). */
+
+/* What gives a definition its meaning: an <implementation>, or a nodegraph with a `nodedef`. */
+typedef struct mxg_implementation {
+    size_t size; /* in */
+    /* "" if absent; `target` is MaterialX's name, "genosl", and absent in one for every target */
+    const char *name, *target, *nodegraph, *file, *function, *sourcecode;
+} mxg_implementation;
+/* Those of a document or of a library above the definition's come first. */
+MXG_API uint32_t mxg_library_num_implementations(const mxg_library *library, uint32_t nodedef);
+MXG_API mxg_status mxg_library_implementation(const mxg_library *library, uint32_t nodedef,
+                                              uint32_t index, mxg_implementation *out);
+/*
+ * True if the definition has an implementation for the target (by name), also one in C that the
+ * context has.
+ */
 MXG_API bool mxg_library_has_implementation(const mxg_library *library, uint32_t nodedef,
                                             const char *target);
 

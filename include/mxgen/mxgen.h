@@ -271,8 +271,8 @@ MXG_API const char *mxg_diagnostics_argument(const mxg_diagnostics *list, uint32
                                              uint32_t index);
 /*
  * Formats one diagnostic as compilers do. With the line of the file where it is, without the line's
- * end, the text shows the line with a caret; `line` may be NULL. The length is 0 if there is no
- * such diagnostic or no memory.
+ * end, the text shows the line with a caret; `line` may be NULL. The last line has no end. The
+ * length is 0 if there is no such diagnostic or no memory.
  */
 MXG_API size_t mxg_diagnostics_format(const mxg_diagnostics *list, uint32_t index, const char *line,
                                       size_t line_size, bool colour, char *buffer, size_t capacity);

@@ -41,10 +41,10 @@ export class Diagnostics {
 
     /** All diagnostics. */
     format(options) {
-        return this.items.map((_, index) => this.formatOne(index, options)).join("");
+        return this.items.map((_, index) => this.formatOne(index, options)).join("\n");
     }
 
     toString() {
-        return this.format().trimEnd();
+        return this.format();
     }
 }

@@ -154,7 +154,7 @@ export class Element {
     get definition() {
         const native = this.document._native;
         const index = this.#lib.mxg_document_find_nodedef(this.document._pointer, this.number) >>> 0;
-        return index === NONE ? null : readNodeDef(this.document, index, this.#lib.mxg_document_nodedef, this.#lib.mxg_document_port);
+        return index === NONE ? null : readNodeDef(this.document, index, "document");
     }
 
     /** Whether both are the same element of the same document. */
@@ -221,7 +221,7 @@ export class Document extends Owner {
     get nodedefs() {
         const { lib } = this._native, first = lib.mxg_library_num_nodedefs(this.library._pointer);
         return Array.from({ length: lib.mxg_document_num_nodedefs(this._pointer) - first },
-                          (_, index) => readNodeDef(this, first + index, lib.mxg_document_nodedef, lib.mxg_document_port));
+                          (_, index) => readNodeDef(this, first + index, "document"));
     }
 
     /** The document as MaterialX XML. Reading the text gives an equal tree. */

@@ -31,7 +31,7 @@ export class DocumentError extends MxgenError {
      * without errors can be used.
      */
     constructor(diagnostics, document = null) {
-        super(diagnostics.format().trimEnd());
+        super(diagnostics.format());
         this.diagnostics = diagnostics;
         this.document = document;
     }

@@ -201,6 +201,19 @@ export interface NodeDef {
     isDefaultVersion: boolean;
     inputs: Port[];
     outputs: Port[];
+    /** those of a document or of a library above the definition's come first */
+    implementations: Implementation[];
+}
+
+/** What gives a definition its meaning: an <implementation>, or a nodegraph with a `nodedef`. A text that it does not have is "". */
+export interface Implementation {
+    name: string;
+    /** MaterialX's name: "genosl"; "": every target */
+    target: string;
+    nodegraph: string;
+    file: string;
+    function: string;
+    sourcecode: string;
 }
 
 /** Node definitions; immutable. */

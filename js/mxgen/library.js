@@ -5,11 +5,19 @@ import { Diagnostics } from "./diagnostics.js";
 import { ArgumentError } from "./errors.js";
 import { expect, Owner } from "./native.js";
 
-/** The definition `index` of a library or document, with its ports. */
-export function readNodeDef(owner, index, read, readPort) {
-    const native = owner._native, nodedef = native.record("mxg_nodedef", out => read(owner._pointer, index, out));
-    const ports = native.records("mxg_port", nodedef.numInputs + nodedef.numOutputs,
-                                 (port, out) => readPort(owner._pointer, index, port, out));
+const READERS = {
+    library: { nodedef: "mxg_library_nodedef", port: "mxg_library_port", numImplementations: "mxg_library_num_implementations",
+               implementation: "mxg_library_implementation" },
+    document: { nodedef: "mxg_document_nodedef", port: "mxg_document_port", numImplementations: "mxg_document_num_implementations",
+                implementation: "mxg_document_implementation" },
+};
+
+/** The definition `index` of a library or document, with its ports and implementations. `kind` is "library" or "document". */
+export function readNodeDef(owner, index, kind) {
+    const native = owner._native, call = (name, ...rest) => native.lib[READERS[kind][name]](owner._pointer, index, ...rest);
+    const nodedef = native.record("mxg_nodedef", out => call("nodedef", out));
+    const ports = native.records("mxg_port", nodedef.numInputs + nodedef.numOutputs, (port, out) => call("port", port, out));
+    nodedef.implementations = native.records("mxg_implementation", call("numImplementations"), (at, out) => call("implementation", at, out));
     nodedef.inputs = ports.slice(0, nodedef.numInputs);
     nodedef.outputs = ports.slice(nodedef.numInputs);
     delete nodedef.numInputs;
@@ -54,8 +62,8 @@ export class Library extends Owner {
 
     /** The definition of a name: "ND_image_color3"; null: there is none. */
     nodedef(name) {
-        const { lib } = this._native, index = (this._handle, this.#index()).get(expect(name, "string", "name"));
-        return index === undefined ? null : readNodeDef(this, index, lib.mxg_library_nodedef, lib.mxg_library_port);
+        const index = (this._handle, this.#index()).get(expect(name, "string", "name"));
+        return index === undefined ? null : readNodeDef(this, index, "library");
     }
 
     /** Whether a definition has an implementation for a target. */

@@ -10,7 +10,7 @@
 docs/python.md is the guide; the C library's header, include/mxgen/mxgen.h, has every detail."""
 from .catalogue import Option, OptionType, PassMember, PassResource, Target, option_applies, options, pass_resources, targets
 from .context import Context, File, ListFolder, ReadTexels, Resolver, Rewriting, Rewritten
-from .definition import Library, NodeDef, Port, UserInterface
+from .definition import Implementation, Library, NodeDef, Port, UserInterface
 from .diagnostic import Diagnostic, DiagnosticKind, Diagnostics, Severity, color_difference, diagnostic_kinds, library_version
 from .document import Connection, Document, Element, Renderable, Value, equal
 from .edit import Draft, Edit, NewValue
@@ -24,7 +24,7 @@ __version__ = library_version()
 
 __all__ = ["Alpha", "ArgumentError", "Bindings", "BindingsFormat", "Block", "BlockInfo", "CancelledError", "Change",
            "CompiledInput", "Connection", "Context", "Diagnostic", "DiagnosticKind", "Diagnostics", "Document",
-           "DocumentError", "Draft", "Edit", "EditError", "Element", "Error", "Fact", "FactKind", "File", "InputState", "InternalError",
+           "DocumentError", "Draft", "Edit", "EditError", "Element", "Error", "Fact", "FactKind", "File", "Implementation", "InputState", "InternalError",
            "Layer", "LayerKind", "Library", "LightType", "ListFolder", "NewPrimitive", "NewValue", "NodeDef", "Option", "OptionType",
            "OptionValue", "OutOfMemoryError", "Part", "PassInfo", "PassMember", "PassResource", "Place", "Port", "Primitive", "Property",
            "ReadTexels", "Renderable", "Resolver", "Rewriting", "Rewritten", "Scene", "Semantic", "Severity", "Shader", "ShaderInfo", "SlotBinding",

@@ -44,6 +44,33 @@ class Port(UserInterface):
 
 
 @dataclass(frozen=True)
+class Implementation:
+    """What gives a definition its meaning: an <implementation>, or a nodegraph with a `nodedef`. A text that it does not have is ""."""
+
+    name: str
+    #: MaterialX's name: "genosl"; "": every target
+    target: str
+    nodegraph: str
+    file: str
+    function: str
+    sourcecode: str
+
+
+@dataclass(frozen=True)
+class Readers:
+    """The functions that read the definitions of a library, or those of a document."""
+
+    nodedef: Callable[..., int]
+    port: Callable[..., int]
+    num_implementations: Callable[..., int]
+    implementation: Callable[..., int]
+
+
+_OF_LIBRARY = Readers(lib.mxg_library_nodedef, lib.mxg_library_port, lib.mxg_library_num_implementations, lib.mxg_library_implementation)
+OF_DOCUMENT = Readers(lib.mxg_document_nodedef, lib.mxg_document_port, lib.mxg_document_num_implementations, lib.mxg_document_implementation)
+
+
+@dataclass(frozen=True)
 class NodeDef:
     """A node definition. A text that the definition does not have is ""."""
 
@@ -62,12 +89,12 @@ class NodeDef:
     is_default_version: bool
     _owner: Native = field(repr=False, compare=False)
     _index: int = field(repr=False, compare=False)
-    _read_port: Callable[..., int] = field(repr=False, compare=False)
+    _readers: Readers = field(repr=False, compare=False)
 
     def _ports(self, first: int, count: int) -> tuple[Port, ...]:
         found = []
         for index in range(first, first + count):
-            values = record("mxg_port", self._read_port, self._owner._handle.pointer, self._index, index)
+            values = record("mxg_port", self._readers.port, self._owner._handle.pointer, self._index, index)
             assert values is not None
             found.append(Port(**values))
         return tuple(found)
@@ -86,17 +113,27 @@ class NodeDef:
         """An input by name."""
         return next((port for port in self.inputs if port.name == name), None)
 
+    @property
+    def implementations(self) -> tuple[Implementation, ...]:
+        """The implementations; those of a document or of a library above the definition's come first."""
+        pointer, found = self._owner._handle.pointer, []
+        for index in range(self._readers.num_implementations(pointer, self._index)):
+            values = record("mxg_implementation", self._readers.implementation, pointer, self._index, index)
+            assert values is not None
+            found.append(Implementation(**values))
+        return tuple(found)
 
-def read_nodedefs(owner: Native, count: int, read: Callable[..., int], read_port: Callable[..., int]) -> tuple[NodeDef, ...]:
+
+def read_nodedefs(owner: Native, count: int, readers: Readers) -> tuple[NodeDef, ...]:
     """The definitions of a library or document."""
-    return tuple(read_nodedef(owner, index, read, read_port) for index in range(count))
+    return tuple(read_nodedef(owner, index, readers) for index in range(count))
 
 
-def read_nodedef(owner: Native, index: int, read: Callable[..., int], read_port: Callable[..., int]) -> NodeDef:
+def read_nodedef(owner: Native, index: int, readers: Readers) -> NodeDef:
     """One definition of a library or document; the index is below their number."""
-    values = record("mxg_nodedef", read, owner._handle.pointer, index)
+    values = record("mxg_nodedef", readers.nodedef, owner._handle.pointer, index)
     assert values is not None
-    return NodeDef(**values, _owner=owner, _index=index, _read_port=read_port)
+    return NodeDef(**values, _owner=owner, _index=index, _readers=readers)
 
 
 class Library(Native):
@@ -119,8 +156,7 @@ class Library(Native):
     @property
     def nodedefs(self) -> tuple[NodeDef, ...]:
         """Every definition, with those of the bases."""
-        return read_nodedefs(self, lib.mxg_library_num_nodedefs(self._handle.pointer), lib.mxg_library_nodedef,
-                             lib.mxg_library_port)
+        return read_nodedefs(self, lib.mxg_library_num_nodedefs(self._handle.pointer), _OF_LIBRARY)
 
     def nodedef(self, name: str) -> NodeDef | None:
         """The definition of a name: "ND_image_color3"."""

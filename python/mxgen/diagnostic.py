@@ -73,7 +73,7 @@ class Diagnostic:
         return sized_text(lambda out, capacity: lib.mxg_diagnostics_format(native, self._index, data, size, bool(colour), out, capacity))
 
     def __str__(self) -> str:
-        return self.format().rstrip("\n")
+        return self.format()
 
 
 class Diagnostics(Sequence[Diagnostic]):
@@ -115,10 +115,10 @@ class Diagnostics(Sequence[Diagnostic]):
 
     def format(self, source: str | None = None, *, colour: bool = False) -> str:
         """All diagnostics as compilers write them."""
-        return "".join(diagnostic.format(source, colour=colour) for diagnostic in self)
+        return "\n".join(diagnostic.format(source, colour=colour) for diagnostic in self)
 
     def __str__(self) -> str:
-        return self.format().rstrip("\n")
+        return self.format()
 
     def __repr__(self) -> str:
         return f"<Diagnostics: {self.errors} errors, {self.warnings} warnings>"

@@ -8,7 +8,7 @@ from itertools import zip_longest
 from typing import TYPE_CHECKING, Any, Union
 
 from ._calls import Handle, Native, c_text, error_of, ffi, keep_text, lib, py_text, record, sized_text
-from .definition import Library, NodeDef, read_nodedef, read_nodedefs
+from .definition import OF_DOCUMENT, Library, NodeDef, read_nodedef, read_nodedefs
 from .diagnostic import Diagnostics
 from .error import ArgumentError, DocumentError, OutOfMemoryError
 from .scene import Bindings, Scene, Stack, make_bind_desc
@@ -221,7 +221,7 @@ class Element:
         index = lib.mxg_document_find_nodedef(self.document._handle.pointer, self.number)
         if index == lib.MXG_NONE:
             return None
-        return read_nodedef(self.document, index, lib.mxg_document_nodedef, lib.mxg_document_port)
+        return read_nodedef(self.document, index, OF_DOCUMENT)
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Element) and other.document is self.document and other.number == self.number
@@ -300,8 +300,7 @@ class Document(Native):
     @property
     def nodedefs(self) -> tuple[NodeDef, ...]:
         """The definitions of the library and of the document."""
-        return read_nodedefs(self, lib.mxg_document_num_nodedefs(self._handle.pointer), lib.mxg_document_nodedef,
-                             lib.mxg_document_port)
+        return read_nodedefs(self, lib.mxg_document_num_nodedefs(self._handle.pointer), OF_DOCUMENT)
 
     def xml(self) -> str:
         """The document as MaterialX XML. Reading the text gives an equal tree."""

@@ -42,7 +42,7 @@ class DocumentError(Error):
     document: Document | None
 
     def __init__(self, diagnostics: Diagnostics, document: Document | None = None) -> None:
-        super().__init__(diagnostics.format().rstrip("\n"))
+        super().__init__(diagnostics.format())
         self.diagnostics = diagnostics
         self.document = document
 

@@ -306,11 +306,14 @@ uint64_t options_hash(const struct option_value *values);
 
 /* ---- Definitions: library.c ---- */
 
-/* mxg_library_nodedef and mxg_library_port, for the layer of a library or of a document. */
+/* mxg_library_nodedef and its neighbours, for the layer of a library or of a document. */
 mxg_status definition_info(const struct mxg_context *context, const struct library *lib,
                            uint32_t index, mxg_nodedef *out);
 mxg_status definition_port(const struct library *lib, uint32_t nodedef, uint32_t index,
                            mxg_port *out);
+uint32_t definition_num_implementations(const struct library *lib, uint32_t nodedef);
+mxg_status definition_implementation(const struct library *lib, uint32_t nodedef, uint32_t index,
+                                     mxg_implementation *out);
 
 /* ---- Documents: document.c ---- */
 

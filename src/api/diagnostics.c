@@ -81,6 +81,7 @@ static void run_job(void *arg)
 {
     struct format_job *job = arg;
     diag_render(job->diag, job->line, job->line_size, job->colour, &job->text);
+    job->text.len--; /* the end of the last line */
 }
 
 /* Formats the text in memory of its own, because other threads may read the same list. */

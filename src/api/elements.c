@@ -222,6 +222,18 @@ mxg_status mxg_document_port(const mxg_document *document, uint32_t nodedef, uin
     return document ? definition_port(&document->layer, nodedef, index, out) : MXG_ERROR_ARGUMENT;
 }
 
+uint32_t mxg_document_num_implementations(const mxg_document *document, uint32_t nodedef)
+{
+    return document ? definition_num_implementations(&document->layer, nodedef) : 0;
+}
+
+mxg_status mxg_document_implementation(const mxg_document *document, uint32_t nodedef,
+                                       uint32_t index, mxg_implementation *out)
+{
+    return document ? definition_implementation(&document->layer, nodedef, index, out)
+                    : MXG_ERROR_ARGUMENT;
+}
+
 /* ---- Text ---- */
 
 static void write_xml(const struct object *object, struct text *out)

@@ -326,26 +326,36 @@ static bool serves(const struct library *lib, const struct implementation *impl,
                || target_is_a(target, text_of(lib, impl->target)));
 }
 
+/* Implementation `index` of a definition, those of higher layers first; NULL: it has fewer. */
+static const struct implementation *implementation_at(const struct library *lib, uint32_t id,
+                                                      uint32_t index)
+{
+    for (const struct library *layer = lib;; layer = layer->base) {
+        bool is_own = id >= layer->base_nodedefs;
+        uint32_t next =
+            is_own ? library_nodedef(lib, id)->first_impl : library_first_override(layer, id);
+        while (next != LIBRARY_NONE) {
+            const struct implementation *impl = library_impl(lib, next, NULL);
+            assert(impl->nodedef == id);
+            if (index-- == 0)
+                return impl;
+            next = impl->next;
+        }
+        if (is_own)
+            return NULL;
+    }
+}
+
 static bool has_implementation(const struct mxg_context *context, const struct library *lib,
                                uint32_t id, const struct target *target)
 {
     const struct nodedef *def = library_nodedef(lib, id);
+    const struct implementation *impl;
     if (codes_serve(context, text_of(lib, def->name), text_of(lib, def->node), target))
         return true;
-    for (const struct library *layer = lib; id < layer->base_nodedefs; layer = layer->base)
-        for (uint32_t i = library_first_override(layer, id); i != LIBRARY_NONE;) {
-            const struct implementation *impl = library_impl(lib, i, NULL);
-            if (serves(lib, impl, target))
-                return true;
-            i = impl->next;
-        }
-    for (uint32_t i = def->first_impl; i != LIBRARY_NONE;) {
-        const struct implementation *impl = library_impl(lib, i, NULL);
-        assert(impl->nodedef == id);
+    for (uint32_t i = 0; (impl = implementation_at(lib, id, i)) != NULL; i++)
         if (serves(lib, impl, target))
             return true;
-        i = impl->next;
-    }
     return false;
 }
 
@@ -415,4 +425,46 @@ mxg_status mxg_library_port(const mxg_library *library, uint32_t nodedef, uint32
                             mxg_port *out)
 {
     return library ? definition_port(&library->layer, nodedef, index, out) : MXG_ERROR_ARGUMENT;
+}
+
+/* ---- Implementations ---- */
+
+uint32_t definition_num_implementations(const struct library *lib, uint32_t nodedef)
+{
+    uint32_t num = 0;
+    while (nodedef < library_num_nodedefs(lib) && implementation_at(lib, nodedef, num))
+        num++;
+    return num;
+}
+
+mxg_status definition_implementation(const struct library *lib, uint32_t nodedef, uint32_t index,
+                                     mxg_implementation *out)
+{
+    const struct implementation *impl =
+        nodedef < library_num_nodedefs(lib) ? implementation_at(lib, nodedef, index) : NULL;
+    if (!impl)
+        return MXG_ERROR_ARGUMENT;
+    bool is_graph = doc_element(&lib->doc, impl->element)->kind == KIND_NODEGRAPH;
+    mxg_implementation full = {
+        .name = text_of(lib, impl->name),
+        .target = text_of(lib, impl->target),
+        .nodegraph =
+            is_graph ? text_of(lib, impl->name) : attr_text(lib, impl->element, STR_nodegraph),
+        .file = attr_text(lib, impl->element, STR_file),
+        .function = attr_text(lib, impl->element, STR_function),
+        .sourcecode = attr_text(lib, impl->element, STR_sourcecode),
+    };
+    return struct_write(out, &full, sizeof full);
+}
+
+uint32_t mxg_library_num_implementations(const mxg_library *library, uint32_t nodedef)
+{
+    return library ? definition_num_implementations(&library->layer, nodedef) : 0;
+}
+
+mxg_status mxg_library_implementation(const mxg_library *library, uint32_t nodedef, uint32_t index,
+                                      mxg_implementation *out)
+{
+    return library ? definition_implementation(&library->layer, nodedef, index, out)
+                   : MXG_ERROR_ARGUMENT;
 }

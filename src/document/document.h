@@ -305,6 +305,11 @@ void doc_index_element(struct document *doc, elem_id element);
 void doc_index_references(struct document *doc);
 /* True if a port names a node of the document beside it. */
 bool doc_is_used(const struct document *doc, elem_id node);
+/* Visits each attribute of the document that names an element. A visit may change the attribute. */
+void doc_visit_users(struct document *doc, elem_id element,
+                     void (*visit)(void *arg, elem_id user, str_id attr), void *arg);
+/* True if an attribute has the name, alone or in a list. */
+bool doc_has_name(const struct document *doc, elem_id user, str_id attr, str_id name);
 /* The node that a port names; 0: none. */
 elem_id doc_named_node(const struct document *doc, elem_id port);
 /* Indexes the name and the references of an element that an edit has changed. */

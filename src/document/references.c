@@ -187,23 +187,21 @@ elem_id doc_named_node(const struct document *doc, elem_id port)
     return name ? doc_child(doc, scope_of(doc, port), name) : 0;
 }
 
-/* ---- Renaming ---- */
+/* ---- Users ---- */
 
-struct renaming {
-    struct document *doc;
-    elem_id element, parent;
-    str_id old, name;
-    struct text list;
+struct visitor {
+    void (*visit)(void *arg, elem_id user, str_id attr);
+    void *arg;
 };
 
 /* The elements that may name an element, in a new list: the index may be out of date. */
-static elem_id *find_users(const struct renaming *r, elem_id scope, str_id name, uint32_t *num)
+static elem_id *find_users(const struct document *doc, elem_id scope, str_id name, uint32_t *num)
 {
     VEC(elem_id) users = {0};
-    for (const struct document *level = r->doc; level; level = level->origin) {
+    for (const struct document *level = doc; level; level = level->origin) {
         uint32_t at, next = find_last(level, scope, name, &at);
         for (; next; next = level->references.items[next - 1].next)
-            vec_push(r->doc->arena, &users, level->references.items[next - 1].element);
+            vec_push(doc->arena, &users, level->references.items[next - 1].element);
     }
     *num = users.len;
     return users.items;
@@ -228,58 +226,88 @@ static bool can_name(const struct document *doc, elem_id at, str_id attr, elem_i
     }
 }
 
-/* Replaces the name in a list "a, b" or alone. */
-static void replace_name(struct renaming *r, elem_id at, str_id attr)
+/* A name in a list "a, b" or alone, from *text, which moves behind it; its length is 0 at the end.
+ */
+static const char *next_name(const char **text, size_t *len)
 {
-    struct document *doc = r->doc;
-    const char *text = str_text(doc->strings, doc_attr_value(doc, at, attr)),
-               *old = str_text(doc->strings, r->old);
-    size_t old_len = str_len(doc->strings, r->old);
-    bool found = false;
-    r->list.len = 0;
-    while (*text) {
-        size_t gap = strspn(text, ", "), len = strcspn(text + gap, ", ");
-        bool is_old = len == old_len && memcmp(text + gap, old, len) == 0;
-        text_mem(&r->list, text, gap);
-        if (is_old)
-            text_str(&r->list, str_text(doc->strings, r->name));
-        else
-            text_mem(&r->list, text + gap, len);
-        found |= is_old;
-        text += gap + len;
-    }
-    if (!found)
-        return;
-    doc_set_attr(doc, at, attr, str_intern(doc->strings, r->list.data, r->list.len));
-    doc_index_change(doc, at);
+    const char *name = *text + strspn(*text, ", ");
+    *len = strcspn(name, ", ");
+    *text = name + *len;
+    return name;
 }
 
-/* In all attributes `attr` that name `named`, replaces the name in the attribute `changed`. */
-static void rename_in(struct renaming *r, elem_id named, str_id attr, str_id changed)
+bool doc_has_name(const struct document *doc, elem_id user, str_id attr, str_id name)
+{
+    const char *text = str_text(doc->strings, doc_attr_value(doc, user, attr)), *part;
+    size_t len;
+    while (part = next_name(&text, &len), len)
+        if (len == str_len(doc->strings, name)
+            && memcmp(part, str_text(doc->strings, name), len) == 0)
+            return true;
+    return false;
+}
+
+/* The elements whose attribute `attr` names `named`, and that have `name` in the attribute
+ * `visited`. */
+static void visit_users(struct document *doc, elem_id named, str_id attr, str_id visited,
+                        str_id name, const struct visitor *visitor)
 {
     uint32_t num;
-    const struct element *e = doc_element(r->doc, named);
+    const struct element *e = doc_element(doc, named);
     const elem_id *users =
-        find_users(r, scope_of_attr[attr] == BESIDE ? e->parent : 0, e->name, &num);
+        find_users(doc, scope_of_attr[attr] == BESIDE ? e->parent : 0, e->name, &num);
     for (uint32_t i = 0; i < num; i++)
-        if (can_name(r->doc, users[i], attr, named) && doc_attr(r->doc, users[i], changed))
-            replace_name(r, users[i], changed);
+        if (can_name(doc, users[i], attr, named) && doc_has_name(doc, users[i], visited, name))
+            visitor->visit(visitor->arg, users[i], visited);
+}
+
+void doc_visit_users(struct document *doc, elem_id element,
+                     void (*visit)(void *arg, elem_id user, str_id attr), void *arg)
+{
+    const struct visitor visitor = {visit, arg};
+    const struct element e = *doc_element(doc, element);
+    for (size_t i = 0; e.name && i < sizeof references / sizeof *references; i++)
+        if (references[i].kind == e.kind)
+            visit_users(doc, element, references[i].attr, references[i].attr, e.name, &visitor);
+    if (e.kind == KIND_OUTPUT && e.name && e.parent != doc->root) {
+        visit_users(doc, e.parent, STR_nodegraph, STR_output, e.name, &visitor);
+        visit_users(doc, e.parent, STR_nodename, STR_output, e.name, &visitor);
+    }
+}
+
+/* ---- Renaming ---- */
+
+struct renaming {
+    struct document *doc;
+    str_id old, name;
+    struct text list;
+};
+
+static void replace_name(void *arg, elem_id user, str_id attr)
+{
+    struct renaming *r = arg;
+    struct document *doc = r->doc;
+    const char *text = str_text(doc->strings, doc_attr_value(doc, user, attr)), *rest = text, *part;
+    size_t len, old_len = str_len(doc->strings, r->old);
+    r->list.len = 0;
+    while (part = next_name(&rest, &len), len) {
+        bool is_old = len == old_len && memcmp(part, str_text(doc->strings, r->old), len) == 0;
+        text_mem(&r->list, text, (size_t)(part - text));
+        text_mem(&r->list, is_old ? str_text(doc->strings, r->name) : part,
+                 is_old ? str_len(doc->strings, r->name) : len);
+        text = rest;
+    }
+    text_str(&r->list, text);
+    doc_set_attr(doc, user, attr, str_intern(doc->strings, r->list.data, r->list.len));
+    doc_index_change(doc, user);
 }
 
 void doc_rename(struct document *doc, elem_id element, str_id name)
 {
-    const struct element *e = doc_element(doc, element);
-    struct renaming r = {
-        .doc = doc, .element = element, .parent = e->parent, .old = e->name, .name = name};
-    assert(e->parent && name);
+    struct renaming r = {.doc = doc, .old = doc_element(doc, element)->name, .name = name};
+    assert(doc_element(doc, element)->parent && name);
     text_init(&r.list, doc->arena);
-    for (size_t i = 0; r.old && i < sizeof references / sizeof *references; i++)
-        if (references[i].kind == e->kind)
-            rename_in(&r, element, references[i].attr, references[i].attr);
-    if (e->kind == KIND_OUTPUT && r.old && r.parent != doc->root) {
-        rename_in(&r, r.parent, STR_nodegraph, STR_output);
-        rename_in(&r, r.parent, STR_nodename, STR_output);
-    }
+    doc_visit_users(doc, element, replace_name, &r);
     doc_set_name(doc, element, name);
     doc_index_change(doc, element);
 }

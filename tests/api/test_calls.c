@@ -158,6 +158,12 @@ static void test_refused_indices(const struct objects *o)
     REFUSED(mxg_library_nodedef(o->library, mxg_library_num_nodedefs(o->library), &nodedef));
     REFUSED(mxg_library_port(o->library, mxg_library_num_nodedefs(o->library), 0, &port));
     REFUSED(mxg_library_port(o->library, 0, 1000, &port));
+    mxg_implementation implementation = {sizeof implementation};
+    REFUSED(mxg_library_implementation(o->library, mxg_library_num_nodedefs(o->library), 0,
+                                       &implementation));
+    REFUSED(mxg_library_implementation(o->library, 0, 1000, &implementation));
+    REQUIRE_EQ(mxg_library_num_implementations(NULL, 0), 0);
+    REQUIRE_EQ(mxg_document_num_implementations(NULL, 0), 0);
     REFUSED(mxg_document_renderable(o->document, mxg_document_num_renderables(o->document),
                                     &renderable));
     REFUSED(mxg_catalogue_target(mxg_catalogue_num_targets(), &target));
@@ -306,6 +312,7 @@ static void test_diagnostics(const struct objects *o)
            len = mxg_diagnostics_format(list, 0, line, size, false, whole, sizeof whole);
     REQUIRE_EQ(strlen(whole), len);
     REQUIRE(strstr(whole, "typo.mtlx:2:3: error: ") == whole && strchr(whole, '^'));
+    REQUIRE(len && whole[len - 1] != '\n');
     REQUIRE_EQ(mxg_diagnostics_format(list, 0, line, size, false, part, sizeof part), len);
     REQUIRE(strlen(part) == sizeof part - 1 && strncmp(part, whole, sizeof part - 1) == 0);
     REQUIRE_EQ(mxg_diagnostics_format(list, 0, line, size, false, NULL, 0), len);

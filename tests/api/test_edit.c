@@ -210,6 +210,13 @@ static void test_links(void)
     REQUIRE_EQ(mxg_document_port(d, nodedef, 1, &port), MXG_OK);
     REQUIRE_STR(port.name, "by");
     REQUIRE_EQ(mxg_document_port(d, nodedef, 3, &port), MXG_ERROR_ARGUMENT);
+    mxg_implementation implementation = MXG_INIT(mxg_implementation);
+    REQUIRE_EQ(mxg_document_num_implementations(d, nodedef), 1);
+    REQUIRE_EQ(mxg_document_implementation(d, nodedef, 0, &implementation), MXG_OK);
+    REQUIRE_STR(implementation.function, "tint");
+    REQUIRE_STR(implementation.nodegraph, "");
+    REQUIRE_EQ(mxg_document_implementation(d, nodedef, 1, &implementation), MXG_ERROR_ARGUMENT);
+    REQUIRE_EQ(mxg_document_num_implementations(d, nodedef + 1), 0);
     REQUIRE_EQ(mxg_document_find_nodedef(d, mxg_document_find_element(d, 0, "G")), MXG_NONE);
     close_fixture(&f);
 }
@@ -512,7 +519,9 @@ static void test_refused(void)
     REFUSED(mxg_edit_set_value(e, shader, NULL, "float", "1"), "the input is missing");
     REFUSED(mxg_edit_set_value(e, shader, "coat", "float", NULL), "value of 'coat' is missing");
     REFUSED(mxg_edit_rename_element(e, shader, "NG"), "'NG' already");
-    REFUSED(mxg_edit_set_value(e, shader, "coat", NULL, "1"), "give its type");
+    REFUSED(mxg_edit_set_value(e, shader, "cote", NULL, "1"), "give its type");
+    REFUSED(mxg_edit_set_value(e, graph, "coat", NULL, "1"), "give its type");
+    REFUSED(mxg_edit_set_value(e, shader, "coat", NULL, "much"), "'much' is no value");
     REFUSED(mxg_edit_set_value(e, shader, "coat", "float", "much"), "'much' is no value");
     REFUSED(mxg_edit_set_value(e, 0, "coat", "float", "1"), "no such element");
     REFUSED(mxg_edit_set_numbers(e, shader, "coat", "color3", numbers, 3), "not a number");
@@ -520,7 +529,8 @@ static void test_refused(void)
             "'coat' does not have 2 components");
     REFUSED(mxg_edit_set_numbers(e, shader, "coat", "surfaceshader", numbers, 1),
             "'coat' does not have 1 component");
-    REFUSED(mxg_edit_set_numbers(e, shader, "coat", NULL, numbers, 3), "give its type");
+    REFUSED(mxg_edit_set_numbers(e, shader, "coat", NULL, numbers, 3),
+            "'coat' does not have 3 components");
     REFUSED(mxg_edit_set_numbers(e, shader, "coat", "color3", NULL, 3),
             "numbers of 'coat' are missing");
     REFUSED(mxg_edit_connect_input(e, shader, "coat", spots, NULL), "beside the port");
@@ -546,7 +556,9 @@ static void test_refused(void)
     REFUSED(mxg_edit_set_attribute(e, spots, "doc", "of a removed graph"), "no such element");
     /* nothing else has changed */
     mxg_document *next = NULL;
-    REQUIRE_EQ(mxg_edit_commit(e, &next), MXG_OK);
+    REQUIRE_EQ(mxg_edit_commit(e, &next), MXG_ERROR_DOCUMENT);
+    REQUIRE(has_diagnostic(mxg_document_diagnostics(next), "removed-reference"));
+    REQUIRE_EQ(mxg_diagnostics_num_items(mxg_document_diagnostics(next)), 1);
     /* it ends the edit */
     REFUSED(mxg_edit_set_value(e, shader, "coat", "float", "1"), "has made its document");
     NO_ELEMENT(mxg_edit_add_element(e, 0, "add", "x", "float"), "has made its document");
@@ -591,6 +603,73 @@ static void test_completed(void)
     REQUIRE(has_diagnostic(mxg_document_diagnostics(d), "backslash"));
     REQUIRE_STR(attribute_of(d, mxg_document_find_element(d, 0, "I/file"), "value"),
                 "maps/oak.png");
+    mxg_document_destroy(d);
+    close_fixture(&f);
+}
+
+/* The type of a new input comes from the definition, also from one of the document. */
+static void test_types(void)
+{
+    struct fixture f;
+    open_fixture(&f);
+    mxg_document *d =
+        parse(&f, "<materialx version='1.39'><nodedef name='ND_own' node='own'>"
+                  "<input name='size' type='vector2'/><output name='out' type='float'/>"
+                  "</nodedef><own name='O' type='float'/>"
+                  "<mix name='M' type='color3'/></materialx>");
+    mxg_edit *e = begin(&f, d);
+    mxg_element own = mxg_edit_find_element(e, 0, "O"), mix = mxg_edit_find_element(e, 0, "M");
+    const float numbers[] = {1, 2, 3};
+    REQUIRE_EQ(mxg_edit_set_numbers(e, own, "size", NULL, numbers, 2), MXG_OK);
+    REQUIRE_EQ(mxg_edit_set_value(e, mix, "fg", NULL, "1, 0, 0"), MXG_OK);
+    REQUIRE_EQ(mxg_edit_set_value(e, mix, "mix", NULL, "0.5"), MXG_OK);
+    REQUIRE_EQ(mxg_edit_set_value(e, mix, "mix", "color3", "0.5, 1, 0"), MXG_OK);
+    mxg_document *next = NULL;
+    REQUIRE_EQ(commit(e, &next), MXG_OK);
+    static const char *const types[][2] = {
+        {"O/size", "vector2"}, {"M/fg", "color3"}, {"M/mix", "color3"}};
+    for (size_t i = 0; i < sizeof types / sizeof *types; i++)
+        REQUIRE_STR(attribute_of(next, mxg_document_find_element(next, 0, types[i][0]), "type"),
+                    types[i][1]);
+    mxg_document_destroy(next);
+    mxg_document_destroy(d);
+    close_fixture(&f);
+}
+
+/* Commits the edit, and returns the number of references to removed elements. */
+static unsigned count_lost(mxg_edit *edit)
+{
+    mxg_document *next = NULL;
+    mxg_status status = commit(edit, &next);
+    unsigned num = mxg_diagnostics_num_items(mxg_document_diagnostics(next));
+    REQUIRE_EQ(status, num ? MXG_ERROR_DOCUMENT : MXG_OK);
+    mxg_document_destroy(next);
+    return num;
+}
+
+static void test_removed(void)
+{
+    struct fixture f;
+    open_fixture(&f);
+    mxg_document *d = parse(&f, gold);
+    static const struct {
+        const char *path;
+        unsigned num;
+    } removed[] = {{"SR", 1},        {"NG", 1},   {"NG/wear", 1},      {"NG/spots", 1},
+                   {"NG/amount", 1}, {"Gold", 0}, {"SR/base_color", 0}};
+    for (size_t i = 0; i < sizeof removed / sizeof *removed; i++) {
+        mxg_edit *e = begin(&f, d);
+        mxg_edit_remove_element(e, mxg_edit_find_element(e, 0, removed[i].path));
+        REQUIRE_EQ(count_lost(e), removed[i].num);
+    }
+    /* the user is gone, has a value, or the name stands for another element */
+    mxg_edit *e = begin(&f, d);
+    mxg_edit_remove_element(e, mxg_edit_find_element(e, 0, "NG/spots"));
+    mxg_edit_remove_element(e, mxg_edit_find_element(e, 0, "NG"));
+    mxg_edit_set_value(e, mxg_edit_find_element(e, 0, "SR"), "metalness", NULL, "1");
+    mxg_edit_remove_element(e, mxg_edit_find_element(e, 0, "SR"));
+    mxg_edit_add_element(e, 0, "disney_principled", "SR", "surfaceshader");
+    REQUIRE_EQ(count_lost(e), 0);
     mxg_document_destroy(d);
     close_fixture(&f);
 }
@@ -718,7 +797,7 @@ static unsigned count(const char *text, const char *part)
     return num;
 }
 
-/* The document is as its text: same text, messages and shader. */
+/* The document is as its text: same text, messages and shader, but for what the edit removed. */
 static void check_as_parsed(struct fixture *f, const mxg_document *document, unsigned num_elements)
 {
     const char *text = mxg_document_xml(document, NULL);
@@ -729,10 +808,11 @@ static void check_as_parsed(struct fixture *f, const mxg_document *document, uns
     mxg_result *result, *again;
     REQUIRE_STR(mxg_document_xml(parsed, NULL), text);
     REQUIRE_EQ(count(text, "<constant") + count(text, "<input"), num_elements);
-    REQUIRE_EQ(mxg_diagnostics_num_items(list), mxg_diagnostics_num_items(fresh));
+    uint32_t removed = has_diagnostic(list, "removed-reference");
+    REQUIRE_EQ(mxg_diagnostics_num_items(list), mxg_diagnostics_num_items(fresh) + removed);
     for (uint32_t i = 0; i < mxg_diagnostics_num_items(list); i++) { /* the order may differ */
-        bool is_found = false;
         mxg_diagnostics_item(list, i, &one);
+        bool is_found = strcmp(one.id, "removed-reference") == 0;
         for (uint32_t k = 0; k < mxg_diagnostics_num_items(fresh) && !is_found; k++) {
             mxg_diagnostics_item(fresh, k, &other);
             is_found = strcmp(one.message, other.message) == 0;
@@ -819,6 +899,8 @@ int main(void)
     test_move_and_copy();
     test_refused();
     test_completed();
+    test_types();
+    test_removed();
     test_diagnostics();
     test_memory();
     test_rewrite();

@@ -265,6 +265,7 @@ test("libraries", () => {
     assert(library.nodedefNames.length > 700);
     const mix = library.nodedef("ND_mix_color3");
     assert.deepEqual([mix.node, mix.inputs.map(({ name }) => name)], ["mix", ["fg", "bg", "mix"]]);
+    assert.deepEqual(mix.implementations.map(({ target, nodegraph, sourcecode }) => [target, nodegraph, sourcecode !== ""]), [["", "", true]]);
     assert.equal(library.nodedef("none"), null);
     assert(library.supports("ND_mix_color3", "essl"));
     assert.throws(() => library.supports("none", "essl"), ArgumentError);

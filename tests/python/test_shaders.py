@@ -205,6 +205,9 @@ class Libraries(unittest.TestCase):
         self.assertEqual((mix.input("mix").type, mix.input("none")), ("float", None))
         self.assertIn(mix, library.nodedefs_of("mix"))
         self.assertTrue(library.supports(mix, "glsl"))
+        self.assertEqual([(part.target, part.nodegraph, bool(part.sourcecode)) for part in mix.implementations], [("", "", True)])
+        surface = library.nodedef("ND_standard_surface_surfaceshader").implementations[0]
+        self.assertEqual((surface.target, surface.nodegraph), ("", "NG_standard_surface"))
         self.assertFalse(library.supports(mix, "cobol"))
         self.assertIsNone(library.nodedef("ND_none"))
         self.assertEqual(library.nodedefs_of("none"), ())
