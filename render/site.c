@@ -56,6 +56,7 @@ void site_repeat(struct site *site, uint32_t first, uint32_t num, struct matrix 
         struct scene_object *added = site_add(site, again.primitive, world);
         again.object.path = added->path;
         again.object.world = world;
+        again.object.num_primvars -= again.num_own_primvars;
         *added = again.object;
         site->objects[site->num_objects - 1].is_shared = true;
     }
@@ -152,6 +153,8 @@ void site_close(struct site *site)
         free((void *)(uintptr_t)site->objects[i].object.path);
         if (!site->objects[i].is_shared)
             object_finish(&site->objects[i].object);
+        else
+            object_finish_primvars(&site->objects[i].object, site->objects[i].num_own_primvars);
     }
     for (uint32_t i = 0; i < site->num_cameras; ++i)
         free(site->cameras[i].path);

@@ -26,12 +26,14 @@ static usda_prim_id find_child(const struct usda_layer *layer, usda_prim_id pare
     return 0;
 }
 
-void usda_index_prim(struct usda_layer *layer, usda_prim_id id)
+usda_prim_id usda_index_prim(struct usda_layer *layer, usda_prim_id id)
 {
     const struct usda_prim *prim = &layer->prims.items[id];
     uint32_t hash = hash_of(prim->parent, prim->name.bytes, prim->name.len);
-    if (!find_child(layer, prim->parent, hash, prim->name.bytes, prim->name.len))
+    usda_prim_id before = find_child(layer, prim->parent, hash, prim->name.bytes, prim->name.len);
+    if (!before)
         table_add(&layer->children, layer->arena, hash, id);
+    return before;
 }
 
 /* The prim that a reference of a prim names; 0: none in this layer. */

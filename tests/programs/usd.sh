@@ -109,6 +109,15 @@ def Material "a_b" { token outputs:surface.connect = </a_b/c.outputs:surface>
 USD
 check 'shaders whose paths join to one name are two' values names.usda 'v["a_b_c/ior"] == 2 and v["a_b_c_2/ior"] == 3'
 
+# ---- Layers ----
+
+printf '#usda 1.0\ndef Xform "a" {}\ndef Cube "a" {}\n' >twice.usda
+check 'a prim that stands twice is an error' fails usda-twice --stage twice.usda
+check 'the error has both places' eval "tells usda-twice twice.usda:3:10 \"'a'\" && grep -q '^twice.usda:2:11: note' err"
+printf '#usda 1.0\ndef Xform "\u0427\u0430\u0448\u043a\u0430" {}\ndef Xform "\u676f" {}\ndef Cube "ab" {}\n' >wide.usda
+check 'names in other scripts are names' exits 0 bind --stage wide.usda
+check 'columns are as wide as characters are' eval '[ "$(grep -c "^/ab     default" out)" = 1 ] && grep -qx "/Чашка  default" out && grep -qx "/杯     default" out'
+
 # ---- Shaders of USD ----
 
 # images: by name the depth and the type of colour of a PNG, or the components of a JPEG
