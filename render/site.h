@@ -44,11 +44,10 @@ struct site {
 };
 
 /*
- * Reads a file. `purpose` as for mxg_scene_load. false after reporting an error. Call site_close
- * in any case.
+ * Reads a file, as scene_file_load does. `purpose` as for mxg_scene_load. false after reporting an
+ * error. Call site_close in any case.
  */
-bool site_open(struct site *site, mxg_context *context, struct report *report, const char *path,
-               const char *purpose);
+bool site_open(struct site *site, struct cli *cli, const char *path, const char *purpose);
 void site_close(struct site *site);
 /* Prints the paths of the primitives, one in each line. */
 void site_list(const struct site *site);
@@ -62,10 +61,11 @@ bool site_light(struct site *site, const struct studio *studio, struct scene *sc
 /*
  * Places the camera around the site, and the light of the studio. `camera` is the path of
  * a camera; NULL: the first, or the studio's, which also stands in where the site has none;
- * `is_orbit` takes the studio's. false after reporting an error.
+ * `is_orbit` takes the studio's. The origin of the world moves near a camera that is far from it.
+ * false after reporting an error.
  */
-bool site_aim(const struct site *site, const struct studio *studio, const char *camera,
-              bool is_orbit, double aspect, struct scene *scene);
+bool site_aim(struct site *site, const struct studio *studio, const char *camera, bool is_orbit,
+              double aspect, struct scene *scene);
 
 /* ---- Shared by the readers ---- */
 

@@ -329,7 +329,55 @@ static void begin(struct maker *m, const struct scene_material *material)
     m->nodes.len = m->outputs.len = m->interface.len = 0;
 }
 
-static void add_material(struct maker *m, const struct scene_material *from)
+/* The outputs of a Material that other renderers read: "outputs:arnold:surface". */
+static const char *foreign_outputs(struct maker *m)
+{
+    const struct usda_prim *prim = &m->layer->prims.items[m->material];
+    struct text list;
+    text_init(&list, m->diags->arena);
+    for (uint32_t i = prim->first_property; i < usda_end_property(prim); i++) {
+        struct text_word name = m->layer->properties.items[i].name;
+        const size_t end = strlen(".connect");
+        if (name.len > end && memcmp(name.bytes + name.len - end, ".connect", end) == 0)
+            name.len -= end;
+        if (name.len > 8 && memcmp(name.bytes, "outputs:", 8) == 0) {
+            text_str(&list, list.len ? ", " : " (it has ");
+            text_put(&list, name);
+        }
+    }
+    text_str(&list, list.len ? ")" : "");
+    return text_cstr(&list);
+}
+
+/* The default substance (docs/slots.md) for a Material without a surface. */
+static void add_default(struct maker *m, elem_id material)
+{
+    const struct usda_prim *at = &m->layer->prims.items[m->material];
+    const struct {
+        const char *category, *type, *input, *input_type, *value;
+    } steps[] = {{"oren_nayar_diffuse_bsdf", "BSDF", "color", "color3", "0.8, 0.8, 0.8"},
+                 {"surface", "surfaceshader", "bsdf", "BSDF", NULL}};
+    str_id before = 0;
+    elem_id input;
+    for (size_t i = 0; i < sizeof steps / sizeof *steps; i++) {
+        struct text name;
+        text_init(&name, m->scratch);
+        text_fmt(&name, "%s_%s", m->name, steps[i].category);
+        elem_id node = maker_add_free(m, m->doc->root, steps[i].category, &name, at);
+        maker_set(m, node, "type", str_intern_z(m->doc->strings, steps[i].type));
+        input = maker_add(m, node, "input", str_intern_z(m->doc->strings, steps[i].input), at->line,
+                          at->column);
+        maker_set(m, input, "type", str_intern_z(m->doc->strings, steps[i].input_type));
+        maker_set(m, input, before ? "nodename" : "value",
+                  before ? before : str_intern_z(m->doc->strings, steps[i].value));
+        before = doc_element(m->doc, node)->name;
+    }
+    input = maker_add(m, material, "input", STR_surfaceshader, at->line, at->column);
+    maker_set(m, input, "type", STR_surfaceshader);
+    maker_set(m, input, "nodename", before);
+}
+
+static void add_material(struct maker *m, const struct scene_material *from, bool is_bound)
 {
     static const char *const surfaces[] = {"outputs:mtlx:surface", "outputs:surface", NULL};
     static const char *const displacements[] = {"outputs:mtlx:displacement", "outputs:displacement",
@@ -340,7 +388,13 @@ static void add_material(struct maker *m, const struct scene_material *from)
                                  str_intern_z(m->doc->strings, from->name), at->line, at->column);
     maker_set(m, material, "type", str_intern_z(m->doc->strings, "material"));
     doc_index_element(m->doc, material);
-    add_product(m, material, surfaces, "surfaceshader");
+    if (!add_product(m, material, surfaces, "surfaceshader")) {
+        if (is_bound)
+            diag_add(m->diags, DIAG_ID_usda_material,
+                     (struct diag_place){m->layer->file, at->line, at->column, 0},
+                     maker_text(m, at->name), foreign_outputs(m));
+        add_default(m, material);
+    }
     add_product(m, material, displacements, "displacementshader");
     read_inputs(m);
 }
@@ -457,14 +511,16 @@ static bool is_bound(const struct scene *scene, const struct table *bound, const
     return false;
 }
 
-/* The materials of overrides that the scene binds. */
-static struct table bound_overrides(const struct scene *scene, struct arena *scratch)
+/* The materials that the scene binds, or only those of overrides. */
+static struct table bound_names(const struct scene *scene, bool only_overrides,
+                                struct arena *scratch)
 {
     struct table table = {0};
     for (uint32_t i = 0; i < scene->bindings.len; i++) {
         const struct scene_binding *binding = &scene->bindings.items[i];
         const char *name = binding->material;
-        if (!binding->is_removed && strstr(binding->name, "::") && !is_bound(scene, &table, name))
+        bool counts = !only_overrides || strstr(binding->name, "::");
+        if (!binding->is_removed && counts && !is_bound(scene, &table, name))
             table_add(&table, scratch, hash_bytes(name, strlen(name)), i + 1);
     }
     return table;
@@ -497,10 +553,11 @@ void bind_add_materials(const struct scene *scene, struct library *lib,
                       .images = images,
                       .scratch = scratch,
                       .diags = diags};
-    const struct table bound = bound_overrides(scene, scratch);
+    const struct table bound = bound_names(scene, false, scratch),
+                       overrides = bound_names(scene, true, scratch);
     for (uint32_t i = 0; i < scene->materials.len; i++) {
         const struct scene_material *material = &scene->materials.items[i];
-        if (material->is_graph && !is_bound(scene, &bound, material->name))
+        if (material->is_graph && !is_bound(scene, &overrides, material->name))
             continue;
         if (!m.file)
             m.file = doc_add_file(m.doc, str_intern_z(m.doc->strings, scene->layer.file));
@@ -509,6 +566,6 @@ void bind_add_materials(const struct scene *scene, struct library *lib,
         if (material->is_graph || is_override(&m, &m.layer->prims.items[material->prim]))
             add_override(&m, material);
         else
-            add_material(&m, material);
+            add_material(&m, material, is_bound(scene, &bound, material->name));
     }
 }

@@ -192,6 +192,37 @@ static struct binding_rest read_rest(const struct usda_property *property, struc
     return (struct binding_rest){true, is_purpose(first) ? first : (struct text_word){end, 0}};
 }
 
+static void report_ignored(struct reader *s, const struct usda_property *property,
+                           const char *fault)
+{
+    diag_add(s->diags, DIAG_ID_ignored_binding, place_of(s, property->line, property->column),
+             text_of(s, property->name), fault);
+}
+
+/* Reports what stands behind a slot and is no purpose. Plain bindings may have more purposes. */
+static void check_purpose(struct reader *s, const struct usda_property *property,
+                          struct text_word purpose)
+{
+    struct text fault;
+    if (!purpose.len || is_purpose(purpose) || !begins(property->name, "material:slotBinding:"))
+        return;
+    text_init(&fault, s->scene->arena);
+    text_fmt(&fault, "'%s' is no purpose; expected 'full' or 'preview'", text_of(s, purpose));
+    if (*purpose.bytes == '_')
+        text_fmt(&fault, ", or for an override ':_:%s'", text_of(s, purpose));
+    report_ignored(s, property, text_cstr(&fault));
+}
+
+/* Reports a relationship among the materials' that is no binding: a misspelled one. */
+static void check_name(struct reader *s, const struct usda_property *property)
+{
+    if (usda_is(property->type, "rel") && !begins(property->name, "material:binding")
+        && !begins(property->name, "material:slotBinding:"))
+        report_ignored(s, property,
+                       "expected 'material:binding', or 'material:slotBinding:' and a slot such "
+                       "as '_050'");
+}
+
 static void add_binding(struct reader *s, prim_id prim, const struct usda_property *property,
                         bool with_collections)
 {
@@ -200,6 +231,8 @@ static void add_binding(struct reader *s, prim_id prim, const struct usda_proper
     if (!usda_is(property->type, "rel") || !read_binding_name(s, property, &added.name, &rest))
         return;
     struct binding_rest said = read_rest(property, rest);
+    if (!with_collections)
+        check_purpose(s, property, said.purpose);
     if (said.is_collection != with_collections
         || !has_purpose(s, said.purpose.bytes, said.purpose.len, &added.is_purpose)
         || !read_target(s, property, said.is_collection ? &collection : NULL, &added))
@@ -223,8 +256,10 @@ static void add_bindings(struct reader *s, prim_id prim, const struct usda_prim 
     const struct usda_property *properties = s->layer->properties.items;
     VEC(uint32_t) bindings = {0};
     for (uint32_t i = source->first_property; i < usda_end_property(source); i++)
-        if (begins(properties[i].name, "material:"))
+        if (begins(properties[i].name, "material:")) {
             vec_push(s->scratch, &bindings, i);
+            check_name(s, &properties[i]);
+        }
     for (unsigned with_slots = 0; with_slots < 2; with_slots++)
         for (unsigned with_collections = 0; with_collections < 2; with_collections++)
             for (uint32_t i = 0; i < bindings.len; i++) {
@@ -439,6 +474,9 @@ static void add_paths(struct reader *s, prim_id prim, const char *name, const ch
             continue;
         }
         prim_id member = scene_target(s->scene, source, path);
+        if (!member && path.len > 1 && !usda_find_composed(s->layer, path.bytes, path.len))
+            diag_add(s->diags, DIAG_ID_pattern_unmatched,
+                     place_of(s, property->line, property->column), text_of(s, path), "");
         if (member || path.len == 1) {
             add_member(s, member, is_excluded);
             if (is_explicit && !is_excluded)

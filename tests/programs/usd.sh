@@ -253,4 +253,131 @@ cat >space.mtlx <<'XML'
 XML
 check 'colours of a stage are linear beside a document' eval 'sed "s/\"presence\"/\"transparent\"/; s/color3f inputs:diffuseColor.connect = .*/color3f inputs:diffuseColor = (0.5, 0.5, 0.5)/" preview.usda >linear.usda; exits 0 "$mxgen" space.mtlx --stage linear.usda --target vulkan -o linear.d && grep -qF "\"m_s/diffuseColor\",\"value\":[0.5,0.5,0.5]" linear.d/bindings.json'
 
+# ---- What an artist is told ----
+
+cat >foreign.usda <<'USD'
+#usda 1.0
+def Cube "a" { rel material:binding = </L/m> }
+def Cube "b" { rel material:binding = </L/n> }
+def Scope "L" {
+    def Material "m" {
+        token outputs:arnold:surface.connect = </L/m/s.outputs:out>
+        def Shader "s" { uniform token info:id = "arnold:standard_surface" } }
+    def Material "n" {
+        token outputs:surface.connect = </L/n/s.outputs:surface>
+        def Shader "s" { uniform token info:id = "UsdPreviewSurface" } }
+    def Material "unbound" {
+        token outputs:ri:surface.connect = </L/unbound/s.outputs:out> }
+}
+USD
+check 'a material of another renderer stops nothing' exits 0 "$mxgen" nothing.mtlx --stage foreign.usda --target vulkan -o foreign.d
+check 'it is told' tells usda-material foreign.usda:5:18 "'m' has no surface that mxgen reads (it has outputs:arnold:surface)"
+check 'one that nobody binds is not' test "$(grep -c '\[usda-material\]' err)" = 1
+cat >white.py <<'PY'
+import json
+d = json.load(open("foreign.d/bindings.json"))
+stack = {p["path"]: p["stack"] for p in d["primitives"]}
+program = {s["name"]: s["program"] for s in d["stacks"]}
+print(open(f"foreign.d/{program[stack['/a']]}.frag").read())
+PY
+check 'the default substance stands in' eval 'python3 white.py | grep -q "mx_oren_nayar\|0\.31830987"'
+
+printf '/espresso/body\n/espresso/cup\n/table\n' >espresso.txt
+# warns ATTRIBUTES: a look with these attributes on an assignment, or on itself
+cat >plain.mtlx <<'XML'
+<materialx version="1.39">
+  <surfacematerial name="Clay" type="material"/>
+  <collection name="c" includegeom="/espresso" excludegeom="/espresso/body"/>
+  <look name="l">
+    <materialassign material="Clay" geom="/espresso"/>
+    <materialassign slot="050" material="Clay" collection="c"/>
+  </look>
+</materialx>
+XML
+# edited SED: binds the look with a change
+edited() { sed "$1" plain.mtlx >edited.mtlx && ! cmp -s plain.mtlx edited.mtlx && exits "${2:-0}" bind edited.mtlx --stage espresso.txt; }
+check 'what matches has no warning' eval 'exits 0 bind plain.mtlx --stage espresso.txt && test ! -s err'
+check 'a path that matches nothing is told' eval "edited 's|\"/espresso\"/|\"/espreso\"/|' && tells pattern-unmatched edited.mtlx:5:43 \"'/espreso' matches no primitive of the stage (did you mean '/espresso'?)\""
+check 'so is one of a list' eval "edited 's|geom=\"/espresso\"/|geom=\"/table, /espresso/bodi\"/|' && tells pattern-unmatched edited.mtlx:5:43 \"did you mean '/espresso/body'\""
+check 'so is a glob' eval "edited 's|geom=\"/espresso\"/|geom=\"/espresso/b?\"/|' && tells pattern-unmatched edited.mtlx:5:43 \"'/espresso/b?' matches no primitive\""
+check 'so is an included path' eval "edited 's|includegeom=\"/espresso\"|includegeom=\"/espreso\"|' && tells pattern-unmatched edited.mtlx:3:37 \"'/espresso'\""
+check 'so is an excluded path' eval "edited 's|/espresso/body|/espresso/bodi|' && tells pattern-unmatched edited.mtlx:3:61 \"'/espresso/body'\""
+check 'a geomprefix belongs to the name' eval "edited 's|<look name=\"l\"|& geomprefix=\"/espresso/\"|; s|geom=\"/espresso\"/|geom=\"cupp\"/|' && tells pattern-unmatched edited.mtlx:5:43 \"'/espresso/cup'\""
+check 'the root is always there' eval "edited 's|geom=\"/espresso\"/|geom=\"/, //, //*\"/|' && test ! -s err"
+check 'a slotorder with an unknown slot is told' eval "edited 's|<look name=\"l\"|& slotorder=\"000, 05, 050\"|' && tells unused-order edited.mtlx:4:29 \"'05'\""
+check 'one colon is told' eval "edited 's|\"050\"|\"050:010\"|' 1 && tells bad-slot edited.mtlx:6:27 \"has one ':', and an override has two\""
+check 'several parents of a look are told' eval "edited 's|<look name=\"l\"|& inherit=\"a, b\"|' 1 && tells inherit-several edited.mtlx:4:27 'expected one'"
+check 'an unknown slot is told with those there are' eval "fails unknown-slot plain.mtlx --stage espresso.txt --solo 05 && grep -qF 'it has: 000, 050' err"
+check 'without --stage the message names it' eval 'exits 2 bind plain.mtlx; grep -qF -- "--stage is missing" err'
+check 'a document of several looks needs none beside bindings of the stage' eval 'sed "s|</materialx>|<look name=\"k\"/>&|" plain.mtlx >two.mtlx; exits 0 bind two.mtlx --stage foreign.usda && row "/b [000 n]"'
+check 'validate knows the attribute overrides' eval 'echo "<materialx version=\"1.39\"><nodegraph name=\"n\"><constant name=\"c\" type=\"float\"/><output name=\"o\" type=\"float\" nodename=\"c\" overrides=\"NG/scale\"/></nodegraph></materialx>" >over.mtlx; exits 0 "$mxgen" validate over.mtlx && test ! -s err'
+
+cat >odd.usda <<'USD'
+#usda 1.0
+def Xform "s" {
+    rel material:slotBinding:_050:_010 = </m>
+    rel material:slotBindng:_050 = </m>
+    rel material:slotBinding:_060:foo = </m>
+    rel material:binding:other = </m>
+    rel material:binding:collection:c = [</s.collection:c>, </m>]
+    rel material:binding = </m>
+    rel collection:c:includes = [</s/a>, </s/b>, </m>]
+    def Cube "a" {}
+}
+def Material "m" { token outputs:surface.connect = </m/s.outputs:surface>
+    def Shader "s" { uniform token info:id = "UsdPreviewSurface" } }
+USD
+check 'bindings that bind nothing are told' exits 0 bind --stage odd.usda
+check 'an override with one colon' tells ignored-binding odd.usda:3:9 "':_:_010'"
+check 'a misspelled word' tells ignored-binding odd.usda:4:9 "expected 'material:binding'"
+check 'a purpose that a slot does not have' tells ignored-binding odd.usda:5:9 "'foo' is no purpose"
+check 'other purposes of plain bindings are silent' test "$(grep -c '\[ignored-binding\]' err)" = 3
+check 'a member of a collection that is missing' tells pattern-unmatched odd.usda:9:9 "'/s/b'"
+check 'a material may be a member' test "$(grep -c '\[pattern-unmatched\]' err)" = 1
+check 'reasons say that a collection beats a direct binding' eval "exits 0 bind --stage odd.usda --geom /s/a && grep -qF 'because at one prim a collection beats a direct binding' out"
+
+# ---- Composition: a stand-in for usdcat of OpenUSD ----
+
+cat >arcs.usda <<'USD'
+#usda 1.0
+def Xform "set" (
+    payload = @table.usda@
+)
+{
+}
+USD
+printf '#usda 1.0\ndef Xform "set"\n{\n    def Cube "table" {}\n}\n' >composed.usda
+printf 'PXR-USDC' >binary.usdc
+mkdir bin none temp
+cat >bin/usdcat <<'SH'
+#!/bin/bash
+printf '%s\n' "$@" >usdcat.arguments
+case $USDCAT in
+fail) echo 'Warning: something'; echo 'cannot open layer @table.usda@' >&2; exit 1 ;;
+nothing) exit 0 ;;
+arcs) cat arcs.usda >"$4" ;;
+large) while :; do head -c 1000000 /dev/zero; done >"$4" ;;
+*) cat composed.usda >"$4" ;;
+esac
+SH
+chmod +x bin/usdcat
+with() { env PATH="$PWD/bin:$PATH" TMPDIR="$PWD/temp" USDCAT="$1" "$mxgen" bind --stage "${@:2}"; }
+without() { env PATH="$PWD/none" "$mxgen" bind --stage "$@"; }
+check 'usdcat composes a stage with arcs' exits 0 with good arcs.usda
+check 'the stage is what it writes' eval 'row "/set/table default" && test ! -s err'
+check 'it gets the file as one argument' eval '[ "$(sed -n "1,3p" usdcat.arguments | paste -sd" ")" = "--flatten arcs.usda --out" ]'
+check 'nothing is left behind' eval '[ -z "$(ls temp)" ]'
+check 'a binary stage goes the same way' eval 'exits 0 with good binary.usdc && row "/set/table default"'
+check 'a name is no option and no command' eval 'cp arcs.usda "a b;touch x.usda"; exits 0 with good "a b;touch x.usda" && grep -qxF "a b;touch x.usda" usdcat.arguments && [ ! -e x.usda ]'
+check 'shaders of such a stage are made' eval 'exits 0 env PATH="$PWD/bin:$PATH" "$mxgen" nothing.mtlx --stage arcs.usda --target vulkan -o arcs.d'
+check 'its errors are passed on' eval "exits 1 with fail arcs.usda && grep -F '[usd-flatten]' err | grep -qF 'cannot open layer @table.usda@'"
+check 'so is its silence' eval "exits 1 with nothing arcs.usda && grep -qF '[usd-flatten]' err"
+check 'arcs in its output are errors' eval "exits 1 with arcs arcs.usda && grep -qF '[usda-arc]' err"
+check 'its output has a limit' eval "exits 1 with large arcs.usda --max-file-size 2 && grep -F '[usd-flatten]' err | grep -qF -- '--max-file-size' && [ -z \"\$(ls temp)\" ]"
+check 'a sandbox starts no program' eval "rm -f usdcat.arguments; exits 1 with good arcs.usda --sandbox && grep -qF '[usda-arc]' err && [ ! -e usdcat.arguments ]"
+check 'without usdcat the arc is an error' exits 1 without arcs.usda
+check 'it names the arc and its place, and a cure' eval "tells usda-arc arcs.usda:2:11 \"'set' has payload\" && grep -qF 'put its program usdcat on the path' err"
+check 'without usdcat a binary stage is an error' eval 'exits 1 without binary.usdc && grep -qF "[usda-syntax]" err'
+check 'a stage of text alone starts no program' eval 'rm -f usdcat.arguments; exits 0 with good composed.usda && [ ! -e usdcat.arguments ]'
+
 finish usd
