@@ -128,8 +128,8 @@ char *flatten_stage(struct cli *cli, const char *path, bool *out_is_missing)
     char *out = new_file(".usda"), *log = new_file(".log");
     pid_t child;
     int status = 0, reason = start(path, out, log, &child);
-    const char *fault = reason ? strerror(reason)
-                               : wait_for(child, out, cli_max_file_size(cli), &status);
+    const char *fault =
+        reason ? strerror(reason) : wait_for(child, out, cli_max_file_size(cli), &status);
     *out_is_missing = reason == ENOENT;
     bool good = !reason && !fault && WIFEXITED(status) && WEXITSTATUS(status) == 0
                 && access(out, R_OK) == 0;

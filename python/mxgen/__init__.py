@@ -12,9 +12,11 @@ from .catalogue import Option, OptionType, PassMember, PassResource, Target, opt
 from .context import Context, File, ListFolder, ReadTexels, Resolver, Rewriting, Rewritten
 from .definition import Implementation, Library, NodeDef, Port, UserInterface
 from .diagnostic import Diagnostic, DiagnosticKind, Diagnostics, Severity, color_difference, diagnostic_kinds, library_version
-from .document import Connection, Document, Element, Renderable, Value, equal
+from .document import Connection, Document, Edge, Element, Item, Renderable, Value, equal
 from .edit import Draft, Edit, NewValue
-from .error import ArgumentError, CancelledError, DocumentError, EditError, Error, InternalError, OutOfMemoryError
+from .error import ArgumentError, CancelledError, DocumentError, EditError, Error, InternalError, MissingFileError, OutOfMemoryError
+from .files import ZipFiles
+from .render import RenderError, render, render_picture
 from .scene import (Bindings, BindingsFormat, Fact, FactKind, Layer, LayerKind, NewPrimitive, Primitive, Property, Scene, SlotBinding,
                     Stack, decode_slot, encode_slot)
 from .shader import (Alpha, Block, BlockInfo, Change, CompiledInput, InputState, LightType, OptionValue, Part, PassInfo, Place, Semantic,
@@ -24,9 +26,9 @@ __version__ = library_version()
 
 __all__ = ["Alpha", "ArgumentError", "Bindings", "BindingsFormat", "Block", "BlockInfo", "CancelledError", "Change",
            "CompiledInput", "Connection", "Context", "Diagnostic", "DiagnosticKind", "Diagnostics", "Document",
-           "DocumentError", "Draft", "Edit", "EditError", "Element", "Error", "Fact", "FactKind", "File", "Implementation", "InputState", "InternalError",
-           "Layer", "LayerKind", "Library", "LightType", "ListFolder", "NewPrimitive", "NewValue", "NodeDef", "Option", "OptionType",
+           "DocumentError", "Draft", "Edge", "Edit", "EditError", "Element", "Error", "Fact", "FactKind", "File", "Implementation", "InputState", "InternalError", "Item",
+           "Layer", "LayerKind", "Library", "LightType", "ListFolder", "MissingFileError", "NewPrimitive", "NewValue", "NodeDef", "Option", "OptionType",
            "OptionValue", "OutOfMemoryError", "Part", "PassInfo", "PassMember", "PassResource", "Place", "Port", "Primitive", "Property",
-           "ReadTexels", "Renderable", "Resolver", "Rewriting", "Rewritten", "Scene", "Semantic", "Severity", "Shader", "ShaderInfo", "SlotBinding",
-           "Stack", "Stage", "Storage", "Target", "Tile", "UserInterface", "Value", "Variable", "View", "color_difference", "decode_slot", "diagnostic_kinds", "encode_slot",
-           "equal", "library_version", "option_applies", "options", "pass_resources", "semantics", "targets"]
+           "ReadTexels", "RenderError", "Renderable", "Resolver", "Rewriting", "Rewritten", "Scene", "Semantic", "Severity", "Shader", "ShaderInfo", "SlotBinding",
+           "Stack", "Stage", "Storage", "Target", "Tile", "UserInterface", "Value", "Variable", "View", "ZipFiles", "color_difference", "decode_slot", "diagnostic_kinds", "encode_slot",
+           "equal", "library_version", "option_applies", "options", "pass_resources", "render", "render_picture", "semantics", "targets"]

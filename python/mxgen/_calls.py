@@ -2,20 +2,45 @@
 """Calls of the C library: texts, structs, and the lifetime of objects."""
 from __future__ import annotations
 
+import ctypes
 import os
-from collections.abc import Callable
-from typing import Any
+import pathlib
+from collections.abc import Callable, Iterable
+from types import TracebackType
+from typing import Any, TypeVar, cast
 
-try:
-    from ._native import ffi, lib
-except ImportError as error:
-    raise ImportError(f"mxgen cannot load its native module: {error}. It needs libxml2 (Debian: libxml2), and the"
-                      " Debian package needs libmxgen0") from error
-
+from . import _native
 from .error import ArgumentError, CancelledError, Error, InternalError, OutOfMemoryError
 
-__all__ = ["ffi", "lib", "Handle", "Native", "c_path", "c_text", "error_of", "fields", "keep_text", "py_text", "record",
-           "sized_text"]
+__all__ = ["Handle", "Native", "c_number", "c_path", "c_text", "c_texts", "error_of", "fields", "guarded", "lib", "new", "optional_text", "py_text",
+           "record", "sized_text"]
+
+
+# ---- The library ----
+
+class _Library:
+    """The functions and the constants of the C library."""
+
+    def __init__(self) -> None:
+        # A wheel and the build folder have the library beside this file; Debian has it where the loader looks.
+        beside = pathlib.Path(__file__).with_name("libmxgen.so")
+        try:
+            loaded = ctypes.CDLL(str(beside) if beside.exists() else "libmxgen.so.0")
+            for name, (result, arguments) in _native.FUNCTIONS.items():
+                function = getattr(loaded, name)
+                function.restype, function.argtypes = result, arguments
+                setattr(self, name, function)
+        except (OSError, AttributeError) as error:
+            raise ImportError(f"mxgen cannot load its library: {error}. The Debian package needs libmxgen0, and a build without"
+                              " libxml2 inside needs libxml2") from error
+        for constants in _native.CONSTANTS, *_native.ENUMS.values():
+            vars(self).update(constants)
+
+    def __getattr__(self, name: str) -> Any: # tells type checkers that there are further attributes
+        raise AttributeError(f"the library has no '{name}'")
+
+
+lib = _Library()
 
 
 # ---- Texts ----
@@ -29,6 +54,20 @@ def c_text(value: str, what: str) -> bytes:
     return value.encode("utf-8", "surrogateescape")
 
 
+def optional_text(value: str | None, what: str) -> bytes | None:
+    """The same; None gives NULL."""
+    return None if value is None else c_text(value, what)
+
+
+def c_number(value: int, what: str, bits: int = 32) -> int:
+    """A number without a sign for C, which would cut it."""
+    if not isinstance(value, int):
+        raise TypeError(f"{what} must be int, not {type(value).__name__}")
+    if not 0 <= value < 1 << bits:
+        raise OverflowError(f"{what} is out of range: {value}")
+    return value
+
+
 def c_path(value: str | os.PathLike[str], what: str) -> bytes:
     """The path of a file for C."""
     if not isinstance(value, (str, os.PathLike)):
@@ -36,52 +75,74 @@ def c_path(value: str | os.PathLike[str], what: str) -> bytes:
     return c_text(os.fspath(value), what)
 
 
-def keep_text(text: bytes, keep: list[Any]) -> Any:
-    """A C string for a struct; it lives as long as `keep`."""
-    made = ffi.new("char[]", text)
-    keep.append(made)
-    return made
+def c_texts(values: Iterable[bytes]) -> Any:
+    """An array of texts for C."""
+    texts = list(values)
+    return (ctypes.c_char_p * len(texts))(*texts)
 
 
-def py_text(text: Any) -> str:
+def py_text(text: bytes) -> str:
     """The text of a `const char *` that is not NULL."""
-    decoded: str = ffi.string(text).decode("utf-8", "surrogateescape")
-    return decoded
+    return text.decode("utf-8", "surrogateescape")
 
 
 def sized_text(write: Callable[[Any, int], Any]) -> str:
     """The text of a function that writes into a buffer and returns the full length."""
-    size = write(ffi.NULL, 0)
-    buffer = ffi.new("char[]", size + 1)
+    size = write(None, 0)
+    buffer = ctypes.create_string_buffer(size + 1)
     write(buffer, size + 1)
-    return py_text(buffer)
+    return py_text(buffer.value)
 
 
 # ---- Structs ----
 
-def _py_value(value: Any, ctype: Any) -> Any:
-    if ctype.kind == "pointer":
-        return py_text(value) if value else None
-    if ctype.kind == "array":
-        return tuple(_py_value(item, ctype.item) for item in value)
-    return value
+def new(name: str, **members: Any) -> Any:
+    """A struct with its size, if it has one, and the given members. It keeps alive what they point to."""
+    struct = getattr(_native, name)
+    if struct._fields_[0][0] == "size":
+        members["size"] = ctypes.sizeof(struct)
+    return struct(**members)
 
 
 def fields(struct: Any) -> dict[str, Any]:
     """The members of a struct as Python values; a text that is NULL becomes None."""
-    members = ffi.typeof(struct).item.fields
-    return {name: _py_value(getattr(struct, name), member.type) for name, member in members if name != "size"}
+    found = {}
+    for name, _ in struct._fields_[1:]:
+        value = getattr(struct, name)
+        found[name] = py_text(value) if isinstance(value, bytes) else tuple(map(_item, value)) if isinstance(value, ctypes.Array) else value
+    return found
 
 
-def record(ctype: str, function: Callable[..., int], *arguments: Any) -> dict[str, Any] | None:
+def _item(value: Any) -> Any:
+    return py_text(value) if isinstance(value, bytes) else value
+
+
+def record(name: str, function: Callable[..., int], *arguments: Any) -> dict[str, Any] | None:
     """The struct that a function fills; None if the function refuses its arguments."""
-    out = ffi.new(f"{ctype} *", {"size": ffi.sizeof(ctype)})
+    out = new(name)
     status = function(*arguments, out)
     if status == lib.MXG_ERROR_ARGUMENT:
         return None
     if status != lib.MXG_OK:
         raise error_of(status)
     return fields(out)
+
+
+# ---- Callbacks ----
+
+def guarded(name: str, keeper: Any, work: Callable[..., Any], failed: Any = None) -> Any:
+    """A function for the parameter or member `name`, without its first parameter, the user data. An exception does not reach C:
+    `keeper.raised` has it, and the callback returns `failed`; so do all after it until `keeper.raised` is None again, but those that free
+    (`failed` None) always work."""
+
+    def call(_user_data: Any, *arguments: Any) -> Any:
+        try:
+            return failed if keeper.raised is not None and failed is not None else work(*arguments)
+        except BaseException as error: # pylint: disable=broad-except
+            keeper.raised = keeper.raised or error
+            return failed
+
+    return cast(Any, getattr(_native, f"callback_{name}")(call))
 
 
 # ---- Errors ----
@@ -121,20 +182,43 @@ class Handle:
             self._further_owners.pop()
         except IndexError:
             self._destroy(self.pointer)
-            self.pointer = ffi.NULL
+            self.pointer = None
             for parent in self._parents:
                 parent.release()
 
 
+_Self = TypeVar("_Self", bound="Native")
+
+
 class Native:
-    """A Python object that owns a handle."""
+    """A Python object that owns a handle. It ends with its last reference, or at `close`, or at the end of a `with` block; objects that
+    were made from it stay."""
 
     _handle: Handle
 
-    def __del__(self) -> None:
-        handle = getattr(self, "_handle", None)
+    def close(self) -> None:
+        """Frees the memory of the object. Every later use of it raises Error."""
+        handle = vars(self).pop("_handle", None)
         if handle is not None:
             handle.release()
+
+    @property
+    def _is_open(self) -> bool:
+        return "_handle" in vars(self)
+
+    def __getattr__(self, name: str) -> Any:
+        if name == "_handle":
+            raise Error(f"the {type(self).__name__.lower()} has ended")
+        raise AttributeError(f"'{type(self).__name__}' has no attribute '{name}'")
+
+    def __enter__(self: _Self) -> _Self:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None) -> None:
+        self.close()
+
+    def __del__(self) -> None:
+        self.close()
 
     def __reduce_ex__(self, protocol: Any) -> Any:
         raise TypeError(f"{type(self).__name__} is a native object, which cannot be copied or pickled")

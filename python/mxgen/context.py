@@ -2,6 +2,7 @@
 """Contexts: where files come from, the limits, and the start of every other object."""
 from __future__ import annotations
 
+import ctypes
 import enum
 import os
 import threading
@@ -10,12 +11,12 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any, Union
 
-from ._calls import Handle, Native, c_path, c_text, error_of, ffi, keep_text, lib, py_text
+from ._calls import Handle, Native, c_number, c_path, c_text, c_texts, error_of, guarded, lib, new, optional_text, py_text
 from .definition import Library
 from .diagnostic import Diagnostics
 from .document import Document
 from .edit import Edit
-from .error import ArgumentError, DocumentError, Error, OutOfMemoryError
+from .error import ArgumentError, Error, OutOfMemoryError, document_error
 from .scene import Scene
 from .shader import OptionValue, Shader, make_options
 
@@ -77,101 +78,50 @@ class _Host:
         self.cancel = cancel
         self.read_texels = read_texels
         self.raised: BaseException | None = None
-        self._lent: dict[int, list[Any]] = {}
+        self._lent: dict[int, tuple[bytes, bytes | None]] = {}
         self._next = 1
 
-    def open(self, origin: str, reference: str, blob: Any) -> bool:
+    def open(self, origin: bytes, reference: bytes, blob: Any, _reason: Any) -> bool:
         assert self.resolver is not None
-        found = self.resolver(origin, reference)
+        found = self.resolver(py_text(origin), py_text(reference))
         if found is None:
             return False
         file = found if isinstance(found, File) else File(found)
         data = file.data.encode("utf-8", "surrogateescape") if isinstance(file.data, str) else file.data
         if not isinstance(data, bytes):
             raise TypeError(f"the resolver must return File, bytes, str or None, not {type(found).__name__}")
-        view = ffi.from_buffer(data)
-        keep = [data, view]
-        blob.data = view
-        blob.size = len(data)
-        if file.name is not None:
-            blob.name = keep_text(c_text(file.name, "File.name"), keep)
-        blob.handle = ffi.cast("void *", self._next)
-        self._lent[self._next] = keep
+        name = None if file.name is None else c_text(file.name, "File.name")
+        blob.contents.data, blob.contents.size = data, len(data)
+        if name is not None:
+            blob.contents.name = name
+        blob.contents.handle = self._next
+        self._lent[self._next] = data, name
         self._next += 1
         return True
 
     def release(self, blob: Any) -> None:
-        del self._lent[int(ffi.cast("uintptr_t", blob.handle))]
+        del self._lent[blob.contents.handle]
 
-    def list(self, origin: str, folder: str) -> bytes:
+    def list(self, origin: bytes, folder: bytes, out: int, capacity: int) -> int:
         assert self.list_folder is not None
-        names = self.list_folder(origin, folder)
-        if names is None:
-            return b""
+        names = self.list_folder(py_text(origin), py_text(folder))
         if isinstance(names, (str, bytes)):
             raise TypeError("list_folder must return a sequence of names")
-        return b"".join(c_text(name, "a name of list_folder") + b"\0" for name in names)
+        listed = b"".join(c_text(name, "a name of list_folder") + b"\0" for name in names or ())
+        if len(listed) <= capacity:
+            ctypes.memmove(out, listed, len(listed))
+        return len(listed)
 
-
-def _host_of(user_data: Any) -> _Host:
-    host: _Host = ffi.from_handle(user_data)
-    return host
-
-
-def _keep_exception(_type: Any, error: BaseException | None, traceback: Any) -> None:
-    """cffi calls it instead of printing the exception of a callback."""
-    frame = traceback.tb_frame
-    host = _host_of(frame.f_locals["user_data"])
-    if host.raised is None:
-        host.raised = error
-
-
-@ffi.def_extern(error=False, onerror=_keep_exception)
-def callback_open(user_data: Any, origin: Any, reference: Any, blob: Any, out_reason: Any) -> bool:
-    """mxg_resolver.open"""
-    host = _host_of(user_data)
-    return host.raised is None and host.open(py_text(origin), py_text(reference), blob)
-
-
-@ffi.def_extern(onerror=_keep_exception)
-def callback_release(user_data: Any, blob: Any) -> None:
-    """mxg_resolver.release"""
-    _host_of(user_data).release(blob)
-
-
-@ffi.def_extern(error=0, onerror=_keep_exception)
-def callback_list_folder(user_data: Any, origin: Any, folder: Any, names: Any, capacity: int) -> int:
-    """mxg_resolver.list_folder"""
-    host = _host_of(user_data)
-    if host.raised is not None:
-        return 0
-    listed = host.list(py_text(origin), py_text(folder))
-    if len(listed) <= capacity:
-        ffi.memmove(names, listed, len(listed))
-    return len(listed)
-
-
-@ffi.def_extern(error=True, onerror=_keep_exception)
-def callback_cancel(user_data: Any) -> bool:
-    """mxg_context_desc.cancel"""
-    host = _host_of(user_data)
-    assert host.cancel is not None
-    return host.raised is not None or bool(host.cancel())
-
-
-@ffi.def_extern(error=False, onerror=_keep_exception)
-def callback_read_texels(user_data: Any, origin: Any, file: Any, layer: Any, size: int, out_texels: Any) -> bool:
-    """mxg_texel_reader.read_texels"""
-    host = _host_of(user_data)
-    assert host.read_texels is not None
-    texels = None if host.raised is not None else host.read_texels(py_text(origin), py_text(file), py_text(layer), size)
-    if texels is None:
-        return False
-    count = 4 * size * size
-    if len(texels) != count:
-        raise ValueError(f"read_texels must return {count} numbers, not {len(texels)}")
-    ffi.cast("float *", out_texels)[0:count] = list(texels)
-    return True
+    def read(self, origin: bytes, file: bytes, layer: bytes, size: int, out: Any) -> bool:
+        assert self.read_texels is not None
+        texels = self.read_texels(py_text(origin), py_text(file), py_text(layer), size)
+        if texels is None:
+            return False
+        count = 4 * size * size
+        if len(texels) != count:
+            raise ValueError(f"read_texels must return {count} numbers, not {len(texels)}")
+        ctypes.memmove(out, (ctypes.c_float * count)(*texels), 4 * count)
+        return True
 
 
 class Context(Native):
@@ -198,53 +148,52 @@ class Context(Native):
         if list_folder is not None and resolver is None:
             raise ValueError("list_folder needs a resolver")
         self._host = _Host(resolver, list_folder, cancel, read_texels)
-        self._host_handle = ffi.new_handle(self._host)
         self._lock = threading.Lock()
         self._user: int | None = None
-        keep: list[Any] = []
-        desc = ffi.new("mxg_context_desc *", {"size": ffi.sizeof("mxg_context_desc"), "max_memory": max_memory,
-                                              "max_file_mib": max_file_mib, "max_elements": max_elements, "max_nodes": max_nodes,
-                                              "max_output_mib": max_output_mib, "max_errors": max_errors, "max_depth": max_depth,
-                                              "max_include_depth": max_include_depth, "max_includes": max_includes,
-                                              "trust": trust, "sandbox": sandbox})
-        if resolver is not None:
-            desc.resolver = self._make_resolver(list_folder is not None, keep)
-        if cancel is not None:
-            desc.cancel = lib.callback_cancel
-            desc.cancel_user_data = self._host_handle
-        if read_texels is not None:
-            reader = ffi.new("mxg_texel_reader *", {"user_data": self._host_handle, "read_texels": lib.callback_read_texels})
-            keep.append(reader)
-            desc.texels = reader
-        if warnings is not None:
-            desc.warnings = keep_text(c_text(warnings, "warnings"), keep)
         if isinstance(include_roots, str):
             raise TypeError("include_roots must be a sequence of paths, not str")
-        roots = [keep_text(c_path(root, "an include root"), keep) for root in include_roots]
-        root_array = ffi.new("const char *[]", roots)
-        desc.include_roots = root_array
-        desc.num_include_roots = len(roots)
-        out = ffi.new("mxg_context **")
+        limits = {"max_file_mib": max_file_mib, "max_elements": max_elements, "max_nodes": max_nodes, "max_output_mib": max_output_mib,
+                  "max_errors": max_errors, "max_depth": max_depth, "max_include_depth": max_include_depth, "max_includes": max_includes}
+        desc = new("mxg_context_desc", max_memory=c_number(max_memory, "max_memory", 64),
+                   **{name: c_number(limit, name) for name, limit in limits.items()}, trust=trust, sandbox=sandbox, warnings=optional_text(warnings, "warnings"),
+                   include_roots=c_texts(c_path(root, "an include root") for root in include_roots), num_include_roots=len(include_roots))
+        callbacks = self._set_callbacks(desc)
+        out = ctypes.c_void_p()
         status = lib.mxg_context_create(desc, out)
         if status == lib.MXG_ERROR_ARGUMENT and warnings:
             raise ArgumentError(f"warnings has an unknown word, or a limit is out of range: '{warnings}'")
         if status != lib.MXG_OK:
             raise error_of(status)
-        host_handle = self._host_handle  # the callbacks need it until the context ends
 
-        def destroy(pointer: Any, _keep: Any = host_handle) -> None:
+        def destroy(pointer: Any, _keep: Any = callbacks) -> None: # the context calls them until it ends
             lib.mxg_context_destroy(pointer)
 
-        self._handle = Handle(out[0], destroy)
+        self._handle = Handle(out.value, destroy)
         self._library: Library | None = None
 
-    def _make_resolver(self, lists_folders: bool, keep: list[Any]) -> Any:
-        resolver = ffi.new("mxg_resolver *", {"user_data": self._host_handle, "open": lib.callback_open,
-                                              "release": lib.callback_release})
-        if lists_folders:
-            resolver.list_folder = lib.callback_list_folder
-        keep.append(resolver)
-        return resolver
+    def _set_callbacks(self, desc: Any) -> list[Any]:
+        """Gives the callbacks of the host to a mxg_context_desc. They live as long as the result."""
+        host, made = self._host, []
+
+        def callback(name: str, work: Callable[..., Any], failed: Any) -> Any:
+            made.append(guarded(name, host, work, failed))
+            return made[-1]
+
+        if host.resolver is not None:
+            resolver = new("mxg_resolver", open=callback("open", host.open, False), release=callback("release", host.release, None))
+            if host.list_folder is not None:
+                resolver.list_folder = callback("list_folder", host.list, 0)
+            desc.resolver = ctypes.pointer(resolver)
+        if host.cancel is not None:
+            cancel = host.cancel
+            desc.cancel = callback("cancel", lambda: bool(cancel()), True)
+        if host.read_texels is not None:
+            made.append(new("mxg_texel_reader", read_texels=callback("read_texels", host.read, False)))
+            desc.texels = ctypes.addressof(made[-1])
+        return made
+
+    def __repr__(self) -> str:
+        return "<Context>"
 
     # ---- Calls ----
 
@@ -264,16 +213,16 @@ class Context(Native):
             if raised is not None:
                 raise raised
 
-    def _make(self, ctype: str, function: Callable[..., int], destroy: Callable[[Any], None], parents: Sequence[Handle],
+    def _make(self, function: Callable[..., int], destroy: Callable[[Any], None], parents: Sequence[Handle],
               *arguments: Any) -> tuple[Handle, int]:
         """Calls a function that makes an object: with the context, the arguments and a place for the object."""
-        out = ffi.new(f"{ctype} **")
+        out = ctypes.c_void_p()
         handle = None
         try:
             with self._turn() as pointer:
                 status: int = function(pointer, *arguments, out)
-                if out[0]:
-                    handle = Handle(out[0], destroy, (self._handle, *parents))
+                if out.value:
+                    handle = Handle(out.value, destroy, (self._handle, *parents))
             if status not in (lib.MXG_OK, lib.MXG_ERROR_DOCUMENT):
                 raise error_of(status)
             if handle is None:
@@ -291,16 +240,14 @@ class Context(Native):
         as the options ask for them. The source of a pass is that of `Shader.pixel`, a compute stage. Raises DocumentError."""
         found = {}
         for index in range(lib.mxg_catalogue_num_passes()):
-            keep: list[Any] = []
-            desc = ffi.new("mxg_generate_desc *", {"size": ffi.sizeof("mxg_generate_desc")})
-            desc.target = keep_text(c_text(target, "target"), keep)
-            if options is not None:
-                keep.append(make_options(self, options))
-                desc.options = keep[-1]._handle.pointer
-            handle, status = self._make("mxg_result", lib.mxg_generate_pass, lib.mxg_result_destroy, (), index, desc)
+            desc = new("mxg_generate_desc", target=c_text(target, "target"))
+            made_options = None if options is None else make_options(self, options)
+            if made_options is not None:
+                desc.options = made_options._handle.pointer
+            handle, status = self._make(lib.mxg_generate_pass, lib.mxg_result_destroy, (), index, desc)
             shader = Shader(handle)
             if status != lib.MXG_OK:
-                raise DocumentError(shader.diagnostics)
+                raise document_error(shader.diagnostics)
             if shader.pixel is not None:
                 found[py_text(lib.mxg_catalogue_pass(index))] = shader
         return found
@@ -327,14 +274,13 @@ class Context(Native):
         below = None if standalone else self.library if base is None else base
         if below is not None and not isinstance(below, Library):
             raise TypeError(f"base must be Library, not {type(below).__name__}")
-        keep: list[Any] = []
-        names = ffi.new("const char *[]", [keep_text(c_path(path, "a path"), keep) for path in paths])
-        handle, status = self._make("mxg_library", lib.mxg_library_load, lib.mxg_library_unref,
-                                    (below._handle,) if below else (), below._handle.pointer if below else ffi.NULL, names,
+        names = c_texts(c_path(path, "a path") for path in paths)
+        handle, status = self._make(lib.mxg_library_load, lib.mxg_library_unref,
+                                    (below._handle,) if below else (), below._handle.pointer if below else None, names,
                                     len(paths))
         library = Library(handle)
         if status != lib.MXG_OK:
-            raise DocumentError(library.diagnostics)
+            raise document_error(library.diagnostics)
         return library
 
     # ---- Documents ----
@@ -345,11 +291,11 @@ class Context(Native):
         return self.library if library is None else library
 
     def _document(self, library: Library, function: Callable[..., int], *arguments: Any) -> Document:
-        handle, status = self._make("mxg_document", function, lib.mxg_document_destroy, (library._handle,),
+        handle, status = self._make(function, lib.mxg_document_destroy, (library._handle,),
                                     library._handle.pointer, *arguments)
         document = Document(self, library, handle)
         if status != lib.MXG_OK:
-            raise DocumentError(document.diagnostics, document)
+            raise document_error(document.diagnostics, document)
         return document
 
     def load(self, path: str | os.PathLike[str], *, library: Library | None = None) -> Document:
@@ -382,39 +328,39 @@ class Context(Native):
 
     def scene(self, *paths: str) -> Scene:
         """A scene of primitives by their paths, "/set/table", and those above them. Raises DocumentError if a path is none."""
-        scene = Scene(self._make("mxg_scene", lib.mxg_scene_create, lib.mxg_scene_destroy, ())[0])
+        scene = Scene(self._make(lib.mxg_scene_create, lib.mxg_scene_destroy, ())[0])
         scene.add(*paths)
         return scene
 
     def load_scene(self, path: str | os.PathLike[str], *, purpose: str | None = None) -> Scene:
         """Reads a list with one path in each line, or a USD text layer (.usda) with its bindings. `purpose` chooses among these:
         "full", "preview", or None for those of all purposes. Raises DocumentError."""
-        purpose_text = ffi.NULL if purpose is None else c_text(purpose, "purpose")
-        handle, status = self._make("mxg_scene", lib.mxg_scene_load, lib.mxg_scene_destroy, (), c_path(path, "path"), purpose_text)
+        purpose_text = optional_text(purpose, "purpose")
+        handle, status = self._make(lib.mxg_scene_load, lib.mxg_scene_destroy, (), c_path(path, "path"), purpose_text)
         scene = Scene(handle)
         if status != lib.MXG_OK:
-            raise DocumentError(scene.diagnostics)
+            raise document_error(scene.diagnostics)
         return scene
 
     def scene_materials(self, scene: Scene, *, library: Library | None = None) -> Document:
         """The materials in a USD scene as a document. `Document.with_materials` adds them to one. Raises DocumentError."""
         if not isinstance(scene, Scene):
             raise TypeError(f"scene must be Scene, not {type(scene).__name__}")
-        return self._document(self._library_for(library), lib.mxg_document_import, ffi.NULL, scene._handle.pointer)
+        return self._document(self._library_for(library), lib.mxg_document_import, None, scene._handle.pointer)
 
     # ---- Texts ----
 
     def rewrite(self, rewriting: Rewriting, name: str | os.PathLike[str], text: str | bytes | None = None) -> Rewritten:
         """Reads a document and writes it again. `text` None: reads the file `name`. Raises DocumentError."""
-        data = ffi.NULL if text is None else _document_bytes(text)
-        size = 0 if text is None else len(data)
-        handle, status = self._make("mxg_result", lib.mxg_rewrite, lib.mxg_result_destroy, (), Rewriting(rewriting),
+        data = None if text is None else _document_bytes(text)
+        size = 0 if data is None else len(data)
+        handle, status = self._make(lib.mxg_rewrite, lib.mxg_result_destroy, (), Rewriting(rewriting),
                                     c_path(name, "name"), data, size)
         owner = _Holder(handle)
         diagnostics = Diagnostics(lib.mxg_result_diagnostics(handle.pointer), owner)
         if status != lib.MXG_OK:
-            raise DocumentError(diagnostics)
-        return Rewritten(py_text(lib.mxg_result_text(handle.pointer, ffi.NULL)), diagnostics)
+            raise document_error(diagnostics)
+        return Rewritten(py_text(lib.mxg_result_text(handle.pointer, None)), diagnostics)
 
     def format(self, text: str | bytes, *, name: str = "<text>") -> str:
         """The text of a document in one layout; comments stay."""

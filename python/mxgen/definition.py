@@ -2,11 +2,12 @@
 """Libraries and the node definitions in them."""
 from __future__ import annotations
 
+import ctypes
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
-from ._calls import Handle, Native, c_text, error_of, ffi, lib, py_text, record
+from ._calls import Handle, Native, c_text, error_of, lib, py_text, record
 from .diagnostic import Diagnostics
 
 
@@ -177,17 +178,20 @@ class Library(Native):
             raise ValueError(f"'{nodedef.name}' is not a definition of this library")
         return bool(lib.mxg_library_has_implementation(self._handle.pointer, nodedef._index, c_text(target, "target")))
 
+    def __repr__(self) -> str:
+        return f"<Library: {lib.mxg_library_num_nodedefs(self._handle.pointer)} definitions>"
+
     def image(self) -> bytes:
         """The library image, for `Context.load_library(..., standalone=True)`. The library must be standalone."""
-        data, size = ffi.new("const void **"), ffi.new("size_t *")
+        data, size = ctypes.c_void_p(), ctypes.c_size_t()
         status = lib.mxg_library_image(self._handle.pointer, data, size)
         if status != lib.MXG_OK:
             raise error_of(status, "the library must be standalone" if status == lib.MXG_ERROR_ARGUMENT else "")
-        return bytes(ffi.buffer(data[0], size[0]))
+        return ctypes.string_at(data, size.value)
 
     def expand(self) -> str:
         """The library as a plain MaterialX document with all templates expanded."""
-        text = lib.mxg_library_xml(self._handle.pointer, ffi.NULL)
+        text = lib.mxg_library_xml(self._handle.pointer, None)
         if not text:
             raise error_of(lib.MXG_ERROR_MEMORY)
         return py_text(text)
@@ -196,6 +200,6 @@ class Library(Native):
     def losses(self) -> Diagnostics:
         """What `expand` cannot say in graphs for other tools: a warning for each input."""
         losses = lib.mxg_library_losses(self._handle.pointer)
-        if losses == ffi.NULL:
+        if losses is None:
             raise error_of(lib.MXG_ERROR_MEMORY)
         return Diagnostics(losses, self)

@@ -2,12 +2,13 @@
 """Diagnostics: the errors, warnings and notes of a document, library or call."""
 from __future__ import annotations
 
+import ctypes
 import enum
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any, overload
 
-from ._calls import Native, ffi, lib, py_text, record, sized_text
+from ._calls import Native, lib, py_text, record, sized_text
 
 
 class Severity(enum.IntEnum):
@@ -67,8 +68,8 @@ class Diagnostic:
             if text is not None and not isinstance(text, str):
                 raise TypeError(f"{name} must be str, not {type(text).__name__}")
         shown = _line_of(source, self.line) if source is not None else line
-        data = ffi.NULL if shown is None else shown.encode("utf-8", "surrogateescape")
-        size = 0 if shown is None else len(data)
+        data = None if shown is None else shown.encode("utf-8", "surrogateescape")
+        size = 0 if data is None else len(data)
         native = self._list._pointer
         return sized_text(lambda out, capacity: lib.mxg_diagnostics_format(native, self._index, data, size, bool(colour), out, capacity))
 
@@ -154,7 +155,7 @@ def color_difference(a: Sequence[float], b: Sequence[float]) -> float:
     """CIEDE2000 between two linear colours of Rec. 709."""
     if len(a) != 3 or len(b) != 3:
         raise ValueError("a colour has three numbers")
-    return float(lib.mxg_color_difference(list(a), list(b)))
+    return float(lib.mxg_color_difference((ctypes.c_float * 3)(*a), (ctypes.c_float * 3)(*b)))
 
 
 def library_version() -> str:

@@ -2,15 +2,20 @@
 """Documents and their elements."""
 from __future__ import annotations
 
+import base64
+import html
+import os
+import pathlib
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import zip_longest
-from typing import TYPE_CHECKING, Any, Union
+from typing import TYPE_CHECKING, Any, NamedTuple, Union
 
-from ._calls import Handle, Native, c_text, error_of, ffi, keep_text, lib, py_text, record, sized_text
+from ._calls import Handle, Native, c_number, c_text, error_of, lib, new, py_text, record, sized_text
 from .definition import OF_DOCUMENT, Library, NodeDef, read_nodedef, read_nodedefs
 from .diagnostic import Diagnostics
-from .error import ArgumentError, DocumentError, OutOfMemoryError
+from .error import ArgumentError, OutOfMemoryError, document_error
+from .render import RenderError, render_picture
 from .scene import Bindings, Scene, Stack, make_bind_desc
 from .shader import OptionValue, Shader, View, make_options
 
@@ -46,6 +51,17 @@ class Connection:
     interfacename: str
 
 
+class Edge(NamedTuple):
+    """A connection of the graph."""
+
+    #: the node or nodegraph that reads
+    element: Element
+    #: its input, or the <output> of the nodegraph
+    input: Element
+    #: the node or nodegraph that gives the value, or the input of the nodegraph
+    upstream: Element
+
+
 class Element:
     """An element of a document. Two are equal if they are the same element of the same document."""
 
@@ -56,7 +72,7 @@ class Element:
             raise TypeError(f"document must be Document, not {type(document).__name__}")
         self.document = document
         #: documents made by edits keep the number
-        self.number = number
+        self.number = c_number(number, "number")
         self._info()
 
     def _info(self) -> dict[str, Any]:
@@ -113,29 +129,61 @@ class Element:
         return self._element(self._info()["parent"])
 
     @property
-    def children(self) -> Iterator[Element]:
+    def children(self) -> tuple[Element, ...]:
         """The elements directly below."""
+        found = []
         child = self._element(self._info()["first_child"])
         while child is not None:
-            yield child
+            found.append(child)
             child = self._element(child._info()["next"])
+        return tuple(found)
+
+    def find(self, path: str) -> Element | None:
+        """The element of a path below."""
+        number = lib.mxg_document_find_element(self.document._handle.pointer, self.number, c_text(path, "path"))
+        return self._element(number)
+
+    def __getitem__(self, path: str) -> Element:
+        """The element of a path below: shader["base_color"]. Raises KeyError."""
+        element = self.find(path)
+        if element is None:
+            raise KeyError(path)
+        return element
+
+    def __contains__(self, path: object) -> bool:
+        """Whether there is an element of a path below."""
+        return isinstance(path, str) and self.find(path) is not None
+
+    def __iter__(self) -> Iterator[Element]:
+        """The elements directly below."""
+        return iter(self.children)
 
     def child(self, name: str) -> Element | None:
         """The element of a name directly below."""
         path = c_text(name, "name")
         return self._element(lib.mxg_document_find_element(self.document._handle.pointer, self.number, path) if path else 0)
 
-    def children_of(self, category: str) -> Iterator[Element]:
+    def children_of(self, category: str) -> tuple[Element, ...]:
         """The elements of a category directly below."""
-        return (child for child in self.children if child.category == category)
+        return tuple(child for child in self.children if child.category == category)
+
+    def input(self, name: str) -> Element | None:
+        """The input of a name; None: the document does not write it."""
+        child = self.child(name)
+        return child if child is not None and child.category == "input" else None
+
+    def output(self, name: str) -> Element | None:
+        """The output of a name."""
+        child = self.child(name)
+        return child if child is not None and child.category == "output" else None
 
     @property
-    def inputs(self) -> Iterator[Element]:
+    def inputs(self) -> tuple[Element, ...]:
         """The inputs that the document writes. `definition` has those that keep their defaults, too."""
         return self.children_of("input")
 
     @property
-    def outputs(self) -> Iterator[Element]:
+    def outputs(self) -> tuple[Element, ...]:
         """The outputs of a nodegraph."""
         return self.children_of("output")
 
@@ -189,7 +237,7 @@ class Element:
     @property
     def connection(self) -> Connection | None:
         """The connection of an input or output; None if it has none."""
-        out = ffi.new("mxg_connection *", {"size": ffi.sizeof("mxg_connection")})
+        out = new("mxg_connection")
         status = lib.mxg_document_connection(self.document._handle.pointer, self.number, out)
         if status == lib.MXG_ERROR_ARGUMENT:
             return None
@@ -198,21 +246,25 @@ class Element:
         return Connection(self._element(out.source), py_text(out.output), py_text(out.interfacename))
 
     @property
-    def upstream(self) -> Iterator[Element]:
-        """The nodes and nodegraphs that the element depends on, each once, the nearest first. Goes into nodegraphs."""
-        seen: set[Element] = set()
-        ahead = [self]
+    def edges(self) -> tuple[Edge, ...]:
+        """The connections that the element depends on, each once, the nearest first. Goes into nodegraphs."""
+        found: dict[Element, Edge] = {}
+        ahead, seen = [self], {self}
         for element in ahead:
-            ports = [element] if element.category in ("input", "output") else [*element.inputs, *element.outputs]
-            for port in ports:
+            for port in [element] if element.category in ("input", "output") else [*element.inputs, *element.outputs]:
                 connection = port.connection
-                source = connection.source if connection is not None else None
-                if source is None or source in seen:
+                if connection is None or connection.source is None:
                     continue
-                seen.add(source)
-                ahead.append(source)
-                if source.category != "input":
-                    yield source
+                found.setdefault(port, Edge(port.parent or element, port, connection.source))
+                if connection.source not in seen:
+                    seen.add(connection.source)
+                    ahead.append(connection.source)
+        return tuple(found.values())
+
+    @property
+    def upstream(self) -> tuple[Element, ...]:
+        """The nodes and nodegraphs that the element depends on, each once, the nearest first. Goes into nodegraphs."""
+        return tuple(dict.fromkeys(edge.upstream for edge in self.edges if edge.upstream.category != "input"))
 
     @property
     def definition(self) -> NodeDef | None:
@@ -275,7 +327,22 @@ class Document(Native):
 
     def __iter__(self) -> Iterator[Element]:
         """The elements of the root."""
-        return self.root.children
+        return iter(self.root.children)
+
+    def __len__(self) -> int:
+        """The number of elements of the root."""
+        return len(self.root.children)
+
+    def __bool__(self) -> bool:
+        """True, also for a document without elements."""
+        return True
+
+    def __contains__(self, item: object) -> bool:
+        """Whether the document has an element, or one of a path."""
+        return item.document is self if isinstance(item, Element) else isinstance(item, str) and self.find(item) is not None
+
+    def __repr__(self) -> str:
+        return f"<Document '{self.files[0]}': {len(self)} elements>"
 
     def walk(self) -> Iterator[Element]:
         """All elements, in the order of the document, the root first."""
@@ -304,14 +371,33 @@ class Document(Native):
 
     def xml(self) -> str:
         """The document as MaterialX XML. Reading the text gives an equal tree."""
-        text = lib.mxg_document_xml(self._handle.pointer, ffi.NULL)
+        text = lib.mxg_document_xml(self._handle.pointer, None)
         if not text:
             raise OutOfMemoryError("there is no memory for the text")
         return py_text(text)
 
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes the document as MaterialX XML."""
+        pathlib.Path(path).write_text(self.xml(), encoding="utf-8", errors="surrogateescape")
+
     def edit(self) -> Edit:
         """Begins a changed copy."""
         return self.context.edit(self)
+
+    # ---- Notebooks ----
+
+    def _repr_png_(self) -> bytes | None:
+        """A picture of the first renderable, where mxgen-render is installed and can draw it."""
+        try:
+            return render_picture(self, size=256) if self.renderables else None
+        except RenderError:
+            return None
+
+    def _repr_html_(self) -> str:
+        """The picture and the messages."""
+        image, messages = self._repr_png_(), str(self.validate())
+        shown = "" if image is None else f'<img src="data:image/png;base64,{base64.b64encode(image).decode()}">'
+        return f"{shown}<pre>{html.escape(messages or repr(self))}</pre>"
 
     # ---- Scenes ----
 
@@ -329,12 +415,11 @@ class Document(Native):
         difference are resolved again. Raises DocumentError."""
         if not isinstance(scene, Scene):
             raise TypeError(f"scene must be Scene, not {type(scene).__name__}")
-        keep: list[Any] = []
-        handle, status = self.context._make("mxg_bindings", lib.mxg_bindings_create, lib.mxg_bindings_destroy, (self._handle, scene._handle),
-                                            self._handle.pointer, scene._handle.pointer, make_bind_desc(look, solo, mute, previous, keep))
+        handle, status = self.context._make(lib.mxg_bindings_create, lib.mxg_bindings_destroy, (self._handle, scene._handle),
+                                            self._handle.pointer, scene._handle.pointer, make_bind_desc(look, solo, mute, previous))
         bindings = Bindings(self, scene, handle)
         if status != lib.MXG_OK:
-            raise DocumentError(bindings.diagnostics)
+            raise document_error(bindings.diagnostics)
         return bindings
 
     # ---- Calls ----
@@ -347,7 +432,7 @@ class Document(Native):
 
     def _call(self, context: Context | None, function: Callable[..., int], *arguments: Any) -> tuple[Shader, int]:
         """Makes a result with this document, and with another context if one is given."""
-        handle, status = self._context_for(context)._make("mxg_result", function, lib.mxg_result_destroy, (self._handle,),
+        handle, status = self._context_for(context)._make(function, lib.mxg_result_destroy, (self._handle,),
                                                           self._handle.pointer, *arguments)
         return Shader(handle), status
 
@@ -355,30 +440,30 @@ class Document(Native):
         """Checks every node, connection and value against the library, without generating. Errors are in the result."""
         return self._call(context, lib.mxg_validate)[0].diagnostics
 
-    def _request(self, context: Context | None, target: str, element: str | Element | Stack | None,
-                 options: Mapping[str, OptionValue] | None, keep: list[Any]) -> Any:
-        """A mxg_generate_desc; it lives as long as `keep`."""
-        desc = ffi.new("mxg_generate_desc *", {"size": ffi.sizeof("mxg_generate_desc")})
+    def _request(self, context: Context | None, target: str, element: Item | None,
+                 options: Mapping[str, OptionValue] | None) -> Any:
+        """A mxg_generate_desc, which keeps its options."""
+        desc = new("mxg_generate_desc")
         if isinstance(element, Stack):
             if element.bindings.document is not self:
                 raise ValueError("the stack is of another document")
             desc.bindings = element.bindings._handle.pointer
             desc.stack = element.number
             element = None
-        if isinstance(element, Element):
-            if element.document is not self:
-                raise ValueError("the element is of another document")
+        if isinstance(element, Element) and element.document is not self:
+            raise ValueError("the element is of another document")
+        if isinstance(element, (Element, Renderable)):
             element = element.path
-        desc.target = keep_text(c_text(target, "target"), keep)
+        desc.target = c_text(target, "target")
         if element is not None:
-            desc.element = keep_text(c_text(element, "element"), keep)
+            desc.element = c_text(element, "element")
         if options is not None:
             made_options = make_options(self._context_for(context), options)
-            keep.append(made_options)
+            desc.keep = made_options
             desc.options = made_options._handle.pointer
         return desc
 
-    def generate(self, target: str, element: str | Element | Stack | None = None, *, options: Mapping[str, OptionValue] | None = None,
+    def generate(self, target: str, element: Item | None = None, *, options: Mapping[str, OptionValue] | None = None,
                  without_source: bool = False, only_diagnostics: bool = False, context: Context | None = None) -> Shader:
         """Makes a shader. `element` is a material, shader, node or output, a graph with one output, a look with one material, or a
         stack of `Bindings`; None: the first renderable. `options` has the keys of `mxgen.options()`; a list gives several values. Raises
@@ -386,24 +471,26 @@ class Document(Native):
 
         `without_source` leaves out the source, `only_diagnostics` everything but the diagnostics. A thread that generates at the
         same time as another one gives its own `context`."""
-        keep: list[Any] = []
-        desc = self._request(context, target, element, options, keep)
+        desc = self._request(context, target, element, options)
         desc.without_source = without_source
         desc.only_diagnostics = only_diagnostics
         shader, status = self._call(context, lib.mxg_generate, desc)
         if status != lib.MXG_OK:
-            raise DocumentError(shader.diagnostics)
+            raise document_error(shader.diagnostics)
         return shader
 
-    def inspect(self, view: View, element: str | Element | Stack | None = None, *, target: str = "glsl",
+    def inspect(self, view: View, element: Item | None = None, *, target: str = "glsl",
                 options: Mapping[str, OptionValue] | None = None, context: Context | None = None) -> str:
         """A text for people: the tree, the graph, the IR or the closures. Raises DocumentError."""
-        keep: list[Any] = []
-        desc = self._request(context, target, element, options, keep)
+        desc = self._request(context, target, element, options)
         result, status = self._call(context, lib.mxg_inspect, View(view), desc)
         if status != lib.MXG_OK:
-            raise DocumentError(result.diagnostics)
+            raise document_error(result.diagnostics)
         return result._text()
+
+
+#: What `Document.generate` takes: a path, or the element itself.
+Item = Union[str, Element, Renderable, Stack]
 
 
 def equal(one: Document | Element, other: Document | Element) -> bool:

@@ -2,21 +2,24 @@
 """Edits: documents made from nothing or from other documents."""
 from __future__ import annotations
 
-from collections.abc import Sequence
+import ctypes
+import re
+from collections.abc import Iterable
 from numbers import Real
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Union
 
-from ._calls import Handle, Native, c_text, error_of, ffi, lib, sized_text
+from ._calls import Handle, Native, c_text, error_of, lib, optional_text, sized_text
 from .definition import Library
 from .document import Document, Element
-from .error import DocumentError, EditError, Error
+from .error import EditError, Error, document_error
 
 if TYPE_CHECKING:
     from .context import Context
 
-#: A value for an input: the text of any type, or a number, a boolean, or the components of a colour, vector or matrix.
-NewValue = Union[bool, int, float, str, Sequence[float]]
+#: A value for an input: the text of any type, or a number, a boolean, or the components of a colour, vector or matrix, also in an array
+#: of NumPy or nested.
+NewValue = Union[bool, int, float, str, Iterable[Any]]
 
 
 def _reason_of(pointer: Any) -> str:
@@ -35,8 +38,8 @@ class Draft:
 
     def add(self, category: str, name: str | None = None, type: str | None = None) -> Draft:
         """Appends an element below. The name must be new there."""
-        return self.edit._made(lib.mxg_edit_add_element, self.number, c_text(category, "category"), _optional(name, "name"),
-                               _optional(type, "type"))
+        return self.edit._made(lib.mxg_edit_add_element, self.number, c_text(category, "category"), optional_text(name, "name"),
+                               optional_text(type, "type"))
 
     def child(self, name: str) -> Draft | None:
         """The element of a name directly below."""
@@ -44,9 +47,20 @@ class Draft:
         number = lib.mxg_edit_find_element(self.edit._pointer(), self.number, path) if path else 0
         return Draft(self.edit, number) if number else None
 
+    def unique_name(self, name: str) -> str:
+        """A name that is new below the element: this one, with '_' for what no name can have, or the same with the next free number."""
+        made = re.sub(r"\W", "_", name, flags=re.ASCII)
+        made = made if made and not made[0].isdigit() else f"_{made}"
+        stem = made.rstrip("0123456789")
+        number = int(made[len(stem):] or 1)
+        while self.child(made) is not None:
+            number += 1
+            made = f"{stem}{number}"
+        return made
+
     def set(self, attribute: str, value: str | None) -> Draft:
         """Sets an attribute; None removes it."""
-        self.edit._change(lib.mxg_edit_set_attribute, self.number, c_text(attribute, "attribute"), _optional(value, "value"))
+        self.edit._change(lib.mxg_edit_set_attribute, self.number, c_text(attribute, "attribute"), optional_text(value, "value"))
         return self
 
     def rename(self, name: str) -> Draft:
@@ -55,32 +69,29 @@ class Draft:
         return self
 
     def value(self, input: str, value: NewValue, type: str | None = None) -> Draft:
-        """Gives an input of a node a value, and removes its connection. An input that the node does not have yet needs a type."""
-        name, kind = c_text(input, "input"), _optional(type, "type")
-        if kind is ffi.NULL or isinstance(value, (str, int)):
+        """Gives an input of a node a value, and removes its connection. `type` None: the type of the input, or that of the definition."""
+        name, kind = c_text(input, "input"), optional_text(type, "type")
+        if isinstance(value, (str, int)):
             self.edit._change(lib.mxg_edit_set_value, self.number, name, kind, _text_of(value))
         else:
-            numbers = _numbers_of(value)
-            self.edit._change(lib.mxg_edit_set_numbers, self.number, name, kind, ffi.new("float[]", numbers), len(numbers))
+            numbers = _numbers_of(value.tolist() if hasattr(value, "tolist") else value) # an array of NumPy may have no dimension
+            self.edit._change(lib.mxg_edit_set_numbers, self.number, name, kind, (ctypes.c_float * len(numbers))(*numbers), len(numbers))
         return self
 
-    def connect(self, input: str | None, source: Draft, output: str | None = None) -> Draft:
+    def connect(self, input: str | None, source: Draft | Element, output: str | None = None) -> Draft:
         """Connects an input of a node, or an <output> element (then `input` is None), to a node, a nodegraph or an input of the
         nodegraph around it. `output` None: the only output of the source."""
-        self.edit._own(source)
-        self.edit._change(lib.mxg_edit_connect_input, self.number, _optional(input, "input"), source.number, _optional(output, "output"))
+        self.edit._change(lib.mxg_edit_connect_input, self.number, optional_text(input, "input"), self.edit._own(source), optional_text(output, "output"))
         return self
 
     def remove(self) -> None:
         """Removes the element with all below it."""
         self.edit._change(lib.mxg_edit_remove_element, self.number)
 
-    def move(self, parent: Draft | None = None, before: Draft | None = None) -> Draft:
+    def move(self, parent: Draft | Element | None = None, before: Draft | Element | None = None) -> Draft:
         """Moves the element before another one (None: to the end) below `parent` (None: the root)."""
-        for other in parent, before:
-            if other is not None:
-                self.edit._own(other)
-        self.edit._change(lib.mxg_edit_move_element, self.number, parent.number if parent else 0, before.number if before else 0)
+        numbers = [0 if other is None else self.edit._own(other) for other in (parent, before)]
+        self.edit._change(lib.mxg_edit_move_element, self.number, *numbers)
         return self
 
     def copy(self, element: Element, name: str | None = None) -> Draft:
@@ -88,7 +99,7 @@ class Draft:
         if not isinstance(element, Element):
             raise TypeError(f"element must be Element, not {_type_name(element)}")
         return self.edit._made(lib.mxg_edit_copy_element, self.number, element.document._handle.pointer, element.number,
-                               _optional(name, "name"))
+                               optional_text(name, "name"))
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Draft) and other.edit is self.edit and other.number == self.number
@@ -108,8 +119,8 @@ class Edit(Native):
 
     def __init__(self, context: Context, library: Library, source: Document | None, name: str) -> None:
         parents = (library._handle,) if source is None else (library._handle, source._handle)
-        handle, _ = context._make("mxg_edit", lib.mxg_edit_create, lib.mxg_edit_destroy, parents, library._handle.pointer,
-                                  ffi.NULL if source is None else source._handle.pointer, c_text(name, "name"))
+        handle, _ = context._make(lib.mxg_edit_create, lib.mxg_edit_destroy, parents, library._handle.pointer,
+                                  None if source is None else source._handle.pointer, c_text(name, "name"))
         self._handle = handle
         self._context = context
         self._library = library
@@ -119,15 +130,17 @@ class Edit(Native):
     # ---- Calls ----
 
     def _pointer(self) -> Any:
-        if getattr(self, "_handle", None) is None:
-            raise Error("the edit has ended")
         return self._handle.pointer
 
-    def _own(self, draft: Draft) -> None:
+    def _own(self, draft: Draft | Element) -> int:
+        """The number of an element of the edit, or of the document that it comes from."""
+        if isinstance(draft, Element):
+            draft = self[draft]
         if not isinstance(draft, Draft):
-            raise TypeError(f"an element of the edit must be Draft, not {_type_name(draft)}")
+            raise TypeError(f"an element of the edit must be Draft or Element, not {_type_name(draft)}")
         if draft.edit is not self:
             raise ValueError("the element is of another edit")
+        return draft.number
 
     def _change(self, function: Any, *arguments: Any) -> None:
         pointer = self._pointer()
@@ -173,6 +186,13 @@ class Edit(Native):
             raise KeyError(path)
         return found
 
+    def __contains__(self, path: object) -> bool:
+        return isinstance(path, str) and self.find(path) is not None
+
+    def unique_name(self, name: str) -> str:
+        """A name that is new in the root: `Draft.unique_name`."""
+        return self.root.unique_name(name)
+
     def add(self, category: str, name: str | None = None, type: str | None = None) -> Draft:
         """Appends an element to the root."""
         return self.root.add(category, name, type)
@@ -186,14 +206,14 @@ class Edit(Native):
     def end(self) -> Document:
         """Makes the document. The edit is over, also after an error. Raises DocumentError."""
         pointer, handle = self._pointer(), self._handle
-        out = ffi.new("mxg_document **")
+        out = ctypes.c_void_p()
         del self._handle
         made = None
         try:
             with self._context._turn():
                 status = lib.mxg_edit_commit(pointer, out)
-                if out[0]:
-                    made = Handle(out[0], lib.mxg_document_destroy, (self._context._handle, self._library._handle))
+                if out.value:
+                    made = Handle(out.value, lib.mxg_document_destroy, (self._context._handle, self._library._handle))
         except BaseException: # of a callback
             if made is not None:
                 made.release()
@@ -204,7 +224,7 @@ class Edit(Native):
             raise error_of(status)
         document = Document(self._context, self._library, made)
         if status == lib.MXG_ERROR_DOCUMENT:
-            raise DocumentError(document.diagnostics, document)
+            raise document_error(document.diagnostics, document)
         if status != lib.MXG_OK:
             raise error_of(status)
         self._document = document
@@ -212,10 +232,7 @@ class Edit(Native):
 
     def cancel(self) -> None:
         """Drops the edit."""
-        if getattr(self, "_handle", None) is not None:
-            handle = self._handle
-            del self._handle
-            handle.release()
+        self.close()
 
     @property
     def document(self) -> Document:
@@ -224,13 +241,10 @@ class Edit(Native):
             raise Error("the edit has not made a document")
         return self._document
 
-    def __enter__(self) -> Edit:
-        return self
-
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None) -> None:
         if kind is not None:
             self.cancel()
-        elif getattr(self, "_handle", None) is not None:
+        elif self._is_open:
             self.end()
 
 
@@ -238,27 +252,19 @@ def _type_name(value: object) -> str:
     return type(value).__name__
 
 
-def _optional(text: str | None, what: str) -> Any:
-    return ffi.NULL if text is None else c_text(text, what)
-
-
-def _numbers_of(value: float | Sequence[float]) -> list[float]:
+def _numbers_of(value: Any) -> list[float]:
+    """The numbers of a value in a row: of a matrix row by row."""
     if isinstance(value, Real):
         return [float(value)]
-    if not isinstance(value, Sequence) or isinstance(value, (str, bytes, bytearray)):
+    if not isinstance(value, Iterable) or isinstance(value, (str, bytes, bytearray)):
         raise TypeError(f"value must be a number, str or a sequence of numbers, not {_type_name(value)}")
-    for number in value:
-        if not isinstance(number, Real):
-            raise TypeError(f"a component of value must be a number, not {_type_name(number)}")
-    return [float(number) for number in value]
+    return [number for item in value for number in _numbers_of(item)]
 
 
-def _text_of(value: NewValue) -> bytes:
-    """A value as MaterialX text."""
+def _text_of(value: int | str) -> bytes:
+    """A text, an integer or a boolean as MaterialX text."""
     if isinstance(value, str):
         return c_text(value, "value")
     if isinstance(value, bool):
         return b"true" if value else b"false"
-    if isinstance(value, int):
-        return str(value).encode()
-    return ", ".join(repr(number) for number in _numbers_of(value)).encode()
+    return str(value).encode()

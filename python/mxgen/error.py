@@ -48,3 +48,13 @@ class DocumentError(Error):
 
     def __reduce__(self) -> Any:
         raise TypeError("a DocumentError holds a native object, which cannot be copied or pickled")
+
+
+class MissingFileError(DocumentError, FileNotFoundError):
+    """The file that the caller names does not exist, or one that it includes."""
+
+
+def document_error(diagnostics: Diagnostics, document: Document | None = None) -> DocumentError:
+    """The exception for the diagnostics of a call."""
+    is_missing = len(diagnostics) > 0 and diagnostics[0].id == "file-missing"
+    return (MissingFileError if is_missing else DocumentError)(diagnostics, document)

@@ -2,14 +2,15 @@
 """Scenes, and the layers of materials of their primitives (docs/slots.md)."""
 from __future__ import annotations
 
+import ctypes
 import enum
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from ._calls import Handle, Native, c_text, error_of, ffi, keep_text, lib, py_text, record, sized_text
+from ._calls import Handle, Native, c_number, c_text, c_texts, error_of, guarded, lib, new, optional_text, py_text, record, sized_text
 from .diagnostic import Diagnostics
-from .error import ArgumentError, DocumentError
+from .error import ArgumentError, document_error
 
 if TYPE_CHECKING:
     from .document import Document
@@ -41,8 +42,7 @@ def _slot_text(function: Callable[..., int], text: str, what: str) -> str:
 
 def _piece(struct: Any, name: str) -> str:
     """The text of a member without a NUL; member `<name>_len` has its length."""
-    data: bytes = ffi.buffer(getattr(struct, name), getattr(struct, f"{name}_len"))[:]
-    return data.decode("utf-8", "surrogateescape")
+    return py_text(ctypes.string_at(getattr(struct, name), getattr(struct, f"{name}_len")))
 
 
 @dataclass(frozen=True)
@@ -71,11 +71,11 @@ class Primitive:
             raise TypeError(f"scene must be Scene, not {type(scene).__name__}")
         self.scene = scene
         #: a parent has a lower number than its children
-        self.number = number
+        self.number = c_number(number, "number")
         self._info()
 
     def _info(self) -> Any:
-        out = ffi.new("mxg_primitive *", {"size": ffi.sizeof("mxg_primitive")})
+        out = new("mxg_primitive")
         if lib.mxg_scene_primitive(self.scene._handle.pointer, self.number, out) != lib.MXG_OK:
             raise ArgumentError(f"the scene has no primitive {self.number}")
         return out
@@ -116,7 +116,7 @@ class Primitive:
         """The properties by name. A primitive of a list has none; an instance has those of its prototype that it does not set."""
         pointer = self.scene._handle.pointer
         found = {}
-        out = ffi.new("mxg_property *", {"size": ffi.sizeof("mxg_property")})
+        out = new("mxg_property")
         for index in range(lib.mxg_scene_num_properties(pointer, self.number)):
             lib.mxg_scene_property(pointer, self.number, index, out)
             made = _read_property(out)
@@ -125,7 +125,7 @@ class Primitive:
 
     def property(self, name: str) -> Property | None:
         """The property of a name; None: there is none."""
-        out = ffi.new("mxg_property *", {"size": ffi.sizeof("mxg_property")})
+        out = new("mxg_property")
         pointer = self.scene._handle.pointer
         index = lib.mxg_scene_find_property(pointer, self.number, c_text(name, "name"))
         return _read_property(out) if lib.mxg_scene_property(pointer, self.number, index, out) == lib.MXG_OK else None
@@ -134,8 +134,8 @@ class Primitive:
         """The numbers of a property in a row; true is 1. Empty: there are none."""
         key = c_text(name, "name")
         pointer = self.scene._handle.pointer
-        count = lib.mxg_scene_property_numbers(pointer, self.number, key, ffi.NULL, 0)
-        out = ffi.new("double[]", count)
+        count = lib.mxg_scene_property_numbers(pointer, self.number, key, None, 0)
+        out = (ctypes.c_double * count)()
         lib.mxg_scene_property_numbers(pointer, self.number, key, out, count)
         return tuple(out)
 
@@ -154,8 +154,8 @@ class Primitive:
         """The primitives that a relationship names; None for a path that the scene does not have."""
         key = c_text(name, "name")
         pointer = self.scene._handle.pointer
-        count = lib.mxg_scene_property_targets(pointer, self.number, key, ffi.NULL, 0)
-        out = ffi.new("uint32_t[]", count)
+        count = lib.mxg_scene_property_targets(pointer, self.number, key, None, 0)
+        out = (ctypes.c_uint32 * count)()
         lib.mxg_scene_property_targets(pointer, self.number, key, out, count)
         return tuple(self.scene._primitive(number) for number in out)
 
@@ -172,10 +172,6 @@ class Primitive:
 def _read_property(struct: Any) -> Property:
     return Property(name=_piece(struct, "name"), type=_piece(struct, "type"), interpolation=_piece(struct, "interpolation"),
                     value=_piece(struct, "value"), file=py_text(struct.file), line=struct.line, column=struct.column)
-
-
-def _keep_exception(_type: Any, error: BaseException | None, traceback: Any) -> None:
-    ffi.from_handle(traceback.tb_frame.f_locals["user_data"]).raised = error
 
 
 @dataclass(frozen=True, eq=False)
@@ -219,7 +215,7 @@ class _Adding:
         self.numbers: list[int] = []
         self.known: dict[NewPrimitive, int] = {}
         self.raised: BaseException | None = None
-        self.keep: list[Any] = []
+        self.keep: tuple[Any, ...] = () # the texts of the last one
 
     def parent(self, item: NewPrimitive) -> int:
         above = item.parent
@@ -244,21 +240,13 @@ class _Adding:
             if not isinstance(item, NewPrimitive):
                 raise TypeError(f"a primitive must be NewPrimitive, not {type(item).__name__}")
             self.given.append(item)
-            self.keep = []
-            out.parent = self.parent(item)
-            for name, text in ("name", item.name), ("type", item.type):
-                data = c_text(text, name)
-                setattr(out, name, keep_text(data, self.keep))
-                setattr(out, f"{name}_len", len(data))
+            self.keep = ctypes.create_string_buffer(c_text(item.name, "name")), ctypes.create_string_buffer(c_text(item.type, "type"))
+            out.contents.parent = self.parent(item)
+            for name, text in zip(("name", "type"), self.keep):
+                setattr(out.contents, name, ctypes.addressof(text))
+                setattr(out.contents, f"{name}_len", len(text) - 1)
             return True
         return False
-
-
-@ffi.def_extern(error=False, onerror=_keep_exception)
-def callback_next_primitive(user_data: Any, last: int, out: Any) -> bool:
-    """The parameter of mxg_scene_add_primitives."""
-    adding: _Adding = ffi.from_handle(user_data)
-    return adding.fill(last, out)
 
 
 class Scene(Native):
@@ -278,11 +266,10 @@ class Scene(Native):
     def add(self, *paths: str) -> None:
         """Adds primitives and those above them. Raises DocumentError if a path is none (the others are added). After any change of a
         scene its bindings say nothing any more: call `Document.bind` with `previous`."""
-        keep: list[Any] = []
-        names = ffi.new("const char *[]", [keep_text(c_text(path, "a path"), keep) for path in paths])
+        names = c_texts(c_text(path, "a path") for path in paths)
         status = lib.mxg_scene_add_paths(self._handle.pointer, names, len(paths))
         if status == lib.MXG_ERROR_DOCUMENT:
-            raise DocumentError(self.diagnostics)
+            raise document_error(self.diagnostics)
         if status != lib.MXG_OK:
             raise error_of(status)
 
@@ -290,12 +277,11 @@ class Scene(Native):
         """Adds primitives with parents and types, and gives them: None for one that is faulty. Raises DocumentError if all are added but
         faulty ones. The iterable must not use the scene."""
         adding = _Adding(self, primitives)
-        handle = ffi.new_handle(adding)
-        status = lib.mxg_scene_add_primitives(self._handle.pointer, lib.callback_next_primitive, handle)
+        status = lib.mxg_scene_add_primitives(self._handle.pointer, guarded("next_primitive", adding, adding.fill, False), None)
         if adding.raised is not None:
             raise adding.raised
         if status == lib.MXG_ERROR_DOCUMENT:
-            raise DocumentError(self.diagnostics)
+            raise document_error(self.diagnostics)
         if status != lib.MXG_OK:
             raise error_of(status)
         return tuple(self._primitive(number) for number in adding.numbers)
@@ -304,7 +290,7 @@ class Scene(Native):
         """Removes primitives, all below them, and their bindings. The numbers of the others stay. Raises ArgumentError if one is removed
         already, and KeyError for an unknown path: all stay then."""
         numbers = [self._place(primitive) for primitive in primitives]
-        self._change(lib.mxg_scene_remove_primitives(self._handle.pointer, ffi.new("uint32_t[]", numbers), len(numbers)))
+        self._change(lib.mxg_scene_remove_primitives(self._handle.pointer, (ctypes.c_uint32 * len(numbers))(*numbers), len(numbers)))
 
     # ---- Bindings of the scene itself ----
 
@@ -320,7 +306,7 @@ class Scene(Native):
 
     def _change(self, status: int) -> None:
         if status == lib.MXG_ERROR_DOCUMENT:
-            raise DocumentError(self.diagnostics)
+            raise document_error(self.diagnostics)
         if status != lib.MXG_OK:
             raise error_of(status)
 
@@ -362,9 +348,12 @@ class Scene(Native):
     def __iter__(self) -> Iterator[Primitive]:
         """All primitives, each after its parent."""
         pointer = self._handle.pointer
-        out = ffi.new("mxg_primitive *", {"size": ffi.sizeof("mxg_primitive")})
+        out = new("mxg_primitive")
         return (Primitive(self, number) for number in range(lib.mxg_scene_num_primitives(pointer))
                 if lib.mxg_scene_primitive(pointer, number, out) == lib.MXG_OK)
+
+    def __repr__(self) -> str:
+        return f"<Scene: {len(self)} primitives>"
 
     @property
     def up_axis(self) -> str:
@@ -467,19 +456,15 @@ class _Pieces:
         self.data = bytearray()
         self.raised: BaseException | None = None
 
-
-@ffi.def_extern(error=False, onerror=_keep_exception)
-def callback_write(user_data: Any, data: Any, size: int) -> bool:
-    """The parameter of mxg_bindings_write and mxg_bindings_write_reasons."""
-    ffi.from_handle(user_data).data.extend(ffi.buffer(data, size))
-    return True
+    def add(self, data: int, size: int) -> bool:
+        self.data += ctypes.string_at(data, size)
+        return True
 
 
 def _written(function: Callable[..., int], *arguments: Any) -> tuple[str, int]:
     """The text that a function writes in pieces, and its status."""
     pieces = _Pieces()
-    handle = ffi.new_handle(pieces)
-    status = function(*arguments, lib.callback_write, handle)
+    status = function(*arguments, guarded("write", pieces, pieces.add, False), None)
     if pieces.raised is not None:
         raise pieces.raised
     return pieces.data.decode("utf-8", "surrogateescape"), status
@@ -516,6 +501,9 @@ class Bindings(Native):
     def diagnostics(self) -> Diagnostics:
         """The diagnostics of finding the layers."""
         return Diagnostics(lib.mxg_bindings_diagnostics(self._handle.pointer), self)
+
+    def __repr__(self) -> str:
+        return f"<Bindings: {lib.mxg_bindings_num_stacks(self._handle.pointer)} stacks>"
 
     @property
     def num_resolved(self) -> int:
@@ -559,7 +547,7 @@ class Bindings(Native):
         """All bindings as text. Raises DocumentError if USDA cannot express some of them."""
         made, status = _written(lib.mxg_bindings_write, self._handle.pointer, BindingsFormat(format))
         if status == lib.MXG_ERROR_DOCUMENT:
-            raise DocumentError(self.diagnostics)
+            raise document_error(self.diagnostics)
         if status != lib.MXG_OK:
             raise error_of(status)
         return made
@@ -572,20 +560,16 @@ class Bindings(Native):
         return made
 
 
-def make_bind_desc(look: str | None, solo: Sequence[str], mute: Sequence[str], previous: Bindings | None, keep: list[Any]) -> Any:
-    """A mxg_bindings_desc; it lives as long as `keep`."""
-    desc = ffi.new("mxg_bindings_desc *", {"size": ffi.sizeof("mxg_bindings_desc")})
+def make_bind_desc(look: str | None, solo: Sequence[str], mute: Sequence[str], previous: Bindings | None) -> Any:
+    """A mxg_bindings_desc."""
+    desc = new("mxg_bindings_desc", look=optional_text(look, "look"))
     if previous is not None:
         if not isinstance(previous, Bindings):
             raise TypeError(f"previous must be Bindings, not {type(previous).__name__}")
         desc.previous = previous._handle.pointer
-    if look is not None:
-        desc.look = keep_text(c_text(look, "look"), keep)
     for name, slots in ("solo", solo), ("mute", mute):
         if isinstance(slots, str):
             raise TypeError(f"{name} must be a sequence of names, not str")
-        names = ffi.new("const char *[]", [keep_text(c_text(slot, f"a name of {name}"), keep) for slot in slots])
-        keep.append(names)
-        setattr(desc, name, names)
+        setattr(desc, name, c_texts(c_text(slot, f"a name of {name}") for slot in slots))
         setattr(desc, f"num_{name}", len(slots))
     return desc

@@ -2,13 +2,14 @@
 """Shaders: sources and reflection."""
 from __future__ import annotations
 
+import ctypes
 import enum
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, NamedTuple, Union
 
-from ._calls import Handle, Native, c_text, error_of, ffi, lib, py_text, record, sized_text
+from ._calls import Handle, Native, c_number, c_text, error_of, lib, py_text, record, sized_text
 from .definition import UserInterface
 from .diagnostic import Diagnostics
 from .error import ArgumentError, OutOfMemoryError
@@ -148,7 +149,7 @@ class Variable(UserInterface):
     def texture_file(self, frame: int = 0, tile: int = 0) -> str | None:
         """The file of a texture, or of one of its tiles, at a frame; None: the host shows the default colour."""
         pointer = self._shader._handle.pointer
-        text = sized_text(lambda out, capacity: lib.mxg_result_texture_file(pointer, self._index, tile, frame, out, capacity))
+        text = sized_text(lambda out, capacity: lib.mxg_result_texture_file(pointer, self._index, c_number(tile, "tile"), frame, out, capacity))
         return text or None
 
 
@@ -302,11 +303,15 @@ class Shader(Native):
     def __init__(self, handle: Handle) -> None:
         self._handle = handle
 
+    def __repr__(self) -> str:
+        values = record("mxg_shader_info", lib.mxg_result_info, self._handle.pointer)
+        return f"<Shader '{values['name']}' for {values['target']}>" if values else "<Shader: diagnostics only>"
+
     # ---- Source ----
 
     def source(self, stage: Stage) -> str | None:
         """The source of a stage; None if the shader has no such stage."""
-        text = lib.mxg_result_source(self._handle.pointer, Stage(stage), ffi.NULL)
+        text = lib.mxg_result_source(self._handle.pointer, Stage(stage), None)
         return py_text(text) if text else None
 
     @property
@@ -332,12 +337,13 @@ class Shader(Native):
 
     def source_place(self, stage: Stage, line: int) -> Place | None:
         """The place in the document that produced a line (from 1)."""
-        values = record("mxg_place", lib.mxg_result_source_place, self._handle.pointer, Stage(stage), line)
+        values = record("mxg_place", lib.mxg_result_source_place, self._handle.pointer, Stage(stage), c_number(line, "line"))
         return None if values is None else Place(**values)
 
     def source_path(self, stage: Stage, line: int) -> str | None:
         """The path of the node that produced a line, also of a node inside a definition: "SR_gold/coat_bsdf"."""
         pointer, place = self._handle.pointer, Stage(stage)
+        c_number(line, "line")
         return sized_text(lambda out, capacity: lib.mxg_result_source_path(pointer, place, line, out, capacity)) or None
 
     @property
@@ -422,9 +428,9 @@ class Shader(Native):
         if not isinstance(after, Shader):
             raise TypeError(f"after must be Shader, not {type(after).__name__}")
         capacity = lib.mxg_result_num_variables(after._handle.pointer)
-        indices, count = ffi.new("uint32_t[]", max(capacity, 1)), ffi.new("uint32_t *")
+        indices, count = (ctypes.c_uint32 * capacity)(), ctypes.c_uint32()
         change = Change(lib.mxg_result_change(self._handle.pointer, after._handle.pointer, indices, capacity, count))
-        return change, tuple(after._variable(indices[i]) for i in range(min(count[0], capacity)))
+        return change, tuple(after._variable(indices[i]) for i in range(min(count.value, capacity)))
 
     def block(self, block: Block) -> BlockInfo:
         """A block of the interface."""
@@ -435,7 +441,7 @@ class Shader(Native):
 
     def pack(self, block: Block) -> bytearray:
         """The buffer of a block of uniforms with the default values, ready for upload."""
-        data, status = self._packed(ffi.NULL, block)
+        data, status = self._packed(None, block)
         assert status == lib.MXG_OK
         return data
 
@@ -445,7 +451,7 @@ class Shader(Native):
         data = bytearray(0 if values is None else values["byte_size"])
         if not data:
             return data, int(lib.MXG_OK)
-        return data, lib.mxg_result_pack_block(self._handle.pointer, document, Block(block), ffi.from_buffer(data), len(data))
+        return data, lib.mxg_result_pack_block(self._handle.pointer, document, Block(block), (ctypes.c_char * len(data)).from_buffer(data), len(data))
 
     def pack_from(self, document: Document, block: Block) -> bytearray:
         """The buffer of a block with the values of another document, for example after an edit of inputs that are uniforms.
@@ -465,9 +471,9 @@ class Shader(Native):
             raise TypeError(f"variable must be Variable, not {type(variable).__name__}")
         if variable._shader is not self:
             raise ValueError(f"'{variable.name}' is a variable of another shader")
-        numbers = ffi.new("float[]", list(values))
-        status = lib.mxg_result_pack_value(self._handle.pointer, variable._index, element, numbers, len(numbers),
-                                           ffi.from_buffer(data, require_writable=True), len(data))
+        numbers = (ctypes.c_float * len(values))(*values)
+        status = lib.mxg_result_pack_value(self._handle.pointer, variable._index, c_number(element, "element"), numbers, len(numbers),
+                                           (ctypes.c_char * len(data)).from_buffer(data), len(data))
         if status == lib.MXG_ERROR_ARGUMENT:
             raise ArgumentError(f"'{variable.name}' is in no buffer, has another number of values, or has no room in the buffer")
         if status != lib.MXG_OK:
@@ -491,7 +497,7 @@ class Shader(Native):
     @property
     def reflection_json(self) -> str:
         """The variables, inputs and info as JSON (docs/reflection.md)."""
-        text = lib.mxg_result_reflection_json(self._handle.pointer, ffi.NULL)
+        text = lib.mxg_result_reflection_json(self._handle.pointer, None)
         if not text:
             raise OutOfMemoryError("there is no shader, or no memory for the text")
         return py_text(text)
@@ -503,7 +509,7 @@ class Shader(Native):
 
     def _text(self) -> str:
         """The text of an inspection."""
-        return py_text(lib.mxg_result_text(self._handle.pointer, ffi.NULL))
+        return py_text(lib.mxg_result_text(self._handle.pointer, None))
 
 
 def semantics() -> tuple[Semantic, ...]:
@@ -537,7 +543,7 @@ def make_options(context: Context, values: Mapping[str, OptionValue]) -> _Option
     """The native options of a call with the context."""
     if not isinstance(values, Mapping):
         raise TypeError(f"options must be a mapping, not {type(values).__name__}")
-    made = _Options(context._make("mxg_options", lib.mxg_options_create, lib.mxg_options_destroy, ())[0])
+    made = _Options(context._make(lib.mxg_options_create, lib.mxg_options_destroy, ())[0])
     for key, value in values.items():
         if isinstance(value, bool):
             made.set(key, "true" if value else "false")

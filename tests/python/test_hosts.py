@@ -165,7 +165,7 @@ class Types(unittest.TestCase):
                 lambda: context.library.supports(context.library.nodedefs[0], 5), lambda: edit.add(5), lambda: edit.add("a", 5),
                 lambda: draft.value(5, 1, "float"), lambda: draft.value("in1", None, "float"), lambda: draft.value("in1", b"x", "float"),
                 lambda: draft.value("in1", ["x"], "float"), lambda: draft.value("in1", None), lambda: draft.value("in1", 1, 5),
-                lambda: draft.connect("in1", 5), lambda: draft.connect("in1", document["SR"]), lambda: draft.set(5, "x"),
+                lambda: draft.connect("in1", 5), lambda: draft.set(5, "x"),
                 lambda: draft.set("x", 5), lambda: draft.rename(5), lambda: draft.move(5), lambda: draft.copy(draft),
                 lambda: draft.child(5), lambda: edit.find(5), lambda: document.diagnostics["x"],
                 lambda: context.parse(common.BROKEN).validate()[0].format(5),

@@ -11,7 +11,8 @@ from dataclasses import fields
 
 import common
 import mxgen
-from mxgen._calls import ffi, lib
+from mxgen import _native
+from mxgen._calls import lib
 
 
 class Shaders(unittest.TestCase):
@@ -316,14 +317,25 @@ class Catalogues(unittest.TestCase):
                            (mxgen.CompiledInput, "mxg_compiled_input"), (mxgen.ShaderInfo, "mxg_shader_info"), (mxgen.Storage, "mxg_storage"),
                            (mxgen.Renderable, "mxg_renderable"),
                            (mxgen.Semantic, "mxg_semantic"), (mxgen.BlockInfo, "mxg_block_info"), (mxgen.LightType, "mxg_light_type"), (mxgen.Connection, "mxg_connection")):
-            native = {name for name, _ in ffi.typeof(ctype).fields} - {"size"} - omitted.get(ctype, set())
+            native = {name for name, _ in getattr(_native, ctype)._fields_} - {"size"} - omitted.get(ctype, set())
             self.assertEqual({field.name for field in fields(cls) if not field.name.startswith("_")} - {"members", "arguments"}, native, ctype)
+
+    def test_layout_is_that_of_c(self):
+        root, count = common.EXAMPLES.resolve().parent, 0
+        for line in (root / "tests/abi/abi.txt").read_text(encoding="utf-8").splitlines():
+            match = re.match(r"struct (mxg_\w+)(?:: .*?(\w+)(?:\)\(.*\)|\[\d+\])?)? = (\d+)$", line)
+            struct_type = getattr(_native, match[1], None) if match else None
+            if struct_type:
+                found = getattr(struct_type, match[2]).offset if match[2] else _native.sizeof(struct_type)
+                self.assertEqual(found, int(match[3]), line)
+                count += 1
+        self.assertGreater(count, 250)
 
     def test_enumerations_have_every_member(self):
         for cls, ctype in ((mxgen.Severity, "mxg_severity"), (mxgen.Stage, "mxg_stage"), (mxgen.Block, "mxg_block"),
                            (mxgen.Alpha, "mxg_alpha"), (mxgen.View, "mxg_view"), (mxgen.OptionType, "mxg_option_type"),
                            (mxgen.Rewriting, "mxg_rewriting"), (mxgen.InputState, "mxg_input_state"), (mxgen.Change, "mxg_change")):
-            names = [name for name in ffi.typeof(ctype).relements if not re.search(r"_MAX_ENUM$|^MXG_NUM_", name)]
+            names = [name for name in _native.ENUMS[ctype] if not re.search(r"_MAX_ENUM$|^MXG_NUM_", name)]
             self.assertEqual(sorted(int(member) for member in cls), sorted(getattr(lib, name) for name in names), ctype)
             for member in cls:
                 self.assertTrue(any(name.endswith(member.name) and getattr(lib, name) == member for name in names), member)

@@ -81,6 +81,29 @@ class Tasks(unittest.TestCase):
             for shader in shaders:
                 self.assertEqual(edit.document[shader.path + "/specular_roughness"].value, 0.25)
 
+    def test_calls_beside_pymaterialx(self):
+        """The right column of docs/pymaterialx.md, from top to bottom. Each call gives something, or makes the page's document."""
+        page = (common.EXAMPLES.resolve().parent / "docs/pymaterialx.md").read_text(encoding="utf-8")
+        calls = re.findall(r"^\| .* \| `(.+)` \|$", page, re.M)
+        text = common.GOLD.replace("</materialx>", '<nodegraph name="NG"><output name="out" type="float" value="1"/></nodegraph></materialx>')
+        with tempfile.TemporaryDirectory() as folder:
+            path, own, out = (pathlib.Path(folder) / name for name in ("gold.mtlx", "own.mtlx", "out.mtlx"))
+            path.write_text(text, encoding="utf-8")
+            own.write_text('<materialx version="1.39"/>', encoding="utf-8")
+            names = {"mxgen": mxgen, "text": text, "path": path, "own_path": own, "out": out}
+            for call in calls:
+                is_value = not re.match(r"\w+ = ", call)
+                result = eval(call, names) if is_value else exec(call, names)
+                nothing = call.startswith("doc.save") or "remove()" in call or "colorspace" in call or call == "doc.validate()"
+                self.assertTrue(not is_value or nothing or result, call)
+            self.assertTrue(mxgen.equal(self.context.load(out), self.context.parse(text)))
+        document = names["doc"]
+        self.assertGreater(len(calls), 50)
+        self.assertEqual([element.name for element in document], ["dots", "SR", "Spots", "Gold", "NG", "wood", "Wood"])
+        self.assertEqual(document["SR/base_color"].value, (1, 0, 0))
+        self.assertEqual(document["wood/rings/octaves"].type, "integer")
+        self.assertEqual(document.validate().errors, 0)
+
     def test_programs_of_the_documentation(self):
         """Every program of README.md and docs/python.md runs in the root of the project."""
         root = common.EXAMPLES.resolve().parent

@@ -1,10 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* libxml2's configuration for WebAssembly: the headers of wasi-libc that the parser uses. */
+/* libxml2's configuration: the headers that the parser uses. */
 #define HAVE_CTYPE_H 1
 #define HAVE_ERRNO_H 1
 #define HAVE_FCNTL_H 1
 #define HAVE_LIMITS_H 1
 #define HAVE_MATH_H 1
+#ifndef __wasm__
+#define HAVE_PTHREAD_H 1
+#endif
 #define HAVE_SNPRINTF 1
 #define HAVE_STDARG_H 1
 #define HAVE_STDINT_H 1
