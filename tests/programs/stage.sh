@@ -216,7 +216,8 @@ def Mesh "local" { rel material:binding = </Object>
     $(at 2 -4)
 }
 USD
-check 'a stage with bindings of its own is drawn' draw scene
+# the look of colors.mtlx is for another stage
+check 'a stage with bindings of its own is drawn' draw scene -W no-pattern-unmatched
 check 'the stage gives no message' test ! -s err
 sees 'a mesh with its material' scene -3.5 3.5 r
 sees 'nothing below it' scene -3.5 2.5 -
