@@ -167,7 +167,9 @@ int command_bind(const struct command *command, int argc, char **argv)
     if (cli_start(&bind.cli, command, args, sizeof args / sizeof *args, 0, argc, argv, &code)) {
         const struct arg_list *inputs = &bind.cli.parser.inputs;
         if (!bind.stage || inputs->len > 1) {
-            fprintf(stderr, "usage: mxgen %s\n", command->usage);
+            fprintf(stderr, "%susage: mxgen %s\n",
+                    bind.stage ? "" : "mxgen bind: --stage is missing; it names the primitives\n",
+                    command->usage);
             code = EXIT_USAGE;
         } else {
             bind_file(&bind, inputs->len ? inputs->items[0] : NULL);

@@ -4,6 +4,7 @@
 
 #include "program/cli.h"
 #include "program/files.h"
+#include "program/flatten.h"
 #include "program/memory.h"
 #include "program/parent.h"
 
@@ -111,15 +112,37 @@ static bool import(struct cli *cli, const char *path, mxg_scene *scene)
 
 /* ---- All files ---- */
 
+/*
+ * Loads what OpenUSD makes of a stage that mxgen does not read by itself. false: the stage stays,
+ * because there is no usdcat, or a sandbox starts no programs.
+ */
+static bool flatten(struct cli *cli, const char *path, const char *purpose, mxg_scene **scene,
+                    mxg_status *out_status)
+{
+    bool is_missing;
+    if (cli->sandbox || !*scene || !flatten_may_help(mxg_scene_diagnostics(*scene)))
+        return false;
+    char *text = flatten_stage(cli, path, &is_missing);
+    if (is_missing)
+        return false;
+    mxg_scene_destroy(*scene);
+    *scene = NULL;
+    *out_status = text ? mxg_scene_load(cli->context, text, purpose, scene) : MXG_OK;
+    flatten_end(text);
+    return true;
+}
+
 mxg_scene *scene_file_load(struct cli *cli, const char *path, const char *purpose)
 {
     mxg_scene *scene = NULL;
     bool is_other = scene_file_kind(path) == SCENE_FILE_OTHER;
     mxg_status status = is_other ? mxg_scene_create(cli->context, &scene)
                                  : mxg_scene_load(cli->context, path, purpose, &scene);
+    if (status == MXG_ERROR_DOCUMENT)
+        flatten(cli, path, purpose, &scene, &status);
     if (scene && !is_other)
         report_list(&cli->report, mxg_scene_diagnostics(scene));
-    if (report_status(&cli->report, status) && (!is_other || import(cli, path, scene)))
+    if (report_status(&cli->report, status) && scene && (!is_other || import(cli, path, scene)))
         return scene;
     mxg_scene_destroy(scene);
     return NULL;

@@ -222,7 +222,26 @@ static void note_lack(struct bind *bind, uint32_t object, const mxg_variable *va
     if (bind->num_lacking++)
         return;
     bind->lacking = bind->objects[object].path;
-    bind->lacked = is_property ? variable->semantic + len + 1 : variable->name + 2;
+    if (is_property)
+        snprintf(bind->lacked, sizeof bind->lacked, "%s", variable->semantic + len + 1);
+    else
+        scene_primvar_name(variable->name, bind->lacked);
+}
+
+/* Notes a primvar of another type than the shader reads; false: the object has none. */
+static bool note_type(struct bind *bind, uint32_t object, const char *attribute,
+                      const struct shape *shape)
+{
+    const struct scene_object *from = &bind->objects[object];
+    const struct primvar *primvar = scene_primvar(from, attribute);
+    bool is_color = strncmp(attribute, "i_color_", 8) == 0 && shape->rows >= 3;
+    if (!primvar)
+        return false;
+    if (primvar->components == shape->rows || (is_color && primvar->components >= 3)
+        || bind->num_mistyped == BIND_MAX_MISTYPED)
+        return true;
+    bind->mistyped[bind->num_mistyped++] = (struct bind_mistyped){primvar, from->path, shape->rows};
+    return true;
 }
 
 static void store_private(struct bind *bind, uint32_t object, const mxg_variable *variable)
@@ -462,13 +481,14 @@ static bool fill_attribute(struct bind *bind, uint32_t object, const mxg_variabl
     if (!data)
         return fail(bind, "out of memory");
     bind->draw.objects[object].attributes[bind->draw.num_attributes - 1] = data;
+    bool has_primvar = note_type(bind, object, name, shape);
     for (uint32_t i = 0; i < count; ++i) {
         bool has_stand_in = !shape->is_float && !from->path;
         float values[4] = {INTEGER_ATTRIBUTE, INTEGER_ATTRIBUTE, INTEGER_ATTRIBUTE,
                            INTEGER_ATTRIBUTE};
         for (uint32_t k = 0; !has_stand_in && k < 4; ++k)
             values[k] = k < variable->num_values ? variable->values[k] : 0.0f;
-        if (!has_stand_in && !scene_attribute(from, name, i, values) && i == 0)
+        if (!has_stand_in && !scene_attribute(from, name, i, values) && i == 0 && !has_primvar)
             note_lack(bind, object, variable);
         for (uint32_t k = 0; k < 4; ++k) {
             int32_t integer = (int32_t)values[k];

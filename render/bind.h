@@ -37,6 +37,14 @@ struct bind_program {
     uint32_t num_lights; /* length of the array of lights */
 };
 
+/* A primvar of another type than the shader reads. */
+struct bind_mistyped {
+    const struct primvar *primvar;
+    const char *object;
+    unsigned num_read; /* numbers that the shader reads of it */
+};
+enum { BIND_MAX_MISTYPED = 8 };
+
 struct bind {
     const mxg_result *result;
     const struct bind_program *program; /* in place of the result; NULL: there is none */
@@ -57,12 +65,15 @@ struct bind {
     struct draw draw;                       /* the result */
     struct image images[DRAW_MAX_TEXTURES]; /* images for the textures */
     uint32_t num_images;
-    uint32_t **orders;            /* by object: triangles from far to near, if the shader blends */
-    const char *lacking, *lacked; /* an object, and a property that it lacks: "st" */
-    uint32_t num_lacking;         /* how many there are */
-    uint32_t max_lights;          /* array length in the shader */
-    const char *id;               /* id of the error: "missing-texture"… */
-    char reason[512];             /* why it failed */
+    uint32_t **orders;   /* by object: triangles from far to near, if the shader blends */
+    const char *lacking; /* an object, and a property that it lacks: "st" */
+    char lacked[SCENE_MAX_NAME];
+    uint32_t num_lacking;                             /* how many there are */
+    struct bind_mistyped mistyped[BIND_MAX_MISTYPED]; /* the first ones */
+    uint32_t num_mistyped;
+    uint32_t max_lights; /* array length in the shader */
+    const char *id;      /* id of the error: "missing-texture"… */
+    char reason[512];    /* why it failed */
 };
 
 /*

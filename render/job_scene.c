@@ -129,8 +129,7 @@ static bool make_stage(struct job *job)
 {
     struct painter *painter = &job->painter;
     double aspect = (double)painter->width / painter->height;
-    if (!site_open(&job->site, job->cli.context, &job->cli.report, job->options.stage,
-                   job->options.purpose))
+    if (!site_open(&job->site, &job->cli, job->options.stage, job->options.purpose))
         return false;
     apply_unit(job);
     if (!site_light(&job->site, &painter->studio, &painter->scene))

@@ -86,8 +86,7 @@ static int list_stage(struct job *job)
         fputs("usage: mxgen render --stage FILE --list\n", stderr);
         return EXIT_USAGE;
     }
-    if (site_open(&job->site, job->cli.context, &job->cli.report, job->options.stage,
-                  job->options.purpose))
+    if (site_open(&job->site, &job->cli, job->options.stage, job->options.purpose))
         site_list(&job->site);
     site_close(&job->site);
     return job->cli.report.errors ? EXIT_FAULT : EXIT_DONE;

@@ -4,13 +4,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-void object_finish(struct scene_object *object)
+void object_finish_primvars(struct scene_object *object, uint32_t num)
 {
-    for (uint32_t i = 0; i < object->num_primvars; ++i) {
+    for (uint32_t i = object->num_primvars - num; i < object->num_primvars; ++i) {
         free(object->primvars[i].name);
         free(object->primvars[i].values);
     }
-    free(object->primvars);
+    if (num)
+        free(object->primvars);
+}
+
+void object_finish(struct scene_object *object)
+{
+    object_finish_primvars(object, object->num_primvars);
     mesh_finish(&object->mesh);
 }
 

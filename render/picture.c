@@ -223,6 +223,22 @@ static void init_bind(const struct painting *painting, const struct part *part,
                                 .checker = painter->checker};
 }
 
+static void tell_type(struct painter *painter, const struct bind_mistyped *mistyped,
+                      const struct subject *subject)
+{
+    const struct primvar *primvar = mistyped->primvar;
+    char place[512] = "";
+    if (primvar->file)
+        snprintf(place, sizeof place, " (%s:%u:%u)", primvar->file, primvar->line, primvar->column);
+    report_warning(&painter->cli->report, "primvar-type",
+                   "the primvar '%s' of '%s'%s has the type '%.*s', and '%s' reads %u number%s; "
+                   "%s",
+                   primvar->name, mistyped->object, place, primvar->type_len, primvar->type,
+                   subject->element, mistyped->num_read, mistyped->num_read == 1 ? "" : "s",
+                   primvar->components ? "the first numbers of it count"
+                                       : "the default, or 0, stands in");
+}
+
 static void tell_warning(struct painter *painter, const struct bind *bind,
                          const struct subject *subject)
 {
@@ -233,6 +249,8 @@ static void tell_warning(struct painter *painter, const struct bind *bind,
             "in",
             bind->lacking, bind->lacked, subject->element,
             bind->num_lacking > 1 ? " (and others)" : "");
+    for (uint32_t i = 0; i < bind->num_mistyped; ++i)
+        tell_type(painter, &bind->mistyped[i], subject);
     tell_textures(painter, bind, subject); /* checkers replace them */
     if (bind->reason[0])                   /* a texture has bad pixels */
         report_warning(&painter->cli->report, bind->id, "%s", bind->reason);

@@ -65,8 +65,7 @@ const char *scene_name(const char *name, const char *semantic, char buffer[SCENE
     return name;
 }
 
-/* The name of the primvar that an attribute reads: "st1" of "i_texcoord_1". */
-static void primvar_name(const char *attribute, char out[SCENE_MAX_NAME])
+void scene_primvar_name(const char *attribute, char out[SCENE_MAX_NAME])
 {
     static const struct {
         const char *prefix, *first, *others;
@@ -84,20 +83,41 @@ static void primvar_name(const char *attribute, char out[SCENE_MAX_NAME])
              strncmp(attribute, "i_geomprop_", 11) == 0 ? attribute + 11 : attribute);
 }
 
+static const struct primvar *find_primvar(const struct scene_object *object, const char *name)
+{
+    for (uint32_t i = 0; i < object->num_primvars; ++i)
+        if (strcmp(object->primvars[i].name, name) == 0)
+            return &object->primvars[i];
+    return NULL;
+}
+
+const struct primvar *scene_primvar(const struct scene_object *object, const char *name)
+{
+    char wanted[SCENE_MAX_NAME];
+    scene_primvar_name(name, wanted);
+    return object->path ? find_primvar(object, wanted) : NULL;
+}
+
+static bool store_primvar(const struct primvar *primvar, uint32_t index, float *out)
+{
+    if (!primvar || !primvar->components)
+        return false;
+    memcpy(out, primvar->values[primvar->num == 1 ? 0 : index], primvar->components * sizeof *out);
+    return true;
+}
+
+/* The alpha of a colour is a primvar of its own: displayOpacity of displayColor. */
 static bool primvar_attribute(const struct scene_object *object, const char *name, uint32_t index,
                               float out[4])
 {
-    char wanted[SCENE_MAX_NAME];
-    primvar_name(name, wanted);
-    for (uint32_t i = 0; i < object->num_primvars; ++i) {
-        const struct primvar *primvar = &object->primvars[i];
-        if (strcmp(primvar->name, wanted) != 0)
-            continue;
-        memcpy(out, primvar->values[primvar->num == 1 ? 0 : index],
-               primvar->components * sizeof *out);
-        return true;
+    bool is_color = strncmp(name, "i_color_", 8) == 0;
+    const struct primvar *primvar = scene_primvar(object, name);
+    if (is_color && primvar && primvar->components == 3) {
+        out[3] = 1;
+        if (strcmp(name, "i_color_0") == 0)
+            store_primvar(find_primvar(object, "displayOpacity"), index, &out[3]);
     }
-    return false;
+    return store_primvar(primvar, index, out);
 }
 
 /* Names of texture coordinates in USD, Blender and glTF's importers, Houdini, and Maya. */

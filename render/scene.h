@@ -18,8 +18,11 @@
 /* Values of a geometric property. */
 struct primvar {
     char *name;
-    unsigned components;
+    unsigned components; /* 0: it is no number, and has no values */
     bool is_integer;
+    const char *type, *file; /* of USD, with its place; NULL: it comes from another file */
+    int type_len;
+    uint32_t line, column;
     uint32_t num;       /* 1: constant; otherwise those of the mesh's vertices */
     float (*values)[4]; /* malloc; an integer is a whole number */
 };
@@ -89,6 +92,8 @@ bool scene_init_plane(struct scene *scene);
 
 void scene_finish(struct scene *scene);
 void object_finish(struct scene_object *object);
+/* Frees the last primvars of an object, and the list if there are any. */
+void object_finish_primvars(struct scene_object *object, uint32_t num);
 /* A copy of an object with at least so many triangles. false: out of memory; object_finish(out). */
 bool object_refine(const struct scene_object *object, uint32_t wanted, struct scene_object *out);
 
@@ -101,6 +106,11 @@ void scene_set_camera(struct scene *scene, const double eye[3], const double tar
  */
 enum { SCENE_MAX_NAME = 256 };
 const char *scene_name(const char *name, const char *semantic, char buffer[SCENE_MAX_NAME]);
+/* The name of the primvar that an attribute reads: "st1" of "i_texcoord_1". */
+void scene_primvar_name(const char *attribute, char out[SCENE_MAX_NAME]);
+/* The primvar that an attribute reads; NULL: the object has none. */
+const struct primvar *scene_primvar(const struct scene_object *object, const char *attribute);
+
 /*
  * Attribute "i_texcoord_0", "i_geomprop_st"… of a vertex; keeps other components. false: the object
  * has no such attribute.

@@ -56,6 +56,7 @@ void site_repeat(struct site *site, uint32_t first, uint32_t num, struct matrix 
         struct scene_object *added = site_add(site, again.primitive, world);
         again.object.path = added->path;
         again.object.world = world;
+        again.object.num_primvars -= again.num_own_primvars;
         *added = again.object;
         site->objects[site->num_objects - 1].is_shared = true;
     }
@@ -111,12 +112,10 @@ void site_add_light(struct site *site, struct scene_light light)
 
 /* ---- Files ---- */
 
-static bool open_usd(struct site *site, mxg_context *context, const char *path, const char *purpose)
+static bool open_usd(struct site *site, struct cli *cli, const char *path, const char *purpose)
 {
-    mxg_status status = mxg_scene_load(context, path, purpose, &site->scene);
-    if (site->scene)
-        report_list(site->report, mxg_scene_diagnostics(site->scene));
-    if (!report_status(site->report, status))
+    site->scene = scene_file_load(cli, path, purpose);
+    if (!site->scene)
         return false;
     site->meters_per_unit = mxg_scene_meters_per_unit(site->scene);
     site_read_usd(site);
@@ -124,12 +123,12 @@ static bool open_usd(struct site *site, mxg_context *context, const char *path, 
     return !site->has_fault;
 }
 
-bool site_open(struct site *site, mxg_context *context, struct report *report, const char *path,
-               const char *purpose)
+bool site_open(struct site *site, struct cli *cli, const char *path, const char *purpose)
 {
-    *site = (struct site){.report = report, .context = context, .file = path};
-    if (!(scene_file_kind(path) == SCENE_FILE_USD ? open_usd(site, context, path, purpose)
-                                                  : site_import(site, context, path)))
+    struct report *report = &cli->report;
+    *site = (struct site){.report = report, .context = cli->context, .file = path};
+    if (!(scene_file_kind(path) == SCENE_FILE_USD ? open_usd(site, cli, path, purpose)
+                                                  : site_import(site, cli->context, path)))
         return false;
     if (!site->num_objects)
         report_error(report, "empty-mesh", "the stage '%s' has no visible geometry", path);
@@ -152,6 +151,8 @@ void site_close(struct site *site)
         free((void *)(uintptr_t)site->objects[i].object.path);
         if (!site->objects[i].is_shared)
             object_finish(&site->objects[i].object);
+        else
+            object_finish_primvars(&site->objects[i].object, site->objects[i].num_own_primvars);
     }
     for (uint32_t i = 0; i < site->num_cameras; ++i)
         free(site->cameras[i].path);
@@ -284,8 +285,34 @@ bool site_light(struct site *site, const struct studio *studio, struct scene *sc
     return true;
 }
 
-bool site_aim(const struct site *site, const struct studio *studio, const char *camera,
-              bool is_orbit, double aspect, struct scene *scene)
+/*
+ * Moves the origin of the world near a camera that is far from it, where the floats of shaders have
+ * too few digits: by a multiple of a step, so that a moving camera seldom moves the origin.
+ */
+static void move_origin(struct site *site, struct scene *scene)
+{
+    const double step = 16384;
+    double origin[3];
+    for (size_t i = 0; i < 3; ++i)
+        origin[i] = step * round(scene->eye[i] / step);
+    if (origin[0] == 0 && origin[1] == 0 && origin[2] == 0)
+        return;
+    const struct matrix there = matrix_translation(origin[0], origin[1], origin[2]),
+                        back = matrix_translation(-origin[0], -origin[1], -origin[2]);
+    scene->view = matrix_multiply(scene->view, there);
+    scene->studio = matrix_multiply(back, scene->studio);
+    matrix_point(back, scene->eye, scene->eye);
+    matrix_point(back, scene->target, scene->target);
+    for (uint32_t i = 0; i < site->num_objects; ++i)
+        site->objects[i].object.world = matrix_multiply(back, site->objects[i].object.world);
+    for (uint32_t i = 0; i < site->num_cameras; ++i)
+        site->cameras[i].world = matrix_multiply(back, site->cameras[i].world);
+    for (uint32_t i = 0; i < site->num_lights; ++i)
+        matrix_point(back, site->lights[i].position, site->lights[i].position);
+}
+
+bool site_aim(struct site *site, const struct studio *studio, const char *camera, bool is_orbit,
+              double aspect, struct scene *scene)
 {
     double centre[3], radius;
     const struct site_camera *found = is_orbit ? NULL : find_camera(site, camera);
@@ -302,11 +329,12 @@ bool site_aim(const struct site *site, const struct studio *studio, const char *
     else
         use_orbit(studio, aspect, up, radius, centre, scene);
     scene->near = SCENE_NEAR * radius;
-    if (site->lights_scene)
-        return true;
-    scene->environment = up;
-    scene->studio =
-        matrix_multiply(matrix_translation(centre[0], centre[1], centre[2]),
-                        matrix_multiply(matrix_scale(radius, radius, radius), matrix_inverse(up)));
+    if (!site->lights_scene) {
+        scene->environment = up;
+        scene->studio = matrix_multiply(
+            matrix_translation(centre[0], centre[1], centre[2]),
+            matrix_multiply(matrix_scale(radius, radius, radius), matrix_inverse(up)));
+    }
+    move_origin(site, scene);
     return true;
 }

@@ -11,8 +11,9 @@
 
 struct site_object {
     struct scene_object object;
-    uint32_t primitive; /* of the scene */
-    bool is_shared;     /* an object before it has the mesh and the primvars */
+    uint32_t primitive;        /* of the scene */
+    bool is_shared;            /* an object before it has the mesh and the primvars */
+    uint32_t num_own_primvars; /* the last ones, which are of an instance alone */
 };
 
 struct site_camera {
@@ -43,11 +44,10 @@ struct site {
 };
 
 /*
- * Reads a file. `purpose` as for mxg_scene_load. false after reporting an error. Call site_close
- * in any case.
+ * Reads a file, as scene_file_load does. `purpose` as for mxg_scene_load. false after reporting an
+ * error. Call site_close in any case.
  */
-bool site_open(struct site *site, mxg_context *context, struct report *report, const char *path,
-               const char *purpose);
+bool site_open(struct site *site, struct cli *cli, const char *path, const char *purpose);
 void site_close(struct site *site);
 /* Prints the paths of the primitives, one in each line. */
 void site_list(const struct site *site);
@@ -61,10 +61,11 @@ bool site_light(struct site *site, const struct studio *studio, struct scene *sc
 /*
  * Places the camera around the site, and the light of the studio. `camera` is the path of
  * a camera; NULL: the first, or the studio's, which also stands in where the site has none;
- * `is_orbit` takes the studio's. false after reporting an error.
+ * `is_orbit` takes the studio's. The origin of the world moves near a camera that is far from it.
+ * false after reporting an error.
  */
-bool site_aim(const struct site *site, const struct studio *studio, const char *camera,
-              bool is_orbit, double aspect, struct scene *scene);
+bool site_aim(struct site *site, const struct studio *studio, const char *camera, bool is_orbit,
+              double aspect, struct scene *scene);
 
 /* ---- Shared by the readers ---- */
 
@@ -103,11 +104,13 @@ void site_read_usd(struct site *site);
 /* site_import.c: reads a file through Assimp, with its hierarchy as paths. */
 bool site_import(struct site *site, mxg_context *context, const char *path);
 
-/* A numeric value of USD, or `otherwise`. */
-double usd_number(const struct site *site, uint32_t primitive, const char *name, double otherwise);
-/* The numbers of a property, and how many there are; the caller frees them. NULL: none. */
-double *usd_numbers(const struct site *site, uint32_t primitive, const char *name,
-                    size_t *out_count);
+/* A numeric value of USD, or `otherwise`; an error if it is not finite. */
+double usd_number(struct site *site, uint32_t primitive, const char *name, double otherwise);
+/*
+ * The numbers of a property, and how many there are; the caller frees them. NULL: none, or an
+ * error, because one is not finite.
+ */
+double *usd_numbers(struct site *site, uint32_t primitive, const char *name, size_t *out_count);
 /* True if a token has this value. */
 bool usd_is(const struct site *site, uint32_t primitive, const char *name, const char *value);
 
@@ -135,6 +138,9 @@ struct usd_corners {
 };
 void usd_add_primvars(struct site *site, uint32_t primitive, const struct usd_corners *corners,
                       struct scene_object *object);
+/* Adds the primvars that an instancer has for one of its instances; those of the object win. */
+void usd_add_instance_primvars(struct site *site, uint32_t instancer, size_t instance,
+                               struct site_object *object);
 /* The components of a type: 3 of "color3f[]"; 0: it has no numbers. */
 unsigned usd_components(const char *type, size_t len);
 

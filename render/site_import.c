@@ -78,8 +78,11 @@ static struct matrix matrix_of(const struct aiMatrix4x4 *m)
 static void add_primvar(struct scene_object *object, const char *name, unsigned components,
                         const void *from, size_t stride)
 {
-    struct primvar made = {
-        .name = cli_format("%s", name), .components = components, .num = object->mesh.num_vertices};
+    struct primvar made = {.name = cli_format("%s", name),
+                           .components = components,
+                           .type = components == 2 ? "float2" : "float4",
+                           .type_len = (int)strlen("float2"),
+                           .num = object->mesh.num_vertices};
     made.values = memory_alloc(made.num * sizeof *made.values + 1);
     for (uint32_t i = 0; i < made.num; ++i)
         memcpy(made.values[i], (const char *)from + i * stride, components * sizeof(float));

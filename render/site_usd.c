@@ -10,22 +10,32 @@
 
 /* ---- Properties ---- */
 
-double *usd_numbers(const struct site *site, uint32_t primitive, const char *name,
-                    size_t *out_count)
+double *usd_numbers(struct site *site, uint32_t primitive, const char *name, size_t *out_count)
 {
     *out_count = mxg_scene_property_numbers(site->scene, primitive, name, NULL, 0);
     if (!*out_count)
         return NULL;
     double *numbers = memory_alloc(*out_count * sizeof *numbers);
     mxg_scene_property_numbers(site->scene, primitive, name, numbers, *out_count);
+    for (size_t i = 0; i < *out_count; ++i)
+        if (!isfinite(numbers[i])) {
+            site_fail(site, primitive, name, "has %g as number %zu of %zu; expected finite numbers",
+                      numbers[i], i + 1, *out_count);
+            free(numbers);
+            *out_count = 0;
+            return NULL;
+        }
     return numbers;
 }
 
-double usd_number(const struct site *site, uint32_t primitive, const char *name, double otherwise)
+double usd_number(struct site *site, uint32_t primitive, const char *name, double otherwise)
 {
     double number = otherwise;
     mxg_scene_property_numbers(site->scene, primitive, name, &number, 1);
-    return number;
+    if (isfinite(number))
+        return number;
+    site_fail(site, primitive, name, "has %g; expected a finite number", number);
+    return otherwise;
 }
 
 bool usd_is(const struct site *site, uint32_t primitive, const char *name, const char *value)
@@ -40,13 +50,22 @@ bool usd_is(const struct site *site, uint32_t primitive, const char *name, const
 struct visit {
     uint32_t primitive;
     struct matrix parent;
-    uint32_t depth; /* of instancers around it */
+    uint32_t depth;    /* of instancers around it */
+    uint32_t instance; /* 1 + index in `instances`; 0: none */
+};
+
+/* An instance that is drawn, in the order of the walk. */
+struct instance {
+    uint32_t instancer, above; /* above: the instance around it, as in struct visit */
+    size_t number;
 };
 
 struct walk {
     struct site *site;
     struct visit *visits;
     size_t num_visits, capacity, num_instances;
+    struct instance *instances; /* of the instancers around what is visited, and others */
+    uint32_t num_drawn, room;
     struct made *made; /* by primitive */
 };
 
@@ -192,6 +211,16 @@ static struct matrix instance_matrix(const struct instances *instances, size_t i
     return out;
 }
 
+static uint32_t add_instance(struct walk *walk, struct visit at, size_t number)
+{
+    if (walk->num_drawn == walk->room) {
+        walk->room = walk->room ? 2 * walk->room : 64;
+        walk->instances = memory_resize(walk->instances, walk->room * sizeof *walk->instances);
+    }
+    walk->instances[walk->num_drawn++] = (struct instance){at.primitive, at.instance, number};
+    return walk->num_drawn;
+}
+
 static void add_instances(struct walk *walk, struct visit at, struct matrix world)
 {
     struct site *site = walk->site;
@@ -213,14 +242,24 @@ static void add_instances(struct walk *walk, struct visit at, struct matrix worl
         }
         if (!is_invisible(&in, i))
             push(walk, (struct visit){prototype, matrix_multiply(world, instance_matrix(&in, i)),
-                                      at.depth + 1});
+                                      at.depth + 1, add_instance(walk, at, i)});
     }
     free_instances(&in);
 }
 
+/* Adds the primvars of the instances that objects are parts of; the innermost first. */
+static void add_instance_primvars(struct walk *walk, uint32_t first, uint32_t instance)
+{
+    struct site *site = walk->site;
+    for (; instance; instance = walk->instances[instance - 1].above)
+        for (uint32_t i = first; i < site->num_objects; ++i)
+            usd_add_instance_primvars(site, walk->instances[instance - 1].instancer,
+                                      walk->instances[instance - 1].number, &site->objects[i]);
+}
+
 /* Adds the geometry of a primitive, for the first time or again. */
-static void add_geometry(struct walk *walk, uint32_t primitive, const char *type,
-                         struct matrix world)
+static void add_objects(struct walk *walk, uint32_t primitive, const char *type,
+                        struct matrix world)
 {
     struct site *site = walk->site;
     struct made *made = &walk->made[primitive];
@@ -234,6 +273,13 @@ static void add_geometry(struct walk *walk, uint32_t primitive, const char *type
     else
         usd_add_shape(site, primitive, type, world);
     made->num = site->num_objects - made->first;
+}
+
+static void add_geometry(struct walk *walk, struct visit at, const char *type, struct matrix world)
+{
+    uint32_t first = walk->site->num_objects;
+    add_objects(walk, at.primitive, type, world);
+    add_instance_primvars(walk, first, at.instance);
 }
 
 static void visit(struct walk *walk, struct visit at)
@@ -254,12 +300,12 @@ static void visit(struct walk *walk, struct visit at)
     else if (strcmp(type, "PointInstancer") == 0)
         add_instances(walk, at, world);
     else if (is_regular(world))
-        add_geometry(walk, at.primitive, type, world);
+        add_geometry(walk, at, type, world);
     if (is_regular(world))
         usd_add_light(site, at.primitive, type, world);
     /* prototypes below an instancer are drawn as its instances only */
     if (strcmp(type, "PointInstancer") != 0)
-        push_children(walk, primitive.first_child, (struct visit){0, world, at.depth});
+        push_children(walk, primitive.first_child, (struct visit){0, world, at.depth, at.instance});
     free(type);
 }
 
@@ -272,10 +318,11 @@ void site_read_usd(struct site *site)
     for (uint32_t i = num; i-- > 0;) { /* roots in their order: the first is visited first */
         mxg_scene_primitive(site->scene, i, &at);
         if (at.parent == UINT32_MAX)
-            push(&walk, (struct visit){i, matrix_identity(), 0});
+            push(&walk, (struct visit){i, matrix_identity(), 0, 0});
     }
     while (walk.num_visits && !site->has_fault)
         visit(&walk, walk.visits[--walk.num_visits]);
     free(walk.made);
+    free(walk.instances);
     free(walk.visits);
 }

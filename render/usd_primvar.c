@@ -96,14 +96,32 @@ static bool has_primvar(const struct scene_object *object, const char *name)
     return false;
 }
 
+static void append(struct scene_object *object, struct primvar made)
+{
+    object->primvars =
+        memory_resize(object->primvars, (object->num_primvars + 1) * sizeof *object->primvars);
+    object->primvars[object->num_primvars++] = made;
+}
+
+/* A primvar without values. */
+static struct primvar begin_primvar(const char *name, const mxg_property *property)
+{
+    return (struct primvar){.name = cli_format("%s", name + strlen("primvars:")),
+                            .components = usd_components(property->type, property->type_len),
+                            .is_integer = is_integer(property->type),
+                            .type = property->type,
+                            .type_len = (int)property->type_len,
+                            .file = property->file,
+                            .line = property->line,
+                            .column = property->column};
+}
+
 static void convert(struct site *site, struct authored *from, const mxg_property *property,
                     const struct usd_corners *corners, struct scene_object *object)
 {
     bool is_constant = strcmp(from->interpolation, "constant") == 0;
-    struct primvar made = {.name = cli_format("%s", from->property + strlen("primvars:")),
-                           .components = from->components,
-                           .is_integer = is_integer(property->type),
-                           .num = is_constant ? 1 : corners->count};
+    struct primvar made = begin_primvar(from->property, property);
+    made.num = is_constant ? 1 : corners->count;
     made.values = memory_alloc(made.num * sizeof *made.values + 1);
     if (!fill(from, corners, &made)) {
         site_fail(site, from->primitive, from->property,
@@ -113,9 +131,7 @@ static void convert(struct site *site, struct authored *from, const mxg_property
         free(made.values);
         return;
     }
-    object->primvars =
-        memory_resize(object->primvars, (object->num_primvars + 1) * sizeof *object->primvars);
-    object->primvars[object->num_primvars++] = made;
+    append(object, made);
 }
 
 /* The word of an interpolation; NULL: it is none. */
@@ -130,6 +146,16 @@ static const char *interpolation_of(const mxg_property *property)
     return NULL;
 }
 
+static void add_words(const char *name, const mxg_property *property, struct scene_object *object)
+{
+    if (has_primvar(object, name + strlen("primvars:")))
+        return;
+    struct primvar made = begin_primvar(name, property);
+    made.num = 1;
+    made.values = memory_alloc(sizeof *made.values);
+    append(object, made);
+}
+
 static void add_primvar(struct site *site, uint32_t primitive, const mxg_property *property,
                         bool is_inherited, const struct usd_corners *corners,
                         struct scene_object *object)
@@ -137,12 +163,12 @@ static void add_primvar(struct site *site, uint32_t primitive, const mxg_propert
     struct authored from = {.primitive = primitive,
                             .components = usd_components(property->type, property->type_len),
                             .interpolation = interpolation_of(property)};
-    if (!from.components) /* words; no attribute has them */
-        return;
     from.property = cli_format("%.*s", (int)property->name_len, property->name);
     char *indices = cli_format("%s:indices", from.property);
     bool is_constant = from.interpolation && strcmp(from.interpolation, "constant") == 0;
-    if (!from.interpolation)
+    if (!from.components) /* no attribute has words; who reads it learns why */
+        add_words(from.property, property, object);
+    else if (!from.interpolation)
         site_fail(site, primitive, from.property, "has no interpolation of USD: '%.*s'",
                   (int)property->interpolation_len, property->interpolation);
     else if ((is_constant || (!is_inherited && corners->points))
@@ -186,5 +212,49 @@ void usd_add_primvars(struct site *site, uint32_t primitive, const struct usd_co
         mxg_primitive at = {sizeof at};
         mxg_scene_primitive(site->scene, primitive, &at);
         primitive = at.parent;
+    }
+}
+
+/* ---- Instances ---- */
+
+/* A list of its own for an object that shares that of another. */
+static void own_primvars(struct site_object *site_object)
+{
+    struct scene_object *object = &site_object->object;
+    size_t size = object->num_primvars * sizeof *object->primvars;
+    struct primvar *own = memory_alloc(size + 1);
+    if (size)
+        memcpy(own, object->primvars, size);
+    object->primvars = own;
+}
+
+/* Adds the value of a primvar for one instance. */
+static void add_instance_primvar(struct site *site, uint32_t instancer, size_t instance,
+                                 const mxg_property *property, struct site_object *to)
+{
+    const uint32_t number = (uint32_t)instance;
+    const struct usd_corners one = {1, &number, &number, &number};
+    struct scene_object made = {0};
+    add_primvar(site, instancer, property, false, &one, &made);
+    if (made.num_primvars && !has_primvar(&to->object, made.primvars->name)) {
+        if (to->is_shared && !to->num_own_primvars)
+            own_primvars(to);
+        append(&to->object, *made.primvars);
+        to->num_own_primvars++;
+        free(made.primvars);
+    } else {
+        object_finish_primvars(&made, made.num_primvars);
+    }
+}
+
+void usd_add_instance_primvars(struct site *site, uint32_t instancer, size_t instance,
+                               struct site_object *object)
+{
+    uint32_t num = mxg_scene_num_properties(site->scene, instancer);
+    for (uint32_t i = 0; i < num; ++i) {
+        mxg_property property = {sizeof property};
+        mxg_scene_property(site->scene, instancer, i, &property);
+        if (is_primvar(&property))
+            add_instance_primvar(site, instancer, instance, &property, object);
     }
 }

@@ -209,6 +209,12 @@ const char *file_source_remember(struct file_source *source, const char *name);
 void file_source_finish(struct file_source *source); /* also call this after a jump out of memory */
 struct xml_files file_source_for_xml(struct file_source *source);
 struct lang_reader file_source_for_lang(struct file_source *source);
+/*
+ * Fills a buffer with the first bytes of a file that another one names; their number, 0 if it
+ * cannot be read.
+ */
+size_t file_source_begin(struct file_source *source, const char *from, const char *ref,
+                         unsigned char *buffer, size_t capacity);
 /* The bytes of a file, valid as long as the object; false after a diagnostic. */
 bool file_source_read(struct file_source *source, const char *path, const char **out_data,
                       size_t *out_size, struct diag_list *diags);
@@ -223,6 +229,11 @@ mxg_resolver stdio_resolver(struct mxg_context *context);
  * whether they exist or not. `context` is a struct mxg_context.
  */
 const char *stdio_texture_fault(void *context, const char *from, const char *file);
+/* True if the context has this resolver. */
+bool stdio_is_resolver(const struct mxg_context *context);
+/* The first bytes of a file as the resolver finds it, without the rest; their number. */
+size_t stdio_begin(struct mxg_context *context, const char *from, const char *ref,
+                   unsigned char *buffer, size_t capacity);
 extern const char stdio_no_memory[];
 
 /*

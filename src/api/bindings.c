@@ -23,9 +23,15 @@ static void resolve(void *arg)
                                          .num_mute = job->desc.num_mute};
     struct diag_list *diags = &object->diagnostics.list;
     const struct scene *scene = &result->scene->scene;
-    /* a stage of USD says itself what is bound, and may bind nothing */
-    bool needs_look =
-        job->desc.look || look_exists(doc) || (!scene->num_bindings && !scene->layer.prims.len);
+    /*
+     * A stage of USD says itself what is bound, and may bind nothing; so does one without any
+     * document. Beside bindings of the stage nobody has to choose one of several looks.
+     */
+    uint32_t num_looks = look_count(doc);
+    bool is_said = scene->num_bindings || scene->layer.prims.len;
+    bool needs_look = job->desc.look || num_looks == 1
+                      || (num_looks ? !scene->num_bindings
+                                    : !is_said && doc_element(doc, doc->root)->first_child);
     elem_id look = needs_look ? look_choose(doc, job->desc.look, diags) : 0;
     if (needs_look && !look)
         return;

@@ -219,13 +219,21 @@ mxg_status mxg_edit_commit(mxg_edit *edit, mxg_document **out_document)
 struct materials_job {
     mxg_document *document;
     const mxg_scene *scene;
+    struct file_source files;
     struct arena scratch;
 };
+
+static size_t read_image(void *user_data, const char *file, unsigned char *buffer, size_t capacity)
+{
+    struct materials_job *job = user_data;
+    return file_source_begin(&job->files, job->scene->scene.layer.file, file, buffer, capacity);
+}
 
 static void add_materials(void *arg)
 {
     struct materials_job *job = arg;
-    bind_add_materials(&job->scene->scene, &job->document->layer, &job->scratch,
+    const struct bind_images images = {job, read_image};
+    bind_add_materials(&job->scene->scene, &job->document->layer, &images, &job->scratch,
                        &job->document->object.diagnostics.list);
 }
 
@@ -244,7 +252,9 @@ mxg_status mxg_document_import(mxg_context *context, mxg_library *library,
     struct materials_job job = {.document = edit->document, .scene = scene};
     edit->is_unchecked = true;
     arena_init(&job.scratch, &edit->document->object.mem);
+    file_source_init(&job.files, &edit->document->object);
     status = object_run(&edit->document->object, add_materials, &job);
+    file_source_finish(&job.files);
     arena_finish(&job.scratch);
     if (status == MXG_OK)
         status = mxg_edit_commit(edit, out_document);

@@ -214,6 +214,21 @@ struct lang_reader file_source_for_lang(struct file_source *source)
     return (struct lang_reader){.user_data = source, .read = read_for_lang};
 }
 
+size_t file_source_begin(struct file_source *source, const char *from, const char *ref,
+                         unsigned char *buffer, size_t capacity)
+{
+    const char *unused;
+    struct mxg_context *context = source->object->context;
+    if (stdio_is_resolver(context))
+        return stdio_begin(context, from, ref, buffer, capacity);
+    if (!open_file(source, from, ref, &unused))
+        return 0;
+    size_t size = source->blob.size < capacity ? source->blob.size : capacity;
+    memcpy(buffer, source->blob.data, size);
+    close_file(source);
+    return size;
+}
+
 bool file_source_read(struct file_source *source, const char *path, const char **out_data,
                       size_t *out_size, struct diag_list *diags)
 {

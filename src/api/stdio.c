@@ -124,6 +124,23 @@ static enum outcome open_at(struct mxg_context *context, const char *name, mxg_b
     return OPENED;
 }
 
+/* The place of a file that another one names: beside it (0), or in the working directory (1). */
+static struct block *place_of(struct mxg_context *context, const char *from, const char *ref,
+                              int place, const char **out_fault)
+{
+    struct block *name = join(context, place == 0 ? from : "", ref);
+    *out_fault = name ? NULL : stdio_no_memory;
+    if (name && *from) /* the sandbox does not apply to files that the caller names */
+        *out_fault = sandbox_fault(context, name->bytes);
+    return name;
+}
+
+/* The first of the places; the referring file may be in the working directory. */
+static int first_place(const char *from, const char *ref)
+{
+    return !strchr(from, '/') || is_absolute(ref);
+}
+
 /*
  * If a file exists but cannot be read, the search stops: this file is the intended one.
  */
@@ -131,14 +148,10 @@ static bool open_file(void *user_data, const char *from, const char *ref, mxg_bl
                       const char **out_reason)
 {
     struct mxg_context *context = user_data;
-    /* the referring file is in the working directory, so both places are one */
-    bool one_place = !strchr(from, '/') || is_absolute(ref);
     enum outcome outcome = MISSING;
-    for (int i = one_place; i < 2 && outcome == MISSING; i++) {
-        struct block *name = join(context, i == 0 ? from : "", ref);
-        const char *fault = name ? NULL : stdio_no_memory;
-        if (name && *from) /* the sandbox does not apply to files that the caller names */
-            fault = sandbox_fault(context, name->bytes);
+    for (int i = first_place(from, ref); i < 2 && outcome == MISSING; i++) {
+        const char *fault;
+        struct block *name = place_of(context, from, ref, i, &fault);
         if (fault)
             *out_reason = fault;
         outcome = fault ? UNREADABLE : open_at(context, name->bytes, out_blob, out_reason);
@@ -147,6 +160,27 @@ static bool open_file(void *user_data, const char *from, const char *ref, mxg_bl
     if (outcome == UNREADABLE)
         out_blob->name = ref;
     return outcome == OPENED;
+}
+
+bool stdio_is_resolver(const struct mxg_context *context)
+{
+    return context->resolver.open == open_file;
+}
+
+size_t stdio_begin(struct mxg_context *context, const char *from, const char *ref,
+                   unsigned char *buffer, size_t capacity)
+{
+    size_t size = 0;
+    for (int i = first_place(from, ref); i < 2 && !size; i++) {
+        const char *fault;
+        struct block *name = place_of(context, from, ref, i, &fault);
+        FILE *file = fault ? NULL : fopen(name->bytes, "rb");
+        size = file ? fread(buffer, 1, capacity, file) : 0;
+        if (file)
+            fclose(file);
+        release(context, name);
+    }
+    return size;
 }
 
 static void release_file(void *user_data, mxg_blob *blob)
@@ -173,7 +207,7 @@ static size_t list_folder(void *user_data, const char *from, const char *folder,
 const char *stdio_texture_fault(void *user_data, const char *from, const char *file)
 {
     struct mxg_context *context = user_data;
-    if (!context->sandbox || context->resolver.open != open_file)
+    if (!context->sandbox || !stdio_is_resolver(context))
         return NULL;
     struct block *name = join(context, from, file);
     const char *fault = name ? sandbox_texture_fault(context, name->bytes) : stdio_no_memory;

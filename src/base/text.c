@@ -149,3 +149,38 @@ const char *text_cstr(struct text *text)
     text->data[text->len] = '\0';
     return text->data;
 }
+
+/* The code point at a byte that begins one, of valid UTF-8; otherwise something below 0x80. */
+static uint32_t code_point(const char *bytes, size_t len)
+{
+    unsigned char first = (unsigned char)*bytes;
+    size_t more = first < 0xc0 ? 0 : first < 0xe0 ? 1 : first < 0xf0 ? 2 : 3;
+    uint32_t out = more ? first & (0x3fu >> more) : first & 0x7fu;
+    for (size_t i = 1; i <= more && i < len; i++)
+        out = out << 6 | ((unsigned char)bytes[i] & 0x3fu);
+    return out;
+}
+
+size_t text_width(const char *bytes, size_t len)
+{
+    static const struct {
+        uint32_t first, last;
+        size_t width;
+    } ranges[] = {{0x0300, 0x036f, 0},   {0x1100, 0x115f, 2},   {0x200b, 0x200f, 0},
+                  {0x20d0, 0x20ff, 0},   {0x2e80, 0x303e, 2},   {0x3041, 0xa4cf, 2},
+                  {0xac00, 0xd7a3, 2},   {0xf900, 0xfaff, 2},   {0xfe00, 0xfe0f, 0},
+                  {0xfe30, 0xfe6f, 2},   {0xff00, 0xff60, 2},   {0xffe0, 0xffe6, 2},
+                  {0x1f300, 0x1f64f, 2}, {0x1f900, 0x1f9ff, 2}, {0x20000, 0x3fffd, 2}};
+    size_t width = 0;
+    for (size_t i = 0; i < len; i++) {
+        if (((unsigned char)bytes[i] & 0xc0) == 0x80)
+            continue;
+        uint32_t point = code_point(bytes + i, len - i);
+        size_t one = 1;
+        for (size_t k = 0; k < sizeof ranges / sizeof *ranges; k++)
+            if (point >= ranges[k].first && point <= ranges[k].last)
+                one = ranges[k].width;
+        width += one;
+    }
+    return width;
+}

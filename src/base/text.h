@@ -79,6 +79,12 @@ size_t text_copy(const char *text, size_t len, char *buffer, size_t capacity);
 /* True if all bytes are valid UTF-8 (RFC 3629). */
 bool text_is_utf8(const char *bytes, size_t len);
 
+/*
+ * The columns of a terminal that a text in UTF-8 takes: 2 for wide characters of East Asia and
+ * pictures, 0 for marks on others (Unicode, UAX #11), 1 otherwise.
+ */
+size_t text_width(const char *bytes, size_t len);
+
 /* A JSON string literal with its quotes; invalid UTF-8 becomes U+FFFD. */
 void text_json_string(struct text *text, const char *bytes, size_t len);
 

@@ -108,11 +108,34 @@ static bool set_material(struct bind_look *look, struct look_assign *assign, str
     return true;
 }
 
+/* Reports a name that several materials of the stage have, with their places; false: none have. */
+static bool report_namesakes(struct bind_look *look, const char *name, struct diag_place place)
+{
+    enum { MAX_SHOWN = 4 };
+    const struct scene *scene = look->scene;
+    const struct scene_material *material =
+        scene ? scene_namesakes(scene, (struct text_word){name, strlen(name)}) : NULL;
+    if (!material || material->num < 2)
+        return false;
+    diag_add(look->diags, DIAG_ID_ambiguous_material, place, name, (unsigned)material->num,
+             material->name);
+    for (unsigned i = 0; material && i < MAX_SHOWN; i++) {
+        const struct usda_prim *at = &scene->layer.prims.items[material->prim];
+        struct diag_place here = {scene->layer.file, at->line, at->column, 0};
+        diag_add(look->diags, DIAG_ID_defined_here, here, material->name);
+        material = scene_next_namesake(scene, material);
+    }
+    return true;
+}
+
 static bool find_material(struct bind_look *look, struct look_assign *assign)
 {
-    str_id name = doc_attr_value(look->doc, assign->element, STR_material);
+    const struct document *doc = look->doc;
+    str_id name = doc_attr_value(doc, assign->element, STR_material);
     bool found = !name || set_material(look, assign, name);
-    if (!found)
+    if (!found
+        && !report_namesakes(look, str_text(doc->strings, name),
+                             doc_attr_place(doc, assign->element, STR_material)))
         look_report_unknown(look, assign->element, STR_material, "material", KIND_NODE);
     return found;
 }
@@ -234,20 +257,31 @@ void look_read_assign(struct bind_look *look, elem_id element, uint32_t ordinal)
 
 /* ---- Bindings of the scene ---- */
 
-/* The materials of a scene are those of the documents, by the names of their prims. */
+/* Gives an assignment the material, or for an override the nodegraph, of this name. */
+static bool set_bound(struct bind_look *look, struct look_assign *assign, const char *text,
+                      bool is_override)
+{
+    str_id name = str_find(look->doc->strings, text, strlen(text));
+    if (name && set_material(look, assign, name))
+        return true;
+    elem_id graph = name && is_override ? doc_top_level(look->doc, KIND_NODEGRAPH, name) : 0;
+    if (!graph)
+        return false;
+    assign->target = graph;
+    assign->kind = ASSIGN_GRAPH;
+    return true;
+}
+
+/* The materials of a scene are those of the document, by the names of their prims, or its own. */
 static bool find_bound(struct bind_look *look, struct look_assign *assign,
                        const struct scene_binding *binding, bool is_override)
 {
     const char *material = binding->material;
-    str_id name = str_find(look->doc->strings, material, strlen(material));
-    if (!*material || (name && set_material(look, assign, name)))
+    if (!*material || set_bound(look, assign, material, is_override)
+        || (binding->leaf && set_bound(look, assign, binding->leaf, is_override)))
         return true;
-    elem_id graph = name && is_override ? doc_top_level(look->doc, KIND_NODEGRAPH, name) : 0;
-    if (graph) {
-        assign->target = graph;
-        assign->kind = ASSIGN_GRAPH;
-        return true;
-    }
+    if (report_namesakes(look, material, binding->place))
+        return false;
     struct diag_guess guess;
     const char *near = "";
     if (diag_guess_begin(&guess, look->diags, material)) {

@@ -159,6 +159,9 @@ const char *bind_fact_target(const struct document *doc, elem_id fact);
 enum { BIND_STACK_NAME_SIZE = 6 + 16 + 1 };
 void bind_stack_name(const struct bindings *b, uint32_t stack, char out[BIND_STACK_NAME_SIZE]);
 
+/* unmatched.c: warns about each geometry name that matches no primitive. */
+void bind_warn_unmatched(const struct bindings *b, struct arena *scratch, struct diag_list *diags);
+
 /* Writes why each assignment that was considered for a primitive won, lost, removes or sleeps. */
 void bind_explain(const struct bindings *b, prim_id prim, struct arena *scratch, struct text *out);
 

@@ -48,6 +48,7 @@ static void read_geometry_name(struct list *list, struct look_matcher matcher, c
     }
     const char *fault =
         pattern_add(&look->patterns, text_cstr(&whole), whole.len, list->matcher - 1);
+    look->matchers.items[list->matcher - 1].has_fault |= fault != NULL;
     if (fault)
         diag_add(look->diags, DIAG_ID_bad_pattern,
                  doc_attr_place(look->doc, list->element, list->attr), text_cstr(&whole), fault);

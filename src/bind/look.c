@@ -38,12 +38,12 @@ static void report_unknown_look(const struct document *doc, const char *name,
     diag_add(diags, DIAG_ID_unknown_look, place, name, near);
 }
 
-bool look_exists(const struct document *doc)
+uint32_t look_count(const struct document *doc)
 {
+    uint32_t num = 0;
     for (elem_id e = doc_element(doc, doc->root)->first_child; e; e = doc_element(doc, e)->next)
-        if (doc_element(doc, e)->kind == KIND_LOOK)
-            return true;
-    return false;
+        num += doc_element(doc, e)->kind == KIND_LOOK;
+    return num;
 }
 
 /* Without a name: the only look. */
@@ -165,7 +165,10 @@ static void find_parents(struct bind_look *look, struct chain *chain)
         str_id base = doc_attr_value(doc, e, STR_inherit);
         elem_id parent = base ? doc_top_level(doc, KIND_LOOK, base) : 0;
         const char *name = text_of(doc, doc_element(doc, e)->name);
-        if (base && !parent)
+        if (base && !parent && strchr(text_of(doc, base), ','))
+            diag_add(look->diags, DIAG_ID_inherit_several, doc_attr_place(doc, e, STR_inherit),
+                     name, text_of(doc, base));
+        else if (base && !parent)
             diag_add(look->diags, DIAG_ID_inherit_missing, doc_attr_place(doc, e, STR_inherit),
                      name, text_of(doc, base));
         if (is_in(chain, parent)) {

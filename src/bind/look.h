@@ -75,6 +75,7 @@ enum matcher_kind {
 struct look_matcher {
     uint32_t owner;                 /* the assignment or the collection */
     uint8_t kind;                   /* enum matcher_kind */
+    bool has_fault;                 /* a name was reported */
     const char *prefix, *list;      /* the names and the geomprefix in front; NULL: primitives */
     uint32_t first_prim, num_prims; /* in `matched` */
 };
@@ -108,8 +109,8 @@ struct bind_look {
  */
 elem_id look_choose(const struct document *doc, const char *name, struct diag_list *diags);
 
-/* True if the document has a look. */
-bool look_exists(const struct document *doc);
+/* The number of looks of a document. */
+uint32_t look_count(const struct document *doc);
 
 /*
  * Reads the bindings of a scene, and a look with its parents. Errors leave an assignment out. The

@@ -4,243 +4,15 @@
  * the patterns, and nodes beside it for the shaders. The inputs of the Material are the interface
  * of the nodegraph.
  */
-#include "bind/materials.h"
+#include "bind/maker.h"
 #include "bind/shade_type.h"
 
 #include "base/hash.h"
 
-#include <assert.h>
-
-/* A node that was made; its inputs are read later, so no network is too deep. */
-struct made_node {
-    usda_prim_id prim;
-    elem_id element;
-    uint32_t nodedef;
-};
-
-/* An output of the nodegraph. */
-struct made_output {
-    elem_id node;
-    str_id port, name;
-};
-
-struct maker {
-    const struct usda_layer *layer;
-    struct library *lib;
-    struct document *doc;
-    struct arena *scratch;
-    struct diag_list *diags;
-    usda_prim_id material;
-    elem_id graph; /* 0: not made yet */
-    uint16_t file;
-    VEC(struct made_node) nodes; /* of the material */
-    VEC(struct made_output) outputs;
-    VEC(str_id) interface;
-    struct table node_table;      /* (prim, material) → 1 + index in `nodes` */
-    struct table output_table;    /* (node, port) → the same in `outputs` */
-    struct table interface_table; /* (name, material) → the same in `interface` */
-    bool is_broken;
-};
-
-/* Where a connection ends. */
-struct source {
-    uint32_t node; /* 1 + index in `nodes`; 0: a value */
-    str_id port;
-    const struct usda_property *value; /* NULL: nothing */
-    bool is_interface;                 /* the value is an input of the Material */
-};
-
-static str_id intern(struct maker *m, struct text_word word)
-{
-    return str_intern(m->doc->strings, word.bytes, word.len);
-}
-
-static void set(struct maker *m, elem_id element, const char *name, str_id value)
-{
-    doc_set_attr(m->doc, element, str_intern_z(m->doc->strings, name), value);
-}
-
-static elem_id add(struct maker *m, elem_id parent, const char *category, str_id name,
-                   uint32_t line, uint32_t column)
-{
-    return doc_add_element(m->doc, parent, str_intern_z(m->doc->strings, category), name, m->file,
-                           line, (uint16_t)(column < UINT16_MAX ? column : UINT16_MAX));
-}
-
-/* ---- Names ---- */
-
-/* The names from below a prim down to another one, joined by '_'. */
-static str_id name_below(struct maker *m, usda_prim_id above, usda_prim_id prim, bool with_above)
-{
-    const struct usda_prim *prims = m->layer->prims.items;
-    usda_prim_id chain[64];
-    uint32_t num = 0;
-    struct text text;
-    for (; prim && prim != above && num < 64; prim = prims[prim].parent)
-        chain[num++] = prim;
-    text_init(&text, m->scratch);
-    if (with_above)
-        text_put(&text, prims[above].name);
-    while (num) {
-        text_str(&text, text.len ? "_" : "");
-        text_put(&text, prims[chain[--num]].name);
-    }
-    return str_intern(m->doc->strings, text.data, text.len);
-}
-
-/* ---- Values ---- */
-
-static void write_numbers(struct text *text, struct text_word value)
-{
-    double number;
-    for (bool more = false; usda_next_number(&value, &number); more = true) {
-        text_str(text, more ? ", " : "");
-        if (number >= -16777216 && number <= 16777216 && number == (double)(int32_t)number)
-            text_i32(text, (int32_t)number);
-        else
-            text_float(text, (float)number);
-    }
-}
-
-/* The value as MaterialX writes it. */
-static str_id value_text(struct maker *m, const struct usda_property *property)
-{
-    struct text_word value = usda_value(property), word = value;
-    struct text text;
-    text_init(&text, m->scratch);
-    if (value.len && strchr("\"'", *value.bytes)) {
-        text_put(&text, usda_unquoted(value));
-    } else if (value.len && *value.bytes == '@') {
-        size_t marks = value.len >= 6 && memcmp(value.bytes, "@@@", 3) == 0 ? 3 : 1;
-        text_mem(&text, value.bytes + marks, value.len - 2 * marks);
-    } else if (usda_is(property->type, "bool")) {
-        text_str(&text, usda_is(word, "1") || usda_is(word, "true") ? "true" : "false");
-    } else {
-        write_numbers(&text, value);
-    }
-    return str_intern(m->doc->strings, text.data, text.len);
-}
-
-/* ---- Types ---- */
-
-static struct diag_place place_of(const struct maker *m, const struct usda_property *property)
-{
-    return (struct diag_place){m->layer->file, property->line, property->column, 0};
-}
-
-static const char *text_of(struct maker *m, struct text_word word)
-{
-    return arena_strndup(m->diags->arena, word.bytes, word.len);
-}
-
-/*
- * Reports a property whose type is another than the wanted one, or whose value is none of its type.
- * Each place is reported once, however many inputs read it.
- */
-static void check_type(struct maker *m, const struct usda_property *property, const char *wanted)
-{
-    const char *name = text_of(m, property->name), *type = text_of(m, property->type);
-    if (!shade_type_agrees(property->type, wanted))
-        diag_add(m->diags, DIAG_ID_usda_type, place_of(m, property), name, type, wanted);
-    else if (property->value.len && *property->value.bytes != '<' && !shade_value_fits(property))
-        diag_add(m->diags, DIAG_ID_usda_value, place_of(m, property), name,
-                 text_of(m, usda_value(property)), type);
-}
-
-/* ---- Nodes ---- */
-
-/* The definition of a shader; USD's own shaders are nodes of MaterialX, too. */
-static uint32_t definition_of(struct maker *m, usda_prim_id prim)
-{
-    static const char *const own[][2] = {
-        {"UsdPreviewSurface", "ND_UsdPreviewSurface_surfaceshader"},
-        {"UsdUVTexture", "ND_UsdUVTexture_23"},
-        {"UsdTransform2d", "ND_UsdTransform2d"},
-        {"UsdPrimvarReader_float", "ND_UsdPrimvarReader_float"},
-        {"UsdPrimvarReader_float2", "ND_UsdPrimvarReader_vector2"},
-        {"UsdPrimvarReader_float3", "ND_UsdPrimvarReader_vector3"},
-        {"UsdPrimvarReader_float4", "ND_UsdPrimvarReader_vector4"},
-        {"UsdPrimvarReader_int", "ND_UsdPrimvarReader_integer"}};
-    const struct usda_prim *at = &m->layer->prims.items[prim];
-    const struct usda_property *id = usda_find_attribute(m->layer, at, "info:id");
-    struct text_word rest = id ? id->value : (struct text_word){0}, word = {0};
-    if (id)
-        usda_next_item(&rest, &word);
-    str_id name = intern(m, word);
-    for (size_t i = 0; i < sizeof own / sizeof *own; i++)
-        if (usda_is(word, own[i][0]))
-            name = str_intern_z(m->doc->strings, own[i][1]);
-    uint32_t found = library_nodedef_by_name(m->lib, name);
-    if (found != LIBRARY_NONE)
-        return found;
-    struct diag_place place = {m->layer->file, id ? id->line : at->line,
-                               id ? id->column : at->column, 0};
-    diag_add(m->diags, DIAG_ID_usda_shader, place,
-             arena_strndup(m->diags->arena, at->name.bytes, at->name.len),
-             arena_strndup(m->diags->arena, word.bytes, word.len));
-    m->is_broken = true;
-    return LIBRARY_NONE;
-}
-
-static bool is_shader_type(struct maker *m, doc_type type)
-{
-    const char *name = str_text(m->doc->strings, library_type_name(m->lib, type));
-    size_t len = strlen(name);
-    return len > 6 && strcmp(name + len - 6, "shader") == 0;
-}
-
-/* The outputs of a definition. */
-static const struct port *outputs_of(struct maker *m, uint32_t nodedef, uint32_t *out_num)
-{
-    const struct nodedef *def = library_nodedef(m->lib, nodedef);
-    *out_num = def->num_outputs;
-    return library_ports(m->lib, nodedef, NULL) + def->num_inputs;
-}
-
-static elem_id graph_of(struct maker *m)
-{
-    if (!m->graph) {
-        const struct usda_prim *material = &m->layer->prims.items[m->material];
-        struct text name;
-        text_init(&name, m->scratch);
-        text_put(&name, material->name);
-        text_str(&name, "_graph");
-        m->graph =
-            add(m, m->doc->root, "nodegraph", str_intern(m->doc->strings, name.data, name.len),
-                material->line, material->column);
-    }
-    return m->graph;
-}
-
-/* The node of a Shader prim: 1 + index; makes it on first use. 0: it has no definition. */
-static uint32_t node_of(struct maker *m, usda_prim_id prim)
-{
-    uint32_t hash = hash_pair(prim, m->material);
-    for (uint32_t at = hash, found; (found = table_next(&m->node_table, hash, &at));)
-        if (found <= m->nodes.len && m->nodes.items[found - 1].prim == prim)
-            return found;
-    uint32_t nodedef = definition_of(m, prim), num;
-    if (nodedef == LIBRARY_NONE)
-        return 0;
-    const struct usda_prim *at = &m->layer->prims.items[prim];
-    const struct port *outputs = outputs_of(m, nodedef, &num);
-    bool is_shader = is_shader_type(m, outputs[0].type);
-    const char *category = str_text(m->doc->strings, library_nodedef(m->lib, nodedef)->node);
-    elem_id element = add(m, is_shader ? m->doc->root : graph_of(m), category,
-                          name_below(m, m->material, prim, is_shader), at->line, at->column);
-    set(m, element, "type",
-        num == 1 ? library_type_name(m->lib, outputs[0].type)
-                 : str_intern_z(m->doc->strings, "multioutput"));
-    set(m, element, "nodedef", library_nodedef(m->lib, nodedef)->name);
-    vec_push(m->scratch, &m->nodes, (struct made_node){prim, element, nodedef});
-    table_add(&m->node_table, m->scratch, hash, m->nodes.len);
-    return m->nodes.len;
-}
-
 /* ---- Connections ---- */
 
-static const struct usda_property *connection_of(struct maker *m, usda_prim_id prim,
-                                                 struct text_word name)
+const struct usda_property *maker_connection(struct maker *m, usda_prim_id prim,
+                                             struct text_word name)
 {
     struct text text;
     text_init(&text, m->scratch);
@@ -256,8 +28,8 @@ static const struct usda_property *connection_of(struct maker *m, usda_prim_id p
 static str_id port_of(struct maker *m, uint32_t nodedef, struct text_word name)
 {
     uint32_t num;
-    const struct port *outputs = outputs_of(m, nodedef, &num);
-    str_id port = intern(m, name);
+    const struct port *outputs = maker_outputs(m, nodedef, &num);
+    str_id port = maker_intern(m, name);
     for (uint32_t i = 0; i < num; i++)
         if (outputs[i].name == port)
             return port;
@@ -269,21 +41,23 @@ static struct source end_at(struct maker *m, usda_prim_id prim, struct text_word
                             const struct usda_property *connection, struct text_word path)
 {
     const size_t prefix = strlen("outputs:");
-    struct source out = {.node = node_of(m, prim)};
+    struct source out = {.node = maker_node(m, prim)};
     if (!out.node)
         return out;
-    if (name.len > prefix)
-        out.port = port_of(m, m->nodes.items[out.node - 1].nodedef,
-                           (struct text_word){name.bytes + prefix, name.len - prefix});
+    const struct made_node *node = &m->nodes.items[out.node - 1];
+    struct text_word port = {name.bytes + prefix, name.len > prefix ? name.len - prefix : 0};
+    if (port.len && node->preview && preview_is_texture(node->preview))
+        out = usd_texture_output(m, out.node, port);
+    else if (port.len)
+        out.port = port_of(m, node->nodedef, port);
     if (out.port)
         return out;
-    diag_add(m->diags, DIAG_ID_usda_connection, place_of(m, connection),
-             text_of(m, connection->name), text_of(m, path));
+    diag_add(m->diags, DIAG_ID_usda_connection, maker_place(m, connection),
+             maker_text(m, connection->name), maker_text(m, path));
     return (struct source){0};
 }
 
-/* Follows "/M/NG.outputs:x" through the ports of graphs to a shader, or to a value. */
-static struct source follow(struct maker *m, const struct usda_property *connection)
+struct source maker_follow(struct maker *m, const struct usda_property *connection)
 {
     enum { MAX_HOPS = 64 };
     struct source out = {0};
@@ -298,13 +72,13 @@ static struct source follow(struct maker *m, const struct usda_property *connect
         const struct usda_property *before = connection;
         if (prim && dot && usda_is(m->layer->prims.items[prim].type, "Shader"))
             return end_at(m, prim, name, connection, path);
-        connection = connection_of(m, prim, name);
+        connection = maker_connection(m, prim, name);
         const char *text = arena_strndup(m->scratch, name.bytes, name.len);
         out.value = usda_find_attribute(m->layer, &m->layer->prims.items[prim], text);
         out.is_interface = prim == m->material;
         if (!prim || (!connection && !out.value))
-            diag_add(m->diags, DIAG_ID_usda_connection, place_of(m, before),
-                     text_of(m, before->name), text_of(m, path));
+            diag_add(m->diags, DIAG_ID_usda_connection, maker_place(m, before),
+                     maker_text(m, before->name), maker_text(m, path));
     }
     return out;
 }
@@ -317,54 +91,91 @@ static str_id output_of(struct maker *m, const struct made_node *node, str_id po
         if (found <= m->outputs.len && m->outputs.items[found - 1].node == node->element
             && m->outputs.items[found - 1].port == port)
             return m->outputs.items[found - 1].name;
-    const struct port *outputs = outputs_of(m, node->nodedef, &num);
+    const struct port *outputs = maker_outputs(m, node->nodedef, &num);
     struct text text;
     text_init(&text, m->scratch);
     text_fmt(&text, "%s_%s", str_text(m->doc->strings, doc_element(m->doc, node->element)->name),
              str_text(m->doc->strings, port));
     str_id name = str_intern(m->doc->strings, text.data, text.len);
     const struct usda_prim *at = &m->layer->prims.items[node->prim];
-    elem_id output = add(m, m->graph, "output", name, at->line, at->column);
+    elem_id output = maker_add(m, m->graph, "output", name, at->line, at->column);
     for (uint32_t i = 0; i < num; i++)
         if (outputs[i].name == port)
-            set(m, output, "type", library_type_name(m->lib, outputs[i].type));
-    set(m, output, "nodename", doc_element(m->doc, node->element)->name);
+            maker_set(m, output, "type", library_type_name(m->lib, outputs[i].type));
+    maker_set(m, output, "nodename", doc_element(m->doc, node->element)->name);
     if (num > 1)
-        set(m, output, "output", port);
+        maker_set(m, output, "output", port);
     vec_push(m->scratch, &m->outputs, (struct made_output){node->element, port, name});
     table_add(&m->output_table, m->scratch, hash, m->outputs.len);
     return name;
 }
 
-static void connect(struct maker *m, elem_id input, elem_id user, const struct source *from)
+static str_id port_type(struct maker *m, const struct source *from)
 {
+    uint32_t num;
+    const struct port *outputs = maker_outputs(m, m->nodes.items[from->node - 1].nodedef, &num);
+    while (num && outputs[num - 1].name != from->port)
+        num--;
+    return num ? library_type_name(m->lib, outputs[num - 1].type) : 0;
+}
+
+/* The definition between two types that are one of USD; NULL: they are not. */
+static const char *conversion_of(const char *from, const char *to)
+{
+    static const char *const rows[][3] = {{"color3", "vector3", "ND_convert_color3_vector3"},
+                                          {"vector3", "color3", "ND_convert_vector3_color3"},
+                                          {"color4", "vector4", "ND_convert_color4_vector4"},
+                                          {"vector4", "color4", "ND_convert_vector4_color4"}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        if (strcmp(from, rows[i][0]) == 0 && strcmp(to, rows[i][1]) == 0)
+            return rows[i][2];
+    return NULL;
+}
+
+/* What an input of a type connects to: a node that converts, where USD needs none. */
+static struct source converted(struct maker *m, const struct source *from, str_id wanted)
+{
+    str_id type = port_type(m, from);
+    const char *to = str_text(m->doc->strings, wanted);
+    const char *nodedef = type ? conversion_of(str_text(m->doc->strings, type), to) : NULL;
+    return nodedef ? maker_add_after(m, from, nodedef, "in", to) : *from;
+}
+
+void maker_connect(struct maker *m, elem_id input, elem_id user, const struct source *to)
+{
+    str_id wanted = doc_attr_value(m->doc, input, STR_type);
+    const struct source source = converted(m, to, wanted), *from = &source;
     const struct made_node *node = &m->nodes.items[from->node - 1];
     bool is_inside = doc_element(m->doc, user)->parent == m->graph;
     uint32_t num;
-    outputs_of(m, node->nodedef, &num);
+    maker_outputs(m, node->nodedef, &num);
     if (doc_element(m->doc, node->element)->parent == m->doc->root || is_inside) {
-        set(m, input, "nodename", doc_element(m->doc, node->element)->name);
+        maker_set(m, input, "nodename", doc_element(m->doc, node->element)->name);
         if (num > 1)
-            set(m, input, "output", from->port);
+            maker_set(m, input, "output", from->port);
         return;
     }
-    set(m, input, "nodegraph", doc_element(m->doc, m->graph)->name);
-    set(m, input, "output", output_of(m, node, from->port));
+    maker_set(m, input, "nodegraph", doc_element(m->doc, m->graph)->name);
+    maker_set(m, input, "output", output_of(m, node, from->port));
 }
 
-/* The input of the nodegraph for an input of the Material. */
-static void add_interface(struct maker *m, str_id name, str_id type,
+/*
+ * The input of the nodegraph for an input of the Material; false: it has another type, because one
+ * type of USD is several of MaterialX.
+ */
+static bool add_interface(struct maker *m, str_id name, str_id type,
                           const struct usda_property *property)
 {
     uint32_t hash = hash_pair(name, m->material);
     for (uint32_t at = hash, found; (found = table_next(&m->interface_table, hash, &at));)
-        if (found <= m->interface.len && m->interface.items[found - 1] == name)
-            return;
-    vec_push(m->scratch, &m->interface, name);
+        if (found <= m->interface.len && m->interface.items[found - 1].name == name)
+            return m->interface.items[found - 1].type == type;
+    vec_push(m->scratch, &m->interface, (struct made_input){name, type});
     table_add(&m->interface_table, m->scratch, hash, m->interface.len);
-    elem_id input = add(m, graph_of(m), "input", name, property->line, property->column);
-    set(m, input, "type", type);
-    set(m, input, "value", value_text(m, property));
+    elem_id input = maker_add(m, maker_graph(m), "input", name, property->line, property->column);
+    maker_set(m, input, "type", type);
+    maker_set(m, input, "value", maker_value(m, property));
+    return true;
 }
 
 /* Sets an input of a node to a value. */
@@ -376,16 +187,16 @@ static void set_value(struct maker *m, elem_id input, elem_id user, const struct
         return;
     bool is_inside = doc_element(m->doc, user)->parent == m->graph;
     if (from->is_interface && is_inside && property->name.len > strlen(prefix)) {
-        str_id name = intern(m, (struct text_word){property->name.bytes + strlen(prefix),
-                                                   property->name.len - strlen(prefix)});
-        str_id type = doc_attr_value(m->doc, input, str_intern_z(m->doc->strings, "type"));
-        add_interface(m, name, type, property);
-        set(m, input, "interfacename", name);
-        return;
+        str_id name = maker_intern(m, (struct text_word){property->name.bytes + strlen(prefix),
+                                                         property->name.len - strlen(prefix)});
+        if (add_interface(m, name, doc_attr_value(m->doc, input, STR_type), property)) {
+            maker_set(m, input, "interfacename", name);
+            return;
+        }
     }
-    set(m, input, "value", value_text(m, property));
+    maker_set(m, input, "value", maker_value(m, property));
     if (property->color_space.len)
-        set(m, input, "colorspace", intern(m, property->color_space));
+        maker_set(m, input, "colorspace", maker_intern(m, property->color_space));
 }
 
 /* The type of an input: that of the definition, or USD's; 0 after a diagnostic. */
@@ -397,42 +208,73 @@ static str_id input_type(struct maker *m, const struct made_node *node, str_id n
         return library_type_name(m->lib, library_ports(m->lib, node->nodedef, NULL)[found].type);
     const char *type = shade_type(property->type);
     if (!type)
-        diag_add(m->diags, DIAG_ID_usda_type, place_of(m, property), text_of(m, property->name),
-                 text_of(m, property->type), "a type of MaterialX");
+        diag_add(m->diags, DIAG_ID_usda_type, maker_place(m, property),
+                 maker_text(m, property->name), maker_text(m, property->type),
+                 "a type of MaterialX");
     return type ? str_intern_z(m->doc->strings, type) : 0;
 }
 
-/* Reads one property of a shader, "inputs:bg" or "inputs:bg.connect". */
-static void read_input(struct maker *m, const struct made_node *node,
-                       const struct usda_property *property)
+/* ---- Inputs ---- */
+
+static void add_input(struct maker *m, const struct made_node *node,
+                      const struct usda_property *property, str_id name, str_id type,
+                      const struct source *from)
+{
+    elem_id input = maker_add(m, node->element, "input", name, property->line, property->column);
+    maker_set(m, input, "type", type);
+    if (from->node) {
+        maker_connect(m, input, node->element, from);
+        return;
+    }
+    set_value(m, input, node->element, from);
+    if (node->preview && preview_is_texture(node->preview) && type == STR_filename)
+        usd_set_color_space(m, node, input, from->value);
+}
+
+/* The name of an input that a property has or connects, "bg"; len 0: it is no input. */
+static struct text_word input_name(const struct usda_property *property, bool *out_is_connection)
 {
     static const char prefix[] = "inputs:", connect_end[] = ".connect";
+    const size_t begin = strlen(prefix), end = strlen(connect_end);
     struct text_word name = property->name;
-    if (name.len <= strlen(prefix) || memcmp(name.bytes, prefix, strlen(prefix)) != 0)
-        return;
-    bool is_connection =
-        name.len > strlen(connect_end)
-        && memcmp(name.bytes + name.len - strlen(connect_end), connect_end, strlen(connect_end))
-               == 0;
-    if (!is_connection && connection_of(m, node->prim, name))
-        return; /* the connection wins */
-    name.bytes += strlen(prefix);
-    name.len -= strlen(prefix) + (is_connection ? strlen(connect_end) : 0);
-    str_id input_name = intern(m, name), type = input_type(m, node, input_name, property);
-    struct source from = is_connection ? follow(m, property) : (struct source){.value = property};
+    if (name.len <= begin || memcmp(name.bytes, prefix, begin) != 0)
+        return (struct text_word){0};
+    *out_is_connection =
+        name.len > end && memcmp(name.bytes + name.len - end, connect_end, end) == 0;
+    return (struct text_word){name.bytes + begin,
+                              name.len - begin - (*out_is_connection ? end : 0)};
+}
+
+void maker_read_input(struct maker *m, const struct made_node *node,
+                      const struct usda_property *property, str_id name)
+{
+    bool is_connection;
+    input_name(property, &is_connection);
+    str_id type = input_type(m, node, name, property);
+    struct source from =
+        is_connection ? maker_follow(m, property) : (struct source){.value = property};
     if (!type)
         return;
-    check_type(m, property, str_text(m->doc->strings, type));
+    maker_check_type(m, property, str_text(m->doc->strings, type));
     if (from.value && from.value != property)
-        check_type(m, from.value, str_text(m->doc->strings, type));
-    if (!from.node && !from.value)
+        maker_check_type(m, from.value, str_text(m->doc->strings, type));
+    if (from.node || from.value)
+        add_input(m, node, property, name, type, &from);
+}
+
+/* Reads one property of a shader, "inputs:bg" or "inputs:bg.connect". */
+static void read_property(struct maker *m, const struct made_node *node,
+                          const struct usda_property *property)
+{
+    bool is_connection;
+    struct text_word name = input_name(property, &is_connection);
+    if (!name.len)
         return;
-    elem_id input = add(m, node->element, "input", input_name, property->line, property->column);
-    set(m, input, "type", type);
-    if (from.node)
-        connect(m, input, node->element, &from);
-    else
-        set_value(m, input, node->element, &from);
+    if (!is_connection && maker_connection(m, node->prim, property->name))
+        return; /* the connection wins */
+    str_id own = usd_input(m, node, name);
+    if (own)
+        maker_read_input(m, node, property, own);
 }
 
 /* ---- Materials ---- */
@@ -444,16 +286,21 @@ static bool add_product(struct maker *m, elem_id material, const char *const *ou
     const struct usda_prim *prim = &m->layer->prims.items[m->material];
     for (; *outputs; outputs++) {
         const struct usda_property *connection =
-            connection_of(m, m->material, (struct text_word){*outputs, strlen(*outputs)});
+            maker_connection(m, m->material, (struct text_word){*outputs, strlen(*outputs)});
         if (!connection)
             continue;
-        struct source from = follow(m, connection);
+        struct source from = maker_follow(m, connection);
         if (!from.node)
             return false;
-        elem_id input = add(m, material, "input", str_intern_z(m->doc->strings, product),
-                            prim->line, prim->column);
-        set(m, input, "type", str_intern_z(m->doc->strings, product));
-        connect(m, input, material, &from);
+        const struct made_node node = m->nodes.items[from.node - 1];
+        if (node.preview && strcmp(product, "displacementshader") == 0)
+            from = usd_displacement(m, &node);
+        if (!from.node)
+            return false;
+        elem_id input = maker_add(m, material, "input", str_intern_z(m->doc->strings, product),
+                                  prim->line, prim->column);
+        maker_set(m, input, "type", str_intern_z(m->doc->strings, product));
+        maker_connect(m, input, material, &from);
         return true;
     }
     return false;
@@ -466,31 +313,88 @@ static void read_inputs(struct maker *m)
     for (uint32_t i = 0; i < m->nodes.len; i++) { /* grows while it is read */
         struct made_node node = m->nodes.items[i];
         const struct usda_prim *prim = &m->layer->prims.items[node.prim];
+        if (node.is_made)
+            continue;
+        usd_add_values(m, &node);
         for (uint32_t k = prim->first_property; k < usda_end_property(prim); k++)
-            read_input(m, &node, &properties[k]);
+            read_property(m, &node, &properties[k]);
     }
 }
 
-static void begin(struct maker *m, usda_prim_id prim)
+static void begin(struct maker *m, const struct scene_material *material)
 {
-    m->material = prim;
+    m->material = material->prim;
+    m->name = material->name;
     m->graph = 0;
-    m->is_broken = false;
     m->nodes.len = m->outputs.len = m->interface.len = 0;
 }
 
-static void add_material(struct maker *m, usda_prim_id prim)
+/* The outputs of a Material that other renderers read: "outputs:arnold:surface". */
+static const char *foreign_outputs(struct maker *m)
+{
+    const struct usda_prim *prim = &m->layer->prims.items[m->material];
+    struct text list;
+    text_init(&list, m->diags->arena);
+    for (uint32_t i = prim->first_property; i < usda_end_property(prim); i++) {
+        struct text_word name = m->layer->properties.items[i].name;
+        const size_t end = strlen(".connect");
+        if (name.len > end && memcmp(name.bytes + name.len - end, ".connect", end) == 0)
+            name.len -= end;
+        if (name.len > 8 && memcmp(name.bytes, "outputs:", 8) == 0) {
+            text_str(&list, list.len ? ", " : " (it has ");
+            text_put(&list, name);
+        }
+    }
+    text_str(&list, list.len ? ")" : "");
+    return text_cstr(&list);
+}
+
+/* The default substance (docs/slots.md) for a Material without a surface. */
+static void add_default(struct maker *m, elem_id material)
+{
+    const struct usda_prim *at = &m->layer->prims.items[m->material];
+    const struct {
+        const char *category, *type, *input, *input_type, *value;
+    } steps[] = {{"oren_nayar_diffuse_bsdf", "BSDF", "color", "color3", "0.8, 0.8, 0.8"},
+                 {"surface", "surfaceshader", "bsdf", "BSDF", NULL}};
+    str_id before = 0;
+    elem_id input;
+    for (size_t i = 0; i < sizeof steps / sizeof *steps; i++) {
+        struct text name;
+        text_init(&name, m->scratch);
+        text_fmt(&name, "%s_%s", m->name, steps[i].category);
+        elem_id node = maker_add_free(m, m->doc->root, steps[i].category, &name, at);
+        maker_set(m, node, "type", str_intern_z(m->doc->strings, steps[i].type));
+        input = maker_add(m, node, "input", str_intern_z(m->doc->strings, steps[i].input), at->line,
+                          at->column);
+        maker_set(m, input, "type", str_intern_z(m->doc->strings, steps[i].input_type));
+        maker_set(m, input, before ? "nodename" : "value",
+                  before ? before : str_intern_z(m->doc->strings, steps[i].value));
+        before = doc_element(m->doc, node)->name;
+    }
+    input = maker_add(m, material, "input", STR_surfaceshader, at->line, at->column);
+    maker_set(m, input, "type", STR_surfaceshader);
+    maker_set(m, input, "nodename", before);
+}
+
+static void add_material(struct maker *m, const struct scene_material *from, bool is_bound)
 {
     static const char *const surfaces[] = {"outputs:mtlx:surface", "outputs:surface", NULL};
     static const char *const displacements[] = {"outputs:mtlx:displacement", "outputs:displacement",
                                                 NULL};
-    const struct usda_prim *at = &m->layer->prims.items[prim];
-    begin(m, prim);
-    elem_id material =
-        add(m, m->doc->root, "surfacematerial", intern(m, at->name), at->line, at->column);
-    set(m, material, "type", str_intern_z(m->doc->strings, "material"));
+    const struct usda_prim *at = &m->layer->prims.items[from->prim];
+    begin(m, from);
+    elem_id material = maker_add(m, m->doc->root, "surfacematerial",
+                                 str_intern_z(m->doc->strings, from->name), at->line, at->column);
+    maker_set(m, material, "type", str_intern_z(m->doc->strings, "material"));
     doc_index_element(m->doc, material);
-    add_product(m, material, surfaces, "surfaceshader");
+    if (!add_product(m, material, surfaces, "surfaceshader")) {
+        if (is_bound)
+            diag_add(m->diags, DIAG_ID_usda_material,
+                     (struct diag_place){m->layer->file, at->line, at->column, 0},
+                     maker_text(m, at->name), foreign_outputs(m));
+        add_default(m, material);
+    }
     add_product(m, material, displacements, "displacementshader");
     read_inputs(m);
 }
@@ -543,14 +447,14 @@ static str_id add_constant(struct maker *m, struct text_word output, str_id type
     text_put(&text, output);
     text_str(&text, "_value");
     str_id name = str_intern(m->doc->strings, text.data, text.len);
-    elem_id node = add(m, m->graph, "constant", name, value->line, value->column);
-    elem_id input =
-        add(m, node, "input", str_intern_z(m->doc->strings, "value"), value->line, value->column);
-    set(m, node, "type", type);
-    set(m, input, "type", type);
-    set(m, input, "value", value_text(m, value));
+    elem_id node = maker_add(m, m->graph, "constant", name, value->line, value->column);
+    elem_id input = maker_add(m, node, "input", str_intern_z(m->doc->strings, "value"), value->line,
+                              value->column);
+    maker_set(m, node, "type", type);
+    maker_set(m, input, "type", type);
+    maker_set(m, input, "value", maker_value(m, value));
     if (value->color_space.len)
-        set(m, input, "colorspace", intern(m, value->color_space));
+        maker_set(m, input, "colorspace", maker_intern(m, value->color_space));
     return name;
 }
 
@@ -559,83 +463,109 @@ static void add_override_output(struct maker *m, const struct usda_property *pro
     struct text_word name = override_name(property);
     const char *type_name = shade_type(property->type);
     if (name.len && !type_name)
-        diag_add(m->diags, DIAG_ID_usda_type, place_of(m, property), text_of(m, property->name),
-                 text_of(m, property->type), "a type of MaterialX");
-    if (!name.len || !type_name || doc_child(m->doc, m->graph, intern(m, name)))
+        diag_add(m->diags, DIAG_ID_usda_type, maker_place(m, property),
+                 maker_text(m, property->name), maker_text(m, property->type),
+                 "a type of MaterialX");
+    if (!name.len || !type_name || doc_child(m->doc, m->graph, maker_intern(m, name)))
         return;
     struct text_word own = {property->name.bytes, strlen("outputs:") + name.len};
-    const struct usda_property *connection = connection_of(m, m->material, own);
-    struct source from = connection ? follow(m, connection) : (struct source){.value = property};
+    const struct usda_property *connection = maker_connection(m, m->material, own);
+    struct source from =
+        connection ? maker_follow(m, connection) : (struct source){.value = property};
     if (from.value)
-        check_type(m, from.value, type_name);
+        maker_check_type(m, from.value, type_name);
     if (!from.node && (!from.value || !usda_value(from.value).len))
         return;
     str_id type = str_intern_z(m->doc->strings, type_name);
     str_id constant = from.node ? 0 : add_constant(m, name, type, from.value);
-    elem_id output = add(m, m->graph, "output", intern(m, name), property->line, property->column);
-    set(m, output, "type", type);
+    elem_id output =
+        maker_add(m, m->graph, "output", maker_intern(m, name), property->line, property->column);
+    maker_set(m, output, "type", type);
     if (from.node)
-        connect(m, output, output, &from);
+        maker_connect(m, output, output, &from);
     else
-        set(m, output, "nodename", constant);
+        maker_set(m, output, "nodename", constant);
     doc_index_element(m->doc, output);
 }
 
 /* A Material without terminals, or a NodeGraph, as a nodegraph of its name. */
-static void add_override(struct maker *m, usda_prim_id prim)
+static void add_override(struct maker *m, const struct scene_material *from)
 {
-    const struct usda_prim *at = &m->layer->prims.items[prim];
+    const struct usda_prim *at = &m->layer->prims.items[from->prim];
     const struct usda_property *properties = m->layer->properties.items;
-    begin(m, prim);
-    m->graph = add(m, m->doc->root, "nodegraph", intern(m, at->name), at->line, at->column);
+    begin(m, from);
+    m->graph = maker_add(m, m->doc->root, "nodegraph", str_intern_z(m->doc->strings, from->name),
+                         at->line, at->column);
     doc_index_element(m->doc, m->graph);
     for (uint32_t i = at->first_property; i < usda_end_property(at); i++)
         add_override_output(m, &properties[i]);
     read_inputs(m);
 }
 
-static bool is_bound(const struct scene *scene, const struct table *bound, struct text_word name)
+static bool is_bound(const struct scene *scene, const struct table *bound, const char *name)
 {
-    uint32_t hash = hash_bytes(name.bytes, name.len);
+    uint32_t hash = hash_bytes(name, strlen(name));
     for (uint32_t at = hash, found; (found = table_next(bound, hash, &at));)
-        if (usda_is(name, scene->bindings.items[found - 1].material))
+        if (strcmp(name, scene->bindings.items[found - 1].material) == 0)
             return true;
     return false;
 }
 
-/* The materials of overrides that the scene binds. */
-static struct table bound_overrides(const struct scene *scene, struct arena *scratch)
+/* The materials that the scene binds, or only those of overrides. */
+static struct table bound_names(const struct scene *scene, bool only_overrides,
+                                struct arena *scratch)
 {
     struct table table = {0};
     for (uint32_t i = 0; i < scene->bindings.len; i++) {
         const struct scene_binding *binding = &scene->bindings.items[i];
-        struct text_word name = {binding->material, strlen(binding->material)};
-        if (!binding->is_removed && strstr(binding->name, "::") && !is_bound(scene, &table, name))
-            table_add(&table, scratch, hash_bytes(name.bytes, name.len), i + 1);
+        const char *name = binding->material;
+        bool counts = !only_overrides || strstr(binding->name, "::");
+        if (!binding->is_removed && counts && !is_bound(scene, &table, name))
+            table_add(&table, scratch, hash_bytes(name, strlen(name)), i + 1);
     }
     return table;
 }
 
 /* ---- All prims ---- */
 
-void bind_add_materials(const struct scene *scene, struct library *lib, struct arena *scratch,
+/* True if the document that takes the materials has an element of this name. */
+static bool has_element(struct maker *m, struct text_word name)
+{
+    elem_id found = doc_child(m->doc, m->doc->root, maker_intern(m, name));
+    return found && doc_element(m->doc, found)->file != m->file;
+}
+
+/* True if the document has an element of the material's name, or of its prim's. */
+static bool is_replaced(struct maker *m, const struct scene_material *material)
+{
+    return has_element(m, (struct text_word){material->name, strlen(material->name)})
+           || has_element(m, m->layer->prims.items[material->prim].name);
+}
+
+void bind_add_materials(const struct scene *scene, struct library *lib,
+                        const struct bind_images *images, struct arena *scratch,
                         struct diag_list *diags)
 {
-    struct maker m = {
-        .layer = &scene->layer, .lib = lib, .doc = &lib->doc, .scratch = scratch, .diags = diags};
-    const struct table bound = bound_overrides(scene, scratch);
-    for (usda_prim_id prim = 1; prim < scene->layer.prims.len; prim++) {
-        const struct usda_prim *at = &scene->layer.prims.items[prim];
-        bool is_graph = usda_is(at->type, "NodeGraph") && is_bound(scene, &bound, at->name);
-        if ((!usda_is(at->type, "Material") && !is_graph) || at->is_variant || at->is_inactive)
-            continue;
-        if (doc_child(m.doc, m.doc->root, intern(&m, at->name)))
+    struct maker m = {.scene = scene,
+                      .layer = &scene->layer,
+                      .lib = lib,
+                      .doc = &lib->doc,
+                      .images = images,
+                      .scratch = scratch,
+                      .diags = diags};
+    const struct table bound = bound_names(scene, false, scratch),
+                       overrides = bound_names(scene, true, scratch);
+    for (uint32_t i = 0; i < scene->materials.len; i++) {
+        const struct scene_material *material = &scene->materials.items[i];
+        if (material->is_graph && !is_bound(scene, &overrides, material->name))
             continue;
         if (!m.file)
             m.file = doc_add_file(m.doc, str_intern_z(m.doc->strings, scene->layer.file));
-        if (is_graph || is_override(&m, at))
-            add_override(&m, prim);
+        if (is_replaced(&m, material))
+            continue;
+        if (material->is_graph || is_override(&m, &m.layer->prims.items[material->prim]))
+            add_override(&m, material);
         else
-            add_material(&m, prim);
+            add_material(&m, material, is_bound(scene, &bound, material->name));
     }
 }

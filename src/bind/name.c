@@ -31,6 +31,8 @@ static const char *fault_of_rest(const char *text, const char *end)
 {
     if (text == end)
         return NULL;
+    if (*text == ':' && text + 1 < end && text[1] != ':')
+        return "has one ':', and an override has two, as in 010::020";
     if (*text == '|' || *text == ':')
         return "has parts that no slot has; only slot|vertical::override may follow each other";
     return "has a character that is no letter, digit or '_'";

@@ -194,6 +194,29 @@ static void check_unlisted(struct bind_look *look)
         diag_add(look->diags, DIAG_ID_unlisted_slots, place_of_order(look), text_cstr(&list));
 }
 
+static bool has_part(const struct bind_look *look, struct text_word part)
+{
+    for (uint32_t i = 0; i < look->names.len; i++)
+        for (unsigned k = 0; k < NUM_SLOT_PARTS; k++)
+            if (compare_bytes(look->names.items[i].name.parts[k], part) == 0)
+                return true;
+    return false;
+}
+
+/* Parts that are listed and that nothing has. */
+static void check_unused(struct bind_look *look)
+{
+    struct text list;
+    text_init(&list, look->arena);
+    for (uint32_t i = 0; i < look->order_parts.len; i++) {
+        struct text_word part = look->order_parts.items[i];
+        if (!has_part(look, part))
+            text_fmt(&list, "%s'%.*s'", list.len ? ", " : "", (int)part.len, part.bytes);
+    }
+    if (list.len)
+        diag_add(look->diags, DIAG_ID_unused_order, place_of_order(look), text_cstr(&list));
+}
+
 /* ---- Sorting ---- */
 
 static void rank_names(struct bind_look *look)
@@ -229,4 +252,5 @@ void look_sort_names(struct bind_look *look)
         look->assigns.items[i].name = moved[look->assigns.items[i].name];
     check_all_numbers(look);
     check_unlisted(look);
+    check_unused(look);
 }

@@ -95,7 +95,7 @@ static void put_row(struct bind_writer *w, prim_id prim, size_t width)
     struct place place = place_of(w, prim);
     size_t begin = w->out->len;
     scene_path(w->b->scene, prim, w->out);
-    size_t len = w->out->len - begin;
+    size_t len = text_width(w->out->data + begin, w->out->len - begin);
     text_fmt(w->out, "%*s", (int)(width > len ? width - len : 0) + 2, "");
     for (uint32_t i = 0; i < place.num_items; i++) {
         if (i)
@@ -114,7 +114,7 @@ static size_t path_width(const struct scene *scene)
     for (prim_id prim = scene_next(scene, 0); prim; prim = scene_next(scene, prim)) {
         len = 0;
         for (prim_id p = prim; p && len <= MAX_WIDTH; p = scene->prims.items[p].parent)
-            len += scene->prims.items[p].name_len + 1;
+            len += text_width(scene->prims.items[p].name, scene->prims.items[p].name_len) + 1;
         width = len > width ? len : width;
     }
     return width < MAX_WIDTH ? width : MAX_WIDTH;

@@ -40,8 +40,14 @@ static bool belongs(const struct look_name *name, const struct slot_name *whole)
 
 static void report_unknown_slot(struct resolver *r, const char *text)
 {
+    enum { MAX_LISTED = 50 };
     struct diag_guess guess;
     const char *near = "";
+    struct text list;
+    text_init(&list, r->diags->arena);
+    for (uint32_t i = 0; i < r->b->look.names.len && i < MAX_LISTED; i++)
+        text_fmt(&list, "%s%s", i ? ", " : "", r->b->look.names.items[i].text);
+    text_str(&list, r->b->look.names.len > MAX_LISTED ? ", ..." : "");
     if (diag_guess_begin(&guess, r->diags, text)) {
         for (uint32_t i = 0; i < r->b->look.names.len; i++)
             diag_guess_add(&guess, r->b->look.names.items[i].text);
@@ -50,7 +56,7 @@ static void report_unknown_slot(struct resolver *r, const char *text)
     diag_add(
         r->diags, DIAG_ID_unknown_slot,
         doc_place(r->b->look.doc, r->b->look.element ? r->b->look.element : r->b->look.doc->root),
-        text, near);
+        text, near, list.len ? text_cstr(&list) : "none");
 }
 
 /* Reads a name of the options; false after an error. */
@@ -168,6 +174,7 @@ void bind_resolve(struct bindings *b, const struct document *doc, elem_id look,
     bind_find_states(b, before, scratch);
     make_layers(&r);
     warn(&r);
+    bind_warn_unmatched(b, scratch, diags);
 }
 
 void bindings_finish(struct bindings *b)

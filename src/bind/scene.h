@@ -25,7 +25,8 @@ enum { SCENE_MAX_DEPTH = 1000 };
 struct scene_binding {
     prim_id prim;
     const char *name;     /* of the slot */
-    const char *material; /* ""; a removal */
+    const char *material; /* "": a removal */
+    const char *leaf;     /* the name of the material's prim, which a document may have; or NULL */
     const char *label;    /* "/set/table.material:binding" */
     struct diag_place place;
     bool is_strong;     /* it beats the bindings of the scene below it */
@@ -52,6 +53,15 @@ struct scene_source {
     uint32_t next; /* 1 + index; 0: none */
 };
 
+/* A Material or NodeGraph of the layer. */
+struct scene_material {
+    usda_prim_id prim;
+    bool is_graph;
+    const char *name;               /* of the prim; "assetA_mtl_paint" where others have the same */
+    uint32_t next;                  /* with the same name of the prim: 1 + index; 0: none */
+    uint32_t last, num, num_graphs; /* of the first one: the last, and how many there are */
+};
+
 struct scene {
     struct arena *arena;          /* owns everything */
     uint32_t max_prims;           /* a limit of the context; readers report more */
@@ -66,6 +76,10 @@ struct scene {
     VEC(prim_id) emptied;        /* whose last child was removed, in this order */
     VEC(struct scene_member) members;
     struct usda_layer layer; /* of a stage of USD; otherwise without prims */
+    VEC(struct scene_material) materials;
+    struct table namesakes;      /* name of the prim → 1 + index of the first material */
+    struct table material_names; /* name → 1 + index */
+    struct table material_prims; /* prim → 1 + index of its material */
     VEC(struct scene_source) sources;
     VEC(uint32_t) first_source; /* by primitive: 1 + index; shorter than prims: 0 */
     const char *slot_order;     /* with commas; NULL: the scene has none */
@@ -165,6 +179,17 @@ static inline uint32_t scene_first_binding(const struct scene *scene, prim_id pr
  */
 void scene_read_usda(struct scene *scene, const char *file, const char *text, size_t len,
                      const char *purpose, struct arena *scratch, struct diag_list *diags);
+
+/* scene_materials.c: finds the materials of the layer, and names them. */
+void scene_name_materials(struct scene *scene);
+/* The material at a path of the layer, also below an instance; NULL: none. */
+const struct scene_material *scene_material_at(const struct scene *scene, struct text_word path);
+/* True if a material of the layer has this name in documents. */
+bool scene_has_material(const struct scene *scene, const char *name);
+/* The first material whose prim has this name, and the one after it; NULL: none. */
+const struct scene_material *scene_namesakes(const struct scene *scene, struct text_word name);
+const struct scene_material *scene_next_namesake(const struct scene *scene,
+                                                 const struct scene_material *material);
 
 /* The strongest prim of the layer that a primitive comes from: 1 + index in `sources`; 0: none. */
 static inline uint32_t scene_source(const struct scene *scene, prim_id prim)

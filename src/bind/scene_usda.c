@@ -133,11 +133,11 @@ static const char *label_of(struct reader *s, prim_id prim, const struct usda_pr
 
 /* The material that a relationship names; false: it names none, or the binding does not count. */
 static bool read_target(struct reader *s, const struct usda_property *property,
-                        struct text_word *out_collection, const char **out_material)
+                        struct text_word *out_collection, struct scene_binding *out)
 {
     struct text_word rest = property->value, target;
     bool is_slot = begins(property->name, "material:slotBinding:");
-    *out_material = "";
+    out->material = "";
     /* on a plain binding it only clears what weaker layers say */
     if (usda_is(property->value, "None") || usda_is(property->value, "[]"))
         return is_slot && !out_collection;
@@ -148,7 +148,9 @@ static bool read_target(struct reader *s, const struct usda_property *property,
             report_binding(s, property, "names no material behind its collection");
         return false;
     }
-    *out_material = text_of(s, last_name(target));
+    const struct scene_material *material = scene_material_at(s->scene, target);
+    out->leaf = text_of(s, last_name(target));
+    out->material = material ? material->name : out->leaf;
     if (usda_next_item(&rest, &target))
         report_binding(s, property, "names several materials; expected one");
     return true;
@@ -190,6 +192,37 @@ static struct binding_rest read_rest(const struct usda_property *property, struc
     return (struct binding_rest){true, is_purpose(first) ? first : (struct text_word){end, 0}};
 }
 
+static void report_ignored(struct reader *s, const struct usda_property *property,
+                           const char *fault)
+{
+    diag_add(s->diags, DIAG_ID_ignored_binding, place_of(s, property->line, property->column),
+             text_of(s, property->name), fault);
+}
+
+/* Reports what stands behind a slot and is no purpose. Plain bindings may have more purposes. */
+static void check_purpose(struct reader *s, const struct usda_property *property,
+                          struct text_word purpose)
+{
+    struct text fault;
+    if (!purpose.len || is_purpose(purpose) || !begins(property->name, "material:slotBinding:"))
+        return;
+    text_init(&fault, s->scene->arena);
+    text_fmt(&fault, "'%s' is no purpose; expected 'full' or 'preview'", text_of(s, purpose));
+    if (*purpose.bytes == '_')
+        text_fmt(&fault, ", or for an override ':_:%s'", text_of(s, purpose));
+    report_ignored(s, property, text_cstr(&fault));
+}
+
+/* Reports a relationship among the materials' that is no binding: a misspelled one. */
+static void check_name(struct reader *s, const struct usda_property *property)
+{
+    if (usda_is(property->type, "rel") && !begins(property->name, "material:binding")
+        && !begins(property->name, "material:slotBinding:"))
+        report_ignored(s, property,
+                       "expected 'material:binding', or 'material:slotBinding:' and a slot such "
+                       "as '_050'");
+}
+
 static void add_binding(struct reader *s, prim_id prim, const struct usda_property *property,
                         bool with_collections)
 {
@@ -198,9 +231,11 @@ static void add_binding(struct reader *s, prim_id prim, const struct usda_proper
     if (!usda_is(property->type, "rel") || !read_binding_name(s, property, &added.name, &rest))
         return;
     struct binding_rest said = read_rest(property, rest);
+    if (!with_collections)
+        check_purpose(s, property, said.purpose);
     if (said.is_collection != with_collections
         || !has_purpose(s, said.purpose.bytes, said.purpose.len, &added.is_purpose)
-        || !read_target(s, property, said.is_collection ? &collection : NULL, &added.material))
+        || !read_target(s, property, said.is_collection ? &collection : NULL, &added))
         return;
     added.label = label_of(s, prim, property);
     added.place = place_of(s, property->line, property->column);
@@ -221,8 +256,10 @@ static void add_bindings(struct reader *s, prim_id prim, const struct usda_prim 
     const struct usda_property *properties = s->layer->properties.items;
     VEC(uint32_t) bindings = {0};
     for (uint32_t i = source->first_property; i < usda_end_property(source); i++)
-        if (begins(properties[i].name, "material:"))
+        if (begins(properties[i].name, "material:")) {
             vec_push(s->scratch, &bindings, i);
+            check_name(s, &properties[i]);
+        }
     for (unsigned with_slots = 0; with_slots < 2; with_slots++)
         for (unsigned with_collections = 0; with_collections < 2; with_collections++)
             for (uint32_t i = 0; i < bindings.len; i++) {
@@ -437,6 +474,9 @@ static void add_paths(struct reader *s, prim_id prim, const char *name, const ch
             continue;
         }
         prim_id member = scene_target(s->scene, source, path);
+        if (!member && path.len > 1 && !usda_find_composed(s->layer, path.bytes, path.len))
+            diag_add(s->diags, DIAG_ID_pattern_unmatched,
+                     place_of(s, property->line, property->column), text_of(s, path), "");
         if (member || path.len == 1) {
             add_member(s, member, is_excluded);
             if (is_explicit && !is_excluded)
@@ -517,6 +557,7 @@ void scene_read_usda(struct scene *scene, const char *file, const char *text, si
     if (s.layer->prims.items[0].arc.len)
         diag_add(diags, DIAG_ID_usda_arc, place_of(&s, 1, 1), file,
                  text_of(&s, s.layer->prims.items[0].arc));
+    scene_name_materials(scene);
     read_slot_order(&s);
     push_children(&s, 0, (struct visit){0});
     while (s.visits.len && scene->prims.len <= scene->max_prims

@@ -88,9 +88,13 @@ static uint32_t code_points(struct line line)
 /* White space as wide as `line`; tabs stay tabs. */
 static void put_margin(struct text *out, struct line line)
 {
-    for (size_t i = 0; i < line.len; i++)
-        if (begins_code_point(line.text[i]))
-            text_char(out, line.text[i] == '\t' ? '\t' : ' ');
+    for (size_t i = 0, begin = 0; i < line.len; begin = i) {
+        do
+            i++;
+        while (i < line.len && !begins_code_point(line.text[i]));
+        size_t width = text_width(line.text + begin, i - begin);
+        text_fmt(out, "%*s", (int)width, line.text[begin] == '\t' ? "\t" : "");
+    }
 }
 
 static void render_source(const struct diag_place *place, struct line line, bool colour,

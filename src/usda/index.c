@@ -26,15 +26,27 @@ static usda_prim_id find_child(const struct usda_layer *layer, usda_prim_id pare
     return 0;
 }
 
-void usda_index_prim(struct usda_layer *layer, usda_prim_id id)
+usda_prim_id usda_index_prim(struct usda_layer *layer, usda_prim_id id)
 {
     const struct usda_prim *prim = &layer->prims.items[id];
     uint32_t hash = hash_of(prim->parent, prim->name.bytes, prim->name.len);
-    if (!find_child(layer, prim->parent, hash, prim->name.bytes, prim->name.len))
+    usda_prim_id before = find_child(layer, prim->parent, hash, prim->name.bytes, prim->name.len);
+    if (!before)
         table_add(&layer->children, layer->arena, hash, id);
+    return before;
 }
 
-usda_prim_id usda_find(const struct usda_layer *layer, const char *path, size_t len)
+/* The prim that a reference of a prim names; 0: none in this layer. */
+static usda_prim_id referenced(const struct usda_layer *layer, usda_prim_id prim)
+{
+    struct text_word rest = layer->prims.items[prim].references, target;
+    bool is_inside = rest.len && usda_next_item(&rest, &target) && *target.bytes == '/';
+    return is_inside ? usda_find(layer, target.bytes, target.len) : 0;
+}
+
+/* Finds a prim; each name may lead through `max_hops` references. */
+static usda_prim_id find(const struct usda_layer *layer, const char *path, size_t len,
+                         unsigned max_hops)
 {
     const char *end = path + len;
     usda_prim_id prim = 0;
@@ -42,12 +54,28 @@ usda_prim_id usda_find(const struct usda_layer *layer, const char *path, size_t 
         path += *path == '/';
         const char *slash = memchr(path, '/', (size_t)(end - path));
         size_t name = (size_t)((slash ? slash : end) - path);
-        prim = find_child(layer, prim, hash_of(prim, path, name), path, name);
+        usda_prim_id above = prim;
+        prim = find_child(layer, above, hash_of(above, path, name), path, name);
+        for (unsigned hop = 0; !prim && above && hop < max_hops; hop++) {
+            above = referenced(layer, above);
+            prim = above ? find_child(layer, above, hash_of(above, path, name), path, name) : 0;
+        }
         if (!prim)
             return 0;
         path += name;
     }
     return prim;
+}
+
+usda_prim_id usda_find(const struct usda_layer *layer, const char *path, size_t len)
+{
+    return find(layer, path, len, 0);
+}
+
+usda_prim_id usda_find_composed(const struct usda_layer *layer, const char *path, size_t len)
+{
+    enum { MAX_HOPS = 64 };
+    return find(layer, path, len, MAX_HOPS);
 }
 
 /* ---- Properties ---- */

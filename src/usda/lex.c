@@ -81,7 +81,7 @@ static enum usda_token_kind lex_number(struct usda_lexer *l)
     const char *begin = l->at;
     l->at += *l->at == '-' || *l->at == '+';
     const char *digits = l->at;
-    if (begins(l, "inf")) {
+    if (begins(l, "inf") || begins(l, "nan")) {
         l->at += 3;
         return USDA_NUMBER;
     }

@@ -301,6 +301,20 @@ static void open_body(struct parser *p, char kind)
     p->num_variants += kind == 'v';
 }
 
+/* Reports a prim whose name another one has; 0: none. Variants may repeat a name. */
+static void check_twice(struct parser *p, usda_prim_id id, usda_prim_id before)
+{
+    const struct usda_layer *layer = p->layer;
+    const struct usda_prim *prim = &layer->prims.items[id], *first = &layer->prims.items[before];
+    if (!before || prim->is_variant || first->is_variant)
+        return;
+    const char *name = arena_strndup(p->diags->arena, prim->name.bytes, prim->name.len);
+    diag_add(p->diags, DIAG_ID_usda_twice,
+             (struct diag_place){layer->file, prim->line, prim->column, 0}, name);
+    diag_add(p->diags, DIAG_ID_previous_definition,
+             (struct diag_place){layer->file, first->line, first->column, 0});
+}
+
 static void add_prim(struct parser *p, struct usda_prim added)
 {
     struct usda_layer *layer = p->layer;
@@ -313,7 +327,7 @@ static void add_prim(struct parser *p, struct usda_prim added)
     else
         above->first_child = id;
     above->last_child = id;
-    usda_index_prim(layer, id);
+    check_twice(p, id, usda_index_prim(layer, id));
     p->prim = id;
     count_element(p);
 }
@@ -411,11 +425,19 @@ static void read_statement(struct parser *p)
 
 static void read_header(struct parser *p, const char *text, size_t len)
 {
-    static const char cookie[] = "#usda ";
-    if (len < strlen(cookie) || memcmp(text, cookie, strlen(cookie)) != 0) {
-        p->token = (struct usda_token){.kind = USDA_BAD, .line = 1};
-        p->lexer.fault = "the file does not begin with '#usda 1.0'; a binary file (.usdc, .usdz) "
-                         "becomes text with 'usdcat --flatten'";
+    static const char cookie[] = "#usda ", version[] = "1.0";
+    bool is_text = len >= strlen(cookie) && memcmp(text, cookie, strlen(cookie)) == 0;
+    const char *number = text + strlen(cookie);
+    size_t num_left = is_text ? len - strlen(cookie) : 0, num = 0;
+    while (num < num_left && !strchr(" \t\r\n", number[num]))
+        num++;
+    if (!is_text || num != strlen(version) || memcmp(number, version, num) != 0) {
+        p->token = (struct usda_token){
+            .kind = USDA_BAD, .line = 1, .line_begin = text, .begin = is_text ? number : text};
+        p->lexer.fault =
+            is_text ? "the version of the file is not 1.0, the only one that mxgen knows"
+                    : "the file does not begin with '#usda 1.0'; a binary file (.usdc, .usdz) "
+                      "becomes text with 'usdcat --flatten'";
         fail(p, "");
         return;
     }
@@ -439,6 +461,9 @@ bool usda_read(struct usda_layer *layer, const char *file, const char *text, siz
     vec_push(arena, &p.owners, 0);
     vec_push(arena, &layer->prims, (struct usda_prim){.line = 1, .column = 1});
     vec_push(arena, &layer->properties, (struct usda_property){0});
+    size_t mark = len >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0 ? 3 : 0; /* of bytes in order */
+    text += mark;
+    len -= mark;
     usda_lexer_init(&p.lexer, text, len);
     read_header(&p, text, len);
     for (skip_newlines(&p); !p.failed && p.token.kind != USDA_END; skip_newlines(&p))

@@ -66,7 +66,8 @@ bool usda_read(struct usda_layer *layer, const char *file, const char *text, siz
                uint32_t max_elements, struct arena *arena, struct diag_list *diags);
 
 /* index.c: prims and properties by their names. */
-void usda_index_prim(struct usda_layer *layer, usda_prim_id id);
+/* The prim that had this name before; 0: none. */
+usda_prim_id usda_index_prim(struct usda_layer *layer, usda_prim_id id);
 /* Before usda_index_rows, for properties in the order of the file. */
 void usda_index_property(struct usda_layer *layer, usda_prim_id prim, uint32_t property);
 /* Puts the properties of each prim in a row; `prims` has the prim of each property. */
@@ -86,6 +87,8 @@ static inline uint32_t usda_end_property(const struct usda_prim *prim)
 
 /* The prim at an absolute path, "/a/b"; 0: none. */
 usda_prim_id usda_find(const struct usda_layer *layer, const char *path, size_t len);
+/* The same, where a prim also has the children of its references inside the layer. */
+usda_prim_id usda_find_composed(const struct usda_layer *layer, const char *path, size_t len);
 
 /*
  * Reads the paths or words of a list value, "[</a>, </b>]" or "</a>", one after the other: `at` is

@@ -40,6 +40,8 @@ bool usda_next_number(struct text_word *at, double *out)
             *out = *word.bytes == 't';
         else if (usda_is(word, "inf") || usda_is(word, "-inf"))
             *out = *word.bytes == '-' ? -INFINITY : INFINITY;
+        else if (usda_is(word, "nan") || usda_is(word, "-nan"))
+            *out = NAN;
         else if (num_parse_float(word.bytes, word.len, &value))
             *out = (double)value;
         else

@@ -319,6 +319,71 @@ check 'an unknown operation of a transform is an error' broken 's/\["xformOp:rot
 check 'a prototype that is missing is an error' broken 's/protoIndices = \[1, 0, 0\]/protoIndices = [2, 0, 0]/' 'protoIndices'
 check 'an instance without a prototype is an error' broken 's/protoIndices = \[1, 0, 0\]/protoIndices = [1, 0]/' 'has 2 numbers for 3 positions'
 check 'a face that the mesh lacks is an error' broken 's/int\[\] indices = \[1\]/int[] indices = [2]/' 'the mesh has 2 faces'
+check 'an infinite radius is an error' broken '0,/def Sphere "[a-z]*" {/s//&\n    double radius = inf/' "has inf; expected a finite number"
+check 'NaN among points is an error with its place' broken '0,/(0.4, -0.4, 0)/s//(0.4, nan, 0)/' "/plain.points' (broken.usda:"
+check 'the error counts the numbers' grep -qF 'has nan as number 5 of 12' err
+
+# 20 km in centimetres: all of the scene far from the origin, with a light beside it.
+{
+    echo "${head/double3 xformOp:translate = (0, 0, 10)/double3 xformOp:translate = (1000000, 2000000, 50010)}"
+    echo "def Xform \"far\" { double3 xformOp:translate = (1000000, 2000000, 50000)
+    uniform token[] xformOpOrder = [\"xformOp:translate\"]
+    def Mesh \"a\" { rel material:binding = </Red>
+        $quad
+        $(at -3.5 3.5)
+    }
+    def Sphere \"b\" { rel material:binding = </Green>
+        double radius = 0.4
+        $(at -2.5 3.5)
+    }
+    def Mesh \"c\" { rel material:binding = </Object>
+        point3f[] points = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
+        int[] faceVertexCounts = [4]
+        int[] faceVertexIndices = [0, 1, 2, 3]
+        $(at 2 -4)
+    }
+}"
+} >far.usda
+check 'a scene far from the origin is drawn' draw far
+sees 'a mesh far away' far -3.5 3.5 r
+sees 'a sphere far away' far -2.5 3.5 g
+sees 'nothing beside the sphere' far -2.95 3.95 -
+sees 'the object space far away, right below' far 2.9 -3.8 r
+sees 'the object space far away, left above' far 2.1 -3.1 g
+
+# Primvars of instances, and primvars of another type than is read.
+cat >primvars.usda <<USD
+$head
+def PointInstancer "many" { point3f[] positions = [(-3.5, 3.5, 0), (-2.5, 3.5, 0), (-1.5, 3.5, 0)]
+    int[] protoIndices = [0, 0, 1]
+    rel prototypes = [</many/a>, </many/b>]
+    color3f[] primvars:paint = [(1, 0, 0), (0, 1, 0)] ( interpolation = "vertex" )
+    int[] primvars:paint:indices = [1, 0, 0]
+    int primvars:number = 0
+    def Mesh "a" { rel material:binding = </Painted>
+        $quad
+    }
+    def Mesh "b" { rel material:binding = </Painted>
+        $quad
+        color3f primvars:paint = (0, 1, 1)
+    }
+}
+def Mesh "short" { rel material:binding = </Painted>
+    $quad
+    float primvars:paint = 1
+    string primvars:number = "one"
+    $(at -0.5 3.5)
+}
+USD
+check 'instances with primvars are drawn' draw primvars
+sees 'the value of the first instance' primvars -3.5 3.5 g
+sees 'that of the second' primvars -2.5 3.5 r
+sees 'that of the prototype itself' primvars -1.5 3.5 gb
+exits 0 "$render" colors.mtlx --stage primvars.usda -s 16 -o primvars16.ppm
+check 'a primvar of fewer numbers has a warning' eval "grep -F '[primvar-type]' err | grep -qF \"the primvar 'paint' of '/short' (primvars.usda:35:11) has the type 'float'\""
+check 'so has one that is a text' eval "grep -F '[primvar-type]' err | grep -qF \"'number' of '/short' (primvars.usda:36:12) has the type 'string'\""
+check 'a primvar that is there is not missing' eval '! grep -qF "[missing-primvar]" err'
+
 # One number for the whole picture picks a layer: the upper one, which has a mask, below 0.5.
 cat >picked.mtlx <<'XML'
 <materialx version="1.39">

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#define _POSIX_C_SOURCE 200809L
+#include "program/flatten.h"
+
+#include "program/memory.h"
+#include "program/parent.h"
+#include "program/temporary.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+extern char **environ;
+
+bool flatten_may_help(const mxg_diagnostics *list)
+{
+    for (uint32_t i = 0; i < mxg_diagnostics_num_items(list); ++i) {
+        mxg_diagnostic at = {sizeof at};
+        mxg_diagnostics_item(list, i, &at);
+        bool is_binary = strcmp(at.id, "usda-syntax") == 0 && at.line == 1 && at.column == 1;
+        if (is_binary || strcmp(at.id, "usda-arc") == 0 || strcmp(at.id, "usda-reference") == 0)
+            return true;
+    }
+    return false;
+}
+
+static char *new_file(const char *after)
+{
+    const char *folder = getenv("TMPDIR");
+    char *before = cli_format("%s/mxgen-stage", folder && *folder ? folder : "/tmp");
+    char *name = temporary_name(before, after);
+    free(before);
+    if (!name)
+        memory_fail();
+    temporary_note(name);
+    return name;
+}
+
+void flatten_end(char *name)
+{
+    if (!name)
+        return;
+    unlink(name);
+    temporary_forget(name);
+    free(name);
+}
+
+/* Returns 0 or a reason of errno. What the program says goes to a file. */
+static int start(const char *path, const char *out, const char *log, pid_t *out_child)
+{
+    /* a name is no option */
+    char *input = cli_format("%s%s", *path == '-' ? "./" : "", path);
+    const char *arguments[] = {"usdcat", "--flatten", input, "--out", out, NULL};
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, log, O_WRONLY | O_CREAT | O_EXCL,
+                                     0600);
+    posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
+    parent_announce();
+    int reason = posix_spawnp(out_child, arguments[0], &actions, NULL,
+                              (char *const *)(uintptr_t)arguments, environ);
+    posix_spawn_file_actions_destroy(&actions);
+    free(input);
+    return reason;
+}
+
+/* Waits for the end; a text says which limit was reached before, NULL: none. */
+static const char *wait_for(pid_t child, const char *out, size_t max_mib, int *out_status)
+{
+    const struct timespec pause = {0, 10000000};
+    const char *fault = NULL;
+    struct stat info;
+    time_t end = time(NULL) + FLATTEN_SECONDS;
+    for (;;) {
+        pid_t ended = waitpid(child, out_status, fault ? 0 : WNOHANG);
+        if (ended == child || (ended < 0 && errno != EINTR))
+            return fault;
+        if (stat(out, &info) == 0 && info.st_size > 0 && (size_t)info.st_size >> 20 > max_mib)
+            fault = "its output is larger than --max-file-size";
+        else if (time(NULL) > end)
+            fault = "it takes too long";
+        if (fault)
+            kill(child, SIGKILL);
+        else
+            nanosleep(&pause, NULL);
+    }
+}
+
+/* The last line that a program said; the caller frees it. */
+static char *last_line(const char *log)
+{
+    char text[4096];
+    FILE *file = fopen(log, "r");
+    size_t len = 0;
+    if (file) {
+        if (fseek(file, -(long)sizeof text + 1, SEEK_END) != 0)
+            rewind(file);
+        len = fread(text, 1, sizeof text - 1, file);
+        fclose(file);
+    }
+    while (len && (text[len - 1] == '\n' || text[len - 1] == '\r'))
+        len--;
+    text[len] = '\0';
+    const char *line = strrchr(text, '\n');
+    return cli_format("%s", line ? line + 1 : text);
+}
+
+static void report_fault(struct cli *cli, const char *path, const char *fault, const char *log)
+{
+    char *said = last_line(log);
+    report_error(&cli->report, "usd-flatten", "'usdcat --flatten %s' fails: %s%s%s", path,
+                 fault ? fault : "", fault && *said ? "; it says: " : "",
+                 *said || fault ? said : "it says nothing");
+    free(said);
+}
+
+char *flatten_stage(struct cli *cli, const char *path, bool *out_is_missing)
+{
+    char *out = new_file(".usda"), *log = new_file(".log");
+    pid_t child;
+    int status = 0, reason = start(path, out, log, &child);
+    const char *fault =
+        reason ? strerror(reason) : wait_for(child, out, cli_max_file_size(cli), &status);
+    *out_is_missing = reason == ENOENT;
+    bool good = !reason && !fault && WIFEXITED(status) && WEXITSTATUS(status) == 0
+                && access(out, R_OK) == 0;
+    if (!good && !*out_is_missing)
+        report_fault(cli, path, fault, log);
+    flatten_end(log);
+    if (good)
+        return out;
+    flatten_end(out);
+    return NULL;
+}
