@@ -4,7 +4,7 @@
 import { Diagnostics } from "./diagnostics.js";
 import { ArgumentError, DocumentError, OutOfMemoryError } from "./errors.js";
 import { readNodeDef } from "./library.js";
-import { expect, NONE, numberOf, Owner, STATUS } from "./native.js";
+import { expect, INSPECT, NONE, numberOf, Owner, STATUS } from "./native.js";
 import { Bindings, Scene } from "./scene.js";
 import { Shader, withOptions } from "./shader.js";
 
@@ -84,6 +84,31 @@ export class Element {
         });
     }
 
+    /** The elements of a category directly below. */
+    childrenOf(category) {
+        return this.children.filter(child => child.category === category);
+    }
+
+    /** The inputs that the document writes. `definition` has those that keep their defaults, too. */
+    get inputs() {
+        return this.childrenOf("input");
+    }
+
+    /** The outputs of a nodegraph. */
+    get outputs() {
+        return this.childrenOf("output");
+    }
+
+    /** The input of a name; null: the document does not write it. */
+    input(name) {
+        return this.inputs.find(input => input.name === name) ?? null;
+    }
+
+    /** The elements directly below. */
+    [Symbol.iterator]() {
+        return this.children[Symbol.iterator]();
+    }
+
     /** The element and all elements below, in the order of the document. */
     *walk() {
         yield this;
@@ -150,6 +175,32 @@ export class Element {
         });
     }
 
+    /**
+     * The connections that the element depends on, each once, the nearest first: `element` reads its `input` from `upstream`. Goes into
+     * nodegraphs.
+     */
+    get edges() {
+        const found = new Map(), ahead = [this], seen = new Set([this.number]);
+        for (const element of ahead)
+            for (const port of ["input", "output"].includes(element.category) ? [element] : [...element.inputs, ...element.outputs]) {
+                const upstream = port.connection?.source;
+                if (!upstream)
+                    continue;
+                if (!found.has(port.number))
+                    found.set(port.number, { element: port.parent, input: port, upstream });
+                if (!seen.has(upstream.number))
+                    ahead.push(upstream);
+                seen.add(upstream.number);
+            }
+        return [...found.values()];
+    }
+
+    /** The nodes and nodegraphs that the element depends on, each once, the nearest first. Goes into nodegraphs. */
+    get upstream() {
+        const sources = this.edges.map(({ upstream }) => upstream).filter(({ category }) => category !== "input");
+        return [...new Map(sources.map(source => [source.number, source])).values()];
+    }
+
     /** The definition of a node, or of the nodegraph that implements it; null: there is none, or it does not fit. */
     get definition() {
         const native = this.document._native;
@@ -160,6 +211,14 @@ export class Element {
     /** Whether both are the same element of the same document. */
     equals(other) {
         return other instanceof Element && other.document === this.document && other.number === this.number;
+    }
+
+    toString() {
+        return `<${this.category} "${this.path}">`;
+    }
+
+    [INSPECT]() {
+        return this.toString();
     }
 }
 
@@ -187,13 +246,23 @@ export class Document extends Owner {
 
     /** <materialx>. The tree is the one that generation sees: after includes, templates and the upgrade to 1.39. */
     get root() {
-        return new Element(this, this._native.lib.mxg_document_find_element(this._pointer, 0, 0));
+        const native = this._native;
+        return new Element(this, native.using(() => native.lib.mxg_document_find_element(this._pointer, 0, native.newText("", "path"))));
     }
 
     /** An element by path: "NG_marble1/out"; null: there is none. */
     find(path) {
         const number = this._native.using(() => this._native.lib.mxg_document_find_element(this._pointer, 0, this._native.newText(path, "path")));
         return number ? new Element(this, number) : null;
+    }
+
+    /** The elements of the root. */
+    [Symbol.iterator]() {
+        return this.root[Symbol.iterator]();
+    }
+
+    toString() {
+        return `Document "${this.files[0]}", ${this.root.children.length} elements`;
     }
 
     /** All elements, in the order of the document, the root first. */

@@ -51,7 +51,18 @@ export class Draft {
         return this;
     }
 
-    /** Gives an input of a node a value, and removes its connection. An input that the node does not have yet needs a type. */
+    /**
+     * A name that is new below the element: this one, with "_" for what no name can have, or the same with the next free number.
+     */
+    uniqueName(name) {
+        let made = expect(name, "string", "name").replace(/\W/g, "_").replace(/^(?=\d|$)/, "_");
+        const stem = made.replace(/\d+$/, "");
+        for (let number = Number(made.slice(stem.length) || 1) + 1; this.child(made); number++)
+            made = `${stem}${number}`;
+        return made;
+    }
+
+    /** Gives an input of a node a value, and removes its connection. `type` null: the type of the input, or that of the definition. */
     value(input, value, type = null) {
         const text = textOf(value);
         this.edit._change((lib, native, pointer) => lib.mxg_edit_set_value(pointer, this.number, native.newText(input, "input"),
@@ -64,9 +75,9 @@ export class Draft {
      * around it. `output` null: the only output of the source.
      */
     connect(input, source, output = null) {
-        this.edit._own(source);
+        const from = this.edit._own(source);
         this.edit._change((lib, native, pointer) => lib.mxg_edit_connect_input(pointer, this.number, native.newOptionalText(input, "input"),
-            source.number, native.newOptionalText(output, "output")));
+            from, native.newOptionalText(output, "output")));
         return this;
     }
 
@@ -77,10 +88,8 @@ export class Draft {
 
     /** Moves the element before another one (null: to the end) below `parent` (null: the root). */
     move(parent = null, before = null) {
-        for (const other of [parent, before])
-            if (other !== null)
-                this.edit._own(other);
-        this.edit._change((lib, _, pointer) => lib.mxg_edit_move_element(pointer, this.number, parent?.number ?? 0, before?.number ?? 0));
+        const [below, next] = [parent, before].map(other => other === null ? 0 : this.edit._own(other));
+        this.edit._change((lib, _, pointer) => lib.mxg_edit_move_element(pointer, this.number, below, next));
         return this;
     }
 
@@ -112,9 +121,12 @@ export class Edit extends Owner {
 
     // ---- Calls ----
 
-    _own(draft) {
+    /** The number of an element of the edit, or of the document that it comes from. */
+    _own(element) {
+        const draft = element instanceof Element ? this.find(element) : element;
         if (expect(draft, Draft, "an element of the edit").edit !== this)
             throw new ArgumentError("the element is of another edit");
+        return draft.number;
     }
 
     #reason(pointer) {

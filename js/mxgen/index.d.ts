@@ -1,10 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 // The package mxgen: MaterialX documents to shaders. docs/javascript.md explains it.
 
+// What `using` needs, as TypeScript's lib "esnext.disposable" has it.
+declare global {
+    interface SymbolConstructor {
+        readonly dispose: unique symbol;
+    }
+    interface Disposable {
+        [Symbol.dispose](): void;
+    }
+}
+
+/** A compiled module, WebAssembly.Module: only the lib "dom" of TypeScript has its type. */
+export type CompiledModule = object;
+export type Bytes = ArrayBuffer | ArrayBufferView;
+
 /** Loads mxgen.wasm, by default from beside the package. `source` is an address (in Node a path), the bytes, or a compiled module. */
-export function load(source?: string | URL | BufferSource | WebAssembly.Module): Promise<Mxgen>;
+export function load(source?: string | { readonly href: string } | Bytes | CompiledModule): Promise<Mxgen>;
 /** The same for bytes or a compiled module, without default callbacks. */
-export function instantiate(source: BufferSource | WebAssembly.Module, defaults?: Pick<ContextOptions, "resolver" | "listFolder">): Promise<Mxgen>;
+export function instantiate(source: Bytes | CompiledModule, defaults?: Pick<ContextOptions, "resolver" | "listFolder">): Promise<Mxgen>;
 
 export type Severity = "error" | "warning" | "note";
 export type Stage = "vertex" | "pixel";
@@ -86,6 +100,9 @@ export interface Semantic {
 declare class Owner {
     /** Frees the memory of the object now. Objects that were made from it stay. A later use throws MxgenError. */
     destroy(): void;
+    [Symbol.dispose](): void;
+    /** What it is, in a few words; console.log of Node shows it. */
+    toString(): string;
 }
 
 /** A file that a resolver gives. `name`: messages show it, and includes in the file are relative to it. */
@@ -273,6 +290,8 @@ export class Document extends Owner {
     lookMaterials(look: string): Renderable[];
     /** The definitions that the document adds to its library. */
     readonly nodedefs: NodeDef[];
+    /** The elements of the root. */
+    [Symbol.iterator](): IterableIterator<Element>;
     xml(): string;
     edit(): Edit;
     /** A copy with the materials of a USD scene that the document lacks. Throws DocumentError. */
@@ -293,6 +312,13 @@ export class Document extends Owner {
 
 export type Value = boolean | number | string | number[];
 
+/** A connection of the graph: `element` reads its `input`, or an <output>, from `upstream`. */
+export interface Edge {
+    element: Element;
+    input: Element;
+    upstream: Element;
+}
+
 export interface Connection {
     source: Element | null;
     output: string;
@@ -312,6 +338,17 @@ export class Element {
     readonly place: { file: string; line: number; column: number } | null;
     readonly parent: Element | null;
     readonly children: Element[];
+    /** The elements directly below. */
+    [Symbol.iterator](): IterableIterator<Element>;
+    childrenOf(category: string): Element[];
+    /** The inputs that the document writes. */
+    readonly inputs: Element[];
+    readonly outputs: Element[];
+    input(name: string): Element | null;
+    /** The connections that the element depends on, the nearest first. Goes into nodegraphs. */
+    readonly edges: Edge[];
+    /** The nodes and nodegraphs that the element depends on, each once, the nearest first. */
+    readonly upstream: Element[];
     child(name: string): Element | null;
     walk(): IterableIterator<Element>;
     get(attribute: string): string | null;
@@ -329,12 +366,15 @@ export class Draft {
     readonly number: number;
     add(category: string, name?: string | null, type?: string | null): Draft;
     child(name: string): Draft | null;
+    /** A name that is new below the element: this one, or the same with a number. */
+    uniqueName(name: string): string;
     set(attribute: string, value: string | null): this;
     rename(name: string): this;
+    /** `type` null: the type of the input, or that of the definition. */
     value(input: string, value: Value | ArrayLike<number>, type?: string | null): this;
-    connect(input: string | null, source: Draft, output?: string | null): this;
+    connect(input: string | null, source: Draft | Element, output?: string | null): this;
     remove(): void;
-    move(parent?: Draft | null, before?: Draft | null): this;
+    move(parent?: Draft | Element | null, before?: Draft | Element | null): this;
     copy(element: Element, name?: string | null): Draft;
 }
 
@@ -568,6 +608,8 @@ export interface Variable extends UserInterface {
     stages: Stage[];
     type: string;
     documentType: string;
+    /** of the sampler beside a texture; equal to `binding` where both have one */
+    samplerBinding: number;
     path: string;
     /** in the shader of a stack: "050::010"; otherwise "" */
     slot: string;

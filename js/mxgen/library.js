@@ -44,6 +44,10 @@ export class Library extends Owner {
         return Array.from({ length: lib.mxg_library_num_files(pointer) }, (_, index) => this._native.text(lib.mxg_library_file(pointer, index)));
     }
 
+    toString() {
+        return `Library, ${this.nodedefNames.length} definitions`;
+    }
+
     #index() {
         if (!this.#byName) {
             const { lib } = this._native;

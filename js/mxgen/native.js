@@ -352,6 +352,8 @@ export class Handle {
     }
 }
 
+export const INSPECT = Symbol.for("nodejs.util.inspect.custom");
+
 const abandoned = new FinalizationRegistry(handle => {
     try {
         handle.release();
@@ -390,6 +392,15 @@ export class Owner {
         abandoned.unregister(this);
         this.#handle = null;
         return handle;
+    }
+
+    toString() {
+        return this.constructor.name;
+    }
+
+    /** What console.log of Node shows. */
+    [INSPECT]() {
+        return this.#handle ? this.toString() : `${this.constructor.name}, destroyed`;
     }
 
     /** Frees the memory of the object now, instead of after its last use. Objects that were made from it stay. */

@@ -228,7 +228,7 @@ export class Scene extends Owner {
     addEach(primitives) {
         const native = this._native, adding = new Adding(native, this, primitives), host = native.addHost(adding);
         try {
-            const status = native.lib.mxgen_js_scene_add_each(this._pointer, host);
+            const status = native.lib.mxgen_js_scene_add_primitives(this._pointer, host);
             if (adding.raised)
                 throw adding.raised.error;
             this.#check(status);
@@ -386,6 +386,6 @@ export class Bindings extends Owner {
     /** The reasons of a primitive's layers: every assignment that was considered. */
     explain(primitive) {
         const number = this.#number(primitive);
-        return this.#written(() => this._native.lib.mxgen_js_bindings_explain(this._pointer, number));
+        return this.#written(() => this._native.lib.mxgen_js_bindings_write_reasons(this._pointer, number));
     }
 }

@@ -14,6 +14,11 @@ export class Shader extends Owner {
         super(native, handle, "shader");
     }
 
+    toString() {
+        const info = this._native.record("mxg_shader_info", out => this._native.lib.mxg_result_info(this._pointer, out));
+        return info ? `Shader "${info.name}" for ${info.target}` : "Shader, diagnostics only";
+    }
+
     // ---- Source ----
 
     #source(stage) {

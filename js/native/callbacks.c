@@ -32,22 +32,23 @@ mxg_status mxgen_js_context(mxg_context_desc *desc, void *host, bool lists_folde
 /* mxg_bindings_write and mxg_bindings_write_reasons; the pieces go to the import `write`. */
 MXG_API mxg_status mxgen_js_bindings_write(const mxg_bindings *bindings,
                                            mxg_bindings_format format);
-MXG_API mxg_status mxgen_js_bindings_explain(const mxg_bindings *bindings, uint32_t primitive);
+MXG_API mxg_status mxgen_js_bindings_write_reasons(const mxg_bindings *bindings,
+                                                   uint32_t primitive);
 
 mxg_status mxgen_js_bindings_write(const mxg_bindings *bindings, mxg_bindings_format format)
 {
     return mxg_bindings_write(bindings, format, host_write, NULL);
 }
 
-mxg_status mxgen_js_bindings_explain(const mxg_bindings *bindings, uint32_t primitive)
+mxg_status mxgen_js_bindings_write_reasons(const mxg_bindings *bindings, uint32_t primitive)
 {
     return mxg_bindings_write_reasons(bindings, primitive, host_write, NULL);
 }
 
 /* mxg_scene_add_primitives; the import `next_primitive` gives the primitives. */
-MXG_API mxg_status mxgen_js_scene_add_each(mxg_scene *scene, void *adding);
+MXG_API mxg_status mxgen_js_scene_add_primitives(mxg_scene *scene, void *adding);
 
-mxg_status mxgen_js_scene_add_each(mxg_scene *scene, void *adding)
+mxg_status mxgen_js_scene_add_primitives(mxg_scene *scene, void *adding)
 {
     return mxg_scene_add_primitives(scene, host_next_primitive, adding);
 }

@@ -41,7 +41,13 @@ export const text: string = edit.end().xml();
 export const first = (error: DocumentError): string => error.diagnostics.items[0].id;
 END
     check "the types of a program are right" exits 0 types right.ts
-    cat out
+    check "so they are in a project without the types of browsers" exits 0 types --lib es2022 right.ts
+    printf 'import { load } from "mxgen";\nusing context = (await load()).createContext();\nexport const version: string = context.toString();\n' >using.ts
+    if tsc --version | grep -q 'Version \(5\.[2-9]\|[6-9]\)'; then
+        check "'using' compiles" exits 0 types --lib es2022,esnext.disposable using.ts
+    else
+        skip "this tsc does not know 'using'"
+    fi
     # wrong LINE: what the compiler says to a line of TypeScript
     wrong() {
         printf 'import { load } from "mxgen";\nconst m = await load();\nexport const x = %s;\n' "$2" >wrong.ts

@@ -182,6 +182,8 @@ class Pictures(unittest.TestCase):
             mxgen.render_picture(self.gold, program="no-such-program")
         with self.assertRaises(TypeError):
             mxgen.render_picture(self.gold, 5)
+        with self.assertRaises(ImportError if numpy is None else mxgen.RenderError):
+            mxgen.render(self.gold, program="no-such-program")
 
     def test_notebook(self):
         broken = mxgen.Context().parse(common.BROKEN, name="<b>")

@@ -2,6 +2,7 @@
 """The tasks of PyMaterialX's tutorials, with this package: docs/python.md has both side by side."""
 import contextlib
 import io
+import os
 import pathlib
 import re
 import tempfile
@@ -110,8 +111,10 @@ class Tasks(unittest.TestCase):
         pages = [root / "README.md", root / "docs/python.md"]
         programs = [program for page in pages for program in re.findall(r"^```python\n(.*?)^```", page.read_text(encoding="utf-8"), re.M | re.S)]
         self.assertGreater(len(programs), 2)
+        self.addCleanup(os.chdir, os.getcwd())
+        os.chdir(root)
         for program in programs:
             out = io.StringIO()
-            with contextlib.redirect_stdout(out), contextlib.chdir(root):
+            with contextlib.redirect_stdout(out):
                 exec(compile(program, "documentation", "exec"), {})
             self.assertEqual("print" in program, bool(out.getvalue()))
