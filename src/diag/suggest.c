@@ -187,10 +187,12 @@ bool diag_guess_begin(struct diag_guess *guess, struct diag_list *list, const ch
     if (!diag_may_guess(list))
         return false;
     list->num_guesses++; /* also for words without a suggestion: their callers walk, too */
-    if (len < 2 || len > MAX_WORD)
+    if (!len || len > MAX_WORD)
         return false;
     guess->len = len;
     find_aliases(guess);
+    if (len == 1)
+        guess->best_distance = 0; /* any other letter is near */
     return true;
 }
 

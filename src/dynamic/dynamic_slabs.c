@@ -34,7 +34,7 @@ static void leave_out(const mxg_build *build, ir_ref *args)
 
 /* ---- Values that matter cannot have ---- */
 
-enum bounds { SHARE, LENGTH, SIGNED, NUM_BOUNDS };
+enum bounds { SHARE, LENGTH, SIGNED, LOGARITHM, NUM_BOUNDS };
 
 static const struct {
     float low, high;
@@ -43,6 +43,7 @@ static const struct {
     [SHARE] = {0.0f, 1.0f, "0 to 1"},
     [LENGTH] = {0.0f, INFINITY, "0 or more"},
     [SIGNED] = {-1.0f, 1.0f, "-1 to 1"},
+    [LOGARITHM] = {0.0f, 88.0f, "0 to 88, the logarithm of a float"},
 };
 
 /* The part of a value that is out of its bounds; NULL: there is none. */
@@ -52,6 +53,14 @@ static const float *stray_part(const struct ir_value *value, enum bounds in)
         if (!(value->w[i].f >= bounds[in].low && value->w[i].f <= bounds[in].high))
             return &value->w[i].f;
     return NULL;
+}
+
+/* The place of the value of an input in the document, or of the node that is given it otherwise. */
+static struct diag_place place_of_value(const mxg_build *build, str_id input)
+{
+    const struct document *doc = &build->b->lib->doc;
+    elem_id node = build->frame->node.element, given = doc_child(doc, node, input);
+    return given ? doc_attr_place(doc, given, STR_value) : doc_place(doc, node);
 }
 
 /* Values of the document, also where the host may change them. */
@@ -67,9 +76,9 @@ static void check_bounds(const mxg_build *build, str_id input, ir_ref ref, enum 
     struct text text;
     text_init(&text, b->arena);
     text_float(&text, *stray);
-    diag_add(b->diags, DIAG_ID_slab_not_physical,
-             doc_place(&b->lib->doc, build->frame->node.element), build_text(b, input),
-             build_text(b, build->def->node), text_cstr(&text), bounds[in].text);
+    diag_add(b->diags, DIAG_ID_slab_not_physical, place_of_value(build, input),
+             build_text(b, input), build_text(b, build->def->node), text_cstr(&text),
+             bounds[in].text);
 }
 
 static void check_slab(const mxg_build *build, const str_id *names, const ir_ref *args)
@@ -91,7 +100,7 @@ static void check_slab(const mxg_build *build, const str_id *names, const ir_ref
         {SLAB_mean_free_path, LENGTH},
         {SLAB_phase_anisotropy, SIGNED},
         {SLAB_emission, LENGTH},
-        {SLAB_glint_density, LENGTH},
+        {SLAB_glint_density, LOGARITHM},
         {SLAB_specular_lut_weight, SHARE},
     };
     for (size_t i = 0; i < sizeof checked / sizeof *checked; i++)
@@ -184,12 +193,23 @@ bool dynamic_slab(void *user_data, mxg_build *build, mxg_ref *results)
     return finish(build, IR_SLAB, attr, args, NUM_SLAB_OPERANDS, results);
 }
 
+/* A base that the values of the document hide is one, too. */
+static void check_base(const mxg_build *build)
+{
+    struct builder *b = build->b;
+    elem_id node = build->frame->node.element;
+    if (!doc_child(&b->lib->doc, node, STR_base))
+        diag_add(b->diags, DIAG_ID_slab_without_base, doc_place(&b->lib->doc, node),
+                 build_text(b, build->def->node));
+}
+
 bool dynamic_slab_layer(void *user_data, mxg_build *build, mxg_ref *results)
 {
     ir_ref args[3] = {dynamic_arg(build, STR_top), dynamic_arg(build, STR_base),
                       dynamic_arg(build, STR_thickness)};
     (void)user_data;
     check_bounds(build, STR_thickness, args[2], LENGTH);
+    check_base(build);
     if (args[0])
         return finish(build, IR_SLAB_LAYER, blends(build), args, 3, results);
     results[0] = code_issue(build, args[1]);
