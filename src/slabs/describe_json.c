@@ -127,6 +127,7 @@ void slabs_write_json(const struct slab_sheet *sheet, struct text *out)
         put_tree(&json, sheet, &sheet->trees.items[i]);
     json_close(&json, ']');
     json_put_bool(&json, "toBudget", sheet->is_asked);
+    json_put_bool(&json, "budgetIsMet", sheet->is_asked && sheet->report.is_met);
     json_key(&json, "steps");
     json_open(&json, '[');
     for (uint32_t i = 0; i < sheet->report.steps.len; i++)

@@ -107,6 +107,9 @@ static void write_steps(const struct slab_sheet *sheet, struct text *out)
         write_error(step->error, out);
         text_char(out, '\n');
     }
+    if (sheet->is_asked && !report->is_met)
+        text_fmt(out, "  nothing keeps to the budget; the least are %u slabs, %u bytes\n",
+                 (unsigned)report->after.closures, (unsigned)report->after.bytes);
     for (uint32_t i = 0; i < sheet->unread.len; i++) {
         text_str(out, i ? ", " : "  the estimate does not read ");
         text_str(out, slabs_name(sheet->shader, sheet->unread.items[i]));

@@ -30,6 +30,7 @@ check 'a budget of bytes is accepted' exits 0 "$mxgen" "$slabs" -e CarPaint --ma
 check 'a budget of bytes leaves out the second lobe' says 'no second lobe: slabs 1 to 1, bytes 16 to 12'
 check 'a budget of an error is accepted' exits 0 "$mxgen" "$slabs" -e CarPaint --max-error 0.2 -Wbudget-step -o made
 check 'a small error keeps the coat' eval 'says "the mix" && ! says "the layer"'
+check 'inspect says what the least is' eval '"$mxgen" inspect "$slabs" -e CarPaint --slabs --max-bytes 8 >out && grep -q "nothing keeps to the budget; the least are 1 slabs, 12 bytes" out'
 check 'too few bytes fail' exits 1 "$mxgen" "$slabs" -e CarPaint --max-bytes 8 -o made
 check 'the error is budget-impossible' says '[budget-impossible]'
 check 'one slab within a small error fails' exits 1 "$mxgen" "$slabs" -e CarPaint --max-slabs 1 --max-error 0.01 -o made
