@@ -66,8 +66,8 @@ float closure_most_weight(const struct ir_graph *graph, const struct closure_lea
     float most = 0.0f;
     do {
         w.num_visits = 0;
-        float color =
-            value_of(&w, leaf->color) + (leaf->steady ? value_of(&w, leaf->steady) : 0.0f);
+        /* what media above let through is a share, too */
+        float color = leaf->decay ? 1.0f : value_of(&w, leaf->color);
         most = fmaxf(most, value_of(&w, leaf->scalar) * color);
     } while (!w.is_too_large && ++w.ones >> w.num_shares == 0);
     return w.is_too_large ? INFINITY : most;

@@ -108,18 +108,16 @@ float mx_film_light(const float a, const vec2 r, const float d, const int i)
 {
     vec4 gaussian = mat4(1.681, 0.846202, -0.0043278, 0.0, 2.2399, 0.153798, -0.0045282, 0.0, 1.7953, 1.0, -0.0093046,
         0.0, 2.2084, 1.0, -0.0066121, 0.0)[i];
-    float c = cos(gaussian.x * d);
-    float s = sin(gaussian.x * d);
     float decay = exp(gaussian.z * d * d);
-    float decay2 = decay * decay;
-    vec2 path = -a * decay * vec2(r.x * c - r.y * s, r.x * s + r.y * c);
-    vec2 rest = vec2(1.0, 0.0) - decay2 * decay2 * path;
-    float series = path.x + decay2 * dot(vec2(path.x * path.x - path.y * path.y, 2.0 * path.x * path.y), rest)
-        / dot(rest, rest);
+    float d2 = decay * decay;
+    float d4 = d2 * d2;
     float r23 = dot(r, r);
+    float path = -a * decay * (r.x * cos(gaussian.x * d) - r.y * sin(gaussian.x * d));
+    float square = a * a * r23 * d2;
+    float rest = (2.0 * path * path - square - d4 * square * path) / (1.0 - 2.0 * d4 * path + d4 * d4 * square);
     float t = 1.0 - a * a;
     float even = t * t * r23 / (1.0 - a * a * r23);
-    return gaussian.y * (a * a + even + 2.0 * (even - t) * series);
+    return gaussian.y * (a * a + even + 2.0 * (even - t) * (path + d2 * rest));
 }
 
 // Amplitudes of an interface of reflectance f below a film of index `ior`: negative where f0 says that the index behind

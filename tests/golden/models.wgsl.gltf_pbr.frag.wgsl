@@ -116,18 +116,16 @@ fn mx_film_light(a: f32, r: vec2f, d: f32, i: i32) -> f32
 {
     let gaussian: vec4f = mat4x4f(1.681, 0.846202, -0.0043278, 0.0, 2.2399, 0.153798, -0.0045282, 0.0, 1.7953, 1.0,
         -0.0093046, 0.0, 2.2084, 1.0, -0.0066121, 0.0)[i];
-    let c: f32 = cos(gaussian.x * d);
-    let s: f32 = sin(gaussian.x * d);
     let decay: f32 = exp(gaussian.z * d * d);
-    let decay2: f32 = decay * decay;
-    let path: vec2f = -a * decay * vec2f(r.x * c - r.y * s, r.x * s + r.y * c);
-    let rest: vec2f = vec2f(1.0, 0.0) - decay2 * decay2 * path;
-    let series: f32 = path.x + decay2 * dot(vec2f(path.x * path.x - path.y * path.y, 2.0 * path.x * path.y), rest)
-        / dot(rest, rest);
+    let d2: f32 = decay * decay;
+    let d4: f32 = d2 * d2;
     let r23: f32 = dot(r, r);
+    let path: f32 = -a * decay * (r.x * cos(gaussian.x * d) - r.y * sin(gaussian.x * d));
+    let square: f32 = a * a * r23 * d2;
+    let rest: f32 = (2.0 * path * path - square - d4 * square * path) / (1.0 - 2.0 * d4 * path + d4 * d4 * square);
     let t: f32 = 1.0 - a * a;
     let even: f32 = t * t * r23 / (1.0 - a * a * r23);
-    return gaussian.y * (a * a + even + 2.0 * (even - t) * series);
+    return gaussian.y * (a * a + even + 2.0 * (even - t) * (path + d2 * rest));
 }
 
 // Amplitudes of an interface of reflectance f below a film of index `ior`: negative where f0 says that the index behind

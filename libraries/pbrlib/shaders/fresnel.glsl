@@ -122,20 +122,20 @@ const mat4 MX_FILM_GAUSSIANS = mat4(1.6810, 0.846202, -0.0043278, 0.0, // X
 //
 // From behind, the film's own interface has the amplitude -a. Path m of Airy's series is z^m D^(m^2), with the decay D.
 // From the second path on, it is summed as a geometric series, z^2 D^4 / (1 - z D^5): paths one to three are exact.
+// All of it follows from the real part of z D and its square.
 float mx_film_light(float a, vec2 r, float d, int i)
 {
     vec4 gaussian = MX_FILM_GAUSSIANS[i];
-    float c = cos(gaussian.x * d);
-    float s = sin(gaussian.x * d);
     float decay = exp(gaussian.z * d * d);
-    float decay2 = decay * decay;
-    vec2 path = -a * decay * vec2(r.x * c - r.y * s, r.x * s + r.y * c);
-    vec2 rest = vec2(1.0, 0.0) - decay2 * decay2 * path;
-    float series = path.x + decay2 * dot(vec2(path.x * path.x - path.y * path.y, 2.0 * path.x * path.y), rest) / dot(rest, rest);
+    float d2 = decay * decay;
+    float d4 = d2 * d2;
     float r23 = dot(r, r);
+    float path = -a * decay * (r.x * cos(gaussian.x * d) - r.y * sin(gaussian.x * d));
+    float square = a * a * r23 * d2;
+    float rest = (2.0 * path * path - square - d4 * square * path) / (1.0 - 2.0 * d4 * path + d4 * d4 * square);
     float t = 1.0 - a * a;
     float even = t * t * r23 / (1.0 - a * a * r23);
-    return gaussian.y * (a * a + even + 2.0 * (even - t) * series);
+    return gaussian.y * (a * a + even + 2.0 * (even - t) * (path + d2 * rest));
 }
 
 // Cosine inside of a film of index `ior`.
