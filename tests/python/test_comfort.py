@@ -163,7 +163,7 @@ class Files(unittest.TestCase):
 class Pictures(unittest.TestCase):
     def setUp(self):
         self.gold = mxgen.Context().load(common.EXAMPLES / "textured.mtlx")
-        self.program = pathlib.Path(common.PROGRAM).with_name("mxgen-render")
+        self.program = pathlib.Path(common.PROGRAM).resolve().with_name("mxgen-render")
 
     @unittest.skipIf(numpy is None, "numpy is not installed")
     def test_render(self):
