@@ -43,7 +43,9 @@ ir_ref emitter_emission(struct emitter *e, ir_ref edf);
 void emitter_flatten(struct emitter *e, const struct closure_surface *s, struct closure_list *out);
 /* Finds the parts under lights and environment. Returns which leaves contribute there. */
 const bool *emitter_find_parts(struct emitter *e, ir_ref bsdf, const struct closure_list *list);
-/* emitter_flatten and emitter_find_parts; reports the leaves that contribute. */
+/* emitter_find_parts; reports the leaves that contribute. */
+void emitter_light_list(struct emitter *e, ir_ref bsdf, struct closure_list *list);
+/* emitter_flatten, then emitter_light_list. */
 void emitter_light_surface(struct emitter *e, const struct closure_surface *s);
 /* Writes the parts as effects. */
 void emitter_write_lit(struct emitter *e);

@@ -485,14 +485,19 @@ void emitter_flatten(struct emitter *e, const struct closure_surface *s, struct 
     e->lit.base = ir_sum(e->graph, e->lit.base, emission_of(e, out));
 }
 
+void emitter_light_list(struct emitter *e, ir_ref bsdf, struct closure_list *list)
+{
+    const bool *emitted = emitter_find_parts(e, bsdf, list);
+    for (uint32_t i = 0; i < list->leaves.len; i++)
+        if (emitted[i])
+            shader_add_closure(e->shader, list->leaves.items[i].leaf);
+}
+
 void emitter_light_surface(struct emitter *e, const struct closure_surface *s)
 {
     struct closure_list list;
     emitter_flatten(e, s, &list);
-    const bool *emitted = emitter_find_parts(e, s->bsdf, &list);
-    for (uint32_t i = 0; i < list.leaves.len; i++)
-        if (emitted[i])
-            shader_add_closure(e->shader, list.leaves.items[i].leaf);
+    emitter_light_list(e, s->bsdf, &list);
 }
 
 ir_ref emitter_color(struct emitter *e)

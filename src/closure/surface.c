@@ -289,7 +289,7 @@ static bool is_stored(struct emitter *e, const struct closure_list *list, bool i
 {
     if (e->shader->role->returns == RETURNS_SLABS)
         e->shader->reflection.not_stored = why_not_stored(e, list, is_whole);
-    return !e->shader->reflection.not_stored;
+    return role_stores(e->shader->role) && !e->shader->reflection.not_stored;
 }
 
 static void emit_surface(struct emitter *e, ir_ref root)
@@ -308,16 +308,14 @@ static void emit_surface(struct emitter *e, ir_ref root)
             alpha_test(e, s.alpha);
         return;
     }
-    if (role_stores(e->shader->role)) {
-        struct closure_list list;
-        bool is_whole = draws_all(e, s.alpha) || is_cut(e, s.alpha);
-        emitter_flatten(e, &s, &list);
-        if (is_stored(e, &list, is_whole)) {
-            store_surface(e, &s, &list, is_whole);
-            return;
-        }
+    struct closure_list list;
+    bool is_whole = draws_all(e, s.alpha) || is_cut(e, s.alpha);
+    emitter_flatten(e, &s, &list);
+    if (is_stored(e, &list, is_whole)) {
+        store_surface(e, &s, &list, is_whole);
+        return;
     }
-    emitter_light_surface(e, &s);
+    emitter_light_list(e, s.bsdf, &list);
     emitter_write_lit(e);
     light_aovs(e, s.aovs);
     emitter_finish_surface(e, &s);
