@@ -77,10 +77,13 @@ void text_fmt(struct text *text, const char *format, ...)
     va_end(args);
 }
 
-/* Length of the UTF-8 sequence at p (1 to 4), or 0 if it is invalid (RFC 3629). */
-static size_t utf8_length(const unsigned char *p, size_t len)
+/*
+ * Length of the UTF-8 sequence at p (1 to 4), and its code point; 0 if it is invalid (RFC 3629).
+ */
+static size_t utf8_read(const unsigned char *p, size_t len, uint32_t *out_code)
 {
     static const uint32_t least[5] = {0, 0, 0x80, 0x800, 0x10000};
+    *out_code = p[0];
     if (p[0] < 0x80)
         return 1;
     size_t n = p[0] >= 0xf0 && p[0] < 0xf5   ? 4
@@ -95,6 +98,7 @@ static size_t utf8_length(const unsigned char *p, size_t len)
             return 0;
         code = code << 6 | (p[i] & 0x3fu);
     }
+    *out_code = code;
     return code < least[n] || code > 0x10ffff || (code >= 0xd800 && code < 0xe000) ? 0 : n;
 }
 
@@ -112,8 +116,8 @@ size_t text_copy(const char *text, size_t len, char *buffer, size_t capacity)
 bool text_is_utf8(const char *bytes, size_t len)
 {
     const unsigned char *p = (const unsigned char *)bytes;
-    while (len) {
-        size_t n = utf8_length(p, len);
+    for (uint32_t code; len;) {
+        size_t n = utf8_read(p, len, &code);
         if (!n)
             return false;
         p += n;
@@ -126,8 +130,8 @@ void text_json_string(struct text *text, const char *bytes, size_t len)
 {
     const unsigned char *p = (const unsigned char *)bytes, *end = p + len;
     text_char(text, '"');
-    while (p < end) {
-        size_t n = utf8_length(p, (size_t)(end - p));
+    for (uint32_t code; p < end;) {
+        size_t n = utf8_read(p, (size_t)(end - p), &code);
         if (*p == '"' || *p == '\\') {
             text_char(text, '\\');
             text_char(text, (char)*p);
@@ -150,17 +154,6 @@ const char *text_cstr(struct text *text)
     return text->data;
 }
 
-/* The code point at a byte that begins one, of valid UTF-8; otherwise something below 0x80. */
-static uint32_t code_point(const char *bytes, size_t len)
-{
-    unsigned char first = (unsigned char)*bytes;
-    size_t more = first < 0xc0 ? 0 : first < 0xe0 ? 1 : first < 0xf0 ? 2 : 3;
-    uint32_t out = more ? first & (0x3fu >> more) : first & 0x7fu;
-    for (size_t i = 1; i <= more && i < len; i++)
-        out = out << 6 | ((unsigned char)bytes[i] & 0x3fu);
-    return out;
-}
-
 size_t text_width(const char *bytes, size_t len)
 {
     static const struct {
@@ -172,12 +165,11 @@ size_t text_width(const char *bytes, size_t len)
                   {0xfe30, 0xfe6f, 2},   {0xff00, 0xff60, 2},   {0xffe0, 0xffe6, 2},
                   {0x1f300, 0x1f64f, 2}, {0x1f900, 0x1f9ff, 2}, {0x20000, 0x3fffd, 2}};
     size_t width = 0;
-    for (size_t i = 0; i < len; i++) {
-        if (((unsigned char)bytes[i] & 0xc0) == 0x80)
-            continue;
-        uint32_t point = code_point(bytes + i, len - i);
-        size_t one = 1;
-        for (size_t k = 0; k < sizeof ranges / sizeof *ranges; k++)
+    for (size_t i = 0, n; i < len; i += n ? n : 1) {
+        uint32_t point;
+        n = utf8_read((const unsigned char *)bytes + i, len - i, &point);
+        size_t one = n || (point & 0xc0) != 0x80; /* 0: the rest of a broken sequence */
+        for (size_t k = 0; n && k < sizeof ranges / sizeof *ranges; k++)
             if (point >= ranges[k].first && point <= ranges[k].last)
                 one = ranges[k].width;
         width += one;
