@@ -14,6 +14,8 @@
 
 #include <mxgen/mxgen.h>
 
+#include <sys/types.h>
+
 /* The name of the document from standard input. */
 #define CLI_STDIN_NAME "<stdin>"
 
@@ -108,9 +110,10 @@ char *cli_program(const char *name);
  */
 bool cli_run(struct report *report, char *const *arguments, int *out_status);
 /*
- * Runs without a message: returns 0, or an error of errno. What the program writes goes to the
- * file `log`, and it reads nothing; NULL: it writes and reads what this program does.
+ * Starts or runs a program without a message: returns 0, or an error of errno. Its output goes to
+ * the new file `log`, and it reads nothing; NULL: it writes and reads what this program does.
  */
+int cli_start_logged(char *const *arguments, const char *log, pid_t *out_process);
 int cli_run_logged(char *const *arguments, const char *log, int *out_status);
 
 /* Formats into new memory, which the caller frees; ends the program if memory is exhausted. */

@@ -35,20 +35,26 @@ char *cli_program(const char *name)
     return cli_format("%s", name);
 }
 
-int cli_run_logged(char *const *arguments, const char *log, int *out_status)
+int cli_start_logged(char *const *arguments, const char *log, pid_t *out_process)
 {
-    pid_t process;
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     if (log) {
         posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-        posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, log, O_WRONLY | O_CREAT | O_TRUNC,
+        posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, log, O_WRONLY | O_CREAT | O_EXCL,
                                          0600);
         posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
     }
     parent_announce();
-    int reason = posix_spawnp(&process, arguments[0], &actions, NULL, arguments, environ);
+    int reason = posix_spawnp(out_process, arguments[0], &actions, NULL, arguments, environ);
     posix_spawn_file_actions_destroy(&actions);
+    return reason;
+}
+
+int cli_run_logged(char *const *arguments, const char *log, int *out_status)
+{
+    pid_t process;
+    int reason = cli_start_logged(arguments, log, &process);
     while (!reason && waitpid(process, out_status, 0) < 0)
         if (errno != EINTR)
             reason = errno;

@@ -4,9 +4,9 @@
 
 #include "program/cli.h"
 #include "program/files.h"
-#include "program/flatten.h"
 #include "program/memory.h"
 #include "program/parent.h"
+#include "program/usdcat.h"
 
 #include <errno.h>
 #include <spawn.h>
@@ -113,23 +113,22 @@ static bool import(struct cli *cli, const char *path, mxg_scene *scene)
 /* ---- All files ---- */
 
 /*
- * Loads what OpenUSD makes of a stage that mxgen does not read by itself. false: the stage stays,
- * because there is no usdcat, or a sandbox starts no programs.
+ * Loads what OpenUSD makes of a stage that mxgen does not read by itself. The stage stays if there
+ * is no usdcat; a sandbox starts no programs.
  */
-static bool flatten(struct cli *cli, const char *path, const char *purpose, mxg_scene **scene,
+static void flatten(struct cli *cli, const char *path, const char *purpose, mxg_scene **scene,
                     mxg_status *out_status)
 {
     bool is_missing;
-    if (cli->sandbox || !*scene || !flatten_may_help(mxg_scene_diagnostics(*scene)))
-        return false;
-    char *text = flatten_stage(cli, path, &is_missing);
+    if (cli->sandbox || !*scene || !usdcat_may_help(mxg_scene_diagnostics(*scene)))
+        return;
+    char *text = usdcat_flatten(cli, path, &is_missing);
     if (is_missing)
-        return false;
+        return;
     mxg_scene_destroy(*scene);
     *scene = NULL;
     *out_status = text ? mxg_scene_load(cli->context, text, purpose, scene) : MXG_OK;
-    flatten_end(text);
-    return true;
+    usdcat_end(text);
 }
 
 mxg_scene *scene_file_load(struct cli *cli, const char *path, const char *purpose)

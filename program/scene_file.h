@@ -15,7 +15,7 @@ enum scene_file_kind scene_file_kind(const char *path);
 /*
  * Loads a stage, as mxg_scene_load does, and reports its diagnostics; files of other kinds become
  * scenes without properties. A stage of USD with arcs, or in binary, goes through usdcat of OpenUSD
- * where there is one (flatten.h). The caller destroys the scene. NULL after a message.
+ * where there is one (usdcat.h). The caller destroys the scene. NULL after a message.
  */
 mxg_scene *scene_file_load(struct cli *cli, const char *path, const char *purpose);
 

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #define _POSIX_C_SOURCE 200809L
-#include "program/flatten.h"
+#include "program/usdcat.h"
 
 #include "program/memory.h"
-#include "program/parent.h"
 #include "program/temporary.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <signal.h>
-#include <spawn.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,9 +15,7 @@
 #include <time.h>
 #include <unistd.h>
 
-extern char **environ;
-
-bool flatten_may_help(const mxg_diagnostics *list)
+bool usdcat_may_help(const mxg_diagnostics *list)
 {
     for (uint32_t i = 0; i < mxg_diagnostics_num_items(list); ++i) {
         mxg_diagnostic at = {sizeof at};
@@ -44,7 +39,7 @@ static char *new_file(const char *after)
     return name;
 }
 
-void flatten_end(char *name)
+void usdcat_end(char *name)
 {
     if (!name)
         return;
@@ -53,22 +48,13 @@ void flatten_end(char *name)
     free(name);
 }
 
-/* Returns 0 or a reason of errno. What the program says goes to a file. */
+/* Returns 0 or a reason of errno. */
 static int start(const char *path, const char *out, const char *log, pid_t *out_child)
 {
     /* a name is no option */
     char *input = cli_format("%s%s", *path == '-' ? "./" : "", path);
     const char *arguments[] = {"usdcat", "--flatten", input, "--out", out, NULL};
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, log, O_WRONLY | O_CREAT | O_EXCL,
-                                     0600);
-    posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
-    parent_announce();
-    int reason = posix_spawnp(out_child, arguments[0], &actions, NULL,
-                              (char *const *)(uintptr_t)arguments, environ);
-    posix_spawn_file_actions_destroy(&actions);
+    int reason = cli_start_logged((char *const *)(uintptr_t)arguments, log, out_child);
     free(input);
     return reason;
 }
@@ -79,7 +65,7 @@ static const char *wait_for(pid_t child, const char *out, size_t max_mib, int *o
     const struct timespec pause = {0, 10000000};
     const char *fault = NULL;
     struct stat info;
-    time_t end = time(NULL) + FLATTEN_SECONDS;
+    time_t end = time(NULL) + USDCAT_SECONDS;
     for (;;) {
         pid_t ended = waitpid(child, out_status, fault ? 0 : WNOHANG);
         if (ended == child || (ended < 0 && errno != EINTR))
@@ -123,7 +109,7 @@ static void report_fault(struct cli *cli, const char *path, const char *fault, c
     free(said);
 }
 
-char *flatten_stage(struct cli *cli, const char *path, bool *out_is_missing)
+char *usdcat_flatten(struct cli *cli, const char *path, bool *out_is_missing)
 {
     char *out = new_file(".usda"), *log = new_file(".log");
     pid_t child;
@@ -135,9 +121,9 @@ char *flatten_stage(struct cli *cli, const char *path, bool *out_is_missing)
                 && access(out, R_OK) == 0;
     if (!good && !*out_is_missing)
         report_fault(cli, path, fault, log);
-    flatten_end(log);
+    usdcat_end(log);
     if (good)
         return out;
-    flatten_end(out);
+    usdcat_end(out);
     return NULL;
 }
