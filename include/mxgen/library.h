@@ -55,7 +55,8 @@ MXG_API mxg_status mxg_library_nodedef(const mxg_library *library, uint32_t inde
 MXG_API mxg_status mxg_library_port(const mxg_library *library, uint32_t nodedef, uint32_t index,
                                     mxg_port *out);
 
-/* What gives a definition its meaning: an <implementation>, or a nodegraph with a `nodedef`. */
+/* An implementation gives a definition its meaning: an <implementation>, or a nodegraph with a
+ * `nodedef`. */
 typedef struct mxg_implementation {
     size_t size; /* in */
     /* "" if absent; `target` is MaterialX's name, "genosl", and absent in one for every target */

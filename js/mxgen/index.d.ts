@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The package mxgen: MaterialX documents to shaders. docs/javascript.md explains it.
 
-// What `using` needs, as TypeScript's lib "esnext.disposable" has it.
+// `using` needs this, as TypeScript's lib "esnext.disposable" has it.
 declare global {
     interface SymbolConstructor {
         readonly dispose: unique symbol;
@@ -101,7 +101,7 @@ declare class Owner {
     /** Frees the memory of the object now. Objects that were made from it stay. A later use throws MxgenError. */
     destroy(): void;
     [Symbol.dispose](): void;
-    /** What it is, in a few words; console.log of Node shows it. */
+    /** A description in a few words; console.log of Node shows it. */
     toString(): string;
 }
 
@@ -222,7 +222,7 @@ export interface NodeDef {
     implementations: Implementation[];
 }
 
-/** What gives a definition its meaning: an <implementation>, or a nodegraph with a `nodedef`. A text that it does not have is "". */
+/** An implementation gives a definition its meaning: an <implementation>, or a nodegraph with a `nodedef`. A text that it does not have is "". */
 export interface Implementation {
     name: string;
     /** MaterialX's name: "genosl"; "": every target */

@@ -398,7 +398,7 @@ export class Owner {
         return this.constructor.name;
     }
 
-    /** What console.log of Node shows. */
+    /** console.log of Node shows this. */
     [INSPECT]() {
         return this.#handle ? this.toString() : `${this.constructor.name}, destroyed`;
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* What the calls of an edit share. */
+/* The calls of an edit share this state. */
 #ifndef MXG_API_EDIT_H
 #define MXG_API_EDIT_H
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* What makes a document of the networks of a stage: its elements, values and nodes. */
+/* A maker turns the networks of a stage into a document: elements, values and nodes. */
 #ifndef MXG_BIND_MAKER_H
 #define MXG_BIND_MAKER_H
 

@@ -132,7 +132,7 @@ static const char *conversion_of(const char *from, const char *to)
     return NULL;
 }
 
-/* What an input of a type connects to: a node that converts, where USD needs none. */
+/* Connects an input of another type to a node that converts, where USD needs none. */
 static struct source converted(struct maker *m, const struct source *from, str_id wanted)
 {
     str_id type = port_type(m, from);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What USD's own shaders have beside the nodes that they are in MaterialX: tokens, defaults, the
- * colour space and the arithmetic of textures, and displacement. preview.c has the tables.
+ * USD's own shaders are nodes of MaterialX, but have more: tokens, defaults, the colour space and
+ * the arithmetic of textures, and displacement. preview.c has the tables.
  */
 #include "bind/maker.h"
 

@@ -30,7 +30,7 @@ static float share_value(struct weights *w, ir_ref share)
     return (float)(w->ones >> i & 1u);
 }
 
-/* Of a colour that is constant, the largest channel. */
+/* Returns the largest channel of a constant colour. */
 static float const_value(const struct ir_graph *g, ir_ref ref)
 {
     struct ir_value value;

@@ -87,7 +87,7 @@ static inline uint32_t usda_end_property(const struct usda_prim *prim)
 
 /* The prim at an absolute path, "/a/b"; 0: none. */
 usda_prim_id usda_find(const struct usda_layer *layer, const char *path, size_t len);
-/* The same, where a prim also has the children of its references inside the layer. */
+/* As usda_find, where a prim also has the children of its references inside the layer. */
 usda_prim_id usda_find_composed(const struct usda_layer *layer, const char *path, size_t len);
 
 /*

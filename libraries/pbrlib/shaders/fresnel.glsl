@@ -122,7 +122,7 @@ const mat4 MX_FILM_GAUSSIANS = mat4(1.6810, 0.846202, -0.0043278, 0.0, // X
 //
 // From behind, the film's own interface has the amplitude -a. Path m of Airy's series is z^m D^(m^2), with the decay D.
 // From the second path on, it is summed as a geometric series, z^2 D^4 / (1 - z D^5): paths one to three are exact.
-// All of it follows from the real part of z D and its square.
+// `path` is the real part of z D, and `square` the square of its length.
 float mx_film_light(float a, vec2 r, float d, int i)
 {
     vec4 gaussian = MX_FILM_GAUSSIANS[i];
