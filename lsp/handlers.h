@@ -9,5 +9,7 @@
 lsp_handler handle_initialize, handle_nothing, handle_shutdown, handle_exit;
 /* documents.c */
 lsp_handler handle_open, handle_change, handle_close, handle_save, handle_watched_files;
+/* completion.c, hover.c */
+lsp_handler handle_completion, handle_hover;
 
 #endif

@@ -14,5 +14,8 @@ const struct lsp_method lsp_methods[] = {
     {"textDocument/didSave", handle_save, NULL, NULL},
     {"workspace/didChangeWatchedFiles", handle_watched_files, NULL, NULL},
     {"workspace/didChangeConfiguration", handle_nothing, NULL, NULL},
+    {"textDocument/completion", handle_completion, "completionProvider",
+     "{\"triggerCharacters\":[\"<\",\"\\\"\",\"/\",\" \"]}"},
+    {"textDocument/hover", handle_hover, "hoverProvider", "true"},
 };
 const size_t lsp_num_methods = sizeof lsp_methods / sizeof *lsp_methods;

@@ -2,6 +2,7 @@
 /* The life of a session, and the way of a message to its handler. */
 #include "lsp/session.h"
 
+#include "lsp/catalogue.h"
 #include "lsp/diagnostics.h"
 #include "lsp/disk.h"
 #include "lsp/handlers.h"
@@ -48,6 +49,7 @@ void lsp_session_destroy(struct lsp_session *session)
         lsp_document_destroy(document);
     }
     free_folders(session);
+    catalogue_destroy(session->catalogue);
     mxg_library_unref(session->desc.library);
     mxg_context_destroy(session->context);
     mxg_context_destroy(session->gate);
@@ -56,7 +58,7 @@ void lsp_session_destroy(struct lsp_session *session)
 
 bool lsp_session_work(struct lsp_session *session)
 {
-    return diagnostics_work(session);
+    return diagnostics_work(session) || (session->is_initialised && catalogue_prepare(session));
 }
 
 bool lsp_session_is_over(const struct lsp_session *session, bool *out_is_clean)

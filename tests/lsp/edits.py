@@ -19,7 +19,7 @@ PIECES = ["<", ">", "/>", '"', "'", "=", " ", "\n", "\r\n", "\r", "<input ", '<i
 SOURCES = [path.read_text(encoding="utf-8") for path in sorted((ROOT / "examples").glob("*.mtlx"))]
 # Requests about the whole document, and about a place in it.
 WHOLE = []
-PLACED = []
+PLACED = ["textDocument/completion", "textDocument/hover"]
 
 
 def change(text):
