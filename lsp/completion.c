@@ -19,9 +19,45 @@ char *completion_escape(const char *value)
     return escaped;
 }
 
+enum { MAX_ITEMS = 400 }; /* of an answer; the editor asks again when more is typed */
+
+static char lower(char c)
+{
+    return c >= 'A' && c <= 'Z' ? (char)(c | 0x20) : c;
+}
+
+/* True if the letters that are typed occur in the text in their order, as editors compare. */
+static bool is_typed(const struct completion *completion, const char *text)
+{
+    const char *bytes = completion->query.text->bytes;
+    uint32_t at = completion->replaced.start, end = completion->query.offset;
+    for (; *text && at < end; ++text)
+        at += lower(*text) == lower(bytes[at]);
+    return at >= end;
+}
+
+/* The items share the object of their range. */
+static json_t *range_of(struct completion *completion)
+{
+    struct span replaced = completion->replaced;
+    bool is_same =
+        replaced.start == completion->ranged.start && replaced.end == completion->ranged.end;
+    if (!completion->range || !is_same) {
+        json_decref(completion->range);
+        completion->range = wire_range(completion->query.session, completion->query.text, replaced);
+        completion->ranged = replaced;
+    }
+    return completion->range;
+}
+
 void completion_add(struct completion *completion, struct completion_item item)
 {
     const struct lsp_session *session = completion->query.session;
+    if (!is_typed(completion, item.filter ? item.filter : item.label))
+        return;
+    completion->is_cut = json_array_size(completion->items) == MAX_ITEMS;
+    if (completion->is_cut)
+        return;
     bool is_snippet = item.snippet && session->has_snippets;
     const char *text = is_snippet ? item.snippet : item.text ? item.text : item.label;
     json_t *object = json_object();
@@ -36,8 +72,10 @@ void completion_add(struct completion *completion, struct completion_item item)
     }
     if (is_snippet)
         json_object_set_new(object, "insertTextFormat", json_integer(2));
-    json_object_set_new(object, "textEdit",
-                        wire_edit(session, completion->query.text, completion->replaced, text));
+    json_t *edit = json_object();
+    json_object_set(edit, "range", range_of(completion));
+    json_object_set_new(edit, "newText", json_text(text));
+    json_object_set_new(object, "textEdit", edit);
     json_array_append_new(completion->items, object);
 }
 
@@ -113,7 +151,8 @@ json_t *handle_completion(struct lsp_session *session, const json_t *params,
     completion.place = query_place(&completion.query);
     complete(&completion);
     json_t *list = json_object();
-    json_object_set_new(list, "isIncomplete", json_false());
+    json_object_set_new(list, "isIncomplete", json_boolean(completion.is_cut));
     json_object_set_new(list, "items", completion.items);
+    json_decref(completion.range);
     return list;
 }

@@ -26,6 +26,9 @@ struct completion {
     struct place place;
     struct span replaced; /* the word that an item takes the place of */
     json_t *items;
+    json_t *range; /* of the span `ranged`; NULL: none yet */
+    struct span ranged;
+    bool is_cut; /* there are more items */
 };
 
 /* What an item has beside its label; each may be NULL. */
@@ -38,6 +41,7 @@ struct completion_item {
     const char *filter;  /* what the typed word is compared with; NULL: the label */
     bool is_first;       /* stands before the others */
 };
+/* Adds an item if it fits what is typed so far. */
 void completion_add(struct completion *completion, struct completion_item item);
 
 /* The text of a snippet for a value, with what a snippet reads as its own escaped; freed by the

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /* Values of attributes: words of the catalogue, names of elements, enumerated values, files. */
 #include "lsp/catalogue.h"
+#include "lsp/check.h"
 #include "lsp/completion.h"
-#include "lsp/disk.h"
 #include "lsp/names.h"
 #include "program/cli.h"
 
@@ -70,7 +70,8 @@ static void add_files(struct completion *completion, const char *prefix, const c
     char *folder =
         cli_format("%s%.*s", prefix, (int)(name - value.start), query->text->bytes + value.start);
     size_t size;
-    char *names = disk_list_beside(query->session, query->document, folder, &size);
+    query->session->disk.from = check_origin(query->document);
+    char *names = disk_list(&query->session->disk, folder, &size);
     completion->replaced.start = name;
     for (const char *at = names; at < names + size; at += strlen(at) + 1)
         if (*at != '.' && (ending ? ends_with(at, ending) || ends_with(at, "/") : is_texture(at)))

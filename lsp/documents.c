@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /* The documents that the editor has open, and their changes. */
+#include "lsp/check.h"
 #include "lsp/diagnostics.h"
 #include "lsp/handlers.h"
 #include "lsp/wire.h"
@@ -27,9 +28,8 @@ struct lsp_document *lsp_find_path(const struct lsp_session *session, const char
 
 void lsp_document_destroy(struct lsp_document *document)
 {
-    mxg_document_destroy(document->parsed);
-    mxg_document_destroy(document->checked);
-    store_finish(&document->findings.store);
+    check_destroy(document->check);
+    findings_clear(&document->findings);
     text_finish(&document->text);
     model_finish(&document->model);
     free(document->uri);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /* What is under the cursor: the definition of a node, an input, a texture, an attribute. */
-#include "lsp/disk.h"
+#include "lsp/check.h"
 #include "lsp/elements.h"
 #include "lsp/handlers.h"
 #include "lsp/image_header.h"
@@ -141,7 +141,8 @@ static bool put_texture(struct page *page, const struct lsp_query *query, uint32
          *path = disk_join(query->document->path, file);
     struct image_header header;
     size_t size;
-    char *bytes = disk_read_beside(query->session, query->document, path, IMAGE_HEADER_SIZE, &size);
+    query->session->disk.from = check_origin(query->document);
+    char *bytes = disk_read(&query->session->disk, path, IMAGE_HEADER_SIZE, &size);
     put(page, "`%s`", file);
     if (!bytes)
         put(page, "\n\nThe file is not there, or outside of the workspace.");
