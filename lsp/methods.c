@@ -17,5 +17,23 @@ const struct lsp_method lsp_methods[] = {
     {"textDocument/completion", handle_completion, "completionProvider",
      "{\"triggerCharacters\":[\"<\",\"\\\"\",\"/\",\" \"]}"},
     {"textDocument/hover", handle_hover, "hoverProvider", "true"},
+    {"textDocument/definition", handle_definition, "definitionProvider", "true"},
+    {"textDocument/references", handle_references, "referencesProvider", "true"},
+    {"textDocument/documentHighlight", handle_highlight, "documentHighlightProvider", "true"},
+    {"textDocument/rename", handle_rename, "renameProvider", "{\"prepareProvider\":true}"},
+    {"textDocument/prepareRename", handle_prepare_rename, NULL, NULL},
+    {"textDocument/documentSymbol", handle_symbols, "documentSymbolProvider", "true"},
+    {"textDocument/foldingRange", handle_folding, "foldingRangeProvider", "true"},
+    {"textDocument/documentLink", handle_links, "documentLinkProvider", "{}"},
+    {"textDocument/semanticTokens/full", handle_tokens, "semanticTokensProvider",
+     "{\"full\":true,\"legend\":{\"tokenTypes\":[\"function\",\"type\",\"variable\",\"parameter\","
+     "\"number\",\"keyword\"],\"tokenModifiers\":[\"declaration\"]}}"},
+    {"textDocument/documentColor", handle_colours, "colorProvider", "true"},
+    {"textDocument/colorPresentation", handle_presentations, NULL, NULL},
+    {"textDocument/inlayHint", handle_hints, "inlayHintProvider", "true"},
+    {"textDocument/formatting", handle_formatting, "documentFormattingProvider", "true"},
+    {"textDocument/prepareCallHierarchy", handle_prepare_calls, "callHierarchyProvider", "true"},
+    {"callHierarchy/incomingCalls", handle_incoming_calls, NULL, NULL},
+    {"callHierarchy/outgoingCalls", handle_outgoing_calls, NULL, NULL},
 };
 const size_t lsp_num_methods = sizeof lsp_methods / sizeof *lsp_methods;
