@@ -30,6 +30,8 @@ const struct lsp_method lsp_methods[] = {
      "\"number\",\"keyword\"],\"tokenModifiers\":[\"declaration\"]}}"},
     {"textDocument/documentColor", handle_colours, "colorProvider", "true"},
     {"textDocument/colorPresentation", handle_presentations, NULL, NULL},
+    {"textDocument/codeAction", handle_actions, "codeActionProvider",
+     "{\"codeActionKinds\":[\"quickfix\",\"source.upgrade\"]}"},
     {"textDocument/inlayHint", handle_hints, "inlayHintProvider", "true"},
     {"textDocument/formatting", handle_formatting, "documentFormattingProvider", "true"},
     {"textDocument/prepareCallHierarchy", handle_prepare_calls, "callHierarchyProvider", "true"},
