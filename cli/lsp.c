@@ -35,7 +35,8 @@ static void send_framed(void *user_data, const char *message, size_t size)
 
 static void receive(struct input *input)
 {
-    memmove(input->bytes, input->bytes + input->start, input->end - input->start);
+    if (input->start)
+        memmove(input->bytes, input->bytes + input->start, input->end - input->start);
     input->end -= input->start;
     input->start = 0;
     if (input->capacity - input->end < READ_SIZE + 1) {

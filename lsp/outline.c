@@ -49,20 +49,22 @@ static json_t *symbol_of(const struct lsp_query *query, uint32_t element)
 }
 
 /*
- * The symbols of the elements in `parent`. Elements without a name of any kind have none, and a
- * broken text may nest deeply: the children of the deepest level are left out.
+ * The symbols of the elements in `parent`, without the inputs of nodes. A broken text may nest
+ * deeply: what is deeper than documents are is left out.
  */
 static json_t *symbols_in(const struct lsp_query *query, uint32_t parent, int depth)
 {
-    enum { MAX_DEPTH = 64 };
+    enum { MAX_DEPTH = 16 };
     json_t *symbols = json_array();
-    for (uint32_t child = model_first(query->model, parent);
-         child != MODEL_NONE && depth < MAX_DEPTH; child = model_next(query->model, child)) {
+    for (uint32_t child = model_first(query->model, parent); child != MODEL_NONE;
+         child = model_next(query->model, child)) {
         const struct model_element *element = &query->model->elements[child];
         if (element->name.start == element->name.end)
             continue;
         json_t *symbol = symbol_of(query, child);
-        if (model_first(query->model, child) != MODEL_NONE)
+        bool is_open = depth < MAX_DEPTH && !query_is_node(query, child)
+                       && model_first(query->model, child) != MODEL_NONE;
+        if (is_open)
             json_object_set_new(symbol, "children", symbols_in(query, child, depth + 1));
         json_array_append_new(symbols, symbol);
     }

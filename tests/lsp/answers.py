@@ -232,8 +232,8 @@ def check_outline(client):
     open_text(client, GRAPH)
     found = names_of(client.of("textDocument/documentSymbol", URI))
     same([(name, detail, len(below)) for name, detail, below in found],
-         [("NG", "nodegraph", 6), ("SR", "standard_surface surfaceshader", 1), ("Paint", "surfacematerial material", 1)], "symbols")
-    same(found[0][2][2], ("picture", "image color3", [("file", "input filename", [])]), "a symbol inside")
+         [("NG", "nodegraph", 6), ("SR", "standard_surface surfaceshader", 0), ("Paint", "surfacematerial material", 0)], "symbols")
+    same(found[0][2][2], ("picture", "image color3", []), "a symbol inside")
     same([(item["startLine"], item["endLine"]) for item in client.of("textDocument/foldingRange", URI)],
          [(1, 20), (2, 13), (5, 6), (9, 11), (15, 16), (18, 19)], "folds")
     same([item["target"] for item in client.of("textDocument/documentLink", URI)], [uri_of(WORK / "maps/brick.png")], "a link to a texture")
@@ -286,6 +286,40 @@ def check_format(client):
     same(client.of("textDocument/formatting", URI, options=options), None, "a text that is not XML")
 
 
+def check_actions(client):
+    def actions(text, code, only=None):
+        """The actions about the first message of a kind."""
+        open_text(client, text)
+        item = next((item for item in client.diagnostics(URI) if item["code"] == code), {"range": {"start": {"line": 0, "character": 0}}})
+        place = {"start": item["range"]["start"], "end": item["range"]["start"]}
+        context = {"diagnostics": [item], **({"only": only} if only else {})}
+        return client.of("textDocument/codeAction", URI, range=place, context=context)
+
+    def fixed(text, code):
+        found = actions(text, code)[0]
+        return edited(client.texts[URI], found["edit"]["changes"][URI])
+
+    mixed = within(GRAPH, 'nodename="picture"', 'nodename="grey"')
+    same(fixed(mixed, "type-mismatch"), within(within(mixed, '<multiply name="product"', """<convert name="in1_of_color3" type="color3">
+      <input name="in" type="float" nodename="grey"/>
+    </convert>
+    <multiply name="product\""""), 'nodename="grey"/>\n      <input name="in2"', 'nodename="in1_of_color3"/>\n      <input name="in2"'), "a conversion")
+    wrong = within(GRAPH, "<multiply", "<multply").replace("</multiply", "</multply")
+    found = actions(wrong, "unknown-node")[0]
+    same((found["title"], found["kind"], found["isPreferred"]), ("Change to 'multiply'", "quickfix", True), "an action")
+    same(found["diagnostics"][0]["code"], "unknown-node", "the message of an action")
+    same(fixed(wrong, "unknown-node"), GRAPH, "a suggestion for a node")
+    same(fixed(within(GRAPH, 'name="base_color" type="color3"', 'name="base_color"'), "missing-attribute"),
+         within(GRAPH, 'name="base_color" type="color3" nodegraph="NG" output="out"', 'name="base_color" nodegraph="NG" output="out" type="color3"'),
+         "a missing type")
+    same(fixed(GRAPH, "unused-node"), within(GRAPH, '    <constant name="grey" type="float"/>\n', ""), "an unused node removed")
+    same(actions(wrong, "unknown-node", ["refactor"]), [], "kinds that the client wants")
+    old = GRAPH.replace('version="1.39"', 'version="1.36"')
+    found = actions(old, "none", ["source"])
+    same([action["title"] for action in found], ["Upgrade the document to MaterialX 1.39"], "an upgrade")
+    same(edited(client.texts[URI], found[0]["edit"]["changes"][URI]).split("\n")[1], '<materialx version="1.39">', "what an upgrade writes")
+
+
 def check_calls(client):
     at = open_text(client, within(GRAPH, '<multiply name="product"', '<multiply name="prod¦uct"'))
     item = client.at("textDocument/prepareCallHierarchy", URI, at)[0]
@@ -323,6 +357,7 @@ check_outline(session)
 check_colours(session)
 check_hints(session)
 check_format(session)
+check_actions(session)
 check_calls(session)
 same(session.end(), 0, "the end")
 finish("lsp-answers")

@@ -52,7 +52,7 @@ class Client:
 
     def __init__(self, mxgen, root=None, arguments=(), **capabilities):
         self.process = subprocess.Popen([mxgen, "lsp", *arguments], stdin=subprocess.PIPE, stdout=subprocess.PIPE, cwd=root)
-        self.bytes, self.next, self.published, self.versions, self.texts = b"", 1, {}, {}, {}
+        self.bytes, self.next, self.published, self.versions, self.texts = bytearray(), 1, {}, {}, {}
         self.capabilities = self.request("initialize", {"processId": None, "rootUri": uri_of(root) if root else None,
                                                         "capabilities": capabilities})["capabilities"]
         self.notify("initialized", {})
@@ -74,17 +74,16 @@ class Client:
     def receive(self, timeout=60):
         end = time.monotonic() + timeout
         while True:
-            head, separator, rest = self.bytes.partition(b"\r\n\r\n")
-            if separator:
-                length = int(head.split(b":")[1])
-                if len(rest) >= length:
-                    self.bytes = rest[length:]
-                    message = json.loads(rest[:length])
-                    if message.get("method") == "textDocument/publishDiagnostics":
-                        self.published[message["params"]["uri"]] = message["params"]
-                    return message
+            head = self.bytes.find(b"\r\n\r\n")
+            stop = head + 4 + int(self.bytes[:head].split(b":")[1]) if head >= 0 else 1 << 62
+            if len(self.bytes) >= stop:
+                message = json.loads(self.bytes[head + 4:stop])
+                del self.bytes[:stop]
+                if message.get("method") == "textDocument/publishDiagnostics":
+                    self.published[message["params"]["uri"]] = message["params"]
+                return message
             assert select.select([self.process.stdout], [], [], max(0, end - time.monotonic()))[0], "the server is silent"
-            data = self.process.stdout.read1(1 << 16)
+            data = self.process.stdout.read1(1 << 20)
             assert data, f"the server ended: {self.process.wait()}"
             self.bytes += data
 
