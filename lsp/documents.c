@@ -30,6 +30,7 @@ void lsp_document_destroy(struct lsp_document *document)
 {
     check_destroy(document->check);
     findings_clear(&document->findings);
+    args_free(&document->told);
     text_finish(&document->text);
     model_finish(&document->model);
     free(document->uri);

@@ -332,6 +332,26 @@ def check_calls(client):
     same([call["from"]["name"] for call in found], ["SR"], "downstream of a graph")
 
 
+def check_junk(client):
+    """Parameters that are none of the protocol's: each request has an answer or an error, and the server goes on."""
+    open_text(client, GRAPH)
+    methods = re.findall(r'^    \{"([\w/]+)",', (ROOT / "lsp/methods.c").read_text(encoding="utf-8"), re.MULTILINE)
+    check(len(methods) > 25, f"{len(methods)} methods")
+    place, document = {"line": 3, "character": 10}, {"uri": URI}
+    for method in set(methods) - {"initialize", "shutdown", "exit", "textDocument/didClose"}:
+        for params in (None, [], "text", {}, {"textDocument": 1}, {"textDocument": {"uri": 1}}, {"textDocument": document, "position": "here"},
+                       {"textDocument": document, "position": {"line": -1, "character": 1 << 60}},
+                       {"textDocument": document, "position": {"line": 1 << 31, "character": -5}, "newName": 7, "context": [], "options": None},
+                       {"textDocument": document, "range": {"start": {"line": 9, "character": 0}, "end": place}, "color": 1, "position": place},
+                       {"textDocument": document, "contentChanges": {"range": place}}, {"item": {"uri": URI}}, {"item": 3},
+                       {"textDocument": document, "contentChanges": [1, {"text": 1}, {"range": {"start": place}, "text": ""}]}):
+            try:
+                client.request(method, params)
+            except Failure as failure:
+                check(failure.args[0]["code"] < 0, f"{method} {params}: {failure}")
+    same(client.of("textDocument/foldingRange", URI)[0]["startLine"], 1, "the text after junk")
+
+
 def check_table():
     """The attributes of the server are those that the library checks."""
     names = lambda path: set(re.findall(r'^ATTRIBUTE\("?(\w+)"?,', (ROOT / path).read_text(encoding="utf-8"), re.MULTILINE))
@@ -349,6 +369,7 @@ def check_table():
 check_life()
 check_table()
 session = Client(MXGEN, WORK, textDocument={"completion": {"completionItem": {"snippetSupport": True}}})
+check_junk(session)
 check_messages(session)
 check_completion(session)
 check_hover(session)

@@ -8,7 +8,7 @@ import sys
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent))
 from checks import check, finish
-from client import Client
+from client import Client, Failure, position
 
 MXGEN, ROOT, STEPS = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve(), int(sys.argv[3])
 chance = random.Random(int(sys.argv[4]) if len(sys.argv) > 4 else 1)
@@ -21,7 +21,7 @@ SOURCES = [path.read_text(encoding="utf-8") for path in sorted((ROOT / "examples
 WHOLE = ["textDocument/documentSymbol", "textDocument/foldingRange", "textDocument/documentLink", "textDocument/semanticTokens/full",
          "textDocument/documentColor", "textDocument/inlayHint"]
 PLACED = ["textDocument/completion", "textDocument/hover", "textDocument/definition", "textDocument/references", "textDocument/documentHighlight",
-          "textDocument/prepareRename", "textDocument/prepareCallHierarchy", "textDocument/formatting"]
+          "textDocument/prepareRename", "textDocument/rename", "textDocument/codeAction", "textDocument/prepareCallHierarchy", "textDocument/formatting"]
 
 
 def change(text):
@@ -54,6 +54,14 @@ def compare(client, step):
     client.close(FRESH)
 
 
+def ask(client, method, at):
+    place = position(client.texts[EDITED], at)
+    try:
+        client.at(method, EDITED, at, newName=f"name{at}", context={"includeDeclaration": True, "diagnostics": []}, range={"start": place, "end": place})
+    except Failure as failure:
+        check(failure.args[0]["code"] == -32803, f"{method}: {failure}") # a name that cannot change
+
+
 client = Client(MXGEN, None, textDocument={"completion": {"completionItem": {"snippetSupport": True}}})
 client.open(EDITED, SOURCES[0])
 asked = 0
@@ -65,8 +73,7 @@ for step in range(STEPS):
     if not is_between(text, start) and not is_between(text, end):
         client.change(EDITED, start, end, new)
     if PLACED and step % 3 == 0:
-        client.at(chance.choice(PLACED), EDITED, min(len(client.texts[EDITED]), start + chance.randrange(3)), newName="other",
-                  context={"includeDeclaration": True, "diagnostics": []})
+        ask(client, chance.choice(PLACED), min(len(client.texts[EDITED]), start + chance.randrange(3)))
         asked += 1
     if step % 10 == 9:
         compare(client, step)
