@@ -6,7 +6,7 @@
 #include "lsp/session.h"
 
 /* session.c */
-lsp_handler handle_initialize, handle_nothing, handle_shutdown, handle_exit;
+lsp_handler handle_initialize, handle_initialized, handle_nothing, handle_shutdown, handle_exit;
 /* documents.c */
 lsp_handler handle_open, handle_change, handle_close, handle_save, handle_watched_files;
 /* completion.c, hover.c */

@@ -4,7 +4,7 @@
 
 const struct lsp_method lsp_methods[] = {
     {"initialize", handle_initialize, NULL, NULL},
-    {"initialized", handle_nothing, NULL, NULL},
+    {"initialized", handle_initialized, NULL, NULL},
     {"shutdown", handle_shutdown, NULL, NULL},
     {"exit", handle_exit, NULL, NULL},
     {"textDocument/didOpen", handle_open, "textDocumentSync",

@@ -146,16 +146,27 @@ json_t *handle_highlight(struct lsp_session *session, const json_t *params, stru
 
 /* ---- Rename ---- */
 
-/* A name that is the node's own choice; the names of inputs of a node are those of its definition.
+/* Outputs of a definition have their names in its nodegraph, too. */
+static bool is_shared_output(const struct lsp_query *query, uint32_t output)
+{
+    uint32_t parent = query->model->elements[output].parent;
+    return query_is(query, parent, "nodedef") || query_attribute(query, parent, "nodedef");
+}
+
+/*
+ * An element whose references are all known. The names of inputs of a node are those of its
+ * definition.
  */
 static uint32_t find_renamed(const struct lsp_query *query, struct span *out_name)
 {
     uint32_t target = references_target(query, out_name);
-    bool is_of_definition =
-        target != MODEL_NONE
-        && (query_is(query, target, "input") || query_is(query, target, "output"))
-        && query_is_node(query, query->model->elements[target].parent);
-    return is_of_definition ? MODEL_NONE : target;
+    bool is_input = query_is(query, target, "input"), is_output = query_is(query, target, "output");
+    bool is_known = is_input || is_output || query_is_node(query, target)
+                    || query_is(query, target, "nodegraph") || query_is(query, target, "nodedef");
+    bool is_of_node =
+        (is_input || is_output) && query_is_node(query, query->model->elements[target].parent);
+    return !is_known || is_of_node || (is_output && is_shared_output(query, target)) ? MODEL_NONE
+                                                                                     : target;
 }
 
 json_t *handle_prepare_rename(struct lsp_session *session, const json_t *params,

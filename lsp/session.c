@@ -212,6 +212,9 @@ json_t *handle_initialize(struct lsp_session *session, const json_t *params,
                      json_object_get(json_object_get(capabilities, "textDocument"), "completion"),
                      "completionItem");
     session->is_utf8 = has_encoding(capabilities, "utf-8");
+    const json_t *watching =
+        json_object_get(json_object_get(capabilities, "workspace"), "didChangeWatchedFiles");
+    session->can_watch = json_is_true(json_object_get(watching, "dynamicRegistration"));
     session->has_snippets = json_is_true(json_object_get(completion, "snippetSupport"));
     read_folders(session, params);
     if (!disk_open(&session->disk, &session->desc.context, session->folders,
@@ -226,6 +229,23 @@ json_t *handle_initialize(struct lsp_session *session, const json_t *params,
     json_object_set_new(result, "capabilities", list_capabilities(session));
     json_object_set_new(result, "serverInfo", info);
     return result;
+}
+
+/* The client tells changes of files on the disk: textures, included documents. */
+json_t *handle_initialized(struct lsp_session *session, const json_t *params,
+                           struct lsp_error *error)
+{
+    (void)params;
+    (void)error;
+    if (!session->can_watch)
+        return NULL;
+    json_t *message =
+        json_pack("{s:s, s:s, s:{s:[{s:s, s:s, s:{s:[{s:s}]}}]}}", "id", "watch", "method",
+                  "client/registerCapability", "params", "registrations", "id", "watch", "method",
+                  "workspace/didChangeWatchedFiles", "registerOptions", "watchers", "globPattern",
+                  "**/*.{mtlx,png,jpg,jpeg,exr,hdr,tif,tiff,tx,tga,bmp,ies,glsl}");
+    send_message(session, message);
+    return NULL;
 }
 
 json_t *handle_nothing(struct lsp_session *session, const json_t *params, struct lsp_error *error)

@@ -38,7 +38,8 @@ struct lsp_session {
     struct lsp_document *documents;
     char **folders; /* of the workspace */
     size_t num_folders;
-    bool is_utf8, has_snippets, is_initialised, is_shut_down, is_over;
+    bool is_utf8, has_snippets, can_watch; /* of the client */
+    bool is_initialised, is_shut_down, is_over;
 };
 
 /* An error of the protocol. */

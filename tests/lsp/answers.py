@@ -105,6 +105,23 @@ def check_messages(client):
     same([(item["code"], item.get("tags")) for item in found][:1], [("value-and-connection", [1])], "a tag")
 
 
+def check_watching():
+    client = Client(MXGEN, WORK, workspace={"didChangeWatchedFiles": {"dynamicRegistration": True}})
+    message = client.receive()
+    same((message["method"], message["params"]["registrations"][0]["method"]), ("client/registerCapability", "workspace/didChangeWatchedFiles"),
+         "files that the client watches")
+    client.send({"id": message["id"], "result": None})
+    text = within(GRAPH, "maps/brick.png", "maps/late.png")
+    client.open(URI, text)
+    same([item["code"] for item in client.diagnostics(URI)], ["unused-node", "missing-texture"], "a texture that is missing")
+    (WORK / "maps/late.png").write_bytes((WORK / "maps/brick.png").read_bytes())
+    del client.published[URI]
+    client.notify("workspace/didChangeWatchedFiles", {"changes": [{"uri": uri_of(WORK / "maps/late.png"), "type": 1}]})
+    same([item["code"] for item in client.diagnostics(URI)], ["unused-node"], "a texture that came")
+    (WORK / "maps/late.png").unlink()
+    same(client.end(), 0, "the end")
+
+
 def check_completion(client):
     same(labels(client, within(GRAPH, 'nodename="picture"', 'nodename="¦"')), ["picture"], "nodes of the type")
     same(labels(client, within(GRAPH, 'nodename="picture"/>', 'nodename="p¦')), ["picture"], "nodes where the tag has no end")
@@ -213,6 +230,8 @@ def check_navigation(client):
     at = client.texts[URI].index('"in"') + 1
     edits = client.at("textDocument/rename", URI, at, newName="value")["changes"][URI]
     same(edited(client.texts[URI], edits), definition.replace("¦", "").replace('"in"', '"value"'), "an input of an interface renamed")
+    at = client.texts[URI].index('"out"') + 1
+    same(client.at("textDocument/prepareRename", URI, at), None, "outputs of a definition have their names in two places")
     (WORK / "part.mtlx").write_text('<materialx version="1.39">\n  <constant name="é" type="float"/>\n  <constant name="far" type="float"/>\n</materialx>\n')
     at = open_text(client, '<materialx version="1.39" xmlns:xi="http://www.w3.org/2001/XInclude">\n  <xi:include href="part.mtlx"/>\n'
                    '  <add name="a" type="float"><input name="in1" type="float" nodename="far¦"/></add>\n</materialx>\n')
@@ -369,6 +388,7 @@ def check_table():
 check_life()
 check_table()
 session = Client(MXGEN, WORK, textDocument={"completion": {"completionItem": {"snippetSupport": True}}})
+check_watching()
 check_junk(session)
 check_messages(session)
 check_completion(session)
