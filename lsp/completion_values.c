@@ -5,6 +5,7 @@
 #include "lsp/completion.h"
 #include "lsp/names.h"
 #include "program/cli.h"
+#include "program/name_table.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -108,28 +109,38 @@ static void complete_value(struct completion *completion)
         add_words(completion, CATALOGUE_GEOMPROPS, COMPLETE_VALUE, NULL);
 }
 
+/* The types that the definitions of a node give, each once. False: the node has no definition. */
+static bool add_types_of_node(struct completion *completion, const char *category)
+{
+    const struct lsp_query *query = &completion->query;
+    struct name_table known = {0};
+    for (uint32_t i = 0; (i = catalogue_next(query, category, i)) != MXG_NONE; ++i) {
+        mxg_nodedef nodedef;
+        mxg_port output = {.type = "multioutput"};
+        bool is_new = false;
+        if (!catalogue_nodedef(query, i, &nodedef))
+            continue;
+        if (nodedef.num_outputs == 1)
+            catalogue_port(query, i, nodedef.num_inputs, &output);
+        names_add(&known, output.type, &is_new);
+        if (is_new)
+            add_value(completion, output.type, COMPLETE_TYPE, NULL);
+    }
+    bool is_known = known.num_entries > 0;
+    names_finish(&known);
+    return is_known;
+}
+
 static void complete_type(struct completion *completion)
 {
-    mxg_port port;
-    if (catalogue_port_of(&completion->query, completion->place.element, &port)) {
-        add_value(completion, port.type, COMPLETE_TYPE, NULL);
-        return;
-    }
+    const struct lsp_query *query = &completion->query;
+    uint32_t element = completion->place.element;
     char category[QUERY_NAME];
-    query_category(&completion->query, completion->place.element, category, sizeof category);
-    bool is_node = query_is_node(&completion->query, completion->place.element), is_known = false;
-    for (uint32_t i = 0;
-         is_node && (i = catalogue_next(&completion->query, category, i)) != MXG_NONE; ++i) {
-        mxg_nodedef nodedef;
-        mxg_port output;
-        if (!catalogue_nodedef(&completion->query, i, &nodedef))
-            continue;
-        is_known = true;
-        bool is_single = nodedef.num_outputs == 1
-                         && catalogue_port(&completion->query, i, nodedef.num_inputs, &output);
-        add_value(completion, is_single ? output.type : "multioutput", COMPLETE_TYPE, nodedef.name);
-    }
-    if (!is_known)
+    mxg_port port;
+    query_category(query, element, category, sizeof category);
+    if (catalogue_port_of(query, element, &port))
+        add_value(completion, port.type, COMPLETE_TYPE, NULL);
+    else if (!query_is_node(query, element) || !add_types_of_node(completion, category))
         add_words(completion, CATALOGUE_TYPES, COMPLETE_TYPE, NULL);
 }
 

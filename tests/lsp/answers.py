@@ -129,6 +129,7 @@ def check_completion(client):
     same(labels(client, within(GRAPH, 'nodegraph="NG"', 'nodegraph="¦"')), ["NG"], "graphs")
     same(labels(client, within(GRAPH, 'output="out"', 'output="¦"')), ["out"], "outputs")
     same(labels(client, within(GRAPH, 'name="base_color" type="color3"', 'name="specular_roughness" type="¦"')), ["float"], "the type of an input")
+    same(labels(client, within(GRAPH, '<multiply name="product" type="color3"', '<multiply name="product" type="col¦"')), ["color3", "color4"], "types of a node")
     found = labels(client, within(GRAPH, 'colorspace="srgb_texture"', 'colorspace="r¦"'))
     check({"srgb_texture", "lin_rec709", "g22_rec709"} <= set(found), f"colour spaces: {found}")
     same(labels(client, within(GRAPH, 'maps/brick.png', 'maps/¦')), ["brick.png", "deep/"], "files of a folder")
