@@ -18,8 +18,8 @@ lsp_handler handle_definition, handle_references, handle_highlight, handle_renam
 lsp_handler handle_symbols, handle_folding, handle_links;
 /* tokens.c, colours.c, hints.c, formatting.c */
 lsp_handler handle_tokens, handle_colours, handle_presentations, handle_hints, handle_formatting;
-/* actions.c */
-lsp_handler handle_actions;
+/* actions.c, lenses.c */
+lsp_handler handle_actions, handle_lenses, handle_lens;
 /* calls.c */
 lsp_handler handle_prepare_calls, handle_incoming_calls, handle_outgoing_calls;
 

@@ -33,6 +33,8 @@ const struct lsp_method lsp_methods[] = {
     {"textDocument/codeAction", handle_actions, "codeActionProvider",
      "{\"codeActionKinds\":[\"quickfix\",\"source.upgrade\"]}"},
     {"textDocument/inlayHint", handle_hints, "inlayHintProvider", "true"},
+    {"textDocument/codeLens", handle_lenses, "codeLensProvider", "{\"resolveProvider\":true}"},
+    {"codeLens/resolve", handle_lens, NULL, NULL},
     {"textDocument/formatting", handle_formatting, "documentFormattingProvider", "true"},
     {"textDocument/prepareCallHierarchy", handle_prepare_calls, "callHierarchyProvider", "true"},
     {"callHierarchy/incomingCalls", handle_incoming_calls, NULL, NULL},

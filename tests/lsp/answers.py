@@ -294,6 +294,17 @@ def check_hints(client):
     same(len(client.of("textDocument/inlayHint", URI, range=part)), 1, "hints of a range")
 
 
+def check_lenses(client):
+    open_text(client, GRAPH)
+    client.diagnostics(URI)
+    lens = client.of("textDocument/codeLens", URI)
+    same([text_at(client, item["range"]) for item in lens], ["surfacematerial"], "lenses")
+    same(client.request("codeLens/resolve", lens[0])["command"]["title"], "shader: 9 closures, 3 textures", "a lens")
+    open_text(client, within(GRAPH, 'nodename="SR"', 'nodename="SS"'))
+    client.diagnostics(URI)
+    same(client.request("codeLens/resolve", lens[0])["command"]["title"], "shader: none, because of errors", "a lens without a shader")
+
+
 def check_format(client):
     options = {"tabSize": 2, "insertSpaces": True}
     open_text(client, GRAPH)
@@ -398,6 +409,7 @@ check_navigation(session)
 check_outline(session)
 check_colours(session)
 check_hints(session)
+check_lenses(session)
 check_format(session)
 check_actions(session)
 check_calls(session)

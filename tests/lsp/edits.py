@@ -19,7 +19,7 @@ PIECES = ["<", ">", "/>", '"', "'", "=", " ", "\n", "\r\n", "\r", "<input ", '<i
 SOURCES = [path.read_text(encoding="utf-8") for path in sorted((ROOT / "examples").glob("*.mtlx"))]
 # Requests about the whole document, and about a place in it.
 WHOLE = ["textDocument/documentSymbol", "textDocument/foldingRange", "textDocument/documentLink", "textDocument/semanticTokens/full",
-         "textDocument/documentColor", "textDocument/inlayHint"]
+         "textDocument/documentColor", "textDocument/inlayHint", "textDocument/codeLens"]
 PLACED = ["textDocument/completion", "textDocument/hover", "textDocument/definition", "textDocument/references", "textDocument/documentHighlight",
           "textDocument/prepareRename", "textDocument/rename", "textDocument/codeAction", "textDocument/prepareCallHierarchy", "textDocument/formatting"]
 

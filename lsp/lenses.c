@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+/* A line over each material with figures of its shader, which the editor asks for when it shows it.
+ */
+#include "lsp/check.h"
+#include "lsp/handlers.h"
+#include "lsp/query.h"
+#include "lsp/wire.h"
+
+#include <string.h>
+
+json_t *handle_lenses(struct lsp_session *session, const json_t *params, struct lsp_error *error)
+{
+    struct lsp_query query;
+    if (!lsp_query(session, params, &query, error))
+        return NULL;
+    uint32_t root = query_root(&query);
+    json_t *list = json_array();
+    for (uint32_t child = root == MODEL_NONE ? root : model_first(query.model, root);
+         child != MODEL_NONE; child = model_next(query.model, child)) {
+        struct span name = query_value(&query, child, "name");
+        if (!query_equals(query.text, query_value(&query, child, "type"), "material")
+            || name.start == name.end)
+            continue;
+        json_array_append_new(
+            list,
+            json_pack("{s:o, s:{s:s, s:o}}", "range",
+                      wire_range(session, query.text, query.model->elements[child].name), "data",
+                      "uri", query.document->uri, "name", wire_span(query.text, name)));
+    }
+    return list;
+}
+
+/* The figures for GLSL, or why there are none. */
+static json_t *describe(const struct lsp_document *document, const char *name)
+{
+    mxg_result *result = NULL;
+    mxg_shader_info info = MXG_INIT(mxg_shader_info);
+    mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
+    desc.target = "glsl";
+    desc.element = name;
+    desc.without_source = true;
+    bool is_made =
+        document && document->check && document->parsed
+        && mxg_generate(document->check->context, document->parsed, &desc, &result) == MXG_OK
+        && mxg_result_info(result, &info) == MXG_OK;
+    json_t *title =
+        is_made ? json_sprintf("shader: %u closure%s, %u texture%s", (unsigned)info.num_closures,
+                               info.num_closures == 1 ? "" : "s", (unsigned)info.num_textures,
+                               info.num_textures == 1 ? "" : "s")
+                : json_string("shader: none, because of errors");
+    mxg_result_destroy(result);
+    return title;
+}
+
+json_t *handle_lens(struct lsp_session *session, const json_t *params, struct lsp_error *error)
+{
+    const json_t *data = json_object_get(params, "data"), *range = json_object_get(params, "range");
+    const struct lsp_document *document = lsp_find_document(session, json_text_of(data, "uri"));
+    if (!document || !range) {
+        *error = (struct lsp_error){LSP_INVALID_PARAMS, "the lens belongs to no open document"};
+        return NULL;
+    }
+    return json_pack("{s:O, s:{s:o, s:s}}", "range", range, "command", "title",
+                     describe(document, json_text_of(data, "name")), "command", "");
+}
