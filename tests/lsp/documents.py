@@ -70,10 +70,40 @@ def compare(folder):
     print(f"{folder.name}: {len(documents)} documents, {len(mine)} messages")
 
 
+def paths_of(symbols, prefix=""):
+    """The path of each symbol by the line of its name."""
+    for symbol in symbols:
+        path = prefix + symbol["name"]
+        yield symbol["selectionRange"]["start"]["line"], path
+        yield from paths_of(symbol.get("children", []), path + "/")
+
+
+def compare_definitions(folder):
+    """The definitions that hints show, chosen by the text, are those of the library."""
+    client, count = Client(MXGEN, folder), 0
+    for path in sorted(folder.glob("*.mtlx")):
+        uri = uri_of(path)
+        client.open(uri, path.read_text(encoding="utf-8"))
+        client.diagnostics(uri)
+        graph = subprocess.run([MXGEN, "inspect", path, "--graph"], capture_output=True, text=True, check=False).stdout
+        chosen = dict(re.findall(r"^(\S+) : \S+ \((\S+)\)$", graph, re.MULTILINE))
+        paths = dict(reversed(list(paths_of(client.of("textDocument/documentSymbol", uri)))))
+        whole = {"start": {"line": 0, "character": 0}, "end": {"line": 1 << 20, "character": 0}}
+        for hint in client.of("textDocument/inlayHint", uri, range=whole):
+            node = paths.get(hint["position"]["line"])
+            if node in chosen and hint["tooltip"] == "the definition of the node":
+                count += 1
+                check(hint["label"] == chosen[node], f"{path.name}: {node} has {chosen[node]}, and the hint is {hint['label']}")
+        client.close(uri)
+    client.end()
+    check(count > 100, f"{count} definitions")
+
+
 if __name__ == "__main__":
     for folder in (ROOT / "examples", ROOT / "tests/diag", ROOT / "../shared/faults", ROOT / "../shared/materials"):
         if folder.is_dir():
             compare(folder.resolve())
         else:
             skip(f"there is no {folder}")
+    compare_definitions((ROOT / "examples").resolve())
     finish("lsp-documents")
