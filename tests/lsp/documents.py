@@ -96,7 +96,7 @@ def compare_definitions(folder):
                 check(hint["label"] == chosen[node], f"{path.name}: {node} has {chosen[node]}, and the hint is {hint['label']}")
         client.close(uri)
     client.end()
-    check(count > 100, f"{count} definitions")
+    check(count > 50, f"{count} definitions")
 
 
 if __name__ == "__main__":
