@@ -11,6 +11,7 @@ struct reading {
     struct model *model;
     const char *bytes;
     uint32_t at, len, open;
+    uint32_t reach; /* of the start tag that is being read */
 };
 
 static bool is_space(char c)
@@ -83,6 +84,19 @@ static bool has_tag_after(const struct reading *reading, uint32_t at)
     return at == reading->len || reading->bytes[at] == '<';
 }
 
+/* A value without its closing quote ends where the tag does, or with the line. */
+static uint32_t end_of_open_value(const struct reading *reading, struct span value)
+{
+    for (uint32_t at = value.start; at < value.end; ++at) {
+        bool is_end =
+            reading->bytes[at] == '>'
+            || (reading->bytes[at] == '/' && at + 1 < value.end && reading->bytes[at + 1] == '>');
+        if (is_end)
+            return at;
+    }
+    return value.end;
+}
+
 static void read_value(struct reading *reading, struct model_attribute *attribute)
 {
     char quote = reading->bytes[reading->at++];
@@ -93,6 +107,10 @@ static void read_value(struct reading *reading, struct model_attribute *attribut
         if (c == quote || (c == '\n' && has_tag_after(reading, at)))
             break;
         attribute->value.end = at + 1;
+    }
+    if (!attribute->is_closed) {
+        reading->reach = attribute->value.end;
+        attribute->value.end = end_of_open_value(reading, attribute->value);
     }
     reading->at = attribute->value.end + attribute->is_closed;
 }
@@ -192,7 +210,10 @@ static void read_start(struct reading *reading)
     ++reading->at;
     struct model_element *element = &reading->model->elements[index];
     element->name = read_name(reading);
+    reading->reach = 0;
     read_attributes(reading, element);
+    element->reach = reading->reach;
+    reading->model->has_reach |= reading->reach > 0;
     uint32_t next = reading->at;
     if (element->is_broken)
         reading->at = element->tag_end;
@@ -285,6 +306,7 @@ static bool find_markup(struct reading *reading)
 void model_read(struct model *model, const struct text *text)
 {
     model->num_elements = model->num_attributes = 0;
+    model->has_reach = false;
     struct reading reading = {
         .model = model, .bytes = text->bytes, .len = text->len, .open = MODEL_NONE};
     while (find_markup(&reading))
@@ -316,6 +338,19 @@ static uint32_t last_before(const struct model *model, uint32_t offset)
         if (model->elements[found].depth == 1)
             return found;
     return MODEL_NONE;
+}
+
+/*
+ * The first element below the root that has to be read again for a change: what is before it did
+ * not look at the text from there on.
+ */
+static uint32_t first_changed(const struct model *model, uint32_t offset)
+{
+    uint32_t first = last_before(model, offset);
+    for (uint32_t i = 0; model->has_reach && first != MODEL_NONE && i < first; ++i)
+        if (model->elements[i].reach > model->elements[first].start)
+            first = last_before(model, model->elements[i].start + 1);
+    return first;
 }
 
 static struct span shift(struct span span, uint32_t by)
@@ -366,6 +401,7 @@ static void move_rest(struct model *model, const struct move *move)
         element->tag_end += move->by;
         element->close += move->by;
         element->end += move->by;
+        element->reach += element->reach ? move->by : 0;
         element->after += move->elements;
         element->first_attribute += move->attributes;
         if (element->parent != MODEL_NONE && element->parent != move->root)
@@ -420,6 +456,7 @@ static void splice(struct model *model, const struct model *read, uint32_t first
     memmove(model->attributes + first_attribute + read->num_attributes,
             model->attributes + rest_attribute,
             (model->num_attributes - rest_attribute) * sizeof *model->attributes);
+    model->has_reach |= read->has_reach;
     model->num_elements += move.elements;
     model->num_attributes += move.attributes;
     take_read(model, read, root, first, first_attribute);
@@ -432,13 +469,13 @@ static void splice(struct model *model, const struct model *read, uint32_t first
 
 /*
  * A reading depends on the text from where it is, and on the elements that are open. It looks ahead
- * up to the next '<' at most, or to the end of the text if it swallows all of it. So what is before
- * the element with the change stays, and so does what begins after the change where only the root
- * is open.
+ * up to the next '<' at most, or to the end of the text if it swallows all of it; `reach` has the
+ * exception. So what is before the element with the change stays, and so does what begins after the
+ * change where only the root is open.
  */
 void model_update(struct model *model, const struct text *text, struct span old, uint32_t new_end)
 {
-    uint32_t first = last_before(model, old.start), from = first, by = new_end - old.end;
+    uint32_t first = first_changed(model, old.start), from = first, by = new_end - old.end;
     if (first == MODEL_NONE) {
         model_read(model, text);
         return;

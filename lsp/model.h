@@ -29,6 +29,7 @@ struct model_element {
     uint32_t after;   /* the element after this one and all in it */
     uint32_t first_attribute, num_attributes;
     uint32_t depth; /* 0 at the top */
+    uint32_t reach; /* how far its start tag looked for a quote that is missing; 0: none is */
     bool is_comment;
     bool is_empty;  /* "<a/>" */
     bool is_broken; /* its start tag has no '>' */
@@ -40,6 +41,7 @@ struct model {
     uint32_t num_elements, capacity_elements;
     struct model_attribute *attributes;
     uint32_t num_attributes, capacity_attributes;
+    bool has_reach; /* an element may have one */
 };
 
 void model_read(struct model *model, const struct text *text);

@@ -125,6 +125,10 @@ def check_watching():
 def check_completion(client):
     same(labels(client, within(GRAPH, 'nodename="picture"', 'nodename="¦"')), ["picture"], "nodes of the type")
     same(labels(client, within(GRAPH, 'nodename="picture"/>', 'nodename="p¦')), ["picture"], "nodes where the tag has no end")
+    at = open_text(client, within(GRAPH, 'nodename="picture"/>', 'nodename="¦/>'))
+    item = client.at("textDocument/completion", URI, at)["items"][0]
+    same((item["label"], text_at(client, item["textEdit"]["range"])), ("picture", ""), "a name before the end of a tag, without a quote")
+    same(labels(client, within(GRAPH, '<input name="in1" type="color3" nodename="picture"/>', '<input name="¦')), ["in1", "in2"], "a name that has no end")
     same(labels(client, within(GRAPH, 'interfacename="tint"', 'interfacename="¦"')), ["tint"], "inputs of the graph of the type")
     same(labels(client, within(GRAPH, 'nodegraph="NG"', 'nodegraph="¦"')), ["NG"], "graphs")
     same(labels(client, within(GRAPH, 'output="out"', 'output="¦"')), ["out"], "outputs")
