@@ -59,7 +59,7 @@ void complete_nodes(struct completion *completion)
     char wanted[QUERY_NAME];
     names_type(query, element, wanted, sizeof wanted);
     for (uint32_t child = scope == MODEL_NONE ? scope : model_first(query->model, scope);
-         child != MODEL_NONE; child = model_next(query->model, child))
+         child != MODEL_NONE && !completion->is_cut; child = model_next(query->model, child))
         if (child != own && query_is_node(query, child))
             add_element(completion, child, wanted);
     if (scope != MODEL_NONE && scope == query_root(query))
@@ -72,7 +72,7 @@ static void add_children(struct completion *completion, uint32_t parent, const c
 {
     const struct lsp_query *query = &completion->query;
     for (uint32_t child = parent == MODEL_NONE ? parent : model_first(query->model, parent);
-         child != MODEL_NONE; child = model_next(query->model, child))
+         child != MODEL_NONE && !completion->is_cut; child = model_next(query->model, child))
         if (query_is(query, child, category))
             add_element(completion, child, wanted);
 }
@@ -98,7 +98,7 @@ void complete_graphs(struct completion *completion)
     if (is_port)
         names_type(query, element, wanted, sizeof wanted);
     for (uint32_t child = root == MODEL_NONE ? root : model_first(query->model, root);
-         child != MODEL_NONE; child = model_next(query->model, child))
+         child != MODEL_NONE && !completion->is_cut; child = model_next(query->model, child))
         if (query_is(query, child, "nodegraph") && has_output(query, child, wanted))
             add_element(completion, child, "");
     add_included(completion, is_graph, "");

@@ -170,7 +170,7 @@ mxg_element names_next_included(const struct lsp_query *query, mxg_element after
     const mxg_document *document = query->document->parsed;
     mxg_element element = 0;
     *out = (mxg_element_info){sizeof *out};
-    if (!document)
+    if (!document || mxg_document_num_files(document) < 2)
         return 0;
     if (after) {
         mxg_document_element(document, after, out);
