@@ -105,6 +105,37 @@ def check_messages(client):
     same([(item["code"], item.get("tags")) for item in found][:1], [("value-and-connection", [1])], "a tag")
 
 
+def check_walls():
+    """Nothing outside of the workspace and of the folder of a document is read, also through a link."""
+    inner, outside = WORK / "inner", WORK / "outside"
+    inner.mkdir()
+    outside.mkdir()
+    (outside / "secret.mtlx").write_text('<materialx version="1.39"><constant name="secret" type="color3"/></materialx>')
+    (outside / "secret.png").write_bytes((WORK / "maps/brick.png").read_bytes())
+    (inner / "door").symlink_to(outside)
+    uri = uri_of(inner / "main.mtlx")
+    text = '''<materialx version="1.39" xmlns:xi="http://www.w3.org/2001/XInclude">
+  <xi:include href="FOLDER/secret.mtlx"/>
+  <image name="i" type="color3"><input name="file" type="filename" value="FOLDER/secret.png"/></image>
+  <output name="out" type="color3" nodename="secret"/>
+</materialx>
+'''
+    for folder in "../outside", "door", str(outside):
+        client = Client(MXGEN, inner)
+        client.open(uri, text.replace("FOLDER", folder))
+        found = {item["code"]: item["message"] for item in client.diagnostics(uri)}
+        check("outside the folders" in found.get("include-missing", "") and "missing-texture" not in found, f"{folder}: {found}")
+        at = client.texts[uri].index("secret.png")
+        check("not there, or outside" in client.at("textDocument/hover", uri, at)["contents"]["value"], f"{folder}: the texture has a size")
+        same(client.at("textDocument/completion", uri, at)["items"], [], f"{folder}: files are listed")
+        same(client.at("textDocument/definition", uri, client.texts[uri].index('"secret"') + 1), None, f"{folder}: a definition is found")
+        same(client.end(), 0, "the end")
+    client = Client(MXGEN, inner, ["--include-root", str(outside)])
+    client.open(uri, text.replace("FOLDER", "door"))
+    same([item["code"] for item in client.diagnostics(uri) if item["severity"] == 1], [], "an include root is read")
+    same(client.end(), 0, "the end")
+
+
 def check_watching():
     client = Client(MXGEN, WORK, workspace={"didChangeWatchedFiles": {"dynamicRegistration": True}})
     message = client.receive()
@@ -404,6 +435,7 @@ def check_table():
 check_life()
 check_table()
 session = Client(MXGEN, WORK, textDocument={"completion": {"completionItem": {"snippetSupport": True}}})
+check_walls()
 check_watching()
 check_junk(session)
 check_messages(session)
