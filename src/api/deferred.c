@@ -79,6 +79,7 @@ static void draw_forward(struct generation *g, ir_ref misfit)
 
 bool generation_can_store(struct generation *g)
 {
+    g->result->storage.max_words = g->result->slabs.after.bytes / SLAB_WORD_BYTES;
     ir_ref misfit = role_stores(g->role) ? deferred_misfit(&g->result->shader, g->root) : 0;
     if (misfit && g->role->returns == RETURNS_SLABS && g->options[OPTION_slabs].number)
         draw_forward(g, misfit);
@@ -110,8 +111,6 @@ void generation_tell_forward(struct generation *g)
     const struct document *doc = &g->document->layer.doc;
     if (g->role->returns != RETURNS_SLABS && !g->misfit)
         return;
-    assert(!shader->reflection.closures.len || g->result->storage.storage == STORAGE_FLOAT
-           || shader->reflection.stored_words * SLAB_WORD_BYTES <= g->result->slabs.after.bytes);
     if (shader->reflection.stored_words && shader->reflection.closures.len > DEFERRED_MAX_CLOSURES)
         diag_add(&g->result->object.diagnostics.list, DIAG_ID_closures_not_stored,
                  doc_place(doc, g->element), str_text(shader->strings, shader->reflection.name),

@@ -124,7 +124,7 @@ ir_ref slabs_budget(struct shader *shader, const struct slabs_host *host,
         root = slabs_join_stacks(shader, host, root);
     struct spender s = {slab_saver_of(shader, host, budget->off, root), budget, out};
     out->before = out->after = s.saver.cost;
-    out->is_too_much = slabs_has(shader, root) && s.saver.cost.closures > SLABS_MAX;
+    out->is_too_much = slabs_has(shader, root) && slabs_num_closures(shader, root) > SLABS_MAX;
     if (out->is_too_much)
         return root;
     if (!s.saver.cost.closures || (!slabs_is_asked(budget) && !slab_find_asked(&s.saver)))

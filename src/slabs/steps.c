@@ -9,7 +9,7 @@ void slab_saver_set_root(struct slab_saver *s, ir_ref root)
 {
     s->root = root;
     slabs_find_spots(s->shader, root, &s->spots);
-    s->cost = slabs_cost(s->shader, &s->spots);
+    s->cost = slabs_cost(s->shader, root);
 }
 
 /* Points of an estimate have no footprint, and no surroundings. */
@@ -27,9 +27,7 @@ struct slab_saver slab_saver_of(struct shader *shader, const struct slabs_host *
 
 struct slab_cost slab_saver_cost(const struct slab_saver *s, ir_ref root)
 {
-    struct slab_spots spots;
-    slabs_find_spots(s->shader, root, &spots);
-    return slabs_cost(s->shader, &spots);
+    return slabs_cost(s->shader, root);
 }
 
 float slab_saver_error(const struct slab_saver *s, ir_ref root)
