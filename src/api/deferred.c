@@ -59,15 +59,25 @@ void generation_hide_misfits(struct generation *g)
         g->root = build_without_hidden(g->builder, g->root);
 }
 
+/* The innermost element of the document itself that an origin comes from. */
+static elem_id element_of(const struct generation *g, uint32_t origin)
+{
+    const struct ir_origin *origins = g->result->graph.origins.items;
+    while (origin && origins[origin].element < g->document->layer.doc.first_element)
+        origin = origins[origin].parent;
+    return origin ? origins[origin].element : g->element;
+}
+
 static void report_misfit(struct generation *g, ir_ref misfit)
 {
     const struct shader *shader = &g->result->shader;
-    const struct ir_origin *origin =
-        &shader->graph->origins.items[ir_get(shader->graph, misfit)->origin];
     const struct document *doc = &g->document->layer.doc;
+    uint32_t origin = ir_get(shader->graph, misfit)->origin;
+    elem_id element = element_of(g, origin);
     diag_add(&g->result->object.diagnostics.list, DIAG_ID_closure_not_stored,
-             doc_place(doc, origin->element ? origin->element : g->element),
-             str_text(shader->strings, origin->name));
+             doc_place(doc, element),
+             str_text(shader->strings, shader->graph->origins.items[origin].name),
+             str_text(doc->strings, doc_element(doc, element)->category));
 }
 
 /* The shader lights itself, because of a closure that is no slab. */

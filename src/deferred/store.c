@@ -227,8 +227,7 @@ static void measure(struct shader *shader, const struct closure_list *marks,
         return;
     }
     const struct stored_slab *slabs = slabs_of(shader, marks);
-    shader->reflection.stored_words =
-        count_words(shader->graph, slabs, marks->leaves.len, layout);
+    shader->reflection.stored_words = count_words(shader->graph, slabs, marks->leaves.len, layout);
     shader->reflection.stored_classes = find_classes(shader->graph, slabs, marks->leaves.len);
 }
 

@@ -41,7 +41,8 @@ static ir_ref top_operand(const struct ir_graph *g, ir_ref ref)
     ir_ref top = 0;
     for (uint32_t i = 0; i < node->num_args && (is_last || !top); i++) {
         ir_ref arg = ir_arg(g, ref, i);
-        bool is_matter = arg && (ir_type_of(g, arg) == IR_TYPE_BSDF || ir_type_is_shader(ir_type_of(g, arg)));
+        bool is_matter =
+            arg && (ir_type_of(g, arg) == IR_TYPE_BSDF || ir_type_is_shader(ir_type_of(g, arg)));
         if (is_matter && !slabs_is_absent(g, ref, i))
             top = arg;
     }
