@@ -375,4 +375,20 @@ check 'the largest of its sides counts' grep -q ' 2 closures, 28 bytes' out
 check 'it takes the words of that side alone' eval '[ "$(words Wet)" = 7 ] && [ "$(words Alone)" = 7 ]'
 check 'one slab at most keeps a selection' eval 'exits 0 "$mxgen" selected.mtlx -e Dry --max-slabs 1 -Wbudget-step -o made && ! says budget-step'
 
+# Estimates see small patches, and bytes go where they are missed least
+cat >badge.mtlx <<'END'
+<materialx version="1.39">
+  <position name="place" type="vector3"/>
+  <extract name="x" type="float"><input name="in" type="vector3" nodename="place"/></extract>
+  <smoothstep name="badge" type="float"><input name="in" type="float" nodename="x"/><input name="low" type="float" value="0.94"/><input name="high" type="float" value="0.95"/></smoothstep>
+  <slab name="velvet" type="BSDF"><input name="diffuse_albedo" type="color3" value="0, 0, 0"/><input name="fuzz_amount" type="float" value="1"/></slab>
+  <slab name="grey" type="BSDF"/>
+  <slab_mix name="both" type="BSDF"><input name="fg" type="BSDF" nodename="velvet"/><input name="bg" type="BSDF" nodename="grey"/><input name="mix" type="float" nodename="badge"/></slab_mix>
+  <slab_surface name="Badge" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="both"/></slab_surface>
+</materialx>
+END
+check 'a patch of 3 % of a ball is seen' eval 'exits 0 "$mxgen" inspect --slabs badge.mtlx --features -fuzz && grep -qE "no fuzz: .* estimated error 0\.[1-9]" out'
+check 'a small error keeps its fuzz' eval 'exits 0 "$mxgen" badge.mtlx --max-error 0.1 -Wbudget-step -o made && ! says "no fuzz"'
+check 'bytes may go with a feature before a blend' eval 'exits 0 "$mxgen" "$slabs" -e WrappedSilk --max-bytes 56 -Wbudget-step -o made && says "no fuzz" && ! says "one slab"'
+
 finish slabs
