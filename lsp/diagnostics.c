@@ -30,22 +30,6 @@ void diagnostics_expect(struct lsp_session *session, const char *path)
 
 /* ---- Telling ---- */
 
-/* The text of a file: that of the editor, or that on the disk, in `*out_own`. */
-static const struct text *text_of(struct lsp_session *session, const struct lsp_document *reader,
-                                  const char *path, struct text *out_own)
-{
-    const struct lsp_document *document = lsp_find_path(session, path);
-    *out_own = (struct text){0};
-    if (document)
-        return &document->text;
-    size_t size = 0;
-    session->disk.from = check_origin(reader);
-    char *bytes = disk_read(&session->disk, path, 0, &size);
-    text_set(out_own, bytes ? bytes : "", bytes && size <= TEXT_MAX ? size : 0);
-    free(bytes);
-    return out_own;
-}
-
 /* Adds a note as a related place, or to the message if it has none. */
 static void put_note(struct lsp_session *session, const struct lsp_document *reader,
                      const struct finding_note *note, json_t *related, json_t *object)
@@ -57,9 +41,8 @@ static void put_note(struct lsp_session *session, const struct lsp_document *rea
         return;
     }
     struct text own;
-    const struct text *text = text_of(session, reader, note->path, &own);
-    const struct lsp_document *open = lsp_find_path(session, note->path);
-    char *uri = open ? cli_copy(open->uri, strlen(open->uri)) : wire_uri(note->path);
+    const struct text *text = lsp_file_text(session, reader, note->path, &own);
+    char *uri = lsp_file_uri(session, note->path);
     json_t *item = json_object();
     json_object_set_new(item, "location",
                         wire_location(session, uri, text,
@@ -124,7 +107,7 @@ static void publish(struct lsp_session *session, const struct lsp_document *read
                     const char *path)
 {
     struct text own;
-    const struct text *text = text_of(session, reader, path, &own);
+    const struct text *text = lsp_file_text(session, reader, path, &own);
     const struct lsp_document *open = lsp_find_path(session, path);
     json_t *params = json_object(), *items = json_array();
     for (const struct lsp_document *document = session->documents; document;
@@ -140,7 +123,7 @@ static void publish(struct lsp_session *session, const struct lsp_document *read
                 json_array_append_new(items, item);
         }
     }
-    char *uri = open ? cli_copy(open->uri, strlen(open->uri)) : wire_uri(path);
+    char *uri = lsp_file_uri(session, path);
     json_object_set_new(params, "uri", json_text(uri));
     if (open)
         json_object_set_new(params, "version", json_integer(open->version));

@@ -14,4 +14,9 @@ void diagnostics_settle(struct lsp_session *session, struct lsp_document *docume
 /* Takes the messages of a document, which no list has any more, from the client. */
 void diagnostics_forget(struct lsp_session *session, struct lsp_document *document);
 
+/* A finding as a `Diagnostic`; the text is that of its file, and `reader` the document that reads
+ * it. */
+json_t *diagnostics_json(struct lsp_session *session, const struct lsp_document *reader,
+                         const struct text *text, const struct finding *finding);
+
 #endif

@@ -37,6 +37,27 @@ void lsp_document_destroy(struct lsp_document *document)
     free(document);
 }
 
+const struct text *lsp_file_text(struct lsp_session *session, const struct lsp_document *reader,
+                                 const char *path, struct text *out_own)
+{
+    const struct lsp_document *document = lsp_find_path(session, path);
+    *out_own = (struct text){0};
+    if (document)
+        return &document->text;
+    size_t size = 0;
+    session->disk.from = check_origin(reader);
+    char *bytes = disk_read(&session->disk, path, 0, &size);
+    text_set(out_own, bytes ? bytes : "", bytes && size <= TEXT_MAX ? size : 0);
+    free(bytes);
+    return out_own;
+}
+
+char *lsp_file_uri(const struct lsp_session *session, const char *path)
+{
+    const struct lsp_document *document = lsp_find_path(session, path);
+    return document ? cli_copy(document->uri, strlen(document->uri)) : wire_uri(path);
+}
+
 bool lsp_query(struct lsp_session *session, const json_t *params, struct lsp_query *out,
                struct lsp_error *error)
 {

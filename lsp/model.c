@@ -368,7 +368,7 @@ static void move_rest(struct model *model, const struct move *move)
         element->end += move->by;
         element->after += move->elements;
         element->first_attribute += move->attributes;
-        if (element->depth > 1)
+        if (element->parent != MODEL_NONE && element->parent != move->root)
             element->parent += move->elements;
     }
     uint32_t attribute = first < model->num_elements ? model->elements[first].first_attribute
@@ -390,7 +390,7 @@ static void take_read(struct model *model, const struct model *read, uint32_t ro
         struct model_element element = read->elements[i];
         element.first_attribute += first_attribute;
         element.after += first - 1;
-        if (element.depth == 1)
+        if (element.parent == 0)
             element.parent = root;
         else if (element.parent != MODEL_NONE)
             element.parent += first - 1;

@@ -78,6 +78,12 @@ struct lsp_document *lsp_find_document(const struct lsp_session *session, const 
 struct lsp_document *lsp_find_path(const struct lsp_session *session, const char *path);
 void lsp_document_destroy(struct lsp_document *document);
 
+/* The text of a file: that of the editor, or that on the disk, which `out_own` has to finish. */
+const struct text *lsp_file_text(struct lsp_session *session, const struct lsp_document *reader,
+                                 const char *path, struct text *out_own);
+/* The address of a file, as the editor knows it. The caller frees it. */
+char *lsp_file_uri(const struct lsp_session *session, const char *path);
+
 /* A request at a place of an open document. */
 struct lsp_query {
     struct lsp_session *session;

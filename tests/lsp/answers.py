@@ -8,7 +8,7 @@ import tempfile
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent))
 from checks import check, finish
-from client import Client, Failure, offset, uri_of
+from client import Client, Failure, edited, offset, uri_of
 
 MXGEN, ROOT = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
 FOLDER = tempfile.TemporaryDirectory()
@@ -161,6 +161,143 @@ def check_hover(client):
     same(hover(client, within(GRAPH, "<materialx ", "¦<materialx ")), None, "nothing")
 
 
+def text_at(client, place, uri=URI):
+    """The text of a range."""
+    return client.texts[uri][offset(client.texts[uri], place["start"]):offset(client.texts[uri], place["end"])]
+
+
+def line_of(place):
+    return place["start"]["line"]
+
+
+def check_navigation(client):
+    at = open_text(client, within(GRAPH, 'nodename="picture"', 'nodename="pict¦ure"'))
+    found = client.at("textDocument/definition", URI, at)
+    same((found["uri"], line_of(found["range"]), text_at(client, found["range"])), (URI, 5, "picture"), "a definition")
+    same([line_of(item["range"]) for item in client.at("textDocument/references", URI, at, context={"includeDeclaration": True})], [5, 10], "references")
+    same([line_of(item["range"]) for item in client.at("textDocument/references", URI, at, context={"includeDeclaration": False})], [10],
+         "references without the declaration")
+    same([line_of(item["range"]) for item in client.at("textDocument/documentHighlight", URI, at)], [5, 10], "highlights")
+    found = client.at("textDocument/prepareRename", URI, at)
+    same((found["placeholder"], line_of(found["range"])), ("picture", 10), "what a rename changes")
+    edits = client.at("textDocument/rename", URI, at, newName="brick")["changes"][URI]
+    same(edited(client.texts[URI], edits), GRAPH.replace('"picture"', '"brick"'), "a node renamed")
+    for name in "product", "1st", "":
+        try:
+            client.at("textDocument/rename", URI, at, newName=name)
+            check(False, f"a rename to {name!r} has an answer")
+        except Failure as failure:
+            same(failure.args[0]["code"], -32803, f"a rename to {name!r}")
+    for old, new, expected in (("tint", "hue", GRAPH.replace('"tint"', '"hue"')), ("NG", "Wall", GRAPH.replace('"NG"', '"Wall"')),
+                               ("out", "color", GRAPH.replace('"out"', '"color"'))):
+        at = open_text(client, within(GRAPH, f'name="{old}"', f'name="{old}¦"'))
+        edits = client.at("textDocument/rename", URI, at, newName=new)["changes"][URI]
+        same(edited(client.texts[URI], edits), expected, f"{old} renamed")
+    at = open_text(client, within(GRAPH, 'name="base_color"', 'name="base¦_color"'))
+    same(client.at("textDocument/prepareRename", URI, at), None, "names of a definition of the library stay")
+    definition = """<materialx version="1.39">
+  <nodedef name="ND_twice" node="twice">
+    <input name="in" type="float"/>
+    <output name="out" type="float"/>
+  </nodedef>
+  <nodegraph name="NG_twice" nodedef="ND_twice">
+    <add name="sum" type="float"><input name="in1" type="float" interfacename="in"/><input name="in2" type="float" interfacename="in"/></add>
+    <output name="out" type="float" nodename="sum"/>
+  </nodegraph>
+  <twi¦ce name="t" type="float"><input name="in" type="float" value="1"/></twice>
+</materialx>
+"""
+    at = open_text(client, definition)
+    client.diagnostics(URI)
+    same(line_of(client.at("textDocument/definition", URI, at)["range"]), 1, "the definition of a node of the document")
+    at = client.texts[URI].index('"in"') + 1
+    edits = client.at("textDocument/rename", URI, at, newName="value")["changes"][URI]
+    same(edited(client.texts[URI], edits), definition.replace("¦", "").replace('"in"', '"value"'), "an input of an interface renamed")
+    (WORK / "part.mtlx").write_text('<materialx version="1.39">\n  <constant name="é" type="float"/>\n  <constant name="far" type="float"/>\n</materialx>\n')
+    at = open_text(client, '<materialx version="1.39" xmlns:xi="http://www.w3.org/2001/XInclude">\n  <xi:include href="part.mtlx"/>\n'
+                   '  <add name="a" type="float"><input name="in1" type="float" nodename="far¦"/></add>\n</materialx>\n')
+    client.diagnostics(URI)
+    found = client.at("textDocument/definition", URI, at)
+    same((found["uri"], line_of(found["range"])), (uri_of(WORK / "part.mtlx"), 2), "a definition in an included file")
+    same([item["label"] for item in client.at("textDocument/completion", URI, at)["items"]], ["far"], "names of an included file")
+    links = client.of("textDocument/documentLink", URI)
+    same([(line_of(item["range"]), item["target"]) for item in links], [(1, uri_of(WORK / "part.mtlx"))], "a link to an include")
+
+
+def names_of(symbols):
+    return [(item["name"], item["detail"], names_of(item.get("children", []))) for item in symbols]
+
+
+def check_outline(client):
+    open_text(client, GRAPH)
+    found = names_of(client.of("textDocument/documentSymbol", URI))
+    same([(name, detail, len(below)) for name, detail, below in found],
+         [("NG", "nodegraph", 6), ("SR", "standard_surface surfaceshader", 1), ("Paint", "surfacematerial material", 1)], "symbols")
+    same(found[0][2][2], ("picture", "image color3", [("file", "input filename", [])]), "a symbol inside")
+    same([(item["startLine"], item["endLine"]) for item in client.of("textDocument/foldingRange", URI)],
+         [(1, 20), (2, 13), (5, 6), (9, 11), (15, 16), (18, 19)], "folds")
+    same([item["target"] for item in client.of("textDocument/documentLink", URI)], [uri_of(WORK / "maps/brick.png")], "a link to a texture")
+    data = client.of("textDocument/semanticTokens/full", URI)["data"]
+    tokens, line, column = [], 0, 0
+    for i in range(0, len(data), 5):
+        line, column = line + data[i], data[i + 1] + (0 if data[i] else column)
+        text = client.texts[URI].split("\n")[line][column:column + data[i + 2]]
+        tokens.append((text, data[i + 3], data[i + 4]))
+    same(tokens[:9], [("materialx", 5, 0), ("nodegraph", 5, 0), ("NG", 2, 1), ("input", 5, 0), ("tint", 3, 1), ("color3", 1, 0), ("0.8, 0.2, 0.1", 4, 0),
+                      ("input", 5, 0), ("amount", 3, 1)], "tokens")
+    check(("multiply", 0, 0) in tokens and ("picture", 2, 0) in tokens and ("tint", 3, 0) in tokens, "tokens of nodes and references")
+
+
+def check_colours(client):
+    open_text(client, within(GRAPH, '"0.8, 0.2, 0.1"', '"1, 0.2140411, 0"'))
+    found = client.of("textDocument/documentColor", URI)
+    same([(line_of(item["range"]), [round(value, 4) for value in item["color"].values()]) for item in found], [(3, [1, 0.5, 0, 1])], "a linear colour")
+    half = {"red": 0.5, "green": 1, "blue": 0, "alpha": 1}
+    same(client.of("textDocument/colorPresentation", URI, range=found[0]["range"], color=half)[0]["label"], "0.214, 1, 0", "a linear value")
+    open_text(client, within(GRAPH, '"0.8, 0.2, 0.1"', '"1, 0.5, 0" colorspace="srgb_texture"'))
+    found = client.of("textDocument/documentColor", URI)
+    same([round(value, 4) for value in found[0]["color"].values()], [1, 0.5, 0, 1], "a colour in sRGB")
+    edit = client.of("textDocument/colorPresentation", URI, range=found[0]["range"], color=half)[0]["textEdit"]
+    same((edit["newText"], text_at(client, edit["range"])), ("0.5, 1, 0", "1, 0.5, 0"), "a value in sRGB")
+    open_text(client, within(GRAPH, 'version="1.39"', 'version="1.39" colorspace="acescg"'))
+    same(client.of("textDocument/documentColor", URI), [], "no box in a space that is not converted")
+
+
+def check_hints(client):
+    text = within(within(GRAPH, 'version="1.39"', 'version="1.39" colorspace="lin_rec709"'), '<constant name="grey"',
+                  '<blackbody name="b" type="color3"/>\n<constant name="grey"')
+    open_text(client, text)
+    whole = {"start": {"line": 0, "character": 0}, "end": {"line": 99, "character": 0}}
+    found = [(item["position"]["line"], item["label"]) for item in client.of("textDocument/inlayHint", URI, range=whole)]
+    same(found, [(3, "lin_rec709"), (5, "ND_image_color3"), (9, "ND_constant_float"), (10, "ND_multiply_color3"), (16, "ND_standard_surface_surfaceshader")], "hints")
+    part = {"start": {"line": 9, "character": 0}, "end": {"line": 10, "character": 0}}
+    same(len(client.of("textDocument/inlayHint", URI, range=part)), 1, "hints of a range")
+
+
+def check_format(client):
+    options = {"tabSize": 2, "insertSpaces": True}
+    open_text(client, GRAPH)
+    same(client.of("textDocument/formatting", URI, options=options), [], "a formatted text stays")
+    open_text(client, within(GRAPH, '    <constant name="grey" type="float"/>', '  <constant   type="float"  name="grey"></constant>'))
+    edits = client.of("textDocument/formatting", URI, options=options)
+    same(edited(client.texts[URI], edits), GRAPH, "a text formatted")
+    same(line_of(edits[0]["range"]), 8, "the edit has the lines that differ")
+    open_text(client, "<materialx")
+    same(client.of("textDocument/formatting", URI, options=options), None, "a text that is not XML")
+
+
+def check_calls(client):
+    at = open_text(client, within(GRAPH, '<multiply name="product"', '<multiply name="prod¦uct"'))
+    item = client.at("textDocument/prepareCallHierarchy", URI, at)[0]
+    same((item["name"], item["detail"]), ("product", "multiply"), "a node")
+    found = client.request("callHierarchy/outgoingCalls", {"item": item})
+    same([(call["to"]["name"], [line_of(place) for place in call["fromRanges"]]) for call in found], [("picture", [10])], "upstream")
+    found = client.request("callHierarchy/incomingCalls", {"item": item})
+    same([(call["from"]["name"], [line_of(place) for place in call["fromRanges"]]) for call in found], [("NG", [13])], "downstream")
+    found = client.request("callHierarchy/incomingCalls", {"item": found[0]["from"]})
+    same([call["from"]["name"] for call in found], ["SR"], "downstream of a graph")
+
+
 def check_table():
     """The attributes of the server are those that the library checks."""
     names = lambda path: set(re.findall(r'^ATTRIBUTE\("?(\w+)"?,', (ROOT / path).read_text(encoding="utf-8"), re.MULTILINE))
@@ -181,5 +318,11 @@ session = Client(MXGEN, WORK, textDocument={"completion": {"completionItem": {"s
 check_messages(session)
 check_completion(session)
 check_hover(session)
+check_navigation(session)
+check_outline(session)
+check_colours(session)
+check_hints(session)
+check_format(session)
+check_calls(session)
 same(session.end(), 0, "the end")
 finish("lsp-answers")
