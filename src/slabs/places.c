@@ -17,8 +17,8 @@ static float fraction(float x)
 /* A spiral of equal areas around the axis y (Vogel 1979). */
 static void position_at(unsigned at, float out[3])
 {
-    float y = 1.0f - (2.0f * (float)at + 1.0f) / SLAB_NUM_PLACES,
-          radius = sqrtf(1.0f - y * y), turn = GOLDEN_ANGLE * (float)at;
+    float y = 1.0f - (2.0f * (float)at + 1.0f) / SLAB_NUM_PLACES, radius = sqrtf(1.0f - y * y),
+          turn = GOLDEN_ANGLE * (float)at;
     out[0] = radius * cosf(turn);
     out[1] = y;
     out[2] = radius * sinf(turn);
