@@ -63,6 +63,25 @@ static bool add_pass(struct passes *passes, const struct passes_setup *setup,
     return stored_add_pass(passes->stored, &pass) || fail_device(passes, setup);
 }
 
+/* The functions of the host stand behind the pass. */
+static bool add_source(struct passes *passes, const struct passes_setup *setup,
+                       struct pass_part *part, int which)
+{
+    size_t size = 0;
+    const char *source = mxg_result_source(part->result, MXG_STAGE_PIXEL, &size),
+               *host = mxg_result_num_host_functions(part->result) ? setup->host : "";
+    char *text = host ? malloc(size + strlen(host) + 1) : NULL;
+    if (!host)
+        return fail(passes, "bad-shader", "the pass asks its host for functions");
+    if (!text)
+        return fail(passes, "render-failed", "out of memory");
+    memcpy(text, source, size);
+    strcpy(text + size, host);
+    bool good = add_pass(passes, setup, part, text, which);
+    free(text);
+    return good;
+}
+
 /* False for a pass that the options do not ask for, or over classes that no material has. */
 static bool is_needed(const struct passes_setup *setup, const mxg_result *pass)
 {
@@ -89,8 +108,7 @@ static bool open_pass(struct passes *passes, const struct passes_setup *setup, u
         .result = part->result, .scene = setup->scene, .is_opaque = true, .tints = &passes->tints};
     if (!bind_shader(&part->bind))
         return fail(passes, part->bind.id, part->bind.reason);
-    return add_pass(passes, setup, part, mxg_result_source(part->result, MXG_STAGE_PIXEL, NULL),
-                    which);
+    return add_source(passes, setup, part, which);
 }
 
 static bool open_hits(struct passes *passes, const struct passes_setup *setup)

@@ -160,6 +160,16 @@ void deferred_write_lines(const char *const *lines, struct text *out)
         text_str(out, *lines);
 }
 
+/* Lines that begin with '@' are for passes that call functions of the host. */
+static void write_text(const char *const *lines, bool calls_host, struct text *out)
+{
+    for (; *lines; lines++)
+        if (**lines != '@')
+            text_str(out, *lines);
+        else if (calls_host)
+            text_str(out, *lines + 1);
+}
+
 size_t deferred_closures_size(void)
 {
     size_t size = 0;
@@ -251,6 +261,7 @@ void deferred_write_pass(enum deferred_pass pass, const struct deferred_layout *
                          struct text *out)
 {
     uint32_t reads = deferred_reads(pass, layout), writes = deferred_writes(pass, layout);
+    bool calls_host = surface && surface->reflection.host_functions.len;
     assert((deferred_pass_class(pass) != CLASS_EMPTY) == (surface && source));
     if (surface)
         text_fmt(out, "%s\n", source);
@@ -266,7 +277,7 @@ void deferred_write_pass(enum deferred_pass pass, const struct deferred_layout *
         bool is_last = i + 1 == MAX_TEXTS || !passes[pass].texts[i + 1];
         if (surface && is_last)
             write_fill(surface, out);
-        deferred_write_lines(passes[pass].texts[i], out);
+        write_text(passes[pass].texts[i], calls_host, out);
         if (passes[pass].texts[i] == deferred_read && layout->storage == STORAGE_FLOAT)
             deferred_write_get(out);
     }

@@ -108,6 +108,7 @@ bool drawing_open_passes(struct bench *b, struct drawing *d, const struct passes
     setup.options = b->options;
     setup.scene = &b->scene;
     setup.canvas = d->canvas;
+    setup.host = b->host;
     bool good = passes_open(&setup, &d->passes);
     if (!good)
         printf("%s\n", d->passes.reason);

@@ -17,6 +17,7 @@ struct bench {
     mxg_options *options;
     mxg_document *document;
     char path[1024];        /* of the document */
+    const char *host;       /* NULL, or the functions that the passes ask their host for */
     mxg_bindings *bindings; /* NULL, or the stack 0 of these takes the place of elements */
 };
 

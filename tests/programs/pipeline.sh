@@ -19,6 +19,17 @@ check "a pass that lights nothing does not depend on lights" same passes few
 check "a pass that lights depends on lights" bash -c '! cmp -s passes/light_simple.comp few/light_simple.comp'
 check "passes are generated with names and inputs of a host" "$mxgen" pipeline named --uniform '**' --rename positionWorld=pw --prefix x_
 check "names and inputs of a host do not change passes" diff -r passes named
+check "passes are generated with functions of a host" "$mxgen" pipeline hosted --host-lights --host-occlusion --host-environment
+asked() { python3 -c 'import json, sys
+assert set(json.load(open(sys.argv[1]))["hostFunctions"]) == set(sys.argv[2:]), sys.argv' "$@"; }
+for name in simple single complex special rays; do
+    check "the reflection names the functions of the host: light_$name" asked "hosted/light_$name.json" mxg_light_count mxg_light mxg_ambient_occlusion mxg_irradiance mxg_radiance
+done
+check "passes without light ask the host for nothing" eval 'cmp -s passes/classify.comp hosted/classify.comp && ! grep -q hostFunctions hosted/compose.json passes/*.json'
+check "passes are generated with shadows of a host" "$mxgen" pipeline shaded --host-shadows --environment none
+check "the shadows are the only function" asked shaded/light_single.json mxg_shadow
+check "material passes do not depend on functions of the host" eval '"$mxgen" "$examples/deferred.mtlx" -e Plain --target vulkan --role deferred -o own &&
+    "$mxgen" "$examples/deferred.mtlx" -e Plain --target vulkan --role deferred --host-lights --host-environment -o other && cmp own/Plain.frag other/Plain.frag'
 check "a run without a folder is wrong usage" exits 2 "$mxgen" pipeline
 
 # Compiles all passes of a folder with glslang's own program, where there is one.
@@ -36,6 +47,15 @@ if command -v glslangValidator >/dev/null; then
     for folder in passes few shadow spread blurred soft; do
         check "the passes compile: $folder" compiles "$folder" "-V -o code.spv"
     done
+    cat >host.glsl <<'X'
+int mxg_light_count() { return mxg_pixel.x; }
+void mxg_light(int i, vec3 P, out vec3 L, out vec3 radiance) { L = normalize(P); radiance = P; }
+float mxg_ambient_occlusion(vec3 P, vec3 N) { return dot(P, N); }
+vec3 mxg_irradiance(vec3 P, vec3 N) { return P + N; }
+vec3 mxg_radiance(vec3 P, vec3 L, float roughness) { return P + roughness * L; }
+X
+    for file in hosted/light_*.comp; do cat host.glsl >>"$file"; done
+    check "the passes with functions of a host compile" compiles hosted "-V -o code.spv"
     check "the passes for OpenGL compile" compiles gl ""
 else
     skip "no glslangValidator"

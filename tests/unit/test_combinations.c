@@ -63,6 +63,10 @@ static const struct setting {
     {"encode", "encode", {"linear", "srgb"}},
     {"occlusion_map", "occlusion-map", {"false", "true"}},
     {"shadow_map", "shadow-map", {"false", "true"}},
+    {"host_lights", "host-lights", {"false", "true"}},
+    {"host_shadows", "host-shadows", {"false", "true"}},
+    {"host_occlusion", "host-occlusion", {"false", "true"}},
+    {"host_environment", "host-environment", {"false", "true"}},
     {"sample_filter", "sample-filter", {"wide", "narrow"}},
     {"lights", "lights", {"", "point_light=2"}},
     {"max_lights", "max-lights", {"3", "8"}},
@@ -214,10 +218,11 @@ static void test_depth(const struct run *run)
     static const struct {
         const char *key, *value;
     } without[] = {
-        {"lights", "point_light=2"},  {"max-lights", "8"},        {"shadow-map", "true"},
-        {"sample-filter", "narrow"},  {"encode", "srgb"},         {"storage", "float"},
-        {"sss", "diffusion"},         {"layering", "two-sided"},  {"layering", "occluding"},
-        {"rough-refraction", "blur"}, {"transmission", "opacity"}};
+        {"lights", "point_light=2"},  {"max-lights", "8"},         {"shadow-map", "true"},
+        {"sample-filter", "narrow"},  {"encode", "srgb"},          {"storage", "float"},
+        {"sss", "diffusion"},         {"layering", "two-sided"},   {"layering", "occluding"},
+        {"rough-refraction", "blur"}, {"transmission", "opacity"}, {"host-lights", "true"},
+        {"host-shadows", "true"},     {"host-occlusion", "true"},  {"host-environment", "true"}};
     mxg_result *plain = generate_depth(run, NULL, NULL);
     const char *text = mxg_result_source(plain, MXG_STAGE_PIXEL, NULL);
     REQUIRE(text && strstr(text, "discard"));
