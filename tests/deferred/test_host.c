@@ -59,8 +59,7 @@ static void write_lights(const struct scene *scene, char *out, size_t size)
         len += (size_t)snprintf(out + len, size - len,
                                 "radiance = %s * %.9g / pow(%s, %.9g); L = normalize(L); }\n",
                                 vector(scene, i, "color", v[1]), number(scene, i, "intensity"),
-                                is_far ? "1.0" : "length(L) + 1.0",
-                                number(scene, i, "decay_rate"));
+                                is_far ? "1.0" : "length(L) + 1.0", number(scene, i, "decay_rate"));
     }
     snprintf(out + len, size - len, "}\n");
 }
@@ -125,12 +124,10 @@ static bool draw_center(struct bench *b, const char *host, float out[3])
 }
 
 #define NO_IRRADIANCE "vec3 mxg_irradiance(vec3 P, vec3 N) { return vec3(0.0); }\n"
-#define NO_RADIANCE \
-    "vec3 mxg_radiance(vec3 P, vec3 L, float roughness) { return vec3(0.0); }\n"
+#define NO_RADIANCE "vec3 mxg_radiance(vec3 P, vec3 L, float roughness) { return vec3(0.0); }\n"
 #define RADIANCE(value) \
     NO_IRRADIANCE "vec3 mxg_radiance(vec3 P, vec3 L, float roughness) { return " value "; }\n"
-#define IRRADIANCE(value) \
-    NO_RADIANCE "vec3 mxg_irradiance(vec3 P, vec3 N) { return " value "; }\n"
+#define IRRADIANCE(value) NO_RADIANCE "vec3 mxg_irradiance(vec3 P, vec3 N) { return " value "; }\n"
 
 /* What the functions get, by quotients of colours: it stands in front of the viewer there. */
 static void test_arguments(struct bench *b)
@@ -138,8 +135,7 @@ static void test_arguments(struct bench *b)
     float one[3], value[3], point[3], way[3], diffuse[3], normal[3];
     if (!draw_center(b, RADIANCE("vec3(1.0)"), one)
         || !draw_center(b, RADIANCE("vec3(roughness)"), value)
-        || !draw_center(b, RADIANCE("P + 8.0"), point)
-        || !draw_center(b, RADIANCE("L + 8.0"), way)
+        || !draw_center(b, RADIANCE("P + 8.0"), point) || !draw_center(b, RADIANCE("L + 8.0"), way)
         || !draw_center(b, IRRADIANCE("vec3(1.0)"), diffuse)
         || !draw_center(b, IRRADIANCE("N + 8.0"), normal))
         return;

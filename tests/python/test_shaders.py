@@ -92,7 +92,7 @@ class Shaders(unittest.TestCase):
     def test_host_functions(self):
         document = self.context.load(common.EXAMPLES / "gold.mtlx")
         shader = document.generate("vulkan", options={"host-lights": True, "host-environment": True})
-        self.assertEqual(shader.host_functions, ("mxg_light_count", "mxg_light", "mxg_radiance"))
+        self.assertEqual(shader.host_functions, ("mxg_light_count", "mxg_light", "mxg_irradiance", "mxg_radiance"))
         self.assertEqual(document.generate("vulkan").host_functions, ())
 
     def test_parts(self):

@@ -15,12 +15,6 @@ vec3 mxg_radiance(vec3 P, vec3 L, float roughness);
 
 in vec3 positionWorld;
 
-// Light that the host has for a lobe of the squared roughness a around a direction.
-vec3 mx_host_radiance(vec3 direction, float a)
-{
-    return mxg_radiance(positionWorld, direction, sqrt(a));
-}
-
 uniform mat4 u_envMatrix;
 uniform sampler2D u_envRadiance;
 uniform sampler2D u_envIrradiance;
