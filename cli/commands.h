@@ -9,6 +9,7 @@ int command_generate(const struct command *command, int argc, char **argv);
 int command_inspect(const struct command *command, int argc, char **argv);
 int command_bind(const struct command *command, int argc, char **argv);
 int command_library(const struct command *command, int argc, char **argv);
+int command_lsp(const struct command *command, int argc, char **argv);
 int command_validate(const struct command *command, int argc, char **argv);
 int command_explain(const struct command *command, int argc, char **argv);
 int command_render(const struct command *command, int argc, char **argv);

@@ -43,6 +43,7 @@ static const struct command commands[] = {
     {"library", "library pack|list|expand|doc [PATH...] [-o PATH]  |  library list WORD...",
      "Packs, lists, expands or documents node libraries; finds nodes by a part of their name.",
      command_library},
+    {"lsp", "lsp [options]", "Runs a language server for editors (docs/lsp.md).", command_lsp},
 };
 #define NUM_COMMANDS (sizeof commands / sizeof *commands)
 

@@ -94,8 +94,9 @@ static uint32_t limit_u32(size_t value)
     return value > UINT32_MAX ? UINT32_MAX : (uint32_t)value;
 }
 
-static bool create_context(struct cli *cli)
+char *cli_describe_context(const struct cli *cli, mxg_context_desc *out)
 {
+    static const mxg_texel_reader texels = {.read_texels = cli_read_texels};
     mxg_context_desc desc = MXG_CONTEXT_DESC_INIT;
     desc.max_memory = cli->max_memory;
     desc.max_file_mib = limit_u32(cli->max_file_size);
@@ -114,10 +115,17 @@ static bool create_context(struct cli *cli)
     desc.num_source_paths = cli->source_paths.len;
     desc.node_codes = cli->plugins.codes;
     desc.num_node_codes = cli->plugins.num_codes;
-    const mxg_texel_reader texels = {.read_texels = cli_read_texels};
     desc.texels = &texels;
     char *warnings = warnings_join(&cli->warnings);
     desc.warnings = warnings;
+    *out = desc;
+    return warnings;
+}
+
+static bool create_context(struct cli *cli)
+{
+    mxg_context_desc desc;
+    char *warnings = cli_describe_context(cli, &desc);
     mxg_status status = mxg_context_create(&desc, &cli->context);
     free(warnings);
     if (status == MXG_ERROR_ARGUMENT && cli->plugins.num_codes) {

@@ -68,6 +68,12 @@ bool cli_start(struct cli *cli, const struct command *command, const struct arg 
 void cli_finish(struct cli *cli);
 
 /*
+ * How the context is made, for a program that needs another one. Its texts live as long as `cli`,
+ * except the warnings, which are the value: the caller frees it after it made the context.
+ */
+char *cli_describe_context(const struct cli *cli, mxg_context_desc *out);
+
+/*
  * Appends the arguments that give another mxgen program the same library, limits and options of
  * generation, and make it print only errors. The caller frees the items.
  */

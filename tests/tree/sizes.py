@@ -12,7 +12,7 @@ from checks import check, finish
 
 ROOT = pathlib.Path(sys.argv[1])
 COMPILER = sys.argv[2:]
-CODE = "src generators program cli check compile doc render bench tests examples fits include python js web blender action".split()
+CODE = "src generators program cli check compile doc lsp render bench tests examples fits include python js web blender action".split()
 
 
 def files(folder, *endings):
@@ -90,7 +90,7 @@ def check_texts():
 def check_headers():
     """A header includes what it uses."""
     command = [*COMPILER, *"-std=c17 -Wall -Wextra -Wno-unused-function -Werror -fsyntax-only -Iinclude -Isrc -I. -x c -".split()]
-    for folder in "include", "src", "generators", "program", "cli", "check", "doc":
+    for folder in "include", "src", "generators", "program", "cli", "check", "doc", "lsp":
         for path in files(folder, ".h"):
             source = f'#include "{path.relative_to(ROOT)}"\n'
             result = subprocess.run(command, input=source, cwd=ROOT, capture_output=True, text=True, check=False)

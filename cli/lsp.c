@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * mxgen lsp: the language server over standard input and output. A message stands behind a header
+ * with its length, as in HTTP ("Base Protocol" of the specification, LSP 3.17).
+ */
+#define _POSIX_C_SOURCE 200809L
+#include "cli/commands.h"
+#include "lsp/lsp.h"
+#include "program/json.h"
+#include "program/memory.h"
+
+#include <errno.h>
+#include <poll.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { MAX_HEADER = 4096, MAX_MESSAGE = 1 << 30, READ_SIZE = 64 << 10 };
+
+/* What came and no message has taken yet. */
+struct input {
+    char *bytes;
+    size_t start, end, capacity;
+    bool is_over; /* the input ended, or a header is wrong */
+};
+
+static void send_framed(void *user_data, const char *message, size_t size)
+{
+    (void)user_data;
+    printf("Content-Length: %zu\r\n\r\n", size);
+    fwrite(message, 1, size, stdout);
+    fflush(stdout);
+}
+
+static void receive(struct input *input)
+{
+    memmove(input->bytes, input->bytes + input->start, input->end - input->start);
+    input->end -= input->start;
+    input->start = 0;
+    if (input->capacity - input->end < READ_SIZE + 1) {
+        input->capacity = input->capacity * 2 + READ_SIZE + 1;
+        input->bytes = memory_resize(input->bytes, input->capacity);
+    }
+    ssize_t num = read(STDIN_FILENO, input->bytes + input->end, input->capacity - input->end - 1);
+    if (num < 0 && errno == EINTR)
+        return;
+    input->end += num > 0 ? (size_t)num : 0;
+    input->bytes[input->end] = '\0';
+    input->is_over = num <= 0;
+}
+
+/* The length that a header states; false: it states none that a message can have. */
+static bool read_length(const char *header, size_t *out)
+{
+    static const char key[] = "content-length:";
+    size_t at = 0;
+    while (key[at] && (header[at] | 0x20) == (key[at] | 0x20))
+        ++at;
+    if (key[at]) {
+        const char *line = strstr(header, "\r\n");
+        return line && line[2] && line[2] != '\r' && read_length(line + 2, out);
+    }
+    char *end;
+    unsigned long long length = strtoull(header + at, &end, 10);
+    *out = (size_t)length;
+    return end != header + at && *end == '\r' && length <= MAX_MESSAGE;
+}
+
+/* Takes a whole message from the input; valid until the next call. NULL: none is there yet. */
+static const char *take_message(struct input *input, size_t *out_size)
+{
+    const char *header = input->bytes + input->start,
+               *end = input->end > input->start ? strstr(header, "\r\n\r\n") : NULL;
+    size_t available = input->end - input->start, length;
+    if (!end) {
+        input->is_over |= available > MAX_HEADER;
+        return NULL;
+    }
+    if (!read_length(header, &length)) {
+        input->is_over = true;
+        return NULL;
+    }
+    size_t head = (size_t)(end - header) + 4;
+    if (available - head < length)
+        return NULL;
+    input->start += head + length;
+    *out_size = length;
+    return header + head;
+}
+
+static bool is_waiting(void)
+{
+    struct pollfd poll_in = {.fd = STDIN_FILENO, .events = POLLIN};
+    return poll(&poll_in, 1, 0) != 0;
+}
+
+/* Answers messages until the client ends the session; works while none waits. */
+static int serve(struct lsp_session *session)
+{
+    struct input input = {0};
+    bool is_clean = false;
+    while (!lsp_session_is_over(session, &is_clean) && !input.is_over) {
+        size_t size;
+        const char *message = take_message(&input, &size);
+        if (message)
+            lsp_session_handle(session, message, size);
+        else if (is_waiting() || !lsp_session_work(session))
+            receive(&input);
+    }
+    free(input.bytes);
+    return is_clean ? EXIT_DONE : EXIT_FAULT;
+}
+
+int command_lsp(const struct command *command, int argc, char **argv)
+{
+    struct cli cli;
+    int code;
+    bool uses_stdio; /* editors write it; it is the only way */
+    const struct arg args[] = {
+        {"stdio", 0, ARG_FLAG, NULL, "uses standard input and output, as always", &uses_stdio},
+    };
+    if (cli_start(&cli, command, args, sizeof args / sizeof *args, 0, argc, argv, &code)) {
+        json_use_memory();
+        struct lsp_desc desc = {
+            .library = cli.library, .send = send_framed, .messages_url = MESSAGES_URL};
+        char *warnings = cli_describe_context(&cli, &desc.context);
+        struct lsp_session *session = lsp_session_create(&desc);
+        code = session ? serve(session) : EXIT_FAULT;
+        lsp_session_destroy(session);
+        free(warnings);
+    }
+    cli_finish(&cli);
+    return code;
+}

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: Apache-2.0
+#define _POSIX_C_SOURCE 200809L
+#include "lsp/disk.h"
+
+#include "program/cli.h"
+#include "program/files.h"
+#include "program/memory.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+/* Appends the folders of a path; ".." leaves one, and stays where there is none to leave. */
+static char *append(char *out, const char *begin, const char *path, size_t len)
+{
+    for (const char *end = path + len; path < end;) {
+        size_t part = 0;
+        while (path + part < end && path[part] != '/')
+            ++part;
+        bool is_up = part == 2 && memcmp(path, "..", 2) == 0;
+        bool is_nothing = part == 0 || (part == 1 && *path == '.');
+        char *last = out;
+        while (last > begin && last[-1] != '/')
+            --last;
+        bool can_leave = out > begin && strncmp(last, "..", 2) != 0;
+        if (is_up && can_leave) {
+            out = last > begin ? last - 1 : last;
+        } else if (!is_nothing && !(is_up && begin[-1] == '/')) {
+            if (out > begin)
+                *out++ = '/';
+            memcpy(out, path, part);
+            out += part;
+        }
+        path += part < (size_t)(end - path) ? part + 1 : part;
+    }
+    return out;
+}
+
+char *disk_join(const char *from, const char *ref)
+{
+    size_t folder = *ref == '/' ? 0 : (size_t)(files_base_name(from) - from);
+    bool is_absolute = folder ? *from == '/' : *ref == '/';
+    char *path = memory_alloc(folder + strlen(ref) + 3), *begin = path + 1;
+    path[0] = is_absolute ? '/' : ' ';
+    char *out = append(begin, begin, from, folder);
+    out = append(out, begin, ref, strlen(ref));
+    *out = '\0';
+    if (!is_absolute)
+        memmove(path, begin, (size_t)(out - begin) + 1);
+    return path;
+}
+
+bool disk_open_gate(struct lsp_session *session)
+{
+    mxg_context_desc desc = session->desc.context;
+    size_t num = desc.num_include_roots + session->num_folders;
+    const char **roots = memory_alloc(num * sizeof *roots);
+    for (size_t i = 0; i < num; ++i)
+        roots[i] = i < desc.num_include_roots ? desc.include_roots[i]
+                                              : session->folders[i - desc.num_include_roots];
+    desc.include_roots = roots;
+    desc.num_include_roots = num;
+    desc.sandbox = true;
+    mxg_context_destroy(session->gate);
+    session->gate = NULL;
+    mxg_status status = mxg_context_create(&desc, &session->gate);
+    free(roots);
+    return status == MXG_OK;
+}
+
+/* ---- The resolver ---- */
+
+static const char *fault_of(const struct lsp_session *session, const char *path)
+{
+    return mxg_context_file_fault(session->gate, session->from ? session->from : path, path);
+}
+
+/* A file of the editor; false: it has none of this path. */
+static bool open_edited(const struct lsp_session *session, const char *path, mxg_blob *out)
+{
+    const struct lsp_document *document = lsp_find_path(session, path);
+    if (document)
+        *out = (mxg_blob){
+            .name = document->path, .data = document->text.bytes, .size = document->text.len};
+    return document != NULL;
+}
+
+/* The name stands after the bytes. */
+static bool open_on_disk(const char *path, mxg_blob *out)
+{
+    size_t size = 0, name_size = strlen(path) + 1;
+    char *data = files_read(path, &size);
+    if (!data)
+        return false;
+    data = memory_resize(data, size + name_size);
+    memcpy(data + size, path, name_size);
+    *out = (mxg_blob){.name = data + size, .data = data, .size = size, .handle = data};
+    return true;
+}
+
+/* Beside the referring file, then in the working directory, as without a resolver. */
+static bool open_file(void *user_data, const char *from, const char *ref, mxg_blob *out_blob,
+                      const char **out_reason)
+{
+    const struct lsp_session *session = user_data;
+    bool is_open = false, is_refused = false;
+    for (int place = strchr(from, '/') && *ref != '/' ? 0 : 1; place < 2; ++place) {
+        char *path = disk_join(place ? "" : from, ref);
+        const char *fault = fault_of(session, path);
+        is_refused = fault != NULL;
+        if (fault)
+            *out_reason = fault;
+        else
+            is_open = open_edited(session, path, out_blob) || open_on_disk(path, out_blob);
+        int reason = errno;
+        free(path);
+        if (is_open || is_refused)
+            break;
+        *out_reason = strerror(reason);
+        is_refused = reason != ENOENT && reason != ENOTDIR;
+        if (is_refused)
+            break;
+    }
+    if (is_refused)
+        out_blob->name = ref;
+    return is_open;
+}
+
+static void release_file(void *user_data, mxg_blob *blob)
+{
+    (void)user_data;
+    free(blob->handle);
+}
+
+/* Whether a folder may be read: whether a file in it might. */
+static bool may_list(const struct lsp_session *session, const char *folder)
+{
+    char *file = cli_format("%s/-", folder);
+    const char *fault = fault_of(session, file);
+    free(file);
+    return !fault;
+}
+
+/* Appends a name with its end; counts also what has no room. */
+static void put_name(const char *name, const char *end, char *names, size_t capacity, size_t *size)
+{
+    size_t len = strlen(name) + strlen(end) + 1;
+    if (*size + len <= capacity)
+        snprintf(names + *size, len, "%s%s", name, end);
+    *size += len;
+}
+
+static size_t list(const char *folder, bool marks_folders, char *names, size_t capacity)
+{
+    size_t size = 0;
+    DIR *dir = opendir(*folder ? folder : ".");
+    for (const struct dirent *entry; dir && (entry = readdir(dir)) != NULL;) {
+        struct stat info;
+        char *path = marks_folders ? cli_format("%s/%s", folder, entry->d_name) : NULL;
+        bool is_folder = path && stat(path, &info) == 0 && S_ISDIR(info.st_mode);
+        free(path);
+        put_name(entry->d_name, is_folder ? "/" : "", names, capacity, &size);
+    }
+    if (dir)
+        closedir(dir);
+    return size;
+}
+
+static size_t list_folder(void *user_data, const char *from, const char *folder, char *names,
+                          size_t capacity)
+{
+    const struct lsp_session *session = user_data;
+    size_t size = 0;
+    for (int place = 0; place < 2 && !size; ++place) {
+        char *path = disk_join(place ? "" : from, folder);
+        if (may_list(session, path))
+            size = list(path, false, names, capacity);
+        free(path);
+    }
+    return size;
+}
+
+mxg_resolver disk_resolver(struct lsp_session *session)
+{
+    return (mxg_resolver){.user_data = session,
+                          .open = open_file,
+                          .release = release_file,
+                          .list_folder = list_folder};
+}
+
+/* ---- For the server itself ---- */
+
+const char *disk_origin(const struct lsp_document *document)
+{
+    return document->is_file ? document->path : "/dev/null/none";
+}
+
+bool disk_may_read(struct lsp_session *session, const struct lsp_document *document,
+                   const char *from, const char *ref)
+{
+    session->from = disk_origin(document);
+    char *path = disk_join(from, ref);
+    const char *fault = fault_of(session, path);
+    free(path);
+    session->from = NULL;
+    return !fault;
+}
+
+char *disk_read_beside(struct lsp_session *session, const struct lsp_document *document,
+                       const char *path, size_t limit, size_t *out_size)
+{
+    session->from = disk_origin(document);
+    FILE *file = fault_of(session, path) ? NULL : fopen(path, "rb");
+    session->from = NULL;
+    if (!file)
+        return NULL;
+    struct stat info;
+    size_t size =
+        fstat(fileno(file), &info) == 0 && S_ISREG(info.st_mode) ? (size_t)info.st_size : 0;
+    size = limit && size > limit ? limit : size;
+    char *data = memory_alloc(size + 1);
+    *out_size = fread(data, 1, size, file);
+    fclose(file);
+    return data;
+}
+
+char *disk_list_beside(struct lsp_session *session, const struct lsp_document *document,
+                       const char *folder, size_t *out_size)
+{
+    session->from = disk_origin(document);
+    char *path = disk_join(document->path, folder);
+    bool may = may_list(session, path);
+    session->from = NULL;
+    size_t capacity = may ? list(path, true, NULL, 0) + 4096 : 1;
+    char *names = memory_alloc(capacity);
+    *out_size = may ? list(path, true, names, capacity) : 0;
+    *out_size = *out_size <= capacity ? *out_size : 0;
+    free(path);
+    return names;
+}

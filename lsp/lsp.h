@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * A language server for MaterialX documents (LSP 3.17, docs/lsp.md). Messages come and go as texts,
+ * without frames, so the host chooses how they travel. One thread at a time uses a session.
+ */
+#ifndef MXG_LSP_LSP_H
+#define MXG_LSP_LSP_H
+
+#include <mxgen/mxgen.h>
+
+struct lsp_session;
+
+struct lsp_desc {
+    /* for the contexts of the session, which replaces `resolver`; the texts outlive the session */
+    mxg_context_desc context;
+    mxg_library *library; /* the session takes a reference */
+    /* takes a message to the client: JSON, without a NUL */
+    void (*send)(void *user_data, const char *message, size_t size);
+    void *user_data;
+    const char *messages_url; /* the page of all messages; NULL: messages have no links */
+};
+
+/* NULL: the context cannot be made. */
+struct lsp_session *lsp_session_create(const struct lsp_desc *desc);
+void lsp_session_destroy(struct lsp_session *session);
+
+/* Takes a message of the client and answers it. A message that is no JSON has an error as answer.
+ */
+void lsp_session_handle(struct lsp_session *session, const char *message, size_t size);
+
+/*
+ * Does a step of the work that waits: the checks of changed documents. The host calls it while no
+ * message waits. False: nothing waits.
+ */
+bool lsp_session_work(struct lsp_session *session);
+
+/* True after the notification `exit`; *out_is_clean tells whether `shutdown` came before it. */
+bool lsp_session_is_over(const struct lsp_session *session, bool *out_is_clean);
+
+#endif
