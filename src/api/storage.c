@@ -79,6 +79,8 @@ mxg_status mxg_result_pass(const mxg_result *result, mxg_pass *out)
                      .is_indirect = deferred_is_indirect(result->pass),
                      .reads = deferred_reads(result->pass, &result->storage),
                      .writes = deferred_writes(result->pass, &result->storage)};
+    if (deferred_is_part(result->pass))
+        memset(full.group_size, 0, sizeof full.group_size);
     if (full.is_indirect)
         full.dispatch_offset = deferred_dispatch_offset(result->pass);
     return struct_write(out, &full, sizeof full);
@@ -210,6 +212,8 @@ static void put_targets(struct json *json)
 
 static void put_pass(enum deferred_pass pass, struct json *json)
 {
+    if (deferred_is_part(pass))
+        return;
     json_key(json, "groupSize");
     text_fmt(json->out, "[%u, %u, 1]", (unsigned)DEFERRED_TILE, (unsigned)DEFERRED_TILE);
     if (!deferred_is_indirect(pass))

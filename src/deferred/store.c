@@ -309,10 +309,10 @@ static uint32_t add_source(struct shader *shader, const struct deferred_layout *
     text_fmt(&text, "#define MX_WORDS %u\n", (unsigned)shader->reflection.stored_words);
     if (has_layers && !layout->parse)
         deferred_declare(RESOURCE_WORDS, layout, false, true, &text);
-    deferred_write_lines(layout->is_payload ? deferred_pack : deferred_write, &text);
+    deferred_write_lines(layout->is_payload ? deferred_pack : deferred_write, false, &text);
     if (has_layers && layout->storage == STORAGE_FLOAT)
         deferred_write_put(&text);
-    deferred_write_lines(deferred_store_closure, &text);
+    deferred_write_lines(deferred_store_closure, false, &text);
     deferred_write_store(&text);
     if (layout->parse) {
         struct source_resources resources = {.writes = has_layers ? 1u << RESOURCE_WORDS : 0,

@@ -112,11 +112,11 @@ static void test_darkening(struct bench *b, const char *option, const char *host
 
 /* ---- Environment ---- */
 
-/* Draws Plain in an environment of functions, and copies the colour of the middle of the ball. */
-static bool draw_center(struct bench *b, const char *host, float out[3])
+/* Draws in an environment of functions, and copies the colour of the middle of the ball. */
+static bool draw_center(struct bench *b, const char *element, const char *host, float out[3])
 {
     struct drawing d;
-    bool good = draw(b, "Plain", host, &d);
+    bool good = draw(b, element, host, &d);
     for (int i = 0; i < 3; ++i)
         out[i] = good ? d.pixels[4 * CENTER + i] : 0;
     drawing_close(&d);
@@ -133,11 +133,12 @@ static bool draw_center(struct bench *b, const char *host, float out[3])
 static void test_arguments(struct bench *b)
 {
     float one[3], value[3], point[3], way[3], diffuse[3], normal[3];
-    if (!draw_center(b, RADIANCE("vec3(1.0)"), one)
-        || !draw_center(b, RADIANCE("vec3(roughness)"), value)
-        || !draw_center(b, RADIANCE("P + 8.0"), point) || !draw_center(b, RADIANCE("L + 8.0"), way)
-        || !draw_center(b, IRRADIANCE("vec3(1.0)"), diffuse)
-        || !draw_center(b, IRRADIANCE("N + 8.0"), normal))
+    if (!draw_center(b, "Plain", RADIANCE("vec3(1.0)"), one)
+        || !draw_center(b, "Plain", RADIANCE("vec3(roughness)"), value)
+        || !draw_center(b, "Plain", RADIANCE("P + 8.0"), point)
+        || !draw_center(b, "Plain", RADIANCE("L + 8.0"), way)
+        || !draw_center(b, "Plain", IRRADIANCE("vec3(1.0)"), diffuse)
+        || !draw_center(b, "Plain", IRRADIANCE("N + 8.0"), normal))
         return;
     double distance = 0, is_near = 0;
     for (int i = 0; i < 3; ++i)
@@ -152,6 +153,31 @@ static void test_arguments(struct bench *b)
     }
     printf("arguments of the environment: %g\n", is_near);
     REQUIRE(is_near < 0.03);
+}
+
+/*
+ * Functions of a host may read what the pixel stores. The interface of the top is that of the
+ * lacquer, by quotients of colours.
+ */
+static void test_top(struct bench *b)
+{
+#define TOP \
+    "MxClosure mxg_top()\n{\n    MxClosure c;\n    mx_read_top(mxg_pixel, c);\n    return c;\n}\n"
+    float one[3], roughness[3], f0[3], normal[3];
+    double distance = 0;
+    if (!draw_center(b, "Lacquered", RADIANCE("vec3(1.0)"), one)
+        || !draw_center(b, "Lacquered", TOP RADIANCE("vec3(mxg_top().roughness)"), roughness)
+        || !draw_center(b, "Lacquered", TOP RADIANCE("mxg_top().f0"), f0)
+        || !draw_center(b, "Lacquered", TOP RADIANCE("mxg_top().normal + 8.0"), normal))
+        return;
+    for (int i = 0; i < 3; ++i)
+        distance += pow(b->scene.eye[i] - b->scene.target[i], 2);
+    for (int i = 0; i < 3; ++i) {
+        double facing = (b->scene.eye[i] - b->scene.target[i]) / sqrt(distance);
+        REQUIRE(fabs(roughness[i] / one[i] - 0.05) < 1e-3);
+        REQUIRE(fabs(f0[i] / one[i] - 0.04) < 2e-3);
+        REQUIRE(fabs(normal[i] / one[i] - 8 - facing) < 0.03);
+    }
 }
 
 /* A white sky of the host draws what a white map draws. */
@@ -209,6 +235,7 @@ int main(int argc, char **argv)
         test_environment(&b);
         mxg_options_set(b.options, "host-environment", "true");
         test_arguments(&b);
+        test_top(&b);
     }
     bench_close(&b);
     return test_report("deferred-host");

@@ -180,6 +180,76 @@ static void test_payload(struct bench *b, const char *element, int expected)
     mxg_options_set(b->options, "max-slabs", "0");
 }
 
+/* ---- Decals ---- */
+
+#define SLAB(name, color, roughness) \
+    "<slab name='" name "' type='BSDF'><input name='diffuse_albedo' type='color3' value='" color \
+    "'/><input name='roughness' type='float' value='" roughness "'/></slab>"
+#define SURFACE(name, bsdf) \
+    "<slab_surface name='" name \
+    "' type='surfaceshader'><input name='bsdf' type='BSDF' nodename='" bsdf "'/></slab_surface>"
+#define MIX(name, fg, bg) \
+    "<slab_mix name='" name "' type='BSDF'><input name='fg' type='BSDF' nodename='" fg \
+    "'/><input name='bg' type='BSDF' nodename='" bg \
+    "'/><input name='mix' type='float' value='0.25'/></slab_mix>"
+
+/* A decal that covers a quarter, and the surfaces that it makes of others. */
+static const char decals[] = "<materialx version='1.39'>" SLAB("paint", "0.1, 0.6, 0.2", "0.6")
+    SLAB("mud", "0.3, 0.2, 0.1",
+         "0.9") "<slab name='plastic' type='BSDF'><input name='diffuse_albedo' type='color3' "
+                "value='0.7, 0.2, 0.1'/>"
+                "<input name='roughness' type='float' value='0.2'/>"
+                "<input name='fuzz_amount' type='float' value='0.5'/></slab>"
+                "<slab_coverage name='part' type='BSDF'><input name='in' type='BSDF' "
+                "nodename='paint'/>"
+                "<input name='weight' type='float' value='0.25'/></slab_coverage>" MIX(
+                    "halves", "mud", "plastic") MIX("on_one", "paint", "plastic")
+                    MIX("on_two", "paint", "halves") SURFACE("Decal", "part")
+                        SURFACE("Whole", "paint") SURFACE("One", "plastic") SURFACE("Two", "halves")
+                            SURFACE("OnOne", "on_one") SURFACE("OnTwo", "on_two") "</materialx>";
+
+/*
+ * What a decal makes of a base, with so many words more in the images: the picture of the surface
+ * that has both, within dB.
+ */
+static void test_decal(struct bench *b, const char *decal, const char *base, const char *both,
+                       const char *storage, uint32_t words, int least)
+{
+    static char text[1 << 17];
+    struct drawing expected = {0}, stored = {0};
+    mxg_result *result = NULL;
+    bool good = drawing_generate(b, decal, "payload", "dither", &result)
+                && write_hits(b, result, text, sizeof text)
+                && drawing_open(b, both, storage, UINT32_MAX, &expected);
+    b->decals = text;
+    b->words = words;
+    if (good && drawing_open(b, base, storage, UINT32_MAX, &stored)) {
+        for (size_t i = 0; i < PIXELS * 4; ++i)
+            if (!faces(i / 4))
+                expected.pixels[i] = stored.pixels[i] = 0;
+        double db = picture_psnr(expected.pixels, stored.pixels);
+        printf("%s over %s, %s, %u words: %.1f dB\n", decal, base, storage, (unsigned)words, db);
+        REQUIRE(stored.pixels[4 * CENTER] > 0.02f && db > least);
+    }
+    b->decals = NULL;
+    b->words = 0;
+    drawing_close(&stored);
+    drawing_close(&expected);
+    mxg_result_destroy(result);
+}
+
+static void test_decals(struct bench *b)
+{
+    enum { ROOM = 12, WHOLE_ROOM = 3 * 47 };
+    if (!bench_parse(b, "decals.mtlx", decals))
+        return;
+    test_decal(b, "Decal", "One", "OnOne", "float", WHOLE_ROOM, 45);
+    test_decal(b, "Decal", "One", "OnOne", "round", ROOM, 40);
+    test_decal(b, "Decal", "Two", "OnTwo", "dither", ROOM, 40);
+    test_decal(b, "Whole", "Two", "Whole", "round", ROOM, 45);
+    test_decal(b, "Decal", "Two", "OnTwo", "round", 0, 25); /* blended with the top */
+}
+
 int main(int argc, char **argv)
 {
     struct bench b = {0};
@@ -196,6 +266,7 @@ int main(int argc, char **argv)
         document = rows[i].document;
         test_payload(&b, rows[i].element, rows[i].expected);
     }
+    test_decals(&b);
     bench_close(&b);
     return test_report("deferred-payload");
 }

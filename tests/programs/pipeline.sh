@@ -11,6 +11,8 @@ check "the passes are generated" "$mxgen" pipeline passes
 for name in classify compose light_simple light_single light_complex light_special show light_rays; do
     check "the pass $name has a shader and a reflection" test -s "passes/$name.comp" -a -s "passes/$name.json"
 done
+check "the functions for passes of a host are there" eval 'test -s passes/read.glsl -a ! -e passes/read.comp && grep -q "\"pass\": \"read\"" passes/read.json && ! grep -q groupSize passes/read.json'
+check "the pass for decals is there" test -s passes/over.comp -a -s passes/over.json
 check "a pass that the options do not ask for is not there" test ! -e passes/diffuse.comp -a ! -e passes/diffuse.json -a ! -e passes/blur.comp
 check "passes are generated for OpenGL" "$mxgen" pipeline gl --target glsl
 check "passes are generated for one light" "$mxgen" pipeline few --max-lights 1 --environment none
@@ -55,6 +57,17 @@ vec3 mxg_irradiance(vec3 P, vec3 N) { return P + N; }
 vec3 mxg_radiance(vec3 P, vec3 L, float roughness) { return P + roughness * L; }
 X
     for file in hosted/light_*.comp; do cat host.glsl >>"$file"; done
+    mkdir -p reading
+    { echo "#version 450"; cat passes/read.glsl; cat; } >reading/read.comp <<'X'
+layout(local_size_x = 1) in;
+void main()
+{
+    MxClosure top;
+    if (mx_read_top(ivec2(gl_GlobalInvocationID.xy), top) && top.roughness + top.f0.x + top.normal.x < 0.0)
+        memoryBarrier();
+}
+X
+    check "a pass of a host reads the top" compiles reading "-V -o code.spv"
     check "the passes with functions of a host compile" compiles hosted "-V -o code.spv"
     check "the passes for OpenGL compile" compiles gl ""
 else
