@@ -420,6 +420,11 @@ bool generation_emit(struct generation *g)
     generation_walk_slabs(g);
     bool is_emitted = emit(g);
     ir_assert_valid(&g->result->graph, "after closures");
+    if (is_emitted && g->role->returns == RETURNS_WORDS
+        && !g->result->shader.reflection.stored_words) {
+        generation_report_not_renderable(g, generation_why_not_stored(g));
+        return false;
+    }
     generation_tell_lost_aovs(g);
     if (!is_emitted)
         generation_report_not_renderable(

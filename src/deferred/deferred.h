@@ -33,9 +33,10 @@ struct deferred_layout {
      * language is that of the texts
      */
     const struct lang_unit *(*parse)(struct shader *shader, const struct text *text);
-    bool is_payload; /* of a ray, in place of a pixel */
-    bool diffuses;   /* the option `sss`: the pass "diffuse" spreads the light of bodies */
-    bool blurs;      /* the option `rough-refraction`: the pass "blur" */
+    bool is_payload;  /* of a ray, in place of a pixel */
+    bool is_function; /* the words of a pixel are results, not outputs and layers of an image */
+    bool diffuses;    /* the option `sss`: the pass "diffuse" spreads the light of bodies */
+    bool blurs;       /* the option `rough-refraction`: the pass "blur" */
 };
 
 /* A hash of the storage: materials and passes with equal ones fit together. */

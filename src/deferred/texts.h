@@ -21,6 +21,8 @@ extern const char *const deferred_unpack[];
 extern const char *const deferred_light_rays[];
 extern const char *const deferred_over_head[];
 extern const char *const deferred_over[];
+extern const char *const deferred_words[];
+extern const char *const deferred_words_end[];
 extern const char *const deferred_closures[];
 
 #endif

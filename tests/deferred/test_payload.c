@@ -76,6 +76,7 @@ static const char *hit_value(const char *name)
                                             {"dx_normalWorld", "dx"},
                                             {"dy_positionWorld", "dy"},
                                             {"dy_normalWorld", "dy"},
+                                            {"pixel", "at"},
                                             {"texcoord_0",
                                              "vec2(fract(atan(local.x, local.z) / 6.2831853), "
                                              "acos(-local.y) / 3.1415927)"}};
@@ -180,6 +181,62 @@ static void test_payload(struct bench *b, const char *element, int expected)
     mxg_options_set(b->options, "max-slabs", "0");
 }
 
+/* ---- Words by a function ---- */
+
+/* The words of a material by the function of the role `pack`, of all pixels of rays. */
+static bool pack_rays(struct bench *b, const char *element, struct drawing *d)
+{
+    static char text[1 << 17];
+    *d = (struct drawing){.pixels = malloc(PIXELS * 4 * sizeof(float)), .count = 1};
+    d->canvas = draw_open_canvas(&b->gpu, SIZE, SIZE);
+    return drawing_generate(b, element, "pack", "dither", &d->results[0])
+           && write_hits(b, d->results[0], text, sizeof text)
+           && drawing_open_passes(b, d, &(struct passes_setup){.shown = UINT32_MAX, .hits = text})
+           && REQUIRE(render_frame(d->renders, 0, d->canvas, d->pixels));
+}
+
+/* Steps between two normals of 12 bits. */
+static int normal_steps(uint32_t a, uint32_t b)
+{
+    int x = (int)(a & 0xfff) - (int)(b & 0xfff),
+        y = (int)(a >> 12 & 0xfff) - (int)(b >> 12 & 0xfff);
+    return abs(x) > abs(y) ? abs(x) : abs(y);
+}
+
+/*
+ * The function stores what the material pass stores: the first two words to the bit, normals within
+ * steps, because a mesh has others than a ball, and of all words a part to the bit. The function
+ * returns color, alpha, and the words.
+ */
+static void test_pack(struct bench *b, const char *element, uint32_t num, double least)
+{
+    struct drawing drawn = {0}, packed = {0};
+    const uint32_t head = 4, stride = (head + num + 3) / 4 * 4;
+    size_t pixels = 0, equal = 0, same = 0;
+    if (drawing_open(b, element, "dither", UINT32_MAX, &drawn) && pack_rays(b, element, &packed)) {
+        REQUIRE_EQ(drawn.stored_words, num);
+        for (size_t i = 0; i < PIXELS; i += 7) {
+            uint32_t words[MAX_WORDS] = {0};
+            const uint32_t *made = packed.passes.payloads + i * stride + head;
+            if (!faces(i)
+                || !REQUIRE(stored_read(drawn.passes.stored, (uint32_t)(i % SIZE),
+                                        (uint32_t)(i / SIZE), words, num)))
+                continue;
+            ++pixels;
+            same += words[0] == made[0] && words[1] == made[1] && words[2] >> 24 == made[2] >> 24
+                    && normal_steps(words[2], made[2]) < 12;
+            for (uint32_t k = 0; k < num; ++k)
+                equal += words[k] == made[k];
+        }
+        double part = (double)equal / (double)(pixels * num);
+        printf("%s packed: %zu of %zu pixels, %.2f of all words equal\n", element, same, pixels,
+               part);
+        REQUIRE(pixels > 300 && same == pixels && part > least);
+    }
+    drawing_close(&packed);
+    drawing_close(&drawn);
+}
+
 /* ---- Decals ---- */
 
 #define SLAB(name, color, roughness) \
@@ -265,6 +322,10 @@ int main(int argc, char **argv)
             continue;
         document = rows[i].document;
         test_payload(&b, rows[i].element, rows[i].expected);
+    }
+    if (bench_load(&b, argv[1], "examples/deferred.mtlx")) {
+        test_pack(&b, "Plain", 3, 0.6);
+        test_pack(&b, "Lacquered", 10, 0.6);
     }
     test_decals(&b);
     bench_close(&b);

@@ -227,6 +227,18 @@ fi
 check "a material of many slabs gives a payload of one" eval '"$mxgen" "$examples/slabs.mtlx" -e WrappedSilk --role payload --target vulkan --stdout -q >wrapped &&
     [ "$(grep -c "stored = mx_store_closure" wrapped)" = 1 ]'
 
+# ---- words by a function ----
+
+packed() { "$mxgen" "$examples/deferred.mtlx" -e Lacquered --target "$1" --role pack --interface reduced --reflect -o packed >out 2>&1; }
+check "a function of words is generated" packed vulkan
+check "it returns the words of the material pass" eval '[ "$(number packed/Lacquered.json words)" = "$(number materials/Lacquered.json words)" ] &&
+    [ "$(grep -c "uint word_" packed/Lacquered.frag)" = 10 ] && [ "$(number packed/Lacquered.json layout)" = "$(number passes/show.json layout)" ]'
+if command -v glslangValidator >/dev/null; then
+    wrap comp packed/Lacquered.frag packed/Lacquered.json | sed 's/430/450/' >packed.comp
+    check "a function of words compiles in a compute stage" glslangValidator --target-env vulkan1.2 -S comp -o code.spv packed.comp
+fi
+check "a function of words is generated for HLSL" packed hlsl
+
 # ---- what is an error ----
 
 cat >other.mtlx <<'X'
@@ -244,6 +256,7 @@ check "a payload for OpenGL ES is an error" reports options-clash "$mxgen" model
 check "a payload with lights is an error" reports option-without-effect "$mxgen" models.mtlx -e Paint --role payload --max-lights 8 --target vulkan
 echo '<materialx version="1.39"><constant name="c" type="color3"/></materialx>' >value.mtlx
 check "a payload of a value is an error" reports not-renderable "$mxgen" value.mtlx -e c --role payload --target vulkan -o other
+check "words of a transparent surface are an error" reports not-renderable "$mxgen" "$examples/slabs.mtlx" -e MilkySheet --role pack --target vulkan -o other
 check "a closure that is no slab is an error" reports closure-not-stored "$mxgen" other.mtlx -e SR --target vulkan --role deferred -o other
 {
     echo '<materialx version="1.39"><slab name="s0" type="BSDF"/>'

@@ -52,7 +52,9 @@ static void find_rows(void)
 static const struct setting {
     const char *id, *key, *values[8];
 } settings[] = {
-    {"role", "role", {"raster", "function", "path", "scatter", "deferred", "depth", "payload"}},
+    {"role",
+     "role",
+     {"raster", "function", "path", "scatter", "deferred", "depth", "payload", "pack"}},
     {"storage", "storage", {"dither", "round", "float"}},
     {"sss", "sss", {"wrap", "diffusion"}},
     {"rough_refraction", "rough-refraction", {"sharp", "blur"}},

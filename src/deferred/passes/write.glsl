@@ -12,7 +12,9 @@
 %    return max(abs(dFdx(uv)), abs(dFdy(uv)));
 %}
 %
-@uint mx_word0, mx_word1, mx_word2;
+@uint mx_word0;
+@uint mx_word1;
+@uint mx_word2;
 @vec2 mx_place; // the middle of the pixel, for noise
 @
 #if MX_WORDS > 3
