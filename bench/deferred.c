@@ -24,6 +24,7 @@ enum { NUM_FRAMES = 3, NUM_ROUNDS = 11, NUM_LIGHTS = 8 };
 enum way {
     WAY_FORWARD,
     WAY_DEFERRED,
+    WAY_HOSTED, /* deferred, with shadows by a function of the host that hides nothing */
     WAY_STORED, /* the material pass alone, with its depth pass */
     WAY_PLAIN   /* a G-buffer of Disney's diffuse, specular and roughness, and a normal */
 };
@@ -170,7 +171,10 @@ static void open_stores(struct bench *b, struct frame *f, enum way way)
                                  .canvas = f->canvas,
                                  .words = storage.words,
                                  .classes = storage.classes,
+                                 .host = "float mxg_shadow(int i, vec3 P, vec3 N, vec3 L)\n"
+                                         "{\n    return 1.0;\n}\n",
                                  .shown = UINT32_MAX};
+    mxg_options_set(b->options, "host-shadows", way == WAY_HOSTED ? "true" : "false");
     bool good = way == WAY_STORED ? draw_store(f->canvas, storage.words) != NULL
                                   : passes_open(&setup, &f->passes);
     if (!good)
@@ -182,7 +186,7 @@ static void open_stores(struct bench *b, struct frame *f, enum way way)
 static void open_frame(struct bench *b, const char *element, enum way way, uint32_t copies,
                        struct frame *f)
 {
-    bool stores = way == WAY_DEFERRED || way == WAY_STORED;
+    bool is_lit = way == WAY_DEFERRED || way == WAY_HOSTED, stores = is_lit || way == WAY_STORED;
     *f = (struct frame){.canvas = draw_open_canvas(&b->gpu, b->size, b->size)};
     f->bind = (struct bind){.result = generate(b, element, stores ? "deferred" : "raster"),
                             .scene = &b->scene,
@@ -198,9 +202,9 @@ static void open_frame(struct bench *b, const char *element, enum way way, uint3
         bench_fail("%s: %s", element, f->bind.reason);
     else
         f->program = f->render.program;
-    if (way == WAY_DEFERRED && !passes_aim(&f->passes))
+    if (is_lit && !passes_aim(&f->passes))
         bench_fail("%s", f->passes.reason);
-    f->empty = way == WAY_DEFERRED ? b->blank : f->canvas;
+    f->empty = is_lit ? b->blank : f->canvas;
 }
 
 static void close_frame(struct frame *f)
@@ -292,6 +296,8 @@ static void measure(struct bench *b)
             WAY_STORED, WAY_PLAIN, 1);
     compare(b, "one surface, 8 lights: one slab, of forward", "Plain", WAY_DEFERRED, WAY_FORWARD,
             1);
+    compare(b, "one surface, 8 lights: one slab, asking the host for shadows, of not asking",
+            "Plain", WAY_HOSTED, WAY_DEFERRED, 1);
     compare(b, "overdraw 4, 8 lights: one slab, of forward", "Plain", WAY_DEFERRED, WAY_FORWARD, 4);
     compare(b, "overdraw 4, 8 lights: two slabs with all features, of forward", "Lacquered",
             WAY_DEFERRED, WAY_FORWARD, 4);

@@ -31,11 +31,14 @@ static bool write_pass(struct cli *cli, uint32_t index, const char *target, cons
     bool good = report_status(&cli->report, status);
     if (good) {
         size_t size = 0, json_size = 0;
+        mxg_pass pass = {sizeof pass};
+        mxg_result_pass(result, &pass);
         const char *name = mxg_catalogue_pass(index),
                    *text = mxg_result_source(result, MXG_STAGE_PIXEL, &size),
                    *json = mxg_result_reflection_json(result, &json_size);
         good = !text /* the options do not ask for it */
-               || (write_file(&cli->report, folder, name, "comp", text, size)
+               || (write_file(&cli->report, folder, name, pass.group_size[0] ? "comp" : "glsl",
+                              text, size)
                    && write_file(&cli->report, folder, name, "json", json, json_size));
     }
     mxg_result_destroy(result);

@@ -91,11 +91,57 @@ static const struct host {
      "}\n    void light(int i, float3 P, thread float3& L, thread float3& radiance) { L = "
      "normalize(P); radiance = P; }\n};\n",
      "float3", "", NULL, NULL},
-    {"wgsl",
-     "fn mxg_light_count() -> i32 { return 2; }\nfn mxg_light(i: i32, P: vec3f, L: ptr<function, "
-     "vec3f>, radiance: ptr<function, vec3f>) { *L = normalize(P); *radiance = P; }\n",
-     "vec3f", "", NULL, NULL},
+    {"wgsl", "", "vec3f", "", NULL, NULL},
 };
+
+/* Functions that a shader may ask its host for; $ is the type of three floats. */
+static const struct {
+    const char *name, *text, *wgsl;
+} host_functions[] = {
+    {"mxg_light_count", "int mxg_light_count() { return 2; }\n",
+     "fn mxg_light_count() -> i32 { return 2; }\n"},
+    {"mxg_light",
+     "void mxg_light(int i, $ P, out $ L, out $ radiance) { L = normalize(P); radiance = P; }\n",
+     "fn mxg_light(i: i32, P: $, L: ptr<function, $>, radiance: ptr<function, $>) { *L = "
+     "normalize(P); *radiance = P; }\n"},
+    {"mxg_shadow", "float mxg_shadow(int i, $ P, $ N, $ L) { return dot(N, L); }\n",
+     "fn mxg_shadow(i: i32, P: $, N: $, L: $) -> f32 { return dot(N, L); }\n"},
+    {"mxg_ambient_occlusion", "float mxg_ambient_occlusion($ P, $ N) { return dot(P, N); }\n",
+     "fn mxg_ambient_occlusion(P: $, N: $) -> f32 { return dot(P, N); }\n"},
+    {"mxg_irradiance", "$ mxg_irradiance($ P, $ N) { return P + N; }\n",
+     "fn mxg_irradiance(P: $, N: $) -> $ { return P + N; }\n"},
+    {"mxg_radiance", "$ mxg_radiance($ P, $ L, float roughness) { return P + L * roughness; }\n",
+     "fn mxg_radiance(P: $, L: $, roughness: f32) -> $ { return P + L * roughness; }\n"},
+};
+enum { NUM_HOST_FUNCTIONS = sizeof host_functions / sizeof *host_functions, MAX_HOST_TEXT = 4096 };
+
+static bool calls(const char *source, const char *name)
+{
+    size_t len = strlen(name);
+    for (const char *at = source; (at = strstr(at, name)) != NULL; at += len)
+        if (at[len] == '(')
+            return true;
+    return false;
+}
+
+/* Writes those that a source calls, at most MAX_HOST_TEXT bytes. Returns their length. */
+static size_t write_host_functions(const struct host *host, const char *source, char *out)
+{
+    size_t len = 0;
+    for (size_t i = 0; i < NUM_HOST_FUNCTIONS; ++i) {
+        const char *text =
+            strcmp(host->target, "wgsl") == 0 ? host_functions[i].wgsl : host_functions[i].text;
+        if (!calls(source, host_functions[i].name))
+            continue;
+        for (; *text && len + strlen(host->vec3) < MAX_HOST_TEXT - 1; ++text)
+            if (*text == '$')
+                len += (size_t)sprintf(out + len, "%s", host->vec3);
+            else
+                out[len++] = *text;
+    }
+    out[len] = '\0';
+    return len;
+}
 
 static const struct host *find_host(const char *target)
 {
@@ -129,7 +175,7 @@ static void write_arguments(const mxg_result *result, bool declare, char *out, s
     }
 }
 
-/* Lights, and a main that calls the function. */
+/* A main that calls the function. */
 static void write_caller(const struct host *host, const mxg_result *result,
                          const mxg_shader_info *info, char *out, size_t capacity)
 {
@@ -140,12 +186,9 @@ static void write_caller(const struct host *host, const mxg_result *result,
     mxg_result_storage(result, &storage);
     write_arguments(result, true, declared, sizeof declared);
     write_arguments(result, false, given, sizeof given);
-    snprintf(out, capacity,
-             "%sint mxg_light_count() { return 2; }\n"
-             "void mxg_light(int i, %s P, out %s L, out %s radiance) { L = normalize(P); "
-             "radiance = P; }\n%s\n{\n    %s\n    %s s = %s(%s);\n    %s\n}\n",
-             host->output, host->vec3, host->vec3, host->vec3, host->main, declared,
-             info->function_type, info->function, given, storage.words ? of_payload : of_surface);
+    snprintf(out, capacity, "%s%s\n{\n    %s\n    %s s = %s(%s);\n    %s\n}\n", host->output,
+             host->main, declared, info->function_type, info->function, given,
+             storage.words ? of_payload : of_surface);
 }
 
 /* Compiles a function in the file of a host. */
@@ -154,12 +197,14 @@ static bool compile_function(const char *target, const mxg_result *result,
 {
     const struct host *host = find_host(target);
     const char *source = mxg_result_source(result, MXG_STAGE_PIXEL, NULL);
-    size_t capacity = strlen(source) + 3 * MAX_ARGUMENTS;
+    size_t capacity = strlen(source) + MAX_HOST_TEXT + 3 * MAX_ARGUMENTS;
     char *text = host ? malloc(capacity) : NULL;
     *out = (struct compiled){0};
     if (!text)
         return false;
     size_t len = (size_t)snprintf(text, capacity, "%s%s", host->head, source);
+    if (!strstr(host->head, "MxgLights"))
+        len += write_host_functions(host, source, text + len);
     if (host->main)
         write_caller(host, result, info, text + len, capacity - len);
     bool good = compile_program(target, (const char *const[MXG_NUM_STAGES]){NULL, text}, out);
@@ -172,20 +217,26 @@ static bool compile_function(const char *target, const mxg_result *result,
 }
 
 /*
- * A shader for a path tracer (role=scatter) is the function scatter() without a program around it.
- * Where a compiler asks for a program, a main behind the last line calls it, so that the lines of
- * messages stay. NULL if it needs none; otherwise the caller frees the source.
+ * What a host adds behind the last line of a source, so that the lines of messages stay: functions
+ * that it calls, and, for the function scatter() of a path tracer (role=scatter), a main where a
+ * compiler asks for a program. NULL if it needs nothing; otherwise the caller frees the source.
  */
-static char *with_main(const char *source, const char *target)
+static char *with_host(const char *source, const char *target)
 {
     static const char body[] = "\n{\n    scatter();\n}\n";
-    const struct host *host = find_host(target);
-    if (!source || !host || !host->scatter_main || !strstr(source, "\nvoid scatter()\n"))
+    const struct host *host = source ? find_host(target) : NULL;
+    char functions[MAX_HOST_TEXT];
+    if (!host)
         return NULL;
-    size_t capacity = strlen(source) + strlen(host->scatter_main) + sizeof body + 1;
+    bool needs_main = host->scatter_main && strstr(source, "\nvoid scatter()\n");
+    size_t len = write_host_functions(host, source, functions);
+    if (!needs_main && !len)
+        return NULL;
+    const char *main = needs_main ? host->scatter_main : "";
+    size_t capacity = strlen(source) + len + strlen(main) + sizeof body + 1;
     char *whole = malloc(capacity);
     if (whole)
-        snprintf(whole, capacity, "%s\n%s%s", source, host->scatter_main, body);
+        snprintf(whole, capacity, "%s\n%s%s%s", source, functions, main, needs_main ? body : "");
     return whole;
 }
 
@@ -194,7 +245,7 @@ static bool compile_stages(const char *target, const mxg_result *result, struct 
     const char *sources[MXG_NUM_STAGES];
     for (int stage = 0; stage < MXG_NUM_STAGES; ++stage)
         sources[stage] = mxg_result_source(result, (mxg_stage)stage, NULL);
-    char *whole = with_main(sources[MXG_STAGE_PIXEL], target);
+    char *whole = with_host(sources[MXG_STAGE_PIXEL], target);
     if (whole)
         sources[MXG_STAGE_PIXEL] = whole;
     bool good = compile_program(target, sources, out);

@@ -22,7 +22,7 @@ static bool fail_device(struct passes *passes, const struct passes_setup *setup)
 }
 
 /* How the passes run. A picture has the passes of one use. */
-enum use { LIGHTS, SHOWS, LIGHTS_RAYS };
+enum use { LIGHTS, SHOWS, LIGHTS_RAYS, STORES_OVER };
 static const struct {
     const char *name;
     int which; /* -1: all tiles */
@@ -31,7 +31,7 @@ static const struct {
     {"classify", -1, LIGHTS},        {"compose", 0, LIGHTS},       {"light_simple", 1, LIGHTS},
     {"light_single", 2, LIGHTS},     {"light_complex", 3, LIGHTS}, {"light_special", 4, LIGHTS},
     {"diffuse", -1, LIGHTS},         {"blur", -1, LIGHTS},         {"show", -1, SHOWS},
-    {"light_rays", -1, LIGHTS_RAYS},
+    {"light_rays", -1, LIGHTS_RAYS}, {"over", -1, STORES_OVER},
 };
 
 /* Makes the text of a pass; false: with the first message. */
@@ -63,6 +63,25 @@ static bool add_pass(struct passes *passes, const struct passes_setup *setup,
     return stored_add_pass(passes->stored, &pass) || fail_device(passes, setup);
 }
 
+/* The functions of the host stand behind the pass. */
+static bool add_source(struct passes *passes, const struct passes_setup *setup,
+                       struct pass_part *part, int which)
+{
+    size_t size = 0;
+    const char *source = mxg_result_source(part->result, MXG_STAGE_PIXEL, &size),
+               *host = mxg_result_num_host_functions(part->result) ? setup->host : "";
+    char *text = host ? malloc(size + strlen(host) + 1) : NULL;
+    if (!host)
+        return fail(passes, "bad-shader", "the pass asks its host for functions");
+    if (!text)
+        return fail(passes, "render-failed", "out of memory");
+    memcpy(text, source, size);
+    strcpy(text + size, host);
+    bool good = add_pass(passes, setup, part, text, which);
+    free(text);
+    return good;
+}
+
 /* False for a pass that the options do not ask for, or over classes that no material has. */
 static bool is_needed(const struct passes_setup *setup, const mxg_result *pass)
 {
@@ -89,15 +108,15 @@ static bool open_pass(struct passes *passes, const struct passes_setup *setup, u
         .result = part->result, .scene = setup->scene, .is_opaque = true, .tints = &passes->tints};
     if (!bind_shader(&part->bind))
         return fail(passes, part->bind.id, part->bind.reason);
-    return add_pass(passes, setup, part, mxg_result_source(part->result, MXG_STAGE_PIXEL, NULL),
-                    which);
+    return add_source(passes, setup, part, which);
 }
 
-static bool open_hits(struct passes *passes, const struct passes_setup *setup)
+/* text: writes payloads. */
+static bool open_payloads(struct passes *passes, const struct passes_setup *setup, const char *text)
 {
     passes->payloads = stored_hold_rays(passes->stored);
     return (passes->payloads || fail_device(passes, setup))
-           && add_pass(passes, setup, &passes->parts[passes->num_parts++], setup->hits, -1);
+           && add_pass(passes, setup, &passes->parts[passes->num_parts++], text, -1);
 }
 
 static bool open_tints(struct passes *passes, const struct passes_setup *setup)
@@ -110,15 +129,25 @@ static bool open_tints(struct passes *passes, const struct passes_setup *setup)
     return fail(passes, "render-failed", "out of memory");
 }
 
-static bool open_passes(struct passes *passes, const struct passes_setup *setup)
+static bool open_use(struct passes *passes, const struct passes_setup *setup, enum use use)
 {
-    enum use use = setup->hits ? LIGHTS_RAYS : setup->shown != UINT32_MAX ? SHOWS : LIGHTS;
-    bool good = open_tints(passes, setup) && (!setup->hits || open_hits(passes, setup));
+    bool good = true;
     for (size_t r = 0; good && r < sizeof runs / sizeof *runs; ++r)
         for (uint32_t i = 0; good && i < mxg_catalogue_num_passes(); ++i)
             if (runs[r].use == use && strcmp(mxg_catalogue_pass(i), runs[r].name) == 0)
                 good = open_pass(passes, setup, i, runs[r].which);
     return good;
+}
+
+static bool open_passes(struct passes *passes, const struct passes_setup *setup)
+{
+    const char *payloads = setup->hits ? setup->hits : setup->decals;
+    return open_tints(passes, setup) && (!payloads || open_payloads(passes, setup, payloads))
+           && (!setup->decals || open_use(passes, setup, STORES_OVER))
+           && open_use(passes, setup,
+                       setup->hits                  ? LIGHTS_RAYS
+                       : setup->shown != UINT32_MAX ? SHOWS
+                                                    : LIGHTS);
 }
 
 bool passes_open(const struct passes_setup *setup, struct passes *out)

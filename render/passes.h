@@ -35,10 +35,13 @@ struct passes_setup {
     const mxg_options *options;
     const struct scene *scene;
     struct draw_canvas *canvas;
+    const char *host; /* functions that the passes ask the host for; NULL: they ask for none */
     uint32_t words, shown;
     uint32_t classes; /* that the materials may store, as bits of mxg_shader_info */
     /* a compute shader that writes rays with payloads, which are lit; NULL: materials are stored */
     const char *hits;
+    /* the same, whose payloads are stored over the materials; NULL: nothing is */
+    const char *decals;
     struct bind *const *binds; /* of materials that store; the passes have their tables of tints */
     size_t num_binds;
 };

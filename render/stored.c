@@ -206,6 +206,7 @@ uint32_t *stored_hold_rays(struct stored *stored)
                            &stored->payloads)
         || !gpu_create_buffer(stored->gpu, usage, NULL, pixels * 8 * sizeof(float), &stored->rays))
         return NULL;
+    memset(stored->payloads.mapped, 0, pixels * STORED_PAYLOAD_SIZE);
     write_set(stored, PAYLOADS, SCATTERED);
     return stored->payloads.mapped;
 }

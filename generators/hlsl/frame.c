@@ -85,7 +85,7 @@ void hlsl_light_member(struct spell *spell)
 
 static void write_lights(struct spell *spell)
 {
-    if (!spell->stage->has_lights)
+    if (!spell_has_light_data(spell))
         return;
     hlsl_light_struct(spell);
     open_buffer(spell, BLOCK_LIGHT_DATA, "LightData_block");

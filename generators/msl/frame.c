@@ -68,16 +68,11 @@ static void write_blocks(struct spell *spell)
             write_block(spell, (enum shader_block)block);
 }
 
-static bool has_lights(const struct spell *spell)
-{
-    return spell->stage->has_lights && spell->shader->role->lights == LIGHTS_IN_SHADER;
-}
-
 /* Lights are 16 bytes or a multiple of it apart (docs/reflection.md). */
 static void write_lights(struct spell *spell)
 {
     const char *type = spell_frame_name(spell, "LightData");
-    if (!has_lights(spell))
+    if (!spell_has_light_data(spell))
         return;
     SPELL(spell, "struct alignas(16) ", type, " {\n");
     SPELL_EACH_OF_BLOCK(i, spell, BLOCK_LIGHT_DATA)
@@ -218,7 +213,7 @@ static void list_block(struct spell *spell, enum list list, enum shader_block bl
                *type = block == BLOCK_LIGHT_DATA ? "LightData_pixel"
                                                  : shader_block_name(spell->shader, block);
     bool is_there = block == BLOCK_LIGHT_DATA
-                        ? has_lights(spell)
+                        ? spell_has_light_data(spell)
                         : shader_block_has_uniforms(block) && spell_uses_block(spell, block);
     if (!is_there)
         return;
@@ -313,7 +308,7 @@ static void open_context(struct spell *spell)
 {
     open_struct(spell, "GlobalContext");
     list_bound(spell, MEMBERS);
-    if (spell->stage->has_lights && spell->shader->role->lights == LIGHTS_OF_HOST)
+    if (spell->stage->has_lights && spell->shader->lights == LIGHTS_OF_HOST)
         write_host_lights(spell);
     write_inputs_and_outputs(spell);
     spell_text(spell, "\n");

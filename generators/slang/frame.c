@@ -54,8 +54,7 @@ static void write_members(struct spell *spell, enum shader_block block)
 
 static void write_buffer(struct spell *spell)
 {
-    bool has_lights = spell->stage->has_lights && !spell->shader->role->is_in_host_file,
-         is_used = has_lights;
+    bool has_lights = spell_has_light_data(spell), is_used = has_lights;
     for (int block = 0; block < NUM_BLOCKS; block++)
         is_used |= is_in_buffer((enum shader_block)block)
                    && spell_uses_block(spell, (enum shader_block)block);

@@ -54,7 +54,7 @@ static void write_buffers(struct spell *spell)
 
 static void write_lights(struct spell *spell)
 {
-    if (!spell->stage->has_lights)
+    if (!spell_has_light_data(spell))
         return;
     const struct shader_buffer *buffer = &spell->shader->interface.buffers[BLOCK_LIGHT_DATA];
     const char *type = spell_frame_name(spell, "LightData");

@@ -432,6 +432,10 @@ typedef struct mxg_part {
 MXG_API uint32_t mxg_result_num_parts(const mxg_result *result);
 MXG_API mxg_status mxg_result_part(const mxg_result *result, uint32_t index, mxg_part *out);
 
+/* Names of the functions that the pixel stage calls and the host writes (docs/hosts.md). */
+MXG_API uint32_t mxg_result_num_host_functions(const mxg_result *result);
+MXG_API const char *mxg_result_host_function(const mxg_result *result, uint32_t index);
+
 /* Files beside those of the document that the shader depends on: photometric profiles. */
 MXG_API uint32_t mxg_result_num_files(const mxg_result *result);
 MXG_API const char *mxg_result_file(const mxg_result *result, uint32_t index);

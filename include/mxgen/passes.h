@@ -27,7 +27,8 @@ MXG_API mxg_status mxg_generate_pass(mxg_context *context, uint32_t index,
 typedef struct mxg_pass {
     size_t size; /* in */
     const char *name;
-    uint32_t group_size[3]; /* invocations of a group, which covers a tile of as many pixels */
+    /* invocations of a group, which covers a tile of as many pixels; 0: functions without a main */
+    uint32_t group_size[3];
     /* the buffer `tiles` has the command of its dispatch; else a group per tile */
     bool is_indirect;
     uint32_t dispatch_offset; /* of that command, in bytes */

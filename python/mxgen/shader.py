@@ -335,6 +335,13 @@ class Shader(Native):
             found.append(Part(**values))
         return tuple(found)
 
+    @property
+    def host_functions(self) -> tuple[str, ...]:
+        """The functions that the pixel stage calls and the host writes (docs/hosts.md)."""
+        pointer = self._handle.pointer
+        names = [lib.mxg_result_host_function(pointer, index) for index in range(lib.mxg_result_num_host_functions(pointer))]
+        return tuple(py_text(name) for name in names)
+
     def source_place(self, stage: Stage, line: int) -> Place | None:
         """The place in the document that produced a line (from 1)."""
         values = record("mxg_place", lib.mxg_result_source_place, self._handle.pointer, Stage(stage), c_number(line, "line"))

@@ -33,6 +33,7 @@ struct deferred_layout generation_storage(const struct generation *g)
         .first = g->result->target->first_resource,
         .parse = g->result->target->syntax->in_images ? NULL : parse_program,
         .is_payload = is_payload,
+        .is_function = g->role->returns == RETURNS_WORDS,
         .diffuses = options[OPTION_sss].number != 0,
         .blurs = !is_payload && options[OPTION_rough_refraction].number,
     };
@@ -54,7 +55,7 @@ void generation_defer(struct generation *g)
 
 void generation_hide_misfits(struct generation *g)
 {
-    bool may_be_misfit = g->role->returns == RETURNS_SLABS && !g->options[OPTION_slabs].number;
+    bool may_be_misfit = role_packs_pixel(g->role) && !g->options[OPTION_slabs].number;
     if (role_stores(g->role) && !may_be_misfit)
         g->root = build_without_hidden(g->builder, g->root);
 }
@@ -98,8 +99,7 @@ bool generation_can_store(struct generation *g)
     return !misfit || g->misfit;
 }
 
-/* Why a material lights itself. */
-static const char *why_forward(struct generation *g)
+const char *generation_why_not_stored(struct generation *g)
 {
     const struct shader *shader = &g->result->shader;
     const struct ir_graph *graph = shader->graph;
@@ -128,5 +128,5 @@ void generation_tell_forward(struct generation *g)
     if (shader->reflection.stored_words)
         return;
     diag_add(&g->result->object.diagnostics.list, DIAG_ID_drawn_forward, doc_place(doc, g->element),
-             str_text(shader->strings, shader->reflection.name), why_forward(g));
+             str_text(shader->strings, shader->reflection.name), generation_why_not_stored(g));
 }

@@ -74,7 +74,8 @@ static void set_build_options(struct generation *g)
     const struct option_value *o = g->options;
     const mxg_context *context = g->result->object.context;
     uint32_t caps = target_capabilities(g->result->target);
-    bool is_pass = role_is_pass(g->role);
+    bool is_pass = role_is_pass(g->role),
+         hosts_environment = o[OPTION_host_environment].number && o[OPTION_environment].number != 0;
     g->build_options = (struct build_options){
         .syntax = g->result->target->syntax,
         .interface = is_pass ? INTERFACE_REDUCED : (enum build_interface)o[OPTION_interface].number,
@@ -88,7 +89,8 @@ static void set_build_options(struct generation *g)
         .angle_unit = str_intern_z(&g->result->strings, "degree"),
         .caps = caps,
         .neutral_names = o[OPTION_names].number != 0,
-        .environment = o[OPTION_environment].number,
+        .environment = hosts_environment ? 1 : o[OPTION_environment].number,
+        .host_environment = hosts_environment,
         .albedo = o[OPTION_albedo].number,
         .sample_filter = o[OPTION_sample_filter].number,
         .texture_origin = o[OPTION_texture_origin].number,
@@ -127,6 +129,8 @@ static void init_layers(struct generation *g)
     ir_graph_init(&result->graph, arena, &result->strings);
     result->graph.max_nodes = result->object.context->max_nodes;
     shader_init(&result->shader, g->role, arena, &result->strings, &result->graph, &result->unit);
+    if (g->options[OPTION_host_lights].number && g->role->lights == LIGHTS_IN_SHADER)
+        result->shader.lights = LIGHTS_OF_HOST;
 }
 
 /*
@@ -316,15 +320,23 @@ void generation_walk_slabs(struct generation *g)
 static bool has_lights(const struct generation *g)
 {
     const struct shader *shader = &g->result->shader;
-    if (shader->role->lights == LIGHTS_OF_HOST)
+    if (shader->lights == LIGHTS_OF_HOST)
         return !g->options[OPTION_lights].is_set;
     return shader->interface.lights.len > 0 && shader->interface.max_lights > 0;
+}
+
+static enum closure_darkening darkening_of(const struct generation *g, enum option_id map,
+                                           enum option_id function)
+{
+    return g->options[function].number ? DARKENED_BY_HOST
+           : g->options[map].number    ? DARKENED_BY_MAP
+                                       : DARKENED_BY_NOTHING;
 }
 
 void generation_start_closures(struct generation *g)
 {
     const struct option_value *lights = &g->options[OPTION_lights];
-    if (g->result->shader.role->lights == LIGHTS_IN_SHADER)
+    if (g->result->shader.lights == LIGHTS_IN_SHADER)
         build_lights(g->builder, lights->list.items, lights->list.len, lights->is_set);
     g->closure_host = build_closure_host(g->builder, &g->point);
     if (g->result->target->closures && g->result->target->closures->lacks_view)
@@ -335,8 +347,8 @@ void generation_start_closures(struct generation *g)
         .two_sided = g->options[OPTION_layering].number == LAYERING_TWO_SIDED,
         .transmits_alpha = g->options[OPTION_transmission].number != 0,
         .transparency = (uint8_t)g->options[OPTION_transparency].number,
-        .shadow = g->options[OPTION_shadow_map].number != 0,
-        .occlusion = g->options[OPTION_occlusion_map].number != 0,
+        .shadow = darkening_of(g, OPTION_shadow_map, OPTION_host_shadows),
+        .occlusion = darkening_of(g, OPTION_occlusion_map, OPTION_host_occlusion),
         .flips_v = g->options[OPTION_texture_origin].number != 0,
         .encodes = g->options[OPTION_encode].number != 0,
     };
@@ -408,6 +420,11 @@ bool generation_emit(struct generation *g)
     generation_walk_slabs(g);
     bool is_emitted = emit(g);
     ir_assert_valid(&g->result->graph, "after closures");
+    if (is_emitted && g->role->returns == RETURNS_WORDS
+        && !g->result->shader.reflection.stored_words) {
+        generation_report_not_renderable(g, generation_why_not_stored(g));
+        return false;
+    }
     generation_tell_lost_aovs(g);
     if (!is_emitted)
         generation_report_not_renderable(

@@ -129,6 +129,8 @@ bool generation_make_network(struct generation *g); /* network.c */
 struct deferred_layout generation_storage(const struct generation *g);
 /* Sets the hooks of the closures' host. */
 void generation_defer(struct generation *g);
+/* Why a pixel cannot store the material. */
+const char *generation_why_not_stored(struct generation *g);
 /* Warns about a material whose shader lights itself; reports one with too many closures. */
 void generation_tell_forward(struct generation *g);
 /* Before budgets: leaves out what a slab cannot stand for, where the document hides it. */

@@ -246,13 +246,15 @@ mxg_status mxg_result_info(const mxg_result *result, mxg_shader_info *out)
     if (!result || !result->has_shader)
         return MXG_ERROR_ARGUMENT;
     const struct shader *shader = &result->shader;
+    bool has_light_data =
+        shader->stages[STAGE_PIXEL].has_lights && shader->lights == LIGHTS_IN_SHADER;
     mxg_shader_info full = {
         .name = text_of(result, shader->reflection.name),
         .path = text_of(result, shader->reflection.path),
         .target = result->target->name,
         .num_closures = shader->reflection.closures.len,
         .num_textures = count_textures(result),
-        .num_lights = shader->stages[STAGE_PIXEL].has_lights ? shader->interface.max_lights : 0,
+        .num_lights = has_light_data ? shader->interface.max_lights : 0,
         .transparent = shader->reflection.transparent,
         .alpha = (mxg_alpha)shader->reflection.alpha,
         .displaced = shader->reflection.displaced,
@@ -265,6 +267,18 @@ mxg_status mxg_result_info(const mxg_result *result, mxg_shader_info *out)
         && !result_topology(result, &full.topology))
         return MXG_ERROR_MEMORY;
     return struct_write(out, &full, sizeof full);
+}
+
+uint32_t mxg_result_num_host_functions(const mxg_result *result)
+{
+    return result && result->has_shader ? result->shader.reflection.host_functions.len : 0;
+}
+
+const char *mxg_result_host_function(const mxg_result *result, uint32_t index)
+{
+    return index < mxg_result_num_host_functions(result)
+               ? text_of(result, result->shader.reflection.host_functions.items[index])
+               : NULL;
 }
 
 /* ---- JSON ---- */

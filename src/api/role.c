@@ -38,6 +38,7 @@ static const struct ability {
                  {CAP_TWO_SOURCES, "blend with two sources"},
                  {CAP_HOST_FILES, "be a function in a file of the host"},
                  {CAP_LIGHTING, "compute light in the shader"},
+                 {CAP_HOST_FUNCTIONS, "call functions of the host"},
                  {CAP_CLOSURES, "return closures"}};
 
 static void tell_clash(struct generation *g, const char *option, const char *value,
@@ -90,6 +91,16 @@ static void check_target(struct generation *g, const char *option, const char *v
 
 /* ---- Options ---- */
 
+static const enum option_id host_functions[] = {OPTION_host_lights, OPTION_host_shadows,
+                                                OPTION_host_occlusion, OPTION_host_environment};
+
+static void check_host_functions(struct generation *g)
+{
+    for (size_t i = 0; i < sizeof host_functions / sizeof *host_functions; i++)
+        if (g->options[host_functions[i]].number)
+            check_target(g, option_key(host_functions[i]), "true", CAP_HOST_FUNCTIONS);
+}
+
 static bool has_value(const struct generation *g, enum option_id option, const char *value)
 {
     const struct option_value *v = &g->options[option];
@@ -125,9 +136,14 @@ static void check_values(struct generation *g, const struct role *role)
     }
     for (size_t i = 0; i < sizeof combinations / sizeof *combinations; i++) {
         const struct combination *c = &combinations[i];
-        if (has_value(g, c->option, c->value) && has_value(g, c->other, c->other_value))
+        if (!has_value(g, c->option, c->value))
+            continue;
+        if (c->other_value && has_value(g, c->other, c->other_value))
             tell_clash(g, option_key(c->option), c->value, option_key(c->other), c->other_value,
                        c->why);
+        if (!c->other_value && is_changed(g, c->other))
+            diag_add(diags_of(g), DIAG_ID_option_without_effect, (struct diag_place){0},
+                     option_key(c->other), option_key(c->option), c->value, c->why);
     }
 }
 
@@ -172,6 +188,7 @@ bool generation_find_role(struct generation *g)
         check_target(g, option_key(OPTION_role), asked->name, asked->caps);
     if (has_value(g, OPTION_transparency, "dual"))
         check_target(g, option_key(OPTION_transparency), "dual", CAP_TWO_SOURCES);
+    check_host_functions(g);
     check_tasks(g, asked);
     check_values(g, asked);
     if (is_pass)

@@ -79,6 +79,8 @@ mxg_status mxg_result_pass(const mxg_result *result, mxg_pass *out)
                      .is_indirect = deferred_is_indirect(result->pass),
                      .reads = deferred_reads(result->pass, &result->storage),
                      .writes = deferred_writes(result->pass, &result->storage)};
+    if (deferred_is_part(result->pass))
+        memset(full.group_size, 0, sizeof full.group_size);
     if (full.is_indirect)
         full.dispatch_offset = deferred_dispatch_offset(result->pass);
     return struct_write(out, &full, sizeof full);
@@ -153,7 +155,9 @@ static const char *name_of(const mxg_result *result)
 {
     if (is_pass(result))
         return deferred_pass_name(result->pass);
-    return result->storage.is_payload ? "payload" : "material";
+    return result->storage.is_payload    ? "payload"
+           : result->storage.is_function ? "pack"
+                                         : "material";
 }
 
 /* The classes of a material by name. */
@@ -175,8 +179,8 @@ static void put_classes(uint32_t classes, struct json *json)
 static void put_resources(const mxg_result *result, struct json *json)
 {
     const struct deferred_layout *layout = &result->storage;
-    bool has_layers =
-        !layout->is_payload && result->shader.reflection.stored_words > DEFERRED_TARGET_WORDS;
+    bool has_layers = !layout->is_payload && !layout->is_function
+                      && result->shader.reflection.stored_words > DEFERRED_TARGET_WORDS;
     uint32_t reads = is_pass(result) ? deferred_reads(result->pass, layout) : 0,
              writes = is_pass(result) ? deferred_writes(result->pass, layout)
                       : has_layers    ? 1u << RESOURCE_WORDS
@@ -210,6 +214,8 @@ static void put_targets(struct json *json)
 
 static void put_pass(enum deferred_pass pass, struct json *json)
 {
+    if (deferred_is_part(pass))
+        return;
     json_key(json, "groupSize");
     text_fmt(json->out, "[%u, %u, 1]", (unsigned)DEFERRED_TILE, (unsigned)DEFERRED_TILE);
     if (!deferred_is_indirect(pass))
@@ -233,7 +239,8 @@ void result_storage(void *user_data, struct json *json)
     json_put_nonzero(json, "words", words);
     if (!is_pass(result) && !result->storage.is_payload) {
         put_classes(result->shader.reflection.stored_classes, json);
-        put_targets(json);
+        if (!result->storage.is_function)
+            put_targets(json);
     }
     put_resources(result, json);
     json_close(json, '}');

@@ -39,6 +39,7 @@ struct build_options {
     uint32_t caps;      /* enum target_caps */
     bool neutral_names; /* uniform names are numbers */
     int environment;    /* values of option_environment… */
+    bool host_environment;
     int albedo;
     int sample_filter;
     int texture_modes;

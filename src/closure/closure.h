@@ -137,16 +137,19 @@ enum closure_transparency {
 enum closure_layering { LAYERING_VIEW, LAYERING_TWO_SIDED, LAYERING_OCCLUDING };
 
 /* The lighting of the shaded point, from the options of the caller. */
+/* What darkens light that arrives: occlusion_maps.c. */
+enum closure_darkening { DARKENED_BY_NOTHING, DARKENED_BY_MAP, DARKENED_BY_HOST };
+
 struct closure_lighting {
     bool lights;      /* light shaders are bound */
     bool environment; /* `--environment` is not none */
     bool two_sided;   /* layers also attenuate the incoming light */
     /* transmitted light lowers the alpha, instead of being that of the environment */
     bool transmits_alpha;
-    uint8_t transparency;   /* enum closure_transparency */
-    bool occlusion, shadow; /* by maps of the host: occlusion_maps.c */
-    bool flips_v;           /* textures of the host have v = 0 at their top */
-    bool encodes;           /* colours of the output have the transfer function of sRGB */
+    uint8_t transparency;                     /* enum closure_transparency */
+    enum closure_darkening occlusion, shadow; /* of the environment, of lights */
+    bool flips_v;                             /* textures of the host have v = 0 at their top */
+    bool encodes; /* colours of the output have the transfer function of sRGB */
 };
 
 /*

@@ -273,7 +273,7 @@ void closure_sample_light(struct shader *shader, const struct closure_host *host
     struct ir_graph *g = shader->graph;
     closure_position(shader, host); /* once, outside the loop */
     *out = (struct closure_light){0};
-    if (shader->role->lights == LIGHTS_OF_HOST) {
+    if (shader->lights == LIGHTS_OF_HOST) {
         call_host(shader, host, out);
         return;
     }

@@ -309,12 +309,19 @@ const bool *emitter_find_parts(struct emitter *e, ir_ref bsdf, const struct clos
     return emitted;
 }
 
-/* Only the first light has a shadow map: its factor is 1 in the later rounds of the loop. */
+/*
+ * Only the first light has a shadow map: its factor is 1 in the later rounds of the loop. The
+ * function of a host has a factor for each light.
+ */
 static void loop_lights(struct emitter *e, struct closure_parts *lit, bool is_one_of_several)
 {
     ir_ref factor = e->lit.light.intensity;
     uint32_t local = 0;
-    if (e->lighting->shadow) {
+    bool has_map = e->lighting->shadow == DARKENED_BY_MAP;
+    if (e->lighting->shadow == DARKENED_BY_HOST)
+        factor = closure_product(e->graph, factor,
+                                 closure_host_shadow(e->shader, e->host, e->lit.light.direction));
+    if (has_map) {
         local = shader_add_local(e->shader, STR_occlusion, IR_TYPE_FLOAT);
         emitter_effect(e, EFFECT_VAR, local, closure_shadow(e->shader, e->host));
         factor = ir_op2(e->graph, IR_MUL, factor,
@@ -329,7 +336,7 @@ static void loop_lights(struct emitter *e, struct closure_parts *lit, bool is_on
         emitter_effect(e, (enum effect_kind)part->kind, part->index, part->value);
     }
     accumulate_all(e, "", lit, true, factor);
-    if (e->lighting->shadow)
+    if (has_map)
         emitter_effect(e, EFFECT_ASSIGN, local, ir_const_float(e->graph, 1.0f));
     emitter_effect(e, EFFECT_END, 0, 0);
 }
@@ -421,6 +428,16 @@ static void write_batch(struct emitter *e, struct closure_parts *at, bool is_one
         gather_samples(e, section, &samples.loops.items[i], open);
 }
 
+/* The part of the environment that is not occluded; 0: all. */
+static ir_ref open_part(struct emitter *e)
+{
+    switch (e->lighting->occlusion) {
+    case DARKENED_BY_MAP: return closure_occlusion(e->shader, e->lighting->flips_v);
+    case DARKENED_BY_HOST: return closure_host_occlusion(e->shader, e->host);
+    default: return 0;
+    }
+}
+
 void emitter_write_lit(struct emitter *e)
 {
     struct closure_parts *all = e->lit.at;
@@ -428,9 +445,7 @@ void emitter_write_lit(struct emitter *e)
     if (!all[PLACE_LIGHT].parts.len && !has_environment)
         return;
     emitter_declare_color(e);
-    ir_ref open = has_environment && e->lighting->occlusion
-                      ? closure_occlusion(e->shader, e->lighting->flips_v)
-                      : 0;
+    ir_ref open = has_environment ? open_part(e) : 0;
     struct closure_batches batches = {0};
     closure_find_batches(e->shader, &all[PLACE_LIGHT], &batches);
     uint32_t next[NUM_PLACES] = {0};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Maps of the host that darken light, with the names that hosts of MaterialX bind.
+ * Maps and functions of the host that darken light; the maps have the names that hosts of MaterialX
+ * bind.
  *
  * Shadow: variance shadow maps (William Donnelly and Andrew Lauritzen, "Variance Shadow Maps",
  * I3D 2006). The map has the mean m and the mean square s of the depth. The part of the light that
@@ -47,4 +48,17 @@ ir_ref closure_shadow(struct shader *shader, const struct closure_host *host)
            uv = ir_swizzle(g, place, (const uint8_t[]){0, 1}, 2), mean = texel(g, map, uv, 0),
            square = texel(g, map, uv, 1), depth = ir_component(g, place, 2);
     return FORMULA(shader, "mx_shadow_lit", depth, mean, square);
+}
+
+ir_ref closure_host_shadow(struct shader *shader, const struct closure_host *host, ir_ref light)
+{
+    ir_ref index = ir_build(shader->graph, IR_CONTEXT, IR_TYPE_INT, IR_LIGHT_INDEX, NULL, 0),
+           point = closure_position(shader, host), normal = closure_normal(shader, host);
+    return FORMULA(shader, "mxg_shadow", index, point, normal, light);
+}
+
+ir_ref closure_host_occlusion(struct shader *shader, const struct closure_host *host)
+{
+    ir_ref point = closure_position(shader, host), normal = closure_normal(shader, host);
+    return FORMULA(shader, "mxg_ambient_occlusion", point, normal);
 }

@@ -287,7 +287,7 @@ static const char *why_not_stored(const struct emitter *e, const struct closure_
 /* A payload stores every surface, and none of its AOVs. */
 static bool is_stored(struct emitter *e, const struct closure_list *list, bool is_whole)
 {
-    if (e->shader->role->returns == RETURNS_SLABS)
+    if (role_packs_pixel(e->shader->role))
         e->shader->reflection.not_stored = why_not_stored(e, list, is_whole);
     return role_stores(e->shader->role) && !e->shader->reflection.not_stored;
 }

@@ -35,6 +35,7 @@ struct deferred_layout {
     const struct lang_unit *(*parse)(struct shader *shader, const struct text *text);
     uint32_t max_words; /* of a pixel of this material, by the cost of its slabs; 0: of a pass */
     bool is_payload;    /* of a ray, in place of a pixel */
+    bool is_function;   /* the words of a pixel are results, not outputs and layers of an image */
     bool diffuses;      /* the option `sss`: the pass "diffuse" spreads the light of bodies */
     bool blurs;         /* the option `rough-refraction`: the pass "blur" */
 };
@@ -80,6 +81,8 @@ enum deferred_pass {
     PASS_BLUR,
     PASS_SHOW,
     PASS_LIGHT_RAYS, /* over payloads, not pixels */
+    PASS_READ,       /* functions for passes of the host: what pixels store */
+    PASS_OVER,       /* payloads over what pixels store */
     NUM_PASSES
 };
 const char *deferred_pass_name(enum deferred_pass pass);
@@ -88,6 +91,8 @@ enum deferred_class deferred_pass_class(enum deferred_pass pass);
 
 /* True if the options ask for the pass. */
 bool deferred_has_pass(enum deferred_pass pass, const struct deferred_layout *layout);
+/* True if it has no main: its functions are for passes of the host. */
+bool deferred_is_part(enum deferred_pass pass);
 /* True if the buffer `tiles` has the command of its dispatch; false: a group per tile. */
 bool deferred_is_indirect(enum deferred_pass pass);
 /* Where that command stands in the buffer, in bytes. */

@@ -7,8 +7,12 @@
 
 #include "shader/verbatim.h"
 
-/* passes.c: writes lines of texts.h. */
-void deferred_write_lines(const char *const *lines, struct text *out);
+/*
+ * passes.c: writes lines of texts.h. Lines that begin with '@' are for texts with functions of the
+ * host, for its passes, and for storage outside of a pixel stage (is_hosts), those that begin with
+ * '%' for others.
+ */
+void deferred_write_lines(const char *const *lines, bool is_hosts, struct text *out);
 /* Writes the numbers that C and the texts share, and record.glsl: the first part of every pass. */
 void deferred_write_storage(const struct deferred_layout *layout, struct text *out);
 

@@ -17,16 +17,18 @@ enum {
     LIT_TO = BIT(LIT) | BIT(SCATTERED) | BIT(BELOW)
 };
 
-enum { MAX_TEXTS = 4 };
+enum { MAX_TEXTS = 5 };
+/* is_part: functions without a main, for passes of the host. */
 static const struct {
     const char *name;
     enum deferred_class which; /* of its tiles; CLASS_EMPTY without indirect: all tiles */
-    bool is_indirect;
+    bool is_indirect, is_part;
     uint32_t reads, writes; /* bits of resources; options take some away */
     const char *const *texts[MAX_TEXTS];
 } passes[NUM_PASSES] = {
     [PASS_CLASSIFY] = {"classify",
                        CLASS_EMPTY,
+                       false,
                        false,
                        BIT(WORD0) | BIT(TILES) | BIT(FRAME),
                        BIT(TILES) | BIT(SCATTERED) | BIT(BELOW),
@@ -34,35 +36,41 @@ static const struct {
     [PASS_COMPOSE] = {"compose",
                       CLASS_EMPTY,
                       true,
+                      false,
                       BIT(WORD0) | BIT(COLOR) | BIT(TILES) | BIT(FRAME),
                       BIT(LIT),
                       {deferred_frame, deferred_tile, deferred_compose}},
     [PASS_SIMPLE] = {"light_simple",
                      CLASS_SIMPLE,
                      true,
+                     false,
                      LIT_FROM,
                      BIT(LIT),
                      {deferred_read, deferred_frame, deferred_tile, deferred_light}},
     [PASS_SINGLE] = {"light_single",
                      CLASS_SINGLE,
                      true,
+                     false,
                      LIT_FROM,
                      BIT(LIT) | BIT(SCATTERED),
                      {deferred_read, deferred_frame, deferred_tile, deferred_light}},
     [PASS_COMPLEX] = {"light_complex",
                       CLASS_COMPLEX,
                       true,
+                      false,
                       LIT_FROM,
                       LIT_TO,
                       {deferred_read, deferred_frame, deferred_tile, deferred_light}},
     [PASS_SPECIAL] = {"light_special",
                       CLASS_SPECIAL,
                       true,
+                      false,
                       LIT_FROM,
                       LIT_TO,
                       {deferred_read, deferred_frame, deferred_tile, deferred_light}},
     [PASS_DIFFUSE] = {"diffuse",
                       CLASS_EMPTY,
+                      false,
                       false,
                       CLOSURES | BIT(DEPTH) | BIT(FRAME) | BIT(SCATTERED) | BIT(BELOW),
                       BIT(LIT) | BIT(BELOW),
@@ -70,11 +78,13 @@ static const struct {
     [PASS_BLUR] = {"blur",
                    CLASS_EMPTY,
                    false,
+                   false,
                    BIT(DEPTH) | BIT(FRAME) | BIT(BELOW),
                    BIT(LIT),
                    {deferred_frame, deferred_plane, deferred_blur}},
     [PASS_SHOW] = {"show",
                    CLASS_EMPTY,
+                   false,
                    false,
                    CLOSURES | BIT(FRAME),
                    BIT(LIT),
@@ -82,9 +92,19 @@ static const struct {
     [PASS_LIGHT_RAYS] = {"light_rays",
                          CLASS_COMPLEX,
                          false,
+                         false,
                          BIT(PAYLOADS) | BIT(RAYS) | BIT(FRAME),
                          BIT(LIT),
                          {deferred_unpack, deferred_frame, deferred_light_rays}},
+    [PASS_READ] = {"read", CLASS_EMPTY, false, true, CLOSURES, 0, {deferred_read}},
+    [PASS_OVER] = {"over",
+                   CLASS_EMPTY,
+                   false,
+                   false,
+                   CLOSURES | BIT(PAYLOADS) | BIT(FRAME),
+                   CLOSURES,
+                   {deferred_read, deferred_over_head, deferred_write, deferred_frame,
+                    deferred_over}},
 };
 
 bool deferred_has_pass(enum deferred_pass pass, const struct deferred_layout *layout)
@@ -108,6 +128,12 @@ uint32_t deferred_writes(enum deferred_pass pass, const struct deferred_layout *
 {
     assert(pass < NUM_PASSES);
     return passes[pass].writes & resources_of(layout);
+}
+
+bool deferred_is_part(enum deferred_pass pass)
+{
+    assert(pass < NUM_PASSES);
+    return passes[pass].is_part;
 }
 
 bool deferred_is_indirect(enum deferred_pass pass)
@@ -154,10 +180,13 @@ const char *deferred_element(enum deferred_class which)
     return classes[which].name;
 }
 
-void deferred_write_lines(const char *const *lines, struct text *out)
+void deferred_write_lines(const char *const *lines, bool is_hosts, struct text *out)
 {
-    for (; *lines; lines++)
-        text_str(out, *lines);
+    for (; *lines; lines++) {
+        bool is_marked = **lines == '@' || **lines == '%';
+        if (!is_marked || (**lines == '@') == is_hosts)
+            text_str(out, *lines + is_marked);
+    }
 }
 
 size_t deferred_closures_size(void)
@@ -190,7 +219,7 @@ void deferred_write_storage(const struct deferred_layout *layout, struct text *o
     for (uint32_t i = 0; i < NUM_CLASSES; i++)
         define(classes[i].macro, i, out);
     deferred_write_struct(out);
-    deferred_write_lines(deferred_record, out);
+    deferred_write_lines(deferred_record, false, out);
 }
 
 uint32_t deferred_layout_number(const struct deferred_layout *layout)
@@ -237,6 +266,10 @@ static void write_fill(const struct shader *surface, struct text *out)
 /* The numbers that the texts of passes share with C. */
 static void write_numbers(enum deferred_pass pass, uint32_t used, struct text *out)
 {
+    if (passes[pass].is_part)
+        return;
+    if (pass == PASS_OVER)
+        define("MX_WORDS", DEFERRED_TARGET_WORDS + 1, out); /* at least: there is an image */
     define("MX_CLASS", passes[pass].which, out);
     define("MX_NUM_CLASSES", NUM_CLASSES, out);
     define("MX_TILE", DEFERRED_TILE, out);
@@ -251,10 +284,13 @@ void deferred_write_pass(enum deferred_pass pass, const struct deferred_layout *
                          struct text *out)
 {
     uint32_t reads = deferred_reads(pass, layout), writes = deferred_writes(pass, layout);
+    bool is_part = passes[pass].is_part,
+         is_hosts =
+             is_part || pass == PASS_OVER || (surface && surface->reflection.host_functions.len);
     assert((deferred_pass_class(pass) != CLASS_EMPTY) == (surface && source));
     if (surface)
         text_fmt(out, "%s\n", source);
-    else
+    else if (!is_part)
         text_fmt(out, "#version %s\n", version);
     write_numbers(pass, reads | writes, out);
     deferred_write_storage(layout, out);
@@ -266,9 +302,11 @@ void deferred_write_pass(enum deferred_pass pass, const struct deferred_layout *
         bool is_last = i + 1 == MAX_TEXTS || !passes[pass].texts[i + 1];
         if (surface && is_last)
             write_fill(surface, out);
-        deferred_write_lines(passes[pass].texts[i], out);
+        deferred_write_lines(passes[pass].texts[i], is_hosts, out);
         if (passes[pass].texts[i] == deferred_read && layout->storage == STORAGE_FLOAT)
             deferred_write_get(out);
+        if (passes[pass].texts[i] == deferred_write && layout->storage == STORAGE_FLOAT)
+            deferred_write_put(out);
     }
 }
 

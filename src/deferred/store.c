@@ -300,10 +300,22 @@ static const char stored_word[] = "uint mx_stored_word(int finished, int index)\
                                   "    return index == 0 ? mx_word0 : index == 1 ? mx_word1 "
                                   ": mx_word2;\n}\n";
 
+/* The text of what packs and keeps closures. */
+static void write_keeper(const struct deferred_layout *layout, struct text *out)
+{
+    if (layout->is_function)
+        deferred_write_lines(deferred_words, false, out);
+    deferred_write_lines(layout->is_payload ? deferred_pack : deferred_write, layout->is_function,
+                         out);
+    if (layout->is_function)
+        deferred_write_lines(deferred_words_end, false, out);
+}
+
 static uint32_t add_source(struct shader *shader, const struct deferred_layout *layout)
 {
-    bool has_layers =
-        !layout->is_payload && shader->reflection.stored_words > DEFERRED_TARGET_WORDS;
+    bool is_pixel = !layout->is_payload && !layout->is_function,
+         has_more = !layout->is_payload && shader->reflection.stored_words > DEFERRED_TARGET_WORDS,
+         has_layers = is_pixel && has_more;
     struct text text;
     struct source_fault fault;
     text_init(&text, shader->arena);
@@ -311,17 +323,17 @@ static uint32_t add_source(struct shader *shader, const struct deferred_layout *
     text_fmt(&text, "#define MX_WORDS %u\n", (unsigned)shader->reflection.stored_words);
     if (has_layers && !layout->parse)
         deferred_declare(RESOURCE_WORDS, layout, false, true, &text);
-    deferred_write_lines(layout->is_payload ? deferred_pack : deferred_write, &text);
-    if (has_layers && layout->storage == STORAGE_FLOAT)
+    write_keeper(layout, &text);
+    if (has_more && layout->storage == STORAGE_FLOAT)
         deferred_write_put(&text);
-    deferred_write_lines(deferred_store_closure, &text);
+    deferred_write_lines(deferred_store_closure, false, &text);
     deferred_write_store(&text);
     if (layout->parse) {
         struct source_resources resources = {.writes = has_layers ? 1u << RESOURCE_WORDS : 0,
                                              .set = layout->set};
         struct text program;
         text_init(&program, shader->arena);
-        text_str(&text, layout->is_payload ? "" : stored_word);
+        text_str(&text, is_pixel ? stored_word : "");
         deferred_make_program(text_cstr(&text), &resources, &program);
         return shader_add_program(shader, str_intern(shader->strings, program.data, program.len),
                                   layout->parse(shader, &program), resources);
@@ -369,6 +381,42 @@ static void finish_pass(struct shader *shader, const struct deferred_layout *lay
     write_color(shader, emission);
     if (layout->parse)
         write_words(shader, "mx_stored_word", "word%d", source, stored, DEFERRED_TARGET_WORDS);
+}
+
+/* ---- Functions ---- */
+
+/* The number of stored closures at first. A function of a pixel begins with its place, for noise.
+ */
+static ir_ref begin(struct shader *shader, const struct deferred_layout *layout, uint32_t source)
+{
+    struct ir_graph *g = shader->graph;
+    if (!layout->is_function)
+        return ir_const_int(g, 0);
+    ir_ref place = ir_const_splat(g, IR_TYPE_VEC2, 0.0f);
+    if (layout->storage == STORAGE_DITHER) {
+        const struct shader_variable pixel = {.name = str_intern_z(shader->strings, "pixel"),
+                                              .block = BLOCK_VERTEX_DATA,
+                                              .type = IR_TYPE_VEC2,
+                                              .semantic = str_intern_z(shader->strings, "pixel")};
+        place = shader_read(shader, shader_add_variable(shader, &pixel));
+    }
+    return call(shader, "mx_begin_words", IR_TYPE_INT, source, &place, 1);
+}
+
+/* The end of a function of a pixel: the light of the surface, its opacity, an output per word. */
+static void finish_words(struct shader *shader, uint32_t source, uint32_t local, ir_ref emission,
+                         ir_ref alpha)
+{
+    struct ir_graph *g = shader->graph;
+    ir_ref stored = ir_build(g, IR_LOCAL, IR_TYPE_INT, local, NULL, 0);
+    uint32_t num = shader->reflection.stored_words;
+    assign(shader, EFFECT_ASSIGN, local,
+           call(shader, "mx_finish_closures", IR_TYPE_INT, source, &stored, 1));
+    assign(shader, EFFECT_OUTPUT, shader_output(shader, STR_color, IR_TYPE_VEC3),
+           emission ? ir_convert(g, IR_TYPE_VEC3, emission) : ir_black(g));
+    assign(shader, EFFECT_OUTPUT, shader_output(shader, STR_alpha, IR_TYPE_FLOAT),
+           alpha ? alpha : ir_const_float(g, 1.0f));
+    write_words(shader, "mx_packed_word", "word_%d", source, stored, (int)num);
 }
 
 /* ---- Payloads ---- */
@@ -426,10 +474,10 @@ void deferred_store(struct shader *shader, const struct closure_host *host,
     spreading.spreads = true;
     closure_flatten(shader, &spreading, surface->bsdf, &spread);
     uint32_t local = shader_add_local(shader, str_intern_z(shader->strings, "stored"), IR_TYPE_INT);
-    assign(shader, EFFECT_VAR, local, ir_const_int(shader->graph, 0));
     struct closure_list marks = marks_of(shader, surface->bsdf, surface->list);
     measure(shader, &marks, layout);
     uint32_t source = add_source(shader, layout);
+    assign(shader, EFFECT_VAR, local, begin(shader, layout, source));
     if (layout->is_payload)
         premultiply(shader, surface, &marks, &emission);
     shader->reflection.closures.len = 0; /* lights of slabs are no closures of their own here */
@@ -440,6 +488,8 @@ void deferred_store(struct shader *shader, const struct closure_host *host,
     }
     if (layout->is_payload)
         finish_payload(shader, source, local, emission, surface->alpha);
+    else if (layout->is_function)
+        finish_words(shader, source, local, emission, surface->alpha);
     else
         finish_pass(shader, layout, source, local, emission);
 }

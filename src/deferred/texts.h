@@ -19,6 +19,10 @@ extern const char *const deferred_show[];
 extern const char *const deferred_pack[];
 extern const char *const deferred_unpack[];
 extern const char *const deferred_light_rays[];
+extern const char *const deferred_over_head[];
+extern const char *const deferred_over[];
+extern const char *const deferred_words[];
+extern const char *const deferred_words_end[];
 extern const char *const deferred_closures[];
 
 #endif

@@ -274,7 +274,7 @@ static bool lower_inline(struct lower *lo, uint32_t id, const ir_ref *in, ir_ref
     struct lower_frame frame = {0}, *caller = lo->frame;
     frame.fn = lang_function(lo->unit, id, &frame.layer);
     uint32_t max_graph_nodes = lo->max_graph_nodes;
-    if (lo->depth == LOWER_MAX_DEPTH
+    if (lo->depth == LOWER_MAX_DEPTH || !frame.fn->body
         || !is_worth_trying(lo, frame.layer, frame.fn, in, &frame.budget))
         return false;
     open_frame(lo, &frame, in);

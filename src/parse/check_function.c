@@ -133,6 +133,15 @@ static void apply_order(struct order *order)
             unit->nodes.items[i].a = renamed(order, unit->nodes.items[i].a);
 }
 
+/*
+ * A prototype is enough for a function of the host, which its name tells. It is not pure: the host
+ * reads what it likes.
+ */
+static bool is_of_host(struct parser *p, const struct lang_function *function)
+{
+    return !function->body && strncmp(parse_text(p, function->name), "mxg_", 4) == 0;
+}
+
 static bool order_functions(struct parser *p, uint32_t first, uint32_t num)
 {
     struct order order = {.p = p, .first = first, .num = num};
@@ -154,10 +163,13 @@ bool check_finish_functions(struct parser *p, uint32_t first_function)
     struct body body = {.p = p};
     for (uint32_t i = 0; i < num; i++) {
         struct lang_function *function = &unit->functions.items[first + i];
-        if (!function->body && !p->is_program)
+        bool is_hosts = is_of_host(p, function);
+        if (!function->body && !p->is_program && !is_hosts)
             PARSE_TYPE_ERROR(p, function->place, "'%s' is declared here but nowhere defined",
                              parse_text(p, function->name));
         find_uses(&body, function);
+        if (is_hosts)
+            function->flags &= (uint16_t)~LANG_FN_PURE;
     }
     if (p->num_errors || !order_functions(p, first_function, num))
         return false;

@@ -34,22 +34,24 @@ static struct text_word copied_name(struct printer *p, uint32_t slot)
     return (struct text_word){text_cstr(&name), name.len};
 }
 
+/* The host need not write `const` as we do. */
 static enum lang_phrase param_phrase(const struct lang_syntax *syntax,
-                                     const struct lang_slot *param)
+                                     const struct lang_slot *param, bool is_hosts)
 {
     if (param->mode != LANG_IN && !syntax->results_in_struct)
         return param->mode == LANG_OUT ? PHRASE_PARAM_OUT : PHRASE_PARAM_INOUT;
     if (param->type == IR_TYPE_SAMPLER)
         return PHRASE_PLAIN;
-    return param->assigned ? PHRASE_PARAM_ASSIGNED : PHRASE_PARAM_IN;
+    return param->assigned || is_hosts ? PHRASE_PARAM_ASSIGNED : PHRASE_PARAM_IN;
 }
 
 static void print_param(struct printer *p, uint32_t slot)
 {
     const struct lang_slot *param = ast_slot(p->layer, p->fn, slot);
     struct text_word name = is_copied(p, param) ? copied_name(p, slot) : p->locals[slot];
-    lang_print_variable(p->style, p->names, p->unit, param_phrase(p->style->syntax, param),
-                        param->type, name, p->out);
+    lang_print_variable(p->style, p->names, p->unit,
+                        param_phrase(p->style->syntax, param, !p->fn->body), param->type, name,
+                        p->out);
     if (param->type == IR_TYPE_SAMPLER)
         lang_put_sampler(p->style, name, p->out);
 }
@@ -110,6 +112,10 @@ void lang_print_function(struct lang_style *style, const struct lang_names *name
     if (p.has_results)
         print_results_struct(&p, id);
     print_head(&p, id);
+    if (!p.fn->body) {
+        text_str(out, ";\n");
+        return;
+    }
     text_str(out, "\n{\n");
     if (p.has_results)
         print_result_locals(&p);

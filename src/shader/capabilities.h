@@ -51,4 +51,10 @@ enum target_caps {
     CAP_NETWORKS = 1 << 30, /* has `network` */
 };
 
+/*
+ * Programs can declare functions that the host appends. No enumerator, because an int has no bit
+ * for it.
+ */
+#define CAP_HOST_FUNCTIONS (1u << 31)
+
 #endif

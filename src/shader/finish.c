@@ -22,7 +22,7 @@ static void complete_loops(struct shader *shader, enum shader_stage_id id)
             mark_read(shader,
                       shader_private_uniform(shader, STR_u_envRadianceSamples, IR_TYPE_INT, 0), id);
     }
-    if (!stage->has_lights || shader->role->lights != LIGHTS_IN_SHADER)
+    if (!stage->has_lights || shader->lights != LIGHTS_IN_SHADER)
         return;
     mark_read(shader, shader_private_uniform(shader, STR_u_numActiveLightSources, IR_TYPE_INT, 0),
               id);
@@ -98,6 +98,23 @@ static void complete_vertex_stage(struct shader *shader)
                   (struct effect){.kind = EFFECT_POSITION, .value = position});
 }
 
+/* Functions that the pixel stage calls and the host writes. */
+static void find_host_functions(struct shader *shader)
+{
+    static const char *const lights[] = {"mxg_light_count", "mxg_light"};
+    const struct shader_stage *stage = &shader->stages[STAGE_PIXEL];
+    bool has_lights = stage->has_lights && shader->lights == LIGHTS_OF_HOST;
+    for (unsigned i = 0; has_lights && i < sizeof lights / sizeof *lights; i++)
+        vec_push(shader->arena, &shader->reflection.host_functions,
+                 str_intern_z(shader->strings, lights[i]));
+    for (uint32_t i = 0; i < stage->reach.functions.len; i++) {
+        const struct lang_function *fn =
+            lang_function(shader->unit, stage->reach.functions.items[i], NULL);
+        if (!fn->body)
+            vec_push(shader->arena, &shader->reflection.host_functions, fn->name);
+    }
+}
+
 static void name_neutrally(struct shader *shader)
 {
     uint32_t uniforms = 0, textures = 0;
@@ -153,6 +170,7 @@ void shader_finish(struct shader *shader, const struct shader_layout_rules *rule
     mark_outputs(shader, STAGE_PIXEL);
     shader_schedule(shader, STAGE_PIXEL);
     add_globals(shader, STAGE_PIXEL);
+    find_host_functions(shader);
     if (rules->one_stage)
         finish_displacement(shader);
     else

@@ -54,6 +54,7 @@ void shader_init(struct shader *shader, const struct role *role, struct arena *a
                  struct strpool *strings, struct ir_graph *graph, struct lang_unit *unit)
 {
     *shader = (struct shader){.role = role,
+                              .lights = role->lights,
                               .arena = arena,
                               .strings = strings,
                               .graph = graph,

@@ -270,6 +270,18 @@ static void put_lights(struct reflect *r)
     json_close(&r->json, ']');
 }
 
+static void put_host_functions(struct reflect *r)
+{
+    const struct shader *shader = r->shader;
+    if (!shader->reflection.host_functions.len)
+        return;
+    json_key(&r->json, "hostFunctions");
+    json_open(&r->json, '[');
+    for (uint32_t i = 0; i < shader->reflection.host_functions.len; i++)
+        put_item(&r->json, str_text(shader->strings, shader->reflection.host_functions.items[i]));
+    json_close(&r->json, ']');
+}
+
 static void put_functions(struct reflect *r)
 {
     json_key(&r->json, "functions");
@@ -281,8 +293,10 @@ static void put_functions(struct reflect *r)
         json_key(&r->json, stage_name(r, stage));
         json_open(&r->json, '[');
         for (uint32_t i = 0; i < reach->functions.len; i++) {
-            str_id name = lang_function(r->shader->unit, reach->functions.items[i], NULL)->name;
-            put_item(&r->json, str_text(r->shader->strings, name));
+            const struct lang_function *fn =
+                lang_function(r->shader->unit, reach->functions.items[i], NULL);
+            if (fn->body)
+                put_item(&r->json, str_text(r->shader->strings, fn->name));
         }
         json_close(&r->json, ']');
     }
@@ -326,6 +340,7 @@ static void put_shader(struct reflect *r)
         put_block(r, (enum shader_block)block);
     json_close(&r->json, ']');
     put_lights(r);
+    put_host_functions(r);
     if (!role_is_pass(shader->role) || shader->stages[STAGE_PIXEL].reach.functions.len)
         put_functions(r);
     if (!role_is_pass(shader->role))

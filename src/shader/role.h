@@ -37,6 +37,7 @@ enum role_returns {
     RETURNS_LIGHT,    /* a colour and an alpha, lit */
     RETURNS_PATH,     /* emission, the response to a direction, and a sampled direction */
     RETURNS_SLABS,    /* packed slabs of a pixel; light where a surface cannot be stored */
+    RETURNS_WORDS,    /* the same as numbers, without a pixel stage around it */
     RETURNS_PAYLOAD,  /* one slab, packed for a ray */
     RETURNS_HOLES,    /* the holes that an opacity cuts */
     RETURNS_CLOSURES, /* closures of the language, which its renderer evaluates */
@@ -93,7 +94,14 @@ struct role {
 /* True if it packs slabs: each has a mark (ND_slab_mark) whose inputs are the packed values. */
 static inline bool role_stores(const struct role *role)
 {
-    return role->returns == RETURNS_SLABS || role->returns == RETURNS_PAYLOAD;
+    return role->returns == RETURNS_SLABS || role->returns == RETURNS_WORDS
+           || role->returns == RETURNS_PAYLOAD;
+}
+
+/* True if it packs all slabs of a pixel, which has room for whole surfaces only. */
+static inline bool role_packs_pixel(const struct role *role)
+{
+    return role->returns == RETURNS_SLABS || role->returns == RETURNS_WORDS;
 }
 
 /* True for a pass over what others stored: a compute stage in the place of the pixel stage. */

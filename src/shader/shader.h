@@ -320,7 +320,8 @@ struct shader_reflection {
     str_id element_type; /* "surfacematerial" */
     str_id path;
     VEC(struct shader_compiled_input) compiled;
-    VEC(uint32_t) closures; /* the evaluated closures, as origins of their leaves */
+    VEC(uint32_t) closures;     /* the evaluated closures, as origins of their leaves */
+    VEC(str_id) host_functions; /* that the pixel stage calls: after shader_finish */
     uint64_t codes;         /* a hash of the nodes in C and their versions; part of the topology */
     uint8_t kind;           /* enum shader_kind */
     str_id value_type;      /* document type of a shader for a plain value */
@@ -339,6 +340,7 @@ struct shader_reflection {
 
 struct shader {
     const struct role *role; /* what it is for */
+    enum role_lights lights; /* that of the role, or LIGHTS_OF_HOST, which an option asks for */
     bool has_two_sources;    /* the second output is what the surface lets through */
     bool picks;              /* one layer of a stack, by a random number */
     struct arena *arena;

@@ -133,7 +133,8 @@ static struct lang_function copy_version(struct copier *c, uint32_t version)
     c->is_simple = true;
     c->asks = false;
     c->is_used = arena_zalloc(c->to->arena, fn.num_slots);
-    fn.body = lang_copy(c->from, fn.body, c->to, copy_node, c);
+    if (fn.body)
+        fn.body = lang_copy(c->from, fn.body, c->to, copy_node, c);
     fn.first_slot = fn.num_slots ? copy_slots(c, &fn) : 0;
     const uint32_t *callees = ast_callees(c->from, &fn), *globals = ast_globals(c->from, &fn);
     fn.first_ref = copy_refs(c, callees, fn.num_callees, true);

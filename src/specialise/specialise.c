@@ -71,11 +71,13 @@ static void note_call(struct spec *s, const struct lang_node *call)
     vec_push(unit->arena, &unit->plan->calls, called);
 }
 
+/* A function of the host takes all its arguments. */
 static bool begin_final(struct spec *s)
 {
-    if (!(s->fn.flags & LANG_FN_FINAL))
+    bool is_hosts = !s->fn.body;
+    if (!(s->fn.flags & LANG_FN_FINAL) && !is_hosts)
         return false;
-    for (uint32_t i = 0; i < s->fn.num_params; i++)
+    for (uint32_t i = 0; i < s->fn.num_params && !is_hosts; i++)
         if (is_bound(s, i))
             return false;
     uint32_t first_call = s->unit->plan->calls.len;

@@ -41,33 +41,6 @@ static void write_variable(struct spell *spell, enum lang_phrase phrase, const c
                     lang_word(name), spell->out);
 }
 
-/* Several functions in one file declare them once. */
-static void declare_lights(struct spell *spell)
-{
-    static const struct {
-        enum lang_phrase phrase;
-        ir_type_id type;
-        const char *name;
-    } parameters[] = {{PHRASE_PARAM_ASSIGNED, IR_TYPE_INT, "i"},
-                      {PHRASE_PARAM_ASSIGNED, IR_TYPE_VEC3, "P"},
-                      {PHRASE_PARAM_OUT, IR_TYPE_VEC3, "L"},
-                      {PHRASE_PARAM_OUT, IR_TYPE_VEC3, "radiance"}};
-    const struct lang_type_text none = {{"", 0}, 0}, count = spell_type_text(spell, IR_TYPE_INT);
-    spell_text(spell, "#ifndef MXG_LIGHTS\n#define MXG_LIGHTS\n");
-    struct lang_declaration head =
-        lang_open(spell->style, PHRASE_FUNCTION, count, lang_word("mxg_light_count"), spell->out);
-    lang_declare(spell->style, &head, spell->out);
-    spell_text(spell, ";\n");
-    head = lang_open(spell->style, PHRASE_PROCEDURE, none, lang_word("mxg_light"), spell->out);
-    for (unsigned i = 0; i < sizeof parameters / sizeof *parameters; i++) {
-        spell_text(spell, i ? ", " : "");
-        spell_variable(spell, parameters[i].phrase, parameters[i].type,
-                       (struct spell_name){parameters[i].name, strlen(parameters[i].name)});
-    }
-    lang_declare(spell->style, &head, spell->out);
-    spell_text(spell, ";\n#endif\n");
-}
-
 static void declare(struct spell *spell)
 {
     spell_text(spell, "// ");
@@ -75,8 +48,7 @@ static void declare(struct spell *spell)
     spell_text(spell, "\n\n");
     spell->frame->declare_for_function(spell);
     bool has_context = spell->frame->open_context != NULL;
-    if (spell->stage->has_lights && !has_context && !spell->style->syntax->no_directives)
-        declare_lights(spell);
+    spell_host_functions(spell);
     if (spell->shares_vertex_data) {
         const char *type = spell_frame_name(spell, "VertexData");
         open_struct(spell, type);

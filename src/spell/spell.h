@@ -253,10 +253,21 @@ void spell_wrap(struct spell *spell, size_t begin);
 
 /* ---- stage.c ---- */
 
+/* True if the stage reads u_lightData. */
+static inline bool spell_has_light_data(const struct spell *spell)
+{
+    return spell->stage->has_lights && spell->shader->lights == LIGHTS_IN_SHADER;
+}
+
 void spell_title(struct spell *spell); /* "Gold · surfacematerial · …", without a newline */
 
 /* Writes the stage of a C-like target: declarations, functions, main. */
 void spell_stage(struct spell *spell, enum shader_stage_id stage);
+
+/* ---- host.c ---- */
+
+/* Declares the functions of the host that the stage calls, in languages that need it. */
+void spell_host_functions(struct spell *spell);
 
 /* ---- verbatim_text.c ---- */
 

@@ -82,7 +82,14 @@ static void name_functions(struct spell *spell)
     struct overloads overloads = overloads_init(spell);
     for (uint32_t i = 0; i < spell->stage->reach.functions.len; i++) {
         uint32_t id = spell->stage->reach.functions.items[i];
-        str_id source = lang_function(shader->unit, id, NULL)->name;
+        const struct lang_function *fn = lang_function(shader->unit, id, NULL);
+        str_id source = fn->name;
+        if (!fn->body) { /* the host has named it */
+            spell->functions[id] = str_text(shader->strings, source);
+            names_take(&spell->names, str_text(shader->strings, source),
+                       str_len(shader->strings, source));
+            continue;
+        }
         const char *name =
             spell_can(spell, CAP_OVERLOADS) ? overload_of(spell, &overloads, i, source) : NULL;
         if (!name)
@@ -207,6 +214,8 @@ static const bool *find_readers(const struct spell *spell)
 
 static void write_function(struct spell *spell, uint32_t id)
 {
+    if (!lang_function(spell->shader->unit, id, NULL)->body)
+        return;
     spell_function_doc(spell, id);
     lang_print_function(spell->style, &spell->lang_names, spell->shader->unit, id, spell->out);
     spell_text(spell, "\n");
@@ -268,6 +277,8 @@ void spell_stage(struct spell *spell, enum shader_stage_id stage)
     const struct target_frame *frame = spell->shader->role->frame;
     frame = frame ? frame : spell->frame;
     frame->declare(spell);
+    if (!spell->shader->role->frame)
+        spell_host_functions(spell);
     spell_program_structs(spell);
     spell_text(spell, "\n");
     if (spell->lang_names.form || spell->lang_names.maker) {

@@ -373,7 +373,7 @@ static const char *private_name(const struct spell *spell, str_id asked)
  */
 static void write_last_light(struct spell *spell)
 {
-    if (spell->shader->role->lights == LIGHTS_OF_HOST) {
+    if (spell->shader->lights == LIGHTS_OF_HOST) {
         spell_text(spell, "mxg_light_count() - 1");
         return;
     }

@@ -55,7 +55,7 @@ unsigned ast_list(const struct lang_unit *layer, lang_ref first, lang_ref *out, 
 lang_ref ast_returned(const struct lang_unit *layer, const struct lang_function *fn)
 {
     const struct lang_node *body = ast_node(layer, fn->body);
-    assert(body->kind == LANG_BLOCK);
-    const struct lang_node *first = body->a ? ast_node(layer, body->a) : NULL;
+    assert(!fn->body || body->kind == LANG_BLOCK);
+    const struct lang_node *first = fn->body && body->a ? ast_node(layer, body->a) : NULL;
     return first && first->kind == LANG_RETURN ? first->a : 0;
 }

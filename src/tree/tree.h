@@ -94,7 +94,7 @@ struct lang_function {
     ir_type_id return_type;
     uint16_t num_params, num_slots; /* parameters come first among the slots */
     uint32_t first_slot;            /* in unit->slots */
-    lang_ref body;                  /* a BLOCK; 0: the frame of a program has it */
+    lang_ref body;                  /* a BLOCK; 0: the frame of a program, or the host, has it */
     uint32_t file;                  /* index in unit->files */
     uint32_t place;
     uint32_t num_nodes; /* size of the body: for inlining decisions */

@@ -12,6 +12,7 @@ static bool find_option(const struct builder *b, const char *name, int *out_valu
         const char *name;
         int value;
     } known[] = {{"option_environment", options->environment},
+                 {"option_host_environment", options->host_environment},
                  {"option_albedo", options->albedo},
                  {"option_texture_modes", options->texture_modes},
                  {"option_texture_origin", options->texture_origin},

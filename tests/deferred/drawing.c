@@ -108,6 +108,7 @@ bool drawing_open_passes(struct bench *b, struct drawing *d, const struct passes
     setup.options = b->options;
     setup.scene = &b->scene;
     setup.canvas = d->canvas;
+    setup.host = b->host;
     bool good = passes_open(&setup, &d->passes);
     if (!good)
         printf("%s\n", d->passes.reason);
@@ -117,8 +118,10 @@ bool drawing_open_passes(struct bench *b, struct drawing *d, const struct passes
 static bool open_passes(struct bench *b, struct drawing *d, uint32_t shown)
 {
     struct bind *const binds[] = {&d->binds[0]};
-    const struct passes_setup stores = {.words = d->stored_words,
-                                        .classes = d->stored_classes,
+    const uint32_t all = UINT32_MAX;
+    const struct passes_setup stores = {.words = d->stored_words + b->words,
+                                        .classes = b->decals ? all : d->stored_classes,
+                                        .decals = b->decals,
                                         .binds = binds,
                                         .num_binds = 1,
                                         .shown = shown};

@@ -76,6 +76,7 @@ static const char *hit_value(const char *name)
                                             {"dx_normalWorld", "dx"},
                                             {"dy_positionWorld", "dy"},
                                             {"dy_normalWorld", "dy"},
+                                            {"pixel", "at"},
                                             {"texcoord_0",
                                              "vec2(fract(atan(local.x, local.z) / 6.2831853), "
                                              "acos(-local.y) / 3.1415927)"}};
@@ -180,6 +181,132 @@ static void test_payload(struct bench *b, const char *element, int expected)
     mxg_options_set(b->options, "max-slabs", "0");
 }
 
+/* ---- Words by a function ---- */
+
+/* The words of a material by the function of the role `pack`, of all pixels of rays. */
+static bool pack_rays(struct bench *b, const char *element, struct drawing *d)
+{
+    static char text[1 << 17];
+    *d = (struct drawing){.pixels = malloc(PIXELS * 4 * sizeof(float)), .count = 1};
+    d->canvas = draw_open_canvas(&b->gpu, SIZE, SIZE);
+    return drawing_generate(b, element, "pack", "dither", &d->results[0])
+           && write_hits(b, d->results[0], text, sizeof text)
+           && drawing_open_passes(b, d, &(struct passes_setup){.shown = UINT32_MAX, .hits = text})
+           && REQUIRE(render_frame(d->renders, 0, d->canvas, d->pixels));
+}
+
+/* Steps between two normals of 12 bits. */
+static int normal_steps(uint32_t a, uint32_t b)
+{
+    int x = (int)(a & 0xfff) - (int)(b & 0xfff),
+        y = (int)(a >> 12 & 0xfff) - (int)(b >> 12 & 0xfff);
+    return abs(x) > abs(y) ? abs(x) : abs(y);
+}
+
+/*
+ * The function stores what the material pass stores: the first two words to the bit, normals within
+ * steps, because a mesh has others than a ball, and of all words a part to the bit. The function
+ * returns color, alpha, and the words.
+ */
+static void test_pack(struct bench *b, const char *element, uint32_t num, double least)
+{
+    struct drawing drawn = {0}, packed = {0};
+    const uint32_t head = 4, stride = (head + num + 3) / 4 * 4;
+    size_t pixels = 0, equal = 0, same = 0;
+    if (drawing_open(b, element, "dither", UINT32_MAX, &drawn) && pack_rays(b, element, &packed)) {
+        REQUIRE_EQ(drawn.stored_words, num);
+        for (size_t i = 0; i < PIXELS; i += 7) {
+            uint32_t words[MAX_WORDS] = {0};
+            const uint32_t *made = packed.passes.payloads + i * stride + head;
+            if (!faces(i)
+                || !REQUIRE(stored_read(drawn.passes.stored, (uint32_t)(i % SIZE),
+                                        (uint32_t)(i / SIZE), words, num)))
+                continue;
+            ++pixels;
+            same += words[0] == made[0] && words[1] == made[1] && words[2] >> 24 == made[2] >> 24
+                    && normal_steps(words[2], made[2]) < 12;
+            for (uint32_t k = 0; k < num; ++k)
+                equal += words[k] == made[k];
+        }
+        double part = (double)equal / (double)(pixels * num);
+        printf("%s packed: %zu of %zu pixels, %.2f of all words equal\n", element, same, pixels,
+               part);
+        REQUIRE(pixels > 300 && same == pixels && part > least);
+    }
+    drawing_close(&packed);
+    drawing_close(&drawn);
+}
+
+/* ---- Decals ---- */
+
+#define SLAB(name, color, roughness) \
+    "<slab name='" name "' type='BSDF'><input name='diffuse_albedo' type='color3' value='" color \
+    "'/><input name='roughness' type='float' value='" roughness "'/></slab>"
+#define SURFACE(name, bsdf) \
+    "<slab_surface name='" name \
+    "' type='surfaceshader'><input name='bsdf' type='BSDF' nodename='" bsdf "'/></slab_surface>"
+#define MIX(name, fg, bg) \
+    "<slab_mix name='" name "' type='BSDF'><input name='fg' type='BSDF' nodename='" fg \
+    "'/><input name='bg' type='BSDF' nodename='" bg \
+    "'/><input name='mix' type='float' value='0.25'/></slab_mix>"
+
+/* A decal that covers a quarter, and the surfaces that it makes of others. */
+static const char decals[] = "<materialx version='1.39'>" SLAB("paint", "0.1, 0.6, 0.2", "0.6")
+    SLAB("mud", "0.3, 0.2, 0.1",
+         "0.9") "<slab name='plastic' type='BSDF'><input name='diffuse_albedo' type='color3' "
+                "value='0.7, 0.2, 0.1'/>"
+                "<input name='roughness' type='float' value='0.2'/>"
+                "<input name='fuzz_amount' type='float' value='0.5'/></slab>"
+                "<slab_coverage name='part' type='BSDF'><input name='in' type='BSDF' "
+                "nodename='paint'/>"
+                "<input name='weight' type='float' value='0.25'/></slab_coverage>" MIX(
+                    "halves", "mud", "plastic") MIX("on_one", "paint", "plastic")
+                    MIX("on_two", "paint", "halves") SURFACE("Decal", "part")
+                        SURFACE("Whole", "paint") SURFACE("One", "plastic") SURFACE("Two", "halves")
+                            SURFACE("OnOne", "on_one") SURFACE("OnTwo", "on_two") "</materialx>";
+
+/*
+ * What a decal makes of a base, with so many words more in the images: the picture of the surface
+ * that has both, within dB.
+ */
+static void test_decal(struct bench *b, const char *decal, const char *base, const char *both,
+                       const char *storage, uint32_t words, int least)
+{
+    static char text[1 << 17];
+    struct drawing expected = {0}, stored = {0};
+    mxg_result *result = NULL;
+    bool good = drawing_generate(b, decal, "payload", "dither", &result)
+                && write_hits(b, result, text, sizeof text)
+                && drawing_open(b, both, storage, UINT32_MAX, &expected);
+    b->decals = text;
+    b->words = words;
+    if (good && drawing_open(b, base, storage, UINT32_MAX, &stored)) {
+        for (size_t i = 0; i < PIXELS * 4; ++i)
+            if (!faces(i / 4))
+                expected.pixels[i] = stored.pixels[i] = 0;
+        double db = picture_psnr(expected.pixels, stored.pixels);
+        printf("%s over %s, %s, %u words: %.1f dB\n", decal, base, storage, (unsigned)words, db);
+        REQUIRE(stored.pixels[4 * CENTER] > 0.02f && db > least);
+    }
+    b->decals = NULL;
+    b->words = 0;
+    drawing_close(&stored);
+    drawing_close(&expected);
+    mxg_result_destroy(result);
+}
+
+static void test_decals(struct bench *b)
+{
+    enum { ROOM = 12, WHOLE_ROOM = 3 * 47 };
+    if (!bench_parse(b, "decals.mtlx", decals))
+        return;
+    test_decal(b, "Decal", "One", "OnOne", "float", WHOLE_ROOM, 45);
+    test_decal(b, "Decal", "One", "OnOne", "round", ROOM, 40);
+    test_decal(b, "Decal", "Two", "OnTwo", "dither", ROOM, 40);
+    test_decal(b, "Whole", "Two", "Whole", "round", ROOM, 45);
+    test_decal(b, "Decal", "Two", "OnTwo", "round", 0, 25); /* blended with the top */
+}
+
 int main(int argc, char **argv)
 {
     struct bench b = {0};
@@ -196,6 +323,11 @@ int main(int argc, char **argv)
         document = rows[i].document;
         test_payload(&b, rows[i].element, rows[i].expected);
     }
+    if (bench_load(&b, argv[1], "examples/deferred.mtlx")) {
+        test_pack(&b, "Plain", 3, 0.6);
+        test_pack(&b, "Lacquered", 10, 0.6);
+    }
+    test_decals(&b);
     bench_close(&b);
     return test_report("deferred-payload");
 }

@@ -132,6 +132,13 @@ check 'a function has no vertex stage' eval '! [ -e out.d/Glass.vert ]'
 check 'the reflection names the function' eval 'tr -d " \n" <out.d/Glass.json | grep -q "\"function\":\"pane\",\"functionType\":\"pane_Surface\""'
 check 'a function may be without lights' make Glass --role function --lights none
 check 'a function without lights asks for none' eval '! says mxg_light Glass.frag'
+check 'a function may ask for more' make Glass --role function --prefix pane_ --host-occlusion --host-environment
+check 'the function asks for the environment' says '^vec3 mxg_radiance\(vec3 P, vec3 L, float roughness\);' Glass.frag
+check 'the function asks for occlusion, once in a file' eval 'grep -B2 "^float mxg_ambient_occlusion(vec3 P, vec3 N);" out.d/Glass.frag | grep -q "^#ifndef MXG_"'
+check 'functions of the host have no prefix' eval '! grep -q "pane_mxg" out.d/Glass.frag'
+check 'a program may ask its host' make Glass --host-lights
+check 'the program has no lights of its own' eval 'says "mxg_light_count\(\) - 1" Glass.frag && ! says u_lightData Glass.frag'
+check 'MSL has no functions of the host' eval 'exits 1 "$mxgen" glass.mtlx --target msl --stdout --host-shadows && grep -q "options-clash" err'
 check 'a prefix goes without a function' make Glass --prefix pane_ --rename out1=host_color
 check 'the prefix is in all names' eval 'says "pane_VertexData" Glass.frag && says "pane_VertexData" Glass.vert && says "vec4 host_color" Glass.frag'
 for options in '--role function --max-lights 8' '--role function --shadow-map' \

@@ -11,6 +11,8 @@ check "the passes are generated" "$mxgen" pipeline passes
 for name in classify compose light_simple light_single light_complex light_special show light_rays; do
     check "the pass $name has a shader and a reflection" test -s "passes/$name.comp" -a -s "passes/$name.json"
 done
+check "the functions for passes of a host are there" eval 'test -s passes/read.glsl -a ! -e passes/read.comp && grep -q "\"pass\": \"read\"" passes/read.json && ! grep -q groupSize passes/read.json'
+check "the pass for decals is there" test -s passes/over.comp -a -s passes/over.json
 check "a pass that the options do not ask for is not there" test ! -e passes/diffuse.comp -a ! -e passes/diffuse.json -a ! -e passes/blur.comp
 check "passes are generated for OpenGL" "$mxgen" pipeline gl --target glsl
 check "passes are generated for one light" "$mxgen" pipeline few --max-lights 1 --environment none
@@ -19,6 +21,17 @@ check "a pass that lights nothing does not depend on lights" same passes few
 check "a pass that lights depends on lights" bash -c '! cmp -s passes/light_simple.comp few/light_simple.comp'
 check "passes are generated with names and inputs of a host" "$mxgen" pipeline named --uniform '**' --rename positionWorld=pw --prefix x_
 check "names and inputs of a host do not change passes" diff -r passes named
+check "passes are generated with functions of a host" "$mxgen" pipeline hosted --host-lights --host-occlusion --host-environment
+asked() { python3 -c 'import json, sys
+assert set(json.load(open(sys.argv[1]))["hostFunctions"]) == set(sys.argv[2:]), sys.argv' "$@"; }
+for name in simple single complex special rays; do
+    check "the reflection names the functions of the host: light_$name" asked "hosted/light_$name.json" mxg_light_count mxg_light mxg_ambient_occlusion mxg_irradiance mxg_radiance
+done
+check "passes without light ask the host for nothing" eval 'cmp -s passes/classify.comp hosted/classify.comp && ! grep -q hostFunctions hosted/compose.json passes/*.json'
+check "passes are generated with shadows of a host" "$mxgen" pipeline shaded --host-shadows --environment none
+check "the shadows are the only function" asked shaded/light_single.json mxg_shadow
+check "material passes do not depend on functions of the host" eval '"$mxgen" "$examples/deferred.mtlx" -e Plain --target vulkan --role deferred -o own &&
+    "$mxgen" "$examples/deferred.mtlx" -e Plain --target vulkan --role deferred --host-lights --host-environment -o other && cmp own/Plain.frag other/Plain.frag'
 check "a run without a folder is wrong usage" exits 2 "$mxgen" pipeline
 
 # Compiles all passes of a folder with glslang's own program, where there is one.
@@ -36,6 +49,26 @@ if command -v glslangValidator >/dev/null; then
     for folder in passes few shadow spread blurred soft; do
         check "the passes compile: $folder" compiles "$folder" "-V -o code.spv"
     done
+    cat >host.glsl <<'X'
+int mxg_light_count() { return mxg_pixel.x; }
+void mxg_light(int i, vec3 P, out vec3 L, out vec3 radiance) { L = normalize(P); radiance = P; }
+float mxg_ambient_occlusion(vec3 P, vec3 N) { return dot(P, N); }
+vec3 mxg_irradiance(vec3 P, vec3 N) { return P + N; }
+vec3 mxg_radiance(vec3 P, vec3 L, float roughness) { return P + roughness * L; }
+X
+    for file in hosted/light_*.comp; do cat host.glsl >>"$file"; done
+    mkdir -p reading
+    { echo "#version 450"; cat passes/read.glsl; cat; } >reading/read.comp <<'X'
+layout(local_size_x = 1) in;
+void main()
+{
+    MxClosure top;
+    if (mx_read_top(ivec2(gl_GlobalInvocationID.xy), top) && top.roughness + top.f0.x + top.normal.x < 0.0)
+        memoryBarrier();
+}
+X
+    check "a pass of a host reads the top" compiles reading "-V -o code.spv"
+    check "the passes with functions of a host compile" compiles hosted "-V -o code.spv"
     check "the passes for OpenGL compile" compiles gl ""
 else
     skip "no glslangValidator"
@@ -194,6 +227,19 @@ fi
 check "a material of many slabs gives a payload of one" eval '"$mxgen" "$examples/slabs.mtlx" -e WrappedSilk --role payload --target vulkan --stdout -q >wrapped &&
     [ "$(grep -c "stored = mx_store_closure" wrapped)" = 1 ]'
 
+# ---- words by a function ----
+
+packed() { "$mxgen" "$examples/deferred.mtlx" -e Lacquered --target "$1" --role pack --interface reduced --reflect -o packed >out 2>&1; }
+check "a function of words is generated" packed vulkan
+check "it returns the words of the material pass" eval '[ "$(number packed/Lacquered.json words)" = "$(number materials/Lacquered.json words)" ] &&
+    [ "$(grep -c "uint word_" packed/Lacquered.frag)" = 10 ] && [ "$(number packed/Lacquered.json layout)" = "$(number passes/show.json layout)" ]'
+if command -v glslangValidator >/dev/null; then
+    check "a function of words is generated for OpenGL" packed glsl
+    wrap comp packed/Lacquered.frag packed/Lacquered.json >packed.comp
+    check "a function of words compiles in a compute stage" glslangValidator packed.comp
+fi
+check "a function of words is generated for HLSL" packed hlsl
+
 # ---- what is an error ----
 
 cat >other.mtlx <<'X'
@@ -211,6 +257,7 @@ check "a payload for OpenGL ES is an error" reports options-clash "$mxgen" model
 check "a payload with lights is an error" reports option-without-effect "$mxgen" models.mtlx -e Paint --role payload --max-lights 8 --target vulkan
 echo '<materialx version="1.39"><constant name="c" type="color3"/></materialx>' >value.mtlx
 check "a payload of a value is an error" reports not-renderable "$mxgen" value.mtlx -e c --role payload --target vulkan -o other
+check "words of a transparent surface are an error" reports not-renderable "$mxgen" "$examples/slabs.mtlx" -e MilkySheet --role pack --target vulkan -o other
 check "a closure that is no slab is an error" reports closure-not-stored "$mxgen" other.mtlx -e SR --target vulkan --role deferred -o other
 {
     echo '<materialx version="1.39"><slab name="s0" type="BSDF"/>'

@@ -89,6 +89,12 @@ class Shaders(unittest.TestCase):
                 document.generate("glsl", options=options)
             self.assertIn(next(iter(options)), str(caught.exception))
 
+    def test_host_functions(self):
+        document = self.context.load(common.EXAMPLES / "gold.mtlx")
+        shader = document.generate("vulkan", options={"host-lights": True, "host-environment": True})
+        self.assertEqual(shader.host_functions, ("mxg_light_count", "mxg_light", "mxg_irradiance", "mxg_radiance"))
+        self.assertEqual(document.generate("vulkan").host_functions, ())
+
     def test_parts(self):
         shader = self.context.load(common.EXAMPLES / "car_paint.mtlx").generate("osl", options={"osl-network": True})
         self.assertGreater(len(shader.parts), 2)

@@ -177,8 +177,9 @@ def check_combinations():
     """The table of options that mean nothing together has the rows of roles.def and combinations.def."""
     values = text_of(ROOT / "src/api/combinations.def")
     pairs = [("role", *row) for row in re.findall(r'^ROLE_VALUE\((\w+), (\w+), "([^"]*)", "([^"]*)"\)', values, re.MULTILINE)]
-    pairs += re.findall(r'^COMBINATION\((\w+), "([^"]*)", (\w+), "([^"]*)", "([^"]*)"\)', values, re.MULTILINE)
-    wanted = [*rows_of_roles(), *(f"| `{a}={value}` | `{b}={other}` | {why} |" for a, value, b, other, why in pairs)]
+    pairs += re.findall(r'^COMBINATION\((\w+), "([^"]*)", (\w+), (?:"([^"]*)"|NULL),\s+"([^"]*)"\)', values, re.MULTILINE)
+    key = lambda option: option.replace("_", "-")
+    wanted = [*rows_of_roles(), *(f"| `{key(a)}={value}` | `{key(b)}{other and f'={other}'}` | {why} |" for a, value, b, other, why in pairs)]
     section = text_of(ROOT / "docs/deferred.md").partition("## Roles and options")[2].partition("\n## ")[0]
     check(len(wanted) > 20 and re.findall(r"^\| `.*$", section, re.MULTILINE) == wanted,
           "docs/deferred.md: the table of combinations differs from roles.def and combinations.def")

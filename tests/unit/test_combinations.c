@@ -52,7 +52,9 @@ static void find_rows(void)
 static const struct setting {
     const char *id, *key, *values[8];
 } settings[] = {
-    {"role", "role", {"raster", "function", "path", "scatter", "deferred", "depth", "payload"}},
+    {"role",
+     "role",
+     {"raster", "function", "path", "scatter", "deferred", "depth", "payload", "pack"}},
     {"storage", "storage", {"dither", "round", "float"}},
     {"sss", "sss", {"wrap", "diffusion"}},
     {"rough_refraction", "rough-refraction", {"sharp", "blur"}},
@@ -63,6 +65,10 @@ static const struct setting {
     {"encode", "encode", {"linear", "srgb"}},
     {"occlusion_map", "occlusion-map", {"false", "true"}},
     {"shadow_map", "shadow-map", {"false", "true"}},
+    {"host_lights", "host-lights", {"false", "true"}},
+    {"host_shadows", "host-shadows", {"false", "true"}},
+    {"host_occlusion", "host-occlusion", {"false", "true"}},
+    {"host_environment", "host-environment", {"false", "true"}},
     {"sample_filter", "sample-filter", {"wide", "narrow"}},
     {"lights", "lights", {"", "point_light=2"}},
     {"max_lights", "max-lights", {"3", "8"}},
@@ -214,10 +220,11 @@ static void test_depth(const struct run *run)
     static const struct {
         const char *key, *value;
     } without[] = {
-        {"lights", "point_light=2"},  {"max-lights", "8"},        {"shadow-map", "true"},
-        {"sample-filter", "narrow"},  {"encode", "srgb"},         {"storage", "float"},
-        {"sss", "diffusion"},         {"layering", "two-sided"},  {"layering", "occluding"},
-        {"rough-refraction", "blur"}, {"transmission", "opacity"}};
+        {"lights", "point_light=2"},  {"max-lights", "8"},         {"shadow-map", "true"},
+        {"sample-filter", "narrow"},  {"encode", "srgb"},          {"storage", "float"},
+        {"sss", "diffusion"},         {"layering", "two-sided"},   {"layering", "occluding"},
+        {"rough-refraction", "blur"}, {"transmission", "opacity"}, {"host-lights", "true"},
+        {"host-shadows", "true"},     {"host-occlusion", "true"},  {"host-environment", "true"}};
     mxg_result *plain = generate_depth(run, NULL, NULL);
     const char *text = mxg_result_source(plain, MXG_STAGE_PIXEL, NULL);
     REQUIRE(text && strstr(text, "discard"));

@@ -212,6 +212,19 @@ static void test_everything(void)
     teardown(&f);
 }
 
+/* A prototype suffices for a function of the host, which has no value before a host has it. */
+static void test_host_functions(void)
+{
+    struct fixture f;
+    setup(&f);
+    uint32_t file =
+        parse_text(&f, "float mxg_f(float x);\nfloat g(float x) { return mxg_f(2.0) + x; }\n");
+    REQUIRE(file != UINT32_MAX && !f.diags.num_errors);
+    for (uint32_t i = 0; i < f.unit.functions.len; i++)
+        REQUIRE(!(f.unit.functions.items[i].flags & LANG_FN_PURE));
+    teardown(&f);
+}
+
 static void test_globals(void)
 {
     struct fixture f;
@@ -807,6 +820,7 @@ int main(int argc, char **argv)
 {
     uint32_t rounds = argc > 1 ? (uint32_t)strtoul(argv[1], NULL, 10) : 2000;
     test_everything();
+    test_host_functions();
     test_globals();
     test_includes();
     test_include_errors();

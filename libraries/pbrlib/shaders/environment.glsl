@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Latitude-longitude environment maps.
+// Latitude-longitude environment maps, or functions of the host.
 
 #include "frame.glsl"
 
@@ -8,6 +8,12 @@ const int option_environment = 2; // 0 none, 1 prefiltered, 2 importance samplin
 // Over how much of the map a sample is a mean: a power of two of its texels, 2^-7.3 of them being the solid angle that the sample stands for.
 // Filters overlap, so that few samples leave no pattern: wide ones (0) have five times the angle, nearly as MaterialX's, narrow ones (1) twice.
 const int option_sample_filter = 0;
+
+const int option_host_environment = 0; // with option_environment 1: functions of the host (docs/hosts.md) have the light
+vec3 mxg_irradiance(vec3 P, vec3 N);
+vec3 mxg_radiance(vec3 P, vec3 L, float roughness);
+
+in vec3 positionWorld;
 
 uniform mat4 u_envMatrix;
 uniform sampler2D u_envRadiance;
@@ -63,6 +69,8 @@ vec3 mx_environment_irradiance(vec3 N)
 {
     if (option_environment == 0)
         return vec3(0.0);
+    if (option_host_environment == 1)
+        return mxg_irradiance(positionWorld, normalize(N));
     return textureLod(u_envIrradiance, mx_latlong(N), 0.0).rgb * u_envLightIntensity;
 }
 

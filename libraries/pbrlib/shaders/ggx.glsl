@@ -292,6 +292,9 @@ vec3 mx_ggx_prefiltered(vec2 roughness, bool by_direction, vec3 N, vec3 X, vec3 
     float a = sqrt(alpha.x * alpha.y);
     if (film > 0.0) // keep the change of colour with the angle where the lobe is sharp
         f = mix(mx_fresnel(mx_view_cosine(N, V), model, n, k, f90, exponent, film, film_ior), f, sqrt(a));
+    if (option_host_environment == 1)
+        return refract_ior > 0.0 ? (1.0 - f) * mxg_radiance(positionWorld, mx_refract_sphere(V, h, refract_ior), sqrt(a))
+                                 : f * mxg_radiance(positionWorld, reflect(-V, h), sqrt(a));
     float lod = (a < 0.25 ? sqrt(a) : 0.5 * a + 0.375) * float(u_envRadianceMips - 1);
     if (refract_ior > 0.0)
         return (1.0 - f) * mx_environment_radiance(mx_refract_sphere(V, h, refract_ior), lod);

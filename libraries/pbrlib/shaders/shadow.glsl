@@ -2,6 +2,10 @@
 // Shadows of a map with the mean depth and the mean of its square (Donnelly and Lauritzen 2006, "Variance Shadow Maps"). The compiler calls
 // these functions (src/closure/occlusion_maps.c).
 
+// Functions of the host (docs/hosts.md).
+float mxg_shadow(int light, vec3 P, vec3 N, vec3 L);
+float mxg_ambient_occlusion(vec3 P, vec3 N);
+
 // Place in the map and depth of a point, 0 to 1.
 vec3 mx_shadow_place(mat4 to_map, vec3 point)
 {

@@ -15,6 +15,7 @@ vec3 mx_split(MxClosure closure, vec3 point, vec3 top)
 void main()
 {
     ivec2 pixel = mx_pixel_of(MX_CLASS);
+@    mxg_pixel = pixel;
     if (mx_is_outside(pixel))
         return;
     MxReader reader = mx_open(pixel);

@@ -16,6 +16,7 @@ vec4 mx_light_payload(MxPayload payload, MxRay ray)
 void main()
 {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+@    mxg_pixel = pixel;
     if (mx_is_outside(pixel))
         return;
     uint at = uint(pixel.y) * mx_size.x + uint(pixel.x);

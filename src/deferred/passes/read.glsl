@@ -93,3 +93,13 @@ MxClosure mx_next(inout MxReader reader)
     return mx_unpack(r, normal, is_top ? mx_top_roughness(reader.top) : mx_uncut(r.body, 20u, 8u));
 #endif
 }
+@
+@// The closure on top of a pixel, for reflections and denoisers. False: nothing is stored.
+@bool mx_read_top(ivec2 pixel, out MxClosure top)
+@{
+@    MxReader reader = mx_open(pixel);
+@    bool is_there = reader.num_closures > 0u;
+@    if (is_there)
+@        top = mx_next(reader);
+@    return is_there;
+@}

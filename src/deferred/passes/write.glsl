@@ -2,16 +2,21 @@
 // others layers of an image. MX_WORDS: the most words of a pixel. Without an image there is one closure at most,
 // without features.
 
-layout(early_fragment_tests) in; // where there is an image, the depth pass ran before: one fragment of a pixel writes
-layout(location = 1) out uint mx_word0;
-layout(location = 2) out uint mx_word1;
-layout(location = 3) out uint mx_word2;
-
-vec2 mx_glint_extent(vec2 uv)
-{
-    return max(abs(dFdx(uv)), abs(dFdy(uv)));
-}
-
+%layout(early_fragment_tests) in; // where there is an image, the depth pass ran before: one fragment of a pixel writes
+%layout(location = 1) out uint mx_word0;
+%layout(location = 2) out uint mx_word1;
+%layout(location = 3) out uint mx_word2;
+%
+%vec2 mx_glint_extent(vec2 uv)
+%{
+%    return max(abs(dFdx(uv)), abs(dFdy(uv)));
+%}
+%
+@uint mx_word0;
+@uint mx_word1;
+@uint mx_word2;
+@vec2 mx_place; // the middle of the pixel, for noise
+@
 #if MX_WORDS > 3
 MxRecord mx_pending;            // the last closure, which is written when the next one or the end comes
 vec3 mx_normals[3];             // of the top, and the last two with words of their own
@@ -23,7 +28,8 @@ MxClosure mx_whole;
 
 void mx_put(uint word)
 {
-    imageStore(mx_words, ivec3(ivec2(gl_FragCoord.xy), int(mx_num_words++)), uvec4(word));
+%    imageStore(mx_words, ivec3(ivec2(gl_FragCoord.xy), int(mx_num_words++)), uvec4(word));
+@    mx_put_at(mx_num_words++, word);
 }
 
 void mx_put(float value)
@@ -103,7 +109,8 @@ uint mx_number_normal(vec3 normal, inout uint word)
 void mx_keep(MxClosure c)
 {
     if (mx_num_closures == 0u) {
-        mx_start_noise(gl_FragCoord.xy);
+%        mx_start_noise(gl_FragCoord.xy);
+@        mx_start_noise(mx_place);
         mx_normals = vec3[3](c.normal, vec3(0.0), vec3(0.0));
         mx_word2 = mx_top(c.normal, c.roughness);
     } else {
@@ -140,7 +147,8 @@ int mx_finish_closures(int stored)
 // The one closure needs no more words than the targets have.
 void mx_keep(MxClosure c)
 {
-    mx_start_noise(gl_FragCoord.xy);
+%    mx_start_noise(gl_FragCoord.xy);
+@    mx_start_noise(mx_place);
     mx_word0 = mx_core(c) | MX_SIMPLE << 28u;
     mx_word1 = mx_body(c);
     mx_word2 = mx_top(c.normal, c.roughness);

@@ -1,0 +1,128 @@
+#version 450
+// Varnish · surfacematerial · mxgen 0.1 · glsl · reduced · 2 closures · 0 textures
+
+struct mx_GgxLobe {
+    vec3 N;
+    float cosine;
+    vec3 x;
+    vec2 alpha;
+    float masking;
+};
+uniform vec3 u_viewPosition = vec3(0.0);
+in VertexData {
+    vec3 positionWorld;
+    vec3 normalWorld;
+} vd;
+out vec4 out1;
+#ifndef MXG_LIGHTS
+#define MXG_LIGHTS
+int mxg_light_count();
+void mxg_light(int i, vec3 P, out vec3 L, out vec3 radiance);
+#endif
+float mxg_ambient_occlusion(vec3 P, vec3 N);
+vec3 mxg_radiance(vec3 P, vec3 L, float roughness);
+vec3 mxg_irradiance(vec3 P, vec3 N);
+
+// A cubic polynomial of x and y with the coefficients m, to which directional albedos are fitted.
+// Here y = 0.04.
+float mx_bicubic(const mat4 m, const float x)
+{
+    return dot(vec4(1.0, x, x * x, x * x * x), m * vec4(1.0, 0.04, 0.0016, 0.000064));
+}
+
+// The light that a white GGX lobe of roughness a reflects at the viewer's cosine c (x), and the mean of (1 - cos)^5
+// over it (y); u is a / (a + c).
+// Here a = 0.04.
+vec2 mx_ggx_albedo_fit(const float u, const float c)
+{
+    float x = clamp(1.0 - c - 0.04 * mx_bicubic(mat4(-0.2174, 5.3819, -3.911, 0.2674, -9.7298, 3.9904, 3.8225, -0.0277,
+        36.4897, -72.9122, 58.0878, -20.917, -31.4763, 79.0768, -73.9706, 26.5429), u), 0.0, 1.0);
+    return vec2(min(1.005 - u * mx_bicubic(mat4(-0.1449, 2.7808, -5.4855, 2.8822, -1.0694, 1.8502, 0.2967, -1.0447,
+        12.503, -32.5955, 30.0409, -9.9567, -5.0066, 10.9491, -6.6309, 0.6544), u), 1.0), x * x * x * x * x);
+}
+
+// Unpolarised reflectance of an interface whose squared index is `re`, with c for the cosine in front of it:
+//     F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2
+//     s = 1 - c^2,  g^2 = c^2 + 2k,  2k = re - 1
+// Here re = 2.1025.
+float mx_fresnel_permittivity(const float cosine)
+{
+    float c2 = cosine * cosine;
+    float s = 1.0 - c2;
+    float cg2 = c2 * (c2 + 1.1025002);
+    float r = 0.5512501 / (1.55125 * (c2 + sqrt(cg2)) + 0.5512501);
+    return (cg2 + s * s) * (r * r);
+}
+
+// The square of the length of the facet's normal H after the roughness divided its parts along the surface, times the
+// product of the roughness along x and y; cos_h is its part along N.
+// Here is_round = true, is_wide = true.
+float mx_ggx_stretched(const mx_GgxLobe lobe, const float cos_h, const float square)
+{
+    return square - (1.0 - lobe.alpha.x * lobe.alpha.y) * (cos_h * cos_h);
+}
+
+// The GGX lobe towards the light L, without Fresnel's factor: distribution, visibility and the cosine over one divisor.
+// Here is_round = true, is_wide = true.
+float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
+{
+    float area = lobe.alpha.x * lobe.alpha.y;
+    float cos_l = max(dot(lobe.N, L), 1e-8);
+    float square = 2.0 + 2.0 * dot(V, L);
+    float e = mx_ggx_stretched(lobe, lobe.cosine + dot(lobe.N, L), square);
+    return area / 6.2831855 * square * square * cos_l
+        / (e * e * (lobe.cosine * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * lobe.masking));
+}
+
+// The light that a white GGX lobe reflects at the viewer's cosine c (x), and the mean of (1 - cos)^5 over it (y).
+// Here roughness = vec2(0.04).
+vec2 mx_ggx_albedo(const float c)
+{
+    return mx_ggx_albedo_fit(0.04 / (0.04 + c), c);
+}
+
+// Light that the lobe reflects, from a map whose levels of detail are filtered for rising roughness; with refract_ior >
+// 0 light through a solid sphere of that index.
+// Here roughness = vec2(0.04), by_direction = false, refract_ior = 0.0, model = "dielectric", n = vec3(1.45),
+// k = vec3(0.0), f90 = vec3(1.0), exponent = 0.0, film = 0.0, film_ior = 1.5.
+vec3 mx_ggx_prefiltered(const vec3 N, const vec3 V)
+{
+    vec2 albedo = mx_ggx_albedo(max(abs(dot(N, V)), 1e-8));
+    return mix(vec3(0.03373595), vec3(1.0), albedo.y) * albedo.x
+        * mxg_radiance(vd.positionWorld, reflect(-V, faceforward(N, -V, N)), 0.2);
+}
+
+void main()
+{
+    vec3 color = vec3(0.0);
+    // lights
+    vec3 N = normalize(vd.normalWorld);
+    vec3 V = normalize(u_viewPosition - vd.positionWorld);
+    float cos_v = max(abs(dot(N, V)), 1e-8);
+    vec2 albedo = mx_ggx_albedo_fit(0.04 / (cos_v + 0.04), cos_v);
+    float scale = (1.0 / albedo.x - 1.0) * 0.079748526 + 1.0;
+    vec3 h = faceforward(N, -V, N);
+    float ggx_masking = sqrt(cos_v * cos_v * 0.9984 + 0.0016);
+    mx_GgxLobe coat_vector = mx_GgxLobe(h, cos_v, vec3(0.0), vec2(0.04), ggx_masking);
+    float paint_weight = (1.0 - mix(0.03373595, 1.0, albedo.y) * albedo.x * scale) * 0.75;
+    vec3 paint_product = paint_weight * 0.31830987 * vec3(0.6, 0.1, 0.05);
+    // from the last light, so that drivers do not unroll the loop
+    for (int i = mxg_light_count() - 1; i >= 0; --i) {
+        // coat, paint
+        vec3 light_L, light_radiance;
+        mxg_light(i, vd.positionWorld, light_L, light_radiance);
+        float v_dot_l = dot(V, light_L);
+        float coat_product = scale * mx_fresnel_permittivity(sqrt(clamp(v_dot_l * 0.5 + 0.500001, 0.0, 1.0)));
+        float cos_l = max(dot(light_L, h), 1e-8);
+        vec3 paint_response = paint_product
+            * (cos_l * (max(v_dot_l - cos_v * cos_l, 0.0) * 0.225 / max(cos_l, cos_v) + 0.89285713));
+        color += light_radiance * (coat_product * mx_ggx_light(coat_vector, V, light_L) + paint_response);
+    }
+    // environment: coat, paint
+    vec3 scaled_environment_irradiance = mxg_irradiance(vd.positionWorld, normalize(h)) * vec3(0.6, 0.1, 0.05);
+    vec2 fit = (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + vec2(0.43155, 0.60945)) * 0.3 + vec2(1.0);
+    vec3 paint_response = scaled_environment_irradiance * (paint_weight * clamp(fit.x / fit.y, 0.0, 1.0));
+    vec3 sum = scale * mx_ggx_prefiltered(N, V) + paint_response;
+    color += mxg_ambient_occlusion(vd.positionWorld, N) * sum;
+    out1 = vec4(color, 1.0);
+}
