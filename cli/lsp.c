@@ -11,6 +11,7 @@
 
 #include <errno.h>
 #include <poll.h>
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -88,25 +89,83 @@ static const char *take_message(struct input *input, size_t *out_size)
     return header + head;
 }
 
-static bool is_waiting(void)
+/* ---- Checks in a thread ---- */
+
+/* The check that runs, and a pipe, to which its thread writes at the end. */
+struct checker {
+    struct lsp_check *check; /* NULL: none runs */
+    pthread_t thread;
+    int ends[2]; /* of the pipe */
+};
+
+static void *run_check(void *user_data)
 {
-    struct pollfd poll_in = {.fd = STDIN_FILENO, .events = POLLIN};
-    return poll(&poll_in, 1, 0) != 0;
+    struct checker *checker = user_data;
+    lsp_check_run(checker->check);
+    ssize_t written;
+    do
+        written = write(checker->ends[1], "", 1);
+    while (written < 0 && errno == EINTR);
+    return NULL;
 }
 
-/* Answers messages until the client ends the session; works while none waits. */
-static int serve(struct lsp_session *session)
+/* Without another thread the check runs here. */
+static void begin_check(struct checker *checker, struct lsp_session *session)
+{
+    struct lsp_check *check = checker->check ? NULL : lsp_session_begin_check(session);
+    if (!check)
+        return;
+    checker->check = check;
+    if (pthread_create(&checker->thread, NULL, run_check, checker) == 0)
+        return;
+    checker->check = NULL;
+    lsp_check_run(check);
+    lsp_session_end_check(session, check);
+}
+
+static void end_check(struct checker *checker, struct lsp_session *session)
+{
+    char byte;
+    while (read(checker->ends[0], &byte, 1) < 0 && errno == EINTR)
+        continue;
+    pthread_join(checker->thread, NULL);
+    lsp_session_end_check(session, checker->check);
+    checker->check = NULL;
+}
+
+/* Waits for a message or for the end of the check. Returns whether there is a message. */
+static bool wait_for_message(struct checker *checker, struct lsp_session *session)
+{
+    struct pollfd waits[] = {{.fd = STDIN_FILENO, .events = POLLIN},
+                             {.fd = checker->ends[0], .events = POLLIN}};
+    bool has_message = poll(waits, 1, 0) > 0;
+    if (!has_message && !checker->check && lsp_session_prepare(session))
+        return false;
+    if (!has_message)
+        poll(waits, 2, -1);
+    if (!has_message && waits[1].revents)
+        end_check(checker, session);
+    return has_message || waits[0].revents;
+}
+
+/* Answers messages until the client ends the session; a check begins when none waits. */
+static int serve(struct lsp_session *session, struct checker *checker)
 {
     struct input input = {0};
     bool is_clean = false;
     while (!lsp_session_is_over(session, &is_clean) && !input.is_over) {
         size_t size;
         const char *message = take_message(&input, &size);
-        if (message)
+        if (message) {
             lsp_session_handle(session, message, size);
-        else if (is_waiting() || !lsp_session_work(session))
+            continue;
+        }
+        begin_check(checker, session);
+        if (wait_for_message(checker, session))
             receive(&input);
     }
+    if (checker->check)
+        end_check(checker, session);
     free(input.bytes);
     return is_clean ? EXIT_DONE : EXIT_FAULT;
 }
@@ -125,7 +184,10 @@ int command_lsp(const struct command *command, int argc, char **argv)
             .library = cli.library, .send = send_framed, .messages_url = MESSAGES_URL};
         char *warnings = cli_describe_context(&cli, &desc.context);
         struct lsp_session *session = lsp_session_create(&desc);
-        code = session ? serve(session) : EXIT_FAULT;
+        struct checker checker = {NULL};
+        code = EXIT_FAULT;
+        if (session && pipe(checker.ends) == 0)
+            code = serve(session, &checker);
         lsp_session_destroy(session);
         free(warnings);
     }

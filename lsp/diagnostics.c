@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lsp/diagnostics.h"
 
+#include "lsp/check.h"
 #include "lsp/cures.h"
-#include "lsp/disk.h"
 #include "lsp/wire.h"
 #include "program/cli.h"
 #include "program/memory.h"
@@ -24,26 +24,11 @@ void diagnostics_expect(struct lsp_session *session, const char *path)
         if (strcmp(document->path, path) != 0 && !reads_file(document->parsed, path))
             continue;
         document->is_dirty = true;
-        document->is_read = false;
+        document->edition = ++session->num_editions;
     }
 }
 
 /* ---- Telling ---- */
-
-/* The text of a file: that of the editor, or that on the disk, in `*out_own`. */
-static const struct text *text_of(struct lsp_session *session, const struct lsp_document *reader,
-                                  const char *path, struct text *out_own)
-{
-    const struct lsp_document *document = lsp_find_path(session, path);
-    *out_own = (struct text){0};
-    if (document)
-        return &document->text;
-    size_t size = 0;
-    char *bytes = disk_read_beside(session, reader, path, 0, &size);
-    text_set(out_own, bytes ? bytes : "", bytes && size <= TEXT_MAX ? size : 0);
-    free(bytes);
-    return out_own;
-}
 
 /* Adds a note as a related place, or to the message if it has none. */
 static void put_note(struct lsp_session *session, const struct lsp_document *reader,
@@ -56,9 +41,8 @@ static void put_note(struct lsp_session *session, const struct lsp_document *rea
         return;
     }
     struct text own;
-    const struct text *text = text_of(session, reader, note->path, &own);
-    const struct lsp_document *open = lsp_find_path(session, note->path);
-    char *uri = open ? cli_copy(open->uri, strlen(open->uri)) : wire_uri(note->path);
+    const struct text *text = lsp_file_text(session, reader, note->path, &own);
+    char *uri = lsp_file_uri(session, note->path);
     json_t *item = json_object();
     json_object_set_new(item, "location",
                         wire_location(session, uri, text,
@@ -123,7 +107,7 @@ static void publish(struct lsp_session *session, const struct lsp_document *read
                     const char *path)
 {
     struct text own;
-    const struct text *text = text_of(session, reader, path, &own);
+    const struct text *text = lsp_file_text(session, reader, path, &own);
     const struct lsp_document *open = lsp_find_path(session, path);
     json_t *params = json_object(), *items = json_array();
     for (const struct lsp_document *document = session->documents; document;
@@ -139,7 +123,7 @@ static void publish(struct lsp_session *session, const struct lsp_document *read
                 json_array_append_new(items, item);
         }
     }
-    char *uri = open ? cli_copy(open->uri, strlen(open->uri)) : wire_uri(path);
+    char *uri = lsp_file_uri(session, path);
     json_object_set_new(params, "uri", json_text(uri));
     if (open)
         json_object_set_new(params, "version", json_integer(open->version));
@@ -187,95 +171,46 @@ void diagnostics_forget(struct lsp_session *session, struct lsp_document *docume
 
 /* ---- Checking ---- */
 
-/* True if the text is XML, so that its elements are those of the document. */
-static bool is_xml(const mxg_document *document)
-{
-    const mxg_diagnostics *list = mxg_document_diagnostics(document);
-    for (uint32_t i = 0; i < mxg_diagnostics_num_items(list); ++i) {
-        mxg_diagnostic item = {sizeof item};
-        mxg_diagnostics_item(list, i, &item);
-        if (item.severity == MXG_SEVERITY_ERROR && strncmp(item.id, "xml-", 4) == 0)
-            return false;
-    }
-    return true;
-}
-
-/* The first step: reads the document. A document that errors leave empty has no second step. */
-static void read_document(struct lsp_session *session, struct lsp_document *document)
-{
-    mxg_document *read = NULL;
-    findings_clear(&document->findings);
-    session->from = disk_origin(document);
-    mxg_status status = mxg_document_parse(session->context, session->desc.library, document->path,
-                                           document->text.bytes, document->text.len, &read);
-    session->from = NULL;
-    document->is_read = true;
-    document->has_second_step = read && (status == MXG_OK || mxg_document_num_renderables(read));
-    if (!read)
-        return;
-    findings_add(&document->findings, mxg_document_diagnostics(read), document->path);
-    bool is_better = !document->parsed || is_xml(read);
-    mxg_document_destroy(document->checked);
-    document->checked = NULL;
-    if (is_better) {
-        mxg_document_destroy(document->parsed);
-        document->parsed = read;
-    } else {
-        document->checked = read;
-    }
-}
-
-/* Nobody knows whether a texture outside of the workspace is missing. */
-static void leave_out_unread(struct lsp_session *session, struct lsp_document *document)
-{
-    struct findings *findings = &document->findings;
-    size_t kept = 0;
-    for (size_t i = 0; i < findings->len; ++i) {
-        const struct finding *finding = &findings->items[i];
-        bool is_texture = strcmp(finding->id, "missing-texture") == 0 && finding->num_arguments;
-        if (!is_texture || disk_may_read(session, document, finding->path, finding->arguments[0]))
-            findings->items[kept++] = *finding;
-    }
-    findings->len = kept;
-}
-
-static void validate_document(struct lsp_session *session, struct lsp_document *document)
-{
-    mxg_result *result = NULL;
-    session->from = disk_origin(document);
-    mxg_validate(session->context, document->checked ? document->checked : document->parsed,
-                 &result);
-    session->from = NULL;
-    if (result)
-        findings_add(&document->findings, mxg_result_diagnostics(result), document->path);
-    leave_out_unread(session, document);
-    mxg_result_destroy(result);
-}
-
-static void step(struct lsp_session *session, struct lsp_document *document)
-{
-    if (!document->is_read) {
-        read_document(session, document);
-    } else {
-        if (document->has_second_step)
-            validate_document(session, document);
-        document->is_dirty = false;
-        publish_changed(session, document);
-    }
-}
-
-bool diagnostics_work(struct lsp_session *session)
+struct lsp_check *lsp_session_begin_check(struct lsp_session *session)
 {
     struct lsp_document *document = session->documents;
     while (document && !document->is_dirty)
         document = document->next;
-    if (document)
-        step(session, document);
-    return document != NULL;
+    return document ? check_create(session, document) : NULL;
+}
+
+/* The findings become those of the document, and so does what was read, if it is good for more. */
+static void take(struct lsp_document *document, struct lsp_check *check)
+{
+    struct findings old = document->findings;
+    document->findings = check->findings;
+    check->findings = old;
+    if (check->read && (check->is_xml || !document->parsed)) {
+        check_destroy(document->check);
+        document->check = check;
+        document->parsed = check->read;
+    } else {
+        check_destroy(check);
+    }
+}
+
+void lsp_session_end_check(struct lsp_session *session, struct lsp_check *check)
+{
+    struct lsp_document *document = lsp_find_path(session, check->path);
+    if (!document || document->edition != check->edition) {
+        check_destroy(check);
+        return;
+    }
+    document->is_dirty = false;
+    take(document, check);
+    publish_changed(session, document);
 }
 
 void diagnostics_settle(struct lsp_session *session, struct lsp_document *document)
 {
-    while (document->is_dirty)
-        step(session, document);
+    struct lsp_check *check = document->is_dirty ? check_create(session, document) : NULL;
+    if (!check)
+        return;
+    lsp_check_run(check);
+    lsp_session_end_check(session, check);
 }

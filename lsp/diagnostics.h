@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/*
- * The checks of open documents, which are those of `mxgen validate`, and their messages at the
- * client. A check has steps, between which the session answers requests.
- */
+/* Which open documents wait for a check, and the messages of checks at the client. */
 #ifndef MXG_LSP_DIAGNOSTICS_H
 #define MXG_LSP_DIAGNOSTICS_H
 
@@ -11,13 +8,15 @@
 /* A file changed: it will be checked, and so will each open document that reads it. */
 void diagnostics_expect(struct lsp_session *session, const char *path);
 
-/* A step of the checks that wait. False: none waits. */
-bool diagnostics_work(struct lsp_session *session);
-
-/* Ends the checks of a document now, for requests that need its findings. */
+/* Checks a document now if its check waits, for requests that need its findings. */
 void diagnostics_settle(struct lsp_session *session, struct lsp_document *document);
 
 /* Takes the messages of a document, which no list has any more, from the client. */
 void diagnostics_forget(struct lsp_session *session, struct lsp_document *document);
+
+/* A finding as a `Diagnostic`; the text is that of its file, and `reader` the document that reads
+ * it. */
+json_t *diagnostics_json(struct lsp_session *session, const struct lsp_document *reader,
+                         const struct text *text, const struct finding *finding);
 
 #endif

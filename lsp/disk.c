@@ -53,39 +53,48 @@ char *disk_join(const char *from, const char *ref)
     return path;
 }
 
-bool disk_open_gate(struct lsp_session *session)
+bool disk_open(struct disk *disk, const mxg_context_desc *desc, char *const *folders,
+               size_t num_folders)
 {
-    mxg_context_desc desc = session->desc.context;
-    size_t num = desc.num_include_roots + session->num_folders;
+    mxg_context_desc gate = *desc;
+    size_t num = desc->num_include_roots + num_folders;
     const char **roots = memory_alloc(num * sizeof *roots);
     for (size_t i = 0; i < num; ++i)
-        roots[i] = i < desc.num_include_roots ? desc.include_roots[i]
-                                              : session->folders[i - desc.num_include_roots];
-    desc.include_roots = roots;
-    desc.num_include_roots = num;
-    desc.sandbox = true;
-    mxg_context_destroy(session->gate);
-    session->gate = NULL;
-    mxg_status status = mxg_context_create(&desc, &session->gate);
+        roots[i] = i < desc->num_include_roots ? desc->include_roots[i]
+                                               : folders[i - desc->num_include_roots];
+    gate.include_roots = roots;
+    gate.num_include_roots = num;
+    gate.sandbox = true;
+    gate.resolver = NULL;
+    mxg_status status = mxg_context_create(&gate, &disk->gate);
     free(roots);
     return status == MXG_OK;
 }
 
+void disk_close(struct disk *disk)
+{
+    mxg_context_destroy(disk->gate);
+    *disk = (struct disk){0};
+}
+
 /* ---- The resolver ---- */
 
-static const char *fault_of(const struct lsp_session *session, const char *path)
+static const char *fault_of(const struct disk *disk, const char *path)
 {
-    return mxg_context_file_fault(session->gate, session->from ? session->from : path, path);
+    return mxg_context_file_fault(disk->gate, disk->from, path);
 }
 
 /* A file of the editor; false: it has none of this path. */
-static bool open_edited(const struct lsp_session *session, const char *path, mxg_blob *out)
+static bool open_edited(const struct disk *disk, const char *path, mxg_blob *out)
 {
-    const struct lsp_document *document = lsp_find_path(session, path);
-    if (document)
-        *out = (mxg_blob){
-            .name = document->path, .data = document->text.bytes, .size = document->text.len};
-    return document != NULL;
+    for (size_t i = 0; i < disk->num_files; ++i) {
+        const struct disk_file *file = &disk->files[i];
+        if (strcmp(file->path, path) != 0)
+            continue;
+        *out = (mxg_blob){.name = file->path, .data = file->bytes, .size = file->size};
+        return true;
+    }
+    return false;
 }
 
 /* The name stands after the bytes. */
@@ -105,16 +114,16 @@ static bool open_on_disk(const char *path, mxg_blob *out)
 static bool open_file(void *user_data, const char *from, const char *ref, mxg_blob *out_blob,
                       const char **out_reason)
 {
-    const struct lsp_session *session = user_data;
+    const struct disk *disk = user_data;
     bool is_open = false, is_refused = false;
     for (int place = strchr(from, '/') && *ref != '/' ? 0 : 1; place < 2; ++place) {
         char *path = disk_join(place ? "" : from, ref);
-        const char *fault = fault_of(session, path);
+        const char *fault = fault_of(disk, path);
         is_refused = fault != NULL;
         if (fault)
             *out_reason = fault;
         else
-            is_open = open_edited(session, path, out_blob) || open_on_disk(path, out_blob);
+            is_open = open_edited(disk, path, out_blob) || open_on_disk(path, out_blob);
         int reason = errno;
         free(path);
         if (is_open || is_refused)
@@ -136,10 +145,10 @@ static void release_file(void *user_data, mxg_blob *blob)
 }
 
 /* Whether a folder may be read: whether a file in it might. */
-static bool may_list(const struct lsp_session *session, const char *folder)
+static bool may_list(const struct disk *disk, const char *folder)
 {
     char *file = cli_format("%s/-", folder);
-    const char *fault = fault_of(session, file);
+    const char *fault = fault_of(disk, file);
     free(file);
     return !fault;
 }
@@ -172,54 +181,41 @@ static size_t list(const char *folder, bool marks_folders, char *names, size_t c
 static size_t list_folder(void *user_data, const char *from, const char *folder, char *names,
                           size_t capacity)
 {
-    const struct lsp_session *session = user_data;
+    const struct disk *disk = user_data;
     size_t size = 0;
     for (int place = 0; place < 2 && !size; ++place) {
         char *path = disk_join(place ? "" : from, folder);
-        if (may_list(session, path))
+        if (may_list(disk, path))
             size = list(path, false, names, capacity);
         free(path);
     }
     return size;
 }
 
-mxg_resolver disk_resolver(struct lsp_session *session)
+mxg_resolver disk_resolver(struct disk *disk)
 {
-    return (mxg_resolver){.user_data = session,
-                          .open = open_file,
-                          .release = release_file,
-                          .list_folder = list_folder};
+    return (mxg_resolver){
+        .user_data = disk, .open = open_file, .release = release_file, .list_folder = list_folder};
 }
 
 /* ---- For the server itself ---- */
 
-const char *disk_origin(const struct lsp_document *document)
+bool disk_may_read(const struct disk *disk, const char *file, const char *ref)
 {
-    return document->is_file ? document->path : "/dev/null/none";
-}
-
-bool disk_may_read(struct lsp_session *session, const struct lsp_document *document,
-                   const char *from, const char *ref)
-{
-    session->from = disk_origin(document);
-    char *path = disk_join(from, ref);
-    const char *fault = fault_of(session, path);
+    char *path = disk_join(file, ref);
+    const char *fault = fault_of(disk, path);
     free(path);
-    session->from = NULL;
     return !fault;
 }
 
-char *disk_read_beside(struct lsp_session *session, const struct lsp_document *document,
-                       const char *path, size_t limit, size_t *out_size)
+char *disk_read(const struct disk *disk, const char *path, size_t limit, size_t *out_size)
 {
-    session->from = disk_origin(document);
-    FILE *file = fault_of(session, path) ? NULL : fopen(path, "rb");
-    session->from = NULL;
+    FILE *file = fault_of(disk, path) ? NULL : fopen(path, "rb");
     if (!file)
         return NULL;
     struct stat info;
-    size_t size =
-        fstat(fileno(file), &info) == 0 && S_ISREG(info.st_mode) ? (size_t)info.st_size : 0;
+    bool is_regular = fstat(fileno(file), &info) == 0 && S_ISREG(info.st_mode);
+    size_t size = is_regular ? (size_t)info.st_size : 0;
     size = limit && size > limit ? limit : size;
     char *data = memory_alloc(size + 1);
     *out_size = fread(data, 1, size, file);
@@ -227,13 +223,10 @@ char *disk_read_beside(struct lsp_session *session, const struct lsp_document *d
     return data;
 }
 
-char *disk_list_beside(struct lsp_session *session, const struct lsp_document *document,
-                       const char *folder, size_t *out_size)
+char *disk_list(const struct disk *disk, const char *folder, size_t *out_size)
 {
-    session->from = disk_origin(document);
-    char *path = disk_join(document->path, folder);
-    bool may = may_list(session, path);
-    session->from = NULL;
+    char *path = disk_join(disk->from, folder);
+    bool may = may_list(disk, path);
     size_t capacity = may ? list(path, true, NULL, 0) + 4096 : 1;
     char *names = memory_alloc(capacity);
     *out_size = may ? list(path, true, names, capacity) : 0;

@@ -7,35 +7,45 @@
 #ifndef MXG_LSP_DISK_H
 #define MXG_LSP_DISK_H
 
-#include "lsp/session.h"
+#include <mxgen/mxgen.h>
+
+/* A file that the editor has open. */
+struct disk_file {
+    const char *path, *bytes;
+    size_t size;
+};
+
+/* A view of the disk. One thread at a time uses it. */
+struct disk {
+    mxg_context *gate; /* tells which files may be read */
+    const char *from;  /* the document whose files are read; it lives as long as the view */
+    const struct disk_file *files;
+    size_t num_files;
+};
+
+/*
+ * The files in and below some folders, and below the include roots of `desc`. False: out of memory.
+ */
+bool disk_open(struct disk *disk, const mxg_context_desc *desc, char *const *folders,
+               size_t num_folders);
+void disk_close(struct disk *disk);
 
 /* The path of `ref` beside the file `from`, without "." and "..". The caller frees it. */
 char *disk_join(const char *from, const char *ref);
 
-/* Makes session->gate for the folders of the workspace. False: out of memory. */
-bool disk_open_gate(struct lsp_session *session);
+/* Finds files as without a resolver: beside the referring file, then in the working directory. */
+mxg_resolver disk_resolver(struct disk *disk);
 
-mxg_resolver disk_resolver(struct lsp_session *session);
-
-/*
- * The file whose folder a document may read, for session->from. Documents of the editor that are no
- * files may read the workspace alone.
- */
-const char *disk_origin(const struct lsp_document *document);
-
-/* True if the document may read what `from`, one of its files, names, or if that does not exist. */
-bool disk_may_read(struct lsp_session *session, const struct lsp_document *document,
-                   const char *from, const char *ref);
+/* True if disk->from may read what `file`, one of its files, names, or if that does not exist. */
+bool disk_may_read(const struct disk *disk, const char *file, const char *ref);
 
 /*
- * The bytes of a file that the document may read, with a NUL after them, which the caller frees;
- * NULL: there is none. At most `limit` bytes from its begin; 0: all.
+ * The bytes of a file on the disk, with a NUL after them, which the caller frees; NULL: there is
+ * none that disk->from may read. At most `limit` bytes from its begin; 0: all.
  */
-char *disk_read_beside(struct lsp_session *session, const struct lsp_document *document,
-                       const char *path, size_t limit, size_t *out_size);
+char *disk_read(const struct disk *disk, const char *path, size_t limit, size_t *out_size);
 
-/* A list of names in a folder of the document, each with its NUL; folders end with '/'. */
-char *disk_list_beside(struct lsp_session *session, const struct lsp_document *document,
-                       const char *folder, size_t *out_size);
+/* The names in a folder, each with its NUL; folders end with '/'. The caller frees them. */
+char *disk_list(const struct disk *disk, const char *folder, size_t *out_size);
 
 #endif

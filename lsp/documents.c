@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /* The documents that the editor has open, and their changes. */
+#include "lsp/check.h"
 #include "lsp/diagnostics.h"
 #include "lsp/handlers.h"
 #include "lsp/wire.h"
@@ -27,14 +28,34 @@ struct lsp_document *lsp_find_path(const struct lsp_session *session, const char
 
 void lsp_document_destroy(struct lsp_document *document)
 {
-    mxg_document_destroy(document->parsed);
-    mxg_document_destroy(document->checked);
-    store_finish(&document->findings.store);
+    check_destroy(document->check);
+    findings_clear(&document->findings);
     text_finish(&document->text);
     model_finish(&document->model);
     free(document->uri);
     free(document->path);
     free(document);
+}
+
+const struct text *lsp_file_text(struct lsp_session *session, const struct lsp_document *reader,
+                                 const char *path, struct text *out_own)
+{
+    const struct lsp_document *document = lsp_find_path(session, path);
+    *out_own = (struct text){0};
+    if (document)
+        return &document->text;
+    size_t size = 0;
+    session->disk.from = check_origin(reader);
+    char *bytes = disk_read(&session->disk, path, 0, &size);
+    text_set(out_own, bytes ? bytes : "", bytes && size <= TEXT_MAX ? size : 0);
+    free(bytes);
+    return out_own;
+}
+
+char *lsp_file_uri(const struct lsp_session *session, const char *path)
+{
+    const struct lsp_document *document = lsp_find_path(session, path);
+    return document ? cli_copy(document->uri, strlen(document->uri)) : wire_uri(path);
 }
 
 bool lsp_query(struct lsp_session *session, const json_t *params, struct lsp_query *out,

@@ -9,5 +9,18 @@
 lsp_handler handle_initialize, handle_nothing, handle_shutdown, handle_exit;
 /* documents.c */
 lsp_handler handle_open, handle_change, handle_close, handle_save, handle_watched_files;
+/* completion.c, hover.c */
+lsp_handler handle_completion, handle_hover;
+/* navigation.c */
+lsp_handler handle_definition, handle_references, handle_highlight, handle_rename,
+    handle_prepare_rename;
+/* outline.c */
+lsp_handler handle_symbols, handle_folding, handle_links;
+/* tokens.c, colours.c, hints.c, formatting.c */
+lsp_handler handle_tokens, handle_colours, handle_presentations, handle_hints, handle_formatting;
+/* actions.c */
+lsp_handler handle_actions;
+/* calls.c */
+lsp_handler handle_prepare_calls, handle_incoming_calls, handle_outgoing_calls;
 
 #endif

@@ -11,7 +11,7 @@
 struct lsp_session;
 
 struct lsp_desc {
-    /* for the contexts of the session, which replaces `resolver`; the texts outlive the session */
+    /* for the contexts of the session; checks replace `resolver`. The texts outlive the session */
     mxg_context_desc context;
     mxg_library *library; /* the session takes a reference */
     /* takes a message to the client: JSON, without a NUL */
@@ -29,10 +29,17 @@ void lsp_session_destroy(struct lsp_session *session);
 void lsp_session_handle(struct lsp_session *session, const char *message, size_t size);
 
 /*
- * Does a step of the work that waits: the checks of changed documents. The host calls it while no
- * message waits. False: nothing waits.
+ * The check of a changed document; NULL: none waits. The session goes on while it runs; `run` may
+ * be called in another thread. A check whose document changed meanwhile has no effect, and another
+ * one waits. Each check that begins ends before the session does.
  */
-bool lsp_session_work(struct lsp_session *session);
+struct lsp_check;
+struct lsp_check *lsp_session_begin_check(struct lsp_session *session);
+void lsp_check_run(struct lsp_check *check);
+void lsp_session_end_check(struct lsp_session *session, struct lsp_check *check);
+
+/* Does work that the first request would wait for. False: there is none. */
+bool lsp_session_prepare(struct lsp_session *session);
 
 /* True after the notification `exit`; *out_is_clean tells whether `shutdown` came before it. */
 bool lsp_session_is_over(const struct lsp_session *session, bool *out_is_clean);

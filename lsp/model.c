@@ -323,43 +323,6 @@ static struct span shift(struct span span, uint32_t by)
     return (struct span){span.start + by, span.end + by};
 }
 
-/* The old elements from one on, which the reading has reached, are as they were. */
-static void take_rest(struct reading *reading, const struct model *old, uint32_t from, uint32_t by)
-{
-    struct model *model = reading->model;
-    uint32_t first = old->elements[from].first_attribute, num = model->num_elements,
-             num_attributes = model->num_attributes, root = reading->open;
-    for (uint32_t i = first; i < old->num_attributes; ++i) {
-        struct model_attribute *attribute = add_attribute(model);
-        *attribute = old->attributes[i];
-        attribute->name = shift(attribute->name, by);
-        attribute->value = attribute->has_value ? shift(attribute->value, by) : attribute->value;
-        attribute->end += by;
-    }
-    for (uint32_t i = from; i < old->num_elements; ++i) {
-        struct model_element element = old->elements[i];
-        uint32_t index = add_element(reading, element.start + by);
-        element.name = shift(element.name, by);
-        element.start += by;
-        element.tag_end += by;
-        element.close += by;
-        element.end += by;
-        element.first_attribute = element.first_attribute - first + num_attributes;
-        element.after = element.after - from + num;
-        if (element.parent != MODEL_NONE && element.depth > 1)
-            element.parent = element.parent - from + num;
-        else if (element.depth == 1)
-            element.parent = root;
-        model->elements[index] = element;
-    }
-    const struct model_element *was = &old->elements[root];
-    model->elements[root].close = was->close + by;
-    model->elements[root].end = was->end + by;
-    model->elements[root].after = was->after - from + num;
-    reading->open = MODEL_NONE;
-    reading->at = reading->len;
-}
-
 /* The old element below the root that begins at the offset; `*from` only grows. */
 static bool find_old(const struct model *old, uint32_t offset, uint32_t root, uint32_t *from)
 {
@@ -367,6 +330,104 @@ static bool find_old(const struct model *old, uint32_t offset, uint32_t root, ui
         ++*from;
     return *from < old->num_elements && old->elements[*from].start == offset
            && old->elements[*from].depth == 1 && old->elements[*from].parent == root;
+}
+
+static void reserve_elements(struct model *model, uint32_t count)
+{
+    if (count <= model->capacity_elements)
+        return;
+    model->capacity_elements = count + count / 2;
+    model->elements =
+        memory_resize(model->elements, model->capacity_elements * sizeof *model->elements);
+}
+
+static void reserve_attributes(struct model *model, uint32_t count)
+{
+    if (count <= model->capacity_attributes)
+        return;
+    model->capacity_attributes = count + count / 2;
+    model->attributes =
+        memory_resize(model->attributes, model->capacity_attributes * sizeof *model->attributes);
+}
+
+/* What a change does to the elements behind it: where they are in the text, and their numbers. */
+struct move {
+    uint32_t root, from; /* elements from `from` on move */
+    uint32_t by, elements, attributes;
+};
+
+static void move_rest(struct model *model, const struct move *move)
+{
+    uint32_t first = move->from + move->elements;
+    for (uint32_t i = first; i < model->num_elements; ++i) {
+        struct model_element *element = &model->elements[i];
+        element->name = shift(element->name, move->by);
+        element->start += move->by;
+        element->tag_end += move->by;
+        element->close += move->by;
+        element->end += move->by;
+        element->after += move->elements;
+        element->first_attribute += move->attributes;
+        if (element->parent != MODEL_NONE && element->parent != move->root)
+            element->parent += move->elements;
+    }
+    uint32_t attribute = first < model->num_elements ? model->elements[first].first_attribute
+                                                     : model->num_attributes;
+    for (; attribute < model->num_attributes; ++attribute) {
+        struct model_attribute *moved = &model->attributes[attribute];
+        moved->name = shift(moved->name, move->by);
+        if (moved->has_value)
+            moved->value = shift(moved->value, move->by);
+        moved->end += move->by;
+    }
+}
+
+/* Elements that were read apart, behind a copy of the root, take their place in the model. */
+static void take_read(struct model *model, const struct model *read, uint32_t root, uint32_t first,
+                      uint32_t first_attribute)
+{
+    for (uint32_t i = 1; i < read->num_elements; ++i) {
+        struct model_element element = read->elements[i];
+        element.first_attribute += first_attribute;
+        element.after += first - 1;
+        if (element.parent == 0)
+            element.parent = root;
+        else if (element.parent != MODEL_NONE)
+            element.parent += first - 1;
+        model->elements[first + i - 1] = element;
+    }
+    if (read->num_attributes)
+        memcpy(model->attributes + first_attribute, read->attributes,
+               read->num_attributes * sizeof *read->attributes);
+}
+
+/* Replaces the elements from `first` to `from` by those that were read. */
+static void splice(struct model *model, const struct model *read, uint32_t first, uint32_t from,
+                   uint32_t by)
+{
+    uint32_t root = model->elements[first].parent,
+             first_attribute = model->elements[first].first_attribute,
+             rest_attribute = from < model->num_elements ? model->elements[from].first_attribute
+                                                         : model->num_attributes,
+             num = read->num_elements - 1;
+    struct move move = {root, from, by, first + num - from,
+                        first_attribute + read->num_attributes - rest_attribute};
+    bool has_rest = from < model->num_elements;
+    reserve_elements(model, model->num_elements + num + 1);
+    reserve_attributes(model, model->num_attributes + read->num_attributes + 1);
+    memmove(model->elements + first + num, model->elements + from,
+            (model->num_elements - from) * sizeof *model->elements);
+    memmove(model->attributes + first_attribute + read->num_attributes,
+            model->attributes + rest_attribute,
+            (model->num_attributes - rest_attribute) * sizeof *model->attributes);
+    model->num_elements += move.elements;
+    model->num_attributes += move.attributes;
+    take_read(model, read, root, first, first_attribute);
+    move_rest(model, &move);
+    struct model_element *top = &model->elements[root];
+    top->close = has_rest ? top->close + by : read->elements[0].close;
+    top->end = has_rest ? top->end + by : read->elements[0].end;
+    top->after = has_rest ? top->after + move.elements : read->elements[0].after + first - 1;
 }
 
 /*
@@ -377,37 +438,32 @@ static bool find_old(const struct model *old, uint32_t offset, uint32_t root, ui
  */
 void model_update(struct model *model, const struct text *text, struct span old, uint32_t new_end)
 {
-    uint32_t first = last_before(model, old.start), by = new_end - old.end;
+    uint32_t first = last_before(model, old.start), from = first, by = new_end - old.end;
     if (first == MODEL_NONE) {
         model_read(model, text);
         return;
     }
-    struct model before = *model;
-    uint32_t root = before.elements[first].parent, from = first;
-    *model = (struct model){0};
-    struct reading reading = {.model = model,
+    uint32_t root = model->elements[first].parent;
+    struct model read = {0};
+    struct reading reading = {.model = &read,
                               .bytes = text->bytes,
                               .len = text->len,
-                              .at = before.elements[first].start,
-                              .open = root};
-    model->capacity_elements = before.num_elements + 64;
-    model->capacity_attributes = before.num_attributes + 64;
-    model->elements = memory_alloc(model->capacity_elements * sizeof *model->elements);
-    model->attributes = memory_alloc(model->capacity_attributes * sizeof *model->attributes);
-    model->num_elements = first;
-    model->num_attributes = before.elements[first].first_attribute;
-    memcpy(model->elements, before.elements, first * sizeof *model->elements);
-    memcpy(model->attributes, before.attributes, model->num_attributes * sizeof *model->attributes);
-    while (find_markup(&reading)) {
-        if (reading.open == root && reading.at >= new_end
-            && find_old(&before, reading.at - by, root, &from)) {
-            take_rest(&reading, &before, from, by);
-            break;
-        }
-        read_markup(&reading);
+                              .at = model->elements[first].start,
+                              .open = MODEL_NONE};
+    reading.open = add_element(&reading, model->elements[root].start);
+    read.elements[0].name = model->elements[root].name;
+    bool is_there = false;
+    while (!is_there && find_markup(&reading)) {
+        is_there = reading.open == 0 && reading.at >= new_end
+                   && find_old(model, reading.at - by, root, &from);
+        if (!is_there)
+            read_markup(&reading);
     }
+    if (!is_there)
+        from = model->num_elements;
     close_all(&reading);
-    model_finish(&before);
+    splice(model, &read, first, from, by);
+    model_finish(&read);
 }
 
 /* ---- Looking ---- */

@@ -2,7 +2,7 @@
 /* The life of a session, and the way of a message to its handler. */
 #include "lsp/session.h"
 
-#include "lsp/diagnostics.h"
+#include "lsp/catalogue.h"
 #include "lsp/disk.h"
 #include "lsp/handlers.h"
 #include "lsp/wire.h"
@@ -20,10 +20,7 @@ struct lsp_session *lsp_session_create(const struct lsp_desc *desc)
     session->desc = *desc;
     session->desc.library = mxg_library_ref(desc->library);
     session->desc.context.max_errors = MAX_ERRORS;
-    mxg_context_desc context = session->desc.context;
-    const mxg_resolver resolver = disk_resolver(session);
-    context.resolver = &resolver;
-    if (mxg_context_create(&context, &session->context) == MXG_OK && disk_open_gate(session))
+    if (mxg_context_create(&session->desc.context, &session->context) == MXG_OK)
         return session;
     lsp_session_destroy(session);
     return NULL;
@@ -48,15 +45,16 @@ void lsp_session_destroy(struct lsp_session *session)
         lsp_document_destroy(document);
     }
     free_folders(session);
+    catalogue_destroy(session->catalogue);
     mxg_library_unref(session->desc.library);
     mxg_context_destroy(session->context);
-    mxg_context_destroy(session->gate);
+    disk_close(&session->disk);
     free(session);
 }
 
-bool lsp_session_work(struct lsp_session *session)
+bool lsp_session_prepare(struct lsp_session *session)
 {
-    return diagnostics_work(session);
+    return session->is_initialised && catalogue_prepare(session);
 }
 
 bool lsp_session_is_over(const struct lsp_session *session, bool *out_is_clean)
@@ -216,7 +214,8 @@ json_t *handle_initialize(struct lsp_session *session, const json_t *params,
     session->is_utf8 = has_encoding(capabilities, "utf-8");
     session->has_snippets = json_is_true(json_object_get(completion, "snippetSupport"));
     read_folders(session, params);
-    if (!disk_open_gate(session)) {
+    if (!disk_open(&session->disk, &session->desc.context, session->folders,
+                   session->num_folders)) {
         *error = (struct lsp_error){LSP_REQUEST_FAILED, "out of memory"};
         return NULL;
     }

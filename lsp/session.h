@@ -3,6 +3,7 @@
 #ifndef MXG_LSP_SESSION_H
 #define MXG_LSP_SESSION_H
 
+#include "lsp/disk.h"
 #include "lsp/findings.h"
 #include "lsp/lsp.h"
 #include "lsp/model.h"
@@ -20,20 +21,19 @@ struct lsp_document {
     struct text text;
     struct model model;
     bool is_file;
-    bool is_dirty; /* its check waits */
-    bool is_read;  /* the first step of the check is done */
-    bool has_second_step;
-    mxg_document *parsed;  /* the last one that was XML, or else the first one; NULL: none yet */
-    mxg_document *checked; /* the last one, if it was not XML */
+    bool is_dirty;           /* its check waits */
+    uint64_t edition;        /* of all that it depends on */
+    struct lsp_check *check; /* of the last text that was XML, or else of the first; may be NULL */
+    mxg_document *parsed;    /* what that check read; NULL: nothing yet */
     struct findings findings;
     struct arg_list told; /* the files of which the client has messages of this document */
 };
 
 struct lsp_session {
     struct lsp_desc desc;
-    mxg_context *context; /* reads what the editor has open, then the disk */
-    mxg_context *gate;    /* tells which files may be read */
-    const char *from;     /* the document whose files are being read */
+    mxg_context *context; /* reads no files */
+    struct disk disk;
+    uint64_t num_editions;
     struct catalogue *catalogue;
     struct lsp_document *documents;
     char **folders; /* of the workspace */
@@ -77,6 +77,12 @@ void lsp_notify(struct lsp_session *session, const char *method, json_t *params)
 struct lsp_document *lsp_find_document(const struct lsp_session *session, const char *uri);
 struct lsp_document *lsp_find_path(const struct lsp_session *session, const char *path);
 void lsp_document_destroy(struct lsp_document *document);
+
+/* The text of a file: that of the editor, or that on the disk, which `out_own` has to finish. */
+const struct text *lsp_file_text(struct lsp_session *session, const struct lsp_document *reader,
+                                 const char *path, struct text *out_own);
+/* The address of a file, as the editor knows it. The caller frees it. */
+char *lsp_file_uri(const struct lsp_session *session, const char *path);
 
 /* A request at a place of an open document. */
 struct lsp_query {

@@ -17,23 +17,21 @@ static void reserve_lines(struct text *text, uint32_t count)
 {
     if (count <= text->capacity_lines)
         return;
-    text->capacity_lines = count * 2;
+    text->capacity_lines = count + count / 2 + 16;
     text->lines = memory_resize(text->lines, text->capacity_lines * sizeof *text->lines);
 }
 
-/* Appends the lines that begin in a part; `*num` counts the lines before. */
-static void find_lines(struct text *text, uint32_t from, uint32_t to, uint32_t *num)
+/* Where the next line begins from an offset on, at most `to`; 0: none does. */
+static uint32_t next_line(const struct text *text, uint32_t from, uint32_t to)
 {
     for (uint32_t at = from ? from : 1; at <= to; ++at) {
-        size_t skip = strcspn(text->bytes + at - 1, "\r\n");
-        at += (uint32_t)skip;
+        at += (uint32_t)strcspn(text->bytes + at - 1, "\r\n");
         if (at > to || at > text->len)
-            return;
-        if (!begins_line(text, at))
-            continue;
-        reserve_lines(text, *num + 1);
-        text->lines[(*num)++] = at;
+            return 0;
+        if (begins_line(text, at))
+            return at;
     }
+    return 0;
 }
 
 static void reserve(struct text *text, size_t len)
@@ -53,7 +51,10 @@ void text_set(struct text *text, const char *bytes, size_t len)
     reserve_lines(text, 1);
     text->lines[0] = 0;
     text->num_lines = 1;
-    find_lines(text, 1, text->len, &text->num_lines);
+    for (uint32_t at = 0; (at = next_line(text, at + 1, text->len)) != 0;) {
+        reserve_lines(text, text->num_lines + 1);
+        text->lines[text->num_lines++] = at;
+    }
 }
 
 void text_finish(struct text *text)
@@ -89,20 +90,21 @@ bool text_replace(struct text *text, struct span part, const char *bytes, size_t
     uint32_t kept = lines_before(text, part.start), rest = lines_before(text, part.end + 1),
              num_rest = text->num_lines - rest;
     kept = kept ? kept : 1; /* the first line */
-    uint32_t *tail = memory_alloc(num_rest * sizeof *tail);
-    memcpy(tail, text->lines + rest, num_rest * sizeof *tail);
     reserve(text, new_len);
     memmove(text->bytes + part.start + len, text->bytes + part.end, text->len - part.end);
     memcpy(text->bytes + part.start, bytes, len);
     text->len = (uint32_t)new_len;
     text->bytes[new_len] = '\0';
-    uint32_t end = part.start + (uint32_t)len, num = kept;
-    find_lines(text, part.start, end, &num);
-    reserve_lines(text, num + num_rest);
-    for (uint32_t i = 0; i < num_rest; ++i)
-        text->lines[num + i] = tail[i] - part.end + end;
-    text->num_lines = num + num_rest;
-    free(tail);
+    uint32_t end = part.start + (uint32_t)len, num = 0;
+    for (uint32_t at = part.start; (at = next_line(text, at, end)) != 0; ++at)
+        ++num;
+    reserve_lines(text, kept + num + num_rest);
+    memmove(text->lines + kept + num, text->lines + rest, num_rest * sizeof *text->lines);
+    for (uint32_t at = part.start, i = kept; (at = next_line(text, at, end)) != 0; ++at)
+        text->lines[i++] = at;
+    text->num_lines = kept + num + num_rest;
+    for (uint32_t i = kept + num; i < text->num_lines; ++i)
+        text->lines[i] = text->lines[i] - part.end + end;
     return true;
 }
 

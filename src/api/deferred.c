@@ -60,15 +60,25 @@ void generation_hide_misfits(struct generation *g)
         g->root = build_without_hidden(g->builder, g->root);
 }
 
+/* The innermost element of the document itself that an origin comes from. */
+static elem_id element_of(const struct generation *g, uint32_t origin)
+{
+    const struct ir_origin *origins = g->result->graph.origins.items;
+    while (origin && origins[origin].element < g->document->layer.doc.first_element)
+        origin = origins[origin].parent;
+    return origin ? origins[origin].element : g->element;
+}
+
 static void report_misfit(struct generation *g, ir_ref misfit)
 {
     const struct shader *shader = &g->result->shader;
-    const struct ir_origin *origin =
-        &shader->graph->origins.items[ir_get(shader->graph, misfit)->origin];
     const struct document *doc = &g->document->layer.doc;
+    uint32_t origin = ir_get(shader->graph, misfit)->origin;
+    elem_id element = element_of(g, origin);
     diag_add(&g->result->object.diagnostics.list, DIAG_ID_closure_not_stored,
-             doc_place(doc, origin->element ? origin->element : g->element),
-             str_text(shader->strings, origin->name));
+             doc_place(doc, element),
+             str_text(shader->strings, shader->graph->origins.items[origin].name),
+             str_text(doc->strings, doc_element(doc, element)->category));
 }
 
 /* The shader lights itself, because of a closure that is no slab. */
@@ -80,6 +90,7 @@ static void draw_forward(struct generation *g, ir_ref misfit)
 
 bool generation_can_store(struct generation *g)
 {
+    g->result->storage.max_words = g->result->slabs.after.bytes / SLAB_WORD_BYTES;
     ir_ref misfit = role_stores(g->role) ? deferred_misfit(&g->result->shader, g->root) : 0;
     if (misfit && g->role->returns == RETURNS_SLABS && g->options[OPTION_slabs].number)
         draw_forward(g, misfit);
@@ -110,8 +121,6 @@ void generation_tell_forward(struct generation *g)
     const struct document *doc = &g->document->layer.doc;
     if (g->role->returns != RETURNS_SLABS && !g->misfit)
         return;
-    assert(!shader->reflection.closures.len || g->result->storage.storage == STORAGE_FLOAT
-           || shader->reflection.stored_words * SLAB_WORD_BYTES <= g->result->slabs.after.bytes);
     if (shader->reflection.stored_words && shader->reflection.closures.len > DEFERRED_MAX_CLOSURES)
         diag_add(&g->result->object.diagnostics.list, DIAG_ID_closures_not_stored,
                  doc_place(doc, g->element), str_text(shader->strings, shader->reflection.name),

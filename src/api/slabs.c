@@ -162,7 +162,7 @@ bool generation_budget_slabs(struct generation *g)
         return true;
     struct slab_budget budget = generation_slab_budget(g);
     struct slab_report *report = &g->result->slabs;
-    bool has_estimates = budget.max_error >= 0.0f;
+    bool has_estimates = budget.max_error >= 0.0f || budget.max_bytes;
     spend_budget(g, has_estimates ? &g->estimates : NULL);
     ir_assert_valid(&g->result->graph, "after the budget of slabs");
     if (!generation_slabs_are_few(g, report))

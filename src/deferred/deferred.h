@@ -33,10 +33,11 @@ struct deferred_layout {
      * language is that of the texts
      */
     const struct lang_unit *(*parse)(struct shader *shader, const struct text *text);
-    bool is_payload;  /* of a ray, in place of a pixel */
-    bool is_function; /* the words of a pixel are results, not outputs and layers of an image */
-    bool diffuses;    /* the option `sss`: the pass "diffuse" spreads the light of bodies */
-    bool blurs;       /* the option `rough-refraction`: the pass "blur" */
+    uint32_t max_words; /* of a pixel of this material, by the cost of its slabs; 0: of a pass */
+    bool is_payload;    /* of a ray, in place of a pixel */
+    bool is_function;   /* the words of a pixel are results, not outputs and layers of an image */
+    bool diffuses;      /* the option `sss`: the pass "diffuse" spreads the light of bodies */
+    bool blurs;         /* the option `rough-refraction`: the pass "blur" */
 };
 
 /* A hash of the storage: materials and passes with equal ones fit together. */

@@ -197,12 +197,15 @@ static struct stored_slab *slabs_of(const struct shader *shader, const struct cl
     return slabs;
 }
 
+/* The walk leaves out what nobody sees; the cost before it counts one side of each choice. */
 static uint32_t count_words(const struct ir_graph *g, const struct stored_slab *slabs, uint32_t num,
-                            enum deferred_storage storage)
+                            const struct deferred_layout *layout)
 {
-    if (storage == STORAGE_FLOAT)
+    if (layout->storage == STORAGE_FLOAT)
         return DEFERRED_TARGET_WORDS + WHOLE_WORDS * num;
     uint32_t words = slab_stored_pixel(g, slabs, num);
+    if (words > layout->max_words)
+        words = layout->max_words;
     return words > DEFERRED_TARGET_WORDS ? words : DEFERRED_TARGET_WORDS;
 }
 
@@ -224,8 +227,7 @@ static void measure(struct shader *shader, const struct closure_list *marks,
         return;
     }
     const struct stored_slab *slabs = slabs_of(shader, marks);
-    shader->reflection.stored_words =
-        count_words(shader->graph, slabs, marks->leaves.len, layout->storage);
+    shader->reflection.stored_words = count_words(shader->graph, slabs, marks->leaves.len, layout);
     shader->reflection.stored_classes = find_classes(shader->graph, slabs, marks->leaves.len);
 }
 

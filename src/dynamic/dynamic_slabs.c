@@ -193,14 +193,22 @@ bool dynamic_slab(void *user_data, mxg_build *build, mxg_ref *results)
     return finish(build, IR_SLAB, attr, args, NUM_SLAB_OPERANDS, results);
 }
 
+/* True for a slab, without a coverage, that no light goes through, by the values of the document.
+ */
+static bool hides_base(struct builder *b, ir_ref top)
+{
+    return top && ir_get(b->graph, top)->op == IR_SLAB && !needs_thickness(b, top);
+}
+
 /* A base that the values of the document hide is one, too. */
-static void check_base(const mxg_build *build)
+static void check_base(const mxg_build *build, ir_ref top)
 {
     struct builder *b = build->b;
     elem_id node = build->frame->node.element;
-    if (!doc_child(&b->lib->doc, node, STR_base))
-        diag_add(b->diags, DIAG_ID_slab_without_base, doc_place(&b->lib->doc, node),
-                 build_text(b, build->def->node));
+    bool has_base = doc_child(&b->lib->doc, node, STR_base) != 0;
+    if (!has_base || hides_base(b, top))
+        diag_add(b->diags, has_base ? DIAG_ID_slab_hides_base : DIAG_ID_slab_without_base,
+                 doc_place(&b->lib->doc, node), build_text(b, build->def->node));
 }
 
 bool dynamic_slab_layer(void *user_data, mxg_build *build, mxg_ref *results)
@@ -209,7 +217,7 @@ bool dynamic_slab_layer(void *user_data, mxg_build *build, mxg_ref *results)
                       dynamic_arg(build, STR_thickness)};
     (void)user_data;
     check_bounds(build, STR_thickness, args[2], LENGTH);
-    check_base(build);
+    check_base(build, args[0]);
     if (args[0])
         return finish(build, IR_SLAB_LAYER, blends(build), args, 3, results);
     results[0] = code_issue(build, args[1]);

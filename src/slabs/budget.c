@@ -66,13 +66,19 @@ static void take_in_order(struct spender *s)
     }
 }
 
-static void take_smallest(struct spender *s)
+/* The order of steps matters: for an error, and for bytes that features or blends may save. */
+static bool searches(const struct spender *s)
+{
+    return s->saver.host->scratch && (s->budget->max_error >= 0.0f || !keeps_bytes(s));
+}
+
+static void take_best(struct spender *s)
 {
     struct slab_candidates steps = {0};
     bool is_whole = slabs_search(&s->saver, s->budget, &steps);
     for (uint32_t i = 0; i < steps.items.len && goes_on(s); i++)
         record(s, steps.items.items[i].step, steps.items.items[i].root);
-    if (!is_whole)
+    if (!is_whole || !keeps_bytes(s))
         take_in_order(s);
 }
 
@@ -124,18 +130,16 @@ ir_ref slabs_budget(struct shader *shader, const struct slabs_host *host,
         root = slabs_join_stacks(shader, host, root);
     struct spender s = {slab_saver_of(shader, host, budget->off, root), budget, out};
     out->before = out->after = s.saver.cost;
-    out->is_too_much = slabs_has(shader, root) && s.saver.cost.closures > SLABS_MAX;
+    out->is_too_much = slabs_has(shader, root) && slabs_num_closures(shader, root) > SLABS_MAX;
     if (out->is_too_much)
         return root;
     if (!s.saver.cost.closures || (!slabs_is_asked(budget) && !slab_find_asked(&s.saver)))
         return root;
-    if (host->scratch && goes_on(&s))
-        slabs_look(shader, host, root, NULL, &s.saver.whole);
     recognise(&s);
     blend_asked(&s);
     turn_off(&s);
-    if (budget->max_error >= 0.0f && host->scratch)
-        take_smallest(&s);
+    if (searches(&s))
+        take_best(&s);
     else
         take_in_order(&s);
     out->is_met = !goes_on(&s) || (keeps_slabs(&s) && keeps_bytes(&s) && keeps_error(&s));

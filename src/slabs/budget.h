@@ -6,7 +6,7 @@
 #ifndef MXG_SLABS_BUDGET_H
 #define MXG_SLABS_BUDGET_H
 
-#include "slabs/spots.h"
+#include "slabs/cost.h"
 
 /* Operators that share slabs have a closure for each way to a slab, which may be 2^depth. */
 enum { SLABS_MAX = 1000 };

@@ -6,7 +6,7 @@
 #ifndef MXG_SLABS_BYTES_H
 #define MXG_SLABS_BYTES_H
 
-#include "slabs/spots.h"
+#include "slabs/slabs.h"
 
 enum { SLAB_WORD_BYTES = 4 };
 

@@ -14,7 +14,7 @@
  * and across the plane of the view, and one from the side. In the mirror itself all colours are
  * white.
  */
-enum { NUM_VIEWS = 6, NUM_LIGHTS = 3, NUM_POINTS = 4, NUM_TEXEL_POINTS = 12 };
+enum { NUM_LIGHTS = 3, NUM_TEXELS = 4 };
 /* How much of a picture such light is; fitted to the drawn errors of the examples. */
 static const float light_weights[NUM_LIGHTS] = {0.1f, 0.1f, 0.3f};
 #define GOLDEN_ANGLE 2.3999632f
@@ -28,7 +28,7 @@ struct eye {
     struct shader *shader;
     const struct slabs_host *host;
     ir_ref view, light; /* vec3: stand for directions */
-    unsigned at;        /* of slab_look.num_points */
+    unsigned at;        /* a place of the ball */
     struct ir_value view_value, light_value;
 };
 
@@ -39,32 +39,8 @@ static struct ir_value value_of_three(float x, float y, float z)
     return (struct ir_value){.type = IR_TYPE_VEC3, .w = {{.f = x}, {.f = y}, {.f = z}}};
 }
 
-/* Gives what the pixel stage knows of a point of the ball. */
-static void stream_value(const struct eye *eye, str_id name, struct ir_value *out)
-{
-    /* all of them fall into different parts of a texture that repeats */
-    static const float places[NUM_TEXEL_POINTS][3] = {
-        {0.31f, 0.17f, 0.52f},   {0.78f, -0.42f, 0.11f}, {-0.23f, 0.66f, -0.35f},
-        {0.05f, 0.91f, 0.74f},   {0.56f, 0.84f, -0.61f}, {0.93f, 0.24f, 0.33f},
-        {0.18f, 0.43f, -0.87f},  {0.62f, 0.06f, 0.95f},  {0.44f, 0.75f, 0.02f},
-        {-0.12f, 0.34f, -0.14f}, {0.68f, 0.49f, 0.43f},  {0.38f, 0.98f, -0.72f}};
-    static const struct {
-        str_id name;
-        float value[3];
-    } frame[] = {{STR_normalWorld, {0, 0, 1}},
-                 {STR_normalObject, {0, 0, 1}},
-                 {STR_tangentWorld, {1, 0, 0}},
-                 {STR_bitangentWorld, {0, 1, 0}}};
-    const float *value = places[eye->at];
-    for (size_t i = 0; i < sizeof frame / sizeof *frame; i++)
-        if (frame[i].name == name)
-            value = frame[i].value;
-    for (unsigned i = 0; i < 16; i++)
-        out->w[i].f = i < 3 ? value[i] : i == 3 ? 1.0f : 0.0f;
-}
-
 /* A colour, a number and a bump at once, for a texture that cannot be read. */
-static const float fixed_texels[NUM_POINTS][4] = {{0.5f, 0.5f, 0.9f, 1},
+static const float fixed_texels[NUM_TEXELS][4] = {{0.5f, 0.5f, 0.9f, 1},
                                                   {0.3f, 0.45f, 0.8f, 1},
                                                   {0.7f, 0.55f, 0.9f, 1},
                                                   {0.45f, 0.35f, 0.85f, 1}};
@@ -91,7 +67,7 @@ static bool texture(void *user_data, const struct ir_graph *graph, ir_ref ref,
 {
     const struct eye *eye = user_data;
     const float *texels = texels_of(eye->host, ir_get(graph, ir_arg(graph, ref, 0))),
-                *texel = fixed_texels[eye->at % NUM_POINTS];
+                *texel = fixed_texels[eye->at % NUM_TEXELS];
     *out = (struct ir_value){.type = ir_type_of(graph, ref)};
     if (texels && place && ir_type_is_float(place->type))
         texel = texels + texel_at(place->w) * 4;
@@ -114,7 +90,7 @@ static bool source(void *user_data, const struct ir_graph *graph, ir_ref ref, st
         *out = eye->shader->interface.variables.items[node->attr].value;
         return out->type == node->type;
     case IR_STREAM:
-        stream_value(eye, eye->shader->interface.variables.items[node->attr].name, out);
+        slabs_place_stream(eye->at, eye->shader->interface.variables.items[node->attr].name, out);
         return ir_type_is_float(node->type);
     case IR_DFDX:
     case IR_DFDY:
@@ -217,7 +193,7 @@ static ir_ref color_of(struct eye *eye, ir_ref lobes, bool shows_behind)
 /* The view of a point, turned around the normal. */
 static struct ir_value view_of(unsigned point)
 {
-    float square = ((float)point + 0.5f) / NUM_VIEWS, turn = GOLDEN_ANGLE * (float)point;
+    float square = ((float)point + 0.5f) / SLAB_NUM_VIEWS, turn = GOLDEN_ANGLE * (float)point;
     float sine = sqrtf(square), cosine = sqrtf(1.0f - square);
     return value_of_three(sine * cosf(turn), sine * sinf(turn), cosine);
 }
@@ -244,12 +220,14 @@ static bool evaluate(struct eye *eye, ir_ref color, struct ir_value *out)
     return good;
 }
 
-static bool look_at(struct eye *eye, ir_ref color, struct slab_look *out)
+static bool look_at(struct eye *eye, ir_ref color, const struct slab_glance *glance,
+                    struct slab_look *out)
 {
-    for (unsigned i = 0; i < NUM_VIEWS * NUM_LIGHTS; i++) {
+    eye->at = glance->at;
+    eye->view_value = view_of(glance->view);
+    for (unsigned i = 0; i < NUM_LIGHTS; i++) {
         struct ir_value value;
-        eye->view_value = view_of(i / NUM_LIGHTS);
-        eye->light_value = light_for(&eye->view_value, i / NUM_LIGHTS, i % NUM_LIGHTS);
+        eye->light_value = light_for(&eye->view_value, glance->view, i);
         if (!evaluate(eye, color, &value))
             return false;
         for (unsigned c = 0; c < 3; c++)
@@ -258,24 +236,58 @@ static bool look_at(struct eye *eye, ir_ref color, struct slab_look *out)
     return true;
 }
 
-/* One where the surface is even, and more where its texels can be read. */
-static unsigned count_points(const struct eye *eye, const uint8_t *needed, ir_ref root)
+/* ---- Places ---- */
+
+/* Weights that no few of them add up to 0 by chance. */
+static ir_ref weight_of(struct ir_graph *g, unsigned number)
+{
+    ir_ref parts[3];
+    for (unsigned c = 0; c < 3; c++) {
+        float turn = GOLDEN_ANGLE * (float)(number * 3 + c + 1);
+        parts[c] = ir_const_float(g, cosf(turn));
+    }
+    return ir_construct(g, IR_TYPE_VEC3, parts, 3);
+}
+
+/* What varies over the surface, as one vec3: a sum of all operands of its closures. 0: nothing. */
+static ir_ref signature_of(const struct eye *eye, const uint8_t *needed, ir_ref root)
+{
+    struct ir_graph *g = eye->shader->graph;
+    ir_ref sum = 0, least = ir_const_splat(g, IR_TYPE_VEC3, -1.0f), most = ir_white(g);
+    unsigned number = 0;
+    for (ir_ref ref = 1; ref <= root; ref++) {
+        bool is_matter =
+            needed[ref]
+            && (ir_type_is_closure(ir_type_of(g, ref)) || ir_type_is_shader(ir_type_of(g, ref)));
+        uint32_t num_args = is_matter ? ir_get(g, ref)->num_args : 0;
+        for (uint32_t i = 0; i < num_args; i++) {
+            ir_ref arg = ir_arg(g, ref, i);
+            ir_type_id type = arg ? ir_type_of(g, arg) : IR_TYPE_VOID;
+            if ((type != IR_TYPE_FLOAT && type != IR_TYPE_VEC3) || ir_is_const(g, arg))
+                continue;
+            ir_ref value = ir_op3(g, IR_CLAMP, ir_convert(g, IR_TYPE_VEC3, arg), least, most);
+            sum = ir_sum(g, sum, ir_mul(g, value, weight_of(g, number++)));
+        }
+    }
+    return sum;
+}
+
+/* Glances that show all that varies. */
+static bool find_glances(struct eye *eye, ir_ref root, struct slab_glances *out)
 {
     const struct shader *shader = eye->shader;
-    const struct ir_graph *g = shader->graph;
-    unsigned count = 1;
-    for (ir_ref ref = 1; ref <= root; ref++) {
-        const struct ir_node *node = ir_get(g, ref);
-        str_id name =
-            node->op == IR_STREAM ? shader->interface.variables.items[node->attr].name : 0;
-        bool varies =
-            node->op == IR_TEXTURE || (name && name != STR_normalWorld && name != STR_tangentWorld);
-        if (needed[ref] && texels_of(eye->host, node))
-            return NUM_TEXEL_POINTS;
-        if (needed[ref] && varies)
-            count = NUM_POINTS;
+    float values[SLAB_NUM_PLACES * 3];
+    ir_ref signature = signature_of(eye, ir_mark(shader->graph, &root, 1, shader->arena), root);
+    eye->view_value = eye->light_value = value_of_three(0.0f, 0.0f, 1.0f);
+    for (eye->at = 0; signature && eye->at < SLAB_NUM_PLACES; eye->at++) {
+        struct ir_value value;
+        if (!evaluate(eye, signature, &value))
+            return false;
+        for (unsigned c = 0; c < 3; c++)
+            values[eye->at * 3 + c] = value.w[c].f;
     }
-    return count;
+    slabs_choose_glances(signature ? values : NULL, shader->arena, out);
+    return true;
 }
 
 static ir_ref direction(const struct eye *eye, uint32_t number)
@@ -292,38 +304,48 @@ static struct eye open_eye(struct shader *shader, const struct slabs_host *host)
     return eye;
 }
 
+/* The colours of a surface, or of a closure that is the root; other nodes have none. */
+static bool look_at_node(struct eye *eye, ir_ref ref, ir_ref root, struct slab_look *out)
+{
+    struct ir_graph *g = eye->shader->graph;
+    uint8_t op = ir_get(g, ref)->op;
+    bool is_surface = op == IR_SLAB_SURFACE || op == IR_SURFACE_SHADER,
+         is_closure = ref == root && ir_type_of(g, ref) == IR_TYPE_BSDF, good = true;
+    if ((!is_surface && !is_closure) || (is_surface && !ir_arg(g, ref, 0)))
+        return true;
+    ir_ref walked = slabs_walk(eye->shader, eye->host, ref);
+    ir_ref color = color_of(eye, is_surface ? ir_arg(g, walked, 0) : walked,
+                            op != IR_SURFACE_SHADER); /* <surface> has its own opacity */
+    for (uint32_t i = 0; i < out->glances.items.len && good; i++)
+        good = look_at(eye, color, &out->glances.items.items[i], out);
+    return good;
+}
+
 void slabs_look(struct shader *shader, const struct slabs_host *host, ir_ref root,
                 const struct slab_look *like, struct slab_look *out)
 {
-    struct ir_graph *g = shader->graph;
     struct eye eye = open_eye(shader, host);
     *out = (struct slab_look){.is_known = true};
-    const uint8_t *needed = ir_mark(g, &root, 1, shader->arena);
-    out->num_points = like ? like->num_points : count_points(&eye, needed, root);
-    for (ir_ref ref = 1; ref <= root && out->is_known; ref++) {
-        uint8_t op = ir_get(g, ref)->op;
-        bool is_surface = op == IR_SLAB_SURFACE || op == IR_SURFACE_SHADER,
-             is_closure = ref == root && ir_type_of(g, ref) == IR_TYPE_BSDF;
-        if (!needed[ref] || (!is_surface && !is_closure) || (is_surface && !ir_arg(g, ref, 0)))
-            continue;
-        ir_ref walked = slabs_walk(shader, host, ref);
-        ir_ref color = color_of(&eye, is_surface ? ir_arg(g, walked, 0) : walked,
-                                op != IR_SURFACE_SHADER); /* <surface> has its own opacity */
-        for (eye.at = 0; eye.at < out->num_points; eye.at++)
-            out->is_known &= look_at(&eye, color, out);
-    }
+    if (like)
+        out->glances = like->glances;
+    else
+        out->is_known = find_glances(&eye, root, &out->glances);
+    const uint8_t *needed = ir_mark(shader->graph, &root, 1, shader->arena);
+    for (ir_ref ref = 1; ref <= root && out->is_known; ref++)
+        out->is_known = !needed[ref] || look_at_node(&eye, ref, root, out);
 }
 
 float slabs_difference(const struct slab_look *a, const struct slab_look *b)
 {
     double sum = 0.0;
-    uint32_t num = a->colors.len / 3;
+    uint32_t num = a->colors.len / 3, num_glances = a->glances.items.len;
     if (!a->is_known || !b->is_known || a->colors.len != b->colors.len || num == 0)
         return -1.0f;
     for (uint32_t i = 0; i < num; i++)
         sum += light_weights[i % NUM_LIGHTS]
+               * a->glances.items.items[i / NUM_LIGHTS % num_glances].weight
                * color_difference(a->colors.items + i * 3, b->colors.items + i * 3);
-    return (float)(sum / (num / NUM_LIGHTS));
+    return (float)(sum * num_glances * NUM_LIGHTS / num); /* the mean of several surfaces */
 }
 
 ir_ref slabs_through(struct shader *shader, const struct slabs_host *host, ir_ref top,

@@ -7,16 +7,17 @@
 #ifndef MXG_SLABS_ESTIMATE_H
 #define MXG_SLABS_ESTIMATE_H
 
+#include "slabs/places.h"
 #include "slabs/slabs.h"
 
 struct slab_look {
-    VEC(float) colors;   /* in threes */
-    unsigned num_points; /* of the surface, with different streams and texels */
-    bool is_known;       /* false: the evaluator cannot compute a value */
+    VEC(float) colors; /* in threes */
+    struct slab_glances glances;
+    bool is_known; /* false: the evaluator cannot compute a value */
 };
 
 /*
- * Looks at all surfaces below a root, at as many points as `like` has; NULL: as the root needs. The
+ * Looks at all surfaces below a root, with the glances of `like`; NULL: as the root needs. The
  * arena host->scratch is empty after the call.
  */
 void slabs_look(struct shader *shader, const struct slabs_host *host, ir_ref root,

@@ -6,6 +6,8 @@
  */
 #include "slabs/search.h"
 
+#include <math.h>
+
 /* Trees that go on for each number of steps: large trees take longer, and have more steps. */
 enum { WIDTH = 3, WIDTH_OF_LARGE = 1, LARGE = 8 /* closures */ };
 #define MARGIN 1.5f
@@ -39,7 +41,13 @@ static enum fault fault_of(const struct search *s, const struct state *state)
 {
     if (!slab_keeps_slabs(s->limits, state->cost) || !slab_keeps_bytes(s->limits, state->cost))
         return TOO_LARGE;
-    return state->error <= s->limits->max_error ? NONE : TOO_FAR;
+    return s->limits->max_error < 0.0f || state->error <= s->limits->max_error ? NONE : TOO_FAR;
+}
+
+/* Without a largest error, the end with the least one is the best. */
+static bool looks_for_error(const struct search *s, enum fault fault)
+{
+    return fault == TOO_FAR || (fault == NONE && s->limits->max_error < 0.0f);
 }
 
 static uint32_t num_features(const struct state *state)
@@ -58,7 +66,7 @@ static bool is_better(const struct search *s, const struct state *a, const struc
                                  {a->cost.closures, b->cost.closures},
                                  {a->cost.bytes, b->cost.bytes},
                                  {num_features(a), num_features(b)}};
-    size_t num_sizes = of_a == TOO_FAR ? 1 : sizeof sizes / sizeof *sizes;
+    size_t num_sizes = looks_for_error(s, of_a) ? 1 : sizeof sizes / sizeof *sizes;
     for (size_t i = 0; i < num_sizes; i++)
         if (sizes[i][0] != sizes[i][1])
             return sizes[i][0] < sizes[i][1];
@@ -75,6 +83,12 @@ static bool is_new(const struct search *s, ir_ref root)
     return true;
 }
 
+/* Limits alone do not ask for instructions. */
+static bool is_useful(const struct search *s, struct slab_cost cost)
+{
+    return s->limits->max_error >= 0.0f || slab_cost_is_higher(s->saver.cost, cost);
+}
+
 static void expand(struct search *s, uint32_t from)
 {
     struct slab_candidates steps = {0};
@@ -87,21 +101,31 @@ static void expand(struct search *s, uint32_t from)
         s->work += s->saver.cost.closures + 1;
         next.error = slab_saver_error(&s->saver, next.by.root);
         next.cost = slab_saver_cost(&s->saver, next.by.root);
-        if (next.error >= 0.0f)
+        if (next.error >= 0.0f && is_useful(s, next.cost))
             vec_push(s->saver.shader->arena, &s->states, next);
     }
 }
 
-/* The open tree with the least error from `first` on; the number of trees: there is none. */
+/* Errors decide; on the way to a limit, errors for what they saved. */
+static float price_of(const struct search *s, const struct state *state)
+{
+    if (s->limits->max_error >= 0.0f)
+        return state->error;
+    uint32_t saved = s->states.items[0].cost.bytes - state->cost.bytes;
+    return saved ? state->error / (float)saved : INFINITY;
+}
+
+/* The open tree with the least price from `first` on; the number of trees: there is none. */
 static uint32_t next_open(const struct search *s, uint32_t first, uint32_t end)
 {
     uint32_t best = end;
     for (uint32_t i = first; i < end; i++) {
         const struct state *state = &s->states.items[i];
-        bool is_lost =
-            fault_of(s, state) == TOO_FAR && state->error > MARGIN * s->limits->max_error;
-        if (state->is_open && !is_lost
-            && (best == end || state->error < s->states.items[best].error))
+        enum fault fault = fault_of(s, state);
+        bool is_lost = fault == TOO_FAR && state->error > MARGIN * s->limits->max_error,
+             is_end = fault == NONE && looks_for_error(s, fault);
+        if (state->is_open && !is_lost && !is_end
+            && (best == end || price_of(s, state) < price_of(s, &s->states.items[best])))
             best = i;
     }
     return best;

@@ -43,6 +43,7 @@ struct filler {
         ir_ref ref, thickness, above; /* above: vec3, what the tops let through */
         uint32_t depth;
         const char *role;
+        bool is_alone; /* no other matter is in its pixels */
     } line;
     VEC(struct line) open;
     VEC(struct mask) masks;
@@ -130,10 +131,12 @@ static bool has_new_normal(const struct filler *f, ir_ref slab, ir_ref top)
 static uint32_t bytes_of(const struct filler *f, const struct line *line)
 {
     struct slab_top top = slabs_top(f->graph, f->tree->root);
-    bool is_top = line->ref == top.ref, is_over = is_top && f->tree->cost.closures > 1;
-    struct stored_slab slab = slab_stored(f->graph, line->ref, is_top && top.is_whole);
-    uint32_t words =
-        slab_stored_words(f->graph, &slab, is_over, has_new_normal(f, line->ref, top.ref));
+    bool is_top = line->ref == top.ref || line->is_alone,
+         is_over = is_top && !line->is_alone && f->tree->cost.closures > 1,
+         is_whole = is_top && (top.is_whole || line->is_alone),
+         has_normal = !line->is_alone && has_new_normal(f, line->ref, top.ref);
+    struct stored_slab slab = slab_stored(f->graph, line->ref, is_whole);
+    uint32_t words = slab_stored_words(f->graph, &slab, is_over, has_normal);
     return SLAB_WORD_BYTES * (words + is_top);
 }
 
@@ -152,9 +155,13 @@ static void fill_slab(struct filler *f, const struct line *line, struct slab_row
 static void push(struct filler *f, const struct line *from, ir_ref ref, ir_ref thickness,
                  ir_ref above, const char *role)
 {
+    const struct ir_node *node = from->ref ? ir_get(f->graph, from->ref) : NULL;
+    bool is_alone = !node
+                    || (from->is_alone && node->op == IR_CLOSURE_MIX
+                        && slab_is_choice(f->graph, ir_arg(f->graph, from->ref, 2)));
     if (ref)
         vec_push(f->shader->arena, &f->open,
-                 (struct line){ref, thickness, above, from->depth + 1, role});
+                 (struct line){ref, thickness, above, from->depth + 1, role, is_alone});
 }
 
 static void fill_layer(struct filler *f, const struct line *line)
@@ -242,7 +249,7 @@ static void fill_tree(struct filler *f, ir_ref root, ir_ref bsdf)
     ir_ref thickness = slabs_sheet_thickness(g, root);
     f->tree->is_sheet = thickness != 0;
     slabs_find_spots(f->shader, root, &f->spots);
-    f->tree->cost = slabs_cost(f->shader, &f->spots);
+    f->tree->cost = slabs_cost(f->shader, root);
     f->bases.len = f->masks.len = 0;
     ir_ref white = ir_const_splat(g, IR_TYPE_VEC3, 1.0f);
     push(f, &(struct line){.depth = 0}, bsdf, thickness, white, "");

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slabs/spots.h"
 
-#include "slabs/bytes.h"
-#include "slabs/features.h"
 #include "slabs/spread.h"
 
 #include "base/hash.h"
-
-enum { MAX_SPOTS = 4096 }; /* from there on, matter above and below makes no other spots */
 
 static bool is_bsdf(const struct ir_graph *g, ir_ref ref)
 {
@@ -46,6 +42,12 @@ static void find_spreading(const struct shader *shader, ir_ref root, const uint8
 
 /* ---- Spots ---- */
 
+bool slabs_is_absent(const struct ir_graph *g, ir_ref ref, uint32_t operand)
+{
+    return ir_get(g, ref)->op == IR_CLOSURE_MIX
+           && ir_const_is(g, ir_arg(g, ref, 2), operand == 0 ? 1.0f : 0.0f);
+}
+
 static void add_spot(const struct shader *shader, struct slab_spots *spots, struct slab_spot spot)
 {
     if (!is_bsdf(shader->graph, spot.ref))
@@ -56,7 +58,7 @@ static void add_spot(const struct shader *shader, struct slab_spots *spots, stru
         bool is_there = known->thickness == spot.thickness && known->is_sheet == spot.is_sheet
                         && known->root == spot.root;
         if (is_there
-            && (spots->items.len >= MAX_SPOTS
+            && (spots->items.len >= SLAB_MAX_SPOTS
                 || (known->below == spot.below && known->above == spot.above)))
             return;
     }
@@ -73,7 +75,7 @@ static void spread(const struct shader *shader, struct slab_spots *spots, ir_ref
     for (uint32_t i = 0; i < num_args; i++) {
         struct slab_spot at = *spot;
         at.ref = ir_arg(g, ref, i);
-        if (!is_bsdf(g, at.ref))
+        if (!is_bsdf(g, at.ref) || slabs_is_absent(g, ref, i))
             continue;
         if (i == 0 && slabs_is_layer(g, ref)) {
             ir_ref base = ir_arg(g, ref, 1);
@@ -124,89 +126,4 @@ const struct slab_spot *slab_spot_at(const struct slab_spots *spots, ir_ref ref,
         if (spots->items.items[i - 1].thickness == thickness)
             return &spots->items.items[i - 1];
     return NULL;
-}
-
-/* ---- Cost ---- */
-
-static bool is_zero(const struct ir_graph *g, ir_ref slab, enum slab_operand input)
-{
-    return ir_const_is(g, ir_arg(g, slab, input), 0.0f);
-}
-
-/* True if the walk makes the same lobes at both spots of a closure. */
-static bool are_same(const struct ir_graph *g, const struct slab_spot *a, const struct slab_spot *b)
-{
-    if (ir_get(g, a->ref)->op != IR_SLAB)
-        return true;
-    bool is_opaque = is_zero(g, a->ref, SLAB_mean_free_path),
-         scatters = !is_zero(g, a->ref, SLAB_diffuse_albedo);
-    return a->above == b->above
-           && (is_opaque || (a->thickness == b->thickness && (!scatters || a->below == b->below)));
-}
-
-/* True where another spot of the list before has the same lobes. */
-static bool is_repeated(const struct ir_graph *g, const struct slab_spots *spots,
-                        const struct slab_spot *spot)
-{
-    for (uint32_t i = spot->next; i; i = spots->items.items[i - 1].next)
-        if (are_same(g, &spots->items.items[i - 1], spot))
-            return true;
-    return false;
-}
-
-/* The operand that is on top of the others: of mixes and stacks the last one. 0: there is none. */
-static ir_ref top_operand(const struct ir_graph *g, ir_ref ref)
-{
-    const struct ir_node *node = ir_get(g, ref);
-    bool is_last = node->op == IR_CLOSURE_MIX || node->op == IR_CLOSURE_ADD
-                   || node->op == IR_SHADER_MIX || node->op == IR_SLOTS;
-    ir_ref top = 0;
-    for (uint32_t i = 0; i < node->num_args && (is_last || !top); i++) {
-        ir_ref arg = ir_arg(g, ref, i);
-        if (is_bsdf(g, arg) || (arg && ir_type_is_shader(ir_type_of(g, arg))))
-            top = arg;
-    }
-    return top;
-}
-
-struct slab_top slabs_top(const struct ir_graph *g, ir_ref root)
-{
-    struct slab_top top = {root, true};
-    while (top.ref && ir_get(g, top.ref)->op != IR_SLAB && ir_get(g, top.ref)->op != IR_LEAF) {
-        uint8_t op = ir_get(g, top.ref)->op;
-        top.is_whole &= op == IR_LAYER || op == IR_SLAB_LAYER || op == IR_SURFACE_SHADER
-                        || op == IR_SLAB_SURFACE || op == IR_MATERIAL;
-        top.ref = top_operand(g, top.ref);
-    }
-    return top;
-}
-
-struct slab_cost slabs_cost(const struct shader *shader, const struct slab_spots *spots)
-{
-    const struct ir_graph *g = shader->graph;
-    struct slab_cost cost = {0};
-    VEC(struct stored_slab) stored = {0};
-    struct slab_top top = slabs_top(g, spots->num_nodes - 1);
-    bool has_top = false;
-    for (uint32_t i = 0; i < spots->items.len; i++) {
-        const struct slab_spot *spot = &spots->items.items[i];
-        uint8_t op = ir_get(g, spot->ref)->op;
-        cost.features |= slab_features(g, spot);
-        if ((op != IR_SLAB && op != IR_LEAF) || is_repeated(g, spots, spot))
-            continue;
-        cost.closures++;
-        cost.others += op == IR_LEAF;
-        bool is_top = spot->ref == top.ref && !has_top;
-        vec_push(shader->arena, &stored, slab_stored(g, spot->ref, is_top && top.is_whole));
-        if (is_top) {
-            struct stored_slab first = stored.items[0];
-            stored.items[0] = vec_last(&stored);
-            vec_last(&stored) = first;
-            has_top = true; /* the same slab may also lie elsewhere */
-        }
-    }
-    if (spots->items.len >= MAX_SPOTS)
-        cost.closures = MAX_SPOTS; /* or more */
-    cost.bytes = SLAB_WORD_BYTES * slab_stored_pixel(g, stored.items, stored.len);
-    return cost;
 }

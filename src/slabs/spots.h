@@ -47,20 +47,10 @@ static inline const struct slab_spot *slab_spot_of(const struct slab_spots *spot
 /* The first one at a thickness; NULL: there is none. */
 const struct slab_spot *slab_spot_at(const struct slab_spots *spots, ir_ref ref, ir_ref thickness);
 
-/* The closure on top of all others below a root; ref 0: there is none. */
-struct slab_top {
-    ir_ref ref;
-    bool is_whole; /* no operator takes light from it */
-};
-struct slab_top slabs_top(const struct ir_graph *graph, ir_ref root);
+/* True for an operand of a mix whose share is the constant 0: it has no spot. */
+bool slabs_is_absent(const struct ir_graph *graph, ir_ref ref, uint32_t operand);
 
-/* The cost of the closures below a root. */
-struct slab_cost {
-    uint32_t closures; /* slabs and other BSDFs, each at each thickness */
-    uint32_t others;   /* of them, those that are no slabs */
-    uint32_t bytes;    /* of the slabs in one pixel */
-    uint32_t features; /* of any slab */
-};
-struct slab_cost slabs_cost(const struct shader *shader, const struct slab_spots *spots);
+/* From there on, matter above and below makes no other spots. */
+enum { SLAB_MAX_SPOTS = 4096 };
 
 #endif

@@ -9,7 +9,7 @@ void slab_saver_set_root(struct slab_saver *s, ir_ref root)
 {
     s->root = root;
     slabs_find_spots(s->shader, root, &s->spots);
-    s->cost = slabs_cost(s->shader, &s->spots);
+    s->cost = slabs_cost(s->shader, root);
 }
 
 /* Points of an estimate have no footprint, and no surroundings. */
@@ -18,8 +18,11 @@ enum { UNSEEN = 1u << SLAB_GLINTS | 1u << SLAB_REFRACTION };
 struct slab_saver slab_saver_of(struct shader *shader, const struct slabs_host *host, uint32_t off,
                                 ir_ref root)
 {
-    struct slab_saver s = {
-        .shader = shader, .graph = shader->graph, .host = host, .blend = {shader, host, off}};
+    struct slab_saver s = {.shader = shader,
+                           .graph = shader->graph,
+                           .host = host,
+                           .blend = {shader, host, off},
+                           .first = root};
     slab_saver_set_root(&s, root);
     s.unseen = s.cost.features & UNSEEN;
     return s;
@@ -27,16 +30,16 @@ struct slab_saver slab_saver_of(struct shader *shader, const struct slabs_host *
 
 struct slab_cost slab_saver_cost(const struct slab_saver *s, ir_ref root)
 {
-    struct slab_spots spots;
-    slabs_find_spots(s->shader, root, &spots);
-    return slabs_cost(s->shader, &spots);
+    return slabs_cost(s->shader, root);
 }
 
-float slab_saver_error(const struct slab_saver *s, ir_ref root)
+float slab_saver_error(struct slab_saver *s, ir_ref root)
 {
     struct slab_look look;
     if (!s->host->scratch || (s->unseen && s->unseen & ~slab_saver_cost(s, root).features))
         return -1.0f;
+    if (!s->whole.glances.items.len)
+        slabs_look(s->shader, s->host, s->first, NULL, &s->whole);
     slabs_look(s->shader, s->host, root, &s->whole, &look);
     return slabs_difference(&s->whole, &look);
 }

@@ -102,9 +102,9 @@ class Client:
     # Documents
 
     def open(self, uri, text):
-        self.versions[uri], self.texts[uri] = 1, text
+        self.versions[uri], self.texts[uri] = self.versions.get(uri, 0) + 1, text
         self.published.pop(uri, None)
-        self.notify("textDocument/didOpen", {"textDocument": {"uri": uri, "languageId": "materialx", "version": 1, "text": text}})
+        self.notify("textDocument/didOpen", {"textDocument": {"uri": uri, "languageId": "materialx", "version": self.versions[uri], "text": text}})
 
     def change(self, uri, start, end, new):
         """Replaces characters."""

@@ -70,9 +70,10 @@ def compare(folder):
     print(f"{folder.name}: {len(documents)} documents, {len(mine)} messages")
 
 
-for folder in (ROOT / "examples", ROOT / "tests/diag", ROOT / "../shared/faults", ROOT / "../shared/materials"):
-    if folder.is_dir():
-        compare(folder.resolve())
-    else:
-        skip(f"there is no {folder}")
-finish("lsp-documents")
+if __name__ == "__main__":
+    for folder in (ROOT / "examples", ROOT / "tests/diag", ROOT / "../shared/faults", ROOT / "../shared/materials"):
+        if folder.is_dir():
+            compare(folder.resolve())
+        else:
+            skip(f"there is no {folder}")
+    finish("lsp-documents")

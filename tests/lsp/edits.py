@@ -18,8 +18,10 @@ PIECES = ["<", ">", "/>", '"', "'", "=", " ", "\n", "\r\n", "\r", "<input ", '<i
           "\t", "\0", "&", "&amp;", "<image", ' type="color3"', "<standard_surface name=\"S\" type=\"surfaceshader\">"]
 SOURCES = [path.read_text(encoding="utf-8") for path in sorted((ROOT / "examples").glob("*.mtlx"))]
 # Requests about the whole document, and about a place in it.
-WHOLE = []
-PLACED = []
+WHOLE = ["textDocument/documentSymbol", "textDocument/foldingRange", "textDocument/documentLink", "textDocument/semanticTokens/full",
+         "textDocument/documentColor", "textDocument/inlayHint"]
+PLACED = ["textDocument/completion", "textDocument/hover", "textDocument/definition", "textDocument/references", "textDocument/documentHighlight",
+          "textDocument/prepareRename", "textDocument/prepareCallHierarchy", "textDocument/formatting"]
 
 
 def change(text):

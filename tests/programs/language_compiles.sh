@@ -44,9 +44,10 @@ cat >coat.mtlx <<'END'
   <surface name="coat" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="both"/></surface>
 </materialx>
 END
-for role in path scatter function deferred depth payload; do
+for role in path scatter function deferred depth payload pack; do
     options=()
     [ "$role" = deferred ] && options=(--slabs)
+    [ "$role" = pack ] && options=(--slabs --transparency opaque)
     [[ ,$lacking, == *,$role,* ]] ||
         check "role $role" compiles gold.mtlx coat.mtlx --interfaces complete,reduced --role "$role" "${options[@]}"
 done

@@ -346,4 +346,49 @@ check 'an unknown format is wrong usage' exits 2 "$mxgen" inspect --slabs --form
 check 'the error names the format' says "'pdf' is no format"
 check 'a format without slabs is wrong usage' exits 2 "$mxgen" inspect --format json "$slabs"
 
+# A mask that selects: a pixel has one side
+cat >selected.mtlx <<'END'
+<materialx version="1.39">
+  <noise2d name="rust" type="float"/>
+  <noise2d name="wet" type="float"><input name="amplitude" type="float" value="0.7"/></noise2d>
+  <slab name="bare" type="BSDF"><input name="f90" type="color3" value="1, 0.98, 1"/><input name="diffuse_albedo" type="color3" value="0, 0, 0"/></slab>
+  <slab name="rusty" type="BSDF"/>
+  <slab name="water" type="BSDF"><input name="diffuse_albedo" type="color3" value="0, 0, 0"/><input name="mean_free_path" type="vector3" value="1, 2, 3"/></slab>
+  <slab_select name="metal" type="BSDF"><input name="in1" type="BSDF" nodename="bare"/><input name="in2" type="BSDF" nodename="rusty"/><input name="mask" type="float" nodename="rust"/></slab_select>
+  <slab_layer name="wetted" type="BSDF"><input name="top" type="BSDF" nodename="water"/><input name="base" type="BSDF" nodename="metal"/></slab_layer>
+  <slab_select name="all" type="BSDF"><input name="in1" type="BSDF" nodename="metal"/><input name="in2" type="BSDF" nodename="wetted"/><input name="mask" type="float" nodename="wet"/></slab_select>
+  <slab_surface name="Dry" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="metal"/></slab_surface>
+  <slab_layer name="alone" type="BSDF"><input name="top" type="BSDF" nodename="water"/><input name="base" type="BSDF" nodename="bare"/></slab_layer>
+  <slab_surface name="Alone" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="alone"/></slab_surface>
+  <slab_surface name="Wet" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="all"/></slab_surface>
+</materialx>
+END
+words() { # material: the words of its pixels
+    "$mxgen" selected.mtlx -e "$1" --role deferred --target vulkan --reflect -o chosen && python3 -c 'import json, sys
+print(json.load(open(f"chosen/{sys.argv[1]}.json"))["deferred"]["words"])' "$1"
+}
+check 'a selection is inspected' exits 0 "$mxgen" inspect --slabs selected.mtlx -e Dry
+check 'the larger side counts' grep -q '1 closures, 16 bytes' out
+check 'its pixels have as many words' eval '[ "$(words Dry)" = 4 ]'
+check 'a selection of selections is inspected' exits 0 "$mxgen" inspect --slabs selected.mtlx -e Wet
+check 'the largest of its sides counts' grep -q ' 2 closures, 28 bytes' out
+check 'it takes the words of that side alone' eval '[ "$(words Wet)" = 7 ] && [ "$(words Alone)" = 7 ]'
+check 'one slab at most keeps a selection' eval 'exits 0 "$mxgen" selected.mtlx -e Dry --max-slabs 1 -Wbudget-step -o made && ! says budget-step'
+
+# Estimates see small patches, and bytes go where they are missed least
+cat >badge.mtlx <<'END'
+<materialx version="1.39">
+  <position name="place" type="vector3"/>
+  <extract name="x" type="float"><input name="in" type="vector3" nodename="place"/></extract>
+  <smoothstep name="badge" type="float"><input name="in" type="float" nodename="x"/><input name="low" type="float" value="0.94"/><input name="high" type="float" value="0.95"/></smoothstep>
+  <slab name="velvet" type="BSDF"><input name="diffuse_albedo" type="color3" value="0, 0, 0"/><input name="fuzz_amount" type="float" value="1"/></slab>
+  <slab name="grey" type="BSDF"/>
+  <slab_mix name="both" type="BSDF"><input name="fg" type="BSDF" nodename="velvet"/><input name="bg" type="BSDF" nodename="grey"/><input name="mix" type="float" nodename="badge"/></slab_mix>
+  <slab_surface name="Badge" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="both"/></slab_surface>
+</materialx>
+END
+check 'a patch of 3 % of a ball is seen' eval 'exits 0 "$mxgen" inspect --slabs badge.mtlx --features -fuzz && grep -qE "no fuzz: .* estimated error 0\.[1-9]" out'
+check 'a small error keeps its fuzz' eval 'exits 0 "$mxgen" badge.mtlx --max-error 0.1 -Wbudget-step -o made && ! says "no fuzz"'
+check 'bytes may go with a feature before a blend' eval 'exits 0 "$mxgen" "$slabs" -e WrappedSilk --max-bytes 56 -Wbudget-step -o made && says "no fuzz" && ! says "one slab"'
+
 finish slabs

@@ -113,9 +113,9 @@ static float error_of_heaviest(struct generation *g, uint32_t num_slabs, uint32_
 {
     struct slabs_host host = host_of(g);
     struct slab_look whole;
-    struct slab_spots spots;
     uint32_t dropped = 0;
     float error = 0.0f;
+    struct slab_spots spots;
     slabs_find_spots(&g->result->shader, g->root, &spots);
     slabs_look(&g->result->shader, &host, g->root, NULL, &whole);
     for (uint32_t left = num_slabs; left > num; left--) {
@@ -153,19 +153,16 @@ static void save_closures(struct generation *g)
 {
     struct run *run = g->user_data;
     struct slab_report report;
-    struct slab_spots spots;
     if (!begin(g))
         return;
-    slabs_find_spots(&g->result->shader, g->root, &spots);
-    struct slab_cost whole = slabs_cost(&g->result->shader, &spots);
+    struct slab_cost whole = slabs_cost(&g->result->shader, g->root);
     for (uint32_t num = 1; num <= MAX_CLOSURES && num < whole.closures; num++) {
         struct slab_budget budget = {.max_slabs = num, .max_error = -1.0f, .max_steps = -1};
         ir_ref root = build_budget_slabs(g->builder, &g->closure_host, &g->estimates, &budget,
                                          g->root, &report);
         REQUIRE(report.is_met && report.after.closures == num);
         check_steps(&report);
-        slabs_find_spots(&g->result->shader, root, &spots);
-        REQUIRE_EQ(slabs_cost(&g->result->shader, &spots).closures, num);
+        REQUIRE_EQ(slabs_cost(&g->result->shader, root).closures, num);
         if (!REQUIRE(run->num_errors < MAX_ERRORS))
             return;
         run->heaviest[run->num_errors] = error_of_heaviest(g, whole.closures, num);
@@ -270,9 +267,7 @@ static void spend(struct generation *g, const struct slab_budget *budget, struct
 
 static void spend_all(struct generation *g, struct fixed *out)
 {
-    struct slab_spots spots;
-    slabs_find_spots(&g->result->shader, g->root, &spots);
-    struct slab_cost whole = slabs_cost(&g->result->shader, &spots);
+    struct slab_cost whole = slabs_cost(&g->result->shader, g->root);
     for (uint32_t off = 0; off < 1u << NUM_SLAB_FEATURES; off++)
         for (uint32_t num = whole.closures; num && !(off & ~whole.features); num--) {
             struct slab_budget budget = {

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lsp/names.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static uint32_t parent_of(const struct lsp_query *query, uint32_t element)
+{
+    return element == MODEL_NONE ? element : query->model->elements[element].parent;
+}
+
+/* An <output> names nodes beside it; an <input> names those beside the element that has it. */
+uint32_t names_scope(const struct lsp_query *query, uint32_t element)
+{
+    uint32_t owner = parent_of(query, element);
+    return query_is(query, element, "output") ? owner : parent_of(query, owner);
+}
+
+const char *names_own_type(const struct lsp_query *query, uint32_t element, char *buffer,
+                           size_t capacity)
+{
+    mxg_port port = {.type = ""};
+    query_text(query, element, "type", buffer, capacity);
+    if (!*buffer && query_is(query, element, "input") && catalogue_port_of(query, element, &port))
+        snprintf(buffer, capacity, "%s", port.type);
+    return buffer;
+}
+
+const char *names_type(const struct lsp_query *query, uint32_t element, char *buffer,
+                       size_t capacity)
+{
+    mxg_port port = {.type = ""};
+    if (query_is(query, element, "input") && catalogue_port_of(query, element, &port))
+        snprintf(buffer, capacity, "%s", port.type);
+    else
+        query_text(query, element, "type", buffer, capacity);
+    return buffer;
+}
+
+const char *names_file_prefix(const struct lsp_query *query, uint32_t element, char *buffer,
+                              size_t capacity)
+{
+    while (element != MODEL_NONE && !query_attribute(query, element, "fileprefix"))
+        element = parent_of(query, element);
+    return query_text(query, element, "fileprefix", buffer, capacity);
+}
+
+/* ---- What a name means ---- */
+
+static uint32_t at_root(const struct lsp_query *query, uint32_t element, struct span name)
+{
+    (void)element;
+    uint32_t root = query_root(query);
+    return root == MODEL_NONE ? root : query_child(query, root, name);
+}
+
+static uint32_t in_scope(const struct lsp_query *query, uint32_t element, struct span name)
+{
+    uint32_t scope = names_scope(query, element);
+    uint32_t found = scope == MODEL_NONE ? scope : query_child(query, scope, name);
+    return found != MODEL_NONE && query_is(query, found, "input") ? MODEL_NONE : found;
+}
+
+/* A nodegraph stands beside the element that reads it, or at the root. */
+static uint32_t graph_of(const struct lsp_query *query, uint32_t element, struct span name)
+{
+    uint32_t scope = names_scope(query, element),
+             beside = scope == MODEL_NONE ? scope : query_child(query, scope, name);
+    return query_is(query, beside, "nodegraph") ? beside : at_root(query, element, name);
+}
+
+/* The child of this category and name. */
+static uint32_t child_of(const struct lsp_query *query, uint32_t parent, const char *category,
+                         struct span name)
+{
+    if (parent == MODEL_NONE)
+        return parent;
+    uint32_t child = model_first(query->model, parent);
+    while (child != MODEL_NONE
+           && !(query_is(query, child, category)
+                && query_is_same(query->text, query_value(query, child, "name"), name)))
+        child = model_next(query->model, child);
+    return child;
+}
+
+/* The element that implements or defines the interface of a nodegraph. */
+static uint32_t definition_of(const struct lsp_query *query, uint32_t graph)
+{
+    struct span nodedef = query_value(query, graph, "nodedef");
+    return nodedef.start == nodedef.end ? MODEL_NONE : at_root(query, graph, nodedef);
+}
+
+static uint32_t input_of_graph(const struct lsp_query *query, uint32_t element, struct span name)
+{
+    uint32_t graph = query_around(query, parent_of(query, element), "nodegraph"),
+             found = child_of(query, graph, "input", name);
+    if (found != MODEL_NONE || graph == MODEL_NONE)
+        return found;
+    return child_of(query, definition_of(query, graph), "input", name);
+}
+
+static uint32_t output_of_source(const struct lsp_query *query, uint32_t element, struct span name)
+{
+    struct span graph = query_value(query, element, "nodegraph");
+    if (graph.start == graph.end)
+        return MODEL_NONE;
+    return child_of(query, graph_of(query, element, graph), "output", name);
+}
+
+/* An input of a node of the document's own definitions. */
+static uint32_t input_of_definition(const struct lsp_query *query, uint32_t element,
+                                    struct span name)
+{
+    uint32_t node = parent_of(query, element);
+    mxg_nodedef nodedef;
+    uint32_t index = query_is(query, element, "input") && query_is_node(query, node)
+                         ? catalogue_resolve(query, node)
+                         : MXG_NONE;
+    if (index == MXG_NONE || index < mxg_library_num_nodedefs(query->session->desc.library)
+        || !catalogue_nodedef(query, index, &nodedef))
+        return MODEL_NONE;
+    uint32_t root = query_root(query),
+             child = root == MODEL_NONE ? root : model_first(query->model, root);
+    while (child != MODEL_NONE
+           && !(query_is(query, child, "nodedef")
+                && query_equals(query->text, query_value(query, child, "name"), nodedef.name)))
+        child = model_next(query->model, child);
+    return child_of(query, child, "input", name);
+}
+
+/* Attributes that name elements, and who finds what they name. */
+static const struct reference {
+    const char *attribute;
+    uint32_t (*find)(const struct lsp_query *query, uint32_t element, struct span name);
+} references[] = {
+    {"nodename", in_scope},        {"nodegraph", graph_of}, {"interfacename", input_of_graph},
+    {"output", output_of_source},  {"nodedef", at_root},    {"inherit", at_root},
+    {"material", at_root},         {"collection", at_root}, {"includecollection", at_root},
+    {"active", at_root},           {"variantset", at_root}, {"propertyset", at_root},
+    {"name", input_of_definition},
+};
+
+static const struct reference *reference_of(const struct lsp_query *query,
+                                            const struct model_attribute *attribute)
+{
+    for (size_t i = 0; i < sizeof references / sizeof *references; ++i)
+        if (query_equals(query->text, attribute->name, references[i].attribute))
+            return &references[i];
+    return NULL;
+}
+
+uint32_t names_target(const struct lsp_query *query, uint32_t element,
+                      const struct model_attribute *attribute)
+{
+    const struct reference *reference = reference_of(query, attribute);
+    bool has_name = attribute->value.end > attribute->value.start;
+    return reference && has_name ? reference->find(query, element, attribute->value) : MODEL_NONE;
+}
+
+bool names_is_reference(const struct lsp_query *query, const struct model_attribute *attribute)
+{
+    return reference_of(query, attribute) && !query_equals(query->text, attribute->name, "name");
+}
+
+/* ---- Included files ---- */
+
+mxg_element names_next_included(const struct lsp_query *query, mxg_element after,
+                                mxg_element_info *out)
+{
+    const mxg_document *document = query->document->parsed;
+    mxg_element element = 0;
+    *out = (mxg_element_info){sizeof *out};
+    if (!document)
+        return 0;
+    if (after) {
+        mxg_document_element(document, after, out);
+        element = out->next;
+    } else {
+        mxg_document_element(document, mxg_document_find_element(document, 0, ""), out);
+        element = out->first_child;
+    }
+    for (; element; element = out->next) {
+        *out = (mxg_element_info){sizeof *out};
+        if (mxg_document_element(document, element, out) != MXG_OK)
+            return 0;
+        if (out->file && strcmp(out->file, query->document->path) != 0)
+            return element;
+    }
+    return 0;
+}
+
+mxg_element names_find_included(const struct lsp_query *query, struct span name,
+                                mxg_element_info *out)
+{
+    for (mxg_element element = 0; (element = names_next_included(query, element, out)) != 0;)
+        if (query_equals(query->text, name, out->name))
+            return element;
+    return 0;
+}

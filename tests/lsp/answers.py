@@ -1,0 +1,328 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""What the language server answers, for each kind of request on small documents. Arguments: mxgen, the root of the project."""
+import pathlib
+import re
+import sys
+import tempfile
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent))
+from checks import check, finish
+from client import Client, Failure, edited, offset, uri_of
+
+MXGEN, ROOT = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
+FOLDER = tempfile.TemporaryDirectory()
+WORK = pathlib.Path(FOLDER.name).resolve()
+URI = uri_of(WORK / "main.mtlx")
+
+GRAPH = '''<?xml version="1.0"?>
+<materialx version="1.39">
+  <nodegraph name="NG">
+    <input name="tint" type="color3" value="0.8, 0.2, 0.1"/>
+    <input name="amount" type="float" value="0.5"/>
+    <image name="picture" type="color3">
+      <input name="file" type="filename" value="maps/brick.png" colorspace="srgb_texture"/>
+    </image>
+    <constant name="grey" type="float"/>
+    <multiply name="product" type="color3">
+      <input name="in1" type="color3" nodename="picture"/>
+      <input name="in2" type="color3" interfacename="tint"/>
+    </multiply>
+    <output name="out" type="color3" nodename="product"/>
+  </nodegraph>
+  <standard_surface name="SR" type="surfaceshader">
+    <input name="base_color" type="color3" nodegraph="NG" output="out"/>
+  </standard_surface>
+  <surfacematerial name="Paint" type="material">
+    <input name="surfaceshader" type="surfaceshader" nodename="SR"/>
+  </surfacematerial>
+</materialx>
+'''
+
+
+def same(found, expected, what):
+    check(found == expected, f"{what}: {found!r} in place of {expected!r}")
+
+
+def open_text(client, text, uri=URI):
+    """Opens a text with a cursor, '¦', or without; gives its offset."""
+    at = text.find("¦")
+    client.open(uri, text.replace("¦", ""))
+    return at
+
+
+def labels(client, text):
+    at = open_text(client, text)
+    return [item["label"] for item in client.at("textDocument/completion", URI, at)["items"]]
+
+
+def within(document, old, new):
+    """A document with a part replaced, by the first place of it."""
+    assert old in document, old
+    return document.replace(old, new, 1)
+
+
+def check_life():
+    client = Client(MXGEN, WORK, general={"positionEncodings": ["utf-8", "utf-16"]})
+    same(client.capabilities["positionEncoding"], "utf-8", "the encoding that the client prefers")
+    client.open(URI, "<materialx version=\"1.39\">é😀 <image/></materialx>")
+    found = client.request("textDocument/hover", {"textDocument": {"uri": URI}, "position": {"line": 0, "character": 35}})
+    same(found and found["range"]["start"]["character"], 34, "columns in bytes")
+    for method, params, code in (("nothing/here", {}, -32601), ("initialize", {}, -32600), ("textDocument/hover", {}, -32602)):
+        try:
+            client.request(method, params)
+            check(False, f"{method} has an answer")
+        except Failure as failure:
+            same(failure.args[0]["code"], code, method)
+    client.process.stdin.write(b"Content-Length: 3\r\n\r\n{]}")
+    client.process.stdin.flush()
+    while "error" not in (message := client.receive()):
+        pass
+    same(message["error"]["code"], -32700, "a message that is no JSON")
+    client.notify("$/anything", {})
+    same(client.end(), 0, "exit after shutdown")
+    client = Client(MXGEN, WORK)
+    client.notify("exit", None)
+    same(client.process.wait(10), 1, "exit without shutdown")
+
+
+def check_messages(client):
+    (WORK / "part.mtlx").write_text('<materialx version="1.39">\n  <constant name="c" type="flot"/>\n</materialx>\n')
+    open_text(client, '<materialx version="1.39">\n  <xi:include href="part.mtlx"/>\n  <nothing name="n" type="float"/>\n</materialx>\n')
+    found = client.diagnostics(URI)
+    same([(item["code"], item["severity"], item["range"]["start"]["line"]) for item in found],
+         [("xml-undeclared-prefix", 2, 1), ("unknown-node", 1, 2)], "messages of the document")
+    same(found[1]["data"]["arguments"][0], "nothing", "arguments")
+    check(found[1]["codeDescription"]["href"].endswith("/messages.md#unknown-node"), "the link to the explanation")
+    part = client.published[uri_of(WORK / "part.mtlx")]["diagnostics"]
+    check("unknown-type" in [item["code"] for item in part], f"messages of the included file: {part}")
+    client.close(URI)
+    while client.published[uri_of(WORK / "part.mtlx")]["diagnostics"]:
+        client.receive()
+    check(True, "closing takes the messages away")
+    open_text(client, within(GRAPH, 'nodename="product"', 'nodename="product" value="1, 1, 1"'))
+    found = client.diagnostics(URI)
+    same([(item["code"], item.get("tags")) for item in found][:1], [("value-and-connection", [1])], "a tag")
+
+
+def check_completion(client):
+    same(labels(client, within(GRAPH, 'nodename="picture"', 'nodename="¦"')), ["picture"], "nodes of the type")
+    same(labels(client, within(GRAPH, 'nodename="picture"/>', 'nodename="p¦')), ["picture"], "nodes where the tag has no end")
+    same(labels(client, within(GRAPH, 'interfacename="tint"', 'interfacename="¦"')), ["tint"], "inputs of the graph of the type")
+    same(labels(client, within(GRAPH, 'nodegraph="NG"', 'nodegraph="¦"')), ["NG"], "graphs")
+    same(labels(client, within(GRAPH, 'output="out"', 'output="¦"')), ["out"], "outputs")
+    same(labels(client, within(GRAPH, 'name="base_color" type="color3"', 'name="specular_roughness" type="¦"')), ["float"], "the type of an input")
+    found = labels(client, within(GRAPH, 'colorspace="srgb_texture"', 'colorspace="r¦"'))
+    check({"srgb_texture", "lin_rec709", "g22_rec709"} <= set(found), f"colour spaces: {found}")
+    same(labels(client, within(GRAPH, 'maps/brick.png', 'maps/¦')), ["brick.png", "deep/"], "files of a folder")
+    same(labels(client, within(GRAPH, '<input name="in1" type="color3" nodename="picture"/>', '<input name="¦"/>')), ["in1", "in2"], "names of inputs")
+    same(labels(client, within(GRAPH, '<input name="in1" type="color3" nodename="picture"/>', "<¦")),
+         ["input in1", "input", "output", "token"], "elements in a node")
+    same(labels(client, within(GRAPH, "</nodegraph>", "</¦")), ["nodegraph"], "an end tag")
+    same(labels(client, within(GRAPH, 'version="1.39"', 'version="¦"')), ["1.39"], "versions")
+    many = within(GRAPH, "</materialx>", "".join(f'<noise2d name="n{n}" type="float"/>' for n in range(500)) + '<add name="a" type="float"><input name="in1" type="float" nodename="¦"/></add></materialx>')
+    at = open_text(client, many)
+    found = client.at("textDocument/completion", URI, at)
+    same((len(found["items"]), found["isIncomplete"]), (400, True), "a long list is cut")
+    same(len(labels(client, many.replace('nodename="¦', 'nodename="49¦'))), 23, "what is typed chooses")
+    unit = '<materialx version="1.39"><position name="p" type="vector3"/><heighttonormal name="h" type="vector3"/><UVTILE/>' \
+           '<geompropvalue name="g" type="float"><input name="geomprop" type="string" value="a"/><input name="default" type="float" unittype="angle" unit="¦"/>'
+    same(labels(client, unit), ["degree", "radian"], "units of the kind")
+    found = labels(client, within(GRAPH, '<constant name="grey"', "<¦\n    <constant name=\"grey\""))
+    check({"noise2d", "standard_surface", "input", "output"} <= set(found) and "look" not in found, "categories in a graph")
+    enum = within(GRAPH, '<input name="file"', '<input name="uaddressmode" type="string" value="¦"/><input name="file"')
+    same(labels(client, enum)[:4], ["constant", "clamp", "periodic", "mirror"], "values of an enumeration")
+    found = labels(client, within(GRAPH, 'type="float"/>', 'type="float" ¦/>'))
+    check("doc" in found and "uniform" not in found and "type" not in found, "attributes of a node")
+    at = open_text(client, within(GRAPH, '<constant name="grey"', "<nois¦\n    <constant name=\"grey\""))
+    item = next(item for item in client.at("textDocument/completion", URI, at)["items"] if item["label"] == "noise2d")
+    same(item["textEdit"]["newText"], 'noise2d name="${1:noise2d1}" type="${2:float}">\n  $0\n</noise2d>', "a node as a snippet")
+    start = offset(client.texts[URI], item["textEdit"]["range"]["start"])
+    same(client.texts[URI][start:at], "nois", "what the snippet replaces")
+
+
+def hover(client, text):
+    found = client.at("textDocument/hover", URI, open_text(client, text))
+    return found and found["contents"]["value"]
+
+
+def check_hover(client):
+    same(hover(client, within(GRAPH, "<multiply name", "<mult¦iply name")),
+         "**multiply** (math)\n\nin1 * in2, for each component.\n\nDefinition `ND_multiply_color3`\n\nGives `out`: color3\n\n"
+         "* `in1`: color3 = `0.0, 0.0, 0.0`\n* `in2`: color3 = `1.0, 1.0, 1.0`", "a node")
+    found = hover(client, within(GRAPH, "base_color", "base_¦color"))
+    check(found.startswith("`base_color`: color3 = `0.8, 0.8, 0.8`"), f"an input: {found}")
+    found = hover(client, within(GRAPH, "maps/brick.png", "maps/br¦ick.png"))
+    same(found, "`maps/brick.png`\n\nPNG, 3 × 2\n\nColour space: srgb_texture", "a texture")
+    found = hover(client, within(GRAPH, 'nodename="picture"', 'nodename="pict¦ure"'))
+    check(found.startswith('`<image name="picture" type="color3">`'), f"a connection: {found}")
+    same(hover(client, within(GRAPH, 'interfacename="tint"', 'interface¦name="tint"')),
+         "`interfacename`: The input of the nodegraph whose value this has.", "an attribute")
+    same(hover(client, within(GRAPH, "<materialx ", "¦<materialx ")), None, "nothing")
+
+
+def text_at(client, place, uri=URI):
+    """The text of a range."""
+    return client.texts[uri][offset(client.texts[uri], place["start"]):offset(client.texts[uri], place["end"])]
+
+
+def line_of(place):
+    return place["start"]["line"]
+
+
+def check_navigation(client):
+    at = open_text(client, within(GRAPH, 'nodename="picture"', 'nodename="pict¦ure"'))
+    found = client.at("textDocument/definition", URI, at)
+    same((found["uri"], line_of(found["range"]), text_at(client, found["range"])), (URI, 5, "picture"), "a definition")
+    same([line_of(item["range"]) for item in client.at("textDocument/references", URI, at, context={"includeDeclaration": True})], [5, 10], "references")
+    same([line_of(item["range"]) for item in client.at("textDocument/references", URI, at, context={"includeDeclaration": False})], [10],
+         "references without the declaration")
+    same([line_of(item["range"]) for item in client.at("textDocument/documentHighlight", URI, at)], [5, 10], "highlights")
+    found = client.at("textDocument/prepareRename", URI, at)
+    same((found["placeholder"], line_of(found["range"])), ("picture", 10), "what a rename changes")
+    edits = client.at("textDocument/rename", URI, at, newName="brick")["changes"][URI]
+    same(edited(client.texts[URI], edits), GRAPH.replace('"picture"', '"brick"'), "a node renamed")
+    for name in "product", "1st", "":
+        try:
+            client.at("textDocument/rename", URI, at, newName=name)
+            check(False, f"a rename to {name!r} has an answer")
+        except Failure as failure:
+            same(failure.args[0]["code"], -32803, f"a rename to {name!r}")
+    for old, new, expected in (("tint", "hue", GRAPH.replace('"tint"', '"hue"')), ("NG", "Wall", GRAPH.replace('"NG"', '"Wall"')),
+                               ("out", "color", GRAPH.replace('"out"', '"color"'))):
+        at = open_text(client, within(GRAPH, f'name="{old}"', f'name="{old}¦"'))
+        edits = client.at("textDocument/rename", URI, at, newName=new)["changes"][URI]
+        same(edited(client.texts[URI], edits), expected, f"{old} renamed")
+    at = open_text(client, within(GRAPH, 'name="base_color"', 'name="base¦_color"'))
+    same(client.at("textDocument/prepareRename", URI, at), None, "names of a definition of the library stay")
+    definition = """<materialx version="1.39">
+  <nodedef name="ND_twice" node="twice">
+    <input name="in" type="float"/>
+    <output name="out" type="float"/>
+  </nodedef>
+  <nodegraph name="NG_twice" nodedef="ND_twice">
+    <add name="sum" type="float"><input name="in1" type="float" interfacename="in"/><input name="in2" type="float" interfacename="in"/></add>
+    <output name="out" type="float" nodename="sum"/>
+  </nodegraph>
+  <twi¦ce name="t" type="float"><input name="in" type="float" value="1"/></twice>
+</materialx>
+"""
+    at = open_text(client, definition)
+    client.diagnostics(URI)
+    same(line_of(client.at("textDocument/definition", URI, at)["range"]), 1, "the definition of a node of the document")
+    at = client.texts[URI].index('"in"') + 1
+    edits = client.at("textDocument/rename", URI, at, newName="value")["changes"][URI]
+    same(edited(client.texts[URI], edits), definition.replace("¦", "").replace('"in"', '"value"'), "an input of an interface renamed")
+    (WORK / "part.mtlx").write_text('<materialx version="1.39">\n  <constant name="é" type="float"/>\n  <constant name="far" type="float"/>\n</materialx>\n')
+    at = open_text(client, '<materialx version="1.39" xmlns:xi="http://www.w3.org/2001/XInclude">\n  <xi:include href="part.mtlx"/>\n'
+                   '  <add name="a" type="float"><input name="in1" type="float" nodename="far¦"/></add>\n</materialx>\n')
+    client.diagnostics(URI)
+    found = client.at("textDocument/definition", URI, at)
+    same((found["uri"], line_of(found["range"])), (uri_of(WORK / "part.mtlx"), 2), "a definition in an included file")
+    same([item["label"] for item in client.at("textDocument/completion", URI, at)["items"]], ["far"], "names of an included file")
+    links = client.of("textDocument/documentLink", URI)
+    same([(line_of(item["range"]), item["target"]) for item in links], [(1, uri_of(WORK / "part.mtlx"))], "a link to an include")
+
+
+def names_of(symbols):
+    return [(item["name"], item["detail"], names_of(item.get("children", []))) for item in symbols]
+
+
+def check_outline(client):
+    open_text(client, GRAPH)
+    found = names_of(client.of("textDocument/documentSymbol", URI))
+    same([(name, detail, len(below)) for name, detail, below in found],
+         [("NG", "nodegraph", 6), ("SR", "standard_surface surfaceshader", 1), ("Paint", "surfacematerial material", 1)], "symbols")
+    same(found[0][2][2], ("picture", "image color3", [("file", "input filename", [])]), "a symbol inside")
+    same([(item["startLine"], item["endLine"]) for item in client.of("textDocument/foldingRange", URI)],
+         [(1, 20), (2, 13), (5, 6), (9, 11), (15, 16), (18, 19)], "folds")
+    same([item["target"] for item in client.of("textDocument/documentLink", URI)], [uri_of(WORK / "maps/brick.png")], "a link to a texture")
+    data = client.of("textDocument/semanticTokens/full", URI)["data"]
+    tokens, line, column = [], 0, 0
+    for i in range(0, len(data), 5):
+        line, column = line + data[i], data[i + 1] + (0 if data[i] else column)
+        text = client.texts[URI].split("\n")[line][column:column + data[i + 2]]
+        tokens.append((text, data[i + 3], data[i + 4]))
+    same(tokens[:9], [("materialx", 5, 0), ("nodegraph", 5, 0), ("NG", 2, 1), ("input", 5, 0), ("tint", 3, 1), ("color3", 1, 0), ("0.8, 0.2, 0.1", 4, 0),
+                      ("input", 5, 0), ("amount", 3, 1)], "tokens")
+    check(("multiply", 0, 0) in tokens and ("picture", 2, 0) in tokens and ("tint", 3, 0) in tokens, "tokens of nodes and references")
+
+
+def check_colours(client):
+    open_text(client, within(GRAPH, '"0.8, 0.2, 0.1"', '"1, 0.2140411, 0"'))
+    found = client.of("textDocument/documentColor", URI)
+    same([(line_of(item["range"]), [round(value, 4) for value in item["color"].values()]) for item in found], [(3, [1, 0.5, 0, 1])], "a linear colour")
+    half = {"red": 0.5, "green": 1, "blue": 0, "alpha": 1}
+    same(client.of("textDocument/colorPresentation", URI, range=found[0]["range"], color=half)[0]["label"], "0.214, 1, 0", "a linear value")
+    open_text(client, within(GRAPH, '"0.8, 0.2, 0.1"', '"1, 0.5, 0" colorspace="srgb_texture"'))
+    found = client.of("textDocument/documentColor", URI)
+    same([round(value, 4) for value in found[0]["color"].values()], [1, 0.5, 0, 1], "a colour in sRGB")
+    edit = client.of("textDocument/colorPresentation", URI, range=found[0]["range"], color=half)[0]["textEdit"]
+    same((edit["newText"], text_at(client, edit["range"])), ("0.5, 1, 0", "1, 0.5, 0"), "a value in sRGB")
+    open_text(client, within(GRAPH, 'version="1.39"', 'version="1.39" colorspace="acescg"'))
+    same(client.of("textDocument/documentColor", URI), [], "no box in a space that is not converted")
+
+
+def check_hints(client):
+    text = within(within(GRAPH, 'version="1.39"', 'version="1.39" colorspace="lin_rec709"'), '<constant name="grey"',
+                  '<blackbody name="b" type="color3"/>\n<constant name="grey"')
+    open_text(client, text)
+    whole = {"start": {"line": 0, "character": 0}, "end": {"line": 99, "character": 0}}
+    found = [(item["position"]["line"], item["label"]) for item in client.of("textDocument/inlayHint", URI, range=whole)]
+    same(found, [(3, "lin_rec709"), (5, "ND_image_color3"), (9, "ND_constant_float"), (10, "ND_multiply_color3"), (16, "ND_standard_surface_surfaceshader")], "hints")
+    part = {"start": {"line": 9, "character": 0}, "end": {"line": 10, "character": 0}}
+    same(len(client.of("textDocument/inlayHint", URI, range=part)), 1, "hints of a range")
+
+
+def check_format(client):
+    options = {"tabSize": 2, "insertSpaces": True}
+    open_text(client, GRAPH)
+    same(client.of("textDocument/formatting", URI, options=options), [], "a formatted text stays")
+    open_text(client, within(GRAPH, '    <constant name="grey" type="float"/>', '  <constant   type="float"  name="grey"></constant>'))
+    edits = client.of("textDocument/formatting", URI, options=options)
+    same(edited(client.texts[URI], edits), GRAPH, "a text formatted")
+    same(line_of(edits[0]["range"]), 8, "the edit has the lines that differ")
+    open_text(client, "<materialx")
+    same(client.of("textDocument/formatting", URI, options=options), None, "a text that is not XML")
+
+
+def check_calls(client):
+    at = open_text(client, within(GRAPH, '<multiply name="product"', '<multiply name="prod¦uct"'))
+    item = client.at("textDocument/prepareCallHierarchy", URI, at)[0]
+    same((item["name"], item["detail"]), ("product", "multiply"), "a node")
+    found = client.request("callHierarchy/outgoingCalls", {"item": item})
+    same([(call["to"]["name"], [line_of(place) for place in call["fromRanges"]]) for call in found], [("picture", [10])], "upstream")
+    found = client.request("callHierarchy/incomingCalls", {"item": item})
+    same([(call["from"]["name"], [line_of(place) for place in call["fromRanges"]]) for call in found], [("NG", [13])], "downstream")
+    found = client.request("callHierarchy/incomingCalls", {"item": found[0]["from"]})
+    same([call["from"]["name"] for call in found], ["SR"], "downstream of a graph")
+
+
+def check_table():
+    """The attributes of the server are those that the library checks."""
+    names = lambda path: set(re.findall(r'^ATTRIBUTE\("?(\w+)"?,', (ROOT / path).read_text(encoding="utf-8"), re.MULTILINE))
+    mine, theirs = names("lsp/attributes.def"), names("src/document/attributes.def")
+    outdated = {"cms", "cmsconfig", "require", "channels", "member", "graphname"}
+    same(theirs - outdated - mine, set(), "attributes that the server lacks")
+    same(mine - theirs - {"name", "href"}, set(), "attributes that the library does not know")
+    kinds = set(re.findall(r"^KIND\(\w+, (\w+)\)", (ROOT / "src/document/kinds.def").read_text(encoding="utf-8"), re.MULTILINE))
+    elements = set(re.findall(r'^ELEMENT\("([\w:]+)"', (ROOT / "lsp/elements.def").read_text(encoding="utf-8"), re.MULTILINE))
+    same(elements ^ kinds, {"xi:include"}, "elements that only one side knows")
+
+
+(WORK / "maps/deep").mkdir(parents=True)
+(WORK / "maps/brick.png").write_bytes(b"\x89PNG\r\n\x1a\n" + b"\0\0\0\rIHDR" + (3).to_bytes(4, "big") + (2).to_bytes(4, "big") + b"\x08\2\0\0\0")
+check_life()
+check_table()
+session = Client(MXGEN, WORK, textDocument={"completion": {"completionItem": {"snippetSupport": True}}})
+check_messages(session)
+check_completion(session)
+check_hover(session)
+check_navigation(session)
+check_outline(session)
+check_colours(session)
+check_hints(session)
+check_format(session)
+check_calls(session)
+same(session.end(), 0, "the end")
+finish("lsp-answers")

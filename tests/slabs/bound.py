@@ -1,0 +1,137 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""The bound of estimated errors (docs/slabs.md): 30 materials that no weight of the estimate was fitted to, as one slab each, drawn from four
+sides; no side is farther off than the bound says.
+
+Arguments: mxgen; --print lists each material."""
+import pathlib
+import random
+import re
+import subprocess
+import sys
+import tempfile
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path.append(str(HERE.parent))
+import balls
+from checks import check, finish
+
+MXGEN = pathlib.Path(sys.argv[1]).resolve()
+NUM_MATERIALS, SIZE = 30, 48
+CAMERAS = ("0,0", "90,0", "180,30", "270,-20")
+# docs/slabs.md: the most that a side is off, of the estimate.
+FACTOR, REST = 2.5, 0.7
+STEP = re.compile(r"slabs \d+ to (\d+), .* estimated error (\S+)")
+
+
+class Material:
+    """A tree of two to five slabs, as XML."""
+
+    def __init__(self, name, seed):
+        self.name, self.random, self.nodes, self.count = name, random.Random(seed), [], 0
+        root = self.tree(self.random.randint(2, 5), True)
+        self.add("slab_surface", "surfaceshader", f"SR_{name}", bsdf=("BSDF", root))
+
+    def add(self, node, kind, name=None, **inputs):
+        self.count += 1
+        name = name or f"{self.name}_{self.count}"
+        ports = "".join(f'<input name="{key}" type="{of}" {"value" if of not in ("BSDF", "node float", "node vector3") else "nodename"}='
+                        f'"{value}"/>' for key, (of, value) in inputs.items())
+        ports = ports.replace('type="node ', 'type="')
+        self.nodes.append(f'  <{node} name="{name}" type="{kind}">{ports}</{node}>')
+        return name
+
+    def color(self, least=0.0, most=0.9):
+        return "color3", ", ".join(f"{self.random.uniform(least, most):.3f}" for _ in range(3))
+
+    def mask(self):
+        """A constant, soft noise, hard patches, or one side of the ball."""
+        kind = self.random.choice(("constant", "noise", "patches", "side"))
+        if kind == "constant":
+            return "float", f"{self.random.uniform(0.1, 0.9):.3f}"
+        place = self.add("position", "vector3", space=("string", "object"))
+        if kind == "side":
+            value, low = self.add("extract", "float", **{"in": ("node vector3", place), "index": ("integer", self.random.randint(0, 2))}), self.random.uniform(-0.5, 0.8)
+            high = low + 0.1
+        else:
+            scaled = self.add("multiply", "vector3", in1=("node vector3", place), in2=("float", f"{self.random.uniform(1, 6):.2f}"))
+            value = self.add("noise3d", "float", position=("node vector3", scaled))
+            low, high = (-0.5, 0.5) if kind == "noise" else (0.0, 0.05)
+        return "node float", self.add("smoothstep", "float", **{"in": ("node float", value), "low": ("float", f"{low:.3f}"), "high": ("float", f"{high:.3f}")})
+
+    def slab(self, is_top):
+        r, inputs = self.random, {}
+        is_metal, is_clear = r.random() < 0.3, is_top and r.random() < 0.6
+        inputs["diffuse_albedo"] = ("color3", "0, 0, 0") if is_metal or is_clear else self.color()
+        if is_metal and not is_clear:
+            inputs["f0"] = self.color(0.4, 1.0)
+        inputs["roughness"] = ("float", f"{r.uniform(0.05, 0.9):.3f}")
+        if is_clear:
+            inputs["mean_free_path"] = ("vector3", ", ".join(f"{r.uniform(0.01, 0.2):.3f}" for _ in range(3)))
+        if r.random() < 0.25:
+            inputs["fuzz_amount"] = ("float", f"{r.uniform(0.2, 1):.3f}")
+            inputs["fuzz_color"] = self.color()
+        if r.random() < 0.2:
+            inputs["anisotropy"] = ("float", f"{r.uniform(-0.9, 0.9):.3f}")
+        if r.random() < 0.2:
+            inputs["second_roughness"] = ("float", f"{r.uniform(0.1, 0.9):.3f}")
+            inputs["second_roughness_weight"] = ("float", f"{r.uniform(0.1, 0.7):.3f}")
+        return self.add("slab", "BSDF", **inputs)
+
+    def tree(self, num, is_bottom):
+        if num == 1:
+            return self.slab(not is_bottom)
+        left = self.random.randint(1, num - 1)
+        if self.random.random() < 0.5:
+            top = self.tree(left, False)
+            if self.random.random() < 0.5:
+                top = self.add("slab_coverage", "BSDF", **{"in": ("BSDF", top), "weight": self.mask()})
+            return self.add("slab_layer", "BSDF", top=("BSDF", top), base=("BSDF", self.tree(num - left, is_bottom)))
+        parts = self.tree(left, is_bottom), self.tree(num - left, is_bottom)
+        return self.add("slab_mix", "BSDF", fg=("BSDF", parts[0]), bg=("BSDF", parts[1]), mix=self.mask())
+
+
+def run(*command):
+    return subprocess.run([str(word) for word in command], capture_output=True, text=True, timeout=300)
+
+
+def estimate(document, name):
+    """The estimated error of one slab; None: a budget does not get there."""
+    steps = STEP.findall(run(MXGEN, "inspect", document, "-e", name, "--slabs").stdout)
+    return float(steps[-1][1]) if steps and steps[-1][0] == "1" else None
+
+
+def draw(document, name, camera, path, *options):
+    made = run(MXGEN, "render", document, "-e", name, "-s", SIZE, "-m", "sphere", "--quiet", f"--camera={camera}", *options, "-o", path)
+    check(made.returncode == 0, f"{name}: {made.stderr}")
+
+
+def drawn(document, name, folder):
+    """The largest drawn error of all sides."""
+    errors = []
+    for camera in CAMERAS:
+        for path, options in ("whole.ppm", ()), ("one.ppm", ("--max-slabs", 1)):
+            draw(document, name, camera, folder / path, *options)
+        errors.append(balls.compare(folder / "whole.ppm", folder / "one.ppm"))
+    return max(errors)
+
+
+def main():
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        for i in range(NUM_MATERIALS):
+            material = Material(f"m{i}", i)
+            document = folder / f"{material.name}.mtlx"
+            document.write_text('<materialx version="1.39">\n' + "\n".join(material.nodes) + "\n</materialx>\n")
+            guess = estimate(document, f"SR_{material.name}")
+            if guess is None:
+                check(False, f"{material.name} becomes no single slab")
+                continue
+            found = drawn(document, f"SR_{material.name}", folder)
+            check(found <= FACTOR * guess + REST, f"{material.name}: drawn {found:.2f}, estimated {guess:.2f}")
+            if "--print" in sys.argv:
+                print(f"{material.name} estimated {guess:.3f} drawn {found:.3f}", flush=True)
+    finish("slab-bound")
+
+
+main()
