@@ -3,6 +3,10 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
+# Debian's programs come before those that a user installed elsewhere: only they have the packages of packages.txt, and tests call python3
+# so often that a wrapper of it would take minutes.
+[ ! -f /etc/debian_version ] || export PATH="/usr/bin:/bin:$PATH"
+
 # Programs and libraries of others, built, in a folder beside the checkout: oslc, testshade and testrender for OSL, and MaterialX's own
 # libraries (MXGEN_MATERIALX). Tests skip what they need and do not find; what is installed or already named comes first.
 peers=$(realpath -m ../shared/peers)
