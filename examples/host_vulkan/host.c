@@ -11,8 +11,8 @@
  *     reload                     reads the file again; after an error the old document stays
  *     draw FILE.ppm              writes a picture
  *
- * This file has the documents, program.c the pipelines, gpu.c the device. Textures show a
- * checkerboard, because reading image files is another subject.
+ * This file has the documents, program.c the pipelines, gpu.c the picture, device.c the device.
+ * Textures show a checkerboard, because reading image files is another subject.
  */
 #include "gpu.h"
 #include "program.h"
@@ -91,7 +91,13 @@ static uint32_t find_program(struct host *h, uint32_t index)
     check(h->num_programs < MAX_PROGRAMS, "too many programs");
     mxg_result *whole = generate(h, h->document, index, false);
     check(whole, info.path);
-    program_make(&h->gpu, whole, &h->programs[h->num_programs]);
+    const struct target target = {.pass = h->gpu.pass,
+                                  .width = SIZE,
+                                  .height = SIZE,
+                                  .num_colors = 1,
+                                  .depth_test = VK_COMPARE_OP_LESS,
+                                  .writes_depth = true};
+    program_make(&h->gpu.device, whole, &target, &h->programs[h->num_programs]);
     mxg_result_destroy(whole);
     return h->num_programs++;
 }
@@ -133,10 +139,18 @@ static void set_place(struct host *h, uint32_t index, float matrix[16])
     memcpy(matrix, place, sizeof place);
 }
 
+struct ball_of {
+    struct host *host;
+    uint32_t index;
+};
+
 /* The values of one semantic, and their number; 0: the default of the shader stays. */
-static uint32_t semantic_value(struct host *h, uint32_t index, const char *semantic,
-                               float values[16])
+static uint32_t value_of(void *user_data, const mxg_variable *variable, float values[16])
 {
+    struct host *h = ((struct ball_of *)user_data)->host;
+    uint32_t index = ((struct ball_of *)user_data)->index;
+    /* a member of a light has the name of the light shader's input */
+    const char *semantic = variable->semantic[0] ? variable->semantic : variable->name;
     if (strcmp(semantic, "worldMatrix") == 0)
         return set_place(h, index, values), 16;
     if (strcmp(semantic, "worldInverseTransposeMatrix") == 0) { /* for normals, of any length */
@@ -158,32 +172,14 @@ static uint32_t semantic_value(struct host *h, uint32_t index, const char *seman
     return 0;
 }
 
-/* Defaults first, which are the document's values for the public block, then the host's values. */
-static void fill_block(struct host *h, uint32_t index, uint32_t number)
-{
-    struct ball *ball = &h->balls[index];
-    unsigned char *bytes = h->uniforms.bytes + ball->offsets[number];
-    mxg_block_info block = MXG_INIT(mxg_block_info);
-    mxg_result_block(ball->result, uniform_blocks[number], &block);
-    mxg_result_pack_block(ball->result, NULL, uniform_blocks[number], bytes, block.byte_size);
-    for (uint32_t i = 0; i < block.num_variables; ++i) {
-        mxg_variable v = MXG_INIT(mxg_variable);
-        float values[16];
-        uint32_t variable = block.first_variable + i;
-        mxg_result_variable(ball->result, variable, &v);
-        /* a member of a light has the name of the light shader's input */
-        uint32_t num = semantic_value(h, index, v.semantic[0] ? v.semantic : v.name, values);
-        if (num)
-            mxg_result_pack_value(ball->result, variable, 0, values, num, bytes, block.byte_size);
-    }
-}
-
 static void fill(struct host *h, uint32_t index)
 {
+    const struct ball *ball = &h->balls[index];
+    struct ball_of of = {h, index};
     for (uint32_t i = 0; i < NUM_UNIFORM_BLOCKS; ++i)
-        fill_block(h, index, i);
-    program_write_constants(h->balls[index].result,
-                            h->uniforms.bytes + h->balls[index].offsets[NUM_UNIFORM_BLOCKS]);
+        program_fill_block(ball->result, uniform_blocks[i], value_of, &of,
+                           h->uniforms.bytes + ball->offsets[i]);
+    program_write_constants(ball->result, h->uniforms.bytes + ball->offsets[NUM_UNIFORM_BLOCKS]);
 }
 
 /* Gives each ball its place in the buffer. Returns the size of the buffer. */
@@ -192,10 +188,7 @@ static uint32_t place_uniforms(struct host *h)
     uint32_t size = 0;
     for (uint32_t i = 0; i < h->num_balls; ++i) {
         struct ball *ball = &h->balls[i];
-        for (uint32_t block = 0; block < NUM_UNIFORM_BLOCKS; ++block) {
-            ball->offsets[block] = size;
-            size += program_block_size(ball->result, uniform_blocks[block]);
-        }
+        size = program_place_blocks(ball->result, size, ball->offsets);
         ball->offsets[NUM_UNIFORM_BLOCKS] = size;
         size += (16 * program_num_constants(ball->result) + 255) / 256 * 256;
     }
@@ -211,16 +204,16 @@ static void make_sets(struct host *h)
                                        .maxSets = h->num_balls,
                                        .poolSizeCount = 2,
                                        .pPoolSizes = sizes};
-    vkDestroyDescriptorPool(h->gpu.device, h->sets, NULL);
-    VK(vkCreateDescriptorPool(h->gpu.device, &pool, NULL, &h->sets));
+    vkDestroyDescriptorPool(h->gpu.device.device, h->sets, NULL);
+    VK(vkCreateDescriptorPool(h->gpu.device.device, &pool, NULL, &h->sets));
     for (uint32_t i = 0; i < h->num_balls; ++i) {
         struct ball *ball = &h->balls[i];
         VkDescriptorSetAllocateInfo info = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
                                             .descriptorPool = h->sets,
                                             .descriptorSetCount = 1,
                                             .pSetLayouts = &h->programs[ball->program].set_layout};
-        VK(vkAllocateDescriptorSets(h->gpu.device, &info, &ball->set));
-        program_bind(&h->gpu, ball->result, h->uniforms.buffer, ball->offsets, ball->set);
+        VK(vkAllocateDescriptorSets(h->gpu.device.device, &info, &ball->set));
+        program_bind(&h->gpu.device, ball->result, h->uniforms.buffer, ball->offsets, ball->set);
     }
 }
 
@@ -229,8 +222,8 @@ static void arrange(struct host *h)
 {
     for (uint32_t i = 0; i < h->num_balls; ++i)
         h->balls[i].program = find_program(h, i);
-    gpu_free_buffer(&h->gpu, h->uniforms);
-    h->uniforms = gpu_make_buffer(&h->gpu, place_uniforms(h) + 256);
+    device_free_buffer(&h->gpu.device, h->uniforms);
+    h->uniforms = device_make_buffer(&h->gpu.device, place_uniforms(h) + 256);
     make_sets(h);
     for (uint32_t i = 0; i < h->num_balls; ++i)
         fill(h, i);
@@ -406,7 +399,7 @@ static bool connect_input(struct host *h, const char *node, const char *input, c
 
 static void draw(struct host *h, const char *path)
 {
-    VkCommandBuffer commands = gpu_begin(&h->gpu);
+    VkCommandBuffer commands = device_begin(&h->gpu.device);
     const VkClearValue clear[] = {{.color = {{0.02f, 0.02f, 0.02f, 1}}}, {.depthStencil = {1, 0}}};
     VkRenderPassBeginInfo pass = {.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO,
                                   .renderPass = h->gpu.pass,
@@ -415,17 +408,16 @@ static void draw(struct host *h, const char *path)
                                   .clearValueCount = 2,
                                   .pClearValues = clear};
     vkCmdBeginRenderPass(commands, &pass, VK_SUBPASS_CONTENTS_INLINE);
-    vkCmdBindIndexBuffer(commands, h->gpu.indices.buffer, 0, VK_INDEX_TYPE_UINT32);
     for (uint32_t i = 0; i < h->num_balls; ++i) {
         const struct ball *ball = &h->balls[i];
         const struct program *program = &h->programs[ball->program];
-        const VkBuffer buffers[] = {h->gpu.mesh.buffer, h->uniforms.buffer};
+        const VkBuffer buffers[] = {h->gpu.device.mesh.buffer, h->uniforms.buffer};
         const VkDeviceSize offsets[] = {0, ball->offsets[NUM_UNIFORM_BLOCKS]};
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, program->pipeline);
         vkCmdBindVertexBuffers(commands, 0, 2, buffers, offsets);
         vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, program->layout, 0, 1,
                                 &ball->set, 0, NULL);
-        vkCmdDrawIndexed(commands, NUM_INDICES, 1, 0, 0, 0);
+        device_draw_ball(&h->gpu.device, commands);
     }
     vkCmdEndRenderPass(commands);
     gpu_write_picture(&h->gpu, commands, path);
@@ -481,9 +473,9 @@ int main(int argc, char **argv)
     bool good = run(&h);
     free_balls(h.balls, h.num_balls);
     for (uint32_t i = 0; i < h.num_programs; ++i)
-        program_free(&h.gpu, &h.programs[i]);
-    vkDestroyDescriptorPool(h.gpu.device, h.sets, NULL);
-    gpu_free_buffer(&h.gpu, h.uniforms);
+        program_free(&h.gpu.device, &h.programs[i]);
+    vkDestroyDescriptorPool(h.gpu.device.device, h.sets, NULL);
+    device_free_buffer(&h.gpu.device, h.uniforms);
     gpu_close(&h.gpu);
     mxg_options_destroy(h.options);
     mxg_document_destroy(h.document);

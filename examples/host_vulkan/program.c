@@ -51,6 +51,30 @@ uint32_t program_block_size(const mxg_result *result, mxg_block block)
     return (block_of(result, block).byte_size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
 }
 
+uint32_t program_place_blocks(const mxg_result *result, uint32_t first, uint32_t *out_offsets)
+{
+    for (uint32_t i = 0; i < NUM_UNIFORM_BLOCKS; ++i) {
+        out_offsets[i] = first;
+        first += program_block_size(result, uniform_blocks[i]);
+    }
+    return first;
+}
+
+void program_fill_block(const mxg_result *result, mxg_block number, program_value_of *value_of,
+                        void *user_data, unsigned char *bytes)
+{
+    mxg_block_info block = block_of(result, number);
+    mxg_result_pack_block(result, NULL, number, bytes, block.byte_size);
+    for (uint32_t i = 0; i < block.num_variables; ++i) {
+        mxg_variable v = variable_of(result, block.first_variable + i);
+        float values[16];
+        uint32_t num = value_of(user_data, &v, values);
+        if (num)
+            mxg_result_pack_value(result, block.first_variable + i, 0, values, num, bytes,
+                                  block.byte_size);
+    }
+}
+
 /* ---- Attributes ---- */
 
 uint32_t program_num_constants(const mxg_result *result)
@@ -109,21 +133,23 @@ static uint32_t describe_attributes(const mxg_result *result,
 
 /* ---- Pipelines ---- */
 
-static VkShaderModule make_module(const struct gpu *g, const mxg_result *result, mxg_stage stage)
+VkShaderModule program_make_module(const struct device *d, const char *source,
+                                   VkShaderStageFlagBits stage)
 {
     size_t size;
     VkShaderModule module;
-    uint32_t *words =
-        compile_spirv(mxg_result_source(result, stage, NULL), stage == MXG_STAGE_VERTEX, &size);
+    uint32_t *words = compile_spirv(source, stage, &size);
     check(words, "the compilation of a shader");
     VkShaderModuleCreateInfo info = {
         .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO, .codeSize = size, .pCode = words};
-    VK(vkCreateShaderModule(g->device, &info, NULL, &module));
+    VK(vkCreateShaderModule(d->device, &info, NULL, &module));
     free(words);
     return module;
 }
 
-static void make_layouts(const struct gpu *g, const mxg_result *result, struct program *p)
+void program_make_layouts(const struct device *d, const mxg_result *result,
+                          VkShaderStageFlags stages, const VkDescriptorSetLayout *host_sets,
+                          uint32_t num_host_sets, struct program *p)
 {
     VkDescriptorSetLayoutBinding bindings[MAX_BINDINGS];
     uint32_t num = 0;
@@ -133,7 +159,7 @@ static void make_layouts(const struct gpu *g, const mxg_result *result, struct p
                 .binding = block_of(result, uniform_blocks[i]).binding,
                 .descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
                 .descriptorCount = 1,
-                .stageFlags = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT};
+                .stageFlags = stages};
     mxg_block_info textures = block_of(result, MXG_BLOCK_TEXTURES);
     check(num + textures.num_variables <= MAX_BINDINGS, "too many textures");
     for (uint32_t i = 0; i < textures.num_variables; ++i)
@@ -141,16 +167,20 @@ static void make_layouts(const struct gpu *g, const mxg_result *result, struct p
             .binding = variable_of(result, textures.first_variable + i).binding,
             .descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
             .descriptorCount = 1,
-            .stageFlags = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT};
+            .stageFlags = stages};
     VkDescriptorSetLayoutCreateInfo set = {.sType =
                                                VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
                                            .bindingCount = num,
                                            .pBindings = bindings};
-    VK(vkCreateDescriptorSetLayout(g->device, &set, NULL, &p->set_layout));
+    VK(vkCreateDescriptorSetLayout(d->device, &set, NULL, &p->set_layout));
+    VkDescriptorSetLayout sets[3] = {p->set_layout};
+    check(num_host_sets < 3, "too many descriptor sets");
+    for (uint32_t i = 0; i < num_host_sets; ++i)
+        sets[1 + i] = host_sets[i];
     VkPipelineLayoutCreateInfo layout = {.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
-                                         .setLayoutCount = 1,
-                                         .pSetLayouts = &p->set_layout};
-    VK(vkCreatePipelineLayout(g->device, &layout, NULL, &p->layout));
+                                         .setLayoutCount = 1 + num_host_sets,
+                                         .pSetLayouts = sets};
+    VK(vkCreatePipelineLayout(d->device, &layout, NULL, &p->layout));
 }
 
 /* Colours are premultiplied. */
@@ -167,18 +197,21 @@ static VkPipelineColorBlendAttachmentState blending(const mxg_result *result)
         .colorWriteMask = 0xf};
 }
 
-static VkPipeline make_pipeline(const struct gpu *g, const mxg_result *result,
-                                VkPipelineLayout layout,
-                                const VkPipelineShaderStageCreateInfo *stages)
+static VkPipeline make_pipeline(const struct device *d, const mxg_result *result,
+                                const struct target *target, VkPipelineLayout layout,
+                                const VkPipelineShaderStageCreateInfo *stages, uint32_t num_stages)
 {
+    enum { MAX_COLORS = 4 };
     VkVertexInputAttributeDescription attributes[MAX_ATTRIBUTES];
     const VkVertexInputBindingDescription inputs[] = {
         {0, sizeof(struct vertex), VK_VERTEX_INPUT_RATE_VERTEX},
         {1, 0, VK_VERTEX_INPUT_RATE_VERTEX}};
-    VkPipelineColorBlendAttachmentState blend = blending(result);
+    VkPipelineColorBlendAttachmentState blend[MAX_COLORS] = {blending(result)};
+    for (uint32_t i = 1; i < MAX_COLORS; ++i)
+        blend[i].colorWriteMask = 0xf;
     VkGraphicsPipelineCreateInfo info = {
         .sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
-        .stageCount = 2,
+        .stageCount = num_stages,
         .pStages = stages,
         .pVertexInputState =
             &(VkPipelineVertexInputStateCreateInfo){
@@ -195,9 +228,10 @@ static VkPipeline make_pipeline(const struct gpu *g, const mxg_result *result,
             &(VkPipelineViewportStateCreateInfo){
                 .sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO,
                 .viewportCount = 1,
-                .pViewports = &(VkViewport){0, 0, SIZE, SIZE, 0, 1},
+                .pViewports =
+                    &(VkViewport){0, 0, (float)target->width, (float)target->height, 0, 1},
                 .scissorCount = 1,
-                .pScissors = &(VkRect2D){{0, 0}, {SIZE, SIZE}}},
+                .pScissors = &(VkRect2D){{0, 0}, {target->width, target->height}}},
         .pRasterizationState =
             &(VkPipelineRasterizationStateCreateInfo){
                 .sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO,
@@ -210,47 +244,54 @@ static VkPipeline make_pipeline(const struct gpu *g, const mxg_result *result,
             &(VkPipelineDepthStencilStateCreateInfo){
                 .sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO,
                 .depthTestEnable = VK_TRUE,
-                .depthWriteEnable = VK_TRUE,
-                .depthCompareOp = VK_COMPARE_OP_LESS},
+                .depthWriteEnable = target->writes_depth,
+                .depthCompareOp = target->depth_test},
         .pColorBlendState =
             &(VkPipelineColorBlendStateCreateInfo){
                 .sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
-                .attachmentCount = 1,
-                .pAttachments = &blend},
+                .attachmentCount = target->num_colors,
+                .pAttachments = blend},
         .layout = layout,
-        .renderPass = g->pass};
+        .renderPass = target->pass};
     VkPipeline pipeline;
-    VK(vkCreateGraphicsPipelines(g->device, VK_NULL_HANDLE, 1, &info, NULL, &pipeline));
+    VK(vkCreateGraphicsPipelines(d->device, VK_NULL_HANDLE, 1, &info, NULL, &pipeline));
     return pipeline;
 }
 
-void program_make(const struct gpu *g, const mxg_result *result, struct program *out)
+void program_make(const struct device *d, const mxg_result *result, const struct target *target,
+                  struct program *out)
 {
+    static const VkShaderStageFlagBits bits[MXG_NUM_STAGES] = {
+        [MXG_STAGE_VERTEX] = VK_SHADER_STAGE_VERTEX_BIT,
+        [MXG_STAGE_PIXEL] = VK_SHADER_STAGE_FRAGMENT_BIT};
     mxg_shader_info info = MXG_INIT(mxg_shader_info);
     mxg_result_info(result, &info);
     out->topology = info.topology;
-    make_layouts(g, result, out);
+    program_make_layouts(d, result, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT,
+                         &target->set_1, target->set_1 ? 1 : 0, out);
     VkPipelineShaderStageCreateInfo stages[MXG_NUM_STAGES];
+    uint32_t num = 0;
     for (int stage = 0; stage < MXG_NUM_STAGES; ++stage)
-        stages[stage] = (VkPipelineShaderStageCreateInfo){
-            .sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
-            .stage = stage == MXG_STAGE_VERTEX ? VK_SHADER_STAGE_VERTEX_BIT
-                                               : VK_SHADER_STAGE_FRAGMENT_BIT,
-            .module = make_module(g, result, (mxg_stage)stage),
-            .pName = "main"};
-    out->pipeline = make_pipeline(g, result, out->layout, stages);
-    for (int stage = 0; stage < MXG_NUM_STAGES; ++stage)
-        vkDestroyShaderModule(g->device, stages[stage].module, NULL);
+        if (stage == MXG_STAGE_VERTEX || target->num_colors || info.alpha == MXG_ALPHA_MASK)
+            stages[num++] = (VkPipelineShaderStageCreateInfo){
+                .sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+                .stage = bits[stage],
+                .module = program_make_module(d, mxg_result_source(result, (mxg_stage)stage, NULL),
+                                              bits[stage]),
+                .pName = "main"};
+    out->pipeline = make_pipeline(d, result, target, out->layout, stages, num);
+    for (uint32_t i = 0; i < num; ++i)
+        vkDestroyShaderModule(d->device, stages[i].module, NULL);
 }
 
-void program_free(const struct gpu *g, struct program *p)
+void program_free(const struct device *d, struct program *p)
 {
-    vkDestroyPipeline(g->device, p->pipeline, NULL);
-    vkDestroyPipelineLayout(g->device, p->layout, NULL);
-    vkDestroyDescriptorSetLayout(g->device, p->set_layout, NULL);
+    vkDestroyPipeline(d->device, p->pipeline, NULL);
+    vkDestroyPipelineLayout(d->device, p->layout, NULL);
+    vkDestroyDescriptorSetLayout(d->device, p->set_layout, NULL);
 }
 
-void program_bind(const struct gpu *g, const mxg_result *result, VkBuffer uniforms,
+void program_bind(const struct device *d, const mxg_result *result, VkBuffer uniforms,
                   const uint32_t *offsets, VkDescriptorSet set)
 {
     VkWriteDescriptorSet write = {
@@ -263,16 +304,16 @@ void program_bind(const struct gpu *g, const mxg_result *result, VkBuffer unifor
         write.dstBinding = block.binding;
         write.descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
         write.pBufferInfo = &buffer;
-        vkUpdateDescriptorSets(g->device, 1, &write, 0, NULL);
+        vkUpdateDescriptorSets(d->device, 1, &write, 0, NULL);
     }
     mxg_block_info textures = block_of(result, MXG_BLOCK_TEXTURES);
     for (uint32_t i = 0; i < textures.num_variables; ++i) {
         mxg_variable v = variable_of(result, textures.first_variable + i);
-        VkImageView view = strstr(v.type, "Array") ? g->checker.array : g->checker.view;
-        VkDescriptorImageInfo image = {g->sampler, view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+        VkImageView view = strstr(v.type, "Array") ? d->checker.array : d->checker.view;
+        VkDescriptorImageInfo image = {d->sampler, view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
         write.dstBinding = v.binding;
         write.descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
         write.pImageInfo = &image;
-        vkUpdateDescriptorSets(g->device, 1, &write, 0, NULL);
+        vkUpdateDescriptorSets(d->device, 1, &write, 0, NULL);
     }
 }

@@ -4,6 +4,7 @@
 
 #include <glslang/Include/glslang_c_interface.h>
 #include <glslang/Public/resource_limits_c.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,13 +19,26 @@ static uint32_t *take_words(glslang_program_t *program, glslang_stage_t stage, s
     return words;
 }
 
-uint32_t *compile_spirv(const char *source, bool is_vertex, size_t *out_bytes)
+/* Once for the program: glslang parses its own functions here. */
+static void begin(void)
 {
-    glslang_stage_t stage = is_vertex ? GLSLANG_STAGE_VERTEX : GLSLANG_STAGE_FRAGMENT;
+    static bool has_begun;
+    if (has_begun)
+        return;
+    has_begun = true;
+    glslang_initialize_process();
+    atexit(glslang_finalize_process);
+}
+
+uint32_t *compile_spirv(const char *source, VkShaderStageFlagBits stage, size_t *out_bytes)
+{
+    glslang_stage_t kind = stage == VK_SHADER_STAGE_VERTEX_BIT     ? GLSLANG_STAGE_VERTEX
+                           : stage == VK_SHADER_STAGE_FRAGMENT_BIT ? GLSLANG_STAGE_FRAGMENT
+                                                                   : GLSLANG_STAGE_COMPUTE;
     int rules = GLSLANG_MSG_SPV_RULES_BIT | GLSLANG_MSG_VULKAN_RULES_BIT;
     glslang_input_t input = {
         .language = GLSLANG_SOURCE_GLSL,
-        .stage = stage,
+        .stage = kind,
         .client = GLSLANG_CLIENT_VULKAN,
         .client_version = GLSLANG_TARGET_VULKAN_1_0,
         .target_language = GLSLANG_TARGET_SPV,
@@ -35,7 +49,7 @@ uint32_t *compile_spirv(const char *source, bool is_vertex, size_t *out_bytes)
         .messages = (glslang_messages_t)rules,
         .resource = glslang_default_resource(),
     };
-    glslang_initialize_process();
+    begin();
     glslang_shader_t *shader = glslang_shader_create(&input);
     glslang_program_t *program = glslang_program_create();
     uint32_t *words = NULL;
@@ -43,12 +57,11 @@ uint32_t *compile_spirv(const char *source, bool is_vertex, size_t *out_bytes)
     if (parsed)
         glslang_program_add_shader(program, shader);
     if (parsed && glslang_program_link(program, rules))
-        words = take_words(program, stage, out_bytes);
+        words = take_words(program, kind, out_bytes);
     else
         fprintf(stderr, "%s%s", glslang_shader_get_info_log(shader),
                 glslang_program_get_info_log(program));
     glslang_program_delete(program);
     glslang_shader_delete(shader);
-    glslang_finalize_process();
     return words;
 }
