@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * An engine with the deferred pipeline of mxgen on Vulkan, without a display: balls of the materials
- * of documents under lamps of its own, with shadows, occlusion and a sky of its own, and a decal.
+ * An engine with the deferred pipeline of mxgen on Vulkan, without a display: balls of the
+ * materials of documents under lamps of its own, with shadows, occlusion and a sky of its own, and
+ * a decal.
  *
  *     host_deferred [--show NAME] [--no-decal] PICTURE.ppm FOLDER FILE.mtlx...
  *
@@ -82,8 +83,9 @@ static void set_camera(struct host *h)
     const float eye[3] = {0, 15, 26};
     const float a = far / (near - far), b = near * far / (near - far);
     /* right, up and back of the camera are the rows of its rotation */
-    const float to_view[16] = {1, 0, 0, 0, 0, c, s, 0, 0, -s, c, 0,
-                               0, -c * eye[1] + s * eye[2], -s * eye[1] - c * eye[2], 1};
+    const float to_view[16] = {
+        1, 0, 0, 0, 0, c, s, 0, 0, -s, c, 0, 0, -c * eye[1] + s * eye[2], -s * eye[1] - c * eye[2],
+        1};
     const float to_clip[16] = {focal / aspect, 0, 0, 0, 0, -focal, 0, 0, 0, 0, a, -1, 0, 0, b, 0};
     for (int i = 0; i < 4; ++i) {
         transform(to_clip, to_view + 4 * i, h->view_projection + 4 * i);

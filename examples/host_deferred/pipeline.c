@@ -82,9 +82,9 @@ static void make_resources(struct pipeline *p, uint32_t num_words)
         else if (r->type != VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER)
             r->buffer = device_make_buffer(p->device, buffer_size(p, i));
     }
-    p->depth = device_make_image(
-        p->device, VK_FORMAT_D32_SFLOAT, p->width, p->height, 1,
-        VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT);
+    p->depth =
+        device_make_image(p->device, VK_FORMAT_D32_SFLOAT, p->width, p->height, 1,
+                          VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT);
     VkCommandBuffer commands = device_begin(p->device);
     for (uint32_t i = 0; i < p->num_resources; ++i)
         if (p->resources[i].image.image)
@@ -102,15 +102,15 @@ static VkDescriptorSetLayout make_set_layout(const struct pipeline *p,
     VkDescriptorSetLayoutBinding bindings[MAX_RESOURCES];
     VkDescriptorSetLayout layout;
     for (uint32_t i = 0; i < num; ++i)
-        bindings[i] = (VkDescriptorSetLayoutBinding){
-            .binding = i,
-            .descriptorType = types[i],
-            .descriptorCount = 1,
-            .stageFlags = VK_SHADER_STAGE_FRAGMENT_BIT | VK_SHADER_STAGE_COMPUTE_BIT};
-    VkDescriptorSetLayoutCreateInfo info = {
-        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
-        .bindingCount = num,
-        .pBindings = bindings};
+        bindings[i] = (VkDescriptorSetLayoutBinding){.binding = i,
+                                                     .descriptorType = types[i],
+                                                     .descriptorCount = 1,
+                                                     .stageFlags = VK_SHADER_STAGE_FRAGMENT_BIT
+                                                                   | VK_SHADER_STAGE_COMPUTE_BIT};
+    VkDescriptorSetLayoutCreateInfo info = {.sType =
+                                                VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
+                                            .bindingCount = num,
+                                            .pBindings = bindings};
     VK(vkCreateDescriptorSetLayout(p->device->device, &info, NULL, &layout));
     return layout;
 }
@@ -144,10 +144,11 @@ static void write_set(const struct pipeline *p, VkDescriptorSet set, uint32_t bi
 static void make_sets(struct pipeline *p)
 {
     VkDescriptorType types[MAX_RESOURCES], host = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
-    const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 4 * MAX_SETS},
-                                          {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, MAX_RESOURCES},
-                                          {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, MAX_RESOURCES},
-                                          {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 8 * MAX_SETS}};
+    const VkDescriptorPoolSize sizes[] = {
+        {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 4 * MAX_SETS},
+        {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, MAX_RESOURCES},
+        {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, MAX_RESOURCES},
+        {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 8 * MAX_SETS}};
     VkDescriptorPoolCreateInfo pool = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
                                        .maxSets = MAX_SETS,
                                        .poolSizeCount = 4,
@@ -222,7 +223,8 @@ void pipeline_open(struct pipeline *p, struct device *device, uint32_t width, ui
     p->num_tiles = (width + TILE - 1) / TILE * ((height + TILE - 1) / TILE);
     make_resources(p, num_words);
     make_sets(p);
-    const char *names[] = {"color", "word0", "word1", "word2"}; /* in the order of their locations */
+    const char *names[] = {"color", "word0", "word1",
+                           "word2"}; /* in the order of their locations */
     VkFormat formats[4];
     VkImageView views[5] = {[4] = p->depth.view};
     for (int i = 0; i < 4; ++i) {
@@ -269,8 +271,7 @@ static void make_stage(struct pipeline *p, mxg_result *result, const char *const
     for (size_t i = 0; i < num_parts; ++i)
         strcat(source, parts[i]);
     out->result = result;
-    program_make_layouts(p->device, result, VK_SHADER_STAGE_COMPUTE_BIT, p->sets, 2,
-                         &out->program);
+    program_make_layouts(p->device, result, VK_SHADER_STAGE_COMPUTE_BIT, p->sets, 2, &out->program);
     VkComputePipelineCreateInfo info = {
         .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
         .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,

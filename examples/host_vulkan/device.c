@@ -111,8 +111,7 @@ static VkImageView make_view(const struct device *d, const struct image *i, VkIm
 struct image device_make_image(const struct device *d, VkFormat format, uint32_t width,
                                uint32_t height, uint32_t num_layers, VkImageUsageFlags usage)
 {
-    struct image i = {
-        .format = format, .width = width, .height = height, .num_layers = num_layers};
+    struct image i = {.format = format, .width = width, .height = height, .num_layers = num_layers};
     VkMemoryRequirements needs;
     VkImageCreateInfo info = {.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
                               .imageType = VK_IMAGE_TYPE_2D,
@@ -172,8 +171,8 @@ static void wait_for(VkCommandBuffer commands, const VkImageMemoryBarrier *image
                               .dstAccessMask =
                                   VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT};
     vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
-                         VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0, 1, &memory, 0, NULL,
-                         image ? 1 : 0, image);
+                         VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0, 1, &memory, 0, NULL, image ? 1 : 0,
+                         image);
 }
 
 void device_wait(VkCommandBuffer commands)
@@ -230,13 +229,13 @@ static void make_checkerboard(struct device *d)
         memset(texels.bytes + 4 * i, (i + i / TEXELS) % 2 ? 230 : 60, 4);
     VkCommandBuffer commands = device_begin(d);
     device_change_layout(commands, &d->checker, VK_IMAGE_LAYOUT_UNDEFINED,
-                  VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+                         VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
     vkCmdCopyBufferToImage(
         commands, texels.buffer, d->checker.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1,
         &(VkBufferImageCopy){.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
                              .imageExtent = {TEXELS, TEXELS, 1}});
     device_change_layout(commands, &d->checker, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-                  VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+                         VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     device_run(d, commands);
     device_free_buffer(d, texels);
     VK(vkCreateSampler(d->device,
