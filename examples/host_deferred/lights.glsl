@@ -49,7 +49,7 @@ void mxg_light(int i, vec3 P, out vec3 L, out vec3 radiance)
     radiance = is_hidden(P, L, far) ? vec3(0.0) : LAMP_COLORS[i] / (far * far);
 }
 
-// What the eight balls around leave of the hemisphere (a sphere hides cos r² / d² of it).
+// The part of the hemisphere that the eight balls around leave (a sphere hides cos r² / d² of it).
 float mxg_ambient_occlusion(vec3 P, vec3 N)
 {
     float hidden = 0.0;

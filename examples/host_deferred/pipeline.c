@@ -323,7 +323,8 @@ void pipeline_make_passes(struct pipeline *p, mxg_context *context, const mxg_op
         mxg_result_storage(result, &storage);
         bool is_used = source && mxg_result_pass(result, &pass) == MXG_OK && pass.group_size[0]
                        && (!storage.classes || storage.classes & classes)
-                       && strcmp(pass.name, "light_rays") != 0;
+                       && strcmp(pass.name, "light_rays") != 0
+                       && (p->decal.result || strcmp(pass.name, "over") != 0);
         if (!is_used) {
             mxg_result_destroy(result);
             continue;
@@ -403,30 +404,21 @@ static bool is_run(const struct pipeline *p, const mxg_pass *pass, bool is_view)
     return is_view ? is_show || !writes_lit : !is_show;
 }
 
-/* All passes; or, as it comes first, only the one that stores decals. */
-static void run_passes(const struct pipeline *p, VkCommandBuffer commands, bool is_view,
-                       bool are_decals)
-{
-    for (uint32_t i = 0; i < mxg_catalogue_num_passes(); ++i) {
-        const struct stage *s = &p->passes[i];
-        mxg_pass pass = MXG_INIT(mxg_pass);
-        if (s->result && mxg_result_pass(s->result, &pass) == MXG_OK
-            && (strcmp(pass.name, "over") == 0) == are_decals && is_run(p, &pass, is_view))
-            run_stage(p, commands, s, pass.is_indirect ? &pass : NULL);
-    }
-}
-
 void pipeline_light(struct pipeline *p, VkCommandBuffer commands, const char *show)
 {
     uint32_t number = show ? show_number(p, show) : 0;
     set_frame(p, "mx_show", &number, sizeof number);
     clear_tiles(p);
     device_wait(commands);
-    if (p->decal.result) {
+    if (p->decal.result)
         run_stage(p, commands, &p->decal, NULL);
-        run_passes(p, commands, show != NULL, true);
+    for (uint32_t i = 0; i < mxg_catalogue_num_passes(); ++i) {
+        const struct stage *s = &p->passes[i];
+        mxg_pass pass = MXG_INIT(mxg_pass);
+        if (s->result && mxg_result_pass(s->result, &pass) == MXG_OK
+            && is_run(p, &pass, show != NULL))
+            run_stage(p, commands, s, pass.is_indirect ? &pass : NULL);
     }
-    run_passes(p, commands, show != NULL, false);
 }
 
 void pipeline_close(struct pipeline *p)

@@ -47,8 +47,8 @@ void pipeline_open(struct pipeline *p, struct device *device, uint32_t width, ui
 void pipeline_close(struct pipeline *p);
 
 /*
- * The passes for these classes of pixels, with the functions of the host behind their texts; takes
- * what the passes know of the viewer from `view`.
+ * The passes for these classes of pixels, and for the decal if there is one, with the functions of
+ * the host behind their texts; takes what the passes know of the viewer from `view`.
  */
 struct view {
     float position[3];

@@ -71,6 +71,7 @@ enum deferred_class {
 
 /* The passes that belong to no material, in their order; not all run in one picture. */
 enum deferred_pass {
+    PASS_OVER, /* payloads over what pixels store: decals */
     PASS_CLASSIFY,
     PASS_COMPOSE,
     PASS_SIMPLE,
@@ -82,7 +83,6 @@ enum deferred_pass {
     PASS_SHOW,
     PASS_LIGHT_RAYS, /* over payloads, not pixels */
     PASS_READ,       /* functions for passes of the host: what pixels store */
-    PASS_OVER,       /* payloads over what pixels store */
     NUM_PASSES
 };
 const char *deferred_pass_name(enum deferred_pass pass);

@@ -255,8 +255,8 @@ class Passes(unittest.TestCase):
     def test_passes(self):
         context = mxgen.Context()
         passes = context.passes("vulkan", options={"max-lights": 1})
-        self.assertEqual(list(passes), ["classify", "compose", "light_simple", "light_single", "light_complex", "light_special", "show", "light_rays",
-                                        "read", "over"])
+        self.assertEqual(list(passes), ["over", "classify", "compose", "light_simple", "light_single", "light_complex", "light_special", "show",
+                                        "light_rays", "read"])
         self.assertIn("diffuse", context.passes("vulkan", options={"sss": "diffusion"}))
         self.assertIn("u_lightData[1]", passes["light_simple"].pixel)
         document = context.load(common.EXAMPLES / "deferred.mtlx")
