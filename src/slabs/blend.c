@@ -20,6 +20,7 @@
 
 #include "ir/arithmetic.h"
 #include "shader/formula.h"
+#include "slabs/cost.h"
 #include "slabs/spread.h"
 
 #include <assert.h>
@@ -313,18 +314,12 @@ static void set_share(struct shader *shader, struct part *part, ir_ref share)
                             part->in[SLAB_diffuse_albedo], share);
 }
 
-static bool is_zero_or_one(const struct ir_graph *g, ir_ref ref)
-{
-    return ir_const_is(g, ref, 0.0f) || ir_const_is(g, ref, 1.0f);
-}
-
 /* True where one of the parts is there alone, as <slab_select> has it. A slab has one table. */
 static bool is_either(const struct ir_graph *g, const struct part *bg, const struct part *fg,
                       ir_ref mix)
 {
     ir_ref of_bg = bg->in[SLAB_specular_lut], of_fg = fg->in[SLAB_specular_lut];
-    return ir_get(g, mix)->op == IR_SELECT && is_zero_or_one(g, ir_arg(g, mix, 1))
-           && is_zero_or_one(g, ir_arg(g, mix, 2)) && (!of_bg || !of_fg || of_bg == of_fg);
+    return slab_is_choice(g, mix) && (!of_bg || !of_fg || of_bg == of_fg);
 }
 
 static void select_inputs(struct ir_graph *g, const struct part *bg, const struct part *fg,

@@ -67,7 +67,7 @@ struct slab_top slabs_top(const struct ir_graph *g, ir_ref root)
     return top;
 }
 
-/* Of the closures of a root without choices. */
+/* Counts all closures of a root, as if it had no choices. */
 static struct slab_cost cost_of_all(const struct shader *shader, ir_ref root)
 {
     const struct ir_graph *g = shader->graph;
@@ -128,6 +128,8 @@ static ir_ref find_condition(const struct shader *shader, ir_ref root)
     return 0;
 }
 
+enum { MAX_CHOICES = 4 }; /* behind so many conditions both sides count */
+
 static uint32_t larger(uint32_t a, uint32_t b)
 {
     return a > b ? a : b;
@@ -136,7 +138,7 @@ static uint32_t larger(uint32_t a, uint32_t b)
 static struct slab_cost cost_of(const struct shader *shader, ir_ref root, unsigned num_choices)
 {
     struct ir_graph *g = shader->graph;
-    ir_ref condition = num_choices < SLAB_MAX_CHOICES ? find_condition(shader, root) : 0;
+    ir_ref condition = num_choices < MAX_CHOICES ? find_condition(shader, root) : 0;
     if (!condition)
         return cost_of_all(shader, root);
     ir_ref with = ir_replace(g, root, condition, ir_const_bool(g, true), shader->arena),

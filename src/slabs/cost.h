@@ -29,7 +29,5 @@ uint32_t slabs_num_closures(const struct shader *shader, ir_ref root);
 
 /* True for a share that is 0 or 1, by a condition. */
 bool slab_is_choice(const struct ir_graph *graph, ir_ref share);
-/* From that many conditions on, both sides count. */
-enum { SLAB_MAX_CHOICES = 4 };
 
 #endif

@@ -249,7 +249,7 @@ static ir_ref weight_of(struct ir_graph *g, unsigned number)
     return ir_construct(g, IR_TYPE_VEC3, parts, 3);
 }
 
-/* What varies over the surface, as one vec3: a sum of all operands of its closures. 0: nothing. */
+/* A vec3 that tells unlike places apart: a sum of all operands of closures. 0: nothing varies. */
 static ir_ref signature_of(const struct eye *eye, const uint8_t *needed, ir_ref root)
 {
     struct ir_graph *g = eye->shader->graph;

@@ -60,17 +60,17 @@ void slabs_place_stream(unsigned at, str_id name, struct ir_value *out)
 enum { MAX_CHOSEN = 12 };
 #define LIKE 0.02f /* values that are as near to each other are one */
 
-static float distance(const float *values, unsigned a, unsigned b)
+static float distance(const float a[3], const float b[3])
 {
     float square = 0.0f;
     for (unsigned c = 0; c < 3; c++) {
-        float step = values[a * 3 + c] - values[b * 3 + c];
+        float step = a[c] - b[c];
         square += step * step;
     }
     return sqrtf(square);
 }
 
-/* Of the places, which chosen one is the nearest, and how far it is. */
+/* The chosen place that is nearest to a place, and how far it is. */
 struct nearest {
     unsigned chosen;
     float distance;
@@ -82,7 +82,7 @@ static unsigned add_place(const float *values, unsigned place, unsigned chosen,
 {
     unsigned farthest = 0;
     for (unsigned i = 0; i < SLAB_NUM_PLACES; i++) {
-        float away = distance(values, i, place);
+        float away = distance(values + i * 3, values + place * 3);
         if (chosen == 0 || away < nearest[i].distance)
             nearest[i] = (struct nearest){chosen, away};
         if (nearest[i].distance > nearest[farthest].distance)
@@ -96,19 +96,19 @@ static unsigned middle_of(const float *values, const struct nearest *nearest, un
 {
     float mean[3] = {0}, least = INFINITY;
     unsigned num = 0, middle = 0;
-    for (unsigned i = 0; i < SLAB_NUM_PLACES; i++)
-        for (unsigned c = 0; c < 3 && nearest[i].chosen == chosen; c++) {
-            mean[c] += values[i * 3 + c];
-            num += c == 0;
-        }
     for (unsigned i = 0; i < SLAB_NUM_PLACES; i++) {
-        float square = 0.0f;
-        for (unsigned c = 0; c < 3; c++) {
-            float step = values[i * 3 + c] - mean[c] / (float)num;
-            square += step * step;
-        }
-        if (nearest[i].chosen == chosen && square < least) {
-            least = square;
+        if (nearest[i].chosen != chosen)
+            continue;
+        num++;
+        for (unsigned c = 0; c < 3; c++)
+            mean[c] += values[i * 3 + c];
+    }
+    for (unsigned c = 0; c < 3; c++)
+        mean[c] /= (float)num;
+    for (unsigned i = 0; i < SLAB_NUM_PLACES; i++) {
+        float away = distance(values + i * 3, mean);
+        if (nearest[i].chosen == chosen && away < least) {
+            least = away;
             middle = i;
         }
     }
