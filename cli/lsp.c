@@ -18,7 +18,7 @@
 
 enum { MAX_HEADER = 4096, MAX_MESSAGE = 1 << 30, READ_SIZE = 64 << 10 };
 
-/* What came and no message has taken yet. */
+/* Bytes that came and that no message has taken yet. */
 struct input {
     char *bytes;
     size_t start, end, capacity;

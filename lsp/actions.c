@@ -24,7 +24,7 @@ static bool wants(const json_t *params, const char *kind)
     return is_wanted;
 }
 
-/* What a finding is about begins at its place, or one after it where that is a '<'. */
+/* The subject of a finding begins at its place, or one after it where that is a '<'. */
 static void cure_finding(struct cure *cure, const struct finding *finding, struct span span)
 {
     cure->finding = finding;

@@ -31,7 +31,7 @@ struct completion {
     bool is_cut; /* there are more items */
 };
 
-/* What an item has beside its label; each may be NULL. */
+/* An item has these beside its label; each may be NULL. */
 struct completion_item {
     const char *label;
     enum completion_kind kind;

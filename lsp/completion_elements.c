@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What stands around the cursor: an item brings the '<', the attributes and the end that are
+/* The text around the cursor: an item brings the '<', the attributes and the end that are
  * missing. */
 struct setting {
     uint32_t parent;

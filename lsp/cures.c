@@ -249,7 +249,7 @@ static struct span find_in_value(const struct cure *cure, const char *word)
     return (struct span){0, 0};
 }
 
-/* What the message reads the value as. */
+/* The message reads the value as this. */
 static void replace_number(struct cure *cure)
 {
     struct span word = find_in_value(cure, cure_argument(cure, 0));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* What a check found in a document and in the files that it includes. */
+/* A check found this in a document and in the files that it includes. */
 #ifndef MXG_LSP_FINDINGS_H
 #define MXG_LSP_FINDINGS_H
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/* What the text does not say: the definition that a node has, units and colour spaces of values. */
+/* Hints say what the text does not: the definition that a node has, units and colour spaces of
+ * values. */
 #include "lsp/handlers.h"
 #include "lsp/names.h"
 #include "lsp/wire.h"

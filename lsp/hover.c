@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* What is under the cursor: the definition of a node, an input, a texture, an attribute. */
+/* The subject under the cursor: the definition of a node, an input, a texture, an attribute. */
 #include "lsp/check.h"
 #include "lsp/elements.h"
 #include "lsp/handlers.h"

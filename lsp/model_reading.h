@@ -19,7 +19,7 @@ uint32_t reading_add(struct reading *reading, uint32_t start);
 bool reading_find(struct reading *reading);
 /* Reads what begins with the '<': a tag, a comment, an instruction. */
 void reading_take(struct reading *reading);
-/* What the text ends inside of ends with it. */
+/* An element that the text ends inside of ends with it. */
 void reading_close(struct reading *reading);
 
 #endif

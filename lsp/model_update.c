@@ -68,7 +68,7 @@ static void reserve_attributes(struct model *model, uint32_t count)
         memory_resize(model->attributes, model->capacity_attributes * sizeof *model->attributes);
 }
 
-/* What a change does to the elements behind it: where they are in the text, and their numbers. */
+/* A change moves the elements behind it: where they are in the text, and their numbers. */
 struct move {
     uint32_t root, from; /* elements from `from` on move */
     uint32_t by, elements, attributes;

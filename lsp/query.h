@@ -31,7 +31,7 @@ uint32_t query_around(const struct lsp_query *query, uint32_t element, const cha
 /* True if the category is none of MaterialX's own elements (elements.def), so it names a node. */
 bool query_is_node(const struct lsp_query *query, uint32_t element);
 
-/* What is at an offset. */
+/* The thing at an offset. */
 enum place_part {
     PLACE_CONTENT,   /* between elements; `element` is the parent */
     PLACE_CATEGORY,  /* behind '<' or in the name of an element */

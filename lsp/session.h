@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* What the parts of the server share: the session, its documents, and how a method is answered. */
+/* The parts of the server share this: the session, its documents, and how a method is answered. */
 #ifndef MXG_LSP_SESSION_H
 #define MXG_LSP_SESSION_H
 

@@ -137,7 +137,7 @@ enum closure_transparency {
 enum closure_layering { LAYERING_VIEW, LAYERING_TWO_SIDED, LAYERING_OCCLUDING };
 
 /* The lighting of the shaded point, from the options of the caller. */
-/* What darkens light that arrives: occlusion_maps.c. */
+/* Sources of darkness for light that arrives: occlusion_maps.c. */
 enum closure_darkening { DARKENED_BY_NOTHING, DARKENED_BY_MAP, DARKENED_BY_HOST };
 
 struct closure_lighting {

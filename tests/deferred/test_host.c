@@ -129,7 +129,7 @@ static bool draw_center(struct bench *b, const char *element, const char *host, 
     NO_IRRADIANCE "vec3 mxg_radiance(vec3 P, vec3 L, float roughness) { return " value "; }\n"
 #define IRRADIANCE(value) NO_RADIANCE "vec3 mxg_irradiance(vec3 P, vec3 N) { return " value "; }\n"
 
-/* What the functions get, by quotients of colours: it stands in front of the viewer there. */
+/* Quotients of colours tell what the functions get: it stands in front of the viewer there. */
 static void test_arguments(struct bench *b)
 {
     float one[3], value[3], point[3], way[3], diffuse[3], normal[3];
