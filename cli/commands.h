@@ -15,6 +15,7 @@ int command_explain(const struct command *command, int argc, char **argv);
 int command_render(const struct command *command, int argc, char **argv);
 int command_format(const struct command *command, int argc, char **argv);
 int command_pipeline(const struct command *command, int argc, char **argv);
+int command_translate(const struct command *command, int argc, char **argv);
 int command_upgrade(const struct command *command, int argc, char **argv);
 
 #endif

@@ -40,6 +40,8 @@ static const struct command commands[] = {
      "Renders materials without a display: one picture, or a sheet of several.", command_render},
     {"pipeline", "pipeline FOLDER [--target vulkan|glsl] [options]",
      "Writes the passes of the deferred pipeline that belong to no material.", command_pipeline},
+    {"translate", "translate FILE --to MODEL [-o FILE]",
+     "Writes a document with its surfaces as another shading model.", command_translate},
     {"library", "library pack|list|expand|doc [PATH...] [-o PATH]  |  library list WORD...",
      "Packs, lists, expands or documents node libraries; finds nodes by a part of their name.",
      command_library},

@@ -165,6 +165,21 @@ bool drawn_compare(const struct drawn_subject *subject, size_t num_steps,
     return !comparison->fault;
 }
 
+double drawn_difference(const struct drawn_subject *one, const struct drawn_subject *other,
+                        char **out_fault)
+{
+    struct drawn_comparison pair = {.full = draw(one, NO_STEPS)};
+    if (pair.full.ppm)
+        pair.cheapest = draw(other, NO_STEPS);
+    double error = difference(&pair.full, &pair.cheapest);
+    if (error < 0)
+        fail(&pair, pair.full.ppm ? &pair.cheapest : &pair.full);
+    *out_fault = pair.fault;
+    pair.fault = NULL;
+    drawn_finish(&pair);
+    return error;
+}
+
 void drawn_finish(struct drawn_comparison *comparison)
 {
     drop(&comparison->full);

@@ -40,6 +40,13 @@ bool drawn_begin(const struct drawn_subject *subject, struct drawn_comparison *o
  */
 bool drawn_compare(const struct drawn_subject *subject, size_t num_steps,
                    struct drawn_comparison *comparison);
+/*
+ * How far two subjects look from each other: the mean CIEDE2000 over the ball, without budgets.
+ * Below 0: *out_fault has the reason, which the caller frees.
+ */
+double drawn_difference(const struct drawn_subject *one, const struct drawn_subject *other,
+                        char **out_fault);
+
 void drawn_finish(struct drawn_comparison *comparison);
 
 #endif

@@ -2,6 +2,7 @@
 /* The files of a run: its documents, what else it reads, and the pictures that it writes. */
 #include "program/files.h"
 #include "program/folder.h"
+#include "program/translated.h"
 #include "render/job.h"
 
 #include <stdlib.h>
@@ -16,7 +17,7 @@ char *job_frame_name(const char *output, size_t frame)
 
 mxg_document *job_load(struct job *job, const char *path)
 {
-    mxg_document *document = cli_load(&job->cli, path);
+    mxg_document *document = translated_load(&job->cli, path, job->options.translate);
     bool good = true;
     for (uint32_t i = 0; i < mxg_document_num_files(document); ++i)
         good = outputs_read(&job->files, &job->cli.report, mxg_document_file(document, i)) && good;

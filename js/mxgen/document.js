@@ -336,6 +336,21 @@ export class Document extends Owner {
         });
     }
 
+    // ---- Other models ----
+
+    /** The document with its surfaces as another shading model, "gltf_pbr" (docs/translate.md). The diagnostics tell what is lost. Throws DocumentError. */
+    translate(model) {
+        const native = this._native;
+        return native.using(() => {
+            const called = native.newText(model, "model");
+            const { handle, status } = this.context._make("mxg_translate", "mxg_result_destroy", [this._handle], out => [this._pointer, called, out]);
+            const result = new Shader(native, handle), diagnostics = result.diagnostics;
+            if (status !== STATUS.ok)
+                throw new DocumentError(diagnostics);
+            return { text: result._text(), diagnostics };
+        });
+    }
+
     // ---- Calls ----
 
     /** Checks every node, connection and value against the library, without generating. Errors are in the result. */

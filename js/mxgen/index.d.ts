@@ -302,6 +302,8 @@ export class Document extends Owner {
      * below a difference are resolved again. Throws DocumentError.
      */
     bind(scene: Scene, look?: string | null, request?: { solo?: string[]; mute?: string[]; previous?: Bindings | null }): Bindings;
+    /** The document with its surfaces as another shading model, "gltf_pbr"; the diagnostics tell what is lost. Throws DocumentError. */
+    translate(model: string): { text: string; diagnostics: Diagnostics };
     /** Checks every node, connection and value against the library, without generating. */
     validate(): Diagnostics;
     /** Makes a shader. Throws DocumentError. */

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include "../pbrlib/shaders/optics.glsl"
+#include "open_pbr.glsl"
 
 // KHR_materials_anisotropy stretches alpha.y to mix(alpha.y, 1, strength^2) along the tangent.
 float mx_gltf_anisotropy(vec2 alpha)
 {
-    return alpha.y < 1.0 ? sqrt((alpha.x - alpha.y) / (1.0 - alpha.y)) : 0.0;
+    return sqrt(max(alpha.x - alpha.y, 0.0) / max(1.0 - alpha.y, 0.000001));
 }
 
 // OpenPBR Surface specification, "Coat darkening": light bounces below the coat until (1 - F0) / n^2 of it escapes.
@@ -15,4 +16,87 @@ vec3 mx_coat_darkening(vec3 base_color, float metalness, float specular, float s
     vec3 albedo = mix(mix(base_color, subsurface_color, subsurface), base_color * specular, metalness);
     float escape = 4.0 / (ior * (ior + 1.0) * (ior + 1.0));
     return mix(vec3(1.0), escape / (1.0 - albedo * (1.0 - escape)), weight);
+}
+
+float mx_brightest(vec3 color)
+{
+    return max(max(color.x, color.y), color.z);
+}
+
+// Normal incidence on a dielectric in air (Fresnel).
+float mx_reflectance_of_ior(float ior)
+{
+    float amplitude = (ior - 1.0) / (ior + 1.0);
+    return amplitude * amplitude;
+}
+
+float mx_ior_of_reflectance(float reflectance)
+{
+    float amplitude = sqrt(clamp(reflectance, 0.0, 0.98));
+    return (1.0 + amplitude) / (1.0 - amplitude);
+}
+
+// The weight of a coat of index `into` that reflects as much as one of index `ior`, at most 1.
+float mx_coat_weight(float weight, float ior, float into)
+{
+    return ior == into ? weight : min(weight * mx_reflectance_of_ior(ior) / max(mx_reflectance_of_ior(into), 0.0001), 1.0);
+}
+
+// Light that passes a rough coat blurs the reflections below (OpenPBR Surface specification, "Coat roughening").
+float mx_coat_blur(float roughness, float coat_roughness, float weight)
+{
+    float below = roughness * roughness, coat = coat_roughness * coat_roughness;
+    return weight * coat_roughness > 0.0 ? mix(roughness, sqrt(sqrt(min(below * below + 2.0 * coat * coat, 1.0))), weight) : roughness;
+}
+
+// The roughness that mx_coat_blur blurs to `roughness`, or 0.
+float mx_coat_unblur(float roughness, float coat_roughness, float weight)
+{
+    float below = roughness * roughness, coat = coat_roughness * coat_roughness;
+    return weight * coat_roughness > 0.0 ? mix(roughness, sqrt(sqrt(max(below * below - 2.0 * coat * coat, 0.0))), weight) : roughness;
+}
+
+/* OpenPBR's roughness over that of mx_roughness_anisotropy for the same lobe of an anisotropy, which is 1 less the ratio of its two
+   squared roughnesses in both. */
+float mx_stretch(float anisotropy)
+{
+    float aspect = 1.0 - min(anisotropy, 0.98);
+    return sqrt(sqrt((1.0 + aspect * aspect) / (2.0 * aspect)));
+}
+
+// Squared roughness along X and across (KHR_materials_anisotropy).
+vec2 mx_gltf_alpha(float roughness, float strength)
+{
+    float alpha = roughness * roughness;
+    return vec2(mix(alpha, 1.0, strength * strength), alpha);
+}
+
+// The anisotropy of OpenPBR for squared roughnesses along X and across.
+float mx_aspect(vec2 alpha)
+{
+    return 1.0 - alpha.y / max(alpha.x, 0.00001);
+}
+
+// The roughness of mx_roughness_anisotropy for squared roughnesses along X and across.
+float mx_lobe_roughness(vec2 alpha)
+{
+    return sqrt(sqrt(alpha.x * alpha.y));
+}
+
+// The inverse of mx_open_pbr_anisotropy.
+float mx_open_pbr_roughness(vec2 alpha)
+{
+    float aspect = alpha.y / max(alpha.x, 0.00001);
+    return sqrt(alpha.x * sqrt((1.0 + aspect * aspect) * 0.5));
+}
+
+/* OpenPBR's dielectric lies in the index of its coat, the other models' in air: the index that reflects in air as much as `ior` does
+   below a coat, and back. */
+float mx_ior_below(float ior, float coat_ior, float weight)
+{
+    return weight > 0.0 ? mix(ior, max(ior / coat_ior, coat_ior / ior), weight) : ior;
+}
+float mx_ior_above(float ior, float coat_ior, float weight)
+{
+    return weight > 0.0 ? ior / mix(1.0, 1.0 / coat_ior, weight) : ior;
 }

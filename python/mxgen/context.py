@@ -14,7 +14,7 @@ from typing import Any, Union
 from ._calls import Handle, Native, c_number, c_path, c_text, c_texts, error_of, guarded, lib, new, optional_text, py_text
 from .definition import Library
 from .diagnostic import Diagnostics
-from .document import Document
+from .document import Document, Rewritten, rewritten
 from .edit import Edit
 from .error import ArgumentError, Error, OutOfMemoryError, document_error
 from .scene import Scene
@@ -47,22 +47,6 @@ class Rewriting(enum.IntEnum):
     FORMAT = lib.MXG_REWRITE_FORMAT
     #: the same after the upgrade of an older version to 1.39
     UPGRADE = lib.MXG_REWRITE_UPGRADE
-
-
-@dataclass(frozen=True)
-class Rewritten:
-    """A document as new text."""
-
-    text: str
-    #: the remarks `upgraded` describe each change of an upgrade
-    diagnostics: Diagnostics
-
-
-class _Holder(Native):
-    """The owner of a result of which Python shows a part."""
-
-    def __init__(self, handle: Handle) -> None:
-        self._handle = handle
 
 
 class _Host:
@@ -356,11 +340,7 @@ class Context(Native):
         size = 0 if data is None else len(data)
         handle, status = self._make(lib.mxg_rewrite, lib.mxg_result_destroy, (), Rewriting(rewriting),
                                     c_path(name, "name"), data, size)
-        owner = _Holder(handle)
-        diagnostics = Diagnostics(lib.mxg_result_diagnostics(handle.pointer), owner)
-        if status != lib.MXG_OK:
-            raise document_error(diagnostics)
-        return Rewritten(py_text(lib.mxg_result_text(handle.pointer, None)), diagnostics)
+        return rewritten(handle, status)
 
     def format(self, text: str | bytes, *, name: str = "<text>") -> str:
         """The text of a document in one layout; comments stay."""

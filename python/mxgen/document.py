@@ -28,6 +28,30 @@ Value = Union[bool, int, float, str, tuple[float, ...]]
 
 
 @dataclass(frozen=True)
+class Rewritten:
+    """A document as new text."""
+
+    text: str
+    #: the remarks `upgraded` describe each change of an upgrade, and the warnings of a translation what is lost
+    diagnostics: Diagnostics
+
+
+class _Holder(Native):
+    """The owner of a result of which Python shows a part."""
+
+    def __init__(self, handle: Handle) -> None:
+        self._handle = handle
+
+
+def rewritten(handle: Handle, status: int) -> Rewritten:
+    """The text of a result. Raises DocumentError."""
+    diagnostics = Diagnostics(lib.mxg_result_diagnostics(handle.pointer), _Holder(handle))
+    if status != lib.MXG_OK:
+        raise document_error(diagnostics)
+    return Rewritten(py_text(lib.mxg_result_text(handle.pointer, None)), diagnostics)
+
+
+@dataclass(frozen=True)
 class Renderable:
     """An element that mxgen can generate."""
 
@@ -398,6 +422,15 @@ class Document(Native):
         image, messages = self._repr_png_(), str(self.validate())
         shown = "" if image is None else f'<img src="data:image/png;base64,{base64.b64encode(image).decode()}">'
         return f"{shown}<pre>{html.escape(messages or repr(self))}</pre>"
+
+    # ---- Other models ----
+
+    def translate(self, model: str) -> Rewritten:
+        """The document with its surfaces as another shading model, "gltf_pbr" (docs/translate.md). The diagnostics tell what is lost.
+        Raises DocumentError."""
+        handle, status = self.context._make(lib.mxg_translate, lib.mxg_result_destroy, (self._handle,), self._handle.pointer,
+                                            c_text(model, "model"))
+        return rewritten(handle, status)
 
     # ---- Scenes ----
 

@@ -47,6 +47,11 @@ static bool glob_matches(const struct generation *g, const char *glob, struct ar
     struct search s = {.lib = &g->document->layer, .glob = glob};
     text_init(&s.path, arena);
     diag_list_init(&s.ignored, arena);
+    const char *slash = strrchr(glob, '/');
+    if (slash && !strpbrk(glob, "*?")) { /* a path */
+        elem_id element = doc_find(doc, glob, (size_t)(slash - glob));
+        return element && element_matches(&s, element);
+    }
     for (elem_id e = doc->root; e; e = doc_next_in_tree(doc, doc->root, e)) {
         enum element_kind kind = (enum element_kind)doc_element(doc, e)->kind;
         if ((kind == KIND_NODE || kind == KIND_NODEGRAPH) && element_matches(&s, e))

@@ -216,6 +216,9 @@ test("text for text", () => {
     assert(context.format("<materialx version='1.39'><!-- kept --><noise2d type='float' name='n'/></materialx>").includes("<!-- kept -->"));
     const old = context.upgrade('<materialx version="1.36"><standard_surface name="S" type="surfaceshader"/><material name="M"><shaderref name="r" node="standard_surface"/></material></materialx>');
     assert(old.text.includes('version="1.39"') && old.diagnostics.length > 0, old.text);
+    const flat = context.parse('<materialx version="1.39"><standard_surface name="S" type="surfaceshader"><input name="metalness" type="float" value="0.25"/></standard_surface></materialx>');
+    assert.match(flat.translate("gltf_pbr").text, /<gltf_pbr name="S"[^]*<input name="metallic" type="float" value="0.25"/);
+    assert.throws(() => flat.translate("lambert"), DocumentError);
     assert.throws(() => context.rewrite("shorten", "x", ""), ArgumentError);
     assert.throws(() => context.format("<"), DocumentError);
 });

@@ -251,6 +251,17 @@ class Text(unittest.TestCase):
         self.assertIn('  <noise2d name="n" type="float"', formatted)
         self.assertEqual(mxgen.Context().format(formatted.encode(), name="n"), formatted)
 
+    def test_translate(self):
+        context = mxgen.Context()
+        document = context.parse('<materialx version="1.39"><standard_surface name="S" type="surfaceshader">'
+                                 '<input name="base" type="float" value="1"/><input name="metalness" type="float" value="0.25"/>'
+                                 '<input name="thin_film_thickness" type="float" value="300"/></standard_surface></materialx>')
+        translated = document.translate("UsdPreviewSurface")
+        self.assertEqual({diagnostic.id for diagnostic in translated.diagnostics}, {"translation-loss"})
+        self.assertEqual(context.parse(translated.text)["S/metallic"].value, 0.25)
+        with self.assertRaises(mxgen.DocumentError):
+            document.translate("lambert")
+
     def test_upgrade(self):
         path = common.EXAMPLES / "old_copper.mtlx"
         context = mxgen.Context()

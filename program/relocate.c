@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#define _XOPEN_SOURCE 700
+#include "program/relocate.h"
+#include "program/files.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The folder of a file as an absolute path with a '/' at its end; NULL with errno. The caller frees it. */
+static char *folder_of(const char *file)
+{
+    int len = (int)(files_base_name(file) - file);
+    char *folder = len ? cli_format("%.*s", len, file) : cli_format(".");
+    char *real = realpath(folder, NULL), *out = NULL;
+    if (real)
+        out = cli_format("%s%s", real, strcmp(real, "/") == 0 ? "" : "/");
+    free(folder);
+    free(real);
+    return out;
+}
+
+/* The way from one folder to another: "../../textures/"; "" for one folder. */
+static char *way_between(const char *from, const char *to)
+{
+    size_t shared = 0, ups = 0;
+    for (size_t i = 0; from[i] && from[i] == to[i]; ++i)
+        if (from[i] == '/')
+            shared = i + 1;
+    for (const char *rest = from + shared; *rest; ++rest)
+        ups += *rest == '/';
+    char *out = cli_format("%s", "");
+    for (size_t i = 0; i < ups; ++i) {
+        char *longer = cli_format("%s../", out);
+        free(out);
+        out = longer;
+    }
+    char *way = cli_format("%s%s", out, to + shared);
+    free(out);
+    return way;
+}
+
+static bool is_absolute(const char *prefix)
+{
+    return prefix[0] == '/' || strstr(prefix, "://");
+}
+
+/* The next element of the tree in document order; 0: the last. */
+static mxg_element next_element(const mxg_document *document, mxg_element at)
+{
+    mxg_element_info info = {.size = sizeof info};
+    mxg_document_element(document, at, &info);
+    mxg_element next = info.first_child;
+    for (mxg_element e = at; !next && e; e = info.parent) {
+        mxg_document_element(document, e, &info);
+        next = info.next;
+    }
+    return next;
+}
+
+static bool set_prefix(mxg_edit *edit, const mxg_document *document, mxg_element element, const char *way)
+{
+    mxg_attribute attribute = {.size = sizeof attribute, .value = ""};
+    uint32_t index = mxg_document_find_attribute(document, element, "fileprefix");
+    if (index != MXG_NONE)
+        mxg_document_attribute(document, element, index, &attribute);
+    bool is_root = element == mxg_document_find_element(document, 0, "");
+    if ((index == MXG_NONE && !is_root) || is_absolute(attribute.value))
+        return true;
+    char *prefix = cli_format("%s%s", way, attribute.value);
+    bool good = mxg_edit_set_attribute(edit, element, "fileprefix", prefix) == MXG_OK;
+    free(prefix);
+    return good;
+}
+
+static mxg_document *with_way(struct cli *cli, mxg_document *document, const char *way)
+{
+    mxg_edit *edit = NULL;
+    mxg_document *out = NULL;
+    mxg_status status = mxg_edit_create(cli->context, cli->library, document, NULL, &edit);
+    bool good = status == MXG_OK;
+    for (mxg_element e = mxg_document_find_element(document, 0, ""); e && good; e = next_element(document, e))
+        good = set_prefix(edit, document, e, way);
+    status = good ? mxg_edit_commit(edit, &out) : status == MXG_OK ? MXG_ERROR_MEMORY : status;
+    report_status(&cli->report, status);
+    mxg_edit_destroy(edit);
+    mxg_document_destroy(document);
+    return out;
+}
+
+mxg_document *relocate(struct cli *cli, mxg_document *document, const char *from, const char *to)
+{
+    char *old = folder_of(from), *new = old ? folder_of(to) : NULL;
+    if (!new)
+        report_error(&cli->report, "output-failed", "cannot write '%s': %s", to, strerror(errno));
+    char *way = new ? way_between(new, old) : NULL;
+    mxg_document *out = document;
+    if (!way || *way)
+        out = way ? with_way(cli, document, way) : NULL;
+    if (!way)
+        mxg_document_destroy(document);
+    free(old);
+    free(new);
+    free(way);
+    return out;
+}

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+/* A document for another folder: the names of its files lead to the same files from there. */
+#ifndef MXG_PROGRAM_RELOCATE_H
+#define MXG_PROGRAM_RELOCATE_H
+
+#include "program/cli.h"
+
+/*
+ * `document`, whose files are relative to `from`, as a document at `to` (both are files); it stays itself where both
+ * have one folder. Each relative `fileprefix` gets the way between the folders before it. Ends `document` if it makes
+ * another one. NULL after a message.
+ */
+mxg_document *relocate(struct cli *cli, mxg_document *document, const char *from, const char *to);
+
+#endif

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Documents with their surfaces as another model (docs/translate.md), for programs that draw or check them. */
+#ifndef MXG_PROGRAM_TRANSLATED_H
+#define MXG_PROGRAM_TRANSLATED_H
+
+#include "program/cli.h"
+
+/* cli_load, then with the surfaces as `model`; model NULL: cli_load alone. NULL after a message. */
+mxg_document *translated_load(struct cli *cli, const char *path, const char *model);
+
+#endif

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * The draft: the document with the nodes of the chain, whose first has the inputs of the surface, and with a copy
+ * of the surface. Connected inputs have a value there and become uniforms, so the IR of an output depends on them by
+ * name, and folds all else.
+ */
+#include "api/translate.h"
+
+/* The name of the draft's node: 0 is the surface, 1 the first translation. */
+const char *translate_step_name(const struct translation *t, unsigned step)
+{
+    struct text name;
+    text_init(&name, t->arena);
+    text_fmt(&name, "%s%u", t->draft_name, step);
+    return text_cstr(&name);
+}
+
+/* A name that no element of the root begins with. */
+static const char *free_name(const struct translation *t)
+{
+    struct text name;
+    text_init(&name, t->arena);
+    for (unsigned i = 0;; i++) {
+        name.len = 0;
+        text_fmt(&name, "translation%u_", i);
+        text_str(&name, "0");
+        if (!mxg_document_find_element(t->document, 0, text_cstr(&name)))
+            break;
+    }
+    name.len--;
+    return text_cstr(&name);
+}
+
+static elem_id child_input(const struct translation *t, const char *name)
+{
+    const struct document *doc = &t->document->layer.doc;
+    str_id id = str_find(doc->strings, name, strlen(name));
+    elem_id found = id ? doc_child(doc, t->surface, id) : 0;
+    return found && doc_element(doc, found)->category == STR_input ? found : 0;
+}
+
+static const char *attribute(const struct translation *t, elem_id element, str_id name)
+{
+    const struct document *doc = &t->document->layer.doc;
+    str_id value = element ? doc_attr_value(doc, element, name) : 0;
+    return value ? str_text(doc->strings, value) : "";
+}
+
+static bool is_connected(const struct translation *t, elem_id input)
+{
+    return *attribute(t, input, STR_nodename) || *attribute(t, input, STR_nodegraph)
+           || *attribute(t, input, STR_interfacename) || *attribute(t, input, STR_output);
+}
+
+static void read_sources(struct translation *t, uint32_t definition)
+{
+    mxg_nodedef info = {.size = sizeof info};
+    mxg_document_nodedef(t->document, definition, &info);
+    t->sources.len = 0;
+    for (uint32_t i = 0; i < info.num_inputs; i++) {
+        struct source_input source = {.port.size = sizeof source.port};
+        mxg_document_port(t->document, definition, i, &source.port);
+        source.element = child_input(t, source.port.name);
+        source.is_connected = is_connected(t, source.element);
+        source.type = value_type_of(source.port.type);
+        vec_push(t->arena, &t->sources, source);
+    }
+}
+
+bool translate_is_default(const struct translation *t, const struct source_input *source)
+{
+    const char *text = attribute(t, source->element, STR_value);
+    mxg_value value = {.size = sizeof value};
+    struct ir_value words = value_zero(source->type).value;
+    if (strcmp(text, source->port.value) == 0 || !source->element)
+        return true;
+    if (mxg_document_value(t->document, source->element, &value) != MXG_OK
+        || value.num_values != ir_type_components(words.type))
+        return false;
+    for (uint32_t i = 0; i < value.num_values; i++)
+        if (words.type == IR_TYPE_INT)
+            words.w[i].i = value.integer;
+        else
+            words.w[i].f = value.values[i];
+    return source->type != VALUE_BOOLEAN && translate_is_same_value(&words, source->port.value);
+}
+
+/* ---- The nodes of the draft ---- */
+
+/* The value of an input of the surface; an input with neither a value nor a default has none. */
+static void set_value(struct translation *t, mxg_element node, const struct source_input *source)
+{
+    const char *name = source->port.name, *text = attribute(t, source->element, STR_value);
+    text = source->is_connected ? "" : *text ? text : source->port.value;
+    if (source->is_connected && source->type != VALUE_NONE) {
+        const struct operand zero = value_zero(source->type);
+        struct text zeros;
+        text_init(&zeros, t->arena);
+        value_write(&zero, &zeros);
+        text = text_cstr(&zeros);
+    }
+    if (!*text)
+        return;
+    translate_expect(t, mxg_edit_set_value(t->draft_edit, node, name, source->port.type, text) == MXG_OK);
+    mxg_element input = mxg_edit_find_element(t->draft_edit, node, name);
+    if (source->is_connected || !source->element)
+        return;
+    static const str_id kept[] = {STR_unit, STR_unittype};
+    for (size_t i = 0; i < sizeof kept / sizeof *kept; i++)
+        if (*attribute(t, source->element, kept[i]))
+            mxg_edit_set_attribute(t->draft_edit, input, str_text(t->document->layer.doc.strings, kept[i]),
+                                   attribute(t, source->element, kept[i]));
+    const struct document *doc = &t->document->layer.doc;
+    str_id space = doc_inherited_attr(doc, source->element, STR_colorspace);
+    if (space)
+        mxg_edit_set_attribute(t->draft_edit, input, "colorspace", str_text(doc->strings, space));
+}
+
+static mxg_element add_node(struct translation *t, unsigned step, const mxg_nodedef *definition, const char *type)
+{
+    mxg_element node =
+        mxg_edit_add_element(t->draft_edit, 0, definition->node, translate_step_name(t, step), type);
+    translate_expect(t, node != 0
+                            && mxg_edit_set_attribute(t->draft_edit, node, "nodedef", definition->name) == MXG_OK);
+    return node;
+}
+
+/* The surface, or the first translation with the inputs that it has. */
+static void add_first(struct translation *t, unsigned step, uint32_t definition, const char *type)
+{
+    mxg_nodedef info = {.size = sizeof info};
+    mxg_document_nodedef(t->document, definition, &info);
+    mxg_element node = add_node(t, step, &info, type);
+    for (uint32_t i = 0; i < t->sources.len; i++) {
+        mxg_port port;
+        if (translate_find_port(t, definition, t->sources.items[i].port.name, false, &port)
+            && strcmp(port.type, t->sources.items[i].port.type) == 0)
+            set_value(t, node, &t->sources.items[i]);
+    }
+}
+
+/* An input of a later translation: an output of the one before, or the default of the model between them. */
+static void connect_step(struct translation *t, mxg_element node, mxg_element before, uint32_t definition,
+                         const mxg_port *input)
+{
+    struct text output;
+    mxg_port port;
+    text_init(&output, t->arena);
+    text_fmt(&output, "%s_out", input->name);
+    if (!translate_find_port(t, definition, text_cstr(&output), true, &port))
+        return;
+    translate_expect(t, mxg_edit_connect_input(t->draft_edit, node, input->name, before,
+                                               text_cstr(&output)) == MXG_OK);
+}
+
+static void add_step(struct translation *t, unsigned step)
+{
+    mxg_nodedef info = {.size = sizeof info};
+    uint32_t definition = t->chain.items[step];
+    mxg_document_nodedef(t->document, definition, &info);
+    mxg_element before = mxg_edit_find_element(t->draft_edit, 0, translate_step_name(t, step));
+    mxg_element node = add_node(t, step + 1, &info, "multioutput");
+    for (uint32_t i = 0; i < info.num_inputs; i++) {
+        mxg_port input = {.size = sizeof input};
+        mxg_document_port(t->document, definition, i, &input);
+        connect_step(t, node, before, t->chain.items[step - 1], &input);
+    }
+}
+
+void translate_make_draft(struct translation *t, uint32_t definition)
+{
+    read_sources(t, definition);
+    t->draft_name = free_name(t);
+    translate_expect(t, mxg_edit_create(t->context, t->library, t->document, NULL, &t->draft_edit) == MXG_OK);
+    add_first(t, 0, definition, "surfaceshader");
+    add_first(t, 1, t->chain.items[0], "multioutput");
+    for (uint32_t i = 1; i < t->chain.len; i++)
+        add_step(t, i);
+    translate_expect(t, mxg_edit_commit(t->draft_edit, &t->draft) != MXG_ERROR_MEMORY);
+    mxg_edit_destroy(t->draft_edit);
+    t->draft_edit = NULL;
+}
+
+/* ---- Values ---- */
+
+static void build(struct generation *g)
+{
+    bool good = generation_start(g);
+    g->build_options.has_no_calls = true;
+    *(ir_ref *)g->user_data = good && generation_build(g) ? g->root : 0;
+}
+
+const char *translate_uniforms(const struct translation *t, uint32_t more)
+{
+    struct text list;
+    text_init(&list, t->arena);
+    for (uint32_t i = 0; i < t->sources.len; i++) {
+        const struct source_input *source = &t->sources.items[i];
+        bool is_one = source->is_connected || i == more || (more == TRANSLATE_ALL_INPUTS && source->element);
+        for (unsigned step = 0; step < 2 && is_one; step++)
+            text_fmt(&list, "%s%s/%s", list.len ? "," : "", translate_step_name(t, step), source->port.name);
+    }
+    return text_cstr(&list);
+}
+
+/* Runs steps of a generation over an element of the draft. The result is t->value. */
+static void generate(struct translation *t, const char *path, const char *uniforms, void steps(struct generation *g),
+                     void *user_data)
+{
+    mxg_options_destroy(t->options); /* lists grow */
+    t->options = NULL;
+    translate_expect(t, mxg_options_create(t->context, &t->options) == MXG_OK
+                            && mxg_options_set(t->options, "interface", "reduced") == MXG_OK
+                            && mxg_options_set(t->options, "uniform", uniforms) == MXG_OK);
+    mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
+    desc.target = "glsl";
+    desc.element = path;
+    desc.options = t->options;
+    desc.without_source = true;
+    mxg_result_destroy(t->value);
+    t->value = NULL;
+    translate_expect(t, generation_run(t->context, t->draft, &desc, steps, user_data, &t->value)
+                            != MXG_ERROR_MEMORY);
+}
+
+bool translate_surface_reads(struct translation *t, unsigned step, const char *input, const char *uniforms)
+{
+    struct text path;
+    text_init(&path, t->arena);
+    text_fmt(&path, "%s/%s", translate_step_name(t, step), input);
+    generate(t, translate_step_name(t, step), uniforms, generation_run_all, NULL);
+    return !t->value->has_shader || mxg_result_find_variable(t->value, text_cstr(&path)) != MXG_NONE;
+}
+
+ir_ref translate_build(struct translation *t, unsigned step, const char *output, uint32_t more)
+{
+    struct text path;
+    text_init(&path, t->arena);
+    text_fmt(&path, "%s/%s", translate_step_name(t, step), output);
+    ir_ref root = 0;
+    generate(t, text_cstr(&path), translate_uniforms(t, more), build, &root);
+    return root;
+}
+
+/* The input of the draft that a uniform comes from; NULL: the node is none. */
+static const char *uniform_name(const struct translation *t, const struct ir_graph *graph, ir_ref ref)
+{
+    const struct ir_node *node = ir_get(graph, ref);
+    if (node->op != IR_UNIFORM)
+        return NULL;
+    const struct shader_variable *v = &t->value->shader.interface.variables.items[node->attr];
+    const char *path = v->path ? str_text(&t->value->strings, v->path) : "", *slash = strchr(path, '/');
+    return slash ? slash + 1 : NULL;
+}
+
+uint32_t translate_source_of(const struct translation *t, const struct ir_graph *graph, ir_ref ref)
+{
+    const char *name = uniform_name(t, graph, ref);
+    uint32_t found = 0;
+    while (name && found < t->sources.len && strcmp(t->sources.items[found].port.name, name) != 0)
+        found++;
+    return name ? found : t->sources.len;
+}

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * Inputs that do nothing: the new surface is built with one input after the other as a uniform. An input whose uniform the
+ * surface does not read goes, before the next one is tried, because two inputs may each be idle only beside the other.
+ */
+#include "api/translate.h"
+
+/* The draft's node of the new surface. */
+static const char *node_name(const struct translation *t)
+{
+    return translate_step_name(t, t->chain.len + 1);
+}
+
+static void commit(struct translation *t)
+{
+    mxg_document *next = NULL;
+    mxg_status status = mxg_edit_commit(t->draft_edit, &next);
+    mxg_result_destroy(t->value); /* it refers to the draft */
+    t->value = NULL;
+    mxg_document_destroy(t->draft);
+    t->draft = next;
+    mxg_edit_destroy(t->draft_edit);
+    t->draft_edit = NULL;
+    translate_expect(t, status != MXG_ERROR_MEMORY);
+}
+
+static void begin(struct translation *t)
+{
+    translate_expect(t, mxg_edit_create(t->context, t->library, t->draft, NULL, &t->draft_edit) == MXG_OK);
+}
+
+static void add_surface(struct translation *t)
+{
+    begin(t);
+    mxg_element node = mxg_edit_add_element(t->draft_edit, 0, t->model, node_name(t), "surfaceshader");
+    translate_expect(t, node != 0);
+    for (uint32_t i = 0; i < t->inputs.len; i++) {
+        const struct translated_input *input = &t->inputs.items[i];
+        struct operand value = input->value.kind == OPERAND_CONSTANT ? input->value : value_zero(input->value.type);
+        struct text text;
+        if (!input->is_set || *input->port.defaultgeomprop)
+            continue;
+        text_init(&text, t->arena);
+        value_write(&value, &text);
+        translate_expect(t, mxg_edit_set_value(t->draft_edit, node, input->port.name, input->port.type,
+                                               text_cstr(&text)) == MXG_OK);
+    }
+    commit(t);
+}
+
+static bool varies(const struct translated_input *input)
+{
+    return input->is_set && input->value.kind != OPERAND_CONSTANT;
+}
+
+/* The inputs that vary, and one more. */
+static const char *uniforms(const struct translation *t, uint32_t more)
+{
+    struct text list;
+    text_init(&list, t->arena);
+    for (uint32_t i = 0; i < t->inputs.len; i++)
+        if (varies(&t->inputs.items[i]) || i == more)
+            text_fmt(&list, "%s%s/%s", list.len ? "," : "", node_name(t), t->inputs.items[i].port.name);
+    return text_cstr(&list);
+}
+
+static bool reads(struct translation *t, uint32_t index)
+{
+    return translate_surface_reads(t, t->chain.len + 1, t->inputs.items[index].port.name, uniforms(t, index));
+}
+
+static void drop(struct translation *t, struct translated_input *input)
+{
+    input->is_set = false;
+    begin(t);
+    mxg_element node = mxg_edit_find_element(t->draft_edit, 0, node_name(t));
+    mxg_element element = mxg_edit_find_element(t->draft_edit, node, input->port.name);
+    translate_expect(t, mxg_edit_remove_element(t->draft_edit, element) == MXG_OK);
+    commit(t);
+}
+
+void translate_drop_idle(struct translation *t)
+{
+    add_surface(t);
+    for (uint32_t i = 0; i < t->inputs.len; i++) {
+        struct translated_input *input = &t->inputs.items[i];
+        if (input->is_set && !*input->port.defaultgeomprop && !reads(t, i))
+            drop(t, input);
+    }
+}

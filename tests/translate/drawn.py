@@ -1,0 +1,34 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""How far a translated material looks from its source: mxgen translate --accept. Arguments: mxgen, the root of the project, a folder of
+further documents (skipped if it is absent)."""
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent))
+from checks import check, finish, skip
+
+MXGEN, ROOT, FURTHER = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
+# a document, a model, and the error that it may have (mean CIEDE2000 of three views)
+LIMITS = [
+    (ROOT / "examples/marble.mtlx", "open_pbr_surface", "0.05"),
+    (ROOT / "examples/gold.mtlx", "gltf_pbr", "0.5"),
+    (FURTHER / "StandardSurface/standard_surface_carpaint.mtlx", "open_pbr_surface", "0.05"),
+    (FURTHER / "StandardSurface/standard_surface_jade.mtlx", "gltf_pbr", "1.2"),
+    (FURTHER / "GltfPbr/gltf_pbr_boombox.mtlx", "standard_surface", "0.5"),
+]
+
+with tempfile.TemporaryDirectory() as folder:
+    out = pathlib.Path(folder) / "out.mtlx"
+    for path, model, limit in LIMITS:
+        if not path.exists():
+            skip(f"{path} is absent")
+            continue
+        done = subprocess.run([MXGEN, "translate", path, "--to", model, "--accept", limit, "-o", out], capture_output=True, text=True, check=False)
+        check(done.returncode == 0 and "drawn error" in done.stderr, f"{path.name} as {model}: {done.stderr}")
+    done = subprocess.run([MXGEN, "translate", ROOT / "examples/gold.mtlx", "--to", "gltf_pbr", "--accept", "0.001", "-o", out],
+                          capture_output=True, text=True, check=False)
+    check(done.returncode == 1 and "[translation-error]" in done.stderr, "an error above the limit fails")
+finish("translate-drawn")
