@@ -61,10 +61,12 @@ static void tell_drawn(struct cli *cli, const struct translate_args *args, const
         char *fault = NULL;
         double error = draw_views(cli, path, renderable.path, args->model, folder, &fault);
         if (error < 0)
-            report_error(&cli->report, "no-picture", "there is no drawn error of '%s': %s", renderable.path, fault);
+            report_error(&cli->report, "no-picture", "there is no drawn error of '%s': %s",
+                         renderable.path, fault);
         else if (args->limit >= 0 && error > args->limit)
             report_error(&cli->report, "translation-error",
-                         "'%s' as '%s' looks different by %.3g, which is more than %g (mean CIEDE2000 of three views)",
+                         "'%s' as '%s' looks different by %.3g, which is more than %g (mean "
+                         "CIEDE2000 of three views)",
                          renderable.path, args->model, error, args->limit);
         else
             fprintf(stderr, "%s: drawn error %.3g\n", renderable.path, error);
@@ -133,9 +135,9 @@ static bool check_args(struct cli *cli, struct translate_args *args)
     args->limit = args->accept ? strtod(args->accept, &end) : -1;
     args->is_drawn = args->is_drawn || args->accept;
     bool is_number = !args->accept || (*args->accept && !*end && args->limit >= 0);
-    const char *fault = !args->model                  ? "--to names the model; see mxgen translate --help"
+    const char *fault = !args->model ? "--to names the model; see mxgen translate --help"
                         : cli->parser.inputs.len != 1 ? "translate takes one document"
-                      : !is_number                    ? "--accept takes a number, at least 0"
+                        : !is_number                  ? "--accept takes a number, at least 0"
                                                       : NULL;
     if (fault)
         fprintf(stderr, "mxgen: %s\n", fault);
@@ -157,18 +159,22 @@ int command_translate(const struct command *command, int argc, char **argv)
     struct translate_args values = {0};
     const struct arg args[] = {
         {"to", 0, ARG_TEXT, "MODEL",
-         "the model: standard_surface, open_pbr_surface, gltf_pbr, UsdPreviewSurface, disney_principled, or another one "
+         "the model: standard_surface, open_pbr_surface, gltf_pbr, UsdPreviewSurface, "
+         "disney_principled, or another one "
          "that a translation of a library makes",
          &values.model},
         {"drawn", 0, ARG_FLAG, NULL,
-         "draws each material before and after, and prints how far the pictures differ (mean CIEDE2000 of three views)",
+         "draws each material before and after, and prints how far the pictures differ (mean "
+         "CIEDE2000 of three views)",
          &values.is_drawn},
-        {"accept", 0, ARG_TEXT, "ERROR", "fails if the drawn error of a material is more", &values.accept},
+        {"accept", 0, ARG_TEXT, "ERROR", "fails if the drawn error of a material is more",
+         &values.accept},
         {"output", 'o', ARG_TEXT, "FILE", "output file (default: standard output)", &values.output},
     };
     struct cli cli;
     int code;
-    if (cli_start(&cli, command, args, sizeof args / sizeof *args, CLI_NEEDS_INPUT, argc, argv, &code)) {
+    if (cli_start(&cli, command, args, sizeof args / sizeof *args, CLI_NEEDS_INPUT, argc, argv,
+                  &code)) {
         bool is_possible = check_args(&cli, &values);
         if (is_possible && claim_output(&cli, values.output))
             translate(&cli, &values, cli.parser.inputs.items[0]);

@@ -7,7 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The folder of a file as an absolute path with a '/' at its end; NULL with errno. The caller frees it. */
+/* The folder of a file as an absolute path with a '/' at its end; NULL with errno. The caller frees
+ * it. */
 static char *folder_of(const char *file)
 {
     int len = (int)(files_base_name(file) - file);
@@ -58,7 +59,8 @@ static mxg_element next_element(const mxg_document *document, mxg_element at)
     return next;
 }
 
-static bool set_prefix(mxg_edit *edit, const mxg_document *document, mxg_element element, const char *way)
+static bool set_prefix(mxg_edit *edit, const mxg_document *document, mxg_element element,
+                       const char *way)
 {
     mxg_attribute attribute = {.size = sizeof attribute, .value = ""};
     uint32_t index = mxg_document_find_attribute(document, element, "fileprefix");
@@ -79,7 +81,8 @@ static mxg_document *with_way(struct cli *cli, mxg_document *document, const cha
     mxg_document *out = NULL;
     mxg_status status = mxg_edit_create(cli->context, cli->library, document, NULL, &edit);
     bool good = status == MXG_OK;
-    for (mxg_element e = mxg_document_find_element(document, 0, ""); e && good; e = next_element(document, e))
+    for (mxg_element e = mxg_document_find_element(document, 0, ""); e && good;
+         e = next_element(document, e))
         good = set_prefix(edit, document, e, way);
     status = good ? mxg_edit_commit(edit, &out) : status == MXG_OK ? MXG_ERROR_MEMORY : status;
     report_status(&cli->report, status);

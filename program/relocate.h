@@ -6,9 +6,9 @@
 #include "program/cli.h"
 
 /*
- * `document`, whose files are relative to `from`, as a document at `to` (both are files); it stays itself where both
- * have one folder. Each relative `fileprefix` gets the way between the folders before it. Ends `document` if it makes
- * another one. NULL after a message.
+ * `document`, whose files are relative to `from`, as a document at `to` (both are files); it stays
+ * itself where both have one folder. Each relative `fileprefix` gets the way between the folders
+ * before it. Ends `document` if it makes another one. NULL after a message.
  */
 mxg_document *relocate(struct cli *cli, mxg_document *document, const char *from, const char *to);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Documents with their surfaces as another model (docs/translate.md), for programs that draw or check them. */
+/* Documents with their surfaces as another model (docs/translate.md), for programs that draw or
+ * check them. */
 #ifndef MXG_PROGRAM_TRANSLATED_H
 #define MXG_PROGRAM_TRANSLATED_H
 

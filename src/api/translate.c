@@ -10,13 +10,15 @@ void translate_expect(const struct translation *t, bool good)
 
 /* ---- One surface ---- */
 
-static bool find_leaf(void *user_data, const struct ir_graph *graph, ir_ref ref, struct operand *out)
+static bool find_leaf(void *user_data, const struct ir_graph *graph, ir_ref ref,
+                      struct operand *out)
 {
     const struct translation *t = user_data;
     uint32_t index = translate_source_of(t, graph, ref);
     if (index == t->sources.len || !t->sources.items[index].is_connected)
         return false;
-    *out = (struct operand){.kind = OPERAND_LEAF, .type = t->sources.items[index].type, .index = index};
+    *out = (struct operand){
+        .kind = OPERAND_LEAF, .type = t->sources.items[index].type, .index = index};
     return true;
 }
 
@@ -28,14 +30,16 @@ static const char *output_name(const struct translation *t, const char *input)
     return text_cstr(&name);
 }
 
-static void report_at_surface(const struct translation *t, enum diag_id id, const char *input, const char *what)
+static void report_at_surface(const struct translation *t, enum diag_id id, const char *input,
+                              const char *what)
 {
     const struct document *doc = &t->document->layer.doc;
     diag_add(t->diags, id, doc_name_place(doc, t->surface), input, t->model, what);
 }
 
 /* Any number that is no special case. */
-static bool general_value(void *user_data, const struct ir_graph *graph, ir_ref ref, struct ir_value *out)
+static bool general_value(void *user_data, const struct ir_graph *graph, ir_ref ref,
+                          struct ir_value *out)
 {
     (void)user_data;
     *out = (struct ir_value){.type = ir_type_of(graph, ref)};
@@ -44,7 +48,8 @@ static bool general_value(void *user_data, const struct ir_graph *graph, ir_ref 
     return ir_type_scalar(out->type) == IR_TYPE_FLOAT;
 }
 
-/* A choice (a mode, a switch) takes its value in the general case: BLEND, where the opacity is a texture. */
+/* A choice (a mode, a switch) takes its value in the general case: BLEND, where the opacity is a
+ * texture. */
 static bool choose_generally(struct translation *t, ir_ref root, struct translated_input *input)
 {
     const struct ir_eval_env env = {.source = general_value};
@@ -58,7 +63,8 @@ static bool choose_generally(struct translation *t, ir_ref root, struct translat
 /* The value of an input of the model, by the output of the last translation. */
 static void find_value(struct translation *t, struct translated_input *input)
 {
-    ir_ref root = translate_build(t, t->chain.len, output_name(t, input->port.name), TRANSLATE_CONNECTED);
+    ir_ref root =
+        translate_build(t, t->chain.len, output_name(t, input->port.name), TRANSLATE_CONNECTED);
     enum value_type type = value_type_of(input->port.type);
     if (!root || type == VALUE_NONE)
         return;
@@ -82,8 +88,8 @@ static void find_values(struct translation *t)
         mxg_port output;
         mxg_document_port(t->document, t->definition, i, &input.port);
         bool has_value = !*input.port.defaultgeomprop
-                         && translate_find_port(t, vec_last(&t->chain), output_name(t, input.port.name),
-                                                true, &output);
+                         && translate_find_port(t, vec_last(&t->chain),
+                                                output_name(t, input.port.name), true, &output);
         if (has_value)
             find_value(t, &input);
         vec_push(t->arena, &t->inputs, input);
@@ -123,15 +129,29 @@ static void report_losses(struct translation *t)
     for (uint32_t i = 0; i < t->inputs.len; i++)
         if (t->inputs.items[i].is_set && !*t->inputs.items[i].port.defaultgeomprop)
             mark_sources(t,
-                         translate_build(t, t->chain.len, output_name(t, t->inputs.items[i].port.name),
+                         translate_build(t, t->chain.len,
+                                         output_name(t, t->inputs.items[i].port.name),
                                          TRANSLATE_ALL_INPUTS),
                          stays);
     for (uint32_t i = 0; i < t->sources.len; i++) {
         const struct source_input *source = &t->sources.items[i];
         if (!stays[i] && !source->is_used && matters(t, i))
-            diag_add(t->diags, DIAG_ID_translation_loss, doc_name_place(doc, source->element), source->port.name,
+            diag_add(t->diags, DIAG_ID_translation_loss, doc_name_place(doc, source->element),
+                     source->port.name,
                      str_text(doc->strings, doc_element(doc, t->surface)->category), t->model);
     }
+}
+
+static void forget_surface(struct translation *t)
+{
+    mxg_result_destroy(t->value);
+    mxg_document_destroy(t->draft);
+    t->value = NULL;
+    t->draft = NULL;
+    memset(&t->chain, 0, sizeof t->chain);
+    memset(&t->sources, 0, sizeof t->sources);
+    memset(&t->inputs, 0, sizeof t->inputs);
+    arena_finish(t->arena);
 }
 
 static void translate_surface(struct translation *t, elem_id surface)
@@ -143,7 +163,8 @@ static void translate_surface(struct translation *t, elem_id surface)
         return;
     t->surface = surface;
     if (!translate_find_chain(t, category)) {
-        diag_add(t->diags, DIAG_ID_no_translation, doc_name_place(doc, surface), category, t->model);
+        diag_add(t->diags, DIAG_ID_no_translation, doc_name_place(doc, surface), category,
+                 t->model);
         return;
     }
     translate_make_draft(t, definition);
@@ -152,10 +173,7 @@ static void translate_surface(struct translation *t, elem_id surface)
     translate_drop_idle(t);
     report_losses(t);
     translate_write(t);
-    mxg_result_destroy(t->value);
-    mxg_document_destroy(t->draft);
-    t->value = NULL;
-    t->draft = NULL;
+    forget_surface(t);
 }
 
 /* ---- All surfaces ---- */
@@ -180,7 +198,8 @@ static void translate_below(struct translation *t, elem_id parent)
         next = doc_element(doc, e)->next;
         if (is_surface(t, e))
             translate_surface(t, e);
-        else if (doc_element(doc, e)->kind == KIND_NODEGRAPH && !doc_attr_value(doc, e, STR_nodedef))
+        else if (doc_element(doc, e)->kind == KIND_NODEGRAPH
+                 && !doc_attr_value(doc, e, STR_nodedef))
             translate_below(t, e);
     }
 }
@@ -196,7 +215,7 @@ static void finish(struct generation *g, struct translation *t)
     size_t size;
     const char *text = mxg_document_xml(t->product, &size);
     translate_expect(t, text != NULL);
-    g->result->text = arena_strndup(t->arena, text, size);
+    g->result->text = arena_strndup(t->kept, text, size);
     g->result->text_size = size;
 }
 
@@ -204,10 +223,12 @@ static void translate(struct generation *g)
 {
     struct translation *t = g->user_data;
     t->diags = diags_of(g);
-    t->arena = &g->result->object.arena;
+    t->kept = &g->result->object.arena;
+    t->arena = &g->scratch;
     if (!translate_find_model(t))
         return;
-    translate_expect(t, mxg_edit_create(t->context, t->library, t->document, NULL, &t->edit) == MXG_OK);
+    translate_expect(t, mxg_edit_create(t->context, t->library, t->document, NULL, &t->edit)
+                            == MXG_OK);
     translate_below(t, t->document->layer.doc.root);
     if (!t->diags->num_errors)
         finish(g, t);

@@ -17,12 +17,12 @@ struct translated_input {
 
 /* An input of the old surface. Its index is that of a leaf (OPERAND_LEAF). */
 struct source_input {
-    mxg_port port;       /* of its definition */
-    elem_id element;     /* 0: the default of the definition */
+    mxg_port port;   /* of its definition */
+    elem_id element; /* 0: the default of the definition */
     bool is_connected;
     enum value_type type;
-    bool is_used;    /* the new surface depends on it */
-    elem_id map;     /* not 0: the leaf is what this input reads, in place of `element` */
+    bool is_used;           /* the new surface depends on it */
+    elem_id map;            /* not 0: the leaf is what this input reads, in place of `element` */
     mxg_element map_output; /* the output of the map's graph for it; 0: none is added yet */
 };
 
@@ -37,12 +37,13 @@ struct translation {
     mxg_context *context;
     mxg_library *library;
     const mxg_document *document;
-    const char *model;     /* a node category: "gltf_pbr" */
-    uint32_t definition;   /* of the model */
+    const char *model;                  /* a node category: "gltf_pbr" */
+    uint32_t definition;                /* of the model */
     VEC(struct translation_step) steps; /* all that there are */
     struct diag_list *diags;
-    struct arena *arena;   /* of the result */
-    mxg_edit *edit;        /* makes the new document */
+    struct arena *kept;  /* of the result */
+    struct arena *arena; /* empty between two surfaces */
+    mxg_edit *edit;      /* makes the new document */
     /* the surface in work */
     elem_id surface;
     VEC(uint32_t) chain; /* definitions of the translations that lead to the model, in order */
@@ -76,13 +77,17 @@ void translate_make_draft(struct translation *t, uint32_t definition);
 bool translate_is_default(const struct translation *t, const struct source_input *source);
 /* The name of the draft's node of a step. */
 const char *translate_step_name(const struct translation *t, unsigned step);
-/* True if the shader of the draft's surface of a step reads an input that is a uniform. `uniforms` lists paths of inputs. */
-bool translate_surface_reads(struct translation *t, unsigned step, const char *input, const char *uniforms);
-/* The paths of inputs of the draft that become uniforms: those that are connected, and one more by its index, or all that are set. */
+/* True if the shader of the draft's surface of a step reads an input that is a uniform. `uniforms`
+ * lists paths of inputs. */
+bool translate_surface_reads(struct translation *t, unsigned step, const char *input,
+                             const char *uniforms);
+/* The paths of inputs of the draft that become uniforms: those that are connected, and one more by
+ * its index, or all that are set. */
 #define TRANSLATE_ALL_INPUTS UINT32_MAX
 #define TRANSLATE_CONNECTED (UINT32_MAX - 1)
 const char *translate_uniforms(const struct translation *t, uint32_t more);
-/* The value of an output of a translation in the graph of t->value, with uniforms as above; 0: it has none. */
+/* The value of an output of a translation in the graph of t->value, with uniforms as above; 0: it
+ * has none. */
 ir_ref translate_build(struct translation *t, unsigned step, const char *output, uint32_t more);
 /* The source that a node of the graph stands for; sources.len: none. */
 uint32_t translate_source_of(const struct translation *t, const struct ir_graph *graph, ir_ref ref);
@@ -90,7 +95,8 @@ uint32_t translate_source_of(const struct translation *t, const struct ir_graph 
 /* translate_geometry.c: normals and tangents. */
 void translate_geometry(struct translation *t);
 
-/* translate_idle.c: leaves out inputs on which the new surface does not depend: the roughness of a coat that it does not have. */
+/* translate_idle.c: leaves out inputs on which the new surface does not depend: the roughness of a
+ * coat that it does not have. */
 void translate_drop_idle(struct translation *t);
 
 /* translate_write.c */

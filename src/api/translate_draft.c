@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The draft: the document with the nodes of the chain, whose first has the inputs of the surface, and with a copy
- * of the surface. Connected inputs have a value there and become uniforms, so the IR of an output depends on them by
- * name, and folds all else.
+ * The draft: a document with the nodes of the chain, whose first has the inputs of the surface,
+ * and with a copy of the surface. Connected inputs have a value there and become uniforms, so the
+ * IR of an output depends on them by name, and folds all else.
  */
 #include "api/translate.h"
+
+#include <mxgen/library.h>
 
 /* The name of the draft's node: 0 is the surface, 1 the first translation. */
 const char *translate_step_name(const struct translation *t, unsigned step)
@@ -101,14 +103,16 @@ static void set_value(struct translation *t, mxg_element node, const struct sour
     }
     if (!*text)
         return;
-    translate_expect(t, mxg_edit_set_value(t->draft_edit, node, name, source->port.type, text) == MXG_OK);
+    translate_expect(t, mxg_edit_set_value(t->draft_edit, node, name, source->port.type, text)
+                            == MXG_OK);
     mxg_element input = mxg_edit_find_element(t->draft_edit, node, name);
     if (source->is_connected || !source->element)
         return;
     static const str_id kept[] = {STR_unit, STR_unittype};
     for (size_t i = 0; i < sizeof kept / sizeof *kept; i++)
         if (*attribute(t, source->element, kept[i]))
-            mxg_edit_set_attribute(t->draft_edit, input, str_text(t->document->layer.doc.strings, kept[i]),
+            mxg_edit_set_attribute(t->draft_edit, input,
+                                   str_text(t->document->layer.doc.strings, kept[i]),
                                    attribute(t, source->element, kept[i]));
     const struct document *doc = &t->document->layer.doc;
     str_id space = doc_inherited_attr(doc, source->element, STR_colorspace);
@@ -116,12 +120,15 @@ static void set_value(struct translation *t, mxg_element node, const struct sour
         mxg_edit_set_attribute(t->draft_edit, input, "colorspace", str_text(doc->strings, space));
 }
 
-static mxg_element add_node(struct translation *t, unsigned step, const mxg_nodedef *definition, const char *type)
+static mxg_element add_node(struct translation *t, unsigned step, const mxg_nodedef *definition,
+                            const char *type)
 {
-    mxg_element node =
-        mxg_edit_add_element(t->draft_edit, 0, definition->node, translate_step_name(t, step), type);
-    translate_expect(t, node != 0
-                            && mxg_edit_set_attribute(t->draft_edit, node, "nodedef", definition->name) == MXG_OK);
+    mxg_element node = mxg_edit_add_element(t->draft_edit, 0, definition->node,
+                                            translate_step_name(t, step), type);
+    translate_expect(t,
+                     node != 0
+                         && mxg_edit_set_attribute(t->draft_edit, node, "nodedef", definition->name)
+                                == MXG_OK);
     return node;
 }
 
@@ -139,9 +146,10 @@ static void add_first(struct translation *t, unsigned step, uint32_t definition,
     }
 }
 
-/* An input of a later translation: an output of the one before, or the default of the model between them. */
-static void connect_step(struct translation *t, mxg_element node, mxg_element before, uint32_t definition,
-                         const mxg_port *input)
+/* An input of a later translation: an output of the one before, or the default of the model between
+ * them. */
+static void connect_step(struct translation *t, mxg_element node, mxg_element before,
+                         uint32_t definition, const mxg_port *input)
 {
     struct text output;
     mxg_port port;
@@ -149,8 +157,9 @@ static void connect_step(struct translation *t, mxg_element node, mxg_element be
     text_fmt(&output, "%s_out", input->name);
     if (!translate_find_port(t, definition, text_cstr(&output), true, &port))
         return;
-    translate_expect(t, mxg_edit_connect_input(t->draft_edit, node, input->name, before,
-                                               text_cstr(&output)) == MXG_OK);
+    translate_expect(
+        t, mxg_edit_connect_input(t->draft_edit, node, input->name, before, text_cstr(&output))
+               == MXG_OK);
 }
 
 static void add_step(struct translation *t, unsigned step)
@@ -167,11 +176,24 @@ static void add_step(struct translation *t, unsigned step)
     }
 }
 
+/*
+ * The document, if it has definitions, which a translation may need. Otherwise the draft stands
+ * alone: each build takes time for the whole document.
+ */
+static const mxg_document *origin_of_draft(const struct translation *t)
+{
+    bool has_definitions =
+        mxg_document_num_nodedefs(t->document) != mxg_library_num_nodedefs(t->library);
+    return has_definitions ? t->document : NULL;
+}
+
 void translate_make_draft(struct translation *t, uint32_t definition)
 {
     read_sources(t, definition);
     t->draft_name = free_name(t);
-    translate_expect(t, mxg_edit_create(t->context, t->library, t->document, NULL, &t->draft_edit) == MXG_OK);
+    translate_expect(
+        t, mxg_edit_create(t->context, t->library, origin_of_draft(t), NULL, &t->draft_edit)
+               == MXG_OK);
     add_first(t, 0, definition, "surfaceshader");
     add_first(t, 1, t->chain.items[0], "multioutput");
     for (uint32_t i = 1; i < t->chain.len; i++)
@@ -196,16 +218,18 @@ const char *translate_uniforms(const struct translation *t, uint32_t more)
     text_init(&list, t->arena);
     for (uint32_t i = 0; i < t->sources.len; i++) {
         const struct source_input *source = &t->sources.items[i];
-        bool is_one = source->is_connected || i == more || (more == TRANSLATE_ALL_INPUTS && source->element);
+        bool is_one =
+            source->is_connected || i == more || (more == TRANSLATE_ALL_INPUTS && source->element);
         for (unsigned step = 0; step < 2 && is_one; step++)
-            text_fmt(&list, "%s%s/%s", list.len ? "," : "", translate_step_name(t, step), source->port.name);
+            text_fmt(&list, "%s%s/%s", list.len ? "," : "", translate_step_name(t, step),
+                     source->port.name);
     }
     return text_cstr(&list);
 }
 
 /* Runs steps of a generation over an element of the draft. The result is t->value. */
-static void generate(struct translation *t, const char *path, const char *uniforms, void steps(struct generation *g),
-                     void *user_data)
+static void generate(struct translation *t, const char *path, const char *uniforms,
+                     void steps(struct generation *g), void *user_data)
 {
     mxg_options_destroy(t->options); /* lists grow */
     t->options = NULL;
@@ -223,13 +247,15 @@ static void generate(struct translation *t, const char *path, const char *unifor
                             != MXG_ERROR_MEMORY);
 }
 
-bool translate_surface_reads(struct translation *t, unsigned step, const char *input, const char *uniforms)
+bool translate_surface_reads(struct translation *t, unsigned step, const char *input,
+                             const char *uniforms)
 {
     struct text path;
     text_init(&path, t->arena);
     text_fmt(&path, "%s/%s", translate_step_name(t, step), input);
     generate(t, translate_step_name(t, step), uniforms, generation_run_all, NULL);
-    return !t->value->has_shader || mxg_result_find_variable(t->value, text_cstr(&path)) != MXG_NONE;
+    return !t->value->has_shader
+           || mxg_result_find_variable(t->value, text_cstr(&path)) != MXG_NONE;
 }
 
 ir_ref translate_build(struct translation *t, unsigned step, const char *output, uint32_t more)
@@ -243,13 +269,15 @@ ir_ref translate_build(struct translation *t, unsigned step, const char *output,
 }
 
 /* The input of the draft that a uniform comes from; NULL: the node is none. */
-static const char *uniform_name(const struct translation *t, const struct ir_graph *graph, ir_ref ref)
+static const char *uniform_name(const struct translation *t, const struct ir_graph *graph,
+                                ir_ref ref)
 {
     const struct ir_node *node = ir_get(graph, ref);
     if (node->op != IR_UNIFORM)
         return NULL;
     const struct shader_variable *v = &t->value->shader.interface.variables.items[node->attr];
-    const char *path = v->path ? str_text(&t->value->strings, v->path) : "", *slash = strchr(path, '/');
+    const char *path = v->path ? str_text(&t->value->strings, v->path) : "",
+               *slash = strchr(path, '/');
     return slash ? slash + 1 : NULL;
 }
 

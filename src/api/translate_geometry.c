@@ -1,12 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Normals and tangents: inputs that the geometry fills unless a document connects them. Each goes to the input of the
- * new model with the same meaning. UsdPreviewSurface has a normal in tangent space, so the map stands there in place of
- * its <normalmap>, and comes out of it again.
+ * Normals and tangents: inputs that the geometry fills unless a document connects them. Each goes
+ * to the input of the new model with the same meaning. UsdPreviewSurface has a normal in tangent
+ * space, so the map stands there in place of its <normalmap>, and comes out of it again.
  */
 #include "api/translate.h"
 
-enum meaning { MEANING_NONE, MEANING_NORMAL, MEANING_TANGENT, MEANING_COAT_NORMAL, MEANING_COAT_TANGENT, MEANING_MAPPED };
+enum meaning {
+    MEANING_NONE,
+    MEANING_NORMAL,
+    MEANING_TANGENT,
+    MEANING_COAT_NORMAL,
+    MEANING_COAT_TANGENT,
+    MEANING_MAPPED
+};
 
 static enum meaning meaning_of(const mxg_port *port)
 {
@@ -15,7 +22,8 @@ static enum meaning meaning_of(const mxg_port *port)
     bool is_coat = strstr(port->name, "coat") != NULL;
     if (is_normal || is_tangent)
         return (enum meaning)(MEANING_NORMAL + is_tangent + 2 * is_coat);
-    return strcmp(port->name, "normal") == 0 && strcmp(port->type, "vector3") == 0 ? MEANING_MAPPED : MEANING_NONE;
+    return strcmp(port->name, "normal") == 0 && strcmp(port->type, "vector3") == 0 ? MEANING_MAPPED
+                                                                                   : MEANING_NONE;
 }
 
 static struct translated_input *find_input(const struct translation *t, enum meaning meaning)
@@ -28,7 +36,8 @@ static struct translated_input *find_input(const struct translation *t, enum mea
 
 static struct operand number(float value)
 {
-    return (struct operand){.kind = OPERAND_CONSTANT, .type = VALUE_FLOAT, .value = ir_value_float(value)};
+    return (struct operand){
+        .kind = OPERAND_CONSTANT, .type = VALUE_FLOAT, .value = ir_value_float(value)};
 }
 
 static struct operand vector(float xy, float z)
@@ -39,13 +48,16 @@ static struct operand vector(float xy, float z)
 }
 
 /* a * scale + offset of vectors, as two nodes. */
-static struct operand scaled(struct translation *t, struct operand a, struct operand scale, struct operand offset)
+static struct operand scaled(struct translation *t, struct operand a, struct operand scale,
+                             struct operand offset)
 {
-    struct operand product = value_nodes_call(&t->nodes, "multiply", VALUE_VECTOR3, "in1", a, "in2", scale);
+    struct operand product =
+        value_nodes_call(&t->nodes, "multiply", VALUE_VECTOR3, "in1", a, "in2", scale);
     return value_nodes_call(&t->nodes, "add", VALUE_VECTOR3, "in1", product, "in2", offset);
 }
 
-/* The element that gives the value of a connected input, through the outputs of graphs; 0: it is an input of a graph. */
+/* The element that gives the value of a connected input, through the outputs of graphs; 0: it is an
+ * input of a graph. */
 static mxg_element source_of(const struct translation *t, mxg_element port)
 {
     mxg_connection connection = {.size = sizeof connection};
@@ -55,27 +67,33 @@ static mxg_element source_of(const struct translation *t, mxg_element port)
     mxg_document_element(t->document, connection.source, &info);
     if (!connection.source || strcmp(info.category, "nodegraph") != 0)
         return connection.source;
-    mxg_element output = mxg_document_find_element(t->document, connection.source, connection.output);
+    mxg_element output =
+        mxg_document_find_element(t->document, connection.source, connection.output);
     output = output ? output : info.first_child;
     return source_of(t, output);
 }
 
 /*
- * Replaces the leaf of a normal in the world by that of its map: the input `in` of the <normalmap>, if the surface can
- * reach it. False: it cannot.
+ * Replaces the leaf of a normal in the world by that of its map: the input `in` of the <normalmap>,
+ * if the surface can reach it. False: it cannot.
  */
 static bool take_map(struct translation *t, uint32_t leaf, float *out_scale)
 {
     mxg_element map = source_of(t, t->sources.items[leaf].element);
     mxg_element_info info = {.size = sizeof info};
     mxg_document_element(t->document, map, &info);
-    mxg_element in = map && strcmp(info.category, "normalmap") == 0 ? mxg_document_find_element(t->document, map, "in") : 0;
+    mxg_element in = map && strcmp(info.category, "normalmap") == 0
+                         ? mxg_document_find_element(t->document, map, "in")
+                         : 0;
     mxg_connection connection = {.size = sizeof connection};
-    if (!in || mxg_document_connection(t->document, in, &connection) != MXG_OK || *connection.interfacename)
+    if (!in || mxg_document_connection(t->document, in, &connection) != MXG_OK
+        || *connection.interfacename)
         return false;
     mxg_element scale = mxg_document_find_element(t->document, map, "scale");
     mxg_value value = {.size = sizeof value, .values = {1.0f}};
-    if (scale && (mxg_document_value(t->document, scale, &value) != MXG_OK || strcmp(value.type, "float") != 0))
+    if (scale
+        && (mxg_document_value(t->document, scale, &value) != MXG_OK
+            || strcmp(value.type, "float") != 0))
         return false;
     t->sources.items[leaf].map = in;
     *out_scale = value.values[0];
@@ -87,13 +105,15 @@ static bool translate_one(struct translation *t, uint32_t leaf, enum meaning fro
     struct translated_input *same = find_input(t, from);
     struct operand value = {.kind = OPERAND_LEAF, .type = VALUE_VECTOR3, .index = leaf};
     float scale = 1.0f;
-    struct translated_input *other =
-        find_input(t, from == MEANING_NORMAL ? MEANING_MAPPED : from == MEANING_MAPPED ? MEANING_NORMAL : from);
+    struct translated_input *other = find_input(t, from == MEANING_NORMAL   ? MEANING_MAPPED
+                                                   : from == MEANING_MAPPED ? MEANING_NORMAL
+                                                                            : from);
     if (same) {
         same->value = value;
     } else if (other && from == MEANING_MAPPED) {
         value = scaled(t, value, number(0.5f), number(0.5f));
-        other->value = value_nodes_call(&t->nodes, "normalmap", VALUE_VECTOR3, "in", value, NULL, value);
+        other->value =
+            value_nodes_call(&t->nodes, "normalmap", VALUE_VECTOR3, "in", value, NULL, value);
     } else if (other && take_map(t, leaf, &scale)) {
         other->value = scaled(t, value, vector(2.0f * scale, 2.0f), vector(-scale, -1.0f));
     } else {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Inputs that do nothing: the new surface is built with one input after the other as a uniform. An input whose uniform the
- * surface does not read goes, before the next one is tried, because two inputs may each be idle only beside the other.
+ * Inputs that do nothing: the new surface is built with one input after the other as a uniform. An
+ * input whose uniform the surface does not read goes, before the next one is tried, because two
+ * inputs may each be idle only beside the other.
  */
 #include "api/translate.h"
 
@@ -26,24 +27,28 @@ static void commit(struct translation *t)
 
 static void begin(struct translation *t)
 {
-    translate_expect(t, mxg_edit_create(t->context, t->library, t->draft, NULL, &t->draft_edit) == MXG_OK);
+    translate_expect(t, mxg_edit_create(t->context, t->library, t->draft, NULL, &t->draft_edit)
+                            == MXG_OK);
 }
 
 static void add_surface(struct translation *t)
 {
     begin(t);
-    mxg_element node = mxg_edit_add_element(t->draft_edit, 0, t->model, node_name(t), "surfaceshader");
+    mxg_element node =
+        mxg_edit_add_element(t->draft_edit, 0, t->model, node_name(t), "surfaceshader");
     translate_expect(t, node != 0);
     for (uint32_t i = 0; i < t->inputs.len; i++) {
         const struct translated_input *input = &t->inputs.items[i];
-        struct operand value = input->value.kind == OPERAND_CONSTANT ? input->value : value_zero(input->value.type);
+        struct operand value =
+            input->value.kind == OPERAND_CONSTANT ? input->value : value_zero(input->value.type);
         struct text text;
         if (!input->is_set || *input->port.defaultgeomprop)
             continue;
         text_init(&text, t->arena);
         value_write(&value, &text);
-        translate_expect(t, mxg_edit_set_value(t->draft_edit, node, input->port.name, input->port.type,
-                                               text_cstr(&text)) == MXG_OK);
+        translate_expect(t, mxg_edit_set_value(t->draft_edit, node, input->port.name,
+                                               input->port.type, text_cstr(&text))
+                                == MXG_OK);
     }
     commit(t);
 }
@@ -60,13 +65,15 @@ static const char *uniforms(const struct translation *t, uint32_t more)
     text_init(&list, t->arena);
     for (uint32_t i = 0; i < t->inputs.len; i++)
         if (varies(&t->inputs.items[i]) || i == more)
-            text_fmt(&list, "%s%s/%s", list.len ? "," : "", node_name(t), t->inputs.items[i].port.name);
+            text_fmt(&list, "%s%s/%s", list.len ? "," : "", node_name(t),
+                     t->inputs.items[i].port.name);
     return text_cstr(&list);
 }
 
 static bool reads(struct translation *t, uint32_t index)
 {
-    return translate_surface_reads(t, t->chain.len + 1, t->inputs.items[index].port.name, uniforms(t, index));
+    return translate_surface_reads(t, t->chain.len + 1, t->inputs.items[index].port.name,
+                                   uniforms(t, index));
 }
 
 static void drop(struct translation *t, struct translated_input *input)

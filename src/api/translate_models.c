@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The models that a surface can become. A translation is a node of the library that computes the inputs of one
- * model from those of another: its name is `A_to_B`, its group "translation", and each of its outputs has the
- * name of an input of B with "_out". So a library with a node `studio_to_open_pbr_surface` adds a model. Those with a
- * version come first: the nodes of MaterialX have none, and mxgen has better ones for some of their pairs.
+ * The models that a surface can become. A translation is a node of the library that computes the
+ * inputs of one model from those of another: its name is `A_to_B`, its group "translation", and
+ * each of its outputs has the name of an input of B with "_out". So a library with a node
+ * `studio_to_open_pbr_surface` adds a model. Those with a version come first: the nodes of
+ * MaterialX have none, and mxgen has better ones for some of their pairs.
  */
 #include "api/translate.h"
 
@@ -40,8 +41,8 @@ static void list_steps(struct translation *t)
         const char *split = strstr(info.node, between);
         if (!split || strcmp(info.group, "translation") != 0)
             continue;
-        const char *from = arena_strndup(t->arena, info.node, (size_t)(split - info.node));
-        vec_push(t->arena, &t->steps,
+        const char *from = arena_strndup(t->kept, info.node, (size_t)(split - info.node));
+        vec_push(t->kept, &t->steps,
                  (struct translation_step){i, from, split + strlen(between), *info.version != 0});
     }
 }
@@ -129,8 +130,8 @@ static bool find_chain(struct translation *t, const char *category, bool are_ver
         }
         for (uint32_t i = 0; i < t->steps.len; i++) {
             const struct translation_step *step = &t->steps.items[i];
-            bool is_new = strcmp(step->from, all[at].model) == 0
-                          && (step->has_version || !are_versioned);
+            bool is_new =
+                strcmp(step->from, all[at].model) == 0 && (step->has_version || !are_versioned);
             for (uint32_t k = 0; k < count && is_new; k++)
                 is_new = strcmp(all[k].model, step->to) != 0;
             if (is_new)

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Writes the new surface in the place of the old one. Its nodes stand in a nodegraph of their own, whose inputs are
- * connected as those of the old surface were; a surface inside a nodegraph has its nodes beside it.
+ * Writes the new surface in the place of the old one. Its nodes stand in a nodegraph of their own,
+ * whose inputs are connected as those of the old surface were; a surface inside a nodegraph has its
+ * nodes beside it.
  */
 #include "api/translate.h"
 #include "api/edit.h"
@@ -9,7 +10,8 @@
 
 struct writing {
     struct translation *t;
-    mxg_element scope;   /* of the nodes: a new nodegraph, or that around the surface; 0: there are none */
+    mxg_element
+        scope; /* of the nodes: a new nodegraph, or that around the surface; 0: there are none */
     bool has_own_graph;
     mxg_element *elements; /* by node of t->nodes */
     bool *is_needed;       /* by node, too */
@@ -37,7 +39,8 @@ static const char *name_of(const struct translation *t, elem_id element)
 }
 
 /* "prefix_suffix", with a number if the scope has that name already. */
-static const char *free_name(const struct writing *w, mxg_element scope, const char *prefix, const char *suffix)
+static const char *free_name(const struct writing *w, mxg_element scope, const char *prefix,
+                             const char *suffix)
 {
     struct text name;
     text_init(&name, w->t->arena);
@@ -58,18 +61,21 @@ static const char *text_of(const struct writing *w, const struct operand *consta
 }
 
 /*
- * A constant. Colours are in the working space; a document whose default is another space has to say so.
+ * A constant. Colours are in the working space; a document whose default is another space has to
+ * say so.
  */
-static void set_constant(const struct writing *w, mxg_element node, const char *input, const struct operand *value)
+static void set_constant(const struct writing *w, mxg_element node, const char *input,
+                         const struct operand *value)
 {
     const struct document *doc = &w->t->document->layer.doc;
     translate_expect(w->t, mxg_edit_set_value(w->t->edit, node, input, value_type_name(value->type),
-                                              text_of(w, value)) == MXG_OK);
+                                              text_of(w, value))
+                               == MXG_OK);
     str_id space = doc_inherited_attr(doc, w->t->surface, STR_colorspace);
     bool is_color = value->type == VALUE_COLOR3 || value->type == VALUE_COLOR4;
     if (is_color && space && strcmp(str_text(doc->strings, space), library_color_hub) != 0)
-        mxg_edit_set_attribute(w->t->edit, mxg_edit_find_element(w->t->edit, node, input), "colorspace",
-                               library_color_hub);
+        mxg_edit_set_attribute(w->t->edit, mxg_edit_find_element(w->t->edit, node, input),
+                               "colorspace", library_color_hub);
 }
 
 /* Gives the graph of a map an output for what the map reads. */
@@ -77,12 +83,14 @@ static mxg_element add_map_output(const struct writing *w, mxg_element graph, el
 {
     static const str_id kept[] = {STR_nodename, STR_nodegraph, STR_output};
     const struct document *doc = &w->t->document->layer.doc;
-    mxg_element output = mxg_edit_add_element(w->t->edit, graph, "output", free_name(w, graph, "map", "_out"), "vector3");
+    mxg_element output = mxg_edit_add_element(w->t->edit, graph, "output",
+                                              free_name(w, graph, "map", "_out"), "vector3");
     translate_expect(w->t, output != 0);
     for (size_t i = 0; i < sizeof kept / sizeof *kept; i++) {
         str_id value = doc_attr_value(doc, map, kept[i]);
         if (value)
-            mxg_edit_set_attribute(w->t->edit, output, str_text(doc->strings, kept[i]), str_text(doc->strings, value));
+            mxg_edit_set_attribute(w->t->edit, output, str_text(doc->strings, kept[i]),
+                                   str_text(doc->strings, value));
     }
     return output;
 }
@@ -95,29 +103,36 @@ static void copy_leaf(const struct writing *w, mxg_element to, const char *input
     elem_id from = source->map ? source->map : source->element;
     elem_id graph = source->map ? doc_element(doc, doc_element(doc, from)->parent)->parent : 0;
     if (!graph || graph == doc_element(doc, w->t->surface)->parent) {
-        translate_expect(w->t, mxg_edit_copy_element(w->t->edit, to, w->t->document, from, input) != 0);
+        translate_expect(w->t,
+                         mxg_edit_copy_element(w->t->edit, to, w->t->document, from, input) != 0);
         return;
     }
     if (!source->map_output)
         source->map_output = add_map_output(w, graph, from);
     mxg_element added = mxg_edit_add_element(w->t->edit, to, "input", input, "vector3");
-    translate_expect(w->t, added != 0
-                               && mxg_edit_set_attribute(w->t->edit, added, "nodegraph", name_of(w->t, graph)) == MXG_OK
-                               && mxg_edit_set_attribute(w->t->edit, added, "output",
-                                                         str_text(edit_tree(w->t->edit)->strings,
-                                                                  doc_element(edit_tree(w->t->edit), source->map_output)->name))
-                                      == MXG_OK);
+    translate_expect(
+        w->t, added != 0
+                  && mxg_edit_set_attribute(w->t->edit, added, "nodegraph", name_of(w->t, graph))
+                         == MXG_OK
+                  && mxg_edit_set_attribute(
+                         w->t->edit, added, "output",
+                         str_text(edit_tree(w->t->edit)->strings,
+                                  doc_element(edit_tree(w->t->edit), source->map_output)->name))
+                         == MXG_OK);
 }
 
 /* ---- Nodes ---- */
 
-static void set_input(const struct writing *w, mxg_element node, const char *input, const struct operand *value)
+static void set_input(const struct writing *w, mxg_element node, const char *input,
+                      const struct operand *value)
 {
     mxg_edit *edit = w->t->edit;
     if (value->kind == OPERAND_CONSTANT) {
         set_constant(w, node, input, value);
     } else if (value->kind == OPERAND_NODE) {
-        translate_expect(w->t, mxg_edit_connect_input(edit, node, input, w->elements[value->index], NULL) == MXG_OK);
+        translate_expect(w->t,
+                         mxg_edit_connect_input(edit, node, input, w->elements[value->index], NULL)
+                             == MXG_OK);
     } else if (!w->has_own_graph) {
         copy_leaf(w, node, input, value->index);
     } else {
@@ -135,8 +150,9 @@ static void add_graph_inputs(const struct writing *w)
         bool is_read = false;
         for (uint32_t i = 0; i < nodes->nodes.len && !is_read; i++)
             for (unsigned k = 0; w->is_needed[i] && k < nodes->nodes.items[i].num_inputs; k++)
-                is_read = is_read || (nodes->nodes.items[i].inputs[k].kind == OPERAND_LEAF
-                                      && nodes->nodes.items[i].inputs[k].index == leaf);
+                is_read = is_read
+                          || (nodes->nodes.items[i].inputs[k].kind == OPERAND_LEAF
+                              && nodes->nodes.items[i].inputs[k].index == leaf);
         if (is_read)
             copy_leaf(w, w->scope, w->t->sources.items[leaf].port.name, leaf);
     }
@@ -188,14 +204,18 @@ static void add_scope(struct writing *w)
 /* ---- The surface ---- */
 
 /* An output of the graph for an input of the surface. */
-static void connect_through_graph(const struct writing *w, const char *input, const struct operand *value)
+static void connect_through_graph(const struct writing *w, const char *input,
+                                  const struct operand *value)
 {
     mxg_edit *edit = w->t->edit;
     const char *name = free_name(w, w->scope, input, "_out");
-    mxg_element output = mxg_edit_add_element(edit, w->scope, "output", name, value_type_name(value->type));
-    translate_expect(w->t, output != 0
-                               && mxg_edit_connect_input(edit, output, NULL, w->elements[value->index], NULL) == MXG_OK
-                               && mxg_edit_connect_input(edit, w->surface, input, w->scope, name) == MXG_OK);
+    mxg_element output =
+        mxg_edit_add_element(edit, w->scope, "output", name, value_type_name(value->type));
+    translate_expect(
+        w->t,
+        output != 0
+            && mxg_edit_connect_input(edit, output, NULL, w->elements[value->index], NULL) == MXG_OK
+            && mxg_edit_connect_input(edit, w->surface, input, w->scope, name) == MXG_OK);
 }
 
 bool translate_is_same_value(const struct ir_value *value, const char *text)
@@ -207,7 +227,10 @@ bool translate_is_same_value(const struct ir_value *value, const char *text)
         text += strspn(text, ", ");
         size_t len = num_parse_float(text, strlen(text), &number);
         bool is_number = len && found < count;
-        is_same = is_number && number == (value->type == IR_TYPE_INT ? (float)value->w[found].i : value->w[found].f);
+        is_same =
+            is_number
+            && number
+                   == (value->type == IR_TYPE_INT ? (float)value->w[found].i : value->w[found].f);
         found++;
         text += len;
     }
@@ -218,7 +241,8 @@ static bool is_default(const struct writing *w, const struct translated_input *i
 {
     const struct operand *value = &input->value;
     return value->kind == OPERAND_CONSTANT
-           && (strcmp(text_of(w, value), input->port.value) == 0 || translate_is_same_value(&value->value, input->port.value));
+           && (strcmp(text_of(w, value), input->port.value) == 0
+               || translate_is_same_value(&value->value, input->port.value));
 }
 
 static void set_surface_input(const struct writing *w, const struct translated_input *input)
@@ -240,8 +264,8 @@ void translate_write(struct translation *t)
     const char *name = name_of(t, t->surface);
     find_needed(&w);
     add_scope(&w);
-    w.surface = mxg_edit_add_element(t->edit, parent, t->model, free_name(&w, parent, name, "_translated"),
-                                     "surfaceshader");
+    w.surface = mxg_edit_add_element(t->edit, parent, t->model,
+                                     free_name(&w, parent, name, "_translated"), "surfaceshader");
     translate_expect(t, w.surface != 0);
     for (uint32_t i = 0; i < t->inputs.len; i++)
         if (t->inputs.items[i].is_set)

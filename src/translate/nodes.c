@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/* The nodes that compute a value: one walk up the array of the IR, whose operands precede their users. */
+/* The nodes that compute a value: one walk up the array of the IR, whose operands precede their
+ * users. */
 #include "translate/nodes.h"
 #include "base/hash.h"
 
@@ -9,14 +10,10 @@ static const struct {
     const char *name;
     ir_type_id type;
 } types[NUM_VALUE_TYPES] = {
-    [VALUE_NONE] = {"", IR_TYPE_VOID},
-    [VALUE_BOOLEAN] = {"boolean", IR_TYPE_BOOL},
-    [VALUE_INTEGER] = {"integer", IR_TYPE_INT},
-    [VALUE_FLOAT] = {"float", IR_TYPE_FLOAT},
-    [VALUE_VECTOR2] = {"vector2", IR_TYPE_VEC2},
-    [VALUE_COLOR3] = {"color3", IR_TYPE_VEC3},
-    [VALUE_VECTOR3] = {"vector3", IR_TYPE_VEC3},
-    [VALUE_COLOR4] = {"color4", IR_TYPE_VEC4},
+    [VALUE_NONE] = {"", IR_TYPE_VOID},           [VALUE_BOOLEAN] = {"boolean", IR_TYPE_BOOL},
+    [VALUE_INTEGER] = {"integer", IR_TYPE_INT},  [VALUE_FLOAT] = {"float", IR_TYPE_FLOAT},
+    [VALUE_VECTOR2] = {"vector2", IR_TYPE_VEC2}, [VALUE_COLOR3] = {"color3", IR_TYPE_VEC3},
+    [VALUE_VECTOR3] = {"vector3", IR_TYPE_VEC3}, [VALUE_COLOR4] = {"color4", IR_TYPE_VEC4},
     [VALUE_VECTOR4] = {"vector4", IR_TYPE_VEC4},
 };
 
@@ -41,7 +38,8 @@ static bool is_color(enum value_type type)
 static enum value_type type_of(ir_type_id type, bool as_color)
 {
     for (int i = VALUE_NONE + 1; i < NUM_VALUE_TYPES; i++)
-        if (types[i].type == type && (is_color((enum value_type)i) == as_color || types[i].type < IR_TYPE_VEC3))
+        if (types[i].type == type
+            && (is_color((enum value_type)i) == as_color || types[i].type < IR_TYPE_VEC3))
             return (enum value_type)i;
     return VALUE_NONE;
 }
@@ -103,9 +101,9 @@ static struct operand add_node(struct value_nodes *nodes, const struct value_nod
     return (struct operand){.kind = OPERAND_NODE, .type = node->type, .index = index};
 }
 
-struct operand value_nodes_call(struct value_nodes *nodes, const char *category, enum value_type type,
-                                const char *name0, struct operand input0, const char *name1,
-                                struct operand input1)
+struct operand value_nodes_call(struct value_nodes *nodes, const char *category,
+                                enum value_type type, const char *name0, struct operand input0,
+                                const char *name1, struct operand input1)
 {
     const struct value_node node = {.category = category,
                                     .type = type,
@@ -127,7 +125,8 @@ static struct operand number(float value)
 }
 
 /* The operand with another type: a colour for a vector, a number for all channels. */
-static struct operand converted(struct value_nodes *nodes, struct operand operand, enum value_type type)
+static struct operand converted(struct value_nodes *nodes, struct operand operand,
+                                enum value_type type)
 {
     if (operand.type == type)
         return operand;
@@ -182,7 +181,8 @@ static bool are_floats(const struct operand *operands, unsigned count)
     return are;
 }
 
-/* Only the second operand may be a float where the other is none, and a constant reads better there. */
+/* Only the second operand may be a float where the other is none, and a constant reads better
+ * there. */
 static bool is_better_swapped(const struct writing *w, ir_ref ref)
 {
     const struct ir_node *node = ir_get(w->graph, ref);
@@ -222,13 +222,12 @@ static struct operand write_mix(const struct writing *w, ir_ref ref)
     struct operand amount = arg(w, ref, 2);
     if (amount.type != VALUE_FLOAT)
         amount = converted(w->nodes, amount, type);
-    const struct value_node node = {
-        .category = "mix",
-        .type = type,
-        .num_inputs = 3,
-        .names = {"bg", "fg", "mix"},
-        .inputs = {converted(w->nodes, arg(w, ref, 0), type),
-                   converted(w->nodes, arg(w, ref, 1), type), amount}};
+    const struct value_node node = {.category = "mix",
+                                    .type = type,
+                                    .num_inputs = 3,
+                                    .names = {"bg", "fg", "mix"},
+                                    .inputs = {converted(w->nodes, arg(w, ref, 0), type),
+                                               converted(w->nodes, arg(w, ref, 1), type), amount}};
     return add_node(w->nodes, &node);
 }
 
@@ -258,14 +257,16 @@ static struct operand component(struct value_nodes *nodes, struct operand of, un
     if (of.kind == OPERAND_CONSTANT)
         return number(of.value.w[index].f);
     const struct ir_value at = ir_value_int((int32_t)index);
-    return value_nodes_call(nodes, "extract", VALUE_FLOAT, "in", of, "index", constant(&at, VALUE_INTEGER));
+    return value_nodes_call(nodes, "extract", VALUE_FLOAT, "in", of, "index",
+                            constant(&at, VALUE_INTEGER));
 }
 
 static struct operand compare(struct value_nodes *nodes, const struct comparison *how,
                               struct operand left, struct operand right)
 {
-    struct operand is = value_nodes_call(nodes, how->category, VALUE_BOOLEAN, "value1",
-                                  how->swaps ? right : left, "value2", how->swaps ? left : right);
+    struct operand is =
+        value_nodes_call(nodes, how->category, VALUE_BOOLEAN, "value1", how->swaps ? right : left,
+                         "value2", how->swaps ? left : right);
     return how->negates ? value_nodes_call(nodes, "not", VALUE_BOOLEAN, "in", is, NULL, is) : is;
 }
 
@@ -281,7 +282,8 @@ static struct operand write_comparison(const struct writing *w, ir_ref ref)
     for (unsigned i = 0; i < count; i++) {
         struct operand a = component(w->nodes, left, i);
         struct operand one = compare(w->nodes, &how, a, component(w->nodes, right, i));
-        all = i ? value_nodes_call(w->nodes, how.negates ? "or" : "and", VALUE_BOOLEAN, "in1", all, "in2", one)
+        all = i ? value_nodes_call(w->nodes, how.negates ? "or" : "and", VALUE_BOOLEAN, "in1", all,
+                                   "in2", one)
                 : one;
     }
     return all;
@@ -293,8 +295,10 @@ static struct operand choose_boolean(struct value_nodes *nodes, struct operand c
 {
     struct operand first =
         value_nodes_call(nodes, "and", VALUE_BOOLEAN, "in1", condition, "in2", yes);
-    struct operand otherwise = value_nodes_call(nodes, "not", VALUE_BOOLEAN, "in", condition, NULL, condition);
-    struct operand second = value_nodes_call(nodes, "and", VALUE_BOOLEAN, "in1", otherwise, "in2", no);
+    struct operand otherwise =
+        value_nodes_call(nodes, "not", VALUE_BOOLEAN, "in", condition, NULL, condition);
+    struct operand second =
+        value_nodes_call(nodes, "and", VALUE_BOOLEAN, "in1", otherwise, "in2", no);
     return value_nodes_call(nodes, "or", VALUE_BOOLEAN, "in1", first, "in2", second);
 }
 
@@ -309,19 +313,21 @@ static struct operand write_choice(const struct writing *w, ir_ref ref)
     struct comparison how = comparison_of(ir_get(w->graph, condition)->op);
     const struct ir_value right = ir_value_bool(true);
     struct operand a = w->operands[condition], b = constant(&right, VALUE_BOOLEAN);
-    bool is_scalar = how.category
-                     && ir_type_components(ir_type_of(w->graph, ir_arg(w->graph, condition, 0))) == 1;
+    bool is_scalar =
+        how.category
+        && ir_type_components(ir_type_of(w->graph, ir_arg(w->graph, condition, 0))) == 1;
     if (is_scalar) {
         a = arg(w, condition, how.swaps);
         b = arg(w, condition, !how.swaps);
     } else {
         how = (struct comparison){"ifequal", false, false};
     }
-    const struct value_node node = {.category = how.category,
-                                    .type = type,
-                                    .num_inputs = 4,
-                                    .names = {"value1", "value2", "in1", "in2"},
-                                    .inputs = {a, b, how.negates ? no : yes, how.negates ? yes : no}};
+    const struct value_node node = {
+        .category = how.category,
+        .type = type,
+        .num_inputs = 4,
+        .names = {"value1", "value2", "in1", "in2"},
+        .inputs = {a, b, how.negates ? no : yes, how.negates ? yes : no}};
     return add_node(w->nodes, &node);
 }
 
@@ -354,7 +360,8 @@ static struct operand write_construct(const struct writing *w, ir_ref ref)
     for (unsigned i = 0; i < node->num_args; i++) {
         unsigned parts = ir_type_components(ir_type_of(w->graph, ir_arg(w->graph, ref, i)));
         for (unsigned k = 0; k < parts && count < wanted; k++)
-            channels[count++] = parts == 1 ? arg(w, ref, i) : component(w->nodes, arg(w, ref, i), k);
+            channels[count++] =
+                parts == 1 ? arg(w, ref, i) : component(w->nodes, arg(w, ref, i), k);
     }
     for (; count < wanted; count++)
         channels[count] = channels[0];
@@ -385,8 +392,8 @@ static bool write_special(const struct writing *w, ir_ref ref, struct operand *o
     case IR_SWIZZLE: *out = write_swizzle(w, ref); return type != VALUE_NONE;
     case IR_CONVERT: *out = converted(w->nodes, arg(w, ref, 0), type); return type != VALUE_NONE;
     case IR_NEG:
-        *out = value_nodes_call(w->nodes, "multiply", type, "in1", converted(w->nodes, arg(w, ref, 0), type), "in2",
-                         number(-1.0f));
+        *out = value_nodes_call(w->nodes, "multiply", type, "in1",
+                                converted(w->nodes, arg(w, ref, 0), type), "in2", number(-1.0f));
         return type != VALUE_NONE;
     case IR_GT:
     case IR_GE:

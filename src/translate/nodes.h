@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * From the IR back to a document: the nodes of MaterialX's standard library that compute a value. The
- * sources of the graph (uniforms) become leaves, which the caller connects to something. Equal nodes
- * of several values are one node.
+ * From the IR back to a document: the nodes of MaterialX's standard library that compute a value.
+ * The sources of the graph (uniforms) become leaves, which the caller connects to something. Equal
+ * nodes of several values are one node.
  */
 #ifndef MXG_TRANSLATE_NODES_H
 #define MXG_TRANSLATE_NODES_H
@@ -29,7 +29,7 @@ enum operand_kind { OPERAND_CONSTANT, OPERAND_LEAF, OPERAND_NODE };
 struct operand {
     enum operand_kind kind;
     enum value_type type;
-    uint32_t index;     /* of the leaf or the node */
+    uint32_t index;        /* of the leaf or the node */
     struct ir_value value; /* of a constant */
 };
 
@@ -47,24 +47,24 @@ struct value_nodes {
     VEC(struct value_node) nodes; /* inputs precede their users */
     struct table table;
     /*
-     * The leaf that a source of the graph is: its index and its type; false: it is none. `user_data` is the
-     * caller's.
+     * The leaf that a source of the graph is: its index and its type; false: it is none.
+     * `user_data` is the caller's.
      */
     bool (*leaf)(void *user_data, const struct ir_graph *graph, ir_ref ref, struct operand *out);
     void *user_data;
 };
 
 /*
- * Adds the nodes of a value. *out is the constant, leaf or node that has it, of the type `type`. NULL,
- * or the name of an op that no node computes; then *out is not set.
+ * Adds the nodes of a value. *out is the constant, leaf or node that has it, of the type `type`.
+ * NULL, or the name of an op that no node computes; then *out is not set.
  */
 const char *value_nodes_add(struct value_nodes *nodes, const struct ir_graph *graph, ir_ref root,
                             enum value_type type, struct operand *out);
 
 /* Adds a node of one input or, where `name1` is not NULL, two. */
-struct operand value_nodes_call(struct value_nodes *nodes, const char *category, enum value_type type,
-                                const char *name0, struct operand input0, const char *name1,
-                                struct operand input1);
+struct operand value_nodes_call(struct value_nodes *nodes, const char *category,
+                                enum value_type type, const char *name0, struct operand input0,
+                                const char *name1, struct operand input1);
 
 struct operand value_zero(enum value_type type);
 /* The text of a constant, as documents have it. */

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/* The nodes of a document that compute values of the IR: each op, with its types, and what nodes cannot compute. */
+/* The nodes of a document that compute values of the IR: each op, with its types, and what nodes
+ * cannot compute. */
 #include "base/mem.h"
 #include "translate/nodes.h"
 
@@ -11,7 +12,8 @@ static struct mem mem;
 static struct arena arena;
 
 /* The type of uniform number `attr`. */
-static const enum value_type leaves[] = {VALUE_COLOR3, VALUE_VECTOR3, VALUE_FLOAT, VALUE_INTEGER, VALUE_BOOLEAN, VALUE_COLOR4};
+static const enum value_type leaves[] = {VALUE_COLOR3,  VALUE_VECTOR3, VALUE_FLOAT,
+                                         VALUE_INTEGER, VALUE_BOOLEAN, VALUE_COLOR4};
 
 static bool leaf(void *user_data, const struct ir_graph *graph, ir_ref ref, struct operand *out)
 {
@@ -19,7 +21,8 @@ static bool leaf(void *user_data, const struct ir_graph *graph, ir_ref ref, stru
     const struct ir_node *node = ir_get(graph, ref);
     bool is_leaf = node->op == IR_UNIFORM && node->attr < sizeof leaves / sizeof *leaves;
     if (is_leaf)
-        *out = (struct operand){.kind = OPERAND_LEAF, .type = leaves[node->attr], .index = node->attr};
+        *out =
+            (struct operand){.kind = OPERAND_LEAF, .type = leaves[node->attr], .index = node->attr};
     return is_leaf;
 }
 
@@ -32,7 +35,8 @@ static void write_operand(const struct operand *operand, struct text *out)
 }
 
 /* "n0 = multiply color3 in1 u0 in2 2.0; n0" */
-static void write_nodes(const struct value_nodes *nodes, const struct operand *value, struct text *out)
+static void write_nodes(const struct value_nodes *nodes, const struct operand *value,
+                        struct text *out)
 {
     for (uint32_t i = 0; i < nodes->nodes.len; i++) {
         const struct value_node *node = &nodes->nodes.items[i];
@@ -88,12 +92,13 @@ static void test_arithmetic(void)
     expect("%1 = uniform vec3\n%2 = mul vec3 %1, 2.0\nreturn %2\n", VALUE_COLOR3,
            "n0 = multiply color3 in1 u0 in2 2.0; n0");
     /* a number stands behind the colour */
-    expect("%1 = uniform float @2\n%2 = uniform vec3\n%3 = mul vec3 %1, %2\nreturn %3\n", VALUE_COLOR3,
-           "n0 = multiply color3 in1 u0 in2 u2; n0");
-    expect("%1 = uniform vec3\n%2 = uniform float @2\n%3 = sub vec3 %2, %1\nreturn %3\n", VALUE_COLOR3,
-           "n0 = convert color3 in u2; n1 = subtract color3 in1 n0 in2 u0; n1");
-    expect("%1 = uniform vec3\n%2 = uniform float @2\n%3 = mix vec3 vec3(1.0, 1.0, 1.0), %1, %2\nreturn %3\n", VALUE_COLOR3,
-           "n0 = mix color3 bg 1.0, 1.0, 1.0 fg u0 mix u2; n0");
+    expect("%1 = uniform float @2\n%2 = uniform vec3\n%3 = mul vec3 %1, %2\nreturn %3\n",
+           VALUE_COLOR3, "n0 = multiply color3 in1 u0 in2 u2; n0");
+    expect("%1 = uniform vec3\n%2 = uniform float @2\n%3 = sub vec3 %2, %1\nreturn %3\n",
+           VALUE_COLOR3, "n0 = convert color3 in u2; n1 = subtract color3 in1 n0 in2 u0; n1");
+    expect("%1 = uniform vec3\n%2 = uniform float @2\n%3 = mix vec3 vec3(1.0, 1.0, 1.0), %1, "
+           "%2\nreturn %3\n",
+           VALUE_COLOR3, "n0 = mix color3 bg 1.0, 1.0, 1.0 fg u0 mix u2; n0");
     expect("%1 = uniform float @2\n%2 = neg float %1\nreturn %2\n", VALUE_FLOAT,
            "n0 = multiply float in1 u2 in2 -1.0; n0");
     /* colours have no root */
@@ -104,30 +109,40 @@ static void test_arithmetic(void)
     expect("%1 = uniform vec3\n%2 = swizzle float .y %1\nreturn %2\n", VALUE_FLOAT,
            "n0 = extract float in u0 index 1; n0");
     expect("%1 = uniform vec4 @5\n%2 = swizzle vec3 .zyx %1\nreturn %2\n", VALUE_COLOR3,
-           "n0 = extract float in u5 index 2; n1 = extract float in u5 index 1; n2 = extract float in u5 index 0; "
+           "n0 = extract float in u5 index 2; n1 = extract float in u5 index 1; n2 = extract float "
+           "in u5 index 0; "
            "n3 = combine3 color3 in1 n0 in2 n1 in3 n2; n3");
     expect("%1 = uniform float @2\n%2 = construct vec3 %1, 0.5, %1\nreturn %2\n", VALUE_VECTOR3,
            "n0 = combine3 vector3 in1 u2 in2 0.5 in3 u2; n0");
     /* equal nodes are one */
-    expect("%1 = uniform float @2\n%2 = add float %1, 1.0\n%3 = mul float %2, %2\nreturn %3\n", VALUE_FLOAT,
-           "n0 = add float in1 u2 in2 1.0; n1 = multiply float in1 n0 in2 n0; n1");
+    expect("%1 = uniform float @2\n%2 = add float %1, 1.0\n%3 = mul float %2, %2\nreturn %3\n",
+           VALUE_FLOAT, "n0 = add float in1 u2 in2 1.0; n1 = multiply float in1 n0 in2 n0; n1");
 }
 
 static void test_conditions(void)
 {
-    expect("%1 = uniform float @2\n%2 = gt bool %1, 0.0\n%3 = select float %2, 1.0, %1\nreturn %3\n", VALUE_FLOAT,
-           "n0 = ifgreater boolean value1 u2 value2 0.0; n1 = ifgreater float value1 u2 value2 0.0 in1 1.0 in2 u2; n1");
-    expect("%1 = uniform float @2\n%2 = lt bool %1, 0.25\n%3 = select float %2, 1.0, %1\nreturn %3\n", VALUE_FLOAT,
-           "n0 = ifgreater boolean value1 0.25 value2 u2; n1 = ifgreater float value1 0.25 value2 u2 in1 1.0 in2 u2; n1");
-    expect("%1 = uniform int @3\n%2 = ne bool %1, 1\n%3 = select float %2, 0.5, 0.25\nreturn %3\n", VALUE_FLOAT,
+    expect(
+        "%1 = uniform float @2\n%2 = gt bool %1, 0.0\n%3 = select float %2, 1.0, %1\nreturn %3\n",
+        VALUE_FLOAT,
+        "n0 = ifgreater boolean value1 u2 value2 0.0; n1 = ifgreater float value1 u2 value2 0.0 "
+        "in1 1.0 in2 u2; n1");
+    expect(
+        "%1 = uniform float @2\n%2 = lt bool %1, 0.25\n%3 = select float %2, 1.0, %1\nreturn %3\n",
+        VALUE_FLOAT,
+        "n0 = ifgreater boolean value1 0.25 value2 u2; n1 = ifgreater float value1 0.25 value2 u2 "
+        "in1 1.0 in2 u2; n1");
+    expect("%1 = uniform int @3\n%2 = ne bool %1, 1\n%3 = select float %2, 0.5, 0.25\nreturn %3\n",
+           VALUE_FLOAT,
            "n0 = ifequal boolean value1 u3 value2 1; n1 = not boolean in n0; "
            "n2 = ifequal float value1 u3 value2 1 in1 0.25 in2 0.5; n2");
     expect("%1 = uniform bool @4\n%2 = select float %1, 0.5, 0.25\nreturn %2\n", VALUE_FLOAT,
            "n0 = ifequal float value1 u4 value2 true in1 0.5 in2 0.25; n0");
     expect("%1 = uniform vec3\n%2 = eq bool %1, vec3(0.0, 0.0, 0.0)\nreturn %2\n", VALUE_BOOLEAN,
            "n0 = extract float in u0 index 0; n1 = ifequal boolean value1 n0 value2 0.0; "
-           "n2 = extract float in u0 index 1; n3 = ifequal boolean value1 n2 value2 0.0; n4 = and boolean in1 n1 in2 n3; "
-           "n5 = extract float in u0 index 2; n6 = ifequal boolean value1 n5 value2 0.0; n7 = and boolean in1 n4 in2 n6; n7");
+           "n2 = extract float in u0 index 1; n3 = ifequal boolean value1 n2 value2 0.0; n4 = and "
+           "boolean in1 n1 in2 n3; "
+           "n5 = extract float in u0 index 2; n6 = ifequal boolean value1 n5 value2 0.0; n7 = and "
+           "boolean in1 n4 in2 n6; n7");
 }
 
 static void test_faults(void)
