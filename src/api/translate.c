@@ -2,12 +2,6 @@
 /* mxg_translate: surfaces of one model as surfaces of another, with graphs of their inputs. */
 #include "api/translate.h"
 
-void translate_expect(const struct translation *t, bool good)
-{
-    if (!good)
-        mem_fail(t->arena->mem);
-}
-
 /* ---- One surface ---- */
 
 static bool find_leaf(void *user_data, const struct ir_graph *graph, ir_ref ref,

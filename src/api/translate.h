@@ -60,7 +60,11 @@ struct translation {
 };
 
 /* Ends the work if there is no memory. */
-void translate_expect(const struct translation *t, bool good);
+static inline void translate_expect(const struct translation *t, bool good)
+{
+    if (!good)
+        mem_fail(t->arena->mem);
+}
 
 /* translate_models.c */
 /* Finds the model; false after a diagnostic. */
@@ -100,8 +104,6 @@ void translate_geometry(struct translation *t);
 void translate_drop_idle(struct translation *t);
 
 /* translate_write.c */
-/* True if a text has the numbers of a constant; they may be spelt in another way. */
-bool translate_is_same_value(const struct ir_value *value, const char *text);
 /* Replaces the surface in `edit`. */
 void translate_write(struct translation *t);
 

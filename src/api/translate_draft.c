@@ -84,7 +84,7 @@ bool translate_is_default(const struct translation *t, const struct source_input
             words.w[i].i = value.integer;
         else
             words.w[i].f = value.values[i];
-    return source->type != VALUE_BOOLEAN && translate_is_same_value(&words, source->port.value);
+    return source->type != VALUE_BOOLEAN && value_is(&words, source->port.value);
 }
 
 /* ---- The nodes of the draft ---- */

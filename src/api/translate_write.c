@@ -6,7 +6,6 @@
  */
 #include "api/translate.h"
 #include "api/edit.h"
-#include "base/num.h"
 
 struct writing {
     struct translation *t;
@@ -218,31 +217,12 @@ static void connect_through_graph(const struct writing *w, const char *input,
             && mxg_edit_connect_input(edit, w->surface, input, w->scope, name) == MXG_OK);
 }
 
-bool translate_is_same_value(const struct ir_value *value, const char *text)
-{
-    unsigned count = ir_type_components(value->type), found = 0;
-    bool is_same = true;
-    while (*text && is_same) {
-        float number;
-        text += strspn(text, ", ");
-        size_t len = num_parse_float(text, strlen(text), &number);
-        bool is_number = len && found < count;
-        is_same =
-            is_number
-            && number
-                   == (value->type == IR_TYPE_INT ? (float)value->w[found].i : value->w[found].f);
-        found++;
-        text += len;
-    }
-    return is_same && found == count;
-}
-
 static bool is_default(const struct writing *w, const struct translated_input *input)
 {
     const struct operand *value = &input->value;
     return value->kind == OPERAND_CONSTANT
            && (strcmp(text_of(w, value), input->port.value) == 0
-               || translate_is_same_value(&value->value, input->port.value));
+               || value_is(&value->value, input->port.value));
 }
 
 static void set_surface_input(const struct writing *w, const struct translated_input *input)

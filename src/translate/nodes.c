@@ -3,6 +3,7 @@
  * users. */
 #include "translate/nodes.h"
 #include "base/hash.h"
+#include "base/num.h"
 
 /* ---- Types ---- */
 
@@ -62,6 +63,25 @@ void value_write(const struct operand *constant, struct text *out)
         else
             text_float(out, value->w[i].f);
     }
+}
+
+bool value_is(const struct ir_value *value, const char *text)
+{
+    unsigned count = ir_type_components(value->type), found = 0;
+    bool is_same = true;
+    while (*text && is_same) {
+        float number;
+        text += strspn(text, ", ");
+        size_t len = num_parse_float(text, strlen(text), &number);
+        bool is_number = len && found < count;
+        is_same =
+            is_number
+            && number
+                   == (value->type == IR_TYPE_INT ? (float)value->w[found].i : value->w[found].f);
+        found++;
+        text += len;
+    }
+    return is_same && found == count;
 }
 
 /* ---- Nodes ---- */

@@ -20,7 +20,7 @@ MAKERS = "create load parse import builtin ref".split()
 VERBS = "add connect copy move pack remove rename report require set write".split()
 ALONE = "commit destroy format ref set unref write".split()
 # Verbs of no object: they take a context and make a result.
-ACTIONS = "generate inspect rewrite validate".split()
+ACTIONS = "generate inspect rewrite translate validate".split()
 # What needs no object: a catalogue of all that a version of mxgen has, and values.
 CATALOGUE = "catalogue"
 VALUES = {"color": ["difference"], "slot": ["decode", "encode"], "status": ["string"], "version": ["string"]}
