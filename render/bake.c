@@ -83,7 +83,7 @@ static bool plan(struct baking *baking)
     const char *element = baking->options.element;
     uint32_t num = element ? 1 : mxg_document_num_renderables(baking->document);
     bool good = true;
-    baking->plan = (struct bake_plan){.document = baking->document, .report = &baking->cli.report};
+    bake_plan_begin(&baking->plan, baking->document, &baking->cli.report);
     if (!num)
         report_error(&baking->cli.report, "nothing-to-bake", "'%s' has no material", baking->path);
     for (uint32_t i = 0; good && i < num; ++i) {
@@ -93,8 +93,8 @@ static bool plan(struct baking *baking)
         const char *path = element ? element : renderable.path;
         good = check(baking, path) && bake_plan_add(&baking->plan, path);
     }
-    for (size_t i = 0; good && i < baking->plan.num_targets; ++i)
-        good = bake_find_needs(baking, &baking->plan.targets[i]);
+    for (size_t i = 0; good && i < baking->plan.num_drawings; ++i)
+        good = bake_find_needs(baking, &baking->plan.drawings[i]);
     if (good && !baking->surface.num_tiles)
         bake_surface_add_tile(&baking->surface, (struct bake_tile){0, 0});
     return good && num;
@@ -164,12 +164,12 @@ static bool claim(struct baking *baking, const char *output)
 static void tell(const struct baking *baking)
 {
     size_t values = 0;
-    for (size_t i = 0; i < baking->plan.num_targets; ++i)
-        values += baking->plan.targets[i].is_value;
+    for (size_t i = 0; i < baking->plan.num_drawings; ++i)
+        values += baking->plan.drawings[i].is_value;
     if (!baking->cli.quiet)
         fprintf(stderr,
                 "note: of %zu graphs of inputs, %zu are images (%zu file%s) and %zu values\n",
-                baking->plan.num_targets, baking->plan.num_targets - values, baking->num_images,
+                baking->plan.num_drawings, baking->plan.num_drawings - values, baking->num_images,
                 baking->num_images == 1 ? "" : "s", values);
 }
 
@@ -182,7 +182,7 @@ static bool open_device(struct baking *baking)
     painter->scene.frame = (int32_t)baking->options.frame;
     painter->unwraps = true;
     painter->shown = UINT32_MAX;
-    if (!baking->plan.num_targets || gpu_open(&painter->gpu))
+    if (!baking->plan.num_drawings || gpu_open(&painter->gpu))
         return true;
     report_error(&baking->cli.report, painter->gpu.id, "cannot draw: %s", painter->gpu.reason);
     return false;

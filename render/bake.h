@@ -40,16 +40,16 @@ int bake_main(int argc, char **argv);
 /* The components of a type; 0: no image has it. */
 uint32_t bake_channels(const char *type);
 /* Fills needs and largest; false after reporting an error. */
-bool bake_find_needs(struct baking *baking, struct bake_target *target);
-/* Draws all targets, and writes their images. false after reporting an error. */
+bool bake_find_needs(struct baking *baking, struct bake_drawing *drawing);
+/* Draws all that the plan draws, and writes their images. false after reporting an error. */
 bool bake_draw(struct baking *baking);
 
 /*
- * Makes of what was drawn of a target, one spool for each tile of the surface, a value or images,
+ * Makes of a drawing, with one spool for each tile of the surface, a value or images,
  * and writes these. false after reporting an error.
  */
-bool bake_finish_target(struct baking *baking, struct bake_target *target,
-                        const struct spool *spools, uint32_t num_spools);
+bool bake_finish_drawing(struct baking *baking, struct bake_drawing *drawing,
+                         const struct spool *spools, uint32_t num_spools);
 /* A temporary name for a file of the output folder, which baking->written has. */
 const char *bake_begin_file(struct baking *baking, const char *name);
 

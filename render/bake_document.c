@@ -12,8 +12,8 @@
 struct writer {
     struct baking *baking;
     mxg_edit *edit;
-    mxg_element *nodes;   /* of the plan, in the edit */
-    mxg_element *targets; /* what gives their values; 0: a value, or not yet there */
+    mxg_element *nodes;    /* of the plan, in the edit */
+    mxg_element *drawings; /* what gives their values; 0: a value, or not yet there */
 };
 
 static bool is_word(const char *word, const char *const *words)
@@ -110,44 +110,44 @@ static void keep(struct writer *writer, mxg_element node, const char *input, con
     free(file);
 }
 
-/* The image of a target, made once; behind it a map of normals for a direction. */
+/* The image of a drawing, made once; behind it a map of normals for a direction. */
 static mxg_element draw(struct writer *writer, size_t index)
 {
-    const struct bake_target *target = &writer->baking->plan.targets[index];
+    const struct bake_drawing *drawing = &writer->baking->plan.drawings[index];
     mxg_edit *edit = writer->edit;
-    if (writer->targets[index])
-        return writer->targets[index];
-    mxg_element image = mxg_edit_add_element(edit, 0, "image", target->name, target->type);
-    mxg_edit_set_value(edit, image, "file", "filename", target->file);
-    if (target->spaces)
-        set_space(writer, image, "file", target->spaces);
-    writer->targets[index] = image;
-    if (!target->is_direction)
+    if (writer->drawings[index])
+        return writer->drawings[index];
+    mxg_element image = mxg_edit_add_element(edit, 0, "image", drawing->name, drawing->type);
+    mxg_edit_set_value(edit, image, "file", "filename", drawing->file);
+    if (drawing->spaces)
+        set_space(writer, image, "file", drawing->spaces);
+    writer->drawings[index] = image;
+    if (!drawing->is_direction)
         return image;
-    char *wanted = cli_format("%s_map", target->name),
+    char *wanted = cli_format("%s_map", drawing->name),
          *name = bake_plan_name(&writer->baking->plan, wanted);
     free(wanted);
     mxg_element map = mxg_edit_add_element(edit, 0, "normalmap", name, "vector3");
     mxg_edit_connect_input(edit, map, "in", image, NULL);
     free(name);
-    return writer->targets[index] = map;
+    return writer->drawings[index] = map;
 }
 
 static bool is_drawn(const struct writer *writer, const struct bake_input *input)
 {
-    return input->way == BAKE_DRAWS && !writer->baking->plan.targets[input->index].is_value;
+    return input->way == BAKE_DRAWS && !writer->baking->plan.drawings[input->index].is_value;
 }
 
 static void add_input(struct writer *writer, mxg_element node, const struct bake_input *input)
 {
     struct baking *baking = writer->baking;
-    const struct bake_target *target =
-        input->way == BAKE_DRAWS ? &baking->plan.targets[input->index] : NULL;
+    const struct bake_drawing *drawing =
+        input->way == BAKE_DRAWS ? &baking->plan.drawings[input->index] : NULL;
     if (input->way == BAKE_KEEPS) {
         keep(writer, node, input->name, input->type, input->origin);
-    } else if (target && target->is_value) {
-        mxg_edit_set_numbers(writer->edit, node, input->name, input->type, target->value,
-                             bake_channels(target->type));
+    } else if (drawing && drawing->is_value) {
+        mxg_edit_set_numbers(writer->edit, node, input->name, input->type, drawing->value,
+                             bake_channels(drawing->type));
         if (strncmp(input->type, "color", 5) == 0
             && bake_inherited(baking->document, 0, "colorspace"))
             set_space(writer, node, input->name, baking->space);
@@ -183,6 +183,62 @@ static void add_node(struct writer *writer, size_t index)
         add_input(writer, made, &node->inputs[i]);
 }
 
+/* ---- Definitions ---- */
+
+/* Files that a definition names are relative to the new document, too. */
+static void rename_files(struct writer *writer, mxg_element from, mxg_element to)
+{
+    const mxg_document *document = writer->baking->document;
+    const char *file = bake_attribute(document, from, "file");
+    char *name = file ? name_file(writer, from, file) : NULL;
+    if (name)
+        mxg_edit_set_attribute(writer->edit, to, "file", name);
+    free(name);
+    for (mxg_element node = bake_element(document, from).first_child; node;) {
+        mxg_element_info info = bake_element(document, node);
+        for (mxg_element input = info.first_child; input;) {
+            mxg_element_info port = bake_element(document, input);
+            const char *value = bake_attribute(document, input, "value");
+            if (value && strcmp(port.type, "filename") == 0) {
+                char *path = cli_format("%s/%s", info.name, port.name);
+                name = name_file(writer, input, value);
+                mxg_edit_set_attribute(writer->edit, mxg_edit_find_element(writer->edit, to, path),
+                                       "value", name);
+                free(name);
+                free(path);
+            }
+            input = port.next;
+        }
+        node = info.next;
+    }
+}
+
+/* True if a node that stays has a definition of the document. */
+static bool needs_definitions(const struct baking *baking)
+{
+    uint32_t of_library = mxg_library_num_nodedefs(baking->cli.library);
+    for (size_t i = 0; i < baking->plan.num_nodes; ++i) {
+        uint32_t index = mxg_document_find_nodedef(baking->document, baking->plan.nodes[i].element);
+        if (index != MXG_NONE && index >= of_library)
+            return true;
+    }
+    return false;
+}
+
+static void copy_definitions(struct writer *writer)
+{
+    const mxg_document *document = writer->baking->document;
+    mxg_element child =
+        needs_definitions(writer->baking) ? bake_element(document, 0).first_child : 0;
+    while (child) {
+        if (bake_is_definition(document, child)) {
+            mxg_element made = mxg_edit_copy_element(writer->edit, 0, document, child, NULL);
+            rename_files(writer, child, made);
+        }
+        child = bake_element(document, child).next;
+    }
+}
+
 static char *text_of(struct baking *baking, mxg_edit *edit, size_t *out_size)
 {
     struct report *report = &baking->cli.report;
@@ -207,21 +263,23 @@ char *bake_write_document(struct baking *baking, size_t *out_size)
     const struct bake_plan *plan = &baking->plan;
     struct writer writer = {.baking = baking,
                             .nodes = memory_alloc((plan->num_nodes + 1) * sizeof *writer.nodes),
-                            .targets =
-                                memory_alloc((plan->num_targets + 1) * sizeof *writer.targets)};
+                            .drawings =
+                                memory_alloc((plan->num_drawings + 1) * sizeof *writer.drawings)};
     mxg_status status =
         mxg_edit_create(baking->cli.context, baking->cli.library, NULL, baking->path, &writer.edit);
     const char *space = bake_inherited(baking->document, 0, "colorspace");
     char *text = NULL;
     if (report_status(&baking->cli.report, status)) {
         if (space)
-            mxg_edit_set_attribute(writer.edit, 0, "colorspace", space);
+            mxg_edit_set_attribute(writer.edit, mxg_edit_find_element(writer.edit, 0, ""),
+                                   "colorspace", space);
+        copy_definitions(&writer);
         for (size_t i = 0; i < plan->num_nodes; ++i)
             add_node(&writer, i);
         text = text_of(baking, writer.edit, out_size);
     }
     mxg_edit_destroy(writer.edit);
     free(writer.nodes);
-    free(writer.targets);
+    free(writer.drawings);
     return text;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Draws targets: they are AOVs of a surface in a copy of the document, and the surface lies flat in
- * a picture. Large images are drawn in pieces.
+ * Draws what the plan draws: AOVs of a surface in a copy of the document, and the surface lies flat
+ * in a picture. Large images are drawn in pieces.
  */
 #include "render/bake.h"
 
@@ -13,14 +13,14 @@
 
 enum {
     MAX_SIDE = 1024,                  /* of a piece, in samples */
-    MAX_CHUNK = DRAW_MAX_OUTPUTS - 1, /* targets that are drawn together */
+    MAX_CHUNK = DRAW_MAX_OUTPUTS - 1, /* drawings that are drawn together */
     SIZE = 1024                       /* without textures */
 };
 #define MATERIAL "mxgen_bake_material"
 
 /* ---- The document that is drawn ---- */
 
-/* Where the values of a target come from in an edit: an element with an output. */
+/* Where the values of a drawing come from in an edit: an element with an output. */
 struct source {
     mxg_element element;
     const char *output;
@@ -28,13 +28,13 @@ struct source {
 
 /* An output of the nodegraph around a node makes its value visible at the top. */
 static struct source lift(mxg_edit *edit, const mxg_document *document,
-                          const struct bake_target *target, const char *name)
+                          const struct bake_drawing *drawing, const char *name)
 {
-    struct source source = {target->source, *target->output ? target->output : NULL};
-    mxg_element graph = bake_element(document, target->source).parent;
+    struct source source = {drawing->source, *drawing->output ? drawing->output : NULL};
+    mxg_element graph = bake_element(document, drawing->source).parent;
     if (strcmp(bake_element(document, graph).category, "nodegraph") != 0)
         return source;
-    mxg_element output = mxg_edit_add_element(edit, graph, "output", name, target->type);
+    mxg_element output = mxg_edit_add_element(edit, graph, "output", name, drawing->type);
     mxg_edit_connect_input(edit, output, NULL, source.element, source.output);
     return (struct source){graph, name};
 }
@@ -73,25 +73,25 @@ static struct source encode(mxg_edit *edit, struct source direction, const char 
     return (struct source){shifted, NULL};
 }
 
-static char *name_of(size_t target)
+static char *name_of(size_t drawing)
 {
-    return cli_format("mxgen_bake_%zu", target);
+    return cli_format("mxgen_bake_%zu", drawing);
 }
 
 static void add_aov(mxg_edit *edit, const struct baking *baking, size_t index)
 {
-    const struct bake_target *target = &baking->plan.targets[index];
+    const struct bake_drawing *drawing = &baking->plan.drawings[index];
     char *name = name_of(index);
-    struct source source = lift(edit, baking->document, target, name);
-    if (target->is_direction)
+    struct source source = lift(edit, baking->document, drawing, name);
+    if (drawing->is_direction)
         source = encode(edit, source, name);
-    mxg_element aov = mxg_edit_add_element(edit, 0, "aov", name, target->type);
+    mxg_element aov = mxg_edit_add_element(edit, 0, "aov", name, drawing->type);
     mxg_edit_set_value(edit, aov, "name", "string", name);
     mxg_edit_connect_input(edit, aov, "value", source.element, source.output);
     free(name);
 }
 
-/* The document with an AOV for each target of one surface. NULL after reporting an error. */
+/* The document with an AOV for each drawing of one surface. NULL after reporting an error. */
 static mxg_document *make_document(struct baking *baking)
 {
     struct cli *cli = &baking->cli;
@@ -105,7 +105,7 @@ static mxg_document *make_document(struct baking *baking)
         mxg_element material =
             mxg_edit_add_element(edit, 0, "surfacematerial", MATERIAL, "material");
         mxg_edit_connect_input(edit, material, "surfaceshader", surface, NULL);
-        for (size_t i = 0; i < baking->plan.num_targets; ++i)
+        for (size_t i = 0; i < baking->plan.num_drawings; ++i)
             add_aov(edit, baking, i);
         mxg_edit_error(edit, reason, sizeof reason);
         if (!*reason)
@@ -125,15 +125,15 @@ static mxg_document *make_document(struct baking *baking)
 
 /* ---- Pieces ---- */
 
-/* Targets that are drawn together, with a spool for each tile of each. */
+/* Drawings that are drawn together, with a spool for each tile of each. */
 struct chunk {
     struct baking *baking;
-    size_t targets[MAX_CHUNK];
+    size_t drawings[MAX_CHUNK];
     size_t num;
     uint32_t size, piece; /* sides of an image, and of what is drawn at once, in texels */
     struct bake_tile *tiles;
     uint32_t num_tiles;
-    struct spool *spools; /* of the tiles of the first target, then of the next one */
+    struct spool *spools; /* of the tiles of the first drawing, then of the next one */
     uint64_t num_bad;     /* texels that were NaN or infinite */
 };
 
@@ -208,7 +208,7 @@ static bool draw_pieces(struct chunk *chunk, struct painting *painting)
     if (good && chunk->num_bad)
         report_error(&chunk->baking->cli.report, "bad-pixels",
                      "'%s': %llu texels are NaN or infinite",
-                     chunk->baking->plan.targets[chunk->targets[0]].path,
+                     chunk->baking->plan.drawings[chunk->drawings[0]].path,
                      (unsigned long long)chunk->num_bad);
     return good && !chunk->num_bad;
 }
@@ -221,10 +221,10 @@ static bool open_spools(struct chunk *chunk)
     const char *reason = NULL;
     chunk->spools = memory_alloc((chunk->num * chunk->num_tiles + 1) * sizeof *chunk->spools);
     for (size_t i = 0; !reason && i < chunk->num * chunk->num_tiles; ++i) {
-        const struct bake_target *target =
-            &baking->plan.targets[chunk->targets[i / chunk->num_tiles]];
+        const struct bake_drawing *drawing =
+            &baking->plan.drawings[chunk->drawings[i / chunk->num_tiles]];
         reason = spool_open(&chunk->spools[i], baking->options.output, chunk->size, chunk->size,
-                            bake_channels(target->type));
+                            bake_channels(drawing->type));
     }
     if (reason)
         report_error(&baking->cli.report, "output-failed", "cannot write to '%s': %s",
@@ -239,8 +239,8 @@ static void list_aovs(struct chunk *chunk)
     painter->aovs.items = memory_alloc(chunk->num * sizeof *painter->aovs.items);
     for (size_t i = 0; i < chunk->num; ++i)
         painter->aovs.items[painter->aovs.len++] = (struct picture_aov){
-            .name = name_of(chunk->targets[i]),
-            .type = cli_format("%s", chunk->baking->plan.targets[chunk->targets[i]].type)};
+            .name = name_of(chunk->drawings[i]),
+            .type = cli_format("%s", chunk->baking->plan.drawings[chunk->drawings[i]].type)};
     painter->first_aov = 0;
     painter->num_aovs = chunk->num;
     aovs_list(&painter->aovs, 0, chunk->num, chunk->baking->cli.options);
@@ -266,58 +266,58 @@ static bool draw_chunk(struct chunk *chunk, const mxg_document *document)
                 && draw_pieces(chunk, &painting);
     painting_close(&painting);
     for (size_t i = 0; good && i < chunk->num; ++i)
-        good = bake_finish_target(baking, &baking->plan.targets[chunk->targets[i]],
-                                  &chunk->spools[i * chunk->num_tiles], chunk->num_tiles);
+        good = bake_finish_drawing(baking, &baking->plan.drawings[chunk->drawings[i]],
+                                   &chunk->spools[i * chunk->num_tiles], chunk->num_tiles);
     for (size_t i = 0; i < chunk->num * chunk->num_tiles; ++i)
         spool_close(&chunk->spools[i]);
     free(chunk->spools);
     return good;
 }
 
-static uint32_t size_of(const struct baking *baking, const struct bake_target *target)
+static uint32_t size_of(const struct baking *baking, const struct bake_drawing *drawing)
 {
-    return !target->needs         ? 1
+    return !drawing->needs        ? 1
            : baking->options.size ? (uint32_t)baking->options.size
-           : target->largest      ? target->largest
+           : drawing->largest     ? drawing->largest
                                   : SIZE;
 }
 
-/* Draws the targets of one size. */
+/* Draws those of one size. */
 static bool draw_all_of(struct baking *baking, const mxg_document *document, uint32_t size)
 {
     struct bake_tile first = {0, 0};
     struct bake_surface *surface = &baking->surface;
     bool good = true;
-    for (size_t next = 0; good && next < baking->plan.num_targets;) {
+    for (size_t next = 0; good && next < baking->plan.num_drawings;) {
         struct chunk chunk = {.baking = baking,
                               .size = size,
                               .tiles = size > 1 ? surface->tiles : &first,
                               .num_tiles = size > 1 ? surface->num_tiles : 1};
-        for (; next < baking->plan.num_targets && chunk.num < MAX_CHUNK; ++next)
-            if (size_of(baking, &baking->plan.targets[next]) == size)
-                chunk.targets[chunk.num++] = next;
+        for (; next < baking->plan.num_drawings && chunk.num < MAX_CHUNK; ++next)
+            if (size_of(baking, &baking->plan.drawings[next]) == size)
+                chunk.drawings[chunk.num++] = next;
         good = !chunk.num || draw_chunk(&chunk, document);
     }
     return good;
 }
 
-/* True if no target before this one has its size. */
+/* True if no drawing before this one has its size. */
 static bool is_first_of_size(const struct baking *baking, size_t index)
 {
-    const struct bake_target *targets = baking->plan.targets;
+    const struct bake_drawing *drawings = baking->plan.drawings;
     for (size_t i = 0; i < index; ++i)
-        if (size_of(baking, &targets[i]) == size_of(baking, &targets[index]))
+        if (size_of(baking, &drawings[i]) == size_of(baking, &drawings[index]))
             return false;
     return true;
 }
 
 bool bake_draw(struct baking *baking)
 {
-    mxg_document *document = baking->plan.num_targets ? make_document(baking) : NULL;
-    bool good = document || !baking->plan.num_targets;
-    for (size_t i = 0; good && i < baking->plan.num_targets; ++i)
+    mxg_document *document = baking->plan.num_drawings ? make_document(baking) : NULL;
+    bool good = document || !baking->plan.num_drawings;
+    for (size_t i = 0; good && i < baking->plan.num_drawings; ++i)
         if (is_first_of_size(baking, i))
-            good = draw_all_of(baking, document, size_of(baking, &baking->plan.targets[i]));
+            good = draw_all_of(baking, document, size_of(baking, &baking->plan.drawings[i]));
     mxg_document_destroy(document);
     return good;
 }

@@ -14,64 +14,65 @@
 
 #define SLACK 1e-3f /* values so far outside 0 to 1 are rounded */
 
-static bool is_color(const struct bake_target *target)
+static bool is_color(const struct bake_drawing *drawing)
 {
-    return strncmp(target->type, "color", 5) == 0;
+    return strncmp(drawing->type, "color", 5) == 0;
 }
 
 /* ---- Values ---- */
 
-static void measure(struct bake_target *target, const struct spool *spools, uint32_t num)
+static void measure(struct bake_drawing *drawing, const struct spool *spools, uint32_t num)
 {
     bool is_one = num == 1;
-    target->low = INFINITY;
-    target->high = -INFINITY;
+    drawing->low = INFINITY;
+    drawing->high = -INFINITY;
     for (uint32_t t = 0; t < num; ++t)
         for (uint32_t c = 0; c < spools[t].channels; ++c) {
-            target->low = fminf(target->low, spools[t].low[c]);
-            target->high = fmaxf(target->high, spools[t].high[c]);
-            target->value[c] = spools[t].low[c];
+            drawing->low = fminf(drawing->low, spools[t].low[c]);
+            drawing->high = fmaxf(drawing->high, spools[t].high[c]);
+            drawing->value[c] = spools[t].low[c];
             is_one = is_one && spools[t].low[c] == spools[t].high[c];
         }
-    target->is_value = is_one && !target->is_direction;
+    drawing->is_value = is_one && !drawing->is_direction;
 }
 
 /* ---- Formats ---- */
 
-static const char *ending_of(struct baking *baking, const struct bake_target *target)
+static const char *ending_of(struct baking *baking, const struct bake_drawing *drawing)
 {
     const char *said = baking->options.format;
-    bool is_within = target->low >= -SLACK && target->high <= 1 + SLACK;
+    bool is_within = drawing->low >= -SLACK && drawing->high <= 1 + SLACK;
     if (!said)
-        return is_within && bake_channels(target->type) < 4 ? "png" : "exr";
+        return is_within && bake_channels(drawing->type) < 4 ? "png" : "exr";
     if (!is_within && strcmp(said, "exr") != 0)
         report_warning(&baking->cli.report, "bake-clamped",
-                       "'%s' has values from %g to %g; %s keeps those from 0 to 1", target->path,
-                       (double)target->low, (double)target->high, said);
+                       "'%s' has values from %g to %g; %s keeps those from 0 to 1", drawing->path,
+                       (double)drawing->low, (double)drawing->high, said);
     return said;
 }
 
 /* An image of two numbers has a third one: grey with alpha is another thing. */
-static uint32_t file_channels(const struct bake_target *target)
+static uint32_t file_channels(const struct bake_drawing *drawing)
 {
-    uint32_t channels = bake_channels(target->type);
+    uint32_t channels = bake_channels(drawing->type);
     return channels == 2 ? 3 : channels;
 }
 
-static struct image_format format_of(const struct baking *baking, const struct bake_target *target,
-                                     const char *ending, uint32_t size)
+static struct image_format format_of(const struct baking *baking,
+                                     const struct bake_drawing *drawing, const char *ending,
+                                     uint32_t size)
 {
     bool is_float = strcmp(ending, "exr") == 0;
     uint32_t said = (uint32_t)baking->options.depth;
-    uint32_t float_depth = said == 32 || (!said && !is_color(target)) ? 32 : 16,
+    uint32_t float_depth = said == 32 || (!said && !is_color(drawing)) ? 32 : 16,
              whole_depth = said >= 16 && strcmp(ending, "png") == 0 ? 16 : 8;
     return (struct image_format){.width = size,
                                  .height = size,
-                                 .channels = file_channels(target),
+                                 .channels = file_channels(drawing),
                                  .depth = is_float ? float_depth : whole_depth,
                                  .is_float = is_float,
-                                 .is_srgb =
-                                     target->spaces && strcmp(target->spaces, "srgb_texture") == 0};
+                                 .is_srgb = drawing->spaces
+                                            && strcmp(drawing->spaces, "srgb_texture") == 0};
 }
 
 /* IEC 61966-2-1 */
@@ -169,24 +170,24 @@ static void tell_overlap(struct baking *baking, struct bake_tile tile, uint32_t 
     baking->has_told_overlap |= part > told;
 }
 
-bool bake_finish_target(struct baking *baking, struct bake_target *target,
-                        const struct spool *spools, uint32_t num_spools)
+bool bake_finish_drawing(struct baking *baking, struct bake_drawing *drawing,
+                         const struct spool *spools, uint32_t num_spools)
 {
-    measure(target, spools, num_spools);
-    if (target->is_value)
+    measure(drawing, spools, num_spools);
+    if (drawing->is_value)
         return true;
-    const char *ending = ending_of(baking, target);
+    const char *ending = ending_of(baking, drawing);
     const struct bake_tile *tiles = baking->surface.tiles;
     bool is_set = num_spools > 1 || tiles[0].u || tiles[0].v, good = true;
-    target->spaces = !is_color(target)                               ? NULL
-                     : strcmp(ending, "exr") == 0 || !baking->is_709 ? baking->space
-                                                                     : "srgb_texture";
-    struct image_format format = format_of(baking, target, ending, spools[0].width);
-    target->file = cli_format(is_set ? "%s.<UDIM>.%s" : "%s.%s", target->name, ending);
+    drawing->spaces = !is_color(drawing)                              ? NULL
+                      : strcmp(ending, "exr") == 0 || !baking->is_709 ? baking->space
+                                                                      : "srgb_texture";
+    struct image_format format = format_of(baking, drawing, ending, spools[0].width);
+    drawing->file = cli_format(is_set ? "%s.<UDIM>.%s" : "%s.%s", drawing->name, ending);
     for (uint32_t t = 0; good && t < num_spools; ++t) {
-        char *name = is_set ? cli_format("%s.%d.%s", target->name,
+        char *name = is_set ? cli_format("%s.%d.%s", drawing->name,
                                          1001 + tiles[t].u + 10 * tiles[t].v, ending)
-                            : cli_format("%s", target->file);
+                            : cli_format("%s", drawing->file);
         if (baking->surface.objects)
             tell_overlap(baking, tiles[t], format.width);
         good = write_file(baking, &format, name, &spools[t]);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* What targets read: found by generating each of them alone. */
+/* What drawings read: found by generating each of them alone. */
 #include "render/bake.h"
 
 #include <stdlib.h>
@@ -59,7 +59,7 @@ static unsigned need_of(const mxg_variable *variable)
 /* ---- Textures ---- */
 
 static void read_texture(struct baking *baking, const mxg_result *result, uint32_t index,
-                         uint32_t tile, struct bake_target *target)
+                         uint32_t tile, struct bake_drawing *drawing)
 {
     char name[4096], reason[256];
     uint32_t side = 0;
@@ -68,26 +68,26 @@ static void read_texture(struct baking *baking, const mxg_result *result, uint32
         return;
     char *path = cli_beside(baking->path, name);
     outputs_read(&baking->files, &baking->cli.report, path);
-    if (image_find_size(path, &side, reason, sizeof reason) && side > target->largest)
-        target->largest = side;
+    if (image_find_size(path, &side, reason, sizeof reason) && side > drawing->largest)
+        drawing->largest = side;
     free(path);
 }
 
 static void read_textures(struct baking *baking, const mxg_result *result, uint32_t index,
-                          const mxg_variable *variable, struct bake_target *target)
+                          const mxg_variable *variable, struct bake_drawing *drawing)
 {
     for (uint32_t i = 0; i < variable->num_tiles; ++i) {
         mxg_tile tile = {sizeof tile};
-        read_texture(baking, result, index, i, target);
+        read_texture(baking, result, index, i, drawing);
         if (!baking->surface.objects && mxg_result_tile(result, index, i, &tile) == MXG_OK
             && tile.u >= 0 && tile.v >= 0)
             bake_surface_add_tile(&baking->surface, (struct bake_tile){tile.u, tile.v});
     }
     if (!variable->num_tiles)
-        read_texture(baking, result, index, 0, target);
+        read_texture(baking, result, index, 0, drawing);
 }
 
-/* ---- Targets ---- */
+/* ---- Drawings ---- */
 
 /* Generates an element without its source. NULL after reporting an error. */
 static mxg_result *generate(struct baking *baking, const char *path, bool tells)
@@ -131,7 +131,7 @@ static bool needs_any(struct baking *baking, mxg_element element, unsigned needs
     return has;
 }
 
-/* The node farthest from the target that still needs one of these. */
+/* The node farthest from the drawing that still needs one of these. */
 static mxg_element find_culprit(struct baking *baking, mxg_element node, unsigned needs)
 {
     enum { MAX_STEPS = 1000 };
@@ -149,12 +149,12 @@ static mxg_element find_culprit(struct baking *baking, mxg_element node, unsigne
     return node;
 }
 
-static bool fail_for(struct baking *baking, const struct bake_target *target, unsigned needs,
+static bool fail_for(struct baking *baking, const struct bake_drawing *drawing, unsigned needs,
                      const char *id, const char *reason)
 {
-    mxg_element culprit = find_culprit(baking, target->source, needs);
+    mxg_element culprit = find_culprit(baking, drawing->source, needs);
     mxg_element_info info = bake_element(baking->document, culprit);
-    char *port = bake_path(baking->document, target->port),
+    char *port = bake_path(baking->document, drawing->port),
          *path = bake_path(baking->document, culprit);
     report_error(&baking->cli.report, id, "'%s' (%s:%u:%u), which '%s' reads, %s", path,
                  info.file ? info.file : baking->path, info.line, info.column, port, reason);
@@ -163,9 +163,9 @@ static bool fail_for(struct baking *baking, const struct bake_target *target, un
     return false;
 }
 
-static bool is_whole(const struct bake_target *target)
+static bool is_whole(const struct bake_drawing *drawing)
 {
-    return strcmp(target->type, "integer") == 0 || strcmp(target->type, "boolean") == 0;
+    return strcmp(drawing->type, "integer") == 0 || strcmp(drawing->type, "boolean") == 0;
 }
 
 /* The components of a type that an image or a value of an AOV can have; 0: of none. */
@@ -182,44 +182,44 @@ uint32_t bake_channels(const char *type)
     return 0;
 }
 
-static bool find_needs(struct baking *baking, struct bake_target *target)
+static bool find_needs(struct baking *baking, struct bake_drawing *drawing)
 {
-    mxg_result *result = generate(baking, target->path, true);
+    mxg_result *result = generate(baking, drawing->path, true);
     if (!result)
         return false;
-    target->needs = needs_of(result);
+    drawing->needs = needs_of(result);
     for (uint32_t i = 0; i < mxg_result_num_variables(result); ++i) {
         mxg_variable variable = {sizeof variable};
         mxg_result_variable(result, i, &variable);
         if (variable.block == MXG_BLOCK_TEXTURES)
-            read_textures(baking, result, i, &variable, target);
+            read_textures(baking, result, i, &variable, drawing);
     }
     mxg_result_destroy(result);
     return true;
 }
 
-bool bake_find_needs(struct baking *baking, struct bake_target *target)
+bool bake_find_needs(struct baking *baking, struct bake_drawing *drawing)
 {
-    if (!find_needs(baking, target))
+    if (!find_needs(baking, drawing))
         return false;
     unsigned missing = baking->surface.objects ? 0u
-                       : target->is_direction  ? (unsigned)BAKE_GEOMETRY
+                       : drawing->is_direction ? (unsigned)BAKE_GEOMETRY
                                                : (unsigned)BAKE_GEOMETRY | BAKE_FRAME;
-    if (target->needs & BAKE_VIEW)
-        return fail_for(baking, target, BAKE_VIEW, "bake-view",
+    if (drawing->needs & BAKE_VIEW)
+        return fail_for(baking, drawing, BAKE_VIEW, "bake-view",
                         "depends on the view or the light, so no image can have it");
-    if (target->needs & missing)
-        return fail_for(baking, target, missing, "bake-mesh",
+    if (drawing->needs & missing)
+        return fail_for(baking, drawing, missing, "bake-mesh",
                         "reads the geometry of a surface: say which with --mesh");
-    if (!bake_channels(target->type) || (is_whole(target) && target->needs)) {
-        mxg_element_info info = bake_element(baking->document, target->port);
+    if (!bake_channels(drawing->type) || (is_whole(drawing) && drawing->needs)) {
+        mxg_element_info info = bake_element(baking->document, drawing->port);
         report_error(&baking->cli.report, "bake-type",
                      "'%s' (%s:%u:%u) varies, and no image has values of the type '%s'",
-                     target->path, info.file ? info.file : baking->path, info.line, info.column,
-                     target->type);
+                     drawing->path, info.file ? info.file : baking->path, info.line, info.column,
+                     drawing->type);
         return false;
     }
-    if (target->is_direction) /* the frame of the surface is part of what is drawn */
-        target->needs |= BAKE_VARIES;
+    if (drawing->is_direction) /* the frame of the surface is part of what is drawn */
+        drawing->needs |= BAKE_VARIES;
     return true;
 }

@@ -20,16 +20,23 @@ char *bake_path(const mxg_document *document, mxg_element element)
     return path;
 }
 
+/* 0 is the root, as in mxg_document_find_element. */
+static mxg_element or_root(const mxg_document *document, mxg_element element)
+{
+    return element ? element : mxg_document_find_element(document, 0, "");
+}
+
 mxg_element_info bake_element(const mxg_document *document, mxg_element element)
 {
     mxg_element_info info = {sizeof info};
-    mxg_document_element(document, element, &info);
+    mxg_document_element(document, or_root(document, element), &info);
     return info;
 }
 
 const char *bake_attribute(const mxg_document *document, mxg_element element, const char *name)
 {
     mxg_attribute attribute = {sizeof attribute};
+    element = or_root(document, element);
     uint32_t index = mxg_document_find_attribute(document, element, name);
     return index != MXG_NONE
                    && mxg_document_attribute(document, element, index, &attribute) == MXG_OK
@@ -167,34 +174,35 @@ char *bake_plan_name(struct bake_plan *plan, const char *wanted)
     return free_name(plan, wanted, false);
 }
 
-static bool is_same_target(const struct bake_target *target, const struct bake_end *end,
-                           bool is_direction)
+static bool is_same_drawing(const struct bake_drawing *drawing, const struct bake_end *end,
+                            bool is_direction)
 {
-    return target->source == end->node && target->is_direction == is_direction
-           && strcmp(target->output, end->output) == 0;
+    return drawing->source == end->node && drawing->is_direction == is_direction
+           && strcmp(drawing->output, end->output) == 0;
 }
 
-static size_t add_target(struct bake_plan *plan, const struct bake_node *node,
-                         const struct bake_input *input, const struct bake_end *end,
-                         bool is_direction)
+static size_t add_drawing(struct bake_plan *plan, const struct bake_node *node,
+                          const struct bake_input *input, const struct bake_end *end,
+                          bool is_direction)
 {
-    for (size_t i = 0; i < plan->num_targets; ++i)
-        if (is_same_target(&plan->targets[i], end, is_direction))
+    for (size_t i = 0; i < plan->num_drawings; ++i)
+        if (is_same_drawing(&plan->drawings[i], end, is_direction))
             return i;
-    plan->targets = memory_resize(plan->targets, (plan->num_targets + 1) * sizeof *plan->targets);
+    plan->drawings =
+        memory_resize(plan->drawings, (plan->num_drawings + 1) * sizeof *plan->drawings);
     char *name = cli_format("%s_%s", node->name, input->name);
     char *path = bake_path(plan->document, end->node);
-    plan->targets[plan->num_targets] =
-        (struct bake_target){.source = end->node,
-                             .output = end->output,
-                             .type = input->type,
-                             .is_direction = is_direction,
-                             .port = input->port,
-                             .name = free_name(plan, name, true),
-                             .path = cli_format(*end->output ? "%s/%s" : "%s", path, end->output)};
+    plan->drawings[plan->num_drawings] =
+        (struct bake_drawing){.source = end->node,
+                              .output = end->output,
+                              .type = input->type,
+                              .is_direction = is_direction,
+                              .port = input->port,
+                              .name = free_name(plan, name, true),
+                              .path = cli_format(*end->output ? "%s/%s" : "%s", path, end->output)};
     free(name);
     free(path);
-    return plan->num_targets++;
+    return plan->num_drawings++;
 }
 
 /* True for an input whose default is a direction of the surface in the world. */
@@ -278,11 +286,47 @@ static bool add_input(struct bake_plan *plan, struct visits *visits, mxg_element
     } else {
         input.way = BAKE_DRAWS;
         input.index =
-            add_target(plan, node, &input, &end, is_direction(document, node->element, info.name));
+            add_drawing(plan, node, &input, &end, is_direction(document, node->element, info.name));
     }
     node->inputs = memory_resize(node->inputs, (node->num_inputs + 1) * sizeof *node->inputs);
     node->inputs[node->num_inputs++] = input;
     return true;
+}
+
+/* True if an <implementation> names a nodegraph. */
+static bool implements(const mxg_document *document, const char *graph)
+{
+    for (mxg_element child = bake_element(document, 0).first_child; child;) {
+        mxg_element_info info = bake_element(document, child);
+        const char *named = bake_attribute(document, child, "nodegraph");
+        if (strcmp(info.category, "implementation") == 0 && named && strcmp(named, graph) == 0)
+            return true;
+        child = info.next;
+    }
+    return false;
+}
+
+bool bake_is_definition(const mxg_document *document, mxg_element element)
+{
+    static const char *const categories[] = {
+        "nodedef", "implementation", "typedef",     "targetdef",
+        "unitdef", "unittypedef",    "geompropdef", NULL};
+    mxg_element_info info = bake_element(document, element);
+    return is_one_of(info.category, categories)
+           || (strcmp(info.category, "nodegraph") == 0
+               && (bake_attribute(document, element, "nodedef")
+                   || implements(document, info.name)));
+}
+
+void bake_plan_begin(struct bake_plan *plan, const mxg_document *document, struct report *report)
+{
+    *plan = (struct bake_plan){.document = document, .report = report};
+    for (mxg_element child = bake_element(document, 0).first_child; child;) {
+        mxg_element_info info = bake_element(document, child);
+        if (*info.name && bake_is_definition(document, child))
+            take(plan, info.name, false);
+        child = info.next;
+    }
 }
 
 bool bake_plan_add(struct bake_plan *plan, const char *path)
@@ -317,12 +361,12 @@ void bake_plan_finish(struct bake_plan *plan)
         free(plan->nodes[i].name);
         free(plan->nodes[i].inputs);
     }
-    for (size_t i = 0; i < plan->num_targets; ++i) {
-        free(plan->targets[i].name);
-        free(plan->targets[i].path);
-        free(plan->targets[i].file);
+    for (size_t i = 0; i < plan->num_drawings; ++i) {
+        free(plan->drawings[i].name);
+        free(plan->drawings[i].path);
+        free(plan->drawings[i].file);
     }
     free(plan->nodes);
-    free(plan->targets);
+    free(plan->drawings);
     names_finish(&plan->names);
 }

@@ -14,7 +14,7 @@
 enum bake_way {
     BAKE_KEEPS, /* a value of the document, which stays */
     BAKE_NODE,  /* another node of the plan */
-    BAKE_DRAWS  /* a target */
+    BAKE_DRAWS  /* a drawing: what a graph gives */
 };
 
 struct bake_input {
@@ -22,7 +22,7 @@ struct bake_input {
     const char *name, *type;
     enum bake_way way;
     mxg_element origin; /* KEEPS: what has the value */
-    size_t index;       /* NODE: of the plan's nodes; DRAWS: of its targets */
+    size_t index;       /* NODE: of the plan's nodes; DRAWS: of its drawings */
 };
 
 struct bake_node {
@@ -33,7 +33,7 @@ struct bake_node {
     size_t num_inputs;
 };
 
-/* What a target needs of the surface, beside its texture coordinates: bits. */
+/* What a drawing needs of the surface, beside its texture coordinates: bits. */
 enum bake_need {
     BAKE_VARIES = 1,   /* it is not the same everywhere */
     BAKE_FRAME = 2,    /* normals and tangents */
@@ -42,7 +42,7 @@ enum bake_need {
 };
 
 /* An output of a node whose values are drawn. */
-struct bake_target {
+struct bake_drawing {
     mxg_element source;
     const char *output; /* of the node; "" for its only one */
     const char *type;
@@ -66,16 +66,23 @@ struct bake_plan {
     struct report *report;
     struct bake_node *nodes; /* a node comes after those that it reads */
     size_t num_nodes;
-    struct bake_target *targets;
-    size_t num_targets;
+    struct bake_drawing *drawings;
+    size_t num_drawings;
     struct name_table names; /* that are taken, also without regard to case */
 };
 
+/* True for what belongs to the document's own definitions, which stay as they are. */
+bool bake_is_definition(const mxg_document *document, mxg_element element);
+
+/* An empty plan for a document. */
+void bake_plan_begin(struct bake_plan *plan, const mxg_document *document, struct report *report);
 /* Plans a renderable with all that it reads. false after reporting an error. */
 bool bake_plan_add(struct bake_plan *plan, const char *path);
 /* A name that nothing of the new document has. The caller frees it. */
 char *bake_plan_name(struct bake_plan *plan, const char *wanted);
 void bake_plan_finish(struct bake_plan *plan);
+
+/* An element 0 is the root. */
 
 /* The path of an element. The caller frees it. */
 char *bake_path(const mxg_document *document, mxg_element element);
