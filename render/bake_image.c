@@ -164,8 +164,8 @@ static void tell_overlap(struct baking *baking, struct bake_tile tile, uint32_t 
     const double told = 1e-3;
     if (part > told && !baking->has_told_overlap)
         report_warning(&baking->cli.report, "bake-overlap",
-                       "triangles of '%s' lie over each other in the image: %.1f%% of what they "
-                       "cover; one of them gives its values",
+                       "triangles of '%s' lie over each other in the image, on %.1f percent of "
+                       "what they cover; one of them gives its values",
                        baking->options.mesh, 100 * part);
     baking->has_told_overlap |= part > told;
 }

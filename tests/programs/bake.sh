@@ -127,7 +127,7 @@ check 'values that a format cannot have are told' eval 'exits 0 "$mxgen" bake ba
 sed '/^vt/d; s,/[0-9]/,//,g' plane.obj >bare.obj
 check 'a mesh needs texture coordinates' eval 'exits 1 "$mxgen" bake marble.mtlx -m bare.obj -o none && has err "[no-texcoords]" && test ! -e none'
 (cat plane.obj; sed -n '/^f/p' plane.obj) | sed '$ s,^f.*,f 1/1/1 3/3/1 2/2/1,' >twice.obj
-check 'overlapping triangles are told' eval 'exits 0 "$mxgen" bake marble.mtlx -m twice.obj -o stone --size 16 && has err "[bake-overlap]" "50.0%"'
+check 'overlapping triangles are told' eval 'exits 0 "$mxgen" bake marble.mtlx -m twice.obj -o stone --size 16 && has err "[bake-overlap]" "50.0 percent"'
 check 'a document is not written over itself' eval 'exits 1 "$mxgen" bake wall.mtlx -o . --size 8 && has err "[output-clash]" && test ! -e SR_base_color.png'
 touch file
 check 'a folder must be one' eval 'exits 1 "$mxgen" bake wall.mtlx -o file/in --size 8 && has err "[output-failed]"'
