@@ -1,218 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
-/*
- * Integrates the GGX lobe over all directions for mx_ggx_albedo in
- * libraries/pbrlib/shaders/ggx.glsl: the directional albedo of a white lobe with single scattering,
- * and the cosine at which Schlick's curve has its mean. Then finds the round lobes that stand for
- * anisotropic ones, for mx_ggx_round_like. Prints the constants of both functions.
- */
-#include "fit.h"
+/* The constants of mx_ggx_albedo and mx_ggx_round_like in libraries/pbrlib/shaders/ggx.glsl. */
+#include "lobe.h"
 
 #include <math.h>
-#include <stdio.h>
 
-enum { STEPS = 24, CELLS = STEPS * STEPS, SAMPLES = 1 << 13 };
-/* of anisotropic lobes: roughness, anisotropy, turns and cosines of the viewer */
-enum { WIDTHS = 10, SHAPES = 8, TURNS = 7, SLANTS = 12 };
-enum { LOBES = WIDTHS * SHAPES * TURNS * SLANTS, LIKE_TERMS = 12 };
-
-static const double pi = 3.14159265358979323846;
-#define LEAST_COSINE 0.03 /* the fit extrapolates below, where a surface is hardly visible */
-#define SLACK 7e-4        /* maximum error below the albedo */
-
-struct cell {
-    double alpha, across;      /* roughness along x and y */
-    double cosine, turn;       /* of the viewer, around the normal from x */
-    double albedo, at_grazing; /* the total, and the part weighted by (1 - cosine)^5 */
-};
-
-/* cos (1 + 2 Lambda) of a direction (Heitz 2014, equations 72 and 80). */
-static double masking(const struct cell *cell, const double v[3])
+/* Heitz 2014, equations 72 and 80. */
+static double masking(double x, double z)
 {
-    double x = v[0] * cell->alpha, y = v[1] * cell->across;
-    return sqrt(x * x + y * y + v[2] * v[2]);
+    return hypot(x, z);
 }
 
-/* Samples visible normals (Heitz 2018), with the weight G2 / G1. */
-static void measure(struct cell *cell)
+/* Heitz 2018. */
+static void draw(const double v[3], double xi, double eta, double h[3])
 {
-    double c = cell->cosine, sine = sqrt(1.0 - c * c);
-    double v[3] = {sine * cos(cell->turn), sine * sin(cell->turn), c}, length = masking(cell, v);
-    double stretched[3] = {cell->alpha * v[0] / length, cell->across * v[1] / length, c / length};
-    for (int i = 0; i < SAMPLES; ++i) {
-        double phi = 2.0 * pi * (i + 0.5) / SAMPLES,
-               top = (1.0 - fmod((i + 0.5) * 0.6180339887498949, 1.0)) * (1.0 + stretched[2]);
-        double z = top - stretched[2], around = sqrt(fmax(1.0 - z * z, 0.0));
-        double h[3] = {(stretched[0] + around * cos(phi)) * cell->alpha,
-                       (stretched[1] + around * sin(phi)) * cell->across, top};
-        double square = h[0] * h[0] + h[1] * h[1] + h[2] * h[2],
-               vh = v[0] * h[0] + v[1] * h[1] + v[2] * h[2], mirror = 2.0 * vh / square;
-        double l[3] = {mirror * h[0] - v[0], mirror * h[1] - v[1], mirror * h[2] - c};
-        if (l[2] <= 0.0)
-            continue;
-        double weight = l[2] * (c + length) / (c * masking(cell, l) + l[2] * length),
-               x = pow(1.0 - vh / sqrt(square), 5.0);
-        cell->albedo += weight / SAMPLES;
-        cell->at_grazing += weight * x / SAMPLES;
-    }
+    double length = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]), height = v[2] / length;
+    double phi = 2.0 * 3.14159265358979323846 * xi, top = (1.0 - eta) * (1.0 + height);
+    double z = top - height, around = sqrt(fmax(1.0 - z * z, 0.0));
+    h[0] = v[0] / length + around * cos(phi);
+    h[1] = v[1] / length + around * sin(phi);
+    h[2] = top;
 }
 
-/* A variable for the limit of light that grazes the facets. */
-static double grazing(const struct cell *cell)
+/* A variable for the limit of light that grazes the facets, and the roughness. */
+static void variables(double alpha, double cosine, double out[2])
 {
-    return cell->alpha / (cell->alpha + cell->cosine);
-}
-
-static double albedo(const double *p, const struct cell *cell)
-{
-    return 1.0 - grazing(cell) * fit_form(p, grazing(cell), cell->alpha);
-}
-
-static double effective_cosine(const double *p, const struct cell *cell)
-{
-    return fmin(fmax(cell->cosine + cell->alpha * fit_form(p, grazing(cell), cell->alpha), 0.0),
-                1.0);
-}
-
-static void albedo_residuals(const double *p, double *out, void *user_data)
-{
-    const struct cell *cells = user_data;
-    for (int i = 0; i < CELLS; ++i)
-        out[i] = albedo(p, &cells[i]) / cells[i].albedo - 1.0;
-}
-
-static void cosine_residuals(const double *p, double *out, void *user_data)
-{
-    const struct cell *cells = user_data;
-    for (int i = 0; i < CELLS; ++i)
-        out[i] =
-            pow(1.0 - effective_cosine(p, &cells[i]), 5.0) * cells[i].albedo - cells[i].at_grazing;
-}
-
-/* ---- Anisotropic lobes ---- */
-
-/*
- * Divided by the roughness, visible normals are those of a unit sphere, whatever the roughness is.
- * So a round lobe has the same ones if its viewer has the same cosine after that division. What
- * remains is its roughness: the mean of both times a factor.
- */
-struct like {
-    double mean, shape; /* of both widths: mean, and difference over sum */
-    double turned;      /* shape times x^2 - y^2 of the stretched viewer */
-    double up, slope;   /* its cosine, and its length along the surface before normalisation */
-    double x, y;
-};
-
-static struct like compare(const struct cell *cell)
-{
-    double c = cell->cosine, sine = sqrt(1.0 - c * c), x = sine * cos(cell->turn) * cell->alpha,
-           y = sine * sin(cell->turn) * cell->across, square = x * x + y * y + c * c;
-    double shape = (cell->alpha - cell->across) / (cell->alpha + cell->across);
-    return (struct like){.mean = 0.5 * (cell->alpha + cell->across),
-                         .shape = shape,
-                         .turned = shape * (x * x - y * y) / square,
-                         .up = c / sqrt(square),
-                         .slope = sqrt(x * x + y * y)};
-}
-
-/* The round cell. `p` begins with the parameters of this form. */
-static struct cell round_like(const double *p, const struct cell *cell)
-{
-    struct like l = compare(cell);
-    double d = l.shape * l.shape, w = l.turned, z = l.up, m = l.mean;
-    double factor =
-        1.0 + d * (p[0] + p[1] * z + p[2] * m + d * (p[3] + p[4] * z))
-        + w * (p[5] + z * (p[6] + p[7] * m + p[8] * z) + p[9] * d + w * (p[10] + p[11] * m));
-    double a = m * fmax(factor, 0.05), reach = hypot(a * cell->cosine, l.slope);
-    return (struct cell){.alpha = a, .across = a, .cosine = a * cell->cosine / reach};
-}
-
-struct lobes {
-    const struct cell *cells;
-    const double *albedo, *cosine; /* parameters of round lobes */
-    double bound;                  /* factor of that albedo */
-    double excess;                 /* of the result, in the middle of the errors */
-};
-
-static double like_error(const struct lobes *lobes, const double *p, const struct cell *cell)
-{
-    struct cell round = round_like(p, cell);
-    return fmin(lobes->bound * albedo(lobes->albedo, &round), 1.0) / cell->albedo - 1.0;
-}
-
-/* A slanted lobe counts less, as less of it is visible. */
-static void like_residuals(const double *p, double *out, void *user_data)
-{
-    const struct lobes *lobes = user_data;
-    for (int i = 0; i < LOBES; ++i)
-        out[i] = (like_error(lobes, p, &lobes->cells[i]) - lobes->excess)
-                 * (0.5 + 0.5 * lobes->cells[i].cosine);
-}
-
-/* A facet's cosine grows with the length of the stretched viewer. */
-static double error_at_grazing(const struct lobes *lobes, const double *p, const struct cell *cell)
-{
-    struct cell round = round_like(p, cell);
-    double mean = effective_cosine(lobes->cosine, &round) * cell->cosine / round.cosine;
-    return pow(fmax(1.0 - mean, 0.0), 5.0) * cell->albedo - cell->at_grazing;
-}
-
-static void measure_lobes(struct cell *cells)
-{
-    for (int i = 0; i < LOBES; ++i) {
-        double r = (double)(i % WIDTHS + 1) / WIDTHS,
-               s = 0.95 * (i / WIDTHS % SHAPES) / (SHAPES - 1),
-               turn = 0.5 * pi * (i / (WIDTHS * SHAPES) % TURNS) / (TURNS - 1),
-               c = (i / (WIDTHS * SHAPES * TURNS) + 0.5) / SLANTS;
-        cells[i] = (struct cell){.alpha = fmin(r * r * (1.0 + s), 1.0),
-                                 .across = r * r * (1.0 - s),
-                                 .cosine = LEAST_COSINE + (1.0 - LEAST_COSINE) * c,
-                                 .turn = turn};
-        measure(&cells[i]);
-    }
-}
-
-static void fit_lobes(const double *reflected, double bound, const double *cosine)
-{
-    static struct cell cells[LOBES];
-    struct lobes lobes = {cells, reflected, cosine, bound, 0.8 * (bound - 1.0)};
-    double p[FIT_PARAMETERS] = {0.4}, grazing_most = 0.0, grazing_mean = 0.0, least = 1.0,
-           most = -1.0;
-    measure_lobes(cells);
-    fit_minimax(p, like_residuals, LOBES, &lobes);
-    for (int i = 0; i < LOBES; ++i) {
-        double error = like_error(&lobes, p, &cells[i]),
-               at_grazing = fabs(error_at_grazing(&lobes, p, &cells[i]));
-        least = fmin(least, error);
-        most = fmax(most, error);
-        grazing_most = fmax(grazing_most, at_grazing);
-        grazing_mean += at_grazing / LOBES;
-    }
-    printf("// anisotropic: albedo from %.4f to %.4f, relatively\n", least, most);
-    printf("// (1 - cosine)^5 of the lobe within %.4f, %.4f in the mean\n", grazing_most,
-           grazing_mean);
-    for (int i = 0; i < LIKE_TERMS; ++i)
-        printf("%.4f%s", p[i], i == LIKE_TERMS - 1 ? "\n" : ", ");
+    out[0] = alpha / (alpha + cosine);
+    out[1] = alpha;
 }
 
 int main(void)
 {
-    static struct cell cells[CELLS];
-    double reflected[FIT_PARAMETERS] = {0.1}, cosine[FIT_PARAMETERS] = {0.1};
-    for (int i = 0; i < CELLS; ++i) {
-        double a = (i % STEPS + 0.5) / (STEPS - 0.5),
-               c = (i / STEPS + 0.5) / (STEPS - 0.5); /* to 1 */
-        cells[i] = (struct cell){
-            .alpha = a * a, .across = a * a, .cosine = LEAST_COSINE + (1.0 - LEAST_COSINE) * c};
-        measure(&cells[i]);
-    }
-    double error = fit_minimax(reflected, albedo_residuals, CELLS, cells),
-           bound = 1.0 + error - SLACK;
-    printf("// albedo times %.4f, so that it is never too small; within %.4f, relatively\n", bound,
-           error);
-    fit_print_form("LOST", reflected, bound);
-    error = fit_minimax(cosine, cosine_residuals, CELLS, cells);
-    printf("// (1 - cosine)^5 of the lobe within %.4f\n", error);
-    fit_print_form("COSINE", cosine, 1.0);
-    fit_lobes(reflected, bound, cosine);
+    lobe_fit(&(struct distribution){masking, variables, draw});
     return 0;
 }

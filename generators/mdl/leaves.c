@@ -196,7 +196,7 @@ static bool put_special(struct writer *w, const char *name)
         put_scatter(w);
     } else if (strcmp(name, "distribution") == 0) {
         const char *word = word_of(leaf->tree, leaf->inputs[INPUT_distribution]);
-        text_str(&w->text, word && strcmp(word, "beckmann") == 0 ? "beckmann" : "ggx");
+        text_str(&w->text, !word || strcmp(word, "ggx") == 0 ? "ggx" : "beckmann");
     } else if (strcmp(name, "over") == 0) {
         text_str(&w->text, leaf->base ? ", base: " : "");
         if (leaf->base)

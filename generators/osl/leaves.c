@@ -32,6 +32,7 @@ enum argument_kind {
     ARGUMENT_REFLECTED,
     ARGUMENT_TRANSMITTED,
     ARGUMENT_BENT,
+    ARGUMENT_FACETS,
     ARGUMENT_TEXT,
     ARGUMENT_INT,
     ARGUMENT_FLOAT,
@@ -90,6 +91,10 @@ struct row {
 #define ARG_BENT(name) \
     { \
         .kind = ARGUMENT_BENT, .input = INPUT_##name \
+    }
+#define ARG_FACETS(name) \
+    { \
+        .kind = ARGUMENT_FACETS, .input = INPUT_##name \
     }
 #define ARG_TEXT(word) \
     { \
@@ -224,6 +229,20 @@ static ir_ref bent_edge(const struct leaf *leaf, ir_ref color90)
                    leaf->inputs[INPUT_exponent]);
 }
 
+static ir_ref word(const struct leaf *leaf, const char *text)
+{
+    return ir_const_string(leaf->tree->graph, str_intern_z(leaf->tree->shader->strings, text));
+}
+
+/* ShaderX leaves out the last letter of the second distribution. */
+static ir_ref facets(const struct leaf *leaf, ir_ref distribution)
+{
+    struct ir_graph *g = leaf->tree->graph;
+    ir_ref is_short = ir_op2(g, IR_EQ, distribution, word(leaf, "beckman"));
+    ir_ref args[3] = {is_short, word(leaf, "beckmann"), distribution};
+    return ir_build(g, IR_SELECT, IR_TYPE_STRING, 0, args, 3);
+}
+
 /* True for componentwise ops that have the same meaning for scalars. */
 static bool is_componentwise(enum ir_op op)
 {
@@ -279,8 +298,7 @@ static ir_ref other_argument(const struct leaf *leaf, const struct argument *arg
 {
     const struct osl_tree *t = leaf->tree;
     switch (argument->kind) {
-    case ARGUMENT_TEXT:
-        return ir_const_string(t->graph, str_intern_z(t->shader->strings, argument->text));
+    case ARGUMENT_TEXT: return word(leaf, argument->text);
     case ARGUMENT_INT: return ir_const_int(t->graph, argument->number);
     case ARGUMENT_FLOAT: return ir_const_float(t->graph, (float)argument->number);
     case ARGUMENT_GREY: return ir_const_splat(t->graph, IR_TYPE_VEC3, (float)argument->number);
@@ -308,6 +326,7 @@ static ir_ref argument(const struct leaf *leaf, const struct argument *argument)
     case ARGUMENT_REFLECTED: return scattered(leaf, value, REFLECTED);
     case ARGUMENT_TRANSMITTED: return scattered(leaf, value, TRANSMITTED);
     case ARGUMENT_BENT: return bent_edge(leaf, value);
+    case ARGUMENT_FACETS: return facets(leaf, value);
     default: assert(argument->kind == ARGUMENT_INPUT); return value;
     }
 }

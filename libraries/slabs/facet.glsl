@@ -49,11 +49,11 @@ vec4 mx_slab_facet(vec2 roughness, float glint_density, vec2 glint_uv, vec4 glin
 // variance, 0.007 in squares of alpha without the far tail, times the Laplacian of 1 / (1 + q)^2, GGX over slopes; the lobe is within 1 %.
 float mx_slab_facet_weight(vec2 alpha, bool is_glint, vec3 m, vec3 v, vec3 l)
 {
-    float weight = 4.0 * mx_ggx_smith_visibility(v, l, alpha);
+    float weight = 4.0 * mx_ggx_smith_visibility("ggx", v, l, alpha);
     vec2 slope = m.xy / (alpha * m.z);
     float q = dot(slope, slope);
     return is_glint ? weight * dot(m, v) / m.z
-                    : weight / mx_ggx_masked(v, alpha) * (1.0 + 0.028 * (1.0 - 2.0 * q) / ((1.0 + q) * (1.0 + q)));
+                    : weight / mx_ggx_masked("ggx", v, alpha) * (1.0 + 0.028 * (1.0 - 2.0 * q) / ((1.0 + q) * (1.0 + q)));
 }
 
 // The facet's weight with compensation, and the cosine of the light.

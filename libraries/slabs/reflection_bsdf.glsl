@@ -41,7 +41,7 @@ vec3 mx_slab_tint(sampler2D specular_lut, float specular_lut_weight, float specu
 vec3 mx_slab_reflection_bsdf_eval(vec3 f0, vec3 f90, vec2 roughness, float glint_density, vec2 glint_uv, vec4 glint_footprint, sampler2D specular_lut,
                                   float specular_lut_weight, float specular_lut_index, vec3 N, vec3 X, vec3 V, vec3 L)
 {
-    return mx_ggx_eval(roughness, mx_ggx_oval(roughness), N, X, V, L, "schlick", max(f0, 0.0), vec3(0.0), f90, 5.0, 0.0, 1.5)
+    return mx_ggx_eval(roughness, "ggx", mx_ggx_oval(roughness), N, X, V, L, "schlick", max(f0, 0.0), vec3(0.0), f90, 5.0, 0.0, 1.5)
          * mx_slab_tint(specular_lut, specular_lut_weight, specular_lut_index, mx_view_cosine(N, V), abs(dot(N, L)))
          * mx_slab_glints(glint_density, glint_uv, glint_footprint, roughness, N, X, V, L);
 }
@@ -66,21 +66,21 @@ vec3 mx_slab_reflection_bsdf_tint(vec3 f0, vec3 f90, vec2 roughness, float glint
 vec3 mx_slab_reflection_bsdf_environment(vec3 f0, vec3 f90, vec2 roughness, float glint_density, vec2 glint_uv, vec4 glint_footprint, sampler2D specular_lut,
                                          float specular_lut_weight, float specular_lut_index, vec3 N, vec3 X, vec3 V, int sample_index, vec2 sample_turn)
 {
-    return mx_ggx_environment(roughness, mx_ggx_oval(roughness), N, X, V, sample_index, sample_turn, "schlick", max(f0, 0.0), vec3(0.0), f90, 5.0, 0.0, 1.5)
+    return mx_ggx_environment(roughness, "ggx", mx_ggx_oval(roughness), N, X, V, sample_index, sample_turn, "schlick", max(f0, 0.0), vec3(0.0), f90, 5.0, 0.0, 1.5)
          * mx_slab_tint(specular_lut, specular_lut_weight, specular_lut_index, mx_view_cosine(N, V), mx_view_cosine(N, V));
 }
 
 vec3 mx_slab_reflection_bsdf_albedo(vec3 f0, vec3 f90, vec2 roughness, float glint_density, vec2 glint_uv, vec4 glint_footprint, sampler2D specular_lut,
                                     float specular_lut_weight, float specular_lut_index, vec3 N, vec3 X, vec3 V)
 {
-    return mx_ggx_reflectance(roughness, mx_ggx_oval(roughness), N, X, V, "schlick", max(f0, 0.0), vec3(0.0), f90, 5.0, 0.0, 1.5)
+    return mx_ggx_reflectance(roughness, "ggx", mx_ggx_oval(roughness), N, X, V, "schlick", max(f0, 0.0), vec3(0.0), f90, 5.0, 0.0, 1.5)
          * mx_slab_tint(specular_lut, specular_lut_weight, specular_lut_index, mx_view_cosine(N, V), mx_view_cosine(N, V));
 }
 
 vec3 mx_slab_reflection_bsdf_throughput(vec3 f0, vec3 f90, vec2 roughness, float glint_density, vec2 glint_uv, vec4 glint_footprint, sampler2D specular_lut,
                                         float specular_lut_weight, float specular_lut_index, vec3 N, vec3 X, vec3 V)
 {
-    return max(1.0 - mx_ggx_reflectance(roughness, mx_ggx_oval(roughness), N, X, V, "schlick", max(f0, 0.0), vec3(0.0), f90, 5.0, 0.0, 1.5), 0.0);
+    return max(1.0 - mx_ggx_reflectance(roughness, "ggx", mx_ggx_oval(roughness), N, X, V, "schlick", max(f0, 0.0), vec3(0.0), f90, 5.0, 0.0, 1.5), 0.0);
 }
 
 // In a function of its own, so that the one below stays short enough to become part of the shader, where its texture is known.
@@ -92,7 +92,7 @@ vec3 mx_slab_sampled_tint(sampler2D specular_lut, float specular_lut_weight, flo
 void mx_slab_reflection_bsdf_sample(vec3 f0, vec3 f90, vec2 roughness, float glint_density, vec2 glint_uv, vec4 glint_footprint, sampler2D specular_lut,
                                     float specular_lut_weight, float specular_lut_index, vec3 N, vec3 X, vec3 V, vec3 xi, out vec3 L, out vec3 weight, out float pdf)
 {
-    mx_ggx_scatter(roughness, mx_ggx_oval(roughness), N, X, V, xi, 1.5, MX_REFLECTS, "schlick", max(f0, 0.0), vec3(0.0), f90, 5.0, 0.0, 1.5, L, weight, pdf);
+    mx_ggx_scatter(roughness, "ggx", mx_ggx_oval(roughness), N, X, V, xi, 1.5, MX_REFLECTS, "schlick", max(f0, 0.0), vec3(0.0), f90, 5.0, 0.0, 1.5, L, weight, pdf);
     weight *= mx_slab_sampled_tint(specular_lut, specular_lut_weight, specular_lut_index, N, V, L)
             * mx_slab_glints(glint_density, glint_uv, glint_footprint, roughness, N, X, V, L);
 }
@@ -100,5 +100,5 @@ void mx_slab_reflection_bsdf_sample(vec3 f0, vec3 f90, vec2 roughness, float gli
 float mx_slab_reflection_bsdf_pdf(vec3 f0, vec3 f90, vec2 roughness, float glint_density, vec2 glint_uv, vec4 glint_footprint, sampler2D specular_lut,
                                   float specular_lut_weight, float specular_lut_index, vec3 N, vec3 X, vec3 V, vec3 L)
 {
-    return mx_ggx_pdf(roughness, N, X, V, L, 1.5, MX_REFLECTS, "schlick", max(f0, 0.0), vec3(0.0), f90, 5.0, 0.0, 1.5);
+    return mx_ggx_pdf(roughness, "ggx", N, X, V, L, 1.5, MX_REFLECTS, "schlick", max(f0, 0.0), vec3(0.0), f90, 5.0, 0.0, 1.5);
 }

@@ -279,11 +279,15 @@ static bool lower_inline(struct lower *lo, uint32_t id, const ir_ref *in, ir_ref
         return false;
     open_frame(lo, &frame, in);
     lo->frame = &frame;
-    name_parameters(lo);
+    bool is_trial = frame.budget != UINT32_MAX; /* one that fails names nothing */
+    if (!is_trial)
+        name_parameters(lo);
     lo->depth++;
     lower_statements(lo, lower_node(lo, frame.fn->body)->a);
     lo->depth--;
     assert(lo->frame == &frame && frame.nesting == 0);
+    if (is_trial && !lo->failed)
+        name_parameters(lo);
     lo->frame = caller;
     bool done = !lo->failed;
     if (done) {

@@ -39,18 +39,27 @@ static bool is_zero(struct builder *b, ir_ref ref)
     return !ref || (build_initial(b, ref, &value) && value.w[0].u == 0);
 }
 
-/* False for a leaf with a part that no slab has: transmitted light; films, retroreflection. */
+/* True for an input that is this word, or that the leaf does not have. */
+static bool is_word(struct builder *b, ir_ref ref, const char *word)
+{
+    struct ir_value value;
+    return !ref
+           || (ir_get_const(b->graph, ref, &value)
+               && strcmp(build_text(b, value.w[0].u), word) == 0);
+}
+
+/*
+ * False for a leaf with a part that no slab has: transmitted light; films, retroreflection, facets
+ * of another distribution.
+ */
 static bool fits(struct builder *b, ir_ref leaf, bool loosely)
 {
-    struct ir_value mode;
-    ir_ref scatters = operand_of(b, leaf, "scatter_mode"),
-           film = operand_of(b, leaf, "thinfilm_thickness"),
-           returns = operand_of(b, leaf, "retroreflective");
-    if (scatters
-        && (!ir_get_const(b->graph, scatters, &mode)
-            || strcmp(build_text(b, mode.w[0].u), "R") != 0))
+    ir_ref film = operand_of(b, leaf, "thinfilm_thickness"),
+           returns = operand_of(b, leaf, "retroreflective"),
+           facets = operand_of(b, leaf, "distribution");
+    if (!is_word(b, operand_of(b, leaf, "scatter_mode"), "R"))
         return false;
-    return loosely || (is_zero(b, film) && is_zero(b, returns));
+    return loosely || (is_zero(b, film) && is_zero(b, returns) && is_word(b, facets, "ggx"));
 }
 
 /*

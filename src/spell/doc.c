@@ -117,6 +117,14 @@ static void write_doc(const struct subject *s, const char *text, const char *end
         spell_text(spell, "\n");
 }
 
+/* True for a word that the function's name has. */
+static bool is_in_name(const struct subject *s, ir_type_id type, const union ir_word *words)
+{
+    return type == IR_TYPE_STRING
+           && strstr(str_text(s->unit->strings, s->function->name),
+                     str_text(s->unit->strings, words->u));
+}
+
 /* Writes "Here a = 1.0, b = 2.0.": the constants of parameters that the origin reads. */
 static void write_constants(const struct subject *s)
 {
@@ -124,7 +132,8 @@ static void write_constants(const struct subject *s)
     for (uint32_t i = 0; i < s->function->num_params; i++) {
         const union ir_word *words = lang_param_bound(s->unit, s->id, i);
         ir_type_id type = ast_slot(s->layer, s->function, i)->type;
-        if (!words || ir_type_is_matrix(type) || !lang_names_slot(s->layer, s->function->body, i))
+        if (!words || ir_type_is_matrix(type) || is_in_name(s, type, words)
+            || !lang_names_slot(s->layer, s->function->body, i))
             continue;
         SPELL(s->spell, before, param_name(s, i), " = ");
         lang_print_value(s->spell->style, s->unit->strings, type, words, LANG_PREC_COMMA,

@@ -46,6 +46,11 @@ leaf mixed '<conductor_bsdf name="metal" type="BSDF"/><oren_nayar_diffuse_bsdf n
   <mix name="bsdf" type="BSDF"><input name="fg" type="BSDF" nodename="metal"/><input name="bg" type="BSDF" nodename="base"/>
     <input name="mix" type="float" value="0.25"/></mix>'
 
+# The second distribution of facets, narrow and wide, along and across.
+beckmann='<input name="distribution" type="string" value="beckmann"/>'
+leaf satin "<conductor_bsdf name='bsdf' type='BSDF'><input name='roughness' type='vector2' value='0.1, 0.1'/>$beckmann</conductor_bsdf>"
+leaf brushed "<conductor_bsdf name='bsdf' type='BSDF'><input name='roughness' type='vector2' value='0.8, 0.3'/>$beckmann</conductor_bsdf>"
+
 # The bound lights, which no sample finds: a drawn picture has no shadows, and a ball throws none on itself.
 bound=directional_light,point_light,spot_light
 leaf lit '<conductor_bsdf name="metal" type="BSDF"><input name="roughness" type="vector2" value="0.2, 0.2"/></conductor_bsdf>

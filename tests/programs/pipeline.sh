@@ -158,6 +158,8 @@ cat >models.mtlx <<'X'
   <standard_surface name="Paint" type="surfaceshader"><input name="base" type="float" value="1"/></standard_surface>
   <standard_surface name="Glass" type="surfaceshader"><input name="transmission" type="float" value="1"/></standard_surface>
   <surface_unlit name="Flat" type="surfaceshader"/>
+  <metalbsdf name="satin" type="BSDF"><input name="distribution" type="string" value="beckman"/></metalbsdf>
+  <surface name="Satin" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="satin"/></surface>
 </materialx>
 X
 as_slabs() { "$mxgen" models.mtlx --target vulkan --role deferred --reflect -o models "$@" >out 2>&1; }
@@ -174,6 +176,8 @@ assert {"Paint/transmission", "Paint/thin_walled"} <= compiled and "Paint/specul
 check "glass is generated" as_slabs -e Glass --interface reduced --slabs
 check "a message says that glass is drawn forward" grep -q "'Glass' is drawn forward: its part 'refraction' is no slab" out
 check "glass lights itself" eval '! grep -q mx_word0 models/Glass.frag && grep -q u_envRadiance models/Glass.frag'
+check "facets of another distribution are generated" as_slabs -e Satin --interface reduced --slabs --transparency opaque
+check "facets of another distribution are drawn forward" eval 'grep -q "drawn forward: its part .metal. is no slab" out && grep -q mx_beckmann_smith models/Satin.frag'
 check "glass in a budget is generated" as_slabs -e Glass --interface reduced --max-slabs 4
 check "glass in a budget is stored" eval 'grep -q mx_word0 models/Glass.frag && ! grep -q drawn-forward out'
 cat >absent.mtlx <<'X'

@@ -56,11 +56,11 @@ def check_lengths():
 
 
 def check_library():
-    """A third of MaterialX's own 20,600 lines of XML and 7,900 of source, written for no target; it has no sampling, ours has,
-    and the nodes of slabs, slots and AOVs, and the formulas that the compiler calls."""
+    """A third of MaterialX's own 20,600 lines of XML and 7,900 of source, written for no target; it has no sampling and one
+    distribution of facets, ours has two, and the nodes of slabs, slots and AOVs, and the formulas that the compiler calls."""
     sizes = {endings: sum(len(lines(path)) for path in files("libraries", *endings)) for endings in ((".mtlx",), (".glsl", ".inline"))}
     whole = sum(sizes.values())
-    check(whole <= 11350, f"libraries: {whole} lines; 11,350 is the budget")
+    check(whole <= 11500, f"libraries: {whole} lines; 11,500 is the budget")
     print(f"libraries: {whole} lines,", ", ".join(f"{size} of {endings[0]}" for endings, size in sizes.items()))
     for path in files("libraries", ".mtlx"):
         bound = [str(number) for number, line in enumerate(lines(path), 1) if "target=" in line and "<!-- only there:" not in line]

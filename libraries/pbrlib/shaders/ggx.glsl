@@ -2,7 +2,10 @@
 // GGX microfacet lobe, the one kernel of all dielectric, conductor and Schlick closures. Roughness is that along X and
 // Y, already squared. Masking and albedo of anisotropic lobes are those of both directions with `by_direction`, else of the geometric mean.
 // See fresnel.glsl for the parameters of interfaces.
+//
+// Functions with a parameter `distribution` have facets by Beckmann, too, where it is not "ggx": see beckmann.glsl.
 
+#include "beckmann.glsl"
 #include "environment.glsl"
 #include "fresnel.glsl"
 #include "sampling.glsl"
@@ -160,9 +163,29 @@ vec2 mx_ggx_albedo_like(vec3 round_lobe)
     return mx_ggx_facing_more(mx_ggx_albedo(round_lobe.xx, round_lobe.y), round_lobe.z);
 }
 
-// The light that a white GGX lobe reflects to the viewer V (x), and the mean of (1 - cos)^5 over it (y).
-vec2 mx_ggx_albedo_of(vec2 roughness, bool by_direction, vec3 N, vec3 X, vec3 V)
+// The light that a white lobe of Beckmann's facets reflects to v (x), and the mean of (1 - cos)^5 over it (y).
+vec2 mx_beckmann_albedo_towards(vec2 roughness, vec3 v)
 {
+    vec2 alpha = mx_ggx_alpha(roughness);
+    if (mx_ggx_round(roughness))
+        return mx_beckmann_albedo(alpha.x, v.z);
+    vec3 round_lobe = mx_beckmann_round_like(alpha, v);
+    return mx_ggx_facing_more(mx_beckmann_albedo(round_lobe.x, round_lobe.y), round_lobe.z);
+}
+
+// The same for the viewer V. A round lobe needs no tangent.
+vec2 mx_beckmann_albedo_of(vec2 roughness, vec3 N, vec3 X, vec3 V)
+{
+    if (mx_ggx_round(roughness))
+        return mx_beckmann_albedo_towards(roughness, vec3(0.0, 0.0, mx_view_cosine(N, V)));
+    return mx_beckmann_albedo_towards(roughness, mx_ggx_local(mx_frame(mx_facing(N, V), X), V));
+}
+
+// The light that a white GGX lobe reflects to the viewer V (x), and the mean of (1 - cos)^5 over it (y).
+vec2 mx_ggx_albedo_of(vec2 roughness, string distribution, bool by_direction, vec3 N, vec3 X, vec3 V)
+{
+    if (distribution != "ggx")
+        return mx_beckmann_albedo_of(roughness, N, X, V);
     return by_direction ? mx_ggx_albedo_like(mx_ggx_round_like(mx_ggx_alpha(roughness), mx_ggx_local(mx_frame(mx_facing(N, V), X), V)))
                         : mx_ggx_albedo(roughness, mx_view_cosine(N, V));
 }
@@ -179,10 +202,10 @@ vec3 mx_ggx_compensation(vec2 albedo, string model, vec3 n, vec3 k, vec3 f90, fl
 //
 // A raster has Schlick's curve for every interface, under which a film changes the compensation only; a path tracer
 // takes the interface as it is at the lobe's mean angle.
-vec3 mx_ggx_reflectance(vec2 roughness, bool by_direction, vec3 N, vec3 X, vec3 V, string model, vec3 n, vec3 k, vec3 f90, float exponent,
+vec3 mx_ggx_reflectance(vec2 roughness, string distribution, bool by_direction, vec3 N, vec3 X, vec3 V, string model, vec3 n, vec3 k, vec3 f90, float exponent,
                         float film, float film_ior)
 {
-    vec2 albedo = mx_ggx_albedo_of(roughness, by_direction, N, X, V);
+    vec2 albedo = mx_ggx_albedo_of(roughness, distribution, by_direction, N, X, V);
     vec3 f = option_path == 0
         ? mix(mx_fresnel_f0(model, n, k), f90, albedo.y)
         : mx_fresnel(max(1.0 - pow(albedo.y, 0.2), MX_EPSILON), model, n, k, f90, exponent, film, film_ior);
@@ -239,34 +262,43 @@ float mx_ggx_light(mx_GgxLobe lobe, bool is_round, bool is_wide, vec3 V, vec3 L)
 // ---- masking by direction -------------------------------------------------------------------------------------------
 
 // cos (1 + 2 Lambda) of the direction v, with the roughness as it is in this direction (Heitz 2014, equation 80).
-float mx_ggx_smith(vec3 v, vec2 alpha)
+float mx_ggx_smith(string distribution, vec3 v, vec2 alpha)
 {
+    if (distribution != "ggx")
+        return mx_beckmann_smith(v, alpha);
     return length(vec3(v.xy * alpha, v.z));
 }
 
 // Masking and shadowing of the directions v and l over 4 cos_v, each with the roughness in its direction (Heitz
 // 2014, equations 80 and 99).
-float mx_ggx_smith_visibility(vec3 v, vec3 l, vec2 alpha)
+float mx_ggx_smith_visibility(string distribution, vec3 v, vec3 l, vec2 alpha)
 {
-    return 0.5 * l.z / (v.z * mx_ggx_smith(l, alpha) + l.z * mx_ggx_smith(v, alpha));
+    return 0.5 * l.z / (v.z * mx_ggx_smith(distribution, l, alpha) + l.z * mx_ggx_smith(distribution, v, alpha));
+}
+
+// Beckmann's distribution at a normal H of any length.
+float mx_beckmann_facets(vec3 H, mat3 frame, vec2 alpha)
+{
+    return mx_beckmann_distribution(normalize(H) * frame, alpha);
 }
 
 // The GGX lobe from L to V, without Fresnel's factor, with masking by direction.
-float mx_ggx_smith_lobe(vec2 roughness, mat3 frame, vec3 V, vec3 L)
+float mx_ggx_smith_lobe(vec2 roughness, string distribution, mat3 frame, vec3 V, vec3 L)
 {
     vec2 alpha = mx_ggx_alpha(roughness);
-    return mx_ggx_distribution(normalize(V + L) * frame / vec3(alpha, 1.0), alpha.x * alpha.y)
-         * mx_ggx_smith_visibility(mx_ggx_local(frame, V), mx_ggx_local(frame, L), alpha);
+    return (distribution == "ggx" ? mx_ggx_distribution(normalize(V + L) * frame / vec3(alpha, 1.0), alpha.x * alpha.y)
+                                  : mx_beckmann_facets(V + L, frame, alpha))
+         * mx_ggx_smith_visibility(distribution, mx_ggx_local(frame, V), mx_ggx_local(frame, L), alpha);
 }
 
 // The GGX lobe of an interface: what it reflects from the light L to V, times the cosine of L.
-vec3 mx_ggx_eval(vec2 roughness, bool by_direction, vec3 N, vec3 X, vec3 V, vec3 L, string model, vec3 n, vec3 k, vec3 f90, float exponent,
+vec3 mx_ggx_eval(vec2 roughness, string distribution, bool by_direction, vec3 N, vec3 X, vec3 V, vec3 L, string model, vec3 n, vec3 k, vec3 f90, float exponent,
                  float film, float film_ior)
 {
-    return mx_ggx_compensation(mx_ggx_albedo_of(roughness, by_direction, N, X, V), model, n, k, f90, film, film_ior)
+    return mx_ggx_compensation(mx_ggx_albedo_of(roughness, distribution, by_direction, N, X, V), model, n, k, f90, film, film_ior)
          * mx_fresnel(mx_half_cosine(V, L), model, n, k, f90, exponent, film, film_ior)
-         * (option_path == 1 || by_direction
-                ? mx_ggx_smith_lobe(roughness, mx_frame(mx_facing(N, V), X), V, L)
+         * (option_path == 1 || by_direction || distribution != "ggx"
+                ? mx_ggx_smith_lobe(roughness, distribution, mx_frame(mx_facing(N, V), X), V, L)
                 : mx_ggx_light(mx_ggx_lobe(roughness, mx_ggx_round(roughness), N, X, V), mx_ggx_round(roughness), mx_ggx_wide(roughness), V, L));
 }
 
@@ -282,12 +314,12 @@ vec3 mx_refract_sphere(vec3 v, vec3 h, float ior)
 
 // Light that the lobe reflects, from a map whose levels of detail are filtered for rising roughness; with
 // refract_ior > 0 light through a solid sphere of that index.
-vec3 mx_ggx_prefiltered(vec2 roughness, bool by_direction, vec3 N, vec3 X, vec3 V, float refract_ior, string model, vec3 n, vec3 k, vec3 f90,
+vec3 mx_ggx_prefiltered(vec2 roughness, string distribution, bool by_direction, vec3 N, vec3 X, vec3 V, float refract_ior, string model, vec3 n, vec3 k, vec3 f90,
                         float exponent, float film, float film_ior)
 {
     vec3 h = mx_facing(N, V);
     vec2 alpha = mx_ggx_alpha(roughness);
-    vec2 albedo = mx_ggx_albedo_of(roughness, by_direction, N, X, V);
+    vec2 albedo = mx_ggx_albedo_of(roughness, distribution, by_direction, N, X, V);
     vec3 f = mix(mx_fresnel_facing(model, n, k, film, film_ior), f90, albedo.y) * albedo.x;
     float a = sqrt(alpha.x * alpha.y);
     if (film > 0.0) // keep the change of colour with the angle where the lobe is sharp
@@ -343,6 +375,19 @@ mx_GgxSamples mx_ggx_samples(vec2 roughness, bool is_round, vec3 N, vec3 X, vec3
                          u_envLightIntensity * weight);
 }
 
+// The lobe of Beckmann's facets in the same words: masking is that of v, and a cap has the whole area that v sees.
+mx_GgxSamples mx_beckmann_samples(vec2 roughness, vec3 N, vec3 X, vec3 V)
+{
+    mat3 frame = mx_ggx_oval(roughness) ? mx_frame(mx_facing(N, V), X) : mx_any_frame(mx_facing(N, V));
+    vec2 alpha = mx_ggx_alpha(roughness);
+    vec3 v = mx_ggx_local(frame, V);
+    float masking = mx_beckmann_smith(v, alpha);
+    float area = alpha.x * alpha.y;
+    float weight = (v.z + masking) / float(max(u_envRadianceSamples, 1));
+    return mx_GgxSamples(mx_map_frame(frame), vec3(alpha, 1.0), area, v, masking, masking, weight, mx_map_texels(area * weight),
+                         u_envLightIntensity * weight);
+}
+
 // A facet by its normal.
 struct mx_GgxFacet {
     vec3 h;       // of any length
@@ -363,6 +408,17 @@ mx_GgxFacet mx_ggx_facet(mx_GgxSamples s, int i, vec2 turn)
     float cosine = dot(s.v, h);
     float mirror = 2.0 * cosine / dot(h, h);
     return mx_GgxFacet(h, cosine, mirror, mirror * mirror * s.texels);
+}
+
+// The facet of sample i of Beckmann's. The density of a normal follows from its slopes before `stretch`.
+mx_GgxFacet mx_beckmann_facet(mx_GgxSamples s, int i, vec2 turn)
+{
+    float around = fract(atan(turn.y, turn.x) / (2.0 * MX_PI) + 1.0);
+    vec3 h = mx_beckmann_visible(s.stretch.xy, s.v, vec2((float(i) + 0.5) / float(max(u_envRadianceSamples, 1)), around));
+    vec2 slope = h.xy / s.stretch.xy;
+    float square = dot(h, h);
+    float cosine = dot(s.v, h);
+    return mx_GgxFacet(h, cosine, 2.0 * cosine / square, exp(dot(slope, slope)) / (square * square) * s.texels);
 }
 
 // The light of a sample: the weight stands beside the light, so that it scales Fresnel's factor, which may be one number.
@@ -388,22 +444,22 @@ mx_GgxLight mx_ggx_reflected(mx_GgxSamples s, int i, vec2 turn)
 // The light that the facet of sample i reflects, with masking by direction.
 //
 // The masking of v is the reach of its cap.
-mx_GgxLight mx_ggx_reflected_by_direction(mx_GgxSamples s, int i, vec2 turn)
+mx_GgxLight mx_ggx_reflected_by_direction(mx_GgxSamples s, string distribution, int i, vec2 turn)
 {
-    mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
+    mx_GgxFacet facet = distribution == "ggx" ? mx_ggx_facet(s, i, turn) : mx_beckmann_facet(s, i, turn);
     vec3 l = facet.mirror * facet.h - s.v;
     float cos_l = max(l.z, MX_EPSILON);
     return mx_GgxLight(mx_filtered_light(s.to_map * l, facet.texels),
-                       u_envLightIntensity * s.step * cos_l / (s.v.z * mx_ggx_smith(l, s.stretch.xy) + cos_l * s.reach),
+                       u_envLightIntensity * s.step * cos_l / (s.v.z * mx_ggx_smith(distribution, l, s.stretch.xy) + cos_l * s.reach),
                        sqrt(clamp(0.5 * (facet.mirror * facet.cosine), MX_EPSILON, 1.0)));
 }
 
 // The light that comes to the facet of sample i through a solid sphere of index `ior` behind it.
 //
 // A visible normal weighs 1 / G1.
-mx_GgxLight mx_ggx_transmitted(mx_GgxSamples s, float ior, int i, vec2 turn)
+mx_GgxLight mx_ggx_transmitted(mx_GgxSamples s, string distribution, float ior, int i, vec2 turn)
 {
-    mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
+    mx_GgxFacet facet = distribution == "ggx" ? mx_ggx_facet(s, i, turn) : mx_beckmann_facet(s, i, turn);
     vec3 h = normalize(facet.h);
     return mx_GgxLight(mx_filtered_light(s.to_map * mx_refract_sphere(s.v, h, ior), facet.texels), s.weight * 0.5 / s.v.z,
                        clamp(dot(s.v, h), MX_EPSILON, 1.0));
@@ -415,11 +471,11 @@ mx_GgxLight mx_ggx_transmitted(mx_GgxSamples s, float ior, int i, vec2 turn)
 // With `--role path`: wherever light meets the other side of the sphere as much is reflected as on its way
 // in, f, since the angle is the same. What leaves at first and after one turn, 1 : f, stands for all. A raster lets
 // all leave at once, as MaterialX does.
-vec3 mx_ggx_solid(mx_GgxSamples s, float ior, int mode, int i, vec2 turn, string model, vec3 n, vec3 k, vec3 f90, float exponent, float film,
+vec3 mx_ggx_solid(mx_GgxSamples s, string distribution, float ior, int mode, int i, vec2 turn, string model, vec3 n, vec3 k, vec3 f90, float exponent, float film,
                   float film_ior)
 {
-    mx_GgxLight light = mx_ggx_transmitted(s, ior, i, turn);
-    mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
+    mx_GgxLight light = mx_ggx_transmitted(s, distribution, ior, i, turn);
+    mx_GgxFacet facet = distribution == "ggx" ? mx_ggx_facet(s, i, turn) : mx_beckmann_facet(s, i, turn);
     vec3 h = normalize(facet.h);
     vec3 inside = refract(-s.v, h, 1.0 / ior);
     vec3 turned = reflect(-s.v, normalize(inside * dot(inside, h) - 0.5 * h)); // the way is its own mirror image where it turns
@@ -431,15 +487,16 @@ vec3 mx_ggx_solid(mx_GgxSamples s, float ior, int mode, int i, vec2 turn, string
 // Sample i of the light of the environment that the lobe reflects.
 //
 // A choice that all samples make alike stands here, where the compiler sees it.
-vec3 mx_ggx_environment(vec2 roughness, bool by_direction, vec3 N, vec3 X, vec3 V, int i, vec2 turn, string model, vec3 n, vec3 k, vec3 f90,
+vec3 mx_ggx_environment(vec2 roughness, string distribution, bool by_direction, vec3 N, vec3 X, vec3 V, int i, vec2 turn, string model, vec3 n, vec3 k, vec3 f90,
                         float exponent, float film, float film_ior)
 {
     if (option_environment == 0)
         return vec3(0.0);
-    vec3 scale = mx_ggx_compensation(mx_ggx_albedo_of(roughness, by_direction, N, X, V), model, n, k, f90, film, film_ior);
+    vec3 scale = mx_ggx_compensation(mx_ggx_albedo_of(roughness, distribution, by_direction, N, X, V), model, n, k, f90, film, film_ior);
     if (option_environment == 1)
-        return scale * mx_ggx_prefiltered(roughness, by_direction, N, X, V, 0.0, model, n, k, f90, exponent, film, film_ior);
-    mx_GgxLight light = by_direction ? mx_ggx_reflected_by_direction(mx_ggx_samples(roughness, false, N, X, V), i, turn)
+        return scale * mx_ggx_prefiltered(roughness, distribution, by_direction, N, X, V, 0.0, model, n, k, f90, exponent, film, film_ior);
+    mx_GgxLight light = distribution != "ggx" ? mx_ggx_reflected_by_direction(mx_beckmann_samples(roughness, N, X, V), distribution, i, turn)
+                      : by_direction ? mx_ggx_reflected_by_direction(mx_ggx_samples(roughness, false, N, X, V), distribution, i, turn)
                                      : mx_ggx_reflected(mx_ggx_samples(roughness, mx_ggx_round(roughness), N, X, V), i, turn);
     return scale * (film > 0.0 ? mx_fresnel_film(light.cosine, model, n, k, f90, exponent, film, film_ior)
                                : mx_fresnel_bare(light.cosine, model, n, k, f90, exponent))
@@ -447,17 +504,17 @@ vec3 mx_ggx_environment(vec2 roughness, bool by_direction, vec3 N, vec3 X, vec3 
 }
 
 // Sample i of the light of the environment that the lobe refracts.
-vec3 mx_ggx_refraction(vec2 roughness, vec3 N, vec3 X, vec3 V, int i, vec2 turn, float ior, int mode, string model, vec3 n, vec3 k, vec3 f90,
+vec3 mx_ggx_refraction(vec2 roughness, string distribution, vec3 N, vec3 X, vec3 V, int i, vec2 turn, float ior, int mode, string model, vec3 n, vec3 k, vec3 f90,
                        float exponent, float film, float film_ior)
 {
     if (option_environment == 0)
         return vec3(0.0);
     if (option_environment == 1)
-        return mx_ggx_prefiltered(roughness, mx_ggx_by_direction(roughness), N, X, V, ior, model, n, k, f90, exponent, film, film_ior);
-    mx_GgxSamples samples = mx_ggx_samples(roughness, mx_ggx_round(roughness), N, X, V);
+        return mx_ggx_prefiltered(roughness, distribution, mx_ggx_by_direction(roughness), N, X, V, ior, model, n, k, f90, exponent, film, film_ior);
+    mx_GgxSamples samples = distribution == "ggx" ? mx_ggx_samples(roughness, mx_ggx_round(roughness), N, X, V) : mx_beckmann_samples(roughness, N, X, V);
     if (option_path == 1)
-        return mx_ggx_solid(samples, ior, mode, i, turn, model, n, k, f90, exponent, film, film_ior);
-    mx_GgxLight light = mx_ggx_transmitted(samples, ior, i, turn);
+        return mx_ggx_solid(samples, distribution, ior, mode, i, turn, model, n, k, f90, exponent, film, film_ior);
+    mx_GgxLight light = mx_ggx_transmitted(samples, distribution, ior, i, turn);
     return (1.0 - (film > 0.0 ? mx_fresnel_film(light.cosine, model, n, k, f90, exponent, film, film_ior)
                               : mx_fresnel_bare(light.cosine, model, n, k, f90, exponent)))
          * light.weight * light.color;

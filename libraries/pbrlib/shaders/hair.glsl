@@ -239,6 +239,6 @@ vec3 mx_chiang_hair_bsdf_environment(vec3 tint_R, vec3 tint_TT, vec3 tint_TRT, f
         return mx_lobe_light(L, weight, pdf);
     }
     return (tint_R + tint_TT + tint_TRT) / 3.0
-         * mx_ggx_environment((roughness_R + roughness_TT + roughness_TRT) / 3.0, false, N, curve_direction, V, sample_index, sample_turn,
+         * mx_ggx_environment((roughness_R + roughness_TT + roughness_TRT) / 3.0, "ggx", false, N, curve_direction, V, sample_index, sample_turn,
                               "dielectric", vec3(ior), vec3(0.0), vec3(1.0), 0.0, 0.0, 1.0);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// dielectric_bsdf, conductor_bsdf and generalized_schlick_bsdf: three interfaces on one GGX kernel.
+// dielectric_bsdf, conductor_bsdf and generalized_schlick_bsdf: three interfaces on one kernel.
 
 #include "ggx_sampling.glsl"
 
@@ -32,7 +32,7 @@ vec3 mx_dielectric_bsdf_eval(vec3 tint, float ior, vec2 roughness, bool retroref
 {
     if (scatter_mode == "T")
         return vec3(0.0);
-    return max(tint, 0.0) * mx_ggx_eval(roughness, mx_ggx_by_direction(roughness), N, X, retroreflective ? reflect(-V, N) : V, L,
+    return max(tint, 0.0) * mx_ggx_eval(roughness, distribution, mx_ggx_by_direction(roughness), N, X, retroreflective ? reflect(-V, N) : V, L,
                                         "dielectric", vec3(mx_index_ahead(ior, N, V)), vec3(0.0), vec3(1.0), 0.0, film, film_ior);
 }
 
@@ -41,7 +41,7 @@ vec3 mx_dielectric_bsdf_environment(vec3 tint, float ior, vec2 roughness, bool r
 {
     if (scatter_mode == "T")
         return vec3(0.0);
-    return max(tint, 0.0) * mx_ggx_environment(roughness, mx_ggx_by_direction(roughness), N, X, retroreflective ? reflect(-V, N) : V,
+    return max(tint, 0.0) * mx_ggx_environment(roughness, distribution, mx_ggx_by_direction(roughness), N, X, retroreflective ? reflect(-V, N) : V,
                                                sample_index, sample_turn, "dielectric", vec3(ior), vec3(0.0), vec3(1.0), 0.0, film, film_ior);
 }
 
@@ -50,7 +50,7 @@ vec3 mx_dielectric_bsdf_transmission(vec3 tint, float ior, vec2 roughness, bool 
 {
     if (scatter_mode == "R")
         return vec3(0.0);
-    return mx_refraction_tint(max(tint, 0.0)) * mx_ggx_refraction(roughness, N, X, V, sample_index, sample_turn, ior,
+    return mx_refraction_tint(max(tint, 0.0)) * mx_ggx_refraction(roughness, distribution, N, X, V, sample_index, sample_turn, ior,
                                                                   mx_ggx_mode(scatter_mode), "dielectric", vec3(ior), vec3(0.0), vec3(1.0),
                                                                   0.0, film, film_ior);
 }
@@ -60,7 +60,7 @@ vec3 mx_dielectric_bsdf_throughput(vec3 tint, float ior, vec2 roughness, bool re
 {
     if (scatter_mode == "T")
         return vec3(1.0);
-    return 1.0 - mx_ggx_reflectance(roughness, mx_ggx_by_direction(roughness), N, X, V, "dielectric", vec3(mx_index_ahead(ior, N, V)),
+    return 1.0 - mx_ggx_reflectance(roughness, distribution, mx_ggx_by_direction(roughness), N, X, V, "dielectric", vec3(mx_index_ahead(ior, N, V)),
                                     vec3(0.0), vec3(1.0), 0.0, film, film_ior);
 }
 
@@ -70,7 +70,7 @@ vec3 mx_dielectric_bsdf_albedo(vec3 tint, float ior, vec2 roughness, bool retror
     if (scatter_mode == "T")
         return vec3(0.0);
     float eta = mx_index_ahead(ior, N, V);
-    return max(tint, 0.0) * mx_ggx_reflectance(roughness, mx_ggx_by_direction(roughness), N, X, V, "dielectric", vec3(eta), vec3(0.0),
+    return max(tint, 0.0) * mx_ggx_reflectance(roughness, distribution, mx_ggx_by_direction(roughness), N, X, V, "dielectric", vec3(eta), vec3(0.0),
                                                vec3(1.0), 0.0, film, film_ior);
 }
 
@@ -80,7 +80,7 @@ vec3 mx_dielectric_bsdf_refraction(vec3 tint, float ior, vec2 roughness, bool re
     if (scatter_mode == "R")
         return vec3(0.0);
     float eta = mx_index_ahead(ior, N, V);
-    return max(tint, 0.0) * mx_ggx_refracted(roughness, N, X, V, L, eta, mx_ggx_mode(scatter_mode), "dielectric", vec3(eta), vec3(0.0),
+    return max(tint, 0.0) * mx_ggx_refracted(roughness, distribution, N, X, V, L, eta, mx_ggx_mode(scatter_mode), "dielectric", vec3(eta), vec3(0.0),
                                              vec3(1.0), 0.0, film, film_ior);
 }
 
@@ -88,7 +88,7 @@ void mx_dielectric_bsdf_sample(vec3 tint, float ior, vec2 roughness, bool retror
                                string distribution, string scatter_mode, vec3 V, vec3 xi, out vec3 L, out vec3 weight, out float pdf)
 {
     float eta = mx_index_ahead(ior, N, V);
-    mx_ggx_scatter(roughness, mx_ggx_by_direction(roughness), N, X, V, xi, eta, mx_ggx_mode(scatter_mode), "dielectric", vec3(eta), vec3(0.0),
+    mx_ggx_scatter(roughness, distribution, mx_ggx_by_direction(roughness), N, X, V, xi, eta, mx_ggx_mode(scatter_mode), "dielectric", vec3(eta), vec3(0.0),
                    vec3(1.0), 0.0, film, film_ior, L, weight, pdf);
     weight *= max(tint, 0.0);
     if (retroreflective && dot(N, V) * dot(N, L) > 0.0)
@@ -99,7 +99,7 @@ float mx_dielectric_bsdf_pdf(vec3 tint, float ior, vec2 roughness, bool retroref
                              string distribution, string scatter_mode, vec3 V, vec3 L)
 {
     float eta = mx_index_ahead(ior, N, V);
-    return mx_ggx_pdf(roughness, N, X, mx_lobe_view(retroreflective, N, V, L), L, eta, mx_ggx_mode(scatter_mode), "dielectric", vec3(eta),
+    return mx_ggx_pdf(roughness, distribution, N, X, mx_lobe_view(retroreflective, N, V, L), L, eta, mx_ggx_mode(scatter_mode), "dielectric", vec3(eta),
                       vec3(0.0), vec3(1.0), 0.0, film, film_ior);
 }
 
@@ -110,7 +110,7 @@ vec3 mx_conductor_bsdf_eval(vec3 ior, vec3 extinction, vec2 roughness, bool retr
 {
     vec3 re, im;
     mx_permittivity(ior, extinction, re, im);
-    return mx_ggx_eval(roughness, mx_ggx_by_direction(roughness), N, X, retroreflective ? reflect(-V, N) : V, L, "conductor", re, im,
+    return mx_ggx_eval(roughness, distribution, mx_ggx_by_direction(roughness), N, X, retroreflective ? reflect(-V, N) : V, L, "conductor", re, im,
                        vec3(1.0), 0.0, film, film_ior);
 }
 
@@ -119,7 +119,7 @@ vec3 mx_conductor_bsdf_environment(vec3 ior, vec3 extinction, vec2 roughness, bo
 {
     vec3 re, im;
     mx_permittivity(ior, extinction, re, im);
-    return mx_ggx_environment(roughness, mx_ggx_by_direction(roughness), N, X, retroreflective ? reflect(-V, N) : V, sample_index,
+    return mx_ggx_environment(roughness, distribution, mx_ggx_by_direction(roughness), N, X, retroreflective ? reflect(-V, N) : V, sample_index,
                               sample_turn, "conductor", re, im, vec3(1.0), 0.0, film, film_ior);
 }
 
@@ -128,7 +128,7 @@ vec3 mx_conductor_bsdf_albedo(vec3 ior, vec3 extinction, vec2 roughness, bool re
 {
     vec3 re, im;
     mx_permittivity(ior, extinction, re, im);
-    return mx_ggx_reflectance(roughness, mx_ggx_by_direction(roughness), N, X, V, "conductor", re, im, vec3(1.0), 0.0, film, film_ior);
+    return mx_ggx_reflectance(roughness, distribution, mx_ggx_by_direction(roughness), N, X, V, "conductor", re, im, vec3(1.0), 0.0, film, film_ior);
 }
 
 void mx_conductor_bsdf_sample(vec3 ior, vec3 extinction, vec2 roughness, bool retroreflective, float film, float film_ior, vec3 N, vec3 X,
@@ -136,7 +136,7 @@ void mx_conductor_bsdf_sample(vec3 ior, vec3 extinction, vec2 roughness, bool re
 {
     vec3 re, im;
     mx_permittivity(ior, extinction, re, im);
-    mx_ggx_scatter(roughness, mx_ggx_by_direction(roughness), N, X, V, xi, 1.0, MX_REFLECTS, "conductor", re, im, vec3(1.0), 0.0, film, film_ior, L, weight, pdf);
+    mx_ggx_scatter(roughness, distribution, mx_ggx_by_direction(roughness), N, X, V, xi, 1.0, MX_REFLECTS, "conductor", re, im, vec3(1.0), 0.0, film, film_ior, L, weight, pdf);
     if (retroreflective && dot(N, V) * dot(N, L) > 0.0)
         L = reflect(-L, N);
 }
@@ -146,7 +146,7 @@ float mx_conductor_bsdf_pdf(vec3 ior, vec3 extinction, vec2 roughness, bool retr
 {
     vec3 re, im;
     mx_permittivity(ior, extinction, re, im);
-    return mx_ggx_pdf(roughness, N, X, mx_lobe_view(retroreflective, N, V, L), L, 1.0, MX_REFLECTS, "conductor", re, im, vec3(1.0),
+    return mx_ggx_pdf(roughness, distribution, N, X, mx_lobe_view(retroreflective, N, V, L), L, 1.0, MX_REFLECTS, "conductor", re, im, vec3(1.0),
                       0.0, film, film_ior);
 }
 
@@ -157,7 +157,7 @@ vec3 mx_generalized_schlick_bsdf_eval(vec3 color0, vec3 color82, vec3 color90, f
 {
     if (scatter_mode == "T")
         return vec3(0.0);
-    return mx_ggx_eval(roughness, mx_ggx_by_direction(roughness), N, X, retroreflective ? reflect(-V, N) : V, L, "schlick",
+    return mx_ggx_eval(roughness, distribution, mx_ggx_by_direction(roughness), N, X, retroreflective ? reflect(-V, N) : V, L, "schlick",
                        max(color0, 0.0), mx_schlick_bend(color0, color82, color90, exponent), max(color90, 0.0), exponent, film, film_ior);
 }
 
@@ -167,7 +167,7 @@ vec3 mx_generalized_schlick_bsdf_environment(vec3 color0, vec3 color82, vec3 col
 {
     if (scatter_mode == "T")
         return vec3(0.0);
-    return mx_ggx_environment(roughness, mx_ggx_by_direction(roughness), N, X, retroreflective ? reflect(-V, N) : V, sample_index,
+    return mx_ggx_environment(roughness, distribution, mx_ggx_by_direction(roughness), N, X, retroreflective ? reflect(-V, N) : V, sample_index,
                               sample_turn, "schlick", max(color0, 0.0), mx_schlick_bend(color0, color82, color90, exponent),
                               max(color90, 0.0), exponent, film, film_ior);
 }
@@ -185,7 +185,7 @@ vec3 mx_generalized_schlick_bsdf_transmission(vec3 color0, vec3 color82, vec3 co
 {
     if (scatter_mode == "R")
         return vec3(0.0);
-    return mx_ggx_refraction(roughness, N, X, V, sample_index, sample_turn, mx_schlick_index(color0),
+    return mx_ggx_refraction(roughness, distribution, N, X, V, sample_index, sample_turn, mx_schlick_index(color0),
                              mx_ggx_mode(scatter_mode), "schlick", max(color0, 0.0),
                              mx_schlick_bend(color0, color82, color90, exponent), max(color90, 0.0), exponent, film, film_ior);
 }
@@ -195,7 +195,7 @@ vec3 mx_generalized_schlick_bsdf_throughput(vec3 color0, vec3 color82, vec3 colo
 {
     if (scatter_mode == "T")
         return vec3(1.0);
-    vec3 reflected = mx_ggx_reflectance(roughness, mx_ggx_by_direction(roughness), N, X, V, "schlick", max(color0, 0.0),
+    vec3 reflected = mx_ggx_reflectance(roughness, distribution, mx_ggx_by_direction(roughness), N, X, V, "schlick", max(color0, 0.0),
                                         mx_schlick_bend(color0, color82, color90, exponent), max(color90, 0.0), exponent, film, film_ior);
     return vec3(1.0 - dot(reflected, vec3(1.0 / 3.0)));
 }
@@ -205,7 +205,7 @@ vec3 mx_generalized_schlick_bsdf_albedo(vec3 color0, vec3 color82, vec3 color90,
 {
     if (scatter_mode == "T")
         return vec3(0.0);
-    return mx_ggx_reflectance(roughness, mx_ggx_by_direction(roughness), N, X, V, "schlick", max(color0, 0.0),
+    return mx_ggx_reflectance(roughness, distribution, mx_ggx_by_direction(roughness), N, X, V, "schlick", max(color0, 0.0),
                               mx_schlick_bend(color0, color82, color90, exponent), max(color90, 0.0), exponent, film, film_ior);
 }
 
@@ -215,7 +215,7 @@ vec3 mx_generalized_schlick_bsdf_refraction(vec3 color0, vec3 color82, vec3 colo
 {
     if (scatter_mode == "R")
         return vec3(0.0);
-    return mx_ggx_refracted(roughness, N, X, V, L, mx_schlick_index(color0), mx_ggx_mode(scatter_mode), "schlick", max(color0, 0.0),
+    return mx_ggx_refracted(roughness, distribution, N, X, V, L, mx_schlick_index(color0), mx_ggx_mode(scatter_mode), "schlick", max(color0, 0.0),
                             mx_schlick_bend(color0, color82, color90, exponent), max(color90, 0.0), exponent, film, film_ior);
 }
 
@@ -223,7 +223,7 @@ void mx_generalized_schlick_bsdf_sample(vec3 color0, vec3 color82, vec3 color90,
                                         float film, float film_ior, vec3 N, vec3 X, string distribution, string scatter_mode, vec3 V,
                                         vec3 xi, out vec3 L, out vec3 weight, out float pdf)
 {
-    mx_ggx_scatter(roughness, mx_ggx_by_direction(roughness), N, X, V, xi, mx_schlick_index(color0), mx_ggx_mode(scatter_mode), "schlick",
+    mx_ggx_scatter(roughness, distribution, mx_ggx_by_direction(roughness), N, X, V, xi, mx_schlick_index(color0), mx_ggx_mode(scatter_mode), "schlick",
                    max(color0, 0.0), mx_schlick_bend(color0, color82, color90, exponent), max(color90, 0.0), exponent, film, film_ior, L, weight, pdf);
     if (retroreflective && dot(N, V) * dot(N, L) > 0.0)
         L = reflect(-L, N);
@@ -232,7 +232,7 @@ void mx_generalized_schlick_bsdf_sample(vec3 color0, vec3 color82, vec3 color90,
 float mx_generalized_schlick_bsdf_pdf(vec3 color0, vec3 color82, vec3 color90, float exponent, vec2 roughness, bool retroreflective,
                                       float film, float film_ior, vec3 N, vec3 X, string distribution, string scatter_mode, vec3 V, vec3 L)
 {
-    return mx_ggx_pdf(roughness, N, X, mx_lobe_view(retroreflective, N, V, L), L, mx_schlick_index(color0), mx_ggx_mode(scatter_mode),
+    return mx_ggx_pdf(roughness, distribution, N, X, mx_lobe_view(retroreflective, N, V, L), L, mx_schlick_index(color0), mx_ggx_mode(scatter_mode),
                       "schlick", max(color0, 0.0), mx_schlick_bend(color0, color82, color90, exponent), max(color90, 0.0), exponent, film,
                       film_ior);
 }
