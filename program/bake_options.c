@@ -31,6 +31,7 @@ size_t bake_args(struct bake_options *options, struct arg args[MAX_BAKE_ARGS])
         {"padding", 0, ARG_SIZE, "N",
          "texels around the triangles of a mesh that take the nearest color (default: 16)",
          &options->padding, .high = 256},
+        {"copy", 0, ARG_FLAG, NULL, "copies the files of images that stay to DIR", &options->copy},
         {"missing-texture", 0, ARG_TEXT, "error|checker",
          "for a missing texture: fail, or bake a checker (default: error)",
          &options->missing_texture},

@@ -8,6 +8,7 @@
 struct bake_options {
     const char *output, *element, *mesh, *format, *missing_texture;
     size_t size, samples, depth, padding, frame; /* size and depth 0: by content */
+    bool copy;
 };
 
 #define BAKE_OPTIONS_DEFAULTS \

@@ -204,7 +204,8 @@ static void bake(struct baking *baking, const char *output)
         return;
     }
     compile_begin();
-    bool good = open_device(baking) && bake_draw(baking) && write_document(baking, output);
+    bool good = bake_keep_files(baking) && open_device(baking) && bake_draw(baking)
+                && write_document(baking, output);
     compile_end();
     good = end_files(baking, good && !baking->cli.report.errors);
     if (good)

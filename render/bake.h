@@ -2,7 +2,8 @@
 /*
  * mxgen bake: a document whose inputs are values and images, from one with graphs. bake.c runs it,
  * bake_plan.c finds the inputs, bake_needs.c what they read, bake_draw.c draws them,
- * bake_image.c writes images, and bake_document.c the document.
+ * bake_image.c writes images, bake_keep.c
+ * keeps those that stay, and bake_document.c the document.
  */
 #ifndef MXG_RENDER_BAKE_H
 #define MXG_RENDER_BAKE_H
@@ -52,6 +53,14 @@ bool bake_finish_drawing(struct baking *baking, struct bake_drawing *drawing,
                          const struct spool *spools, uint32_t num_spools);
 /* A temporary name for a file of the output folder, which baking->written has. */
 const char *bake_begin_file(struct baking *baking, const char *name);
+
+/* The path of a file that an element of the document names. The caller frees it. */
+char *bake_file_path(const struct baking *baking, mxg_element element, const char *file);
+/*
+ * Looks for the files of images that stay, and copies them where the user wants it. false after
+ * reporting an error.
+ */
+bool bake_keep_files(struct baking *baking);
 
 /* The new document as XML. NULL after reporting an error. The caller frees it. */
 char *bake_write_document(struct baking *baking, size_t *out_size);

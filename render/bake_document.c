@@ -65,13 +65,8 @@ static char *relative(const char *folder, const char *path)
 /* The name of a file that an element of the document has, for the new one. The caller frees it. */
 static char *name_file(struct writer *writer, mxg_element origin, const char *file)
 {
-    const struct baking *baking = writer->baking;
-    const char *prefix = bake_inherited(baking->document, origin, "fileprefix");
-    mxg_element_info info = bake_element(baking->document, origin);
-    char *whole = cli_format("%s%s", prefix ? prefix : "", file);
-    char *path = cli_beside(info.file ? info.file : baking->path, whole);
-    char *name = *file ? relative(baking->options.output, path) : cli_format("%s", "");
-    free(whole);
+    char *path = *file ? bake_file_path(writer->baking, origin, file) : NULL;
+    char *name = path ? relative(writer->baking->options.output, path) : cli_format("%s", "");
     free(path);
     return name;
 }
@@ -94,14 +89,17 @@ static void set_space(struct writer *writer, mxg_element node, const char *input
         set_attribute(writer, node, input, "colorspace", space);
 }
 
-/* An input that stays: its value is that of `origin`. */
-static void keep(struct writer *writer, mxg_element node, const char *input, const char *type,
-                 mxg_element origin)
+/* An input that stays: its value is that of its origin. */
+static void keep(struct writer *writer, mxg_element node, const struct bake_input *kept)
 {
     const mxg_document *document = writer->baking->document;
+    const char *input = kept->name, *type = kept->type;
+    mxg_element origin = kept->origin;
     const char *value = bake_attribute(document, origin, "value");
     bool is_file = strcmp(type, "filename") == 0, is_color = strncmp(type, "color", 5) == 0;
-    char *file = is_file ? name_file(writer, origin, value) : NULL;
+    char *file = kept->copy ? cli_format("%s", kept->copy)
+                 : is_file  ? name_file(writer, origin, value)
+                            : NULL;
     mxg_edit_set_value(writer->edit, node, input, type, file ? file : value);
     if (is_file || is_color)
         set_space(writer, node, input, bake_inherited(document, origin, "colorspace"));
@@ -144,7 +142,7 @@ static void add_input(struct writer *writer, mxg_element node, const struct bake
     const struct bake_drawing *drawing =
         input->way == BAKE_DRAWS ? &baking->plan.drawings[input->index] : NULL;
     if (input->way == BAKE_KEEPS) {
-        keep(writer, node, input->name, input->type, input->origin);
+        keep(writer, node, input);
     } else if (drawing && drawing->is_value) {
         mxg_edit_set_numbers(writer->edit, node, input->name, input->type, drawing->value,
                              bake_channels(drawing->type));

@@ -135,6 +135,7 @@ struct chunk {
     uint32_t num_tiles;
     struct spool *spools; /* of the tiles of the first drawing, then of the next one */
     uint64_t num_bad;     /* texels that were NaN or infinite */
+    size_t bad;           /* a drawing that has some */
 };
 
 /* The mean of the samples of a texel that the surface covers; empty if there is none. */
@@ -163,6 +164,7 @@ static const char *take_piece(struct chunk *chunk, const struct image *picture, 
     for (size_t i = 0; i < chunk->num; ++i) {
         struct spool *spool = &chunk->spools[i * chunk->num_tiles + tile];
         const struct picture_aov *aov = &chunk->baking->painter.aovs.items[i];
+        uint64_t before = chunk->num_bad;
         for (uint32_t r = 0; !reason && r < height; ++r) {
             for (uint32_t k = 0; k < width; ++k) {
                 size_t at = (size_t)r * chunk->piece + k;
@@ -171,6 +173,7 @@ static const char *take_piece(struct chunk *chunk, const struct image *picture, 
             }
             reason = spool_put(spool, x, y + r, width, row);
         }
+        chunk->bad = chunk->num_bad > before ? chunk->drawings[i] : chunk->bad;
     }
     free(row);
     return reason;
@@ -208,7 +211,7 @@ static bool draw_pieces(struct chunk *chunk, struct painting *painting)
     if (good && chunk->num_bad)
         report_error(&chunk->baking->cli.report, "bad-pixels",
                      "'%s': %llu texels are NaN or infinite",
-                     chunk->baking->plan.drawings[chunk->drawings[0]].path,
+                     chunk->baking->plan.drawings[chunk->bad].path,
                      (unsigned long long)chunk->num_bad);
     return good && !chunk->num_bad;
 }

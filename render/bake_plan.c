@@ -174,6 +174,11 @@ char *bake_plan_name(struct bake_plan *plan, const char *wanted)
     return free_name(plan, wanted, false);
 }
 
+char *bake_plan_file(struct bake_plan *plan, const char *wanted)
+{
+    return free_name(plan, wanted, true);
+}
+
 static bool is_same_drawing(const struct bake_drawing *drawing, const struct bake_end *end,
                             bool is_direction)
 {
@@ -358,6 +363,8 @@ bool bake_plan_add(struct bake_plan *plan, const char *path)
 void bake_plan_finish(struct bake_plan *plan)
 {
     for (size_t i = 0; i < plan->num_nodes; ++i) {
+        for (size_t k = 0; k < plan->nodes[i].num_inputs; ++k)
+            free(plan->nodes[i].inputs[k].copy);
         free(plan->nodes[i].name);
         free(plan->nodes[i].inputs);
     }

@@ -22,6 +22,7 @@ struct bake_input {
     const char *name, *type;
     enum bake_way way;
     mxg_element origin; /* KEEPS: what has the value */
+    char *copy;         /* KEEPS: the name of the copy of its file; NULL: the file stays */
     size_t index;       /* NODE: of the plan's nodes; DRAWS: of its drawings */
 };
 
@@ -80,6 +81,8 @@ void bake_plan_begin(struct bake_plan *plan, const mxg_document *document, struc
 bool bake_plan_add(struct bake_plan *plan, const char *path);
 /* A name that nothing of the new document has. The caller frees it. */
 char *bake_plan_name(struct bake_plan *plan, const char *wanted);
+/* The same for a file, without its ending. */
+char *bake_plan_file(struct bake_plan *plan, const char *wanted);
 void bake_plan_finish(struct bake_plan *plan);
 
 /* An element 0 is the root. */

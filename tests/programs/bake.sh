@@ -3,7 +3,8 @@
 # mxgen bake (docs/bake.md): baked values are those of the graph, documents are flat, and bad input is told. Arguments: mxgen, mxgen-render,
 # psnr, the root.
 mxgen=$(realpath "$1") render=$(realpath "$2") psnr=$(realpath "$3") root=$(realpath "$4")
-. "$(dirname "$0")/common.sh"
+here=$(cd "$(dirname "$0")" && pwd)
+. "$here/common.sh"
 has_device "$render" || { skip 'no Vulkan device'; finish bake; }
 export MESA_SHADER_CACHE_DISABLE=true
 
@@ -98,6 +99,75 @@ check 'colors by position are those of the graph' near NG_marble/color stone/SR_
 check 'without a mesh, what reads positions has its place told' exits 1 "$mxgen" bake marble.mtlx -o none
 check 'with an id' has err "'NG_marble/place' (marble.mtlx:10:5), which 'SR_marble/base_color' reads" '[bake-mesh]'
 check 'and no folder stays' test ! -e none
+
+# ---- Meshes ----
+
+# reads FILE CHANNEL X Y VALUE: a texel of a file of floats.
+reads() {
+    local got
+    got=$(python3 "$here/exr.py" "$1" "$2" "$3" "$4") || return
+    awk -v a="$got" -v b="$5" 'BEGIN { d = a - b; if (d * d < 1e-4) exit 0; print a " instead of " b; exit 1 }'
+}
+# Two squares side by side, each in a tile of its own with a margin.
+cat >tiles.obj <<'EOF'
+v 0 0 0
+v 1 0 0
+v 1 1 0
+v 0 1 0
+v 2 0 0
+v 2 1 0
+vt 0.1 0.1
+vt 0.9 0.1
+vt 0.9 0.9
+vt 0.1 0.9
+vt 1.1 0.1
+vt 1.9 0.1
+vt 1.9 0.9
+vt 1.1 0.9
+vn 0 0 1
+f 1/1/1 2/2/1 3/3/1 4/4/1
+f 2/5/1 5/6/1 6/7/1 3/8/1
+EOF
+cat >place.mtlx <<'EOF'
+<?xml version="1.0"?>
+<materialx version="1.39">
+  <position name="place" type="vector3"/>
+  <convert name="color" type="color3"><input name="in" type="vector3" nodename="place"/></convert>
+  <constant name="leaning" type="vector3"><input name="value" type="vector3" value="3, 0, 4"/></constant>
+  <standard_surface name="S" type="surfaceshader">
+    <input name="base_color" type="color3" nodename="color"/>
+    <input name="normal" type="vector3" nodename="leaning"/>
+  </standard_surface>
+  <surfacematerial name="M" type="material"><input name="surfaceshader" type="surfaceshader" nodename="S"/></surfacematerial>
+</materialx>
+EOF
+check 'each tile has a file' exits 0 "$mxgen" bake place.mtlx -m tiles.obj --size 64 -f exr -o udim
+check 'the document names them together' eval 'has udim/place.mtlx "S_base_color.&lt;UDIM&gt;.exr" && test "$(ls udim/S_base_color.*)" = "udim/S_base_color.1001.exr
+udim/S_base_color.1002.exr"'
+check 'the first tile has its positions' reads udim/S_base_color.1001.exr R 0.5 0.5 0.51
+check 'and the second its own' reads udim/S_base_color.1002.exr R 0.5 0.5 1.51
+check 'texels beside a triangle take its values' reads udim/S_base_color.1002.exr R 0.02 0.5 1.02
+for channel in 'R 0.8' 'G 0.5' 'B 0.9'; do
+    check "a direction becomes a map of normals: $channel" reads udim/S_normal.1001.exr ${channel% *} 0.5 0.5 "${channel#* }"
+done
+check 'behind a normalmap' has udim/place.mtlx '<normalmap name="S_normal_map"'
+
+# ---- Images that stay ----
+
+mkdir -p in
+cp flat/SR_base_color.png 'in/a tone.png'
+cat >in/stays.mtlx <<'EOF'
+<?xml version="1.0"?>
+<materialx version="1.39" fileprefix="../in/">
+  <image name="tone" type="color3"><input name="file" type="filename" value="a tone.png" colorspace="srgb_texture"/></image>
+  <standard_surface name="S" type="surfaceshader"><input name="base_color" type="color3" nodename="tone"/></standard_surface>
+  <surfacematerial name="M" type="material"><input name="surfaceshader" type="surfaceshader" nodename="S"/></surfacematerial>
+</materialx>
+EOF
+check 'an image without changes stays' eval 'exits 0 "$mxgen" bake in/stays.mtlx -o stays && has stays/stays.mtlx "value=\"../in/a tone.png\" colorspace=\"srgb_texture\"" && test "$(ls stays)" = stays.mtlx'
+check 'or is copied' eval 'exits 0 "$mxgen" bake in/stays.mtlx -o copies --copy && has copies/stays.mtlx "value=\"a_tone.png\"" && cmp "in/a tone.png" copies/a_tone.png'
+rm 'in/a tone.png'
+check 'a lost one is told' eval 'exits 1 "$mxgen" bake in/stays.mtlx -o none && has err "[missing-texture]" && test ! -e none'
 
 # ---- What cannot be baked ----
 
