@@ -209,10 +209,9 @@ static bool draw_pieces(struct chunk *chunk, struct painting *painting)
             for (uint32_t x = 0; good && x < chunk->size; x += chunk->piece)
                 good = draw_piece(chunk, painting, t, x, y);
     if (good && chunk->num_bad)
-        report_error(&chunk->baking->cli.report, "bad-pixels",
-                     "'%s': %llu texels are NaN or infinite",
-                     chunk->baking->plan.drawings[chunk->bad].path,
-                     (unsigned long long)chunk->num_bad);
+        report_error(
+            &chunk->baking->cli.report, "bad-pixels", "'%s': %llu texels are NaN or infinite",
+            chunk->baking->plan.drawings[chunk->bad].path, (unsigned long long)chunk->num_bad);
     return good && !chunk->num_bad;
 }
 

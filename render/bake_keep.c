@@ -28,8 +28,8 @@ static bool is_set(const char *file)
 static bool tell_missing(struct baking *baking, mxg_element origin, const char *path)
 {
     mxg_element_info info = bake_element(baking->document, origin);
-    char *place = cli_format("%s:%u:%u", info.file ? info.file : baking->path, info.line,
-                             info.column);
+    char *place =
+        cli_format("%s:%u:%u", info.file ? info.file : baking->path, info.line, info.column);
     if (baking->painter.checker)
         report_warning(&baking->cli.report, "missing-texture", "there is no file '%s' (%s)", path,
                        place);
@@ -75,13 +75,12 @@ static char *name_copy(struct baking *baking, const char *path)
 
 static bool copy_file(struct baking *baking, struct bake_input *input, const char *path)
 {
-    char *name = name_copy(baking, path),
-         *to = cli_format("%s/%s", baking->options.output, name);
+    char *name = name_copy(baking, path), *to = cli_format("%s/%s", baking->options.output, name);
     bool is_free = outputs_write(&baking->files, &baking->cli.report, to, "a copy");
     const char *reason = is_free ? copy(path, bake_begin_file(baking, name)) : NULL;
     if (reason)
-        report_error(&baking->cli.report, "output-failed", "cannot copy '%s' to '%s': %s", path,
-                     to, reason);
+        report_error(&baking->cli.report, "output-failed", "cannot copy '%s' to '%s': %s", path, to,
+                     reason);
     input->copy = name;
     free(to);
     return is_free && !reason;
