@@ -5,6 +5,7 @@
 
 #include "program/cli.h"
 
+int command_bake(const struct command *command, int argc, char **argv);
 int command_generate(const struct command *command, int argc, char **argv);
 int command_inspect(const struct command *command, int argc, char **argv);
 int command_bind(const struct command *command, int argc, char **argv);
@@ -17,5 +18,8 @@ int command_format(const struct command *command, int argc, char **argv);
 int command_pipeline(const struct command *command, int argc, char **argv);
 int command_translate(const struct command *command, int argc, char **argv);
 int command_upgrade(const struct command *command, int argc, char **argv);
+
+/* Becomes mxgen-render, whose first argument is the command. Returns only if it cannot start. */
+int start_renderer(char **argv);
 
 #endif

@@ -10,6 +10,18 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+int start_renderer(char **argv)
+{
+    char *path = cli_program("mxgen-render");
+    execvp(path, argv);
+    fprintf(stderr,
+            "error: cannot start '%s': it is built where glslang, Vulkan and OpenImageIO are "
+            "installed [no-renderer]\n",
+            path);
+    free(path);
+    return EXIT_FAULT;
+}
+
 int command_render(const struct command *command, int argc, char **argv)
 {
     if (command->book) { /* the caller needs only the table of options */
@@ -22,12 +34,5 @@ int command_render(const struct command *command, int argc, char **argv)
         cli_finish(&cli);
         return code;
     }
-    char *path = cli_program("mxgen-render");
-    execvp(path, argv);
-    fprintf(stderr,
-            "error: cannot start '%s': it is built where glslang, Vulkan and OpenImageIO are "
-            "installed [no-renderer]\n",
-            path);
-    free(path);
-    return EXIT_FAULT;
+    return start_renderer(argv);
 }

@@ -1,315 +1,250 @@
 // SPDX-License-Identifier: Apache-2.0
-/*
- * Prefiltering for GGX as Karis 2013, "Real Shading in Unreal Engine 4", splits the sum: the light
- * around a reflection, seen along the normal, and the lobe's albedo.
- */
+#define _POSIX_C_SOURCE 200809L
 #include "render/bake.h"
 
-#include "render/scene.h"
+#include "compile/compile.h"
+#include "program/file_name.h"
+#include "program/files.h"
+#include "program/memory.h"
+#include "program/temporary.h"
 
-#include <math.h>
-#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
-#define PI 3.14159265358979323846
+/* ---- Options ---- */
 
-enum {
-    MIN_WIDTH = 512,
-    MAX_WIDTH = 2048,
-    MAX_LEVELS = 16,
-    NUM_SAMPLES = 128,
-    ALBEDO_SIZE = 64,
-    ALBEDO_SAMPLES = 1024
-};
-
-/* ---- Levels ---- */
-
-static size_t level_texels(const struct image *map, uint32_t level)
+static bool is_one_of(const char *option, const char *word, const char *const *words)
 {
-    return (size_t)image_level_size(map->width, level) * image_level_size(map->height, level);
+    for (size_t i = 0; words[i]; ++i)
+        if (strcmp(word, words[i]) == 0)
+            return true;
+    fprintf(stderr, "mxgen: '%s' is not a value of --%s\n", word, option);
+    return false;
 }
 
-static bool allocate_levels(struct image *map, uint32_t width)
+static const char *setting(const struct cli *cli, const char *key, const char *otherwise)
 {
-    *map = (struct image){.width = width, .height = width / 2, .is_float = true};
-    map->levels = image_num_mips(map);
-    size_t texels = 0;
-    for (uint32_t i = 0; i < map->levels; ++i)
-        texels += level_texels(map, i);
-    map->pixels = malloc(texels * 4 * sizeof(float));
-    return map->pixels != NULL;
+    for (size_t i = 0; i < cli->parser.num_settings; ++i)
+        if (strcmp(cli->parser.settings[i].key, key) == 0)
+            otherwise = cli->parser.settings[i].value;
+    return otherwise;
 }
 
-/* A level as an image of its own, which it does not own. */
-static struct image level_of(const struct image *map, uint32_t level)
+/* Sets options of generation; false after a message. */
+static bool parse(struct baking *baking)
 {
-    float *pixels = map->pixels;
-    for (uint32_t i = 0; i < level; ++i)
-        pixels += level_texels(map, i) * 4;
-    return (struct image){.width = image_level_size(map->width, level),
-                          .height = image_level_size(map->height, level),
-                          .is_float = true,
-                          .pixels = pixels};
-}
-
-/* The map in the size of level 0, and below it the averages of boxes. */
-static void fill_boxes(const struct image *map, struct image *out)
-{
-    struct image top = level_of(out, 0);
-    float *texel = top.pixels;
-    for (uint32_t y = 0; y < top.height; ++y)
-        for (uint32_t x = 0; x < top.width; ++x, texel += 4) {
-            double d[3], light[3];
-            environment_direction(&top, x, y, d);
-            environment_lookup(map, d, light);
-            for (size_t c = 0; c < 3; ++c)
-                texel[c] = (float)light[c];
-            texel[3] = 1;
-        }
-    for (uint32_t level = 1; level < out->levels; ++level) {
-        struct image from = level_of(out, level - 1), to = level_of(out, level);
-        for (size_t i = 0; i < (size_t)to.width * to.height * 4; ++i) {
-            size_t c = i % 4, x = i / 4 % to.width, y = i / 4 / to.width;
-            const float *a = (const float *)from.pixels
-                             + (y * 2 % from.height * from.width + x * 2 % from.width) * 4 + c;
-            size_t right = from.width > 1 ? 4 : 0,
-                   down = from.height > 1 ? (size_t)from.width * 4 : 0;
-            ((float *)to.pixels)[i] = 0.25f * (a[0] + a[right] + a[down] + a[down + right]);
-        }
+    static const char *const formats[] = {"png", "exr", "jpg", NULL}, *const missing[] = {
+                                                                          "error", "checker", NULL};
+    struct bake_options *options = &baking->options;
+    struct cli *cli = &baking->cli;
+    if (cli->parser.inputs.len != 1 || !options->output) {
+        fputs("usage: mxgen bake FILE -o DIR\n", stderr);
+        return false;
     }
-}
-
-/* ---- Sampling ---- */
-
-/* Point i of a Hammersley set. */
-static void hammersley(uint32_t i, uint32_t count, double out[2])
-{
-    uint32_t bits = i;
-    bits = (bits << 16) | (bits >> 16);
-    bits = ((bits & 0x00ff00ffu) << 8) | ((bits & 0xff00ff00u) >> 8);
-    bits = ((bits & 0x0f0f0f0fu) << 4) | ((bits & 0xf0f0f0f0u) >> 4);
-    bits = ((bits & 0x33333333u) << 2) | ((bits & 0xccccccccu) >> 2);
-    bits = ((bits & 0x55555555u) << 1) | ((bits & 0xaaaaaaaau) >> 1);
-    out[0] = (i + 0.5) / count;
-    out[1] = bits / 4294967296.0;
-}
-
-/* The distribution of normals of GGX: Walter et al. 2007, equation 33. */
-static double distribution(double cosine, double alpha)
-{
-    double k = cosine * cosine * (alpha * alpha - 1) + 1;
-    return alpha * alpha / (PI * k * k);
-}
-
-/*
- * A direction seen along the normal, in its frame, how much it counts, and the level that holds its
- * part of the light.
- */
-struct lobe_sample {
-    double direction[3], weight, level;
-};
-
-/* Normals by Walter et al. 2007, equations 35 and 36; levels by Krivanek and Colbert 2008. */
-static uint32_t sample_lobe(double alpha, uint32_t width, struct lobe_sample samples[NUM_SAMPLES])
-{
-    uint32_t count = 0;
-    double texel = 4 * PI / ((double)width * width / 2);
-    for (uint32_t i = 0; i < NUM_SAMPLES; ++i) {
-        double xi[2];
-        hammersley(i, NUM_SAMPLES, xi);
-        double cosine = sqrt((1 - xi[0]) / (1 + (alpha * alpha - 1) * xi[0])),
-               sine = sqrt(fmax(1 - cosine * cosine, 0));
-        double z = 2 * cosine * cosine - 1;
-        if (z <= 0)
-            continue;
-        double around = 2 * PI * xi[1], solid = 4 / (NUM_SAMPLES * distribution(cosine, alpha));
-        samples[count++] = (struct lobe_sample){
-            {2 * cosine * sine * cos(around), 2 * cosine * sine * sin(around), z},
-            z,
-            fmax(0.5 * log2(solid / texel) + 1, 0)};
+    if ((options->format && !is_one_of("format", options->format, formats))
+        || !is_one_of("missing-texture", options->missing_texture, missing)
+        || !cli_options_apply(cli, (const char *const[]){"vulkan"}, 1))
+        return false;
+    if (options->depth && options->depth != 8 && options->depth != 16 && options->depth != 32) {
+        fprintf(stderr, "mxgen: an image has 8, 16 or 32 bits, and not %zu\n", options->depth);
+        return false;
     }
-    return count;
+    baking->path = cli->parser.inputs.items[0];
+    baking->space = setting(cli, "colorspace", "lin_rec709");
+    baking->is_709 = strcmp(baking->space, "lin_rec709") == 0;
+    baking->painter.checker = strcmp(options->missing_texture, "checker") == 0;
+    mxg_options_set(cli->options, "interface", "reduced");
+    mxg_options_set(cli->options, "texture-modes", "shared");
+    mxg_options_set(cli->options, "max-outputs", "64");
+    return true;
 }
 
-static void frame_around(const double n[3], double x[3], double y[3])
+/* ---- The plan ---- */
+
+/* True if the element can be generated; reports what its document does wrong. */
+static bool check(struct baking *baking, const char *path)
 {
-    const double up[3] = {0, 1, 0}, right[3] = {1, 0, 0};
-    vector_cross(fabs(n[1]) < 0.9 ? up : right, n, x);
-    vector_normalize(x);
-    vector_cross(n, x, y);
+    mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
+    mxg_result *result = NULL;
+    desc.target = "vulkan";
+    desc.element = path;
+    desc.options = baking->cli.options;
+    desc.only_diagnostics = true;
+    mxg_status status = mxg_generate(baking->cli.context, baking->document, &desc, &result);
+    if (result)
+        report_list(&baking->cli.report, mxg_result_diagnostics(result));
+    mxg_result_destroy(result);
+    return report_status(&baking->cli.report, status) && status == MXG_OK;
 }
 
-static void look_up(const struct image *levels, uint32_t num_levels, double level,
-                    const double d[3], double out[3])
+static bool plan(struct baking *baking)
 {
-    double low[3], high[3], t = level - floor(level);
-    uint32_t first = level < num_levels - 1 ? (uint32_t)level : num_levels - 1;
-    environment_lookup(&levels[first], d, low);
-    environment_lookup(&levels[first + 1 < num_levels ? first + 1 : first], d, high);
-    for (size_t c = 0; c < 3; ++c)
-        out[c] = low[c] + t * (high[c] - low[c]);
-}
-
-/*
- * The roughness squared that a level is for, as shaders choose it: MaterialX,
- * mx_latlong_lod_to_alpha.
- */
-static double level_alpha(uint32_t level, uint32_t num_levels)
-{
-    double t = (double)level / (num_levels - 1);
-    return fmin(t < 0.5 ? t * t : 2 * (t - 0.375), 1);
-}
-
-static void filter_level(const struct image *boxes, double alpha, struct image *out)
-{
-    struct lobe_sample samples[NUM_SAMPLES];
-    struct image levels[MAX_LEVELS];
-    for (uint32_t i = 0; i < boxes->levels; ++i)
-        levels[i] = level_of(boxes, i);
-    uint32_t count = sample_lobe(alpha, boxes->width, samples);
-    float *texel = out->pixels;
-    for (uint32_t y = 0; y < out->height; ++y) {
-        for (uint32_t x = 0; x < out->width; ++x, texel += 4) {
-            double n[3], a[3], b[3], sum[3] = {0}, weights = 0;
-            environment_direction(out, x, y, n);
-            frame_around(n, a, b);
-            for (uint32_t i = 0; i < count; ++i) {
-                const struct lobe_sample *s = &samples[i];
-                double d[3], light[3];
-                for (size_t c = 0; c < 3; ++c)
-                    d[c] = s->direction[0] * a[c] + s->direction[1] * b[c] + s->direction[2] * n[c];
-                look_up(levels, boxes->levels, s->level, d, light);
-                for (size_t c = 0; c < 3; ++c)
-                    sum[c] += s->weight * light[c];
-                weights += s->weight;
-            }
-            for (size_t c = 0; c < 3; ++c)
-                texel[c] = (float)(sum[c] / weights);
-            texel[3] = 1;
-        }
-    }
-}
-
-static bool filter(const struct image *map, struct image *out)
-{
-    uint32_t width = MIN_WIDTH;
-    while (width < map->width && width < MAX_WIDTH)
-        width *= 2;
-    struct image boxes;
-    bool good = allocate_levels(&boxes, width) && allocate_levels(out, width);
-    if (good) {
-        fill_boxes(map, &boxes);
-        memcpy(out->pixels, boxes.pixels, level_texels(out, 0) * 4 * sizeof(float));
-        for (uint32_t level = 1; level < out->levels; ++level) {
-            struct image filtered = level_of(out, level);
-            filter_level(&boxes, level_alpha(level, out->levels), &filtered);
-        }
-    }
-    image_finish(&boxes);
-    return good;
-}
-
-/* ---- Albedo ---- */
-
-/* Heitz 2014, equation 72 */
-static double lambda(double cosine, double alpha)
-{
-    double tangent2 = (1 - cosine * cosine) / (cosine * cosine);
-    return (sqrt(1 + alpha * alpha * tangent2) - 1) / 2;
-}
-
-/*
- * With normals drawn by their distribution a sample weighs G2 (v·h) / ((n·v)(n·h)), and Schlick's
- * curve splits it.
- */
-void bake_albedo(double cosine, double alpha, double *out_a, double *out_b)
-{
-    const double v[3] = {sqrt(fmax(1 - cosine * cosine, 0)), 0, cosine};
-    *out_a = *out_b = 0;
-    for (uint32_t i = 0; i < ALBEDO_SAMPLES; ++i) {
-        double xi[2];
-        hammersley(i, ALBEDO_SAMPLES, xi);
-        double z = sqrt((1 - xi[0]) / (1 + (alpha * alpha - 1) * xi[0])),
-               r = sqrt(fmax(1 - z * z, 0));
-        double x = r * cos(2 * PI * xi[1]), facing = v[0] * x + v[2] * z, l = 2 * facing * z - v[2];
-        if (l <= 0 || facing <= 0)
-            continue;
-        double weight = facing / (cosine * z * (1 + lambda(cosine, alpha) + lambda(l, alpha)));
-        double curve = pow(1 - facing, 5);
-        *out_a += (1 - curve) * weight / ALBEDO_SAMPLES;
-        *out_b += curve * weight / ALBEDO_SAMPLES;
-    }
-}
-
-bool bake_albedo_table(struct image *out)
-{
-    *out = (struct image){.width = ALBEDO_SIZE,
-                          .height = ALBEDO_SIZE,
-                          .is_float = true,
-                          .pixels = calloc(ALBEDO_SIZE * ALBEDO_SIZE * 4, sizeof(float))};
-    float *texel = out->pixels;
-    for (uint32_t y = 0; texel && y < ALBEDO_SIZE; ++y)
-        for (uint32_t x = 0; x < ALBEDO_SIZE; ++x, texel += 4) {
-            double a, b;
-            bake_albedo((x + 0.5) / ALBEDO_SIZE, (y + 0.5) / ALBEDO_SIZE, &a, &b);
-            texel[0] = (float)a;
-            texel[1] = (float)b;
-            texel[3] = 1;
-        }
-    return out->pixels != NULL;
-}
-
-/* ---- The whole ---- */
-
-bool bake_environment(const struct image *map, struct baked *out)
-{
-    *out = (struct baked){0};
-    return filter(map, &out->radiance) && environment_irradiance(map, &out->irradiance)
-           && bake_albedo_table(&out->albedo);
-}
-
-struct part {
-    const char *name;
-    size_t image; /* offset in struct baked */
-};
-static const struct part parts[] = {{"radiance.exr", offsetof(struct baked, radiance)},
-                                    {"irradiance.exr", offsetof(struct baked, irradiance)},
-                                    {"albedo.exr", offsetof(struct baked, albedo)}};
-enum { NUM_PARTS = sizeof parts / sizeof *parts, MAX_PATH = 4096 };
-
-bool baked_write(const struct baked *baked, const char *folder, char *reason, size_t capacity)
-{
-    char path[MAX_PATH];
+    const char *element = baking->options.element;
+    uint32_t num = element ? 1 : mxg_document_num_renderables(baking->document);
     bool good = true;
-    for (size_t i = 0; good && i < NUM_PARTS; ++i) {
-        snprintf(path, sizeof path, "%s/%s", folder, parts[i].name);
-        good = image_write(
-            path, (const struct image *)(const void *)((const char *)baked + parts[i].image),
-            reason, capacity);
+    bake_plan_begin(&baking->plan, baking->document, &baking->cli.report);
+    if (!num)
+        report_error(&baking->cli.report, "nothing-to-bake", "'%s' has no material", baking->path);
+    for (uint32_t i = 0; good && i < num; ++i) {
+        mxg_renderable renderable = {sizeof renderable};
+        if (!element)
+            mxg_document_renderable(baking->document, i, &renderable);
+        const char *path = element ? element : renderable.path;
+        good = check(baking, path) && bake_plan_add(&baking->plan, path);
     }
-    return good;
+    for (size_t i = 0; good && i < baking->plan.num_drawings; ++i)
+        good = bake_find_needs(baking, &baking->plan.drawings[i]);
+    if (good && !baking->surface.num_tiles)
+        bake_surface_add_tile(&baking->surface, (struct bake_tile){0, 0});
+    return good && num;
 }
 
-bool baked_read(const char *folder, struct baked *out, char *reason, size_t capacity)
+/* ---- Files ---- */
+
+/* The name of the new document: that of the old one. The caller frees it. */
+static char *document_name(const struct baking *baking)
 {
-    *out = (struct baked){0};
-    char path[MAX_PATH];
+    const char *base = strcmp(baking->path, "-") == 0 ? "stdin" : files_base_name(baking->path);
+    size_t len = strlen(base);
+    if (len > 5 && strcmp(base + len - 5, ".mtlx") == 0)
+        len -= 5;
+    char *name = cli_format("%.*s.mtlx", (int)len, base), *clean = file_name_clean(name);
+    free(name);
+    return clean;
+}
+
+/* Gives all files their names, or removes them. */
+static bool end_files(struct baking *baking, bool keep)
+{
+    for (size_t i = 0; i < baking->num_written; ++i) {
+        struct bake_file *file = &baking->written[i];
+        if (keep && rename(file->temporary, file->path) != 0) {
+            report_error(&baking->cli.report, "output-failed", "cannot write '%s'", file->path);
+            keep = false;
+        }
+        if (!keep)
+            remove(file->temporary);
+        temporary_forget(file->temporary);
+        free(file->temporary);
+        free(file->path);
+    }
+    free(baking->written);
+    return keep;
+}
+
+static bool write_document(struct baking *baking, const char *path)
+{
+    size_t size = 0;
+    char *text = bake_write_document(baking, &size);
+    const char *temporary = text ? bake_begin_file(baking, files_base_name(path)) : NULL;
+    const char *reason = text ? files_write(temporary, text, size) : NULL;
+    if (reason)
+        report_error(&baking->cli.report, "output-failed", "cannot write '%s': %s", path, reason);
+    free(text);
+    return text && !reason;
+}
+
+static bool claim(struct baking *baking, const char *output)
+{
+    struct report *report = &baking->cli.report;
     bool good = true;
-    for (size_t i = 0; good && i < NUM_PARTS; ++i) {
-        struct image *image = (struct image *)(void *)((char *)out + parts[i].image);
-        snprintf(path, sizeof path, "%s/%s", folder, parts[i].name);
-        good = image_read_levels(path, image, reason, capacity);
-        if (good && !image->is_float) {
-            snprintf(reason, capacity, "%s does not hold floats", parts[i].name);
-            good = false;
+    for (uint32_t i = 0; i < mxg_document_num_files(baking->document); ++i)
+        good = outputs_read(&baking->files, report, mxg_document_file(baking->document, i)) && good;
+    for (uint32_t i = 0; i < mxg_library_num_files(baking->cli.library); ++i)
+        good =
+            outputs_read(&baking->files, report, mxg_library_file(baking->cli.library, i)) && good;
+    if (baking->options.mesh && files_is_regular(baking->options.mesh))
+        good = outputs_read(&baking->files, report, baking->options.mesh) && good;
+    return outputs_write(&baking->files, report, output, "the baked document") && good;
+}
+
+/* ---- The run ---- */
+
+static void tell(const struct baking *baking)
+{
+    size_t values = 0;
+    for (size_t i = 0; i < baking->plan.num_drawings; ++i)
+        values += baking->plan.drawings[i].is_value;
+    if (!baking->cli.quiet)
+        fprintf(stderr,
+                "note: of %zu graphs of inputs, %zu are images (%zu file%s) and %zu values\n",
+                baking->plan.num_drawings, baking->plan.num_drawings - values, baking->num_images,
+                baking->num_images == 1 ? "" : "s", values);
+}
+
+static bool open_device(struct baking *baking)
+{
+    struct painter *painter = &baking->painter;
+    painter->cli = &baking->cli;
+    painter->files = &baking->files;
+    painter->scene = baking->surface.square;
+    painter->scene.frame = (int32_t)baking->options.frame;
+    painter->unwraps = true;
+    painter->shown = UINT32_MAX;
+    if (!baking->plan.num_drawings || gpu_open(&painter->gpu))
+        return true;
+    report_error(&baking->cli.report, painter->gpu.id, "cannot draw: %s", painter->gpu.reason);
+    return false;
+}
+
+/* Bakes a loaded document. `output` is the path of the new one. */
+static void bake(struct baking *baking, const char *output)
+{
+    const char *reason = NULL;
+    bool is_new = access(baking->options.output, F_OK) != 0;
+    if (!claim(baking, output)
+        || !bake_surface_open(&baking->surface, &baking->cli, baking->options.mesh)
+        || !plan(baking))
+        return;
+    reason = files_make_folder(baking->options.output);
+    if (reason) {
+        report_error(&baking->cli.report, "output-failed", "cannot write to '%s': %s",
+                     baking->options.output, reason);
+        return;
+    }
+    compile_begin();
+    bool good = bake_keep_files(baking) && open_device(baking) && bake_draw(baking)
+                && write_document(baking, output);
+    compile_end();
+    good = end_files(baking, good && !baking->cli.report.errors);
+    if (good)
+        tell(baking);
+    else if (is_new)
+        rmdir(baking->options.output);
+}
+
+int bake_main(int argc, char **argv)
+{
+    static const struct command command = {
+        "bake", "bake FILE -o DIR [--mesh FILE] [options]",
+        "Bakes what varies over the surface of a material into images, with a flat document.",
+        NULL};
+    struct baking baking = {.options = BAKE_OPTIONS_DEFAULTS};
+    struct arg args[MAX_BAKE_ARGS];
+    int code;
+    if (cli_start(&baking.cli, &command, args, bake_args(&baking.options, args), CLI_GENERATES,
+                  argc, argv, &code)) {
+        code = EXIT_USAGE;
+        if (parse(&baking)) {
+            mxg_document *document = cli_load(&baking.cli, baking.path);
+            char *name = document_name(&baking),
+                 *output = cli_format("%s/%s", baking.options.output, name);
+            baking.document = document;
+            if (document)
+                bake(&baking, output);
+            free(name);
+            free(output);
+            bake_plan_finish(&baking.plan);
+            bake_surface_close(&baking.surface);
+            gpu_close(&baking.painter.gpu);
+            mxg_document_destroy(document);
+            code = baking.cli.report.errors ? EXIT_FAULT : EXIT_DONE;
         }
     }
-    return good;
-}
-
-void baked_finish(struct baked *baked)
-{
-    image_finish(&baked->radiance);
-    image_finish(&baked->irradiance);
-    image_finish(&baked->albedo);
+    cli_finish(&baking.cli);
+    names_finish(&baking.painter.told_textures);
+    aovs_finish(&baking.painter.aovs);
+    outputs_finish(&baking.files);
+    return code;
 }

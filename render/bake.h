@@ -1,32 +1,68 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Prefiltered environment maps for hosts: computed from a map, or read from a folder. */
+/*
+ * mxgen bake: a document whose inputs are values and images, from one with graphs. bake.c runs it,
+ * bake_plan.c finds the inputs, bake_needs.c what they read, bake_draw.c draws them,
+ * bake_image.c writes images, bake_keep.c
+ * keeps those that stay, and bake_document.c the document.
+ */
 #ifndef MXG_RENDER_BAKE_H
 #define MXG_RENDER_BAKE_H
 
-#include "render/image.h"
+#include "program/bake_options.h"
+#include "render/bake_plan.h"
+#include "render/bake_surface.h"
+#include "render/picture.h"
+#include "render/spool.h"
 
-struct baked {
-    /* a latitude-longitude map; higher levels are filtered for higher roughness */
-    struct image radiance;
-    struct image irradiance; /* the cosine-weighted average around each direction */
-    /* of GGX, by cosine (x) and roughness² (y): red scales F0, green F90 */
-    struct image albedo;
+/* A file with a temporary name, which gets its own when all is written. */
+struct bake_file {
+    char *temporary, *path;
 };
 
-/* false: out of memory. Call baked_finish in any case. */
-bool bake_environment(const struct image *map, struct baked *out);
+struct baking {
+    struct cli cli;
+    struct bake_options options;
+    const char *path; /* of the document */
+    const mxg_document *document;
+    struct bake_plan plan;
+    struct bake_surface surface;
+    struct painter painter;
+    struct outputs files;
+    struct bake_file *written;
+    size_t num_written;
+    size_t num_images; /* files */
+    const char *space; /* the working colour space */
+    bool is_709;       /* it has the primaries of srgb_texture */
+    bool has_told_overlap;
+};
+
+int bake_main(int argc, char **argv);
+
+/* The components of a type; 0: no image has it. */
+uint32_t bake_channels(const char *type);
+/* Fills needs and largest; false after reporting an error. */
+bool bake_find_needs(struct baking *baking, struct bake_drawing *drawing);
+/* Draws all that the plan draws, and writes their images. false after reporting an error. */
+bool bake_draw(struct baking *baking);
+
 /*
- * Writes radiance.exr, irradiance.exr and albedo.exr to an existing folder. On failure returns
- * false and the reason.
+ * Makes of a drawing, with one spool for each tile of the surface, a value or images,
+ * and writes these. false after reporting an error.
  */
-bool baked_write(const struct baked *baked, const char *folder, char *reason, size_t capacity);
-bool baked_read(const char *folder, struct baked *out, char *reason, size_t capacity);
-void baked_finish(struct baked *baked);
+bool bake_finish_drawing(struct baking *baking, struct bake_drawing *drawing,
+                         const struct spool *spools, uint32_t num_spools);
+/* A temporary name for a file of the output folder, which baking->written has. */
+const char *bake_begin_file(struct baking *baking, const char *name);
 
-/* Makes only the table. false: out of memory. */
-bool bake_albedo_table(struct image *out);
+/* The path of a file that an element of the document names. The caller frees it. */
+char *bake_file_path(const struct baking *baking, mxg_element element, const char *file);
+/*
+ * Looks for the files of images that stay, and copies them where the user wants it. false after
+ * reporting an error.
+ */
+bool bake_keep_files(struct baking *baking);
 
-/* The directional albedo of GGX at a cosine and a roughness squared: A scales F0, B scales F90. */
-void bake_albedo(double cosine, double alpha, double *out_a, double *out_b);
+/* The new document as XML. NULL after reporting an error. The caller frees it. */
+char *bake_write_document(struct baking *baking, size_t *out_size);
 
 #endif

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/bind.h"
 
-#include "render/bake.h"
+#include "render/prefilter.h"
 #include "render/stored.h"
 
 #include <math.h>
@@ -515,6 +515,37 @@ static bool bind_attribute(struct bind *bind, const mxg_variable *variable)
     return good;
 }
 
+uint32_t bind_unwrapped_location(const struct bind *bind)
+{
+    uint32_t location = 0;
+    for (uint32_t i = 0; i < num_variables(bind); ++i) {
+        mxg_variable variable = get_variable(bind, i);
+        if (variable.block == MXG_BLOCK_APP_DATA && variable.location >= location)
+            location = variable.location + 1;
+    }
+    return location;
+}
+
+static bool bind_unwrapped(struct bind *bind)
+{
+    struct draw *draw = &bind->draw;
+    if (draw->num_attributes == DRAW_MAX_ATTRIBUTES)
+        return fail(bind, "the shader has more than %u attributes", DRAW_MAX_ATTRIBUTES);
+    uint32_t at = draw->num_attributes++;
+    draw->attributes[at] =
+        (struct draw_attribute){bind_unwrapped_location(bind), VK_FORMAT_R32G32_SFLOAT};
+    for (uint32_t o = 0; o < bind->num_objects; ++o) {
+        const struct mesh *mesh = &bind->objects[o].mesh;
+        float(*data)[4] = calloc(mesh->num_vertices, sizeof *data);
+        draw->objects[o].attributes[at] = data;
+        for (uint32_t i = 0; data && i < mesh->num_vertices; ++i)
+            memcpy(data[i], mesh->vertices[i].texcoord, sizeof mesh->vertices[i].texcoord);
+        if (!data)
+            return fail(bind, "out of memory");
+    }
+    return true;
+}
+
 static bool bind_attributes(struct bind *bind)
 {
     for (uint32_t i = 0; i < num_variables(bind); ++i) {
@@ -522,7 +553,7 @@ static bool bind_attributes(struct bind *bind)
         if (variable.block == MXG_BLOCK_APP_DATA && !bind_attribute(bind, &variable))
             return false;
     }
-    return true;
+    return !bind->unwraps || bind_unwrapped(bind);
 }
 
 static bool is_light_value(const struct bind *bind, const char *path)

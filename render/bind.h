@@ -56,6 +56,7 @@ struct bind {
     const struct bind_value *values;
     size_t num_values;
     bool is_opaque; /* replaces the background, also for transparent materials */
+    bool unwraps;   /* draws the surface flat, at its texture coordinates (unwrap.h) */
     bool checker;   /* a checker replaces an unreadable texture; otherwise it is an error */
     struct bind_fault *faults; /* the files that cannot be read, also where that is an error */
     size_t num_faults;
@@ -84,6 +85,8 @@ bool bind_shader(struct bind *bind);
 bool bind_has_semantic(const mxg_result *result, const char *semantic);
 /* Returns what the user says of an input; NULL: nothing. */
 const char *bind_user_value(const struct bind *bind, const mxg_variable *variable);
+/* The location of the attribute with the texture coordinates of a surface that is drawn flat. */
+uint32_t bind_unwrapped_location(const struct bind *bind);
 /* Updates the data that depends on the camera and other uniforms of the scene. */
 bool bind_scene(struct bind *bind);
 /*

@@ -56,6 +56,9 @@ bool image_read(const char *path, const char *layer, struct image *out, char *re
 /* Reads the first part with its mip levels. */
 bool image_read_levels(const char *path, struct image *out, char *reason, size_t capacity);
 
+/* The larger side of a file's first part. On failure returns false and the reason. */
+bool image_find_size(const char *path, uint32_t *out, char *reason, size_t capacity);
+
 /* array_layers.c: combines images as array layers of the largest size. false: out of memory. */
 bool image_stack(const struct image *parts, uint32_t count, struct image *out);
 /*

@@ -5,6 +5,7 @@
 
 #include <OpenImageIO/imageio.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
@@ -226,6 +227,20 @@ bool image_read(const char *path, const char *layer, struct image *out, char *re
 bool image_read_levels(const char *path, struct image *out, char *reason, size_t capacity)
 {
     return read_guarded(path, "", true, out, reason, capacity);
+}
+
+bool image_find_size(const char *path, uint32_t *out, char *reason, size_t capacity)
+{
+    return guard(reason, capacity, [&] {
+        if (!check_file(path, reason, capacity))
+            return false;
+        auto input = OIIO::ImageInput::open(path);
+        if (!input)
+            return fail(reason, capacity, OIIO::geterror());
+        const OIIO::ImageSpec &spec = input->spec();
+        *out = static_cast<uint32_t>(std::max(spec.width, spec.height));
+        return check_size(spec, reason, capacity);
+    });
 }
 
 bool image_is_linear(const char *path)

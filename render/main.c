@@ -7,6 +7,7 @@
 #include "program/texels.h"
 #include "render/applies.h"
 #include "render/bake.h"
+#include "render/prefilter.h"
 #include "render/job.h"
 #include "render/means.h"
 #include "render/site_picture.h"
@@ -145,6 +146,8 @@ int main(int argc, char **argv)
     size_t num_args = render_args(&job.options, args);
     int code;
     parent_follow();
+    if (strcmp(argv[0], "bake") == 0)
+        return bake_main(argc, argv);
     if (argc == 5 && strcmp(argv[1], CLI_TEXELS) == 0)
         return means_print(argv[2], argv[3], (uint32_t)strtoul(argv[4], NULL, 10));
     if (cli_start(&job.cli, &command, args, num_args, CLI_GENERATES, argc, argv, &code)) {

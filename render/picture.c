@@ -220,6 +220,7 @@ static void init_bind(const struct painting *painting, const struct part *part,
                                 .files = painter->files,
                                 .values = painter->values,
                                 .num_values = painter->num_values,
+                                .unwraps = painter->unwraps,
                                 .checker = painter->checker};
 }
 

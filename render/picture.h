@@ -29,6 +29,7 @@ struct painter {
     bool has_clash;        /* a texture is one of the latter: no picture may be written */
     const struct bind_value *values;
     size_t num_values;
+    bool unwraps;                      /* surfaces are flat, at their texture coordinates */
     bool checker;                      /* replaces missing textures by a checker */
     const mxg_document *told_document; /* the last document with textures that cannot be read */
     struct name_table told_textures;   /* what was printed of them; names_finish frees it */

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/render.h"
 
+#include "render/unwrap.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,7 +22,14 @@ static bool compile(struct bind *bind, struct compiled *compiled)
     for (int stage = 0; stage < MXG_NUM_STAGES; ++stage)
         sources[stage] = bind->program ? bind->program->sources[stage]
                                        : mxg_result_source(bind->result, (mxg_stage)stage, NULL);
-    if (compile_program(target_of(bind), sources, compiled))
+    char *flat = NULL;
+    if (bind->unwraps) {
+        flat = unwrap_stage(sources[MXG_STAGE_VERTEX], bind_unwrapped_location(bind));
+        sources[MXG_STAGE_VERTEX] = flat ? flat : sources[MXG_STAGE_VERTEX];
+    }
+    bool good = compile_program(target_of(bind), sources, compiled);
+    free(flat);
+    if (good)
         return true;
     for (size_t i = 0; i < compiled->num_messages; ++i) {
         const struct compile_message *message = &compiled->messages[i];

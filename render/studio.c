@@ -2,7 +2,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "render/studio.h"
 
-#include "render/bake.h"
+#include "render/prefilter.h"
 
 #include <math.h>
 #include <stdio.h>

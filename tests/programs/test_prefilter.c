@@ -5,7 +5,7 @@
  */
 #include "unit/test.h"
 
-#include "render/bake.h"
+#include "render/prefilter.h"
 #include "render/scene.h"
 
 #include <math.h>

@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: Apache-2.0
+/* The new document: nodes that stay, values, and images. */
+#define _XOPEN_SOURCE 700 /* realpath */
+#include "render/bake.h"
+
+#include "program/files.h"
+#include "program/memory.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+struct writer {
+    struct baking *baking;
+    mxg_edit *edit;
+    mxg_element *nodes;    /* of the plan, in the edit */
+    mxg_element *drawings; /* what gives their values; 0: a value, or not yet there */
+};
+
+static bool is_word(const char *word, const char *const *words)
+{
+    while (*words && strcmp(word, *words) != 0)
+        ++words;
+    return *words != NULL;
+}
+
+/* ---- Files ---- */
+
+/* The path of a file that may not exist, without links in its folder. The caller frees it. */
+static char *absolute(const char *path)
+{
+    const char *base = files_base_name(path);
+    char *folder = base == path ? cli_format(".") : cli_copy(path, (size_t)(base - path));
+    char *real = realpath(folder, NULL);
+    char *made = cli_format("%s/%s", real ? real : folder, base);
+    free(folder);
+    free(real);
+    return made;
+}
+
+/* The path of a file as a document in the folder names it. The caller frees it. */
+static char *relative(const char *folder, const char *path)
+{
+    char *from = realpath(folder, NULL), *to = absolute(path), *out = NULL;
+    size_t common = 0, up = 0;
+    if (!from || *to != '/') {
+        free(from);
+        return to;
+    }
+    for (size_t i = 0; from[i] == to[i] && from[i]; ++i)
+        common = to[i] == '/' ? i : common;
+    if (strncmp(from, to, strlen(from)) == 0 && to[strlen(from)] == '/')
+        common = strlen(from);
+    for (const char *c = from + common; *c; ++c)
+        up += *c == '/';
+    char *dots = memory_alloc(3 * up + 1);
+    for (size_t i = 0; i < up; ++i)
+        memcpy(dots + 3 * i, "../", 4);
+    out = cli_format("%s%s", dots, to + common + 1);
+    free(dots);
+    free(from);
+    free(to);
+    return out;
+}
+
+/* The name of a file that an element of the document has, for the new one. The caller frees it. */
+static char *name_file(struct writer *writer, mxg_element origin, const char *file)
+{
+    char *path = *file ? bake_file_path(writer->baking, origin, file) : NULL;
+    char *name = path ? relative(writer->baking->options.output, path) : cli_format("%s", "");
+    free(path);
+    return name;
+}
+
+/* ---- Inputs ---- */
+
+static void set_attribute(struct writer *writer, mxg_element node, const char *input,
+                          const char *name, const char *value)
+{
+    mxg_element port = mxg_edit_find_element(writer->edit, node, input);
+    if (value)
+        mxg_edit_set_attribute(writer->edit, port, name, value);
+}
+
+/* Says the colour space of an input where the document does not say it for all. */
+static void set_space(struct writer *writer, mxg_element node, const char *input, const char *space)
+{
+    const char *usual = bake_inherited(writer->baking->document, 0, "colorspace");
+    if (space && (!usual || strcmp(space, usual) != 0))
+        set_attribute(writer, node, input, "colorspace", space);
+}
+
+/* An input that stays: its value is that of its origin. */
+static void keep(struct writer *writer, mxg_element node, const struct bake_input *kept)
+{
+    const mxg_document *document = writer->baking->document;
+    const char *input = kept->name, *type = kept->type;
+    mxg_element origin = kept->origin;
+    const char *value = bake_attribute(document, origin, "value");
+    bool is_file = strcmp(type, "filename") == 0, is_color = strncmp(type, "color", 5) == 0;
+    char *file = kept->copy ? cli_format("%s", kept->copy)
+                 : is_file  ? name_file(writer, origin, value)
+                            : NULL;
+    mxg_edit_set_value(writer->edit, node, input, type, file ? file : value);
+    if (is_file || is_color)
+        set_space(writer, node, input, bake_inherited(document, origin, "colorspace"));
+    set_attribute(writer, node, input, "unit", bake_attribute(document, origin, "unit"));
+    set_attribute(writer, node, input, "unittype", bake_attribute(document, origin, "unittype"));
+    free(file);
+}
+
+/* The image of a drawing, made once; behind it a map of normals for a direction. */
+static mxg_element draw(struct writer *writer, size_t index)
+{
+    const struct bake_drawing *drawing = &writer->baking->plan.drawings[index];
+    mxg_edit *edit = writer->edit;
+    if (writer->drawings[index])
+        return writer->drawings[index];
+    mxg_element image = mxg_edit_add_element(edit, 0, "image", drawing->name, drawing->type);
+    mxg_edit_set_value(edit, image, "file", "filename", drawing->file);
+    if (drawing->spaces)
+        set_space(writer, image, "file", drawing->spaces);
+    writer->drawings[index] = image;
+    if (!drawing->is_direction)
+        return image;
+    char *wanted = cli_format("%s_map", drawing->name),
+         *name = bake_plan_name(&writer->baking->plan, wanted);
+    free(wanted);
+    mxg_element map = mxg_edit_add_element(edit, 0, "normalmap", name, "vector3");
+    mxg_edit_connect_input(edit, map, "in", image, NULL);
+    free(name);
+    return writer->drawings[index] = map;
+}
+
+static bool is_drawn(const struct writer *writer, const struct bake_input *input)
+{
+    return input->way == BAKE_DRAWS && !writer->baking->plan.drawings[input->index].is_value;
+}
+
+static void add_input(struct writer *writer, mxg_element node, const struct bake_input *input)
+{
+    struct baking *baking = writer->baking;
+    const struct bake_drawing *drawing =
+        input->way == BAKE_DRAWS ? &baking->plan.drawings[input->index] : NULL;
+    if (input->way == BAKE_KEEPS) {
+        keep(writer, node, input);
+    } else if (drawing && drawing->is_value) {
+        mxg_edit_set_numbers(writer->edit, node, input->name, input->type, drawing->value,
+                             bake_channels(drawing->type));
+        if (strncmp(input->type, "color", 5) == 0
+            && bake_inherited(baking->document, 0, "colorspace"))
+            set_space(writer, node, input->name, baking->space);
+    } else {
+        mxg_element from =
+            input->way == BAKE_NODE ? writer->nodes[input->index] : draw(writer, input->index);
+        mxg_edit_connect_input(writer->edit, node, input->name, from, NULL);
+    }
+}
+
+/* ---- Nodes ---- */
+
+static void add_node(struct writer *writer, size_t index)
+{
+    static const char *const others[] = {"name",      "type",     "colorspace", "fileprefix",
+                                         "nodegraph", "nodename", "output",     NULL};
+    const mxg_document *document = writer->baking->document;
+    const struct bake_node *node = &writer->baking->plan.nodes[index];
+    mxg_element_info info = bake_element(document, node->element);
+    for (size_t i = 0; i < node->num_inputs; ++i) /* images stand before their readers */
+        if (is_drawn(writer, &node->inputs[i]))
+            draw(writer, node->inputs[i].index);
+    mxg_element made =
+        mxg_edit_add_element(writer->edit, 0, node->category, node->name, node->type);
+    writer->nodes[index] = made;
+    for (uint32_t i = 0; i < info.num_attributes; ++i) {
+        mxg_attribute attribute = {sizeof attribute};
+        mxg_document_attribute(document, node->element, i, &attribute);
+        if (!is_word(attribute.name, others))
+            mxg_edit_set_attribute(writer->edit, made, attribute.name, attribute.value);
+    }
+    for (size_t i = 0; i < node->num_inputs; ++i)
+        add_input(writer, made, &node->inputs[i]);
+}
+
+/* ---- Definitions ---- */
+
+/* Files that a definition names are relative to the new document, too. */
+static void rename_files(struct writer *writer, mxg_element from, mxg_element to)
+{
+    const mxg_document *document = writer->baking->document;
+    const char *file = bake_attribute(document, from, "file");
+    char *name = file ? name_file(writer, from, file) : NULL;
+    if (name)
+        mxg_edit_set_attribute(writer->edit, to, "file", name);
+    free(name);
+    for (mxg_element node = bake_element(document, from).first_child; node;) {
+        mxg_element_info info = bake_element(document, node);
+        for (mxg_element input = info.first_child; input;) {
+            mxg_element_info port = bake_element(document, input);
+            const char *value = bake_attribute(document, input, "value");
+            if (value && strcmp(port.type, "filename") == 0) {
+                char *path = cli_format("%s/%s", info.name, port.name);
+                name = name_file(writer, input, value);
+                mxg_edit_set_attribute(writer->edit, mxg_edit_find_element(writer->edit, to, path),
+                                       "value", name);
+                free(name);
+                free(path);
+            }
+            input = port.next;
+        }
+        node = info.next;
+    }
+}
+
+/* True if a node that stays has a definition of the document. */
+static bool needs_definitions(const struct baking *baking)
+{
+    uint32_t of_library = mxg_library_num_nodedefs(baking->cli.library);
+    for (size_t i = 0; i < baking->plan.num_nodes; ++i) {
+        uint32_t index = mxg_document_find_nodedef(baking->document, baking->plan.nodes[i].element);
+        if (index != MXG_NONE && index >= of_library)
+            return true;
+    }
+    return false;
+}
+
+static void copy_definitions(struct writer *writer)
+{
+    const mxg_document *document = writer->baking->document;
+    mxg_element child =
+        needs_definitions(writer->baking) ? bake_element(document, 0).first_child : 0;
+    while (child) {
+        if (bake_is_definition(document, child)) {
+            mxg_element made = mxg_edit_copy_element(writer->edit, 0, document, child, NULL);
+            rename_files(writer, child, made);
+        }
+        child = bake_element(document, child).next;
+    }
+}
+
+static char *text_of(struct baking *baking, mxg_edit *edit, size_t *out_size)
+{
+    struct report *report = &baking->cli.report;
+    char reason[256] = "";
+    mxg_document *document = NULL;
+    mxg_edit_error(edit, reason, sizeof reason);
+    mxg_status status = *reason ? MXG_OK : mxg_edit_commit(edit, &document);
+    if (*reason)
+        report_error(report, "render-failed", "cannot bake '%s': %s", baking->path, reason);
+    if (document)
+        report_list(report, mxg_document_diagnostics(document));
+    const char *text = document ? mxg_document_xml(document, out_size) : NULL;
+    char *copy = text && status == MXG_OK ? cli_copy(text, *out_size) : NULL;
+    if (!copy && !*reason)
+        report_status(report, status == MXG_OK ? MXG_ERROR_MEMORY : status);
+    mxg_document_destroy(document);
+    return copy;
+}
+
+char *bake_write_document(struct baking *baking, size_t *out_size)
+{
+    const struct bake_plan *plan = &baking->plan;
+    struct writer writer = {.baking = baking,
+                            .nodes = memory_alloc((plan->num_nodes + 1) * sizeof *writer.nodes),
+                            .drawings =
+                                memory_alloc((plan->num_drawings + 1) * sizeof *writer.drawings)};
+    mxg_status status =
+        mxg_edit_create(baking->cli.context, baking->cli.library, NULL, baking->path, &writer.edit);
+    const char *space = bake_inherited(baking->document, 0, "colorspace");
+    char *text = NULL;
+    if (report_status(&baking->cli.report, status)) {
+        if (space)
+            mxg_edit_set_attribute(writer.edit, mxg_edit_find_element(writer.edit, 0, ""),
+                                   "colorspace", space);
+        copy_definitions(&writer);
+        for (size_t i = 0; i < plan->num_nodes; ++i)
+            add_node(&writer, i);
+        text = text_of(baking, writer.edit, out_size);
+    }
+    mxg_edit_destroy(writer.edit);
+    free(writer.nodes);
+    free(writer.drawings);
+    return text;
+}

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+/* What was drawn becomes a value, or a file for each tile. */
+#define _POSIX_C_SOURCE 200809L
+#include "render/bake.h"
+#include "render/dilate.h"
+#include "render/image_rows.h"
+
+#include "program/memory.h"
+#include "program/temporary.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define SLACK 1e-3f /* values so far outside 0 to 1 are rounded */
+
+static bool is_color(const struct bake_drawing *drawing)
+{
+    return strncmp(drawing->type, "color", 5) == 0;
+}
+
+/* ---- Values ---- */
+
+static void measure(struct bake_drawing *drawing, const struct spool *spools, uint32_t num)
+{
+    bool is_one = num == 1;
+    drawing->low = INFINITY;
+    drawing->high = -INFINITY;
+    for (uint32_t t = 0; t < num; ++t)
+        for (uint32_t c = 0; c < spools[t].channels; ++c) {
+            drawing->low = fminf(drawing->low, spools[t].low[c]);
+            drawing->high = fmaxf(drawing->high, spools[t].high[c]);
+            drawing->value[c] = spools[t].low[c];
+            is_one = is_one && spools[t].low[c] == spools[t].high[c];
+        }
+    drawing->is_value = is_one && !drawing->is_direction;
+}
+
+/* ---- Formats ---- */
+
+static const char *ending_of(struct baking *baking, const struct bake_drawing *drawing)
+{
+    const char *said = baking->options.format;
+    bool is_within = drawing->low >= -SLACK && drawing->high <= 1 + SLACK;
+    if (!said)
+        return is_within && bake_channels(drawing->type) < 4 ? "png" : "exr";
+    if (!is_within && strcmp(said, "exr") != 0)
+        report_warning(&baking->cli.report, "bake-clamped",
+                       "'%s' has values from %g to %g; %s keeps those from 0 to 1", drawing->path,
+                       (double)drawing->low, (double)drawing->high, said);
+    return said;
+}
+
+/* An image of two numbers has a third one: grey with alpha is another thing. */
+static uint32_t file_channels(const struct bake_drawing *drawing)
+{
+    uint32_t channels = bake_channels(drawing->type);
+    return channels == 2 ? 3 : channels;
+}
+
+static struct image_format format_of(const struct baking *baking,
+                                     const struct bake_drawing *drawing, const char *ending,
+                                     uint32_t size)
+{
+    bool is_float = strcmp(ending, "exr") == 0;
+    uint32_t said = (uint32_t)baking->options.depth;
+    uint32_t float_depth = said == 32 || (!said && !is_color(drawing)) ? 32 : 16,
+             whole_depth = said >= 16 && strcmp(ending, "png") == 0 ? 16 : 8;
+    return (struct image_format){.width = size,
+                                 .height = size,
+                                 .channels = file_channels(drawing),
+                                 .depth = is_float ? float_depth : whole_depth,
+                                 .is_float = is_float,
+                                 .is_srgb = drawing->spaces
+                                            && strcmp(drawing->spaces, "srgb_texture") == 0};
+}
+
+/* IEC 61966-2-1 */
+static float encode_srgb(float linear)
+{
+    float x = fminf(fmaxf(linear, 0.0f), 1.0f);
+    return x <= 0.0031308f ? 12.92f * x : 1.055f * powf(x, 1 / 2.4f) - 0.055f;
+}
+
+/* Texels of a spool as those of a file. */
+static void convert(const struct image_format *format, uint32_t channels, size_t count,
+                    const float *in, float *out)
+{
+    for (size_t i = 0; i < count; ++i, in += channels, out += format->channels)
+        for (uint32_t c = 0; c < format->channels; ++c) {
+            float value = c < channels ? in[c] : 0.0f;
+            out[c] = format->is_srgb && c < 3 ? encode_srgb(value)
+                     : format->is_float       ? value
+                                              : fminf(fmaxf(value, 0.0f), 1.0f);
+        }
+}
+
+/* ---- Files ---- */
+
+const char *bake_begin_file(struct baking *baking, const char *name)
+{
+    char *stem = cli_format("%s/.tmp", baking->options.output), *after = cli_format("-%s", name);
+    struct bake_file file = {temporary_name(stem, after),
+                             cli_format("%s/%s", baking->options.output, name)};
+    free(stem);
+    free(after);
+    if (!file.temporary)
+        memory_fail();
+    temporary_note(file.temporary);
+    baking->written =
+        memory_resize(baking->written, (baking->num_written + 1) * sizeof *baking->written);
+    baking->written[baking->num_written++] = file;
+    return file.temporary;
+}
+
+static bool write_rows(struct image_rows *rows, const struct image_format *format,
+                       struct dilation *dilation, char *reason, size_t capacity)
+{
+    uint32_t channels = dilation->spool->channels;
+    size_t texels = (size_t)format->width * DILATION_BAND;
+    float *in = memory_alloc(texels * channels * sizeof *in),
+          *out = memory_alloc(texels * format->channels * sizeof *out);
+    bool good = true;
+    for (uint32_t y = 0; good && y < format->height; y += DILATION_BAND) {
+        uint32_t rest = format->height - y, count = rest < DILATION_BAND ? rest : DILATION_BAND;
+        const char *fault = dilation_read(dilation, y, count, in);
+        if (fault)
+            snprintf(reason, capacity, "%s", fault);
+        convert(format, channels, (size_t)format->width * count, in, out);
+        good = !fault && image_rows_add(rows, count, out, reason, capacity);
+    }
+    free(in);
+    free(out);
+    return good;
+}
+
+static bool write_file(struct baking *baking, const struct image_format *format, const char *name,
+                       const struct spool *spool)
+{
+    char reason[256] = "", later[256];
+    char *path = cli_format("%s/%s", baking->options.output, name);
+    bool is_free = outputs_write(&baking->files, &baking->cli.report, path, "an image");
+    if (is_free) {
+        struct dilation dilation;
+        dilation_begin(&dilation, spool, (uint32_t)baking->options.padding);
+        struct image_rows *rows =
+            image_rows_begin(bake_begin_file(baking, name), format, reason, sizeof reason);
+        if (rows && write_rows(rows, format, &dilation, reason, sizeof reason))
+            image_rows_end(rows, reason, sizeof reason);
+        else
+            image_rows_end(rows, later, sizeof later);
+        dilation_end(&dilation);
+    }
+    if (*reason)
+        report_error(&baking->cli.report, "output-failed", "cannot write '%s': %s", path, reason);
+    baking->num_images += is_free && !*reason;
+    free(path);
+    return is_free && !*reason;
+}
+
+static void tell_overlap(struct baking *baking, struct bake_tile tile, uint32_t size)
+{
+    double part = bake_surface_overlap(&baking->surface, tile, size);
+    const double told = 1e-3;
+    if (part > told && !baking->has_told_overlap)
+        report_warning(&baking->cli.report, "bake-overlap",
+                       "triangles of '%s' lie over each other in the image, on %.1f percent of "
+                       "what they cover; one of them gives its values",
+                       baking->options.mesh, 100 * part);
+    baking->has_told_overlap |= part > told;
+}
+
+bool bake_finish_drawing(struct baking *baking, struct bake_drawing *drawing,
+                         const struct spool *spools, uint32_t num_spools)
+{
+    measure(drawing, spools, num_spools);
+    if (drawing->is_value)
+        return true;
+    const char *ending = ending_of(baking, drawing);
+    const struct bake_tile *tiles = baking->surface.tiles;
+    bool is_set = num_spools > 1 || tiles[0].u || tiles[0].v, good = true;
+    drawing->spaces = !is_color(drawing)                              ? NULL
+                      : strcmp(ending, "exr") == 0 || !baking->is_709 ? baking->space
+                                                                      : "srgb_texture";
+    struct image_format format = format_of(baking, drawing, ending, spools[0].width);
+    drawing->file = cli_format(is_set ? "%s.<UDIM>.%s" : "%s.%s", drawing->name, ending);
+    for (uint32_t t = 0; good && t < num_spools; ++t) {
+        char *name = is_set ? cli_format("%s.%d.%s", drawing->name,
+                                         1001 + tiles[t].u + 10 * tiles[t].v, ending)
+                            : cli_format("%s", drawing->file);
+        if (baking->surface.objects)
+            tell_overlap(baking, tiles[t], format.width);
+        good = write_file(baking, &format, name, &spools[t]);
+        free(name);
+    }
+    return good;
+}

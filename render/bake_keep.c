@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+/* Files of images that stay: they must exist, and can be copied. */
+#include "render/bake.h"
+
+#include "program/files.h"
+#include "program/memory.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+char *bake_file_path(const struct baking *baking, mxg_element element, const char *file)
+{
+    const char *prefix = bake_inherited(baking->document, element, "fileprefix");
+    mxg_element_info info = bake_element(baking->document, element);
+    char *whole = cli_format("%s%s", prefix ? prefix : "", file);
+    char *path = cli_beside(info.file ? info.file : baking->path, whole);
+    free(whole);
+    return path;
+}
+
+/* True for a name that stands for several files: tiles, or frames. */
+static bool is_set(const char *file)
+{
+    return strchr(file, '<') || strchr(file, '{');
+}
+
+static bool tell_missing(struct baking *baking, mxg_element origin, const char *path)
+{
+    mxg_element_info info = bake_element(baking->document, origin);
+    char *place =
+        cli_format("%s:%u:%u", info.file ? info.file : baking->path, info.line, info.column);
+    if (baking->painter.checker)
+        report_warning(&baking->cli.report, "missing-texture", "there is no file '%s' (%s)", path,
+                       place);
+    else
+        report_error(&baking->cli.report, "missing-texture", "there is no file '%s' (%s)", path,
+                     place);
+    free(place);
+    return baking->painter.checker;
+}
+
+/* Copies a file to a temporary one. Returns NULL, or the reason for a failure. */
+static const char *copy(const char *from, const char *to)
+{
+    enum { BLOCK = 1 << 20 };
+    FILE *in = fopen(from, "rb"), *out = in ? fopen(to, "wb") : NULL;
+    const char *reason = in && out ? NULL : strerror(errno);
+    char *block = memory_alloc(BLOCK);
+    size_t len = 1;
+    while (!reason && (len = fread(block, 1, BLOCK, in)) > 0)
+        if (fwrite(block, 1, len, out) != len)
+            reason = strerror(errno);
+    if (in && ferror(in))
+        reason = "it cannot be read";
+    if (out && fclose(out) != 0 && !reason)
+        reason = strerror(errno);
+    if (in)
+        fclose(in);
+    free(block);
+    return reason;
+}
+
+/* The name of the copy: that of the file, or with a number before it. The caller frees it. */
+static char *name_copy(struct baking *baking, const char *path)
+{
+    const char *base = files_base_name(path), *dot = strrchr(base, '.');
+    char *stem = cli_copy(base, dot ? (size_t)(dot - base) : strlen(base));
+    char *free_stem = bake_plan_file(&baking->plan, stem);
+    char *name = cli_format("%s%s", free_stem, dot ? dot : "");
+    free(stem);
+    free(free_stem);
+    return name;
+}
+
+static bool copy_file(struct baking *baking, struct bake_input *input, const char *path)
+{
+    char *name = name_copy(baking, path), *to = cli_format("%s/%s", baking->options.output, name);
+    bool is_free = outputs_write(&baking->files, &baking->cli.report, to, "a copy");
+    const char *reason = is_free ? copy(path, bake_begin_file(baking, name)) : NULL;
+    if (reason)
+        report_error(&baking->cli.report, "output-failed", "cannot copy '%s' to '%s': %s", path, to,
+                     reason);
+    input->copy = name;
+    free(to);
+    return is_free && !reason;
+}
+
+static bool keep_file(struct baking *baking, struct bake_input *input)
+{
+    const char *file = bake_attribute(baking->document, input->origin, "value");
+    bool good = true;
+    if (!*file)
+        return true;
+    char *path = bake_file_path(baking, input->origin, file);
+    bool is_there = files_is_regular(path);
+    if (is_set(file) && baking->options.copy && !baking->cli.quiet)
+        fprintf(stderr, "note: '%s' stands for several files, which stay where they are\n", path);
+    if (!is_set(file) && !is_there)
+        good = tell_missing(baking, input->origin, path);
+    else if (!is_set(file))
+        good = outputs_read(&baking->files, &baking->cli.report, path)
+               && (!baking->options.copy || copy_file(baking, input, path));
+    free(path);
+    return good;
+}
+
+bool bake_keep_files(struct baking *baking)
+{
+    bool good = true;
+    for (size_t i = 0; i < baking->plan.num_nodes; ++i)
+        for (size_t k = 0; k < baking->plan.nodes[i].num_inputs; ++k) {
+            struct bake_input *input = &baking->plan.nodes[i].inputs[k];
+            if (input->way == BAKE_KEEPS && strcmp(input->type, "filename") == 0)
+                good = keep_file(baking, input) && good;
+        }
+    return good;
+}

@@ -1,0 +1,379 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/bake_plan.h"
+
+#include "program/cli.h"
+#include "program/memory.h"
+
+#include <ctype.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MAX_STEPS = 10000 }; /* of connections; more are a cycle */
+
+/* ---- The document ---- */
+
+char *bake_path(const mxg_document *document, mxg_element element)
+{
+    size_t len = mxg_document_element_path(document, element, NULL, 0);
+    char *path = memory_alloc(len + 1);
+    mxg_document_element_path(document, element, path, len + 1);
+    return path;
+}
+
+/* 0 is the root, as in mxg_document_find_element. */
+static mxg_element or_root(const mxg_document *document, mxg_element element)
+{
+    return element ? element : mxg_document_find_element(document, 0, "");
+}
+
+mxg_element_info bake_element(const mxg_document *document, mxg_element element)
+{
+    mxg_element_info info = {sizeof info};
+    mxg_document_element(document, or_root(document, element), &info);
+    return info;
+}
+
+const char *bake_attribute(const mxg_document *document, mxg_element element, const char *name)
+{
+    mxg_attribute attribute = {sizeof attribute};
+    element = or_root(document, element);
+    uint32_t index = mxg_document_find_attribute(document, element, name);
+    return index != MXG_NONE
+                   && mxg_document_attribute(document, element, index, &attribute) == MXG_OK
+               ? attribute.value
+               : NULL;
+}
+
+const char *bake_inherited(const mxg_document *document, mxg_element element, const char *name)
+{
+    const char *value = bake_attribute(document, element, name);
+    while (!value && element) {
+        element = bake_element(document, element).parent;
+        value = bake_attribute(document, element, name);
+    }
+    return value;
+}
+
+/* The output of a nodegraph; "" is its only one. 0: there is none. */
+static mxg_element find_output(const mxg_document *document, mxg_element graph, const char *name)
+{
+    mxg_element child = bake_element(document, graph).first_child;
+    while (child) {
+        mxg_element_info info = bake_element(document, child);
+        if (strcmp(info.category, "output") == 0 && (!*name || strcmp(info.name, name) == 0))
+            return child;
+        child = info.next;
+    }
+    return 0;
+}
+
+static bool is_category(const mxg_document *document, mxg_element element, const char *category)
+{
+    return strcmp(bake_element(document, element).category, category) == 0;
+}
+
+struct bake_end bake_follow(const mxg_document *document, mxg_element port)
+{
+    for (int step = 0; port && step < MAX_STEPS; ++step) {
+        mxg_connection connection = {sizeof connection};
+        if (mxg_document_connection(document, port, &connection) != MXG_OK)
+            return (struct bake_end){.value = bake_attribute(document, port, "value") ? port : 0,
+                                     .output = ""};
+        if (is_category(document, connection.source, "nodegraph"))
+            port = find_output(document, connection.source, connection.output);
+        else if (*connection.interfacename || is_category(document, connection.source, "output"))
+            port = connection.source;
+        else if (is_category(document, connection.source, "dot"))
+            port = mxg_document_find_element(document, connection.source, "in");
+        else
+            return (struct bake_end){connection.source, connection.output, 0};
+    }
+    return (struct bake_end){.output = ""};
+}
+
+/* ---- Nodes that stay ---- */
+
+/* True for the texture coordinates that an image has by itself. */
+static bool is_default_place(const mxg_document *document, mxg_element node)
+{
+    mxg_element index = mxg_document_find_element(document, node, "index");
+    return is_category(document, node, "texcoord")
+           && (!index || strcmp(bake_attribute(document, index, "value"), "0") == 0);
+}
+
+/* True for an image node whose inputs are values. */
+static bool passes(const mxg_document *document, mxg_element node)
+{
+    mxg_element_info info = bake_element(document, node);
+    if (strcmp(info.category, "image") != 0)
+        return false;
+    for (mxg_element child = info.first_child; child;) {
+        mxg_element_info input = bake_element(document, child);
+        struct bake_end from = bake_follow(document, child);
+        if (strcmp(input.category, "input") == 0 && from.node
+            && !(strcmp(input.name, "texcoord") == 0 && is_default_place(document, from.node)))
+            return false;
+        child = input.next;
+    }
+    return true;
+}
+
+static bool is_one_of(const char *word, const char *const *words)
+{
+    while (*words && strcmp(word, *words) != 0)
+        ++words;
+    return *words != NULL;
+}
+
+/* Materials, shaders, closures, maps of normals, and images without changes. */
+static bool stays(const mxg_document *document, mxg_element node)
+{
+    static const char *const types[] = {
+        "material", "surfaceshader", "displacementshader", "volumeshader", "BSDF", "EDF", "VDF",
+        NULL};
+    mxg_element_info info = bake_element(document, node);
+    return is_one_of(info.type, types) || strcmp(info.category, "normalmap") == 0
+           || passes(document, node);
+}
+
+/* ---- The plan ---- */
+
+/* Takes a name; false: it is taken. File systems may not tell "gold" from "Gold". */
+static bool take(struct bake_plan *plan, const char *name, bool is_file)
+{
+    bool is_new, is_new_file = true;
+    char *key = cli_format("/%s", name);
+    for (char *c = key; *c; ++c)
+        *c = (char)tolower((unsigned char)*c);
+    names_add(&plan->names, name, &is_new);
+    if (is_new && is_file)
+        names_add(&plan->names, key, &is_new_file);
+    free(key);
+    return is_new && is_new_file;
+}
+
+/* A name that is not taken yet: letters, digits and '_'. The caller frees it. */
+static char *free_name(struct bake_plan *plan, const char *wanted, bool is_file)
+{
+    static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_";
+    enum { MAX_NAME = 120 };
+    char *base = cli_format("%.*s", MAX_NAME, wanted);
+    for (char *c = base; *c; ++c)
+        *c = strchr(letters, *c) ? *c : '_';
+    char *name = cli_format("%s", base);
+    for (unsigned number = 2; !take(plan, name, is_file); ++number) {
+        free(name);
+        name = cli_format("%s_%u", base, number);
+    }
+    free(base);
+    return name;
+}
+
+char *bake_plan_name(struct bake_plan *plan, const char *wanted)
+{
+    return free_name(plan, wanted, false);
+}
+
+char *bake_plan_file(struct bake_plan *plan, const char *wanted)
+{
+    return free_name(plan, wanted, true);
+}
+
+static bool is_same_drawing(const struct bake_drawing *drawing, const struct bake_end *end,
+                            bool is_direction)
+{
+    return drawing->source == end->node && drawing->is_direction == is_direction
+           && strcmp(drawing->output, end->output) == 0;
+}
+
+static size_t add_drawing(struct bake_plan *plan, const struct bake_node *node,
+                          const struct bake_input *input, const struct bake_end *end,
+                          bool is_direction)
+{
+    for (size_t i = 0; i < plan->num_drawings; ++i)
+        if (is_same_drawing(&plan->drawings[i], end, is_direction))
+            return i;
+    plan->drawings =
+        memory_resize(plan->drawings, (plan->num_drawings + 1) * sizeof *plan->drawings);
+    char *name = cli_format("%s_%s", node->name, input->name);
+    char *path = bake_path(plan->document, end->node);
+    plan->drawings[plan->num_drawings] =
+        (struct bake_drawing){.source = end->node,
+                              .output = end->output,
+                              .type = input->type,
+                              .is_direction = is_direction,
+                              .port = input->port,
+                              .name = free_name(plan, name, true),
+                              .path = cli_format(*end->output ? "%s/%s" : "%s", path, end->output)};
+    free(name);
+    free(path);
+    return plan->num_drawings++;
+}
+
+/* True for an input whose default is a direction of the surface in the world. */
+static bool is_direction(const mxg_document *document, mxg_element node, const char *input)
+{
+    mxg_port port = {sizeof port};
+    mxg_nodedef nodedef = {sizeof nodedef};
+    uint32_t index = mxg_document_find_nodedef(document, node);
+    if (index == MXG_NONE || mxg_document_nodedef(document, index, &nodedef) != MXG_OK)
+        return false;
+    for (uint32_t i = 0; i < nodedef.num_inputs; ++i)
+        if (mxg_document_port(document, index, i, &port) == MXG_OK && strcmp(port.name, input) == 0)
+            return strcmp(port.defaultgeomprop, "Nworld") == 0
+                   || strcmp(port.defaultgeomprop, "Tworld") == 0
+                   || strcmp(port.defaultgeomprop, "Bworld") == 0;
+    return false;
+}
+
+/* The node of the plan; num_nodes: it is not there yet. */
+static size_t find_node(const struct bake_plan *plan, mxg_element element)
+{
+    size_t i = 0;
+    while (i < plan->num_nodes && plan->nodes[i].element != element)
+        ++i;
+    return i;
+}
+
+/* A node whose inputs are being followed. */
+struct visit {
+    struct bake_node node;
+    mxg_element next; /* the child to look at */
+};
+
+struct visits {
+    struct visit *items;
+    size_t num;
+};
+
+static void begin_node(struct bake_plan *plan, struct visits *visits, mxg_element element)
+{
+    mxg_element_info info = bake_element(plan->document, element);
+    visits->items = memory_resize(visits->items, (visits->num + 1) * sizeof *visits->items);
+    visits->items[visits->num++] = (struct visit){{.element = element,
+                                                   .category = info.category,
+                                                   .type = info.type,
+                                                   .name = free_name(plan, info.name, false)},
+                                                  info.first_child};
+}
+
+static void end_node(struct bake_plan *plan, struct visits *visits)
+{
+    plan->nodes = memory_resize(plan->nodes, (plan->num_nodes + 1) * sizeof *plan->nodes);
+    plan->nodes[plan->num_nodes++] = visits->items[--visits->num].node;
+}
+
+/*
+ * Adds an input of the node on top. false: it reads a node that must come first, which is now on
+ * top.
+ */
+static bool add_input(struct bake_plan *plan, struct visits *visits, mxg_element port)
+{
+    const mxg_document *document = plan->document;
+    struct bake_node *node = &visits->items[visits->num - 1].node;
+    mxg_element_info info = bake_element(document, port);
+    struct bake_end end = bake_follow(document, port);
+    struct bake_input input = {.port = port, .name = info.name, .type = info.type};
+    if (!end.node && !end.value)
+        return true;
+    if (end.node && stays(document, end.node)) {
+        input.way = BAKE_NODE;
+        input.index = find_node(plan, end.node);
+        if (input.index == plan->num_nodes) {
+            begin_node(plan, visits, end.node);
+            return false;
+        }
+    } else if (end.value) {
+        input.way = BAKE_KEEPS;
+        input.origin = end.value;
+    } else if (is_default_place(document, end.node) && strcmp(node->category, "image") == 0) {
+        return true;
+    } else {
+        input.way = BAKE_DRAWS;
+        input.index =
+            add_drawing(plan, node, &input, &end, is_direction(document, node->element, info.name));
+    }
+    node->inputs = memory_resize(node->inputs, (node->num_inputs + 1) * sizeof *node->inputs);
+    node->inputs[node->num_inputs++] = input;
+    return true;
+}
+
+/* True if an <implementation> names a nodegraph. */
+static bool implements(const mxg_document *document, const char *graph)
+{
+    for (mxg_element child = bake_element(document, 0).first_child; child;) {
+        mxg_element_info info = bake_element(document, child);
+        const char *named = bake_attribute(document, child, "nodegraph");
+        if (strcmp(info.category, "implementation") == 0 && named && strcmp(named, graph) == 0)
+            return true;
+        child = info.next;
+    }
+    return false;
+}
+
+bool bake_is_definition(const mxg_document *document, mxg_element element)
+{
+    static const char *const categories[] = {
+        "nodedef", "implementation", "typedef",     "targetdef",
+        "unitdef", "unittypedef",    "geompropdef", NULL};
+    mxg_element_info info = bake_element(document, element);
+    return is_one_of(info.category, categories)
+           || (strcmp(info.category, "nodegraph") == 0
+               && (bake_attribute(document, element, "nodedef")
+                   || implements(document, info.name)));
+}
+
+void bake_plan_begin(struct bake_plan *plan, const mxg_document *document, struct report *report)
+{
+    *plan = (struct bake_plan){.document = document, .report = report};
+    for (mxg_element child = bake_element(document, 0).first_child; child;) {
+        mxg_element_info info = bake_element(document, child);
+        if (*info.name && bake_is_definition(document, child))
+            take(plan, info.name, false);
+        child = info.next;
+    }
+}
+
+bool bake_plan_add(struct bake_plan *plan, const char *path)
+{
+    struct visits visits = {0};
+    mxg_element root = mxg_document_find_element(plan->document, 0, path);
+    if (!stays(plan->document, root)) {
+        report_error(plan->report, "nothing-to-bake",
+                     "'%s' is no material and no surface, so it has no inputs to bake", path);
+        return false;
+    }
+    if (find_node(plan, root) == plan->num_nodes)
+        begin_node(plan, &visits, root);
+    while (visits.num) {
+        struct visit *top = &visits.items[visits.num - 1];
+        mxg_element child = top->next;
+        if (!child) {
+            end_node(plan, &visits);
+            continue;
+        }
+        mxg_element_info info = bake_element(plan->document, child);
+        if (strcmp(info.category, "input") != 0 || add_input(plan, &visits, child))
+            visits.items[visits.num - 1].next = info.next;
+    }
+    free(visits.items);
+    return true;
+}
+
+void bake_plan_finish(struct bake_plan *plan)
+{
+    for (size_t i = 0; i < plan->num_nodes; ++i) {
+        for (size_t k = 0; k < plan->nodes[i].num_inputs; ++k)
+            free(plan->nodes[i].inputs[k].copy);
+        free(plan->nodes[i].name);
+        free(plan->nodes[i].inputs);
+    }
+    for (size_t i = 0; i < plan->num_drawings; ++i) {
+        free(plan->drawings[i].name);
+        free(plan->drawings[i].path);
+        free(plan->drawings[i].file);
+    }
+    free(plan->nodes);
+    free(plan->drawings);
+    names_finish(&plan->names);
+}

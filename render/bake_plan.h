@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * What baking makes of a document: the nodes that stay (materials, shaders, closures, normal maps,
+ * images without changes), and for each of their inputs whether it stays, too, or must be drawn.
+ */
+#ifndef MXG_RENDER_BAKE_PLAN_H
+#define MXG_RENDER_BAKE_PLAN_H
+
+#include "program/name_table.h"
+#include "program/report.h"
+
+#include <mxgen/mxgen.h>
+
+enum bake_way {
+    BAKE_KEEPS, /* a value of the document, which stays */
+    BAKE_NODE,  /* another node of the plan */
+    BAKE_DRAWS  /* a drawing: what a graph gives */
+};
+
+struct bake_input {
+    mxg_element port; /* the input of the node in the document */
+    const char *name, *type;
+    enum bake_way way;
+    mxg_element origin; /* KEEPS: what has the value */
+    char *copy;         /* KEEPS: the name of the copy of its file; NULL: the file stays */
+    size_t index;       /* NODE: of the plan's nodes; DRAWS: of its drawings */
+};
+
+struct bake_node {
+    mxg_element element;
+    const char *category, *type;
+    char *name; /* in the new document */
+    struct bake_input *inputs;
+    size_t num_inputs;
+};
+
+/* What a drawing needs of the surface, beside its texture coordinates: bits. */
+enum bake_need {
+    BAKE_VARIES = 1,   /* it is not the same everywhere */
+    BAKE_FRAME = 2,    /* normals and tangents */
+    BAKE_GEOMETRY = 4, /* positions, other texture coordinates, properties */
+    BAKE_VIEW = 8      /* the eye or the light */
+};
+
+/* An output of a node whose values are drawn. */
+struct bake_drawing {
+    mxg_element source;
+    const char *output; /* of the node; "" for its only one */
+    const char *type;
+    bool is_direction; /* of the world; drawn as what a normal map has */
+    char *name;        /* of its image: letters, digits and '_' */
+    mxg_element port;  /* the first input that reads it */
+    char *path;        /* of what to generate: "NG_marble/color", "split/outr" */
+    unsigned needs;
+    uint32_t largest; /* side of the largest texture that it reads; 0: it reads none */
+
+    /* what was drawn */
+    bool is_value;      /* the same everywhere: `value` has it */
+    float value[4];     /* of the first texel */
+    float low, high;    /* of all components */
+    char *file;         /* of the image, in the output folder */
+    const char *spaces; /* "srgb_texture"…; NULL: numbers as they are */
+};
+
+struct bake_plan {
+    const mxg_document *document;
+    struct report *report;
+    struct bake_node *nodes; /* a node comes after those that it reads */
+    size_t num_nodes;
+    struct bake_drawing *drawings;
+    size_t num_drawings;
+    struct name_table names; /* that are taken, also without regard to case */
+};
+
+/* True for what belongs to the document's own definitions, which stay as they are. */
+bool bake_is_definition(const mxg_document *document, mxg_element element);
+
+/* An empty plan for a document. */
+void bake_plan_begin(struct bake_plan *plan, const mxg_document *document, struct report *report);
+/* Plans a renderable with all that it reads. false after reporting an error. */
+bool bake_plan_add(struct bake_plan *plan, const char *path);
+/* A name that nothing of the new document has. The caller frees it. */
+char *bake_plan_name(struct bake_plan *plan, const char *wanted);
+/* The same for a file, without its ending. */
+char *bake_plan_file(struct bake_plan *plan, const char *wanted);
+void bake_plan_finish(struct bake_plan *plan);
+
+/* An element 0 is the root. */
+
+/* The path of an element. The caller frees it. */
+char *bake_path(const mxg_document *document, mxg_element element);
+mxg_element_info bake_element(const mxg_document *document, mxg_element element);
+/* An attribute of an element; NULL: it has none. */
+const char *bake_attribute(const mxg_document *document, mxg_element element, const char *name);
+/* The same of the element or the nearest one around it. */
+const char *bake_inherited(const mxg_document *document, mxg_element element, const char *name);
+
+/* What an input or output gets its value from. */
+struct bake_end {
+    mxg_element node;   /* 0: no node */
+    const char *output; /* of the node */
+    mxg_element value;  /* an element with a value; 0: none */
+};
+/* Follows connections through nodegraphs and their inputs to a node or a value. */
+struct bake_end bake_follow(const mxg_document *document, mxg_element port);
+
+#endif

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/bake_surface.h"
+
+#include "program/memory.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MAX_V = 100 /* of tiles */, GRID = 1024 };
+
+/* ---- The surface ---- */
+
+static bool make_square(struct scene *scene)
+{
+    static const uint32_t corners[] = {0, 1, 3, 0, 3, 2};
+    *scene = (struct scene){.studio = matrix_identity(),
+                            .view = matrix_identity(),
+                            .projection = matrix_identity(),
+                            .environment = matrix_identity(),
+                            .layer_sample = -1,
+                            .near = SCENE_NEAR};
+    scene->object.world = matrix_identity();
+    scene->object.path = "the unit square";
+    scene->object.names_texcoords = true;
+    if (!mesh_allocate(&scene->object.mesh, 4, 6))
+        return false;
+    memcpy(scene->object.mesh.indices, corners, sizeof corners);
+    for (uint32_t i = 0; i < 4; ++i)
+        scene->object.mesh.vertices[i] = (struct vertex){.normal = {0, 0, 1}, .tangent = {1, 0, 0}};
+    return true;
+}
+
+static bool is_shape(const char *name)
+{
+    const char *const *names = shape_names();
+    while (*names && strcmp(*names, name) != 0)
+        ++names;
+    return *names != NULL;
+}
+
+static bool has_texcoords(const struct scene_object *object)
+{
+    static const char *const names[] = {"st", "UVMap", "uv", "map1"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; ++i) {
+        char attribute[SCENE_MAX_NAME];
+        snprintf(attribute, sizeof attribute, "i_geomprop_%s", names[i]);
+        if (scene_primvar(object, attribute))
+            return true;
+    }
+    return false;
+}
+
+static bool open_shape(struct bake_surface *surface, struct cli *cli, const char *name)
+{
+    surface->objects = memory_alloc(sizeof *surface->objects);
+    surface->num_objects = 1;
+    surface->objects[0] =
+        (struct scene_object){.world = matrix_identity(), .path = name, .names_texcoords = true};
+    return shape_make(name, 1, &surface->objects[0].mesh)
+           || report_status(&cli->report, MXG_ERROR_MEMORY);
+}
+
+static bool open_file(struct bake_surface *surface, struct cli *cli, const char *path)
+{
+    if (!site_open(&surface->site, cli, path, NULL))
+        return false;
+    surface->num_objects = surface->site.num_objects;
+    surface->objects = memory_alloc((surface->num_objects + 1) * sizeof *surface->objects);
+    for (uint32_t i = 0; i < surface->num_objects; ++i) {
+        surface->objects[i] = surface->site.objects[i].object;
+        surface->objects[i].names_texcoords = true;
+        if (has_texcoords(&surface->objects[i]))
+            continue;
+        report_error(&cli->report, "no-texcoords",
+                     "'%s' of '%s' has no texture coordinates, so its surface has no place in an "
+                     "image",
+                     surface->objects[i].path, path);
+        return false;
+    }
+    if (!surface->num_objects)
+        report_error(&cli->report, "empty-mesh", "cannot use the mesh '%s': it has no triangles",
+                     path);
+    return surface->num_objects > 0;
+}
+
+/* ---- Tiles ---- */
+
+/* No larger than its tiles: interpolation over a large square is less exact. */
+static void cover_tile(struct mesh *square, struct bake_tile tile)
+{
+    for (uint32_t i = 0; i < 4; ++i) {
+        struct vertex *vertex = &square->vertices[i];
+        vertex->texcoord[0] = fmaxf(vertex->texcoord[0], (float)(i % 2) * (float)(tile.u + 1));
+        vertex->texcoord[1] = fmaxf(vertex->texcoord[1], (float)(i / 2) * (float)(tile.v + 1));
+        memcpy(vertex->position, vertex->texcoord, sizeof vertex->texcoord);
+    }
+}
+
+void bake_surface_add_tile(struct bake_surface *surface, struct bake_tile tile)
+{
+    uint32_t at = 0;
+    const struct bake_tile *tiles = surface->tiles;
+    while (at < surface->num_tiles
+           && (tiles[at].v < tile.v || (tiles[at].v == tile.v && tiles[at].u < tile.u)))
+        ++at;
+    if (at < surface->num_tiles && tiles[at].u == tile.u && tiles[at].v == tile.v)
+        return;
+    surface->tiles =
+        memory_resize(surface->tiles, (surface->num_tiles + 1) * sizeof *surface->tiles);
+    memmove(surface->tiles + at + 1, surface->tiles + at,
+            (surface->num_tiles - at) * sizeof *surface->tiles);
+    surface->tiles[at] = tile;
+    ++surface->num_tiles;
+    cover_tile(&surface->square.object.mesh, tile);
+}
+
+/* A triangle belongs to the tile of its centre. false: that is no tile. */
+static bool add_tile_of(struct bake_surface *surface, const struct mesh *mesh, const uint32_t *at)
+{
+    double centre[2] = {0};
+    for (size_t k = 0; k < 3; ++k)
+        for (size_t c = 0; c < 2; ++c)
+            centre[c] += (double)mesh->vertices[at[k]].texcoord[c] / 3;
+    if (!(centre[0] >= 0 && centre[0] < 10 && centre[1] >= 0 && centre[1] < MAX_V))
+        return false;
+    bake_surface_add_tile(surface, (struct bake_tile){(int32_t)centre[0], (int32_t)centre[1]});
+    return true;
+}
+
+static bool find_tiles(struct bake_surface *surface, struct report *report)
+{
+    for (uint32_t o = 0; o < surface->num_objects; ++o) {
+        const struct mesh *mesh = &surface->objects[o].mesh;
+        for (uint32_t i = 0; i + 2 < mesh->num_indices; i += 3)
+            if (!add_tile_of(surface, mesh, mesh->indices + i)) {
+                report_error(report, "no-texcoords",
+                             "'%s' has triangles at texture coordinates below 0, or above 10 in u "
+                             "or %d in v, where no tile is",
+                             surface->objects[o].path, MAX_V);
+                return false;
+            }
+    }
+    return true;
+}
+
+bool bake_surface_open(struct bake_surface *surface, struct cli *cli, const char *mesh)
+{
+    *surface = (struct bake_surface){0};
+    if (!make_square(&surface->square))
+        return report_status(&cli->report, MXG_ERROR_MEMORY);
+    if (mesh)
+        return (is_shape(mesh) ? open_shape(surface, cli, mesh) : open_file(surface, cli, mesh))
+               && find_tiles(surface, &cli->report);
+    return true;
+}
+
+void bake_surface_close(struct bake_surface *surface)
+{
+    if (surface->objects && !surface->site.objects)
+        object_finish(&surface->objects[0]);
+    free(surface->objects);
+    free(surface->tiles);
+    site_close(&surface->site);
+    scene_finish(&surface->square);
+}
+
+/* ---- Overlaps ---- */
+
+/* Twice the area of a triangle, above 0 where it turns to the left. */
+static double turn(const double a[2], const double b[2], const double c[2])
+{
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+/* Counts the points of the grid that lie inside a triangle, off its edges. */
+static void cover(double at[3][2], uint32_t size, uint8_t *counts)
+{
+    const double slack = 1e-3, area = turn(at[0], at[1], at[2]);
+    const double low[2] = {fmin(at[0][0], fmin(at[1][0], at[2][0])),
+                           fmin(at[0][1], fmin(at[1][1], at[2][1]))},
+                 high[2] = {fmax(at[0][0], fmax(at[1][0], at[2][0])),
+                            fmax(at[0][1], fmax(at[1][1], at[2][1]))};
+    for (uint32_t y = (uint32_t)fmax(low[1], 0); y < size && y <= high[1]; ++y)
+        for (uint32_t x = (uint32_t)fmax(low[0], 0); area != 0 && x < size && x <= high[0]; ++x) {
+            const double point[2] = {x + 0.5, y + 0.5};
+            bool is_inside = true;
+            for (size_t k = 0; k < 3; ++k)
+                is_inside = is_inside && turn(at[k], at[(k + 1) % 3], point) / area > slack;
+            counts[(size_t)y * size + x] |= is_inside ? counts[(size_t)y * size + x] ? 2 : 1 : 0;
+        }
+}
+
+double bake_surface_overlap(const struct bake_surface *surface, struct bake_tile tile,
+                            uint32_t size)
+{
+    size = size < GRID ? size : GRID;
+    size_t covered = 0, twice = 0, num = (size_t)size * size;
+    uint8_t *counts = memory_alloc(num);
+    for (uint32_t o = 0; o < surface->num_objects; ++o) {
+        const struct mesh *mesh = &surface->objects[o].mesh;
+        for (uint32_t i = 0; i + 2 < mesh->num_indices; i += 3) {
+            double at[3][2];
+            for (size_t k = 0; k < 3; ++k) {
+                const float *place = mesh->vertices[mesh->indices[i + k]].texcoord;
+                at[k][0] = ((double)place[0] - tile.u) * size;
+                at[k][1] = ((double)place[1] - tile.v) * size;
+            }
+            cover(at, size, counts);
+        }
+    }
+    for (size_t i = 0; i < num; ++i) {
+        covered += counts[i] > 0;
+        twice += counts[i] > 1;
+    }
+    free(counts);
+    return covered ? (double)twice / (double)covered : 0;
+}
+
+struct matrix bake_surface_view(struct bake_tile tile, uint32_t size, uint32_t x, uint32_t y,
+                                uint32_t width, uint32_t height)
+{
+    const double scale[2] = {2.0 * size / width, 2.0 * size / height},
+                 left = tile.u + (double)x / size, top = tile.v + 1 - (double)y / size;
+    return (struct matrix){{{scale[0], 0, 0, 0},
+                            {0, scale[1], 0, 0},
+                            {0, 0, 0, 0},
+                            {-1 - left * scale[0], 1 - top * scale[1], 0.5, 1}}};
+}

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/image_rows.h"
+
+#include <OpenImageIO/imageio.h>
+
+#include <cstdio>
+#include <exception>
+#include <memory>
+#include <string>
+
+struct image_rows {
+    std::unique_ptr<OIIO::ImageOutput> output;
+    uint32_t done = 0;
+};
+
+namespace
+{
+
+bool fail(char *reason, size_t capacity, const std::string &text)
+{
+    std::snprintf(reason, capacity, "%s",
+                  text.empty() ? "unknown error" : text.substr(0, text.find('\n')).c_str());
+    return false;
+}
+
+/* No exception may reach the C code of the callers. */
+template <typename Work> bool guard(char *reason, size_t capacity, Work work)
+{
+    try {
+        return work();
+    } catch (const std::exception &fault) {
+        return fail(reason, capacity, fault.what());
+    } catch (...) {
+        return fail(reason, capacity, "unknown error");
+    }
+}
+
+OIIO::TypeDesc type_of(const image_format &format)
+{
+    if (format.is_float)
+        return format.depth == 16 ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT;
+    return format.depth == 16 ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8;
+}
+
+bool begin(const char *path, const image_format &format, image_rows &rows, char *reason,
+           size_t capacity)
+{
+    rows.output = OIIO::ImageOutput::create(path);
+    if (!rows.output)
+        return fail(reason, capacity, OIIO::geterror());
+    OIIO::ImageSpec spec(static_cast<int>(format.width), static_cast<int>(format.height),
+                         static_cast<int>(format.channels), type_of(format));
+    spec.attribute("oiio:ColorSpace", format.is_srgb ? "sRGB" : "Linear");
+    spec.attribute("oiio:UnassociatedAlpha", 1);
+    spec.attribute("CompressionQuality", 95);
+    return rows.output->open(path, spec) || fail(reason, capacity, rows.output->geterror());
+}
+
+} // namespace
+
+struct image_rows *image_rows_begin(const char *path, const struct image_format *format,
+                                    char *reason, size_t capacity)
+{
+    std::unique_ptr<image_rows> rows;
+    bool good = guard(reason, capacity, [&] {
+        rows = std::make_unique<image_rows>();
+        return begin(path, *format, *rows, reason, capacity);
+    });
+    return good ? rows.release() : nullptr;
+}
+
+bool image_rows_add(struct image_rows *rows, uint32_t count, const float *values, char *reason,
+                    size_t capacity)
+{
+    return guard(reason, capacity, [&] {
+        int first = static_cast<int>(rows->done);
+        rows->done += count;
+        return rows->output->write_scanlines(first, static_cast<int>(rows->done), 0,
+                                             OIIO::TypeDesc::FLOAT, values)
+               || fail(reason, capacity, rows->output->geterror());
+    });
+}
+
+bool image_rows_end(struct image_rows *rows, char *reason, size_t capacity)
+{
+    if (!rows)
+        return true;
+    std::unique_ptr<image_rows> owned(rows);
+    return guard(reason, capacity, [&] {
+        return owned->output->close() || fail(reason, capacity, owned->output->geterror());
+    });
+}
