@@ -54,14 +54,25 @@ static bool choose_generally(struct translation *t, ir_ref root, struct translat
     return input->value.kind == OPERAND_CONSTANT;
 }
 
+/* An implementation of a translation has faults. */
+static void repeat_errors(struct translation *t)
+{
+    const struct diag_list *list = &t->value->object.diagnostics.list;
+    for (uint32_t i = 0; i < list->items.len; i++)
+        if (list->items.items[i].severity == DIAG_ERROR)
+            diag_repeat(t->diags, &list->items.items[i]);
+}
+
 /* The value of an input of the model, by the output of the last translation. */
 static void find_value(struct translation *t, struct translated_input *input)
 {
     ir_ref root =
         translate_build(t, t->chain.len, output_name(t, input->port.name), TRANSLATE_CONNECTED);
     enum value_type type = value_type_of(input->port.type);
-    if (!root || type == VALUE_NONE)
+    if (!root || type == VALUE_NONE) {
+        repeat_errors(t);
         return;
+    }
     const char *lacks = value_nodes_add(&t->nodes, &t->value->graph, root, type, &input->value);
     bool fits = !lacks && (choose_generally(t, root, input) || !input->port.uniform);
     if (lacks)

@@ -120,24 +120,33 @@ static void set_value(struct translation *t, mxg_element node, const struct sour
         mxg_edit_set_attribute(t->draft_edit, input, "colorspace", str_text(doc->strings, space));
 }
 
-static mxg_element add_node(struct translation *t, unsigned step, const mxg_nodedef *definition,
-                            const char *type)
+/* The type of a node with the definition `index`: of its only output, or that of several. */
+static const char *type_of_node(const struct translation *t, uint32_t index,
+                                const mxg_nodedef *info)
 {
-    mxg_element node = mxg_edit_add_element(t->draft_edit, 0, definition->node,
-                                            translate_step_name(t, step), type);
-    translate_expect(t,
-                     node != 0
-                         && mxg_edit_set_attribute(t->draft_edit, node, "nodedef", definition->name)
-                                == MXG_OK);
+    mxg_port output = {.size = sizeof output};
+    if (info->num_outputs != 1)
+        return "multioutput";
+    mxg_document_port(t->document, index, info->num_inputs, &output);
+    return output.type;
+}
+
+static mxg_element add_node(struct translation *t, unsigned step, uint32_t index)
+{
+    mxg_nodedef info = {.size = sizeof info};
+    mxg_document_nodedef(t->document, index, &info);
+    mxg_element node = mxg_edit_add_element(
+        t->draft_edit, 0, info.node, translate_step_name(t, step), type_of_node(t, index, &info));
+    translate_expect(t, node != 0
+                            && mxg_edit_set_attribute(t->draft_edit, node, "nodedef", info.name)
+                                   == MXG_OK);
     return node;
 }
 
 /* The surface, or the first translation with the inputs that it has. */
-static void add_first(struct translation *t, unsigned step, uint32_t definition, const char *type)
+static void add_first(struct translation *t, unsigned step, uint32_t definition)
 {
-    mxg_nodedef info = {.size = sizeof info};
-    mxg_document_nodedef(t->document, definition, &info);
-    mxg_element node = add_node(t, step, &info, type);
+    mxg_element node = add_node(t, step, definition);
     for (uint32_t i = 0; i < t->sources.len; i++) {
         mxg_port port;
         if (translate_find_port(t, definition, t->sources.items[i].port.name, false, &port)
@@ -168,7 +177,7 @@ static void add_step(struct translation *t, unsigned step)
     uint32_t definition = t->chain.items[step];
     mxg_document_nodedef(t->document, definition, &info);
     mxg_element before = mxg_edit_find_element(t->draft_edit, 0, translate_step_name(t, step));
-    mxg_element node = add_node(t, step + 1, &info, "multioutput");
+    mxg_element node = add_node(t, step + 1, definition);
     for (uint32_t i = 0; i < info.num_inputs; i++) {
         mxg_port input = {.size = sizeof input};
         mxg_document_port(t->document, definition, i, &input);
@@ -194,8 +203,8 @@ void translate_make_draft(struct translation *t, uint32_t definition)
     translate_expect(
         t, mxg_edit_create(t->context, t->library, origin_of_draft(t), NULL, &t->draft_edit)
                == MXG_OK);
-    add_first(t, 0, definition, "surfaceshader");
-    add_first(t, 1, t->chain.items[0], "multioutput");
+    add_first(t, 0, definition);
+    add_first(t, 1, t->chain.items[0]);
     for (uint32_t i = 1; i < t->chain.len; i++)
         add_step(t, i);
     translate_expect(t, mxg_edit_commit(t->draft_edit, &t->draft) != MXG_ERROR_MEMORY);
