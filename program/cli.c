@@ -9,12 +9,14 @@
 #include "program/texels.h"
 #include "program/warnings.h"
 
+#include <assert.h>
 #include <errno.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define MAX_ARGS 48   /* options of a command, including the common ones */
+#define MAX_OWN_ARGS 40 /* options of a command */
+#define MAX_COMMON_ARGS 24
 #define MAX_ERRORS 20 /* default limit per document */
 
 /* Adds the options that every command has after the command's own. */
@@ -73,6 +75,7 @@ static size_t add_common_args(struct cli *cli, struct arg *table)
         {"help", 'h', ARG_HELP, "[all]", "prints help; 'all' includes all options", &cli->help,
          ARG_COMMON, .is_own = true},
     };
+    _Static_assert(sizeof common / sizeof *common <= MAX_COMMON_ARGS, "more options than room");
     memcpy(table, common, sizeof common);
     return sizeof common / sizeof *common;
 }
@@ -191,7 +194,8 @@ bool cli_start(struct cli *cli, const struct command *command, const struct arg 
                size_t num_args, unsigned wants, int argc, char **argv, int *out_exit)
 {
     *cli = (struct cli){.max_errors = MAX_ERRORS};
-    struct arg table[MAX_ARGS];
+    struct arg table[MAX_OWN_ARGS + MAX_COMMON_ARGS];
+    assert(num_args <= MAX_OWN_ARGS);
     for (size_t i = 0; i < num_args; ++i)
         table[i] = args[i];
     cli->parser.args = table;
@@ -256,7 +260,7 @@ bool cli_has_budget(const struct cli *cli)
 static void forward_args(struct cli *cli, bool (*is_wanted)(const struct arg *arg),
                          struct arg_list *args)
 {
-    struct arg table[MAX_ARGS];
+    struct arg table[MAX_COMMON_ARGS];
     size_t num_args = add_common_args(cli, table);
     for (size_t i = 0; i < num_args; ++i)
         if (!table[i].is_own && is_wanted(&table[i]))

@@ -186,6 +186,23 @@ static bool is_same_drawing(const struct bake_drawing *drawing, const struct bak
            && strcmp(drawing->output, end->output) == 0;
 }
 
+/* The output that a connection without a name means, of a node with several: the first of its type.
+ * "": the only one. */
+static const char *default_output(const mxg_document *document, mxg_element node, const char *type)
+{
+    mxg_port port = {sizeof port};
+    mxg_nodedef nodedef = {sizeof nodedef};
+    uint32_t index = mxg_document_find_nodedef(document, node);
+    if (index == MXG_NONE || mxg_document_nodedef(document, index, &nodedef) != MXG_OK
+        || nodedef.num_outputs == 1)
+        return "";
+    for (uint32_t i = 0; i < nodedef.num_outputs; ++i)
+        if (mxg_document_port(document, index, nodedef.num_inputs + i, &port) == MXG_OK
+            && strcmp(port.type, type) == 0)
+            return port.name;
+    return "";
+}
+
 static size_t add_drawing(struct bake_plan *plan, const struct bake_node *node,
                           const struct bake_input *input, const struct bake_end *end,
                           bool is_direction)
@@ -290,6 +307,8 @@ static bool add_input(struct bake_plan *plan, struct visits *visits, mxg_element
         return true;
     } else {
         input.way = BAKE_DRAWS;
+        if (!*end.output)
+            end.output = default_output(document, end.node, info.type);
         input.index =
             add_drawing(plan, node, &input, &end, is_direction(document, node->element, info.name));
     }

@@ -194,6 +194,15 @@ check 'a boolean that varies is told' bad by_side '(bad.mtlx:12:57)' '[bake-type
 check 'a missing texture is told' bad by_file 'bad.mtlx:9:' '[missing-texture]'
 check 'a pattern alone has nothing to bake' bad wide '[nothing-to-bake]'
 check 'values that a format cannot have are told' eval 'exits 0 "$mxgen" bake bad.mtlx -e by_range -o wide --size 8 -f png && has err "[bake-clamped]"'
+cat >outputs.mtlx <<'EOF'
+<?xml version="1.0"?>
+<materialx version="1.39">
+  <noise2d name="waves" type="color3"/>
+  <artistic_ior name="metal" type="multioutput"><input name="reflectivity" type="color3" nodename="waves"/></artistic_ior>
+  <standard_surface name="SR" type="surfaceshader"><input name="base_color" type="color3" nodename="metal"/></standard_surface>
+</materialx>
+EOF
+check 'a node of several outputs gives the first of its type' eval 'exits 0 "$mxgen" bake outputs.mtlx -o several --size 8 && test -e several/SR_base_color.exr'
 sed '/^vt/d; s,/[0-9]/,//,g' plane.obj >bare.obj
 check 'a mesh needs texture coordinates' eval 'exits 1 "$mxgen" bake marble.mtlx -m bare.obj -o none && has err "[no-texcoords]" && test ! -e none'
 (cat plane.obj; sed -n '/^f/p' plane.obj) | sed '$ s,^f.*,f 1/1/1 3/3/1 2/2/1,' >twice.obj
