@@ -159,17 +159,43 @@ static void forget_surface(struct translation *t)
     arena_finish(t->arena);
 }
 
+/* False after a message: the new surface could not have the name, or the old one has faults. */
+static bool is_sound(struct translation *t)
+{
+    const struct document *doc = &t->document->layer.doc;
+    const struct element *e = doc_element(doc, t->surface);
+    const char *name = str_text(doc->strings, e->name);
+    if (!e->name) {
+        diag_add(t->diags, DIAG_ID_name_missing, doc_place(doc, t->surface),
+                 str_text(doc->strings, e->category));
+        return false;
+    }
+    if (!doc_is_name(name)) {
+        diag_add(t->diags, DIAG_ID_translation_name, doc_name_place(doc, t->surface), name);
+        return false;
+    }
+    bool builds = translate_can_build(t);
+    if (!builds)
+        repeat_errors(t);
+    return builds;
+}
+
 static void translate_surface(struct translation *t, elem_id surface)
 {
     const struct document *doc = &t->document->layer.doc;
     const char *category = str_text(doc->strings, doc_element(doc, surface)->category);
     uint32_t definition = mxg_document_find_nodedef(t->document, surface);
-    if (strcmp(category, t->model) == 0 || definition == MXG_NONE)
+    if (strcmp(category, t->model) == 0)
         return;
     t->surface = surface;
-    if (!translate_find_chain(t, category)) {
+    if (!is_sound(t)) {
+        forget_surface(t);
+        return;
+    }
+    if (definition == MXG_NONE || !translate_find_chain(t, category)) {
         diag_add(t->diags, DIAG_ID_no_translation, doc_name_place(doc, surface), category,
                  t->model);
+        forget_surface(t);
         return;
     }
     translate_make_draft(t, definition);
@@ -190,7 +216,8 @@ static bool is_surface(const struct translation *t, elem_id element)
     const struct element *e = doc_element(doc, element);
     if (e->kind != KIND_NODE || doc_attr_value(doc, element, STR_type) != STR_surfaceshader)
         return false;
-    bool is_made = false;
+    bool is_second = e->name && doc_child(doc, e->parent, e->name) != element; /* of its name */
+    bool is_made = is_second;
     for (elem_id child = e->first_child; child && !is_made; child = doc_element(doc, child)->next)
         is_made = doc_attr_value(doc, child, STR_type) == STR_surfaceshader;
     return !is_made;

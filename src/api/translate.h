@@ -81,6 +81,8 @@ void translate_make_draft(struct translation *t, uint32_t definition);
 bool translate_is_default(const struct translation *t, const struct source_input *source);
 /* The name of the draft's node of a step. */
 const char *translate_step_name(const struct translation *t, unsigned step);
+/* True if the surface itself has a value; else t->value has the errors. */
+bool translate_can_build(struct translation *t);
 /* True if the shader of the draft's surface of a step reads an input that is a uniform. `uniforms`
  * lists paths of inputs. */
 bool translate_surface_reads(struct translation *t, unsigned step, const char *input,

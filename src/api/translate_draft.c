@@ -89,35 +89,47 @@ bool translate_is_default(const struct translation *t, const struct source_input
 
 /* ---- The nodes of the draft ---- */
 
+static const char *text_of_zero(const struct translation *t, enum value_type type)
+{
+    const struct operand zero = value_zero(type);
+    struct text text;
+    text_init(&text, t->arena);
+    value_write(&zero, &text);
+    return text_cstr(&text);
+}
+
+/* As the document writes it: a name of an enumeration stays one. "" is no attribute. */
+static void set_attribute(const struct translation *t, mxg_element element, str_id name,
+                          const char *value)
+{
+    translate_expect(t, element != 0);
+    if (*value)
+        translate_expect(t, mxg_edit_set_attribute(t->draft_edit, element,
+                                                   str_text(t->document->layer.doc.strings, name),
+                                                   value)
+                                == MXG_OK);
+}
+
 /* The value of an input of the surface; an input with neither a value nor a default has none. */
 static void set_value(struct translation *t, mxg_element node, const struct source_input *source)
 {
-    const char *name = source->port.name, *text = attribute(t, source->element, STR_value);
-    text = source->is_connected ? "" : *text ? text : source->port.value;
-    if (source->is_connected && source->type != VALUE_NONE) {
-        const struct operand zero = value_zero(source->type);
-        struct text zeros;
-        text_init(&zeros, t->arena);
-        value_write(&zero, &zeros);
-        text = text_cstr(&zeros);
-    }
+    static const str_id kept[] = {STR_unit, STR_unittype};
+    const struct document *doc = &t->document->layer.doc;
+    const char *text = attribute(t, source->element, STR_value);
+    text = *text ? text : source->port.value;
+    if (source->is_connected)
+        text = source->type == VALUE_NONE ? "" : text_of_zero(t, source->type);
     if (!*text)
         return;
-    translate_expect(t, mxg_edit_set_value(t->draft_edit, node, name, source->port.type, text)
-                            == MXG_OK);
-    mxg_element input = mxg_edit_find_element(t->draft_edit, node, name);
+    mxg_element input =
+        mxg_edit_add_element(t->draft_edit, node, "input", source->port.name, source->port.type);
+    set_attribute(t, input, STR_value, text);
     if (source->is_connected || !source->element)
         return;
-    static const str_id kept[] = {STR_unit, STR_unittype};
     for (size_t i = 0; i < sizeof kept / sizeof *kept; i++)
-        if (*attribute(t, source->element, kept[i]))
-            mxg_edit_set_attribute(t->draft_edit, input,
-                                   str_text(t->document->layer.doc.strings, kept[i]),
-                                   attribute(t, source->element, kept[i]));
-    const struct document *doc = &t->document->layer.doc;
+        set_attribute(t, input, kept[i], attribute(t, source->element, kept[i]));
     str_id space = doc_inherited_attr(doc, source->element, STR_colorspace);
-    if (space)
-        mxg_edit_set_attribute(t->draft_edit, input, "colorspace", str_text(doc->strings, space));
+    set_attribute(t, input, STR_colorspace, space ? str_text(doc->strings, space) : "");
 }
 
 /* The type of a node with the definition `index`: of its only output, or that of several. */
@@ -236,9 +248,9 @@ const char *translate_uniforms(const struct translation *t, uint32_t more)
     return text_cstr(&list);
 }
 
-/* Runs steps of a generation over an element of the draft. The result is t->value. */
-static void generate(struct translation *t, const char *path, const char *uniforms,
-                     void steps(struct generation *g), void *user_data)
+/* Runs steps of a generation over an element. The result is t->value. */
+static void generate(struct translation *t, const mxg_document *document, const char *path,
+                     const char *uniforms, void steps(struct generation *g), void *user_data)
 {
     mxg_options_destroy(t->options); /* lists grow */
     t->options = NULL;
@@ -252,8 +264,18 @@ static void generate(struct translation *t, const char *path, const char *unifor
     desc.without_source = true;
     mxg_result_destroy(t->value);
     t->value = NULL;
-    translate_expect(t, generation_run(t->context, t->draft, &desc, steps, user_data, &t->value)
+    translate_expect(t, generation_run(t->context, document, &desc, steps, user_data, &t->value)
                             != MXG_ERROR_MEMORY);
+}
+
+bool translate_can_build(struct translation *t)
+{
+    struct text path;
+    ir_ref root = 0;
+    text_init(&path, t->arena);
+    doc_path(&t->document->layer.doc, t->surface, '/', &path);
+    generate(t, t->document, text_cstr(&path), "", build, &root);
+    return root != 0;
 }
 
 bool translate_surface_reads(struct translation *t, unsigned step, const char *input,
@@ -262,7 +284,7 @@ bool translate_surface_reads(struct translation *t, unsigned step, const char *i
     struct text path;
     text_init(&path, t->arena);
     text_fmt(&path, "%s/%s", translate_step_name(t, step), input);
-    generate(t, translate_step_name(t, step), uniforms, generation_run_all, NULL);
+    generate(t, t->draft, translate_step_name(t, step), uniforms, generation_run_all, NULL);
     return !t->value->has_shader
            || mxg_result_find_variable(t->value, text_cstr(&path)) != MXG_NONE;
 }
@@ -273,7 +295,7 @@ ir_ref translate_build(struct translation *t, unsigned step, const char *output,
     text_init(&path, t->arena);
     text_fmt(&path, "%s/%s", translate_step_name(t, step), output);
     ir_ref root = 0;
-    generate(t, text_cstr(&path), translate_uniforms(t, more), build, &root);
+    generate(t, t->draft, text_cstr(&path), translate_uniforms(t, more), build, &root);
     return root;
 }
 

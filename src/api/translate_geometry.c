@@ -56,21 +56,37 @@ static struct operand scaled(struct translation *t, struct operand a, struct ope
     return value_nodes_call(&t->nodes, "add", VALUE_VECTOR3, "in1", product, "in2", offset);
 }
 
-/* The element that gives the value of a connected input, through the outputs of graphs; 0: it is an
- * input of a graph. */
+/* The output of a graph by name; "": its first one. 0: there is none. */
+static mxg_element output_of(const struct translation *t, mxg_element graph, const char *name)
+{
+    mxg_element_info info = {.size = sizeof info};
+    mxg_document_element(t->document, graph, &info);
+    for (mxg_element child = info.first_child; child; child = info.next) {
+        mxg_document_element(t->document, child, &info);
+        if (strcmp(info.category, "output") == 0 && (!*name || strcmp(info.name, name) == 0))
+            return child;
+    }
+    return 0;
+}
+
+/*
+ * The element that gives the value of a connected input, through the outputs of graphs. 0: there is
+ * none, or the connections are a cycle.
+ */
 static mxg_element source_of(const struct translation *t, mxg_element port)
 {
-    mxg_connection connection = {.size = sizeof connection};
-    if (mxg_document_connection(t->document, port, &connection) != MXG_OK)
-        return 0;
-    mxg_element_info info = {.size = sizeof info};
-    mxg_document_element(t->document, connection.source, &info);
-    if (!connection.source || strcmp(info.category, "nodegraph") != 0)
-        return connection.source;
-    mxg_element output =
-        mxg_document_find_element(t->document, connection.source, connection.output);
-    output = output ? output : info.first_child;
-    return source_of(t, output);
+    enum { MAX_GRAPHS = 1000 };
+    for (unsigned i = 0; i < MAX_GRAPHS; i++) {
+        mxg_connection connection = {.size = sizeof connection};
+        mxg_element_info info = {.size = sizeof info};
+        if (mxg_document_connection(t->document, port, &connection) != MXG_OK)
+            return 0;
+        mxg_document_element(t->document, connection.source, &info);
+        if (!connection.source || strcmp(info.category, "nodegraph") != 0)
+            return connection.source;
+        port = output_of(t, connection.source, connection.output);
+    }
+    return 0;
 }
 
 /*

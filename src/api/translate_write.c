@@ -250,7 +250,9 @@ void translate_write(struct translation *t)
     for (uint32_t i = 0; i < t->inputs.len; i++)
         if (t->inputs.items[i].is_set)
             set_surface_input(&w, &t->inputs.items[i]);
-    translate_expect(t, mxg_edit_move_element(t->edit, w.surface, parent, t->surface) == MXG_OK
-                            && mxg_edit_remove_element(t->edit, t->surface) == MXG_OK
-                            && mxg_edit_set_attribute(t->edit, w.surface, "name", name) == MXG_OK);
+    translate_expect(t, mxg_edit_move_element(t->edit, w.surface, parent, t->surface) == MXG_OK);
+    /* elements of the same name behind the surface are ignored, but they would have its name now */
+    for (mxg_element old = t->surface; old; old = mxg_edit_find_element(t->edit, parent, name))
+        translate_expect(t, mxg_edit_remove_element(t->edit, old) == MXG_OK);
+    translate_expect(t, mxg_edit_set_attribute(t->edit, w.surface, "name", name) == MXG_OK);
 }

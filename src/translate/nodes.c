@@ -5,6 +5,8 @@
 #include "base/hash.h"
 #include "base/num.h"
 
+#include <math.h>
+
 /* ---- Types ---- */
 
 static const struct {
@@ -430,6 +432,15 @@ static bool is_value(ir_type_id type)
     return type < IR_NUM_TYPES && type_of(type, false) != VALUE_NONE;
 }
 
+/* No text of a document stands for other numbers. */
+static bool is_finite(const struct ir_value *value)
+{
+    bool is = true;
+    for (unsigned i = 0; ir_type_is_float(value->type) && i < ir_type_components(value->type); i++)
+        is = is && isfinite(value->w[i].f);
+    return is;
+}
+
 static bool write_one(const struct writing *w, ir_ref ref)
 {
     const struct ir_node *node = ir_get(w->graph, ref);
@@ -440,7 +451,7 @@ static bool write_one(const struct writing *w, ir_ref ref)
         struct ir_value value;
         ir_get_const(w->graph, ref, &value);
         *out = constant(&value, result_type(w, ref));
-        return true;
+        return is_finite(&value);
     }
     if (node->num_args == 0)
         return out->type != VALUE_NONE;
@@ -485,7 +496,8 @@ const char *value_nodes_add(struct value_nodes *nodes, const struct ir_graph *gr
     find_colors(&w, needed, root);
     for (ir_ref ref = 1; ref <= root; ref++)
         if (needed[ref] && !write_one(&w, ref))
-            return ir_op_info(ir_get(graph, ref)->op)->text;
+            return ir_get(graph, ref)->op == IR_CONST ? "inf"
+                                                      : ir_op_info(ir_get(graph, ref)->op)->text;
     *out = converted(nodes, w.operands[root], type);
     return NULL;
 }

@@ -177,6 +177,23 @@ def test_losses():
     check("'specular_color' of <standard_surface>" in said, "an input that only idle inputs take is a loss")
     _, said, _ = translate(flat("standard_surface", {}), "gltf", "a wrong name", 1)
     check("did you mean 'gltf_pbr'?" in said and "[unknown-model]" in said, "a model is suggested")
+    _, said, _ = translate(flat("standard_surface", {}).replace('"S"', '"1 2"'), "gltf_pbr", "a name with a blank", 1)
+    check("in.mtlx:1:" in said and "[translation-name]" in said, "a name that no new surface can have is told")
+    _, said, _ = translate('<standard_surface type="surfaceshader"/>', "gltf_pbr", "no name", 1)
+    check("[name-missing]" in said, "a surface without a name is told")
+    for inputs, ident in ({"base": ("float", "x")}, "bad-value"), ({"base": ("color3", "1, 1, 1")}, "input-type"):
+        _, said, _ = translate(flat("standard_surface", inputs), "gltf_pbr", "a fault", 1)
+        check("in.mtlx:1:" in said and f"[{ident}]" in said, f"a fault of the surface is told in its place: {said[:200]}")
+    root, said, _ = translate(flat("standard_surface", {"metalness": ("float", "1e99")}), "gltf_pbr", "an infinite number")
+    check("[translation-op]" in said and "metallic" not in values(root), "an infinite number is told")
+    twice = flat("standard_surface", {"metalness": ("float", "0.5")}) + flat("standard_surface", {"metalness": ("float", "0.25")})
+    root, _, _ = translate(twice, "gltf_pbr", "two of one name")
+    check(len(root) == 1 and values(root).get("metallic") == [0.5], "the first of two of one name counts")
+    root, _, _ = translate(flat("gltf_pbr", {"alpha_mode": ("integer", "BLEND"), "alpha": ("float", "0.5")}), "open_pbr_surface", "a mode by its name")
+    check(values(root).get("geometry_opacity") == [0.5], "a value may be a name of its enumeration")
+    cycle = "".join(f'<nodegraph name="{a}"><output name="o" type="vector3" nodegraph="{b}" output="o"/></nodegraph>' for a, b in ("AB", "BA"))
+    translate(cycle + '<standard_surface name="S" type="surfaceshader"><input name="normal" type="vector3" nodegraph="A" output="o"/></standard_surface>',
+              "UsdPreviewSurface", "a cycle", 1)
     _, said, _ = translate('<surface name="S" type="surfaceshader"/>', "gltf_pbr", "closures", 1)
     check("in.mtlx:1:" in said and "[no-translation]" in said, "closures have no translation")
 

@@ -149,6 +149,7 @@ static void test_faults(void)
 {
     expect("%1 = uniform float @9\nreturn %1\n", VALUE_FLOAT, "no uniform");
     expect("%1 = uniform float @2\n%2 = dFdx float %1\nreturn %2\n", VALUE_FLOAT, "no dFdx");
+    expect("return inf\n", VALUE_FLOAT, "no inf");
     expect("%1 = uniform float @2\n%2 = tanh float %1\nreturn %2\n", VALUE_FLOAT, "no tanh");
 }
 
