@@ -104,7 +104,7 @@ struct reached {
     uint32_t step, before;
 };
 
-enum { NO_STEP = UINT32_MAX };
+#define NO_STEP UINT32_MAX
 
 static void fill_chain(struct translation *t, const struct reached *all, uint32_t last)
 {
