@@ -153,6 +153,13 @@ static size_t edit_distance(const char *a, const char *b)
     return row[len];
 }
 
+bool args_is_one_of(const char *word, const char *const *words)
+{
+    while (*words && strcmp(word, *words) != 0)
+        ++words;
+    return *words != NULL;
+}
+
 const char *args_closest(const char *word, const char *const *candidates, size_t num_candidates)
 {
     /* a third of the letters may differ, and one more */

@@ -74,6 +74,9 @@ void args_free(struct arg_list *list);
  */
 void args_forward(const struct arg *arg, struct arg_list *out);
 
+/* True if a word is one of a list, which NULL ends. */
+bool args_is_one_of(const char *word, const char *const *words);
+
 /* The closest candidate by edit distance; NULL if none is near. */
 const char *args_closest(const char *word, const char *const *candidates, size_t num_candidates);
 

@@ -7,9 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The folder of a file as an absolute path with a '/' at its end; NULL with errno. The caller frees
- * it. */
-static char *folder_of(const char *file)
+char *relocate_folder(const char *file)
 {
     int len = (int)(files_base_name(file) - file);
     char *folder = len ? cli_format("%.*s", len, file) : cli_format(".");
@@ -21,8 +19,7 @@ static char *folder_of(const char *file)
     return out;
 }
 
-/* The way from one folder to another: "../../textures/"; "" for one folder. */
-static char *way_between(const char *from, const char *to)
+char *relocate_way(const char *from, const char *to)
 {
     size_t shared = 0, ups = 0;
     for (size_t i = 0; from[i] && from[i] == to[i]; ++i)
@@ -93,10 +90,10 @@ static mxg_document *with_way(struct cli *cli, mxg_document *document, const cha
 
 mxg_document *relocate(struct cli *cli, mxg_document *document, const char *from, const char *to)
 {
-    char *old = folder_of(from), *new = old ? folder_of(to) : NULL;
+    char *old = relocate_folder(from), *new = old ? relocate_folder(to) : NULL;
     if (!new)
         report_error(&cli->report, "output-failed", "cannot write '%s': %s", to, strerror(errno));
-    char *way = new ? way_between(new, old) : NULL;
+    char *way = new ? relocate_way(new, old) : NULL;
     mxg_document *out = document;
     if (!way || *way)
         out = way ? with_way(cli, document, way) : NULL;

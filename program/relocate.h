@@ -5,6 +5,12 @@
 
 #include "program/cli.h"
 
+/* The folder of a file as an absolute path with a '/' at its end; NULL with errno. The caller frees
+ * it. */
+char *relocate_folder(const char *file);
+/* The way from one such folder to another: "../../textures/"; "" to itself. The caller frees it. */
+char *relocate_way(const char *from, const char *to);
+
 /*
  * `document`, whose files are relative to `from`, as a document at `to` (both are files); it stays
  * itself where both have one folder. Each relative `fileprefix` gets the way between the folders

@@ -14,13 +14,12 @@
 
 /* ---- Options ---- */
 
-static bool is_one_of(const char *option, const char *word, const char *const *words)
+static bool check_word(const char *option, const char *word, const char *const *words)
 {
-    for (size_t i = 0; words[i]; ++i)
-        if (strcmp(word, words[i]) == 0)
-            return true;
-    fprintf(stderr, "mxgen: '%s' is not a value of --%s\n", word, option);
-    return false;
+    bool is_known = args_is_one_of(word, words);
+    if (!is_known)
+        fprintf(stderr, "mxgen: '%s' is not a value of --%s\n", word, option);
+    return is_known;
 }
 
 static const char *setting(const struct cli *cli, const char *key, const char *otherwise)
@@ -42,8 +41,8 @@ static bool parse(struct baking *baking)
         fputs("usage: mxgen bake FILE -o DIR\n", stderr);
         return false;
     }
-    if ((options->format && !is_one_of("format", options->format, formats))
-        || !is_one_of("missing-texture", options->missing_texture, missing)
+    if ((options->format && !check_word("format", options->format, formats))
+        || !check_word("missing-texture", options->missing_texture, missing)
         || !cli_options_apply(cli, (const char *const[]){"vulkan"}, 1))
         return false;
     if (options->depth && options->depth != 8 && options->depth != 16 && options->depth != 32) {
@@ -65,17 +64,9 @@ static bool parse(struct baking *baking)
 /* True if the element can be generated; reports what its document does wrong. */
 static bool check(struct baking *baking, const char *path)
 {
-    mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
-    mxg_result *result = NULL;
-    desc.target = "vulkan";
-    desc.element = path;
-    desc.options = baking->cli.options;
-    desc.only_diagnostics = true;
-    mxg_status status = mxg_generate(baking->cli.context, baking->document, &desc, &result);
-    if (result)
-        report_list(&baking->cli.report, mxg_result_diagnostics(result));
+    mxg_result *result = bake_generate(baking, path, true);
     mxg_result_destroy(result);
-    return report_status(&baking->cli.report, status) && status == MXG_OK;
+    return result != NULL;
 }
 
 static bool plan(struct baking *baking)

@@ -38,6 +38,8 @@ struct baking {
 
 int bake_main(int argc, char **argv);
 
+/* Generates an element without its source. NULL: it has errors, which `tells` reports. */
+mxg_result *bake_generate(struct baking *baking, const char *path, bool tells);
 /* The components of a type; 0: no image has it. */
 uint32_t bake_channels(const char *type);
 /* Fills needs and largest; false after reporting an error. */
@@ -56,6 +58,8 @@ const char *bake_begin_file(struct baking *baking, const char *name);
 
 /* The path of a file that an element of the document names. The caller frees it. */
 char *bake_file_path(const struct baking *baking, mxg_element element, const char *file);
+/* The place of an element in its document: "wall.mtlx:3:5". The caller frees it. */
+char *bake_place(const struct baking *baking, mxg_element element);
 /*
  * Looks for the files of images that stay, and copies them where the user wants it. false after
  * reporting an error.

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /* The new document: nodes that stay, values, and images. */
-#define _XOPEN_SOURCE 700 /* realpath */
 #include "render/bake.h"
 
 #include "program/files.h"
 #include "program/memory.h"
+#include "program/relocate.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -16,50 +16,22 @@ struct writer {
     mxg_element *drawings; /* what gives their values; 0: a value, or not yet there */
 };
 
-static bool is_word(const char *word, const char *const *words)
-{
-    while (*words && strcmp(word, *words) != 0)
-        ++words;
-    return *words != NULL;
-}
-
 /* ---- Files ---- */
-
-/* The path of a file that may not exist, without links in its folder. The caller frees it. */
-static char *absolute(const char *path)
-{
-    const char *base = files_base_name(path);
-    char *folder = base == path ? cli_format(".") : cli_copy(path, (size_t)(base - path));
-    char *real = realpath(folder, NULL);
-    char *made = cli_format("%s/%s", real ? real : folder, base);
-    free(folder);
-    free(real);
-    return made;
-}
 
 /* The path of a file as a document in the folder names it. The caller frees it. */
 static char *relative(const char *folder, const char *path)
 {
-    char *from = realpath(folder, NULL), *to = absolute(path), *out = NULL;
-    size_t common = 0, up = 0;
-    if (!from || *to != '/') {
-        free(from);
-        return to;
+    char *inside = cli_format("%s/", folder), *from = relocate_folder(inside),
+         *there = relocate_folder(path), *out = NULL;
+    if (from && there) {
+        char *way = relocate_way(from, there);
+        out = cli_format("%s%s", way, files_base_name(path));
+        free(way);
     }
-    for (size_t i = 0; from[i] == to[i] && from[i]; ++i)
-        common = to[i] == '/' ? i : common;
-    if (strncmp(from, to, strlen(from)) == 0 && to[strlen(from)] == '/')
-        common = strlen(from);
-    for (const char *c = from + common; *c; ++c)
-        up += *c == '/';
-    char *dots = memory_alloc(3 * up + 1);
-    for (size_t i = 0; i < up; ++i)
-        memcpy(dots + 3 * i, "../", 4);
-    out = cli_format("%s%s", dots, to + common + 1);
-    free(dots);
+    free(inside);
     free(from);
-    free(to);
-    return out;
+    free(there);
+    return out ? out : cli_format("%s", path);
 }
 
 /* The name of a file that an element of the document has, for the new one. The caller frees it. */
@@ -174,7 +146,7 @@ static void add_node(struct writer *writer, size_t index)
     for (uint32_t i = 0; i < info.num_attributes; ++i) {
         mxg_attribute attribute = {sizeof attribute};
         mxg_document_attribute(document, node->element, i, &attribute);
-        if (!is_word(attribute.name, others))
+        if (!args_is_one_of(attribute.name, others))
             mxg_edit_set_attribute(writer->edit, made, attribute.name, attribute.value);
     }
     for (size_t i = 0; i < node->num_inputs; ++i)

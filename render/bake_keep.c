@@ -3,7 +3,6 @@
 #include "render/bake.h"
 
 #include "program/files.h"
-#include "program/memory.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -19,6 +18,12 @@ char *bake_file_path(const struct baking *baking, mxg_element element, const cha
     return path;
 }
 
+char *bake_place(const struct baking *baking, mxg_element element)
+{
+    mxg_element_info info = bake_element(baking->document, element);
+    return cli_format("%s:%u:%u", info.file ? info.file : baking->path, info.line, info.column);
+}
+
 /* True for a name that stands for several files: tiles, or frames. */
 static bool is_set(const char *file)
 {
@@ -27,37 +32,21 @@ static bool is_set(const char *file)
 
 static bool tell_missing(struct baking *baking, mxg_element origin, const char *path)
 {
-    mxg_element_info info = bake_element(baking->document, origin);
-    char *place =
-        cli_format("%s:%u:%u", info.file ? info.file : baking->path, info.line, info.column);
-    if (baking->painter.checker)
-        report_warning(&baking->cli.report, "missing-texture", "there is no file '%s' (%s)", path,
-                       place);
-    else
-        report_error(&baking->cli.report, "missing-texture", "there is no file '%s' (%s)", path,
-                     place);
+    void (*tell)(struct report * report, const char *id, const char *format, ...) =
+        baking->painter.checker ? report_warning : report_error;
+    char *place = bake_place(baking, origin);
+    tell(&baking->cli.report, "missing-texture", "there is no file '%s' (%s)", path, place);
     free(place);
     return baking->painter.checker;
 }
 
-/* Copies a file to a temporary one. Returns NULL, or the reason for a failure. */
+/* Returns NULL, or the reason for a failure. */
 static const char *copy(const char *from, const char *to)
 {
-    enum { BLOCK = 1 << 20 };
-    FILE *in = fopen(from, "rb"), *out = in ? fopen(to, "wb") : NULL;
-    const char *reason = in && out ? NULL : strerror(errno);
-    char *block = memory_alloc(BLOCK);
-    size_t len = 1;
-    while (!reason && (len = fread(block, 1, BLOCK, in)) > 0)
-        if (fwrite(block, 1, len, out) != len)
-            reason = strerror(errno);
-    if (in && ferror(in))
-        reason = "it cannot be read";
-    if (out && fclose(out) != 0 && !reason)
-        reason = strerror(errno);
-    if (in)
-        fclose(in);
-    free(block);
+    size_t size = 0;
+    char *data = files_read(from, &size);
+    const char *reason = data ? files_write(to, data, size) : strerror(errno);
+    free(data);
     return reason;
 }
 

@@ -12,20 +12,13 @@ static bool begins(const char *text, const char *with)
     return strncmp(text, with, strlen(with)) == 0;
 }
 
-static bool is_one_of(const char *word, const char *const *words)
-{
-    while (*words && strcmp(word, *words) != 0)
-        ++words;
-    return *words != NULL;
-}
-
-/* What a stream of the pixel stage stands for. */
+/* What the pixel stage needs for a stream. */
 static unsigned need_of_stream(const char *semantic)
 {
-    static const char *const places[] = {"texcoord:0",  "geomprop:st",   "geomprop:UVMap",
-                                         "geomprop:uv", "geomprop:map1", NULL};
     static const char *const frames[] = {"normal:", "tangent:", "bitangent:", NULL};
-    if (is_one_of(semantic, places))
+    char name[SCENE_MAX_NAME];
+    if (strcmp(semantic, "texcoord:0") == 0
+        || scene_is_texcoord(scene_name(semantic, semantic, name)))
         return BAKE_VARIES;
     for (size_t i = 0; frames[i]; ++i)
         if (begins(semantic, frames[i]))
@@ -37,7 +30,7 @@ static unsigned need_of_uniform(const char *semantic)
 {
     static const char *const fixed[] = {"frame",    "time",        "alphaThreshold",
                                         "slabUnit", "layerSample", NULL};
-    if (is_one_of(semantic, fixed) || begins(semantic, "worldMatrix"))
+    if (args_is_one_of(semantic, fixed) || begins(semantic, "worldMatrix"))
         return 0;
     bool is_space = begins(semantic, "world") && !begins(semantic, "worldView");
     return is_space ? 0 : begins(semantic, "geomprop") ? BAKE_GEOMETRY : BAKE_VIEW;
@@ -89,8 +82,7 @@ static void read_textures(struct baking *baking, const mxg_result *result, uint3
 
 /* ---- Drawings ---- */
 
-/* Generates an element without its source. NULL after reporting an error. */
-static mxg_result *generate(struct baking *baking, const char *path, bool tells)
+mxg_result *bake_generate(struct baking *baking, const char *path, bool tells)
 {
     mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
     mxg_result *result = NULL;
@@ -124,7 +116,7 @@ static unsigned needs_of(const mxg_result *result)
 static bool needs_any(struct baking *baking, mxg_element element, unsigned needs)
 {
     char *path = bake_path(baking->document, element);
-    mxg_result *result = generate(baking, path, false);
+    mxg_result *result = bake_generate(baking, path, false);
     bool has = result && (needs_of(result) & needs);
     mxg_result_destroy(result);
     free(path);
@@ -153,11 +145,11 @@ static bool fail_for(struct baking *baking, const struct bake_drawing *drawing, 
                      const char *id, const char *reason)
 {
     mxg_element culprit = find_culprit(baking, drawing->source, needs);
-    mxg_element_info info = bake_element(baking->document, culprit);
     char *port = bake_path(baking->document, drawing->port),
-         *path = bake_path(baking->document, culprit);
-    report_error(&baking->cli.report, id, "'%s' (%s:%u:%u), which '%s' reads, %s", path,
-                 info.file ? info.file : baking->path, info.line, info.column, port, reason);
+         *path = bake_path(baking->document, culprit), *place = bake_place(baking, culprit);
+    report_error(&baking->cli.report, id, "'%s' (%s), which '%s' reads, %s", path, place, port,
+                 reason);
+    free(place);
     free(port);
     free(path);
     return false;
@@ -184,7 +176,7 @@ uint32_t bake_channels(const char *type)
 
 static bool find_needs(struct baking *baking, struct bake_drawing *drawing)
 {
-    mxg_result *result = generate(baking, drawing->path, true);
+    mxg_result *result = bake_generate(baking, drawing->path, true);
     if (!result)
         return false;
     drawing->needs = needs_of(result);
@@ -212,11 +204,11 @@ bool bake_find_needs(struct baking *baking, struct bake_drawing *drawing)
         return fail_for(baking, drawing, missing, "bake-mesh",
                         "reads the geometry of a surface: say which with --mesh");
     if (!bake_channels(drawing->type) || (is_whole(drawing) && drawing->needs)) {
-        mxg_element_info info = bake_element(baking->document, drawing->port);
+        char *place = bake_place(baking, drawing->port);
         report_error(&baking->cli.report, "bake-type",
-                     "'%s' (%s:%u:%u) varies, and no image has values of the type '%s'",
-                     drawing->path, info.file ? info.file : baking->path, info.line, info.column,
-                     drawing->type);
+                     "'%s' (%s) varies, and no image has values of the type '%s'", drawing->path,
+                     place, drawing->type);
+        free(place);
         return false;
     }
     if (drawing->is_direction) /* the frame of the surface is part of what is drawn */

@@ -118,13 +118,6 @@ static bool passes(const mxg_document *document, mxg_element node)
     return true;
 }
 
-static bool is_one_of(const char *word, const char *const *words)
-{
-    while (*words && strcmp(word, *words) != 0)
-        ++words;
-    return *words != NULL;
-}
-
 /* Materials, shaders, closures, maps of normals, and images without changes. */
 static bool stays(const mxg_document *document, mxg_element node)
 {
@@ -132,7 +125,7 @@ static bool stays(const mxg_document *document, mxg_element node)
         "material", "surfaceshader", "displacementshader", "volumeshader", "BSDF", "EDF", "VDF",
         NULL};
     mxg_element_info info = bake_element(document, node);
-    return is_one_of(info.type, types) || strcmp(info.category, "normalmap") == 0
+    return args_is_one_of(info.type, types) || strcmp(info.category, "normalmap") == 0
            || passes(document, node);
 }
 
@@ -336,7 +329,7 @@ bool bake_is_definition(const mxg_document *document, mxg_element element)
         "nodedef", "implementation", "typedef",     "targetdef",
         "unitdef", "unittypedef",    "geompropdef", NULL};
     mxg_element_info info = bake_element(document, element);
-    return is_one_of(info.category, categories)
+    return args_is_one_of(info.category, categories)
            || (strcmp(info.category, "nodegraph") == 0
                && (bake_attribute(document, element, "nodedef")
                    || implements(document, info.name)));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/bake_surface.h"
 
+#include "program/args.h"
 #include "program/memory.h"
 
 #include <math.h>
@@ -31,23 +32,11 @@ static bool make_square(struct scene *scene)
     return true;
 }
 
-static bool is_shape(const char *name)
-{
-    const char *const *names = shape_names();
-    while (*names && strcmp(*names, name) != 0)
-        ++names;
-    return *names != NULL;
-}
-
 static bool has_texcoords(const struct scene_object *object)
 {
-    static const char *const names[] = {"st", "UVMap", "uv", "map1"};
-    for (size_t i = 0; i < sizeof names / sizeof *names; ++i) {
-        char attribute[SCENE_MAX_NAME];
-        snprintf(attribute, sizeof attribute, "i_geomprop_%s", names[i]);
-        if (scene_primvar(object, attribute))
+    for (size_t i = 0; scene_texcoords[i]; ++i)
+        if (scene_primvar(object, scene_texcoords[i]))
             return true;
-    }
     return false;
 }
 
@@ -150,7 +139,8 @@ bool bake_surface_open(struct bake_surface *surface, struct cli *cli, const char
     if (!make_square(&surface->square))
         return report_status(&cli->report, MXG_ERROR_MEMORY);
     if (mesh)
-        return (is_shape(mesh) ? open_shape(surface, cli, mesh) : open_file(surface, cli, mesh))
+        return (args_is_one_of(mesh, shape_names()) ? open_shape(surface, cli, mesh)
+                                                    : open_file(surface, cli, mesh))
                && find_tiles(surface, &cli->report);
     return true;
 }

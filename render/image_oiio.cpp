@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/image.h"
+#include "render/image_guard.h"
 
 #include "program/temporary.h"
 
@@ -21,31 +22,6 @@
 
 namespace
 {
-
-/* Some readers report several lines; this keeps the first. */
-bool fail(char *reason, size_t capacity, const std::string &text)
-{
-    std::snprintf(reason, capacity, "%s",
-                  text.empty() ? "unknown error" : text.substr(0, text.find('\n')).c_str());
-    return false;
-}
-
-/*
- * Calls `work`. OpenImageIO and its format libraries throw for damaged files and for lack of
- * memory; no exception may reach the C code of the callers.
- */
-template <typename Work> bool guard(char *reason, size_t capacity, Work work)
-{
-    try {
-        return work();
-    } catch (const std::bad_alloc &) {
-        return fail(reason, capacity, "out of memory");
-    } catch (const std::exception &fault) {
-        return fail(reason, capacity, fault.what());
-    } catch (...) {
-        return fail(reason, capacity, "unknown error");
-    }
-}
 
 /* A device or a pipe may never end. */
 bool check_file(const char *path, char *reason, size_t capacity)

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/image_rows.h"
+#include "render/image_guard.h"
 
 #include <OpenImageIO/imageio.h>
 
-#include <cstdio>
-#include <exception>
 #include <memory>
 #include <string>
 
@@ -15,25 +14,6 @@ struct image_rows {
 
 namespace
 {
-
-bool fail(char *reason, size_t capacity, const std::string &text)
-{
-    std::snprintf(reason, capacity, "%s",
-                  text.empty() ? "unknown error" : text.substr(0, text.find('\n')).c_str());
-    return false;
-}
-
-/* No exception may reach the C code of the callers. */
-template <typename Work> bool guard(char *reason, size_t capacity, Work work)
-{
-    try {
-        return work();
-    } catch (const std::exception &fault) {
-        return fail(reason, capacity, fault.what());
-    } catch (...) {
-        return fail(reason, capacity, "unknown error");
-    }
-}
 
 OIIO::TypeDesc type_of(const image_format &format)
 {

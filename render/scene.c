@@ -120,13 +120,14 @@ static bool primvar_attribute(const struct scene_object *object, const char *nam
     return store_primvar(primvar, index, out);
 }
 
-/* Names of texture coordinates in USD, Blender and glTF's importers, Houdini, and Maya. */
-static bool is_name_of_texcoords(const char *name)
+/* In USD, Blender and glTF's importers, Houdini, and Maya. */
+const char *const scene_texcoords[] = {"i_geomprop_st", "i_geomprop_UVMap", "i_geomprop_uv",
+                                       "i_geomprop_map1", NULL};
+
+bool scene_is_texcoord(const char *attribute)
 {
-    static const char *const names[] = {"i_geomprop_st", "i_geomprop_UVMap", "i_geomprop_uv",
-                                        "i_geomprop_map1"};
-    for (size_t i = 0; i < sizeof names / sizeof *names; ++i)
-        if (strcmp(name, names[i]) == 0)
+    for (size_t i = 0; scene_texcoords[i]; ++i)
+        if (strcmp(attribute, scene_texcoords[i]) == 0)
             return true;
     return false;
 }
@@ -143,7 +144,7 @@ bool scene_attribute(const struct scene_object *object, const char *name, uint32
     bool is_first = strcmp(name, "i_texcoord_0") == 0;
     if (!is_first && object->path && primvar_attribute(object, name, index, out))
         return true;
-    if (is_first || (object->names_texcoords && is_name_of_texcoords(name))) {
+    if (is_first || (object->names_texcoords && scene_is_texcoord(name))) {
         memcpy(out, vertex->texcoord, sizeof vertex->texcoord);
         return true;
     }

@@ -108,6 +108,10 @@ enum { SCENE_MAX_NAME = 256 };
 const char *scene_name(const char *name, const char *semantic, char buffer[SCENE_MAX_NAME]);
 /* The name of the primvar that an attribute reads: "st1" of "i_texcoord_1". */
 void scene_primvar_name(const char *attribute, char out[SCENE_MAX_NAME]);
+/* Attributes that are the texture coordinates by another name, "i_geomprop_st"…; NULL after the
+ * last. */
+extern const char *const scene_texcoords[];
+bool scene_is_texcoord(const char *attribute);
 /* The primvar that an attribute reads; NULL: the object has none. */
 const struct primvar *scene_primvar(const struct scene_object *object, const char *attribute);
 

@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include "program/args.h"
 #include "program/files.h"
 
 #define DEGREE (3.14159265358979323846 / 180.0)
@@ -35,14 +36,6 @@ bool studio_parse_camera(struct studio *studio, const char *text)
            && studio->fov <= 150;
 }
 
-static bool is_shape(const char *name)
-{
-    const char *const *names = shape_names();
-    while (*names && strcmp(*names, name) != 0)
-        ++names;
-    return *names != NULL;
-}
-
 static bool fail(struct studio_fault *fault, const char *id, const char *what, const char *name,
                  const char *why)
 {
@@ -56,7 +49,7 @@ static bool open_mesh(const struct studio *studio, struct mesh *out, unsigned *o
 {
     *out_made = 0;
     *out = (struct mesh){0};
-    if (is_shape(studio->mesh))
+    if (args_is_one_of(studio->mesh, shape_names()))
         return shape_make(studio->mesh, 1, out)
                || fail(fault, "render-failed", "cannot make", studio->mesh, "out of memory");
     struct mesh_fault mesh_fault;
@@ -160,7 +153,7 @@ void studio_aim(const struct studio *studio, double aspect, double turn, struct 
 
 bool studio_refine(const struct studio *studio, const struct mesh *mesh, struct mesh *out)
 {
-    if (is_shape(studio->mesh))
+    if (args_is_one_of(studio->mesh, shape_names()))
         return shape_make(studio->mesh, FINE_DETAIL, out);
     if (!mesh_allocate(out, mesh->num_vertices, mesh->num_indices))
         return false;
