@@ -16,14 +16,6 @@ static bool find_leaf(void *user_data, const struct ir_graph *graph, ir_ref ref,
     return true;
 }
 
-static const char *output_name(const struct translation *t, const char *input)
-{
-    struct text name;
-    text_init(&name, t->arena);
-    text_fmt(&name, "%s_out", input);
-    return text_cstr(&name);
-}
-
 static void report_at_surface(const struct translation *t, enum diag_id id, const char *input,
                               const char *what)
 {
@@ -42,8 +34,7 @@ static bool general_value(void *user_data, const struct ir_graph *graph, ir_ref 
     return ir_type_scalar(out->type) == IR_TYPE_FLOAT;
 }
 
-/* A choice (a mode, a switch) takes its value in the general case: BLEND, where the opacity is a
- * texture. */
+/* A mode or a switch takes its value in the general case: BLEND, where the opacity is a texture. */
 static bool choose_generally(struct translation *t, ir_ref root, struct translated_input *input)
 {
     const struct ir_eval_env env = {.source = general_value};
@@ -54,7 +45,7 @@ static bool choose_generally(struct translation *t, ir_ref root, struct translat
     return input->value.kind == OPERAND_CONSTANT;
 }
 
-/* An implementation of a translation has faults. */
+/* Repeats the errors of what was built last. */
 static void repeat_errors(struct translation *t)
 {
     const struct diag_list *list = &t->value->object.diagnostics.list;
@@ -66,8 +57,8 @@ static void repeat_errors(struct translation *t)
 /* The value of an input of the model, by the output of the last translation. */
 static void find_value(struct translation *t, struct translated_input *input)
 {
-    ir_ref root =
-        translate_build(t, t->chain.len, output_name(t, input->port.name), TRANSLATE_CONNECTED);
+    ir_ref root = translate_build(t, t->chain.len, translate_output_name(t, input->port.name),
+                                  TRANSLATE_CONNECTED);
     enum value_type type = value_type_of(input->port.type);
     if (!root || type == VALUE_NONE) {
         repeat_errors(t);
@@ -92,9 +83,10 @@ static void find_values(struct translation *t)
         struct translated_input input = {.port.size = sizeof input.port};
         mxg_port output;
         mxg_document_port(t->document, t->definition, i, &input.port);
-        bool has_value = !*input.port.defaultgeomprop
-                         && translate_find_port(t, vec_last(&t->chain),
-                                                output_name(t, input.port.name), true, &output);
+        bool has_value =
+            !*input.port.defaultgeomprop
+            && translate_find_port(t, vec_last(&t->chain),
+                                   translate_output_name(t, input.port.name), true, &output);
         if (has_value)
             find_value(t, &input);
         vec_push(t->arena, &t->inputs, input);
@@ -117,13 +109,18 @@ static void mark_sources(struct translation *t, ir_ref root, bool *marks)
     }
 }
 
-/* The surface depends on the input as it is; it is authored, and its shader reads it. */
+/*
+ * True if the surface depends on an input as it is: the document sets it, and the shader reads it.
+ * One that the geometry fills has no uniform, so a connection counts.
+ */
 static bool matters(struct translation *t, uint32_t index)
 {
     const struct source_input *source = &t->sources.items[index];
-    if (source->is_connected ? *source->port.defaultgeomprop != 0 : translate_is_default(t, source))
-        return source->is_connected;
-    return translate_surface_reads(t, 0, source->port.name, translate_uniforms(t, index));
+    if (!translate_is_authored(t, source))
+        return false;
+    bool is_geometry = source->is_connected && *source->port.defaultgeomprop;
+    return is_geometry
+           || translate_surface_reads(t, 0, source->port.name, translate_uniforms(t, index));
 }
 
 /* Warns about inputs that change the old surface and not the new one. */
@@ -135,7 +132,7 @@ static void report_losses(struct translation *t)
         if (t->inputs.items[i].is_set && !*t->inputs.items[i].port.defaultgeomprop)
             mark_sources(t,
                          translate_build(t, t->chain.len,
-                                         output_name(t, t->inputs.items[i].port.name),
+                                         translate_output_name(t, t->inputs.items[i].port.name),
                                          TRANSLATE_ALL_INPUTS),
                          stays);
     for (uint32_t i = 0; i < t->sources.len; i++) {
@@ -180,30 +177,30 @@ static bool is_sound(struct translation *t)
     return builds;
 }
 
+/* False after a message: no translation leads on from the surface. */
+static bool has_way(struct translation *t, const char *category)
+{
+    const struct document *doc = &t->document->layer.doc;
+    bool has = translate_find_chain(t, category);
+    if (!has)
+        diag_add(t->diags, DIAG_ID_no_translation, doc_name_place(doc, t->surface), category,
+                 t->model);
+    return has;
+}
+
 static void translate_surface(struct translation *t, elem_id surface)
 {
     const struct document *doc = &t->document->layer.doc;
     const char *category = str_text(doc->strings, doc_element(doc, surface)->category);
-    uint32_t definition = mxg_document_find_nodedef(t->document, surface);
-    if (strcmp(category, t->model) == 0)
-        return;
     t->surface = surface;
-    if (!is_sound(t)) {
-        forget_surface(t);
-        return;
+    if (strcmp(category, t->model) != 0 && is_sound(t) && has_way(t, category)) {
+        translate_make_draft(t, mxg_document_find_nodedef(t->document, surface));
+        find_values(t);
+        translate_geometry(t);
+        translate_drop_idle(t);
+        report_losses(t);
+        translate_write(t);
     }
-    if (definition == MXG_NONE || !translate_find_chain(t, category)) {
-        diag_add(t->diags, DIAG_ID_no_translation, doc_name_place(doc, surface), category,
-                 t->model);
-        forget_surface(t);
-        return;
-    }
-    translate_make_draft(t, definition);
-    find_values(t);
-    translate_geometry(t);
-    translate_drop_idle(t);
-    report_losses(t);
-    translate_write(t);
     forget_surface(t);
 }
 
@@ -217,10 +214,10 @@ static bool is_surface(const struct translation *t, elem_id element)
     if (e->kind != KIND_NODE || doc_attr_value(doc, element, STR_type) != STR_surfaceshader)
         return false;
     bool is_second = e->name && doc_child(doc, e->parent, e->name) != element; /* of its name */
-    bool is_made = is_second;
+    bool is_made = false;
     for (elem_id child = e->first_child; child && !is_made; child = doc_element(doc, child)->next)
         is_made = doc_attr_value(doc, child, STR_type) == STR_surfaceshader;
-    return !is_made;
+    return !is_made && !is_second;
 }
 
 static void translate_below(struct translation *t, elem_id parent)

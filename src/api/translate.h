@@ -23,7 +23,7 @@ struct source_input {
     enum value_type type;
     bool is_used;           /* the new surface depends on it */
     elem_id map;            /* not 0: the leaf is what this input reads, in place of `element` */
-    mxg_element map_output; /* the output of the map's graph for it; 0: none is added yet */
+    const char *map_output; /* the output of the map's graph for it; NULL: none is added yet */
 };
 
 /* A node of the library that computes the inputs of one model from those of another. */
@@ -75,25 +75,36 @@ bool translate_find_chain(struct translation *t, const char *category);
 bool translate_find_port(const struct translation *t, uint32_t definition, const char *name,
                          bool is_output, mxg_port *out);
 
+/* The output of a translation that is the value of an input: "base_color_out". */
+const char *translate_output_name(const struct translation *t, const char *input);
+
 /* translate_draft.c: fills `draft`, `sources`. */
 void translate_make_draft(struct translation *t, uint32_t definition);
-/* True if the surface has the default of the definition, whatever its spelling. */
-bool translate_is_default(const struct translation *t, const struct source_input *source);
+/* True if a text has the value of a port's default, however it is spelt. */
+bool translate_is_default(const mxg_port *port, const struct strpool *strings, const char *text);
+/* True if the document connects the input, or gives it another value than the default. */
+bool translate_is_authored(const struct translation *t, const struct source_input *source);
 /* The name of the draft's node of a step. */
 const char *translate_step_name(const struct translation *t, unsigned step);
 /* True if the surface itself has a value; else t->value has the errors. */
 bool translate_can_build(struct translation *t);
-/* True if the shader of the draft's surface of a step reads an input that is a uniform. `uniforms`
- * lists paths of inputs. */
+/*
+ * True if the shader of the draft's surface of a step reads an input that is a uniform. `uniforms`
+ * lists paths of inputs.
+ */
 bool translate_surface_reads(struct translation *t, unsigned step, const char *input,
                              const char *uniforms);
-/* The paths of inputs of the draft that become uniforms: those that are connected, and one more by
- * its index, or all that are set. */
+/*
+ * The paths of inputs of the draft that become uniforms: those that are connected, and one more by
+ * its index, or all that are set.
+ */
 #define TRANSLATE_ALL_INPUTS UINT32_MAX
 #define TRANSLATE_CONNECTED (UINT32_MAX - 1)
 const char *translate_uniforms(const struct translation *t, uint32_t more);
-/* The value of an output of a translation in the graph of t->value, with uniforms as above; 0: it
- * has none. */
+/*
+ * The value of an output of a translation in the graph of t->value, with uniforms as above; 0: it
+ * has none.
+ */
 ir_ref translate_build(struct translation *t, unsigned step, const char *output, uint32_t more);
 /* The source that a node of the graph stands for; sources.len: none. */
 uint32_t translate_source_of(const struct translation *t, const struct ir_graph *graph, ir_ref ref);
@@ -101,8 +112,10 @@ uint32_t translate_source_of(const struct translation *t, const struct ir_graph 
 /* translate_geometry.c: normals and tangents. */
 void translate_geometry(struct translation *t);
 
-/* translate_idle.c: leaves out inputs on which the new surface does not depend: the roughness of a
- * coat that it does not have. */
+/*
+ * translate_idle.c: leaves out inputs on which the new surface does not depend: the roughness of a
+ * coat that it does not have.
+ */
 void translate_drop_idle(struct translation *t);
 
 /* translate_write.c */

@@ -69,22 +69,27 @@ static void read_sources(struct translation *t, uint32_t definition)
     }
 }
 
-bool translate_is_default(const struct translation *t, const struct source_input *source)
+bool translate_is_default(const mxg_port *port, const struct strpool *strings, const char *text)
 {
-    const char *text = attribute(t, source->element, STR_value);
-    mxg_value value = {.size = sizeof value};
-    struct ir_value words = value_zero(source->type).value;
-    if (strcmp(text, source->port.value) == 0 || !source->element)
-        return true;
-    if (mxg_document_value(t->document, source->element, &value) != MXG_OK
-        || value.num_values != ir_type_components(words.type))
-        return false;
-    for (uint32_t i = 0; i < value.num_values; i++)
-        if (words.type == IR_TYPE_INT)
-            words.w[i].i = value.integer;
-        else
-            words.w[i].f = value.values[i];
-    return source->type != VALUE_BOOLEAN && value_is(&words, source->port.value);
+    struct ir_value a, b;
+    doc_type type = doc_type_of(str_find(strings, port->type, strlen(port->type)));
+    bool is_same = strcmp(text, port->value) == 0;
+    if (is_same || !doc_type_components(type)
+        || !doc_parse_value(type, text, strlen(text), NULL, &a)
+        || !doc_parse_value(type, port->value, strlen(port->value), NULL, &b))
+        return is_same;
+    is_same = true;
+    for (unsigned i = 0; i < ir_type_components(a.type) && is_same; i++)
+        is_same = ir_type_is_float(a.type) ? a.w[i].f == b.w[i].f : a.w[i].u == b.w[i].u;
+    return is_same;
+}
+
+bool translate_is_authored(const struct translation *t, const struct source_input *source)
+{
+    return source->element
+           && (source->is_connected
+               || !translate_is_default(&source->port, t->document->layer.doc.strings,
+                                        attribute(t, source->element, STR_value)));
 }
 
 /* ---- The nodes of the draft ---- */
@@ -167,20 +172,18 @@ static void add_first(struct translation *t, unsigned step, uint32_t definition)
     }
 }
 
-/* An input of a later translation: an output of the one before, or the default of the model between
- * them. */
+/*
+ * An input of a later translation: an output of the one before, or the default of the model between
+ * them.
+ */
 static void connect_step(struct translation *t, mxg_element node, mxg_element before,
                          uint32_t definition, const mxg_port *input)
 {
-    struct text output;
     mxg_port port;
-    text_init(&output, t->arena);
-    text_fmt(&output, "%s_out", input->name);
-    if (!translate_find_port(t, definition, text_cstr(&output), true, &port))
-        return;
-    translate_expect(
-        t, mxg_edit_connect_input(t->draft_edit, node, input->name, before, text_cstr(&output))
-               == MXG_OK);
+    const char *output = translate_output_name(t, input->name);
+    if (translate_find_port(t, definition, output, true, &port))
+        translate_expect(t, mxg_edit_connect_input(t->draft_edit, node, input->name, before, output)
+                                == MXG_OK);
 }
 
 static void add_step(struct translation *t, unsigned step)
@@ -229,7 +232,7 @@ void translate_make_draft(struct translation *t, uint32_t definition)
 static void build(struct generation *g)
 {
     bool good = generation_start(g);
-    g->build_options.has_no_calls = true;
+    g->build_options.max_inline_nodes = UINT32_MAX; /* no node of MaterialX is a call */
     *(ir_ref *)g->user_data = good && generation_build(g) ? g->root : 0;
 }
 

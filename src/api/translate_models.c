@@ -17,6 +17,14 @@ static mxg_nodedef definition_at(const struct translation *t, uint32_t index)
     return definition;
 }
 
+const char *translate_output_name(const struct translation *t, const char *input)
+{
+    struct text name;
+    text_init(&name, t->arena);
+    text_fmt(&name, "%s_out", input);
+    return text_cstr(&name);
+}
+
 bool translate_find_port(const struct translation *t, uint32_t definition, const char *name,
                          bool is_output, mxg_port *out)
 {

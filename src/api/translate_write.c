@@ -5,30 +5,30 @@
  * nodes beside it.
  */
 #include "api/translate.h"
-#include "api/edit.h"
 
 struct writing {
     struct translation *t;
-    mxg_element
-        scope; /* of the nodes: a new nodegraph, or that around the surface; 0: there are none */
+    mxg_element scope; /* of the nodes: a new nodegraph, or what is around the surface */
     bool has_own_graph;
     mxg_element *elements; /* by node of t->nodes */
     bool *is_needed;       /* by node, too */
     mxg_element surface;   /* the new one */
 };
 
-/* Marks the nodes that the inputs of the surface need. */
-static void find_needed(struct writing *w)
+/* Marks the nodes that the inputs of the surface need; false: none. */
+static bool find_needed(struct writing *w)
 {
+    bool has_any = false;
     const struct value_nodes *nodes = &w->t->nodes;
     w->is_needed = ARENA_ARRAY(w->t->arena, bool, nodes->nodes.len + 1);
     for (uint32_t i = 0; i < w->t->inputs.len; i++)
         if (w->t->inputs.items[i].is_set && w->t->inputs.items[i].value.kind == OPERAND_NODE)
-            w->is_needed[w->t->inputs.items[i].value.index] = true;
+            has_any = w->is_needed[w->t->inputs.items[i].value.index] = true;
     for (uint32_t i = nodes->nodes.len; i-- > 0;)
         for (unsigned k = 0; w->is_needed[i] && k < nodes->nodes.items[i].num_inputs; k++)
             if (nodes->nodes.items[i].inputs[k].kind == OPERAND_NODE)
                 w->is_needed[nodes->nodes.items[i].inputs[k].index] = true;
+    return has_any;
 }
 
 static const char *name_of(const struct translation *t, elem_id element)
@@ -78,12 +78,12 @@ static void set_constant(const struct writing *w, mxg_element node, const char *
 }
 
 /* Gives the graph of a map an output for what the map reads. */
-static mxg_element add_map_output(const struct writing *w, mxg_element graph, elem_id map)
+static const char *add_map_output(const struct writing *w, mxg_element graph, elem_id map)
 {
     static const str_id kept[] = {STR_nodename, STR_nodegraph, STR_output};
     const struct document *doc = &w->t->document->layer.doc;
-    mxg_element output = mxg_edit_add_element(w->t->edit, graph, "output",
-                                              free_name(w, graph, "map", "_out"), "vector3");
+    const char *name = free_name(w, graph, "map", "_out");
+    mxg_element output = mxg_edit_add_element(w->t->edit, graph, "output", name, "vector3");
     translate_expect(w->t, output != 0);
     for (size_t i = 0; i < sizeof kept / sizeof *kept; i++) {
         str_id value = doc_attr_value(doc, map, kept[i]);
@@ -91,7 +91,7 @@ static mxg_element add_map_output(const struct writing *w, mxg_element graph, el
             mxg_edit_set_attribute(w->t->edit, output, str_text(doc->strings, kept[i]),
                                    str_text(doc->strings, value));
     }
-    return output;
+    return name;
 }
 
 /* The connection of the old surface, or what its map reads, at an input of another element. */
@@ -108,16 +108,8 @@ static void copy_leaf(const struct writing *w, mxg_element to, const char *input
     }
     if (!source->map_output)
         source->map_output = add_map_output(w, graph, from);
-    mxg_element added = mxg_edit_add_element(w->t->edit, to, "input", input, "vector3");
-    translate_expect(
-        w->t, added != 0
-                  && mxg_edit_set_attribute(w->t->edit, added, "nodegraph", name_of(w->t, graph))
-                         == MXG_OK
-                  && mxg_edit_set_attribute(
-                         w->t->edit, added, "output",
-                         str_text(edit_tree(w->t->edit)->strings,
-                                  doc_element(edit_tree(w->t->edit), source->map_output)->name))
-                         == MXG_OK);
+    translate_expect(w->t, mxg_edit_connect_input(w->t->edit, to, input, graph, source->map_output)
+                               == MXG_OK);
 }
 
 /* ---- Nodes ---- */
@@ -185,7 +177,7 @@ static void add_scope(struct writing *w)
     elem_id parent = doc_element(doc, t->surface)->parent;
     w->has_own_graph = parent == doc->root;
     w->scope = parent;
-    if (!t->nodes.nodes.len)
+    if (!find_needed(w))
         return;
     if (w->has_own_graph) {
         struct text name;
@@ -219,10 +211,9 @@ static void connect_through_graph(const struct writing *w, const char *input,
 
 static bool is_default(const struct writing *w, const struct translated_input *input)
 {
-    const struct operand *value = &input->value;
-    return value->kind == OPERAND_CONSTANT
-           && (strcmp(text_of(w, value), input->port.value) == 0
-               || value_is(&value->value, input->port.value));
+    return input->value.kind == OPERAND_CONSTANT
+           && translate_is_default(&input->port, w->t->document->layer.doc.strings,
+                                   text_of(w, &input->value));
 }
 
 static void set_surface_input(const struct writing *w, const struct translated_input *input)
@@ -242,7 +233,6 @@ void translate_write(struct translation *t)
     const struct document *doc = &t->document->layer.doc;
     elem_id parent = doc_element(doc, t->surface)->parent;
     const char *name = name_of(t, t->surface);
-    find_needed(&w);
     add_scope(&w);
     w.surface = mxg_edit_add_element(t->edit, parent, t->model,
                                      free_name(&w, parent, name, "_translated"), "surfaceshader");

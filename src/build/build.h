@@ -56,11 +56,11 @@ struct build_options {
     bool (*read_texels)(void *user_data, const char *from, const char *file, const char *layer,
                         uint32_t size, float *out_texels);
     void *texels_user_data;
-    bool has_no_calls; /* functions without loops become nodes, whatever their size */
-    bool keeps_absent; /* closures of weight 0 hide what lies below them */
-    int sss;           /* 1: a pass of the deferred pipeline spreads the light of bodies */
-    bool blurs;        /* what lies below rough interfaces is blurred */
-    bool mattes;       /* each layer of a stack has an AOV of its own */
+    uint32_t max_inline_nodes; /* functions with more tree nodes stay calls; 0: the usual number */
+    bool keeps_absent;         /* closures of weight 0 hide what lies below them */
+    int sss;                   /* 1: a pass of the deferred pipeline spreads the light of bodies */
+    bool blurs;                /* what lies below rough interfaces is blurred */
+    bool mattes;               /* each layer of a stack has an AOV of its own */
     enum build_occlusion occlusion;
     const struct mxg_node_code *codes; /* nodes in C: code.h */
     uint32_t num_codes;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/* The nodes that compute a value: one walk up the array of the IR, whose operands precede their
- * users. */
+/*
+ * The nodes that compute a value: one walk up the array of the IR, whose operands precede their
+ * users.
+ */
 #include "translate/nodes.h"
 #include "base/hash.h"
-#include "base/num.h"
 
 #include <math.h>
 
@@ -65,25 +66,6 @@ void value_write(const struct operand *constant, struct text *out)
         else
             text_float(out, value->w[i].f);
     }
-}
-
-bool value_is(const struct ir_value *value, const char *text)
-{
-    unsigned count = ir_type_components(value->type), found = 0;
-    bool is_same = true;
-    while (*text && is_same) {
-        float number;
-        text += strspn(text, ", ");
-        size_t len = num_parse_float(text, strlen(text), &number);
-        bool is_number = len && found < count;
-        is_same =
-            is_number
-            && number
-                   == (value->type == IR_TYPE_INT ? (float)value->w[found].i : value->w[found].f);
-        found++;
-        text += len;
-    }
-    return is_same && found == count;
 }
 
 /* ---- Nodes ---- */
@@ -203,8 +185,10 @@ static bool are_floats(const struct operand *operands, unsigned count)
     return are;
 }
 
-/* Only the second operand may be a float where the other is none, and a constant reads better
- * there. */
+/*
+ * Only the second operand may be a float where the other is none, and a constant reads better
+ * there.
+ */
 static bool is_better_swapped(const struct writing *w, ir_ref ref)
 {
     const struct ir_node *node = ir_get(w->graph, ref);

@@ -67,8 +67,6 @@ struct operand value_nodes_call(struct value_nodes *nodes, const char *category,
                                 const char *name1, struct operand input1);
 
 struct operand value_zero(enum value_type type);
-/* True if a text of a document has the numbers of a value, however they are spelt. */
-bool value_is(const struct ir_value *value, const char *text);
 /* The text of a constant, as documents have it. */
 void value_write(const struct operand *constant, struct text *out);
 

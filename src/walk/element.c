@@ -106,13 +106,13 @@ struct builder *build_start(const struct library *lib, const struct build_option
     b->apply = build_apply_definition;
     b->globals =
         ARENA_ARRAY(b->arena, ir_ref, shader->unit->base_globals + shader->unit->globals.len);
-    b->host =
-        (struct lang_host){.user_data = b,
-                           .global = global_node,
-                           .texture = build_read_tiles,
-                           .bad_index = build_report_index,
-                           .too_large = build_report_large,
-                           .max_inline_nodes = options->has_no_calls ? UINT32_MAX : INLINE_NODES};
+    b->host = (struct lang_host){
+        .user_data = b,
+        .global = global_node,
+        .texture = build_read_tiles,
+        .bad_index = build_report_index,
+        .too_large = build_report_large,
+        .max_inline_nodes = options->max_inline_nodes ? options->max_inline_nodes : INLINE_NODES};
     b->document = ARENA_NEW(b->arena, struct instance);
     b->document->nodedef = LIBRARY_NONE;
     b->document->first = lib->doc.first_element;
