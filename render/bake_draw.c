@@ -48,7 +48,7 @@ static mxg_element add_node(mxg_edit *edit, const char *category, const char *st
     return node;
 }
 
-/* What a normal map has for a direction: its parts along the frame, from 0 to 1. */
+/* Makes a normal map of a direction: its parts along the frame, from 0 to 1. */
 static struct source encode(mxg_edit *edit, struct source direction, const char *name)
 {
     static const char *const axes[] = {"tangent", "bitangent", "normal"}, *const inputs[] = {

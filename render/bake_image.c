@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* What was drawn becomes a value, or a file for each tile. */
+/* A drawing becomes a value, or a file for each tile. */
 #define _POSIX_C_SOURCE 200809L
 #include "render/bake.h"
 #include "render/dilate.h"

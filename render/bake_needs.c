@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* What drawings read: found by generating each of them alone. */
+/* Finds what drawings read, by generating each of them alone. */
 #include "render/bake.h"
 
 #include <stdlib.h>
@@ -12,7 +12,7 @@ static bool begins(const char *text, const char *with)
     return strncmp(text, with, strlen(with)) == 0;
 }
 
-/* What the pixel stage needs for a stream. */
+/* The needs of the pixel stage for a stream. */
 static unsigned need_of_stream(const char *semantic)
 {
     static const char *const frames[] = {"normal:", "tangent:", "bitangent:", NULL};

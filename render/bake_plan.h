@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What baking makes of a document: the nodes that stay (materials, shaders, closures, normal maps,
+ * The plan of a new document: the nodes that stay (materials, shaders, closures, normal maps,
  * images without changes), and for each of their inputs whether it stays, too, or must be drawn.
  */
 #ifndef MXG_RENDER_BAKE_PLAN_H
@@ -34,7 +34,7 @@ struct bake_node {
     size_t num_inputs;
 };
 
-/* What a drawing needs of the surface, beside its texture coordinates: bits. */
+/* The needs that a drawing has of the surface, beside its texture coordinates: bits. */
 enum bake_need {
     BAKE_VARIES = 1,   /* it is not the same everywhere */
     BAKE_FRAME = 2,    /* normals and tangents */
@@ -81,7 +81,7 @@ void bake_plan_begin(struct bake_plan *plan, const mxg_document *document, struc
 bool bake_plan_add(struct bake_plan *plan, const char *path);
 /* A name that nothing of the new document has. The caller frees it. */
 char *bake_plan_name(struct bake_plan *plan, const char *wanted);
-/* The same for a file, without its ending. */
+/* A name for a file, without its ending, that no file of the plan has. */
 char *bake_plan_file(struct bake_plan *plan, const char *wanted);
 void bake_plan_finish(struct bake_plan *plan);
 
@@ -92,10 +92,10 @@ char *bake_path(const mxg_document *document, mxg_element element);
 mxg_element_info bake_element(const mxg_document *document, mxg_element element);
 /* An attribute of an element; NULL: it has none. */
 const char *bake_attribute(const mxg_document *document, mxg_element element, const char *name);
-/* The same of the element or the nearest one around it. */
+/* The attribute of the element or the nearest one around it. */
 const char *bake_inherited(const mxg_document *document, mxg_element element, const char *name);
 
-/* What an input or output gets its value from. */
+/* Where an input or output gets its value from. */
 struct bake_end {
     mxg_element node;   /* 0: no node */
     const char *output; /* of the node */

@@ -113,7 +113,7 @@ float mx_ggx_smith_visibility(const vec3 v, const vec3 l)
     return 0.5 * l.z / (v.z * length(vec3(l.xy * 0.09, l.z)) + l.z * length(vec3(v.xy * 0.09, v.z)));
 }
 
-// The GGX lobe from L to V, without Fresnel's factor, with masking by direction.
+// The lobe of the facets from L to V, without Fresnel's factor, with masking by direction.
 // Here roughness = vec2(0.09).
 float mx_ggx_smith_lobe(const mat3 frame, const vec3 V, const vec3 L)
 {

@@ -124,7 +124,7 @@ void mx_ggx_scatter(const vec3 N, const vec3 X, const vec3 V, const vec3 xi, out
     pdf *= density * mx_ggx_distribution(h / vec3(0.25, 0.25, 1.0));
 }
 
-// The GGX lobe from L to V, without Fresnel's factor, with masking by direction.
+// The lobe of the facets from L to V, without Fresnel's factor, with masking by direction.
 // Here roughness = vec2(0.25).
 float mx_ggx_smith_lobe(const mat3 frame, const vec3 V, const vec3 L)
 {

@@ -122,7 +122,7 @@ float mx_ggx_distribution(const vec3 e)
     return 1.0 / (3.1415927 * dot(e, e) * dot(e, e));
 }
 
-// The GGX lobe from L to V, without Fresnel's factor, with masking by direction.
+// The lobe of the facets from L to V, without Fresnel's factor, with masking by direction.
 // Here roughness = vec2(1.0).
 float mx_ggx_smith_lobe(const mat3 frame, const vec3 V, const vec3 L)
 {

@@ -188,7 +188,7 @@ float mx_ggx_smith_visibility(const vec3 v, const vec3 l, const vec2 alpha)
     return 0.5 * l.z / (v.z * length(vec3(l.xy * alpha, l.z)) + l.z * length(vec3(v.xy * alpha, v.z)));
 }
 
-// The GGX lobe from L to V, without Fresnel's factor, with masking by direction.
+// The lobe of the facets from L to V, without Fresnel's factor, with masking by direction.
 float mx_ggx_smith_lobe(const vec2 roughness, const mat3 frame, const vec3 V, const vec3 L)
 {
     vec2 alpha = clamp(roughness, vec2(1e-8), vec2(1.0));

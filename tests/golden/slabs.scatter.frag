@@ -176,7 +176,7 @@ vec3 mx_slab_thin_light(const vec3 N, const vec3 V, const vec3 L)
         * (mx_medium_reflected(mx_way(N, L)) * (max(dot(faceforward(N, -V, N), L), 0.0) / 3.1415927));
 }
 
-// The GGX lobe from L to V, without Fresnel's factor, with masking by direction.
+// The lobe of the facets from L to V, without Fresnel's factor, with masking by direction.
 float mx_ggx_smith_lobe(const vec2 roughness, const mat3 frame, const vec3 V, const vec3 L)
 {
     vec2 alpha = clamp(roughness, vec2(1e-8), vec2(1.0));

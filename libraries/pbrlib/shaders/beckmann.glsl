@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What Beckmann's distribution of facets has in place of GGX's: its slopes are normally distributed, so its lobes have no long tails. The
+// Beckmann's distribution of facets. Slopes are normally distributed, so lobes have no long tails. The
 // kernel in ggx.glsl calls it where the input `distribution` asks for it. Roughness is that along X and Y, already squared; directions are in
 // the frame of the lobe, and masking and albedo follow them.
 

@@ -173,7 +173,7 @@ vec2 mx_beckmann_albedo_towards(vec2 roughness, vec3 v)
     return mx_ggx_facing_more(mx_beckmann_albedo(round_lobe.x, round_lobe.y), round_lobe.z);
 }
 
-// The same for the viewer V. A round lobe needs no tangent.
+// The light that a white lobe of Beckmann's facets reflects to the viewer V (x), and the mean of (1 - cos)^5 over it (y).
 vec2 mx_beckmann_albedo_of(vec2 roughness, vec3 N, vec3 X, vec3 V)
 {
     if (mx_ggx_round(roughness))
@@ -282,7 +282,7 @@ float mx_beckmann_facets(vec3 H, mat3 frame, vec2 alpha)
     return mx_beckmann_distribution(normalize(H) * frame, alpha);
 }
 
-// The GGX lobe from L to V, without Fresnel's factor, with masking by direction.
+// The lobe of the facets from L to V, without Fresnel's factor, with masking by direction.
 float mx_ggx_smith_lobe(vec2 roughness, string distribution, mat3 frame, vec3 V, vec3 L)
 {
     vec2 alpha = mx_ggx_alpha(roughness);
@@ -375,7 +375,9 @@ mx_GgxSamples mx_ggx_samples(vec2 roughness, bool is_round, vec3 N, vec3 X, vec3
                          u_envLightIntensity * weight);
 }
 
-// The lobe of Beckmann's facets in the same words: masking is that of v, and a cap has the whole area that v sees.
+// The lobe of Beckmann's facets as samples of the environment see it.
+//
+// Its `reach` is the masking of v, and `step` the area that v sees of the facets, by sample.
 mx_GgxSamples mx_beckmann_samples(vec2 roughness, vec3 N, vec3 X, vec3 V)
 {
     mat3 frame = mx_ggx_oval(roughness) ? mx_frame(mx_facing(N, V), X) : mx_any_frame(mx_facing(N, V));
