@@ -3,6 +3,7 @@
 """Documentation: every link has a target, README.md links to every page, its commands run and its program compiles. Documentation,
 comments and messages: every file and folder that they name exists.
 Arguments: the root of the project, the program, a C compiler."""
+import json
 import pathlib
 import re
 import subprocess
@@ -194,6 +195,19 @@ def check_pictures():
           "docs/deferred.md: the tables of pictures differ from tests/deferred/pictures.def")
 
 
+def check_papers():
+    """Each row of docs/papers.md names tests that are there, or says what is missing. The build's folder has the list of tests."""
+    tests = {test["name"] for test in json.loads(text_of(MXGEN.parent / "meson-info/intro-tests.json"))}
+    page = text_of(ROOT / "docs/papers.md").replace("\\|", "/")
+    rows = [[cell.strip() for cell in row.split("|")] for row in re.findall(r"^\|(.*)\|$", page, re.MULTILINE)]
+    rows = [row for row in rows if row[0] not in ("section", "chapter") and set(row[0]) != {"-"}]
+    check(len(rows) > 100, f"docs/papers.md has {len(rows)} rows only")
+    for row in rows:
+        check(len(row) == 5 and (row[3] or row[4]), f"docs/papers.md: a row without a test does not say what is missing: {row}")
+        for name in re.findall(r"`([^`]+)`", row[3]):
+            check(name in tests, f"docs/papers.md: there is no test {name}")
+
+
 pages = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "examples" / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 for page in pages:
     check_links(page)
@@ -206,4 +220,5 @@ check_semantics()
 check_combinations()
 check_pictures()
 check_embedding()
+check_papers()
 finish("docs")
