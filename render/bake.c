@@ -5,8 +5,6 @@
 #include "compile/compile.h"
 #include "program/file_name.h"
 #include "program/files.h"
-#include "program/memory.h"
-#include "program/temporary.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -30,7 +28,7 @@ static const char *setting(const struct cli *cli, const char *key, const char *o
     return otherwise;
 }
 
-/* Sets options of generation; false after a message. */
+/* false after a message. */
 static bool parse(struct baking *baking)
 {
     static const char *const formats[] = {"png", "exr", "jpg", NULL}, *const missing[] = {
@@ -49,14 +47,19 @@ static bool parse(struct baking *baking)
         fprintf(stderr, "mxgen: an image has 8, 16 or 32 bits, and not %zu\n", options->depth);
         return false;
     }
-    baking->path = cli->parser.inputs.items[0];
+    return true;
+}
+
+void bake_begin(struct baking *baking, const char *path)
+{
+    struct cli *cli = &baking->cli;
+    baking->path = path;
     baking->space = setting(cli, "colorspace", "lin_rec709");
     baking->is_709 = strcmp(baking->space, "lin_rec709") == 0;
-    baking->painter.checker = strcmp(options->missing_texture, "checker") == 0;
+    baking->painter.checker = strcmp(baking->options.missing_texture, "checker") == 0;
     mxg_options_set(cli->options, "interface", "reduced");
     mxg_options_set(cli->options, "texture-modes", "shared");
     mxg_options_set(cli->options, "max-outputs", "64");
-    return true;
 }
 
 /* ---- The plan ---- */
@@ -93,42 +96,25 @@ static bool plan(struct baking *baking)
 
 /* ---- Files ---- */
 
-/* The name of the new document: that of the old one. The caller frees it. */
-static char *document_name(const struct baking *baking)
+char *bake_document_name(const struct baking *baking)
 {
     const char *base = strcmp(baking->path, "-") == 0 ? "stdin" : files_base_name(baking->path);
     size_t len = strlen(base);
     if (len > 5 && strcmp(base + len - 5, ".mtlx") == 0)
         len -= 5;
-    char *name = cli_format("%.*s.mtlx", (int)len, base), *clean = file_name_clean(name);
+    char *name = cli_format("%.*s.mtlx", (int)len, base), *clean = file_name_clean(name),
+         *path = cli_format("%s/%s", baking->options.output, clean);
     free(name);
-    return clean;
-}
-
-/* Gives all files their names, or removes them. */
-static bool end_files(struct baking *baking, bool keep)
-{
-    for (size_t i = 0; i < baking->num_written; ++i) {
-        struct bake_file *file = &baking->written[i];
-        if (keep && rename(file->temporary, file->path) != 0) {
-            report_error(&baking->cli.report, "output-failed", "cannot write '%s'", file->path);
-            keep = false;
-        }
-        if (!keep)
-            remove(file->temporary);
-        temporary_forget(file->temporary);
-        free(file->temporary);
-        free(file->path);
-    }
-    free(baking->written);
-    return keep;
+    free(clean);
+    return path;
 }
 
 static bool write_document(struct baking *baking, const char *path)
 {
     size_t size = 0;
     char *text = bake_write_document(baking, &size);
-    const char *temporary = text ? bake_begin_file(baking, files_base_name(path)) : NULL;
+    const char *temporary =
+        text ? batch_begin(&baking->written, baking->options.output, files_base_name(path)) : NULL;
     const char *reason = text ? files_write(temporary, text, size) : NULL;
     if (reason)
         report_error(&baking->cli.report, "output-failed", "cannot write '%s': %s", path, reason);
@@ -179,30 +165,41 @@ static bool open_device(struct baking *baking)
     return false;
 }
 
-/* Bakes a loaded document. `output` is the path of the new one. */
-static void bake(struct baking *baking, const char *output)
+bool bake_document(struct baking *baking, const mxg_document *document)
 {
     const char *reason = NULL;
-    bool is_new = access(baking->options.output, F_OK) != 0;
-    if (!claim(baking, output)
-        || !bake_surface_open(&baking->surface, &baking->cli, baking->options.mesh)
-        || !plan(baking))
-        return;
-    reason = files_make_folder(baking->options.output);
-    if (reason) {
+    char *output = bake_document_name(baking);
+    bool is_new = access(baking->options.output, F_OK) != 0, good;
+    baking->document = document;
+    good = claim(baking, output)
+           && bake_surface_open(&baking->surface, &baking->cli, baking->options.mesh)
+           && plan(baking);
+    reason = good ? files_make_folder(baking->options.output) : NULL;
+    if (reason)
         report_error(&baking->cli.report, "output-failed", "cannot write to '%s': %s",
                      baking->options.output, reason);
-        return;
-    }
     compile_begin();
-    bool good = bake_keep_files(baking) && open_device(baking) && bake_draw(baking)
-                && write_document(baking, output);
+    good = good && !reason && bake_keep_files(baking) && open_device(baking) && bake_draw(baking)
+           && write_document(baking, output);
     compile_end();
-    good = end_files(baking, good && !baking->cli.report.errors);
+    good = batch_end(&baking->written, &baking->cli.report, good && !baking->cli.report.errors);
     if (good)
         tell(baking);
     else if (is_new)
         rmdir(baking->options.output);
+    free(output);
+    return good;
+}
+
+void bake_finish(struct baking *baking)
+{
+    bake_plan_finish(&baking->plan);
+    bake_surface_close(&baking->surface);
+    gpu_close(&baking->painter.gpu);
+    names_finish(&baking->painter.told_textures);
+    aovs_finish(&baking->painter.aovs);
+    outputs_finish(&baking->files);
+    batch_finish(&baking->written);
 }
 
 int bake_main(int argc, char **argv)
@@ -218,24 +215,15 @@ int bake_main(int argc, char **argv)
                   argc, argv, &code)) {
         code = EXIT_USAGE;
         if (parse(&baking)) {
+            bake_begin(&baking, baking.cli.parser.inputs.items[0]);
             mxg_document *document = cli_load(&baking.cli, baking.path);
-            char *name = document_name(&baking),
-                 *output = cli_format("%s/%s", baking.options.output, name);
-            baking.document = document;
             if (document)
-                bake(&baking, output);
-            free(name);
-            free(output);
-            bake_plan_finish(&baking.plan);
-            bake_surface_close(&baking.surface);
-            gpu_close(&baking.painter.gpu);
+                bake_document(&baking, document);
+            bake_finish(&baking);
             mxg_document_destroy(document);
             code = baking.cli.report.errors ? EXIT_FAULT : EXIT_DONE;
         }
     }
     cli_finish(&baking.cli);
-    names_finish(&baking.painter.told_textures);
-    aovs_finish(&baking.painter.aovs);
-    outputs_finish(&baking.files);
     return code;
 }

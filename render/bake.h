@@ -9,15 +9,11 @@
 #define MXG_RENDER_BAKE_H
 
 #include "program/bake_options.h"
+#include "program/batch.h"
 #include "render/bake_plan.h"
 #include "render/bake_surface.h"
 #include "render/picture.h"
 #include "render/spool.h"
-
-/* A file with a temporary name, which gets its own when all is written. */
-struct bake_file {
-    char *temporary, *path;
-};
 
 struct baking {
     struct cli cli;
@@ -28,8 +24,7 @@ struct baking {
     struct bake_surface surface;
     struct painter painter;
     struct outputs files;
-    struct bake_file *written;
-    size_t num_written;
+    struct batch written;
     size_t num_images; /* files */
     const char *space; /* the working colour space */
     bool is_709;       /* it has the primaries of srgb_texture */
@@ -37,6 +32,21 @@ struct baking {
 };
 
 int bake_main(int argc, char **argv);
+
+/*
+ * For programs that bake on their own: sets `path` and what baking needs of the options of
+ * generation. baking->cli and baking->options are filled.
+ */
+void bake_begin(struct baking *baking, const char *path);
+/*
+ * Bakes a loaded document into the folder of the options, where the new one gets the name
+ * bake_document_name. false after reporting an error; the folder is then as it was.
+ */
+bool bake_document(struct baking *baking, const mxg_document *document);
+/* "flat/wall.mtlx". The caller frees it. */
+char *bake_document_name(const struct baking *baking);
+/* Frees all but baking->cli. */
+void bake_finish(struct baking *baking);
 
 /* Generates an element without its source. NULL: it has errors, which `tells` reports. */
 mxg_result *bake_generate(struct baking *baking, const char *path, bool tells);
@@ -53,8 +63,6 @@ bool bake_draw(struct baking *baking);
  */
 bool bake_finish_drawing(struct baking *baking, struct bake_drawing *drawing,
                          const struct spool *spools, uint32_t num_spools);
-/* A temporary name for a file of the output folder, which baking->written has. */
-const char *bake_begin_file(struct baking *baking, const char *name);
 
 /* The path of a file that an element of the document names. The caller frees it. */
 char *bake_file_path(const struct baking *baking, mxg_element element, const char *file);

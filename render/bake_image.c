@@ -6,7 +6,6 @@
 #include "render/image_rows.h"
 
 #include "program/memory.h"
-#include "program/temporary.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -97,22 +96,6 @@ static void convert(const struct image_format *format, uint32_t channels, size_t
 
 /* ---- Files ---- */
 
-const char *bake_begin_file(struct baking *baking, const char *name)
-{
-    char *stem = cli_format("%s/.tmp", baking->options.output), *after = cli_format("-%s", name);
-    struct bake_file file = {temporary_name(stem, after),
-                             cli_format("%s/%s", baking->options.output, name)};
-    free(stem);
-    free(after);
-    if (!file.temporary)
-        memory_fail();
-    temporary_note(file.temporary);
-    baking->written =
-        memory_resize(baking->written, (baking->num_written + 1) * sizeof *baking->written);
-    baking->written[baking->num_written++] = file;
-    return file.temporary;
-}
-
 static bool write_rows(struct image_rows *rows, const struct image_format *format,
                        struct dilation *dilation, char *reason, size_t capacity)
 {
@@ -144,7 +127,8 @@ static bool write_file(struct baking *baking, const struct image_format *format,
         struct dilation dilation;
         dilation_begin(&dilation, spool, (uint32_t)baking->options.padding);
         struct image_rows *rows =
-            image_rows_begin(bake_begin_file(baking, name), format, reason, sizeof reason);
+            image_rows_begin(batch_begin(&baking->written, baking->options.output, name), format,
+                             reason, sizeof reason);
         if (rows && write_rows(rows, format, &dilation, reason, sizeof reason))
             image_rows_end(rows, reason, sizeof reason);
         else

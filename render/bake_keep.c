@@ -66,7 +66,8 @@ static bool copy_file(struct baking *baking, struct bake_input *input, const cha
 {
     char *name = name_copy(baking, path), *to = cli_format("%s/%s", baking->options.output, name);
     bool is_free = outputs_write(&baking->files, &baking->cli.report, to, "a copy");
-    const char *reason = is_free ? copy(path, bake_begin_file(baking, name)) : NULL;
+    const char *reason =
+        is_free ? copy(path, batch_begin(&baking->written, baking->options.output, name)) : NULL;
     if (reason)
         report_error(&baking->cli.report, "output-failed", "cannot copy '%s' to '%s': %s", path, to,
                      reason);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /* mxgen-render: renders pictures of materials without a display. `mxgen render` starts it. */
 #define _POSIX_C_SOURCE 200809L
+#include "export/export.h"
 #include "program/files.h"
 #include "program/parent.h"
 #include "program/scene_file.h"
@@ -148,6 +149,8 @@ int main(int argc, char **argv)
     parent_follow();
     if (strcmp(argv[0], "bake") == 0)
         return bake_main(argc, argv);
+    if (strcmp(argv[0], "export") == 0)
+        return export_main(argc, argv);
     if (argc == 5 && strcmp(argv[1], CLI_TEXELS) == 0)
         return means_print(argv[2], argv[3], (uint32_t)strtoul(argv[4], NULL, 10));
     if (cli_start(&job.cli, &command, args, num_args, CLI_GENERATES, argc, argv, &code)) {

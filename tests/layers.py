@@ -14,7 +14,7 @@ ROOT = pathlib.Path(sys.argv[1])
 ROOMS = "base diag ir document xml usda tree parse lower specialise print shader closure slabs deferred library bind build dynamic material network walk spell translate api".split()
 FRONT = set("document xml usda parse library bind build dynamic material network walk".split())
 BACK = {"ir", "lower", "specialise", "print", "closure", "slabs", "deferred", "shader", "spell", "translate"}
-PROGRAMS = "cli check compile doc lsp render".split()
+PROGRAMS = "cli check compile doc export lsp render".split()
 INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]', re.MULTILINE)
 
 

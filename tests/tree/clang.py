@@ -13,7 +13,7 @@ from concurrent.futures import ThreadPoolExecutor
 BUILD = pathlib.Path(sys.argv[1])
 CLANG = shutil.which("clang")
 OF_GCC = {"-fdiagnostics-color=always"}
-DRAWS = ("bench", "compile", "examples", "render", "tests/conformance", "tests/deferred", "tests/physics", "tests/programs")
+DRAWS = ("bench", "compile", "examples", "export", "render", "tests/conformance", "tests/deferred", "tests/physics", "tests/programs")
 
 
 def check(entry):

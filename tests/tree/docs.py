@@ -15,7 +15,7 @@ from checks import check, finish, skip
 
 ROOT, MXGEN, COMPILER = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve(), sys.argv[3:]
 LINK = re.compile(r"\]\(([^)\s]+)\)")
-DRAWS = re.compile(r" render | bake | --pictures")
+DRAWS = re.compile(r" render | bake | export | --pictures")
 
 
 def text_of(page):
@@ -113,7 +113,7 @@ def check_commands():
                 continue
             result = subprocess.run(command, shell=True, cwd=folder, capture_output=True, text=True, check=False)
             check(result.returncode == 0, f"README.md: `{command}` gives {result.returncode}: {result.stderr}")
-    skip(f"{sum(bool(DRAWS.search(command)) for command in commands)} commands of README.md draw: tests/programs/render.sh and bake.sh do")
+    skip(f"{sum(bool(DRAWS.search(command)) for command in commands)} commands of README.md draw: tests/programs/render.sh, bake.sh and export.sh do")
 
 
 def check_program():

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * Materials of a flat document (docs/bake.md), whose surfaces have one model: each input is a
+ * value, an image, or a map of normals. Writers of formats stand on this alone.
+ */
+#ifndef MXG_EXPORT_FLAT_H
+#define MXG_EXPORT_FLAT_H
+
+#include "program/cli.h"
+
+#include <mxgen/mxgen.h>
+
+/* How an image repeats outside of the texture coordinates from 0 to 1. */
+enum flat_wrap { FLAT_REPEAT, FLAT_CLAMP, FLAT_MIRROR };
+
+struct flat_image {
+    char *path;          /* of the file; NULL: there is none */
+    unsigned components; /* of its type */
+    bool is_srgb;        /* its colours are encoded */
+    bool is_closest;     /* its texels are squares */
+    enum flat_wrap wrap[2];
+};
+
+/* An input that the document sets. */
+struct flat_input {
+    const char *name;
+    mxg_element port;
+    struct flat_image image; /* path NULL: `values` */
+    float values[4];         /* colours are linear, with the primaries of Rec. 709 */
+    unsigned num_values;
+    double scale; /* of a map of normals */
+};
+
+struct flat_material {
+    const char *name;
+    mxg_element surface;
+    struct flat_input *inputs;
+    size_t num_inputs;
+};
+
+struct flat {
+    const mxg_document *document;
+    struct report *report;
+    const char *path; /* of the document */
+    struct flat_material *materials;
+    size_t num_materials;
+};
+
+/*
+ * Reads the materials whose surfaces have the model, and surfaces without a material. What no
+ * format has is a warning. false after reporting an error. Call flat_finish in any case.
+ */
+bool flat_read(struct flat *flat, struct report *report, const mxg_document *document,
+               const char *path, const char *model);
+void flat_finish(struct flat *flat);
+
+/* The input of that name; NULL: the document does not set it. */
+const struct flat_input *flat_find(const struct flat_material *material, const char *name);
+
+/* Warns that an input of the material's surface, or a part of it, is not in the file, and why. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 4, 5)))
+#endif
+void flat_tell_loss(const struct flat *flat, const struct flat_material *material,
+                    const char *input, const char *format, ...);
+
+/* IEC 61966-2-1 */
+float flat_encode_srgb(float linear);
+float flat_decode_srgb(float encoded);
+
+#endif

@@ -1,0 +1,365 @@
+// SPDX-License-Identifier: Apache-2.0
+/* A material: members for inputs that differ from glTF's defaults and do something. */
+#include "export/gltf.h"
+
+#include "program/memory.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MAX_INPUTS = 32, OPAQUE_MODE = 0, MASK_MODE = 1 };
+
+/* An input of the table in a material. */
+struct cell {
+    const struct gltf_input *row;
+    const struct flat_input *input; /* NULL: the material does not set it */
+    bool is_textured;
+    bool is_plain;   /* a texture of one value: the format has no factor */
+    float factor[4]; /* of the texture, or alone */
+    float range;     /* the number that is 1 in the texture */
+};
+
+struct state {
+    struct gltf *gltf;
+    const struct flat_material *material;
+    struct cell cells[MAX_INPUTS];
+    int alpha_mode; /* 0 opaque, 1 mask, 2 blend */
+    json_t *json;
+};
+
+static struct cell *find(struct state *state, const char *name)
+{
+    size_t i = 0;
+    while (strcmp(gltf_inputs[i].name, name) != 0)
+        ++i;
+    return &state->cells[i];
+}
+
+static float value_of(const struct state *state, const char *name, float otherwise)
+{
+    const struct flat_input *input = flat_find(state->material, name);
+    return input && input->num_values ? input->values[0] : otherwise;
+}
+
+/* ---- Values ---- */
+
+static void clamp(const struct state *state, const struct cell *cell, float low, float high)
+{
+    const float slack = 1e-3f; /* of values that are rounded */
+    bool is_open = cell->row->is_open;
+    if (low < -slack || (!is_open && high > 1 + slack))
+        report_warning(state->gltf->flat->report, "export-clamped",
+                       "'%s/%s' has values from %g to %g; glTF keeps those from 0 to %s",
+                       state->material->name, cell->row->name, (double)low, (double)high,
+                       is_open ? "infinity" : "1");
+}
+
+static bool is_angle(const struct cell *cell)
+{
+    return strcmp(cell->row->name, "anisotropy_rotation") == 0;
+}
+
+/* The range of a texture, which is its factor. */
+static bool read_texture(const struct state *state, struct cell *cell)
+{
+    float low = 0, high = 1;
+    bool is_number = cell->row->factor && !is_angle(cell);
+    if (is_number
+        && !texture_find_range(state->gltf->flat->report, &cell->input->image, &low, &high))
+        return false;
+    clamp(state, cell, low, high);
+    cell->range = cell->row->is_open && high > 1 ? high : 1;
+    for (unsigned i = 0; i < 4; ++i)
+        cell->factor[i] = is_angle(cell) ? 0 : cell->range;
+    return true;
+}
+
+static void read_value(const struct state *state, struct cell *cell)
+{
+    float low = INFINITY, high = -INFINITY;
+    for (unsigned i = 0; i < cell->row->count; ++i) {
+        float value = cell->input ? cell->input->values[i] : cell->row->value;
+        low = fminf(low, value);
+        high = fmaxf(high, value);
+        cell->factor[i] = fmaxf(cell->row->is_open ? value : fminf(value, 1), 0);
+    }
+    if (is_angle(cell))
+        cell->factor[0] = cell->input ? cell->input->values[0] : 0;
+    else
+        clamp(state, cell, low, high);
+    cell->is_plain =
+        !cell->row->factor && cell->row->count == 1 && cell->factor[0] != cell->row->omitted;
+    cell->is_textured = cell->is_plain;
+}
+
+static bool read_cells(struct state *state)
+{
+    bool good = true;
+    for (size_t i = 0; good && i < gltf_num_inputs; ++i) {
+        struct cell *cell = &state->cells[i];
+        *cell = (struct cell){.row = &gltf_inputs[i],
+                              .input = flat_find(state->material, gltf_inputs[i].name),
+                              .range = 1};
+        bool is_image = cell->input && cell->input->image.path;
+        cell->is_textured = is_image && cell->row->texture;
+        if (is_image && !cell->is_textured) {
+            flat_tell_loss(state->gltf->flat, state->material, cell->row->name,
+                           "glTF has one value for it, and no texture");
+            cell->input = NULL;
+        }
+        if (cell->is_textured)
+            good = read_texture(state, cell);
+        else
+            read_value(state, cell);
+    }
+    return good;
+}
+
+/* Emission above 1 is a part of its strength. */
+static void move_strength(struct state *state)
+{
+    struct cell *color = find(state, "emissive"), *strength = find(state, "emissive_strength");
+    float most = fmaxf(color->factor[0], fmaxf(color->factor[1], color->factor[2]));
+    if (most <= 1)
+        return;
+    for (unsigned i = 0; i < 3; ++i)
+        color->factor[i] /= most;
+    strength->factor[0] *= most;
+}
+
+static bool is_zero(struct state *state, const char *name)
+{
+    const struct cell *cell = find(state, name);
+    bool is_zero = !cell->is_textured;
+    for (unsigned i = 0; i < cell->row->count; ++i)
+        is_zero = is_zero && cell->factor[i] == 0;
+    return is_zero;
+}
+
+static bool does_something(struct state *state, const struct cell *cell)
+{
+    for (size_t i = 0; i < 2 && cell->row->needs[i]; ++i)
+        if (is_zero(state, cell->row->needs[i]))
+            return false;
+    return strcmp(cell->row->name, "alpha") != 0 || state->alpha_mode != OPAQUE_MODE;
+}
+
+/* ---- Textures ---- */
+
+static struct texture make_texture(struct state *state, enum gltf_image image)
+{
+    const float neutral[4] = {1, image == GLTF_ANISOTROPY ? 0.5f : 1, 1, 1};
+    struct texture texture = {.is_srgb = gltf_images[image].is_srgb};
+    size_t num = 0;
+    for (size_t c = 0; c < 4; ++c)
+        texture.channels[c] = (struct texture_channel){.value = neutral[c], .range = 1};
+    for (size_t i = 0; i < gltf_num_inputs; ++i) {
+        const struct cell *cell = &state->cells[i];
+        if (!cell->is_textured || cell->row->image != image || !does_something(state, cell))
+            continue;
+        unsigned first = cell->row->channel, count = is_angle(cell) ? 2 : cell->row->count;
+        for (unsigned c = 0; c < count; ++c)
+            texture.channels[first + c] =
+                (struct texture_channel){.image = cell->is_plain ? NULL : &cell->input->image,
+                                         .component = is_angle(cell) ? 0 : c,
+                                         .part = !is_angle(cell) ? TEXTURE_VALUE
+                                                 : c             ? TEXTURE_SINE
+                                                                 : TEXTURE_COSINE,
+                                         .value = cell->factor[0],
+                                         .range = cell->range};
+        texture.has_alpha |= first + count > 3;
+        texture.is_whole = !num && !first && !cell->is_plain && !is_angle(cell) && cell->range == 1
+                           && cell->input->image.components == count;
+        ++num;
+    }
+    texture.is_whole = texture.is_whole && num == 1;
+    return texture;
+}
+
+/* The wrapping of the first image; a texture has one for all of its channels. */
+static json_t *make_sampler(struct state *state, enum gltf_image image)
+{
+    static const int wraps[] = {[FLAT_REPEAT] = 10497, [FLAT_CLAMP] = 33071, [FLAT_MIRROR] = 33648};
+    static const char *const members[] = {"wrapS", "wrapT"};
+    enum { CLOSEST = 9728 };
+    const struct flat_image *first = NULL;
+    json_t *sampler = json_object();
+    for (size_t i = 0; i < gltf_num_inputs; ++i) {
+        const struct cell *cell = &state->cells[i];
+        const struct flat_image *other = cell->input ? &cell->input->image : NULL;
+        if (!cell->is_textured || cell->is_plain || cell->row->image != image)
+            continue;
+        first = first ? first : other;
+        if (memcmp(first->wrap, other->wrap, sizeof first->wrap) != 0)
+            flat_tell_loss(state->gltf->flat, state->material, cell->row->name,
+                           "its image repeats in another way than the one that shares its texture");
+    }
+    for (size_t i = 0; first && i < 2; ++i)
+        if (first->wrap[i] != FLAT_REPEAT)
+            json_set(sampler, members[i], json_integer(wraps[first->wrap[i]]));
+    if (first && first->is_closest) {
+        json_set(sampler, "magFilter", json_integer(CLOSEST));
+        json_set(sampler, "minFilter", json_integer(CLOSEST));
+    }
+    return sampler;
+}
+
+/* Makes the file of a texture once. Returns its index; SIZE_MAX after reporting an error. */
+static size_t add_file(struct state *state, enum gltf_image image)
+{
+    struct gltf *gltf = state->gltf;
+    const struct texture texture = make_texture(state, image);
+    struct gltf_texture_file file = {.key = texture_key(&texture)};
+    for (size_t i = 0; i < gltf->num_files; ++i)
+        if (strcmp(gltf->files[i].key, file.key) == 0) {
+            free(file.key);
+            return i;
+        }
+    if (!texture_make(gltf->flat->report, &texture, gltf->writing->scratch, &file.file)) {
+        free(file.key);
+        return SIZE_MAX;
+    }
+    file.name = cli_format("%s_%s", state->material->name, gltf_images[image].name);
+    gltf->files = memory_resize(gltf->files, (gltf->num_files + 1) * sizeof *gltf->files);
+    gltf->files[gltf->num_files] = file;
+    return gltf->num_files++;
+}
+
+/* The index of a texture with the image. false after reporting an error. */
+static bool add_texture(struct state *state, enum gltf_image image, size_t *out)
+{
+    json_t *root = state->gltf->root, *texture, *sampler;
+    size_t file = add_file(state, image);
+    if (file == SIZE_MAX)
+        return false;
+    sampler = make_sampler(state, image);
+    texture = json_object();
+    json_set(texture, "source", json_integer((json_int_t)file));
+    if (json_object_size(sampler))
+        json_set(texture, "sampler",
+                 json_integer((json_int_t)gltf_add(gltf_array(root, "samplers"), sampler)));
+    else
+        json_decref(sampler);
+    *out = gltf_add(gltf_array(root, "textures"), texture);
+    return true;
+}
+
+/* ---- Members ---- */
+
+/* The object with the member of a row. */
+static json_t *place_of(struct state *state, const struct gltf_input *row)
+{
+    if (!row->object)
+        return state->json;
+    if (strncmp(row->object, "KHR_", 4) != 0)
+        return gltf_object(state->json, row->object);
+    gltf_add(gltf_array(state->gltf->root, "extensionsUsed"), json_string(row->object));
+    return gltf_object(gltf_object(state->json, "extensions"), row->object);
+}
+
+/* With as few digits as tell it: 0.1, not 0.100000001. */
+static json_t *number(float value)
+{
+    char text[32];
+    snprintf(text, sizeof text, "%.7g", (double)value);
+    return json_real(strtod(text, NULL));
+}
+
+/* An array of a factor, as glTF has it without the member. */
+static json_t *factor_array(struct state *state, const struct gltf_input *row)
+{
+    json_t *object = place_of(state, row), *array = json_object_get(object, row->factor);
+    if (array)
+        return array;
+    array = json_array();
+    json_set(object, row->factor, array);
+    for (size_t i = 0; i < gltf_num_inputs; ++i)
+        if (gltf_inputs[i].factor && strcmp(gltf_inputs[i].factor, row->factor) == 0)
+            for (unsigned k = 0; k < gltf_inputs[i].count; ++k)
+                json_array_append_new(array, number(gltf_inputs[i].omitted));
+    return array;
+}
+
+static void add_factor(struct state *state, const struct cell *cell)
+{
+    const struct gltf_input *row = cell->row;
+    bool differs = false;
+    for (unsigned i = 0; i < row->count; ++i)
+        differs = differs || cell->factor[i] != row->omitted;
+    if (!differs || !row->factor)
+        return;
+    for (unsigned i = 0; row->has_array && i < row->count; ++i)
+        json_array_set_new(factor_array(state, row), row->at + i, number(cell->factor[i]));
+    if (!row->has_array)
+        json_set(place_of(state, row), row->factor, number(cell->factor[0]));
+}
+
+static bool add_texture_info(struct state *state, const struct cell *cell)
+{
+    size_t index = 0;
+    if (!cell->is_textured)
+        return true;
+    if (!add_texture(state, cell->row->image, &index))
+        return false;
+    json_t *info = gltf_object(place_of(state, cell->row), cell->row->texture);
+    json_set(info, "index", json_integer((json_int_t)index));
+    if (cell->input && cell->input->scale != 1)
+        json_set(info, "scale", json_real(cell->input->scale));
+    return true;
+}
+
+static void add_alpha(struct state *state)
+{
+    const float usual = 0.5f;
+    float cutoff = value_of(state, "alpha_cutoff", usual);
+    if (state->alpha_mode != OPAQUE_MODE)
+        json_set(state->json, "alphaMode",
+                 json_string(state->alpha_mode == MASK_MODE ? "MASK" : "BLEND"));
+    if (state->alpha_mode == MASK_MODE && cutoff != usual)
+        json_set(state->json, "alphaCutoff", number(cutoff));
+}
+
+static void tell_others(struct state *state)
+{
+    static const char *const modes[] = {"alpha_mode", "alpha_cutoff", NULL};
+    for (size_t i = 0; i < state->material->num_inputs; ++i) {
+        const char *name = state->material->inputs[i].name;
+        bool is_known = args_is_one_of(name, modes);
+        for (size_t k = 0; k < gltf_num_inputs; ++k)
+            is_known = is_known || strcmp(gltf_inputs[k].name, name) == 0;
+        if (!is_known)
+            flat_tell_loss(state->gltf->flat, state->material, name, "glTF has nothing like it");
+    }
+}
+
+bool gltf_add_material(struct gltf *gltf, const struct flat_material *material, bool *out_tangents)
+{
+    struct state state = {.gltf = gltf, .material = material, .json = json_object()};
+    bool good;
+    json_array_append_new(gltf_array(gltf->root, "materials"), state.json);
+    json_set_text(state.json, "name", material->name);
+    state.alpha_mode = (int)value_of(&state, "alpha_mode", OPAQUE_MODE);
+    good = read_cells(&state);
+    move_strength(&state);
+    tell_others(&state);
+    for (size_t i = 0; good && i < gltf_num_inputs; ++i) {
+        const struct cell *cell = &state.cells[i];
+        if (!does_something(&state, cell))
+            continue;
+        add_factor(&state, cell);
+        good = add_texture_info(&state, cell);
+        if (strcmp(cell->row->name, "iridescence_thickness") == 0 && cell->is_textured)
+            json_set(place_of(&state, cell->row), "iridescenceThicknessMinimum", json_integer(0));
+        *out_tangents =
+            *out_tangents
+            || (cell->is_textured && !cell->row->factor && !cell->is_plain && cell->row->count == 3)
+            || cell->row->image == GLTF_ANISOTROPY;
+    }
+    add_alpha(&state);
+    /* Both sides of a surface are the material, unless it bounds a volume. */
+    if (is_zero(&state, "thickness"))
+        json_set(state.json, "doubleSided", json_true());
+    return good;
+}

@@ -1,0 +1,183 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# mxgen export (docs/export.md): files are valid, values and texels are those of the document, and losses are told. Arguments: mxgen,
+# mxgen-render, the root.
+mxgen=$(realpath "$1") render=$(realpath "$2") root=$(realpath "$3")
+here=$(cd "$(dirname "$0")" && pwd)
+. "$here/common.sh"
+has_device "$render" || { skip 'no Vulkan device'; finish export; }
+export MESA_SHADER_CACHE_DISABLE=true TMPDIR=$work/temporary
+mkdir "$TMPDIR"
+
+has() { # FILE TEXT...: the file has all of the texts
+    local file=$1 text
+    shift
+    for text in "$@"; do grep -qF -- "$text" "$file" || { echo "no '$text' in:" && cat "$file" && return 1; }; done
+}
+valid() { # FILE...: by Khronos' validator
+    NODE_PATH=$root/tests/npm/node_modules node "$here/validate_gltf.cjs" "$@"
+}
+member() { # FILE PATH JSON
+    local got
+    got=$(python3 "$here/gltf.py" "$1" get "$2") && [ "$got" = "$3" ] || { echo "'$got' instead of '$3'"; false; }
+}
+lacks() { ! python3 "$here/gltf.py" "$1" get "$2"; }
+texel() { # FILE PATH X Y VALUE...: bytes, each within 1
+    local file=$1 path=$2 x=$3 y=$4 got
+    shift 4
+    got=$(python3 "$here/gltf.py" "$file" texel "$path" "$x" "$y") || return
+    echo "$got" "$@" | awk '{ if (NF % 2) exit 1; for (i = 1; i <= NF / 2; ++i) { d = $i - $(i + NF / 2); if (d * d > 1) bad = 1 } if (bad) print; exit bad }'
+}
+
+# u and v, from the bottom left, and numbers made of them: at the texel (0.25, 0.25) from the top left of 4 x 4, u is 0.375 and v 0.625.
+cat >all.mtlx <<'EOF'
+<?xml version="1.0"?>
+<materialx version="1.39" colorspace="lin_rec709">
+  <texcoord name="place" type="vector2"/>
+  <separate2 name="parts" type="multioutput"><input name="in" type="vector2" nodename="place"/></separate2>
+  <combine3 name="tone" type="color3">
+    <input name="in1" type="float" nodename="parts" output="outx"/>
+    <input name="in2" type="float" nodename="parts" output="outy"/>
+    <input name="in3" type="float" value="0.25"/>
+  </combine3>
+
+  <multiply name="right" type="float"><input name="in1" type="float" nodename="parts" output="outx"/><input name="in2" type="float" value="0.5"/></multiply>
+  <multiply name="up" type="float"><input name="in1" type="float" nodename="parts" output="outy"/><input name="in2" type="float" value="0.8"/></multiply>
+  <multiply name="bright" type="color3"><input name="in1" type="color3" nodename="tone"/><input name="in2" type="float" value="8"/></multiply>
+  <multiply name="film" type="float"><input name="in1" type="float" nodename="up"/><input name="in2" type="float" value="1000"/></multiply>
+  <combine3 name="bumps" type="vector3"><input name="in1" type="float" nodename="right"/><input name="in2" type="float" value="0.5"/><input name="in3" type="float" value="1"/></combine3>
+  <normalmap name="map" type="vector3"><input name="in" type="vector3" nodename="bumps"/><input name="scale" type="float" value="0.5"/></normalmap>
+  <gltf_pbr name="S" type="surfaceshader">
+    <input name="base_color" type="color3" nodename="tone"/>
+    <input name="alpha" type="float" nodename="right"/>
+    <input name="alpha_mode" type="integer" value="1"/>
+    <input name="alpha_cutoff" type="float" value="0.3"/>
+    <input name="metallic" type="float" value="0.25"/>
+    <input name="roughness" type="float" nodename="up"/>
+    <input name="occlusion" type="float" nodename="right"/>
+    <input name="normal" type="vector3" nodename="map"/>
+    <input name="emissive" type="color3" nodename="bright"/>
+    <input name="emissive_strength" type="float" value="2"/>
+    <input name="ior" type="float" value="1.7"/>
+    <input name="specular" type="float" nodename="right"/>
+    <input name="specular_color" type="color3" nodename="bright"/>
+    <input name="clearcoat" type="float" value="0.5"/>
+    <input name="clearcoat_roughness" type="float" nodename="up"/>
+    <input name="clearcoat_normal" type="vector3" nodename="map"/>
+    <input name="sheen_color" type="color3" value="0.1, 0.2, 0.3"/>
+    <input name="sheen_roughness" type="float" nodename="up"/>
+    <input name="iridescence" type="float" value="0.6"/>
+    <input name="iridescence_thickness" type="float" nodename="film"/>
+    <input name="anisotropy_strength" type="float" value="0.6"/>
+    <input name="anisotropy_rotation" type="float" nodename="up"/>
+  </gltf_pbr>
+  <surfacematerial name="All" type="material"><input name="surfaceshader" type="surfaceshader" nodename="S"/></surfacematerial>
+  <gltf_pbr name="G" type="surfaceshader">
+    <input name="metallic" type="float" value="0"/>
+    <input name="alpha" type="float" nodename="right"/>
+    <input name="clearcoat_roughness" type="float" nodename="up"/>
+    <input name="transmission" type="float" nodename="up"/>
+    <input name="thickness" type="float" value="0.5"/>
+    <input name="attenuation_distance" type="float" value="0.3"/>
+    <input name="attenuation_color" type="color3" value="0.1, 0.9, 0.3"/>
+    <input name="dispersion" type="float" value="0.4"/>
+    <input name="emissive" type="color3" value="0, 4, 2"/>
+  </gltf_pbr>
+  <surfacematerial name="Glass" type="material"><input name="surfaceshader" type="surfaceshader" nodename="G"/></surfacematerial>
+</materialx>
+EOF
+mkdir out1
+check 'a document is exported' exits 0 "$mxgen" export all.mtlx -o 'out1/all of it.gltf' --size 4 -Werror
+check 'and as one file' exits 0 "$mxgen" export all.mtlx -o all.glb --size 4 -Werror
+check 'nothing else is left' eval 'test "$(ls -A "$TMPDIR" | wc -l)" = 0 && test "$(ls out1 | wc -l)" = 12'
+if [ -d "$root/tests/npm/node_modules/gltf-validator" ] && command -v node >valid.log; then
+    check "Khronos' validator has no objection" valid 'out1/all of it.gltf' all.glb
+else
+    skip 'no gltf-validator (npm ci --prefix tests/npm) or no node'
+fi
+all=materials/All glass=materials/Glass
+for file in 'out1/all of it.gltf' all.glb; do
+    base=$all/pbrMetallicRoughness
+    check "$file: colors are sRGB, and alpha is not" texel "$file" $base/baseColorTexture 0.25 0.25 165 206 137 48
+    check "$file: occlusion, roughness and metallic are one image" texel "$file" $base/metallicRoughnessTexture 0.25 0.25 48 128 255
+done
+file=all.glb
+check 'a value beside a texture is its factor' member $file $base/metallicFactor 0.25
+check 'what is a texture alone has no factor' lacks $file $base/roughnessFactor
+check 'occlusion is the same texture' member $file $all/occlusionTexture "$(python3 "$here/gltf.py" $file get $base/metallicRoughnessTexture)"
+check 'a mask' eval "member $file $all/alphaMode '\"MASK\"' && member $file $all/alphaCutoff 0.3"
+check 'a map of normals keeps its numbers' texel $file $all/normalTexture 0.25 0.25 48 128 255
+check 'and its scale' member $file $all/normalTexture/scale 0.5
+check 'emission above 1 is strength' member $file $all/extensions/KHR_materials_emissive_strength/emissiveStrength 14.0
+check 'of which the texture has parts of 1' texel $file $all/emissiveTexture 0.875 0.875 255 106 145
+check 'a texture above 1 has its factor' member $file $all/extensions/KHR_materials_specular/specularColorFactor '[7.0, 7.0, 7.0]'
+check 'specular is its alpha' texel $file $all/extensions/KHR_materials_specular/specularTexture 0.25 0.25 175 220 146 48
+check 'ior' member $file $all/extensions/KHR_materials_ior/ior 1.7
+check 'clearcoat' eval "member $file $all/extensions/KHR_materials_clearcoat/clearcoatFactor 0.5 && texel $file $all/extensions/KHR_materials_clearcoat/clearcoatRoughnessTexture 0.25 0.25 255 128 255"
+check 'its map is that of the surface' member $file $all/extensions/KHR_materials_clearcoat/clearcoatNormalTexture '{"index": 2, "scale": 0.5}'
+check 'sheen has its roughness in alpha' eval "member $file $all/extensions/KHR_materials_sheen/sheenColorFactor '[0.1, 0.2, 0.3]' && texel $file $all/extensions/KHR_materials_sheen/sheenRoughnessTexture 0.25 0.25 255 255 255 128"
+check 'a film has its thickness in nanometres' eval "member $file $all/extensions/KHR_materials_iridescence/iridescenceThicknessMaximum 700.0 && member $file $all/extensions/KHR_materials_iridescence/iridescenceThicknessMinimum 0 && texel $file $all/extensions/KHR_materials_iridescence/iridescenceThicknessTexture 0.25 0.25 255 182 255"
+check 'an angle is a direction' texel $file $all/extensions/KHR_materials_anisotropy/anisotropyTexture 0.25 0.25 239 189 255
+check 'glass' eval "member $file $glass/extensions/KHR_materials_volume '{\"thicknessFactor\": 0.5, \"attenuationDistance\": 0.3, \"attenuationColor\": [0.1, 0.9, 0.3]}' && member $file $glass/extensions/KHR_materials_dispersion/dispersion 0.4 && texel $file $glass/extensions/KHR_materials_transmission/transmissionTexture 0.25 0.25 128 255 255"
+check 'emission of one value' eval "member $file $glass/emissiveFactor '[0.0, 1.0, 0.5]' && member $file $glass/extensions/KHR_materials_emissive_strength/emissiveStrength 4.0"
+check 'inputs that do nothing are left out' eval "lacks $file $glass/extensions/KHR_materials_clearcoat && lacks $file $glass/pbrMetallicRoughness/baseColorTexture && lacks $file $glass/alphaMode"
+check 'materials stand side by side' member $file nodes/Glass/translation '[2.2, 0, 0]'
+check 'only maps need tangents' eval "member $file meshes/0/primitives/0/attributes/TANGENT 3 && lacks $file meshes/1/primitives/0/attributes/TANGENT"
+
+# ---- Meshes, and images that stay ----
+
+cat >plane.obj <<'EOF'
+v -1 -1 0
+v 1 -1 0
+v 1 1 0
+vt 0 0.25
+vt 1 0.25
+vt 1 1
+vn 0 0 1
+f 1/1/1 2/2/1 3/3/1
+EOF
+cp "$root/examples/marble.mtlx" .
+check 'another model, over a mesh' exits 0 "$mxgen" export marble.mtlx -m plane.obj -s 8 -o marble.glb
+check 'v counts from the top' eval 'test "$(python3 "$here/gltf.py" marble.glb vertex 0)" = "-1.0000 -1.0000 0.0000 0.0000 0.7500"'
+check 'mxgen draws its mesh' eval 'exits 0 "$render" marble.mtlx -m marble.glb -s 32 -o stage.png'
+check 'without a mesh, what reads positions is told' eval 'exits 1 "$mxgen" export marble.mtlx -o none.glb && has err "[bake-mesh]" && test ! -e none.glb'
+"$mxgen" bake all.mtlx -e All -o flat --size 4 -q
+cat >image.mtlx <<'EOF'
+<?xml version="1.0"?>
+<materialx version="1.39">
+  <image name="tone" type="color3">
+    <input name="file" type="filename" value="flat/S_base_color.png" colorspace="srgb_texture"/>
+    <input name="uaddressmode" type="string" value="mirror"/>
+  </image>
+  <standard_surface name="S" type="surfaceshader"><input name="base" type="float" value="1"/><input name="base_color" type="color3" nodename="tone"/></standard_surface>
+  <surfacematerial name="M" type="material"><input name="surfaceshader" type="surfaceshader" nodename="S"/></surfacematerial>
+</materialx>
+EOF
+check 'an image without changes is the same file' eval 'exits 0 "$mxgen" export image.mtlx -o image.gltf && cmp flat/S_base_color.png image_M_baseColor.png && member image.gltf samplers "[{\"wrapS\": 33648}]"'
+
+# ---- What a file does not have ----
+
+cat >bad.mtlx <<'EOF'
+<?xml version="1.0"?>
+<materialx version="1.39">
+  <gltf_pbr name="turned" type="surfaceshader"><input name="tangent" type="vector3" nodename="t"/><input name="base_color" type="color3" value="3, 0, 0"/></gltf_pbr>
+  <constant name="t" type="vector3"><input name="value" type="vector3" value="0, 1, 0"/></constant>
+  <gltf_pbr name="wide" type="surfaceshader"><input name="sheen_color" type="color3" value="0.5, 0, 0" colorspace="acescg"/></gltf_pbr>
+  <image name="set" type="color3"><input name="file" type="filename" value="a.&lt;UDIM&gt;.png"/></image>
+  <gltf_pbr name="tiles" type="surfaceshader"><input name="base_color" type="color3" nodename="set"/></gltf_pbr>
+</materialx>
+EOF
+echo '<materialx version="1.39"><surface name="closures" type="surfaceshader"/></materialx>' >closures.mtlx
+check 'what glTF does not have is a loss' eval 'exits 0 "$mxgen" export bad.mtlx -e turned -o loss.gltf && has err "turned/tangent" "[export-loss]" "from 0 to 3" "[export-clamped]"'
+bad() { exits 1 "$mxgen" export "$1" -e "$2" -o none.gltf && has err "$3" && test ! -e none.gltf && test ! -e none.bin; }
+check 'another space of colors is told' bad bad.mtlx wide '[export-space]'
+check 'tiles are told' bad bad.mtlx tiles '[export-tiles]'
+check 'surfaces of closures are told' bad closures.mtlx closures '[no-translation]'
+check 'a document is not written over itself' eval 'cp all.mtlx all.gltf && exits 1 "$mxgen" export all.gltf -o all.gltf && has err "[output-clash]" && cmp all.mtlx all.gltf'
+check 'nor an image that it reads' eval 'cp flat/S_base_color.png own_M_baseColor.png && sed "s,flat/S,own_M,; s,own_M_base_,own_M_base," image.mtlx >own.mtlx && sed -i "s,own_M_basecolor,own_M_baseColor," own.mtlx && exits 1 "$mxgen" export own.mtlx -o own.gltf && has err "[output-clash]" && cmp flat/S_base_color.png own_M_baseColor.png && test ! -e own.gltf'
+check 'a folder must exist' eval 'exits 1 "$mxgen" export image.mtlx -o none/a.gltf && has err "[output-failed]"'
+check 'a sandbox holds' eval 'mkdir -p in && sed "s,flat/,../flat/," image.mtlx >in/image.mtlx && exits 1 "$mxgen" export in/image.mtlx --sandbox -o none.gltf && has err "[texture-refused]" && test ! -e none.gltf'
+check 'nothing of failures is left' test "$(ls -A "$TMPDIR" | wc -l)" = 0
+check 'endings' exits 2 "$mxgen" export all.mtlx -o none.fbx
+check 'usage' exits 2 "$mxgen" export all.mtlx
+finish export
