@@ -41,7 +41,7 @@ static const struct command commands[] = {
     {"bake", "bake FILE -o DIR [--mesh FILE] [options]",
      "Bakes what varies over the surface of a material into images, with a flat document.",
      command_bake},
-    {"export", "export FILE -o FILE.glb|.gltf [--mesh FILE] [options]",
+    {"export", "export FILE -o FILE.glb|.gltf|.usda|.usdz [--mesh FILE] [options]",
      "Writes materials in a format of other programs, with images of what varies.", command_export},
     {"pipeline", "pipeline FOLDER [--target vulkan|glsl] [options]",
      "Writes the passes of the deferred pipeline that belong to no material.", command_pipeline},

@@ -25,6 +25,8 @@ struct format {
 static const struct format formats[] = {
     {".gltf", "gltf_pbr", gltf_write},
     {".glb", "gltf_pbr", gltf_write_binary},
+    {".usda", "UsdPreviewSurface", usd_write},
+    {".usdz", "UsdPreviewSurface", usd_write_package},
 };
 
 static const struct format *find_format(const char *path)
@@ -38,8 +40,7 @@ static const struct format *find_format(const char *path)
 
 /* ---- Files ---- */
 
-/* The folder of a file. The caller frees it. */
-static char *folder_of(const char *path)
+char *write_folder(const char *path)
 {
     size_t len = (size_t)(files_base_name(path) - path);
     return len ? cli_copy(path, len) : cli_format(".");
@@ -53,13 +54,14 @@ char *write_stem(const struct writing *writing)
 
 bool write_beside(struct writing *writing, const char *name, const void *data, size_t size)
 {
-    char *folder = folder_of(writing->path), *path = cli_beside(writing->path, name);
-    bool is_free = strcmp(path, writing->path) == 0
-                   || outputs_write(writing->outputs, writing->report, path, "a file beside it");
+    char *folder = write_folder(writing->path), *path = cli_beside(writing->path, name);
+    bool is_free =
+        strcmp(path, writing->path) == 0
+        || outputs_write(writing->outputs, &writing->cli->report, path, "a file beside it");
     const char *reason =
         is_free ? files_write(batch_begin(&writing->files, folder, name), data, size) : NULL;
     if (reason)
-        report_error(writing->report, "output-failed", "cannot write '%s': %s", path, reason);
+        report_error(&writing->cli->report, "output-failed", "cannot write '%s': %s", path, reason);
     free(folder);
     free(path);
     return is_free && !reason;
@@ -72,6 +74,7 @@ struct exporting {
     struct export_options options;
     const struct format *format;
     char *folder; /* of the flat document */
+    const mxg_document *source;
 };
 
 /* Formats lack objects to look at without a mesh. */
@@ -86,10 +89,12 @@ static void write_files(struct exporting *exporting, const mxg_document *documen
 {
     struct cli *cli = &exporting->baking.cli;
     struct bake_surface surface;
-    struct writing writing = {.report = &cli->report,
+    struct writing writing = {.cli = cli,
                               .path = exporting->options.output,
                               .scratch = exporting->folder,
                               .surface = &surface,
+                              .source = exporting->source,
+                              .source_path = cli->parser.inputs.items[0],
                               .outputs = &exporting->baking.files};
     struct flat flat;
     bool good = open_surface(exporting, &surface);
@@ -140,7 +145,7 @@ static bool parse(struct exporting *exporting)
     }
     exporting->format = find_format(output);
     if (!exporting->format)
-        fprintf(stderr, "mxgen: '%s' ends in none of .gltf and .glb\n", output);
+        fprintf(stderr, "mxgen: '%s' ends in none of .gltf, .glb, .usda and .usdz\n", output);
     if (!args_is_one_of(exporting->options.bake.missing_texture, missing))
         fprintf(stderr, "mxgen: '%s' is not a value of --missing-texture\n",
                 exporting->options.bake.missing_texture);
@@ -152,21 +157,25 @@ static void run(struct exporting *exporting)
 {
     struct baking *baking = &exporting->baking;
     const char *path = baking->cli.parser.inputs.items[0];
-    mxg_document *document = NULL;
+    mxg_document *source = NULL, *translated = NULL;
     baking->options = exporting->options.bake;
     bake_begin(baking, path);
     if (outputs_write(&baking->files, &baking->cli.report, exporting->options.output, "--output"))
-        document = translated_load(&baking->cli, path, exporting->format->model);
-    if (document)
-        bake_and_write(exporting, document);
-    mxg_document_destroy(document);
+        source = cli_load(&baking->cli, path);
+    if (source)
+        translated = translated_make(&baking->cli, source, path, exporting->format->model);
+    exporting->source = source;
+    if (translated)
+        bake_and_write(exporting, translated);
+    mxg_document_destroy(translated);
+    mxg_document_destroy(source);
     bake_finish(baking);
 }
 
 int export_main(int argc, char **argv)
 {
     static const struct command command = {
-        "export", "export FILE -o FILE.glb|.gltf [--mesh FILE] [options]",
+        "export", "export FILE -o FILE.glb|.gltf|.usda|.usdz [--mesh FILE] [options]",
         "Writes materials in a format of other programs, with images of what varies.", NULL};
     struct exporting exporting = {.options = EXPORT_OPTIONS_DEFAULTS};
     struct arg args[MAX_EXPORT_ARGS];

@@ -202,7 +202,7 @@ static bool write_binary(struct gltf *gltf)
         good = write_beside(gltf->writing, files_base_name(gltf->writing->path), whole.bytes,
                             whole.num_bytes);
     } else {
-        report_error(gltf->writing->report, "output-failed",
+        report_error(&gltf->writing->cli->report, "output-failed",
                      "cannot write '%s': a .glb has at most 4 GiB; write a .gltf",
                      gltf->writing->path);
     }

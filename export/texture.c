@@ -147,7 +147,7 @@ static float find_value(const struct texture_channel *channel, const struct imag
     float value = channel->image ? sample(channel, image, parts, x, y) : channel->value;
     return channel->part == TEXTURE_COSINE ? cosf(value) * 0.5f + 0.5f
            : channel->part == TEXTURE_SINE ? sinf(value) * 0.5f + 0.5f
-                                           : value / channel->range;
+                                           : (value - channel->low) / channel->range;
 }
 
 static bool write_rows(struct image_rows *rows, const struct texture *texture,
@@ -218,9 +218,10 @@ char *texture_key(const struct texture *texture)
     for (size_t c = 0; c < 4; ++c) {
         const struct texture_channel *channel = &texture->channels[c];
         const struct flat_image *image = channel->image;
-        char *longer = cli_format("%s|%s|%d|%u|%d|%g|%g", key, image ? image->path : "",
-                                  image && image->is_srgb, channel->component, (int)channel->part,
-                                  (double)channel->value, (double)channel->range);
+        char *longer =
+            cli_format("%s|%s|%d|%u|%d|%g|%g|%g", key, image ? image->path : "",
+                       image && image->is_srgb, channel->component, (int)channel->part,
+                       (double)channel->value, (double)channel->low, (double)channel->range);
         free(key);
         key = longer;
     }

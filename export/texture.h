@@ -13,7 +13,8 @@ struct texture_channel {
     unsigned component;             /* of the image */
     enum texture_part part;
     float value;
-    float range; /* the number that becomes 1 */
+    float low;   /* the number that becomes 0 */
+    float range; /* from there to the number that becomes 1 */
 };
 
 struct texture {

@@ -9,10 +9,12 @@
 #include "render/bake_surface.h"
 
 struct writing {
-    struct report *report;
+    struct cli *cli;
     const char *path;                   /* of the file */
     const char *scratch;                /* a folder for files that do not outlive the writer */
     const struct bake_surface *surface; /* whose objects have the materials */
+    const mxg_document *source;         /* the document of the user, with its graphs */
+    const char *source_path;
     struct batch files;
     struct outputs *outputs;
 };
@@ -21,10 +23,14 @@ struct writing {
 bool write_beside(struct writing *writing, const char *name, const void *data, size_t size);
 /* The name of the file without folder and ending. The caller frees it. */
 char *write_stem(const struct writing *writing);
+/* The folder of a file. The caller frees it. */
+char *write_folder(const char *path);
 
-/* Write a flat document, whose surfaces have the format's model, to files. false after reporting an
+/* Each writes a flat document, whose surfaces have the format's model. false after reporting an
  * error. */
 bool gltf_write(struct writing *writing, const struct flat *flat);
 bool gltf_write_binary(struct writing *writing, const struct flat *flat);
+bool usd_write(struct writing *writing, const struct flat *flat);
+bool usd_write_package(struct writing *writing, const struct flat *flat);
 
 #endif

@@ -15,8 +15,8 @@ size_t export_args(struct export_options *options, struct arg args[MAX_EXPORT_AR
 {
     struct arg of_bake[MAX_BAKE_ARGS];
     size_t num_of_bake = bake_args(&options->bake, of_bake), num = 0;
-    args[num++] =
-        (struct arg){"output", 'o', ARG_TEXT, "FILE", "the file: .glb, .gltf", &options->output};
+    args[num++] = (struct arg){
+        "output", 'o', ARG_TEXT, "FILE", "the file: .glb, .gltf, .usda or .usdz", &options->output};
     for (size_t i = 0; i < num_of_bake; ++i)
         if (num < MAX_EXPORT_ARGS && is_shared(&of_bake[i]))
             args[num++] = of_bake[i];

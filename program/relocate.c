@@ -38,6 +38,21 @@ char *relocate_way(const char *from, const char *to)
     return way;
 }
 
+char *relocate_file(const char *folder, const char *path)
+{
+    char *inside = cli_format("%s/", folder), *from = relocate_folder(inside),
+         *there = relocate_folder(path), *out = NULL;
+    if (from && there) {
+        char *way = relocate_way(from, there);
+        out = cli_format("%s%s", way, files_base_name(path));
+        free(way);
+    }
+    free(inside);
+    free(from);
+    free(there);
+    return out ? out : cli_format("%s", path);
+}
+
 static bool is_absolute(const char *prefix)
 {
     return prefix[0] == '/' || strstr(prefix, "://");

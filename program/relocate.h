@@ -11,6 +11,9 @@ char *relocate_folder(const char *file);
 /* The way from one such folder to another: "../../textures/"; "" to itself. The caller frees it. */
 char *relocate_way(const char *from, const char *to);
 
+/* The path of a file as a document in a folder names it. The caller frees it. */
+char *relocate_file(const char *folder, const char *path);
+
 /*
  * `document`, whose files are relative to `from`, as a document at `to` (both are files); it stays
  * itself where both have one folder. Each relative `fileprefix` gets the way between the folders

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "program/translated.h"
 
-mxg_document *translated_load(struct cli *cli, const char *path, const char *model)
+mxg_document *translated_make(struct cli *cli, const mxg_document *from, const char *path,
+                              const char *model)
 {
-    mxg_document *from = cli_load(cli, path), *document = NULL;
-    if (!model || !from)
-        return from;
+    mxg_document *document = NULL;
     mxg_result *result = NULL;
     mxg_status status = mxg_translate(cli->context, from, model, &result);
     if (result)
@@ -17,6 +16,15 @@ mxg_document *translated_load(struct cli *cli, const char *path, const char *mod
         report_status(&cli->report, status);
     }
     mxg_result_destroy(result);
+    return document;
+}
+
+mxg_document *translated_load(struct cli *cli, const char *path, const char *model)
+{
+    mxg_document *from = cli_load(cli, path);
+    if (!model || !from)
+        return from;
+    mxg_document *document = translated_make(cli, from, path, model);
     mxg_document_destroy(from);
     return document;
 }

@@ -9,4 +9,8 @@
 /* cli_load, then with the surfaces as `model`; model NULL: cli_load alone. NULL after a message. */
 mxg_document *translated_load(struct cli *cli, const char *path, const char *model);
 
+/* A loaded document with its surfaces as `model`; `path` is its name. NULL after a message. */
+mxg_document *translated_make(struct cli *cli, const mxg_document *from, const char *path,
+                              const char *model);
+
 #endif

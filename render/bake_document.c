@@ -18,27 +18,11 @@ struct writer {
 
 /* ---- Files ---- */
 
-/* The path of a file as a document in the folder names it. The caller frees it. */
-static char *relative(const char *folder, const char *path)
-{
-    char *inside = cli_format("%s/", folder), *from = relocate_folder(inside),
-         *there = relocate_folder(path), *out = NULL;
-    if (from && there) {
-        char *way = relocate_way(from, there);
-        out = cli_format("%s%s", way, files_base_name(path));
-        free(way);
-    }
-    free(inside);
-    free(from);
-    free(there);
-    return out ? out : cli_format("%s", path);
-}
-
 /* The name of a file that an element of the document has, for the new one. The caller frees it. */
 static char *name_file(struct writer *writer, mxg_element origin, const char *file)
 {
     char *path = *file ? bake_file_path(writer->baking, origin, file) : NULL;
-    char *name = path ? relative(writer->baking->options.output, path) : cli_format("%s", "");
+    char *name = path ? relocate_file(writer->baking->options.output, path) : cli_format("%s", "");
     free(path);
     return name;
 }

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # mxgen export (docs/export.md): files are valid, values and texels are those of the document, and losses are told. Arguments: mxgen,
-# mxgen-render, the root.
-mxgen=$(realpath "$1") render=$(realpath "$2") root=$(realpath "$3")
+# mxgen-render, psnr, the root.
+mxgen=$(realpath "$1") render=$(realpath "$2") psnr=$(realpath "$3") root=$(realpath "$4")
 here=$(cd "$(dirname "$0")" && pwd)
 . "$here/common.sh"
 has_device "$render" || { skip 'no Vulkan device'; finish export; }
@@ -155,6 +155,39 @@ cat >image.mtlx <<'EOF'
 EOF
 check 'an image without changes is the same file' eval 'exits 0 "$mxgen" export image.mtlx -o image.gltf && cmp flat/S_base_color.png image_M_baseColor.png && member image.gltf samplers "[{\"wrapS\": 33648}]"'
 
+# ---- USD ----
+
+check 'a stage of USD' exits 0 "$mxgen" export marble.mtlx -m sphere -s 256 -o marble.usda
+check 'has both networks' has marble.usda 'info:id = "UsdPreviewSurface"' 'asset inputs:file = @./marble_Marble_diffuseColor.png@' \
+    'outputs:surface.connect = </marble/Materials/Marble/preview.outputs:surface>' 'info:id = "ND_fractal3d_float"' \
+    'outputs:mtlx:surface.connect = </marble/Materials/Marble/SR_marble.outputs:out>' 'rel material:binding = </marble/Materials/Marble>'
+# draws FILE PICTURE. A distance counts in the size of a mesh, which is the radius here, or that of a stage: half the diagonal of its box.
+draws() { exits 0 "$render" --stage "$1" -s 64 --camera 25,16,1.7320508 -o "$2" && ! grep warning err; }
+sed 's/outputs:surface.connect/outputs:none.connect/' marble.usda >network.usda
+sed '/outputs:mtlx:surface.connect/d' marble.usda >preview.usda
+check 'mxgen draws the graph of the stage' draws network.usda network.exr
+check 'and its images' draws preview.usda preview.exr
+"$render" marble.mtlx -m sphere -s 64 --camera 25,16,3 -q -o marble.exr
+check 'the graph is the one of the document' "$psnr" --at-least 24 marble.exr network.exr
+check 'and images are near' "$psnr" --at-least 24 marble.exr preview.exr
+check 'images of maps and numbers above 1' eval 'exits 0 "$mxgen" export all.mtlx -o all.usda --size 4 && has all.usda "inputs:scale = (2, 2, 2, 1)" "inputs:bias = (-1, -1, -1, 0)" "inputs:scale = (14, 14, 14, 1)" "double3 xformOp:translate = (2.2, 0, 0)" && draws all.usda all.png'
+mkdir package
+check 'a package' exits 0 "$mxgen" export image.mtlx -o package/image.usdz
+cat >package.py <<'EOF'
+import struct, sys, zipfile
+data = open(sys.argv[1], "rb").read()
+files = zipfile.ZipFile(sys.argv[1])
+assert files.testzip() is None
+assert files.namelist() == sys.argv[2:], files.namelist()
+for file in files.infolist():
+    name, extra = struct.unpack_from("<HH", data, file.header_offset + 26)
+    assert file.compress_type == zipfile.ZIP_STORED and (file.header_offset + 30 + name + extra) % 64 == 0, file
+stage = files.read(sys.argv[2]).decode()
+assert all(f"@./{name}@" in stage for name in sys.argv[3:])
+EOF
+check 'has its files in place' python3 package.py package/image.usdz image.usda M_diffuseColor.png S_base_color.png
+check 'and nothing beside it' test image.usdz = "$(ls -A package)"
+
 # ---- What a file does not have ----
 
 cat >bad.mtlx <<'EOF'
@@ -170,6 +203,17 @@ EOF
 echo '<materialx version="1.39"><surface name="closures" type="surfaceshader"/></materialx>' >closures.mtlx
 check 'what glTF does not have is a loss' eval 'exits 0 "$mxgen" export bad.mtlx -e turned -o loss.gltf && has err "turned/tangent" "[export-loss]" "from 0 to 3" "[export-clamped]"'
 bad() { exits 1 "$mxgen" export "$1" -e "$2" -o none.gltf && has err "$3" && test ! -e none.gltf && test ! -e none.bin; }
+cat >own.mtlx <<'EOF'
+<?xml version="1.0"?>
+<materialx version="1.39">
+  <nodedef name="ND_own" node="own"><output name="out" type="float"/></nodedef>
+  <nodegraph name="NG_own" nodedef="ND_own"><constant name="c" type="float"><input name="value" type="float" value="0.25"/></constant><output name="out" type="float" nodename="c"/></nodegraph>
+  <own name="half" type="float"/>
+  <standard_surface name="S" type="surfaceshader"><input name="metalness" type="float" nodename="half"/></standard_surface>
+  <surfacematerial name="M" type="material"><input name="surfaceshader" type="surfaceshader" nodename="S"/></surfacematerial>
+</materialx>
+EOF
+check 'a definition of the document is a loss for the graph alone' eval 'exits 0 "$mxgen" export own.mtlx -o own.usda && has err "[export-loss]" && has own.usda "inputs:metallic = 0.25" && ! grep -q ND_ own.usda'
 check 'another space of colors is told' bad bad.mtlx wide '[export-space]'
 check 'tiles are told' bad bad.mtlx tiles '[export-tiles]'
 check 'surfaces of closures are told' bad closures.mtlx closures '[no-translation]'
