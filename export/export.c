@@ -67,6 +67,16 @@ bool write_beside(struct writing *writing, const char *name, const void *data, s
     return is_free && !reason;
 }
 
+struct matrix write_world(const struct writing *writing, const struct scene_object *object)
+{
+    static const struct matrix upright = {
+        {{1, 0, 0, 0}, {0, 0, -1, 0}, {0, 1, 0, 0}, {0, 0, 0, 1}}};
+    const struct site *site = &writing->surface->site;
+    const double unit = site->meters_per_unit > 0 ? site->meters_per_unit : 1;
+    struct matrix world = matrix_multiply(matrix_scale(unit, unit, unit), object->world);
+    return site->is_z_up ? matrix_multiply(upright, world) : world;
+}
+
 /* ---- The run ---- */
 
 struct exporting {
@@ -96,9 +106,12 @@ static void write_files(struct exporting *exporting, const mxg_document *documen
                               .source = exporting->source,
                               .source_path = cli->parser.inputs.items[0],
                               .outputs = &exporting->baking.files};
-    struct flat flat;
+    struct flat flat = {.report = &cli->report,
+                        .path = path,
+                        .source = exporting->source,
+                        .source_path = writing.source_path};
     bool good = open_surface(exporting, &surface);
-    good = flat_read(&flat, &cli->report, document, path, exporting->format->model) && good
+    good = flat_read(&flat, document, exporting->format->model) && good
            && exporting->format->write(&writing, &flat);
     good = batch_end(&writing.files, &cli->report, good && !cli->report.errors);
     if (good && !cli->quiet)
@@ -119,6 +132,8 @@ static void bake_and_write(struct exporting *exporting, const mxg_document *tran
                      strerror(errno));
         return;
     }
+    baking->source = exporting->source;
+    baking->spaces = flat_spaces;
     baking->options = exporting->options.bake;
     baking->options.output = exporting->folder;
     baking->options.format = "exr"; /* the writer rounds, and once is enough */

@@ -9,6 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+const char *const flat_spaces[] = {"", "none", "lin_rec709", "lin_srgb", "srgb_texture", NULL};
+
 float flat_encode_srgb(float linear)
 {
     return linear <= 0.0031308f ? 12.92f * linear : 1.055f * powf(linear, 1 / 2.4f) - 0.055f;
@@ -19,6 +21,31 @@ float flat_decode_srgb(float encoded)
     return encoded <= 0.04045f ? encoded / 12.92f : powf((encoded + 0.055f) / 1.055f, 2.4f);
 }
 
+char *flat_place(const struct flat *flat, const char *path)
+{
+    char *at = cli_format("%s", path), *slash = strrchr(at, '/');
+    mxg_element element = mxg_document_find_element(flat->source, 0, at);
+    if (!element && slash) {
+        *slash = '\0';
+        element = mxg_document_find_element(flat->source, 0, at);
+    }
+    free(at);
+    if (!element)
+        return cli_format("%s", flat->source_path);
+    mxg_element_info info = bake_element(flat->source, element);
+    return cli_format("%s:%u:%u", info.file ? info.file : flat->source_path, info.line,
+                      info.column);
+}
+
+char *flat_input_place(const struct flat *flat, const struct flat_material *material,
+                       const char *input)
+{
+    char *path = cli_format("%s/%s", bake_element(flat->document, material->surface).name, input);
+    char *place = flat_place(flat, path);
+    free(path);
+    return place;
+}
+
 void flat_tell_loss(const struct flat *flat, const struct flat_material *material,
                     const char *input, const char *format, ...)
 {
@@ -27,8 +54,10 @@ void flat_tell_loss(const struct flat *flat, const struct flat_material *materia
     va_start(arguments, format);
     vsnprintf(reason, sizeof reason, format, arguments);
     va_end(arguments);
-    report_warning(flat->report, "export-loss", "'%s/%s' is not in the file as it is: %s",
-                   material->name, input, reason);
+    char *place = flat_input_place(flat, material, input);
+    report_warning(flat->report, "export-loss", "'%s/%s' (%s) is not in the file as it is: %s",
+                   material->name, input, place, reason);
+    free(place);
 }
 
 const struct flat_input *flat_find(const struct flat_material *material, const char *name)
@@ -44,16 +73,16 @@ const struct flat_input *flat_find(const struct flat_material *material, const c
 /* False after an error: the colours are in a space that no format here has. */
 static bool read_space(const struct flat *flat, mxg_element port, bool *out_srgb)
 {
-    static const char *const linear[] = {"", "none", "lin_rec709", "lin_srgb", NULL},
-                             *const encoded[] = {"srgb_texture", "srgb_tx", NULL};
     const char *space = bake_inherited(flat->document, port, "colorspace");
-    *out_srgb = space && args_is_one_of(space, encoded);
-    if (!space || *out_srgb || args_is_one_of(space, linear))
+    *out_srgb = space && strcmp(space, "srgb_texture") == 0;
+    if (!space || args_is_one_of(space, flat_spaces))
         return true;
-    char *path = bake_path(flat->document, port);
+    char *path = bake_path(flat->document, port), *place = flat_place(flat, path);
     report_error(flat->report, "export-space",
-                 "'%s' has colors in '%s'; expected lin_rec709 or srgb_texture", path, space);
+                 "'%s' (%s) has colors in '%s'; expected lin_rec709 or srgb_texture", path, place,
+                 space);
     free(path);
+    free(place);
     return false;
 }
 
@@ -103,12 +132,14 @@ static char *file_of(const struct flat *flat, mxg_element node, const char *file
     char *whole = cli_format("%s%s", prefix ? prefix : "", file),
          *path = cli_beside(flat->path, whole);
     bool is_set = strchr(file, '<') || strchr(file, '{');
-    if (is_set)
-        report_error(flat->report, "export-tiles",
-                     "'%s' are several images, and a texture of this format is one: bake onto a "
-                     "mesh whose texture coordinates lie between 0 and 1",
-                     file);
     if (is_set) {
+        char *name = bake_path(flat->document, node), *place = flat_place(flat, name);
+        report_error(flat->report, "export-tiles",
+                     "'%s' (%s) are several images, and a texture of this format is one: export "
+                     "onto a mesh whose texture coordinates lie between 0 and 1",
+                     file, place);
+        free(name);
+        free(place);
         free(path);
         path = NULL;
     }
@@ -249,19 +280,18 @@ static bool read_material(struct flat *flat, mxg_element node, const char *model
     return good;
 }
 
-bool flat_read(struct flat *flat, struct report *report, const mxg_document *document,
-               const char *path, const char *model)
+bool flat_read(struct flat *flat, const mxg_document *document, const char *model)
 {
     const mxg_element first = bake_element(document, 0).first_child;
     bool good = true;
-    *flat = (struct flat){.document = document, .report = report, .path = path};
+    flat->document = document;
     for (mxg_element node = first; good && node; node = bake_element(document, node).next)
         good = read_material(flat, node, model);
     for (mxg_element node = first; good && node; node = bake_element(document, node).next)
         if (is_model(flat, node, model) && !has_surface(flat, node))
             good = add(flat, bake_element(document, node).name, node);
     if (good && !flat->num_materials)
-        report_error(report, "nothing-to-bake", "'%s' has no material", path);
+        report_error(flat->report, "nothing-to-bake", "'%s' has no material", flat->source_path);
     return good && flat->num_materials;
 }
 

@@ -39,23 +39,36 @@ struct flat_material {
 };
 
 struct flat {
-    const mxg_document *document;
     struct report *report;
-    const char *path; /* of the document */
+    const char *path;           /* of the document */
+    const mxg_document *source; /* of which it was made, for places */
+    const char *source_path;
+
+    const mxg_document *document;
     struct flat_material *materials;
     size_t num_materials;
 };
 
 /*
- * Reads the materials whose surfaces have the model, and surfaces without a material. What no
- * format has is a warning. false after reporting an error. Call flat_finish in any case.
+ * Reads the materials whose surfaces have the model, and surfaces without a material, into `flat`,
+ * whose members down to `source_path` are set. What no format has is a warning. false after
+ * reporting an error. Call flat_finish in any case.
  */
-bool flat_read(struct flat *flat, struct report *report, const mxg_document *document,
-               const char *path, const char *model);
+bool flat_read(struct flat *flat, const mxg_document *document, const char *model);
 void flat_finish(struct flat *flat);
 
 /* The input of that name; NULL: the document does not set it. */
 const struct flat_input *flat_find(const struct flat_material *material, const char *name);
+
+/*
+ * The place in the user's file of an element of the document, or of the one around it: its path as
+ * the document has it. "wall.mtlx:3:5"; without a number where the file has neither. The caller
+ * frees it.
+ */
+char *flat_place(const struct flat *flat, const char *path);
+/* The same for an input of a surface. */
+char *flat_input_place(const struct flat *flat, const struct flat_material *material,
+                       const char *input);
 
 /* Warns that an input of the material's surface, or a part of it, is not in the file, and why. */
 #if defined(__GNUC__)
@@ -63,6 +76,9 @@ __attribute__((format(printf, 4, 5)))
 #endif
 void flat_tell_loss(const struct flat *flat, const struct flat_material *material,
                     const char *input, const char *format, ...);
+
+/* The spaces of colors that flat_read knows; NULL after the last. */
+extern const char *const flat_spaces[];
 
 /* IEC 61966-2-1 */
 float flat_encode_srgb(float linear);

@@ -49,11 +49,15 @@ static void clamp(const struct state *state, const struct cell *cell, float low,
 {
     const float slack = 1e-3f; /* of values that are rounded */
     bool is_open = cell->row->is_open;
-    if (low < -slack || (!is_open && high > 1 + slack))
-        report_warning(state->gltf->flat->report, "export-clamped",
-                       "'%s/%s' has values from %g to %g; glTF keeps those from 0 to %s",
-                       state->material->name, cell->row->name, (double)low, (double)high,
-                       is_open ? "infinity" : "1");
+    if (low >= -slack && (is_open || high <= 1 + slack))
+        return;
+    const struct flat *flat = state->gltf->flat;
+    char *place = flat_input_place(flat, state->material, cell->row->name);
+    report_warning(flat->report, "export-clamped",
+                   "'%s/%s' (%s) has values from %g to %g; glTF keeps those from 0 to %s",
+                   state->material->name, cell->row->name, place, (double)low, (double)high,
+                   is_open ? "infinity" : "1");
+    free(place);
 }
 
 static bool is_angle(const struct cell *cell)

@@ -44,15 +44,15 @@ static size_t add_floats(struct gltf *gltf, const float *values, size_t num, siz
     return gltf_add(gltf_array(gltf->root, "accessors"), accessor);
 }
 
-static size_t add_positions(struct gltf *gltf, const struct scene_object *object, float *buffer,
-                            struct extent *extent)
+static size_t add_positions(struct gltf *gltf, const struct scene_object *object,
+                            struct matrix world, float *buffer, struct extent *extent)
 {
     const struct mesh *mesh = &object->mesh;
     float low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
     for (uint32_t i = 0; i < mesh->num_vertices; ++i) {
         const float *at = mesh->vertices[i].position;
         double point[3] = {(double)at[0], (double)at[1], (double)at[2]};
-        matrix_point(object->world, point, point);
+        matrix_point(world, point, point);
         for (size_t k = 0; k < 3; ++k) {
             buffer[i * 3 + k] = (float)point[k];
             low[k] = fminf(low[k], buffer[i * 3 + k]);
@@ -77,21 +77,23 @@ static void turn(struct matrix world, const float from[3], const double otherwis
         out[k] = (float)(length > 1e-20 ? v[k] / length : otherwise[k]);
 }
 
-static size_t add_normals(struct gltf *gltf, const struct scene_object *object, float *buffer)
+static size_t add_normals(struct gltf *gltf, const struct scene_object *object, struct matrix world,
+                          float *buffer)
 {
     const double up[3] = {0, 0, 1};
-    const struct matrix world = matrix_transpose(matrix_inverse(object->world));
+    world = matrix_transpose(matrix_inverse(world));
     for (uint32_t i = 0; i < object->mesh.num_vertices; ++i)
         turn(world, object->mesh.vertices[i].normal, up, buffer + (size_t)i * 3);
     return add_floats(gltf, buffer, object->mesh.num_vertices, 3, json_object());
 }
 
 /* Their bitangent is the one of pictures: normal x tangent. */
-static size_t add_tangents(struct gltf *gltf, const struct scene_object *object, float *buffer)
+static size_t add_tangents(struct gltf *gltf, const struct scene_object *object,
+                           struct matrix world, float *buffer)
 {
     const double right[3] = {1, 0, 0};
     for (uint32_t i = 0; i < object->mesh.num_vertices; ++i) {
-        turn(object->world, object->mesh.vertices[i].tangent, right, buffer + (size_t)i * 4);
+        turn(world, object->mesh.vertices[i].tangent, right, buffer + (size_t)i * 4);
         buffer[(size_t)i * 4 + 3] = 1;
     }
     return add_floats(gltf, buffer, object->mesh.num_vertices, 4, json_object());
@@ -106,11 +108,24 @@ static size_t add_texcoords(struct gltf *gltf, const struct scene_object *object
     return add_floats(gltf, buffer, object->mesh.num_vertices, 2, json_object());
 }
 
-static size_t add_indices(struct gltf *gltf, const struct mesh *mesh)
+/* True if a matrix turns triangles around, as mirrors do. */
+static bool is_mirror(struct matrix world)
+{
+    double normal[3];
+    vector_cross(world.m[0], world.m[1], normal);
+    return normal[0] * world.m[2][0] + normal[1] * world.m[2][1] + normal[2] * world.m[2][2] < 0;
+}
+
+static size_t add_indices(struct gltf *gltf, const struct mesh *mesh, bool is_mirrored)
 {
     json_t *accessor = json_object();
-    size_t view =
-        gltf_add_view(gltf, mesh->indices, mesh->num_indices * sizeof *mesh->indices, TRIANGLES);
+    uint32_t *indices = memory_alloc((mesh->num_indices + (size_t)1) * sizeof *indices);
+    for (uint32_t i = 0; i < mesh->num_indices; ++i) {
+        uint32_t corner = is_mirrored ? 2 - i % 3 : i % 3;
+        indices[i] = mesh->indices[i - i % 3 + corner];
+    }
+    size_t view = gltf_add_view(gltf, indices, mesh->num_indices * sizeof *indices, TRIANGLES);
+    free(indices);
     json_set(accessor, "bufferView", json_integer((json_int_t)view));
     json_set(accessor, "componentType", json_integer(UINTS));
     json_set(accessor, "count", json_integer((json_int_t)mesh->num_indices));
@@ -122,12 +137,13 @@ static struct accessors add_object(struct gltf *gltf, const struct scene_object 
                                    bool has_tangents, struct extent *extent)
 {
     float *buffer = memory_alloc(((size_t)object->mesh.num_vertices + 1) * 4 * sizeof *buffer);
-    struct accessors out = {.position = add_positions(gltf, object, buffer, extent)};
-    out.normal = add_normals(gltf, object, buffer);
+    const struct matrix world = write_world(gltf->writing, object);
+    struct accessors out = {.position = add_positions(gltf, object, world, buffer, extent)};
+    out.normal = add_normals(gltf, object, world, buffer);
     out.texcoord = add_texcoords(gltf, object, buffer);
     if (has_tangents)
-        out.tangent = add_tangents(gltf, object, buffer);
-    out.indices = add_indices(gltf, &object->mesh);
+        out.tangent = add_tangents(gltf, object, world, buffer);
+    out.indices = add_indices(gltf, &object->mesh, is_mirror(world));
     free(buffer);
     return out;
 }

@@ -44,9 +44,10 @@ static void put_mesh(struct usd *usd, const struct scene_object *object, const c
     fputs("]\n", usd->out);
     usd_put(usd, "uniform token subdivisionScheme = \"none\"");
     fprintf(usd->out, "%*smatrix4d xformOp:transform = (", (int)usd->depth * 4, "");
+    const struct matrix world = write_world(usd->writing, object);
     for (size_t c = 0; c < 4; ++c) { /* USD has row vectors: its rows are our columns */
-        const double *m = object->world.m[c];
-        fprintf(usd->out, "%s(%.9g, %.9g, %.9g, %.9g)", c ? ", " : "", m[0], m[1], m[2], m[3]);
+        const double *m = world.m[c];
+        fprintf(usd->out, "%s(%.7g, %.7g, %.7g, %.7g)", c ? ", " : "", m[0], m[1], m[2], m[3]);
     }
     fputs(")\n", usd->out);
     usd_put(usd, "uniform token[] xformOpOrder = [\"xformOp:transform\"]");
@@ -55,24 +56,27 @@ static void put_mesh(struct usd *usd, const struct scene_object *object, const c
 }
 
 /* The extent of the surface along x. */
-static double find_width(const struct bake_surface *surface)
+static double find_width(const struct writing *writing)
 {
+    const struct bake_surface *surface = writing->surface;
     double low = INFINITY, high = -INFINITY;
-    for (uint32_t i = 0; i < surface->num_objects; ++i)
+    for (uint32_t i = 0; i < surface->num_objects; ++i) {
+        const struct matrix world = write_world(writing, &surface->objects[i]);
         for (uint32_t k = 0; k < surface->objects[i].mesh.num_vertices; ++k) {
             const float *at = surface->objects[i].mesh.vertices[k].position;
             double point[3] = {(double)at[0], (double)at[1], (double)at[2]};
-            matrix_point(surface->objects[i].world, point, point);
+            matrix_point(world, point, point);
             low = fmin(low, point[0]);
             high = fmax(high, point[0]);
         }
+    }
     return high - low;
 }
 
 void usd_put_objects(struct usd *usd, char *const *paths)
 {
     const struct bake_surface *surface = usd->writing->surface;
-    const double step = 1.1 * find_width(surface);
+    const double step = 1.1 * find_width(usd->writing);
     struct name_table names = {0};
     bool is_new;
     names_add(&names, "Materials", &is_new); /* the scope beside them */

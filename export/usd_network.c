@@ -11,6 +11,7 @@
 #include "program/relocate.h"
 #include "render/bake_plan.h"
 
+#include <ctype.h>
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -266,11 +267,22 @@ static bool put_node(struct network *network, const struct node *node)
     return good;
 }
 
-/* The surface of a material of the document, or the surface itself. */
+/* True if a name is `clean` with '_' in place of characters that are neither letters nor digits. */
+static bool is_same_name(const char *name, const char *clean)
+{
+    for (; *name && *clean; ++name, ++clean)
+        if (*name != *clean && (isalnum((unsigned char)*name) || *clean != '_'))
+            return false;
+    return !*name && !*clean;
+}
+
+/* The surface of a material of the document, or the surface itself. 0: there is none. */
 static mxg_element find_surface(const mxg_document *document, const char *name)
 {
-    mxg_element node = mxg_document_find_element(document, 0, name),
-                port = node ? mxg_document_find_element(document, node, "surfaceshader") : 0;
+    mxg_element node = bake_element(document, 0).first_child;
+    while (node && !is_same_name(bake_element(document, node).name, name))
+        node = bake_element(document, node).next;
+    mxg_element port = node ? mxg_document_find_element(document, node, "surfaceshader") : 0;
     return port ? bake_follow(document, port).node : node;
 }
 
@@ -278,6 +290,9 @@ static bool put_nodes(struct network *network, struct name_table *names)
 {
     struct usd *usd = network->usd;
     mxg_element surface = find_surface(network->document, network->material->name);
+    if (!surface)
+        flat_tell_loss(usd->flat, network->material, "graph",
+                       "nothing of this name is in the document");
     bool good = surface && collect(network, surface, names);
     for (size_t i = 0; good && i < network->num; ++i)
         good = put_node(network, &network->nodes[i]);

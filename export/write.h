@@ -23,6 +23,8 @@ struct writing {
 bool write_beside(struct writing *writing, const char *name, const void *data, size_t size);
 /* The name of the file without folder and ending. The caller frees it. */
 char *write_stem(const struct writing *writing);
+/* From an object of the surface to a world in metres with y upwards. */
+struct matrix write_world(const struct writing *writing, const struct scene_object *object);
 /* The folder of a file. The caller frees it. */
 char *write_folder(const char *path);
 

@@ -211,6 +211,7 @@ bool cli_start(struct cli *cli, const struct command *command, const struct arg 
     *out_exit = EXIT_USAGE;
     bool parsed = args_parse(&cli->parser, argc, argv);
     cli->report.quiet = cli->quiet;
+    cli->report.warnings = &cli->warnings;
     cli->report.verbose = cli->verbose;
     cli->report.max_errors = cli->max_errors;
     cli->report.max_source_size = cli_max_file_size(cli) << 20;

@@ -4,6 +4,7 @@
 
 #include "program/files.h"
 #include "program/warning_groups.h"
+#include "program/warnings.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -283,11 +284,16 @@ void report_error(struct report *report, const char *id, const char *format, ...
 
 void report_warning(struct report *report, const char *id, const char *format, ...)
 {
+    const struct arg_list none = {0};
+    const enum warning_way way = warnings_way(report->warnings ? report->warnings : &none, id);
     va_list args;
     va_start(args, format);
-    if (!report->quiet)
+    if (way == WARNING_IS_ERROR)
+        print_own(report, "error", 31, id, format, args);
+    else if (way == WARNING_SHOWN && !report->quiet)
         print_own(report, "warning", 35, id, format, args);
     va_end(args);
+    report->errors += way == WARNING_IS_ERROR;
 }
 
 bool report_status(struct report *report, mxg_status status)

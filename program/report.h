@@ -5,6 +5,7 @@
 #ifndef MXG_PROGRAM_REPORT_H
 #define MXG_PROGRAM_REPORT_H
 
+#include "program/args.h"
 #include "program/name_table.h"
 
 #include <mxgen/mxgen.h>
@@ -15,6 +16,7 @@ struct report {
     bool quiet;   /* errors only */
     bool verbose; /* also reports upgrades of older documents */
     bool colour;
+    const struct arg_list *warnings; /* words of -W, for those of the program; NULL: none */
     uint32_t errors;        /* number of errors, including repeated ones and those past the limit */
     size_t max_errors;      /* limit per document; 0: no limit */
     size_t document_errors; /* errors printed for the current document */
@@ -56,7 +58,7 @@ __attribute__((format(printf, 3, 4)))
 #endif
 void report_error(struct report *report, const char *id, const char *format, ...);
 
-/* A warning of the program itself; a quiet report drops it. */
+/* A warning of the program itself; a quiet report drops it, and -W may make it an error. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 3, 4)))
 #endif

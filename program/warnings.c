@@ -6,12 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *behind(const char *word, const char *prefix)
-{
-    size_t len = strlen(prefix);
-    return strncmp(word, prefix, len) == 0 ? word + len : word;
-}
-
 static bool check_id(const char *id, const char *word)
 {
     struct arg_list ids = {0};
@@ -41,7 +35,8 @@ bool warnings_check(const struct arg_list *words)
 {
     for (size_t i = 0; i < words->len; ++i) {
         const char *word = words->items[i];
-        if (strcmp(word, "error") != 0 && !check_id(behind(behind(word, "no-"), "error="), word))
+        if (strcmp(word, "error") != 0
+            && !check_id(warnings_behind(warnings_behind(word, "no-"), "error="), word))
             return false;
     }
     return true;

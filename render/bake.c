@@ -78,6 +78,7 @@ static bool plan(struct baking *baking)
     uint32_t num = element ? 1 : mxg_document_num_renderables(baking->document);
     bool good = true;
     bake_plan_begin(&baking->plan, baking->document, &baking->cli.report);
+    baking->plan.spaces = baking->spaces;
     if (!num)
         report_error(&baking->cli.report, "nothing-to-bake", "'%s' has no material", baking->path);
     for (uint32_t i = 0; good && i < num; ++i) {

@@ -20,6 +20,8 @@ struct baking {
     struct bake_options options;
     const char *path; /* of the document */
     const mxg_document *document;
+    const mxg_document *source; /* of which the document was made; NULL: it is the file itself */
+    const char *const *spaces;  /* as in the plan */
     struct bake_plan plan;
     struct bake_surface surface;
     struct painter painter;
@@ -66,7 +68,10 @@ bool bake_finish_drawing(struct baking *baking, struct bake_drawing *drawing,
 
 /* The path of a file that an element of the document names. The caller frees it. */
 char *bake_file_path(const struct baking *baking, mxg_element element, const char *file);
-/* The place of an element in its document: "wall.mtlx:3:5". The caller frees it. */
+/*
+ * The place of an element in the file of the user: "wall.mtlx:3:5", or the file alone where it does
+ * not have the element. The caller frees it.
+ */
 char *bake_place(const struct baking *baking, mxg_element element);
 /*
  * Looks for the files of images that stay, and copies them where the user wants it. false after

@@ -20,8 +20,13 @@ char *bake_file_path(const struct baking *baking, mxg_element element, const cha
 
 char *bake_place(const struct baking *baking, mxg_element element)
 {
-    mxg_element_info info = bake_element(baking->document, element);
-    return cli_format("%s:%u:%u", info.file ? info.file : baking->path, info.line, info.column);
+    char *path = bake_path(baking->document, element);
+    const mxg_document *source = baking->source ? baking->source : baking->document;
+    mxg_element there = baking->source ? mxg_document_find_element(source, 0, path) : element;
+    mxg_element_info info = bake_element(source, there);
+    const char *file = info.file ? info.file : baking->path;
+    free(path);
+    return there ? cli_format("%s:%u:%u", file, info.line, info.column) : cli_format("%s", file);
 }
 
 /* True for a name that stands for several files: tiles, or frames. */

@@ -101,11 +101,21 @@ static bool is_default_place(const mxg_document *document, mxg_element node)
            && (!index || strcmp(bake_attribute(document, index, "value"), "0") == 0);
 }
 
-/* True for an image node whose inputs are values. */
-static bool passes(const mxg_document *document, mxg_element node)
+/* True for an image whose reader does not know the space of its colors. */
+static bool has_other_space(const struct bake_plan *plan, mxg_element image)
 {
+    mxg_element file = mxg_document_find_element(plan->document, image, "file");
+    const char *space = file ? bake_inherited(plan->document, file, "colorspace") : NULL;
+    return plan->spaces && space && !args_is_one_of(space, plan->spaces)
+           && strncmp(bake_element(plan->document, image).type, "color", 5) == 0;
+}
+
+/* True for an image node whose inputs are values. */
+static bool passes(const struct bake_plan *plan, mxg_element node)
+{
+    const mxg_document *document = plan->document;
     mxg_element_info info = bake_element(document, node);
-    if (strcmp(info.category, "image") != 0)
+    if (strcmp(info.category, "image") != 0 || has_other_space(plan, node))
         return false;
     for (mxg_element child = info.first_child; child;) {
         mxg_element_info input = bake_element(document, child);
@@ -119,14 +129,14 @@ static bool passes(const mxg_document *document, mxg_element node)
 }
 
 /* Materials, shaders, closures, maps of normals, and images without changes. */
-static bool stays(const mxg_document *document, mxg_element node)
+static bool stays(const struct bake_plan *plan, mxg_element node)
 {
     static const char *const types[] = {
         "material", "surfaceshader", "displacementshader", "volumeshader", "BSDF", "EDF", "VDF",
         NULL};
-    mxg_element_info info = bake_element(document, node);
+    mxg_element_info info = bake_element(plan->document, node);
     return args_is_one_of(info.type, types) || strcmp(info.category, "normalmap") == 0
-           || passes(document, node);
+           || passes(plan, node);
 }
 
 /* ---- The plan ---- */
@@ -286,7 +296,7 @@ static bool add_input(struct bake_plan *plan, struct visits *visits, mxg_element
     struct bake_input input = {.port = port, .name = info.name, .type = info.type};
     if (!end.node && !end.value)
         return true;
-    if (end.node && stays(document, end.node)) {
+    if (end.node && stays(plan, end.node)) {
         input.way = BAKE_NODE;
         input.index = find_node(plan, end.node);
         if (input.index == plan->num_nodes) {
@@ -350,7 +360,7 @@ bool bake_plan_add(struct bake_plan *plan, const char *path)
 {
     struct visits visits = {0};
     mxg_element root = mxg_document_find_element(plan->document, 0, path);
-    if (!stays(plan->document, root)) {
+    if (!stays(plan, root)) {
         report_error(plan->report, "nothing-to-bake",
                      "'%s' is no material and no surface, so it has no inputs to bake", path);
         return false;

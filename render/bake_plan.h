@@ -65,7 +65,8 @@ struct bake_drawing {
 struct bake_plan {
     const mxg_document *document;
     struct report *report;
-    struct bake_node *nodes; /* a node comes after those that it reads */
+    const char *const *spaces; /* of colors in images that stay, which NULL ends; NULL: any */
+    struct bake_node *nodes;   /* a node comes after those that it reads */
     size_t num_nodes;
     struct bake_drawing *drawings;
     size_t num_drawings;
