@@ -125,6 +125,56 @@ static enum flat_wrap read_wrap(const struct flat *flat, const struct flat_mater
                                                                        : FLAT_REPEAT;
 }
 
+/* Numbers of an input of two; others where it has no value. */
+static void read_pair(const struct flat *flat, mxg_element node, const char *input,
+                      double otherwise, double out[2])
+{
+    mxg_value value = {sizeof value};
+    mxg_element port = node ? mxg_document_find_element(flat->document, node, input) : 0;
+    bool is_set =
+        port && mxg_document_value(flat->document, port, &value) == MXG_OK && value.num_values == 2;
+    for (size_t i = 0; i < 2; ++i)
+        out[i] = is_set ? (double)value.values[i] : otherwise;
+}
+
+bool flat_is_unplaced(const struct flat_image *image)
+{
+    return image->scale[0] == 1 && image->scale[1] == 1 && image->offset[0] == 0
+           && image->offset[1] == 0;
+}
+
+/* (uv * tiling - offset) / size * span */
+static void read_tiling(const struct flat *flat, mxg_element node, struct flat_image *out)
+{
+    double size[2], span[2], offset[2];
+    read_pair(flat, node, "realworldimagesize", 1, size);
+    read_pair(flat, node, "realworldtilesize", 1, span);
+    read_pair(flat, node, "uvtiling", 1, out->scale);
+    read_pair(flat, node, "uvoffset", 0, offset);
+    for (size_t i = 0; i < 2; ++i) {
+        out->scale[i] *= span[i] / size[i];
+        out->offset[i] = 0 - offset[i] * span[i] / size[i]; /* not -0 */
+    }
+}
+
+/* Of a place2d that does not turn: (uv - pivot) / scale - offset + pivot; TRS moves first. */
+static void read_place(const struct flat *flat, mxg_element node, struct flat_image *out)
+{
+    double size[2], offset[2], pivot[2];
+    mxg_value order = {sizeof order};
+    mxg_element mode = node ? mxg_document_find_element(flat->document, node, "operationorder") : 0;
+    read_pair(flat, node, "scale", 1, size);
+    read_pair(flat, node, "offset", 0, offset);
+    read_pair(flat, node, "pivot", 0, pivot);
+    bool is_trs =
+        mode && mxg_document_value(flat->document, mode, &order) == MXG_OK && order.integer == 1;
+    for (size_t i = 0; i < 2; ++i) {
+        out->scale[i] = 1 / size[i];
+        out->offset[i] = is_trs ? pivot[i] - (pivot[i] + offset[i]) / size[i]
+                                : pivot[i] - pivot[i] / size[i] - offset[i];
+    }
+}
+
 /* The path of a file, relative to the document. NULL after an error. The caller frees it. */
 static char *file_of(const struct flat *flat, mxg_element node, const char *file)
 {
@@ -170,6 +220,20 @@ static bool read_image(const struct flat *flat, const struct flat_material *mate
         .is_closest = strcmp(text_of(flat, node, "filtertype"), "closest") == 0,
         .wrap = {read_wrap(flat, material, out->name, text_of(flat, node, "uaddressmode")),
                  read_wrap(flat, material, out->name, text_of(flat, node, "vaddressmode"))}};
+    mxg_element place = mxg_document_find_element(flat->document, node, "texcoord");
+    if (strcmp(bake_element(flat->document, node).category, "tiledimage") == 0)
+        read_tiling(flat, node, &out->image);
+    else
+        read_place(flat, place ? bake_follow(flat->document, place).node : 0, &out->image);
+    bool is_placed = true;
+    for (size_t k = 0; k < 2; ++k)
+        is_placed = is_placed && isfinite(out->image.scale[k]) && isfinite(out->image.offset[k]);
+    if (!is_placed)
+        flat_tell_loss(flat, material, out->name, "its image has no size");
+    for (size_t k = 0; k < 2 && !is_placed; ++k) {
+        out->image.scale[k] = 1;
+        out->image.offset[k] = 0;
+    }
     return out->image.path != NULL;
 }
 
@@ -204,7 +268,7 @@ static bool read_input(const struct flat *flat, const struct flat_material *mate
     bool good = true;
     if (end.value)
         good = read_value(flat, end.value, out);
-    else if (strcmp(category, "image") == 0)
+    else if (strcmp(category, "image") == 0 || strcmp(category, "tiledimage") == 0)
         good = read_image(flat, material, end.node, out);
     else if (strcmp(category, "normalmap") == 0)
         good = read_normal_map(flat, material, end.node, out);

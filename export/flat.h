@@ -19,7 +19,11 @@ struct flat_image {
     bool is_srgb;        /* its colours are encoded */
     bool is_closest;     /* its texels are squares */
     enum flat_wrap wrap[2];
+    double scale[2], offset[2]; /* from texture coordinates, v upwards, to places in the image */
 };
+
+/* True for an image that lies where texture coordinates say. */
+bool flat_is_unplaced(const struct flat_image *image);
 
 /* An input that the document sets. */
 struct flat_input {

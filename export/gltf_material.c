@@ -152,16 +152,40 @@ static bool does_something(struct state *state, const struct cell *cell)
 
 /* ---- Textures ---- */
 
+/* True if the cell is a part of the image. */
+static bool is_part(struct state *state, const struct cell *cell, enum gltf_image image)
+{
+    return cell->is_textured && cell->row->image == image && does_something(state, cell);
+}
+
+/* The place of all parts of an image. NULL: they have several, or none has one of its own. */
+static const struct flat_image *find_place(struct state *state, enum gltf_image image,
+                                           bool *out_several)
+{
+    const struct flat_image *first = NULL;
+    for (size_t i = 0; i < gltf_num_inputs; ++i) {
+        const struct cell *cell = &state->cells[i];
+        if (!is_part(state, cell, image) || cell->is_plain)
+            continue;
+        const struct flat_image *other = &cell->input->image;
+        first = first ? first : other;
+        *out_several = *out_several || memcmp(first->scale, other->scale, sizeof first->scale) != 0
+                       || memcmp(first->offset, other->offset, sizeof first->offset) != 0;
+    }
+    return !first || *out_several || flat_is_unplaced(first) ? NULL : first;
+}
+
 static struct texture make_texture(struct state *state, enum gltf_image image)
 {
     const float neutral[4] = {1, image == GLTF_ANISOTROPY ? 0.5f : 1, 1, 1};
     struct texture texture = {.is_srgb = gltf_images[image].is_srgb};
     size_t num = 0;
+    find_place(state, image, &texture.is_placed);
     for (size_t c = 0; c < 4; ++c)
         texture.channels[c] = (struct texture_channel){.value = neutral[c], .range = 1};
     for (size_t i = 0; i < gltf_num_inputs; ++i) {
         const struct cell *cell = &state->cells[i];
-        if (!cell->is_textured || cell->row->image != image || !does_something(state, cell))
+        if (!is_part(state, cell, image))
             continue;
         unsigned first = cell->row->channel, count = is_angle(cell) ? 2 : cell->row->count;
         for (unsigned c = 0; c < count; ++c)
@@ -190,10 +214,12 @@ static json_t *make_sampler(struct state *state, enum gltf_image image)
     enum { CLOSEST = 9728 };
     const struct flat_image *first = NULL;
     json_t *sampler = json_object();
-    for (size_t i = 0; i < gltf_num_inputs; ++i) {
+    bool is_placed = false;
+    find_place(state, image, &is_placed);
+    for (size_t i = 0; !is_placed && i < gltf_num_inputs; ++i) {
         const struct cell *cell = &state->cells[i];
         const struct flat_image *other = cell->input ? &cell->input->image : NULL;
-        if (!cell->is_textured || cell->is_plain || cell->row->image != image)
+        if (!is_part(state, cell, image) || cell->is_plain)
             continue;
         first = first ? first : other;
         if (memcmp(first->wrap, other->wrap, sizeof first->wrap) != 0)
@@ -300,6 +326,26 @@ static void add_factor(struct state *state, const struct cell *cell)
         json_set(place_of(state, row), row->factor, number(cell->factor[0]));
 }
 
+/* KHR_texture_transform, which counts v downwards. */
+static void add_transform(struct state *state, enum gltf_image image, json_t *info)
+{
+    static const char *const extension = "KHR_texture_transform";
+    bool are_several = false;
+    const struct flat_image *place = find_place(state, image, &are_several);
+    if (!place)
+        return;
+    json_t *transform = gltf_object(gltf_object(info, "extensions"), extension);
+    const double *scale = place->scale,
+                 offset[] = {place->offset[0], 1 - scale[1] - place->offset[1]};
+    gltf_add(gltf_array(state->gltf->root, "extensionsUsed"), json_string(extension));
+    if (offset[0] != 0 || offset[1] != 0)
+        json_set(transform, "offset",
+                 json_pack("[o, o]", number((float)offset[0]), number((float)offset[1])));
+    if (scale[0] != 1 || scale[1] != 1)
+        json_set(transform, "scale",
+                 json_pack("[o, o]", number((float)scale[0]), number((float)scale[1])));
+}
+
 static bool add_texture_info(struct state *state, const struct cell *cell)
 {
     size_t index = 0;
@@ -311,6 +357,7 @@ static bool add_texture_info(struct state *state, const struct cell *cell)
     json_set(info, "index", json_integer((json_int_t)index));
     if (cell->input && cell->input->scale != 1)
         json_set(info, "scale", json_real(cell->input->scale));
+    add_transform(state, cell->row->image, info);
     return true;
 }
 

@@ -85,20 +85,32 @@ struct parts {
     uint32_t width, height;
 };
 
+/* Texels along an axis that show an image as it is. */
+static uint32_t find_size(const struct texture *texture, const struct flat_image *image,
+                          uint32_t size, size_t axis)
+{
+    const double most = 4096; /* of images that only placing makes large */
+    double scale = texture->is_placed ? fabs(image->scale[axis]) : 1;
+    return !(scale > 1) || size >= most ? size : (uint32_t)fmin(size * scale, most);
+}
+
 static bool read_parts(struct report *report, const struct texture *texture, struct parts *out)
 {
+    out->width = out->height = 1;
     for (size_t c = 0; c < 4; ++c) {
         const struct flat_image *image = texture->channels[c].image;
         struct image *texels = &out->images[c];
-        if (c && image && image == texture->channels[c - 1].image)
+        if (!image)
+            continue;
+        if (c && image == texture->channels[c - 1].image)
             *texels = out->images[c - 1];
-        else if (image && !read_image(report, image, texels))
+        else if (!read_image(report, image, texels))
             return false;
-        out->width = image && texels->width > out->width ? texels->width : out->width;
-        out->height = image && texels->height > out->height ? texels->height : out->height;
+        uint32_t width = find_size(texture, image, texels->width, 0),
+                 height = find_size(texture, image, texels->height, 1);
+        out->width = width > out->width ? width : out->width;
+        out->height = height > out->height ? height : out->height;
     }
-    out->width = out->width ? out->width : 1;
-    out->height = out->height ? out->height : 1;
     return true;
 }
 
@@ -115,20 +127,35 @@ struct between {
     float weight;
 };
 
-static struct between find_between(uint32_t index, uint32_t size, uint32_t of)
+static uint32_t wrap(double index, uint32_t size, enum flat_wrap how)
 {
-    float place = fmaxf(((float)index + 0.5f) * (float)of / (float)size - 0.5f, 0);
-    uint32_t first = (uint32_t)place, last = of - 1;
-    return (struct between){{first < last ? first : last, first < last ? first + 1 : last},
-                            place - (float)first};
+    double period = how == FLAT_MIRROR ? 2.0 * size : size;
+    double at = how == FLAT_CLAMP ? fmin(fmax(index, 0), size - 1.0)
+                                  : index - period * floor(index / period);
+    return (uint32_t)(at < size ? at : period - 1 - at);
+}
+
+/* `place` counts in sizes of the image. */
+static struct between find_between(double place, uint32_t size, enum flat_wrap how)
+{
+    double at = place * size - 0.5, first = floor(at);
+    return (struct between){{wrap(first, size, how), wrap(first + 1, size, how)},
+                            (float)(at - first)};
 }
 
 /* The linear number of a channel at a texel of an image that may be larger than its part. */
-static float sample(const struct texture_channel *channel, const struct image *image,
-                    const struct parts *parts, uint32_t x, uint32_t y)
+static float sample(const struct texture *texture, size_t c, const struct parts *parts, uint32_t x,
+                    uint32_t y)
 {
-    const struct between across = find_between(x, parts->width, image->width),
-                         down = find_between(y, parts->height, image->height);
+    const struct flat_image *from = texture->channels[c].image;
+    const struct image *image = &parts->images[c];
+    double u = (x + 0.5) / parts->width, v = 1 - (y + 0.5) / parts->height;
+    if (texture->is_placed) {
+        u = u * from->scale[0] + from->offset[0];
+        v = v * from->scale[1] + from->offset[1];
+    }
+    const struct between across = find_between(u, image->width, from->wrap[0]),
+                         down = find_between(1 - v, image->height, from->wrap[1]);
     float sum = 0;
     for (size_t i = 0; i < 2; ++i)
         for (size_t k = 0; k < 2; ++k) {
@@ -136,15 +163,16 @@ static float sample(const struct texture_channel *channel, const struct image *i
                 (i ? across.weight : 1 - across.weight) * (k ? down.weight : 1 - down.weight);
             size_t texel = (size_t)down.at[k] * image->width + across.at[i];
             if (weight > 0)
-                sum += weight * linear(channel->image, image, texel, channel->component);
+                sum += weight * linear(from, image, texel, texture->channels[c].component);
         }
     return sum;
 }
 
-static float find_value(const struct texture_channel *channel, const struct image *image,
-                        const struct parts *parts, uint32_t x, uint32_t y)
+static float find_value(const struct texture *texture, size_t c, const struct parts *parts,
+                        uint32_t x, uint32_t y)
 {
-    float value = channel->image ? sample(channel, image, parts, x, y) : channel->value;
+    const struct texture_channel *channel = &texture->channels[c];
+    float value = channel->image ? sample(texture, c, parts, x, y) : channel->value;
     return channel->part == TEXTURE_COSINE ? cosf(value) * 0.5f + 0.5f
            : channel->part == TEXTURE_SINE ? sinf(value) * 0.5f + 0.5f
                                            : (value - channel->low) / channel->range;
@@ -159,7 +187,7 @@ static bool write_rows(struct image_rows *rows, const struct texture *texture,
     for (uint32_t y = 0; good && y < parts->height; ++y) {
         for (uint32_t x = 0; x < parts->width; ++x)
             for (size_t c = 0; c < channels; ++c) {
-                float value = find_value(&texture->channels[c], &parts->images[c], parts, x, y);
+                float value = find_value(texture, c, parts, x, y);
                 value = fminf(fmaxf(value, 0), 1);
                 row[x * channels + c] = texture->is_srgb && c < 3 ? flat_encode_srgb(value) : value;
             }
@@ -214,7 +242,8 @@ bool texture_make(struct report *report, const struct texture *texture, const ch
 
 char *texture_key(const struct texture *texture)
 {
-    char *key = cli_format("%d%d%d", texture->is_srgb, texture->has_alpha, texture->is_whole);
+    char *key = cli_format("%d%d%d%d", texture->is_srgb, texture->has_alpha, texture->is_placed,
+                           texture->is_whole);
     for (size_t c = 0; c < 4; ++c) {
         const struct texture_channel *channel = &texture->channels[c];
         const struct flat_image *image = channel->image;
@@ -222,6 +251,13 @@ char *texture_key(const struct texture *texture)
             cli_format("%s|%s|%d|%u|%d|%g|%g|%g", key, image ? image->path : "",
                        image && image->is_srgb, channel->component, (int)channel->part,
                        (double)channel->value, (double)channel->low, (double)channel->range);
+        free(key);
+        key = longer;
+        if (!texture->is_placed || !image)
+            continue;
+        longer = cli_format("%s|%g|%g|%g|%g|%d|%d", key, image->scale[0], image->scale[1],
+                            image->offset[0], image->offset[1], (int)image->wrap[0],
+                            (int)image->wrap[1]);
         free(key);
         key = longer;
     }

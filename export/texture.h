@@ -20,8 +20,9 @@ struct texture_channel {
 struct texture {
     struct texture_channel channels[4]; /* red, green, blue, alpha */
     bool has_alpha;
-    bool is_srgb;  /* red, green and blue are encoded */
-    bool is_whole; /* an image gives all channels as they are, so its file may be copied */
+    bool is_placed; /* its parts lie where their images say; else the format says it for all */
+    bool is_srgb;   /* red, green and blue are encoded */
+    bool is_whole;  /* an image gives all channels as they are, so its file may be copied */
 };
 
 /* Bytes of a file, which `ending` names: "png" or "jpg". */

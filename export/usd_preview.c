@@ -107,6 +107,28 @@ static void put_texture(struct usd *usd, const struct preview_input *row,
     free(asset);
 }
 
+/* A shader that places an image; NULL: it lies where texture coordinates say. The caller frees the
+ * path. */
+static char *put_place(struct usd *usd, const struct preview_input *row,
+                       const struct flat_image *image, const char *path, const char *reader,
+                       struct name_table *names)
+{
+    if (flat_is_unplaced(image))
+        return NULL;
+    char *wanted = cli_format("%s_place", row->name), *name = usd_name(names, wanted),
+         *whole = cli_format("%s/%s", path, name);
+    usd_open(usd, "Shader", name);
+    usd_put(usd, "uniform token info:id = \"UsdTransform2d\"");
+    usd_put(usd, "float2 inputs:in.connect = <%s.outputs:result>", reader);
+    usd_put(usd, "float2 inputs:scale = (%.7g, %.7g)", image->scale[0], image->scale[1]);
+    usd_put(usd, "float2 inputs:translation = (%.7g, %.7g)", image->offset[0], image->offset[1]);
+    usd_put(usd, "float2 outputs:result");
+    usd_close(usd);
+    free(wanted);
+    free(name);
+    return whole;
+}
+
 /* The shaders of the images, whose names `textures` gets by input. */
 static bool put_textures(struct usd *usd, const struct flat_material *material, const char *path,
                          struct name_table *names, char **textures)
@@ -134,10 +156,12 @@ static bool put_textures(struct usd *usd, const struct flat_material *material, 
                && make_file(usd, material, row, input, range, &file);
         if (!good)
             break;
+        char *place = put_place(usd, row, &input->image, path, reader, names);
         textures[i] = usd_name(names, row->name);
         usd_open(usd, "Shader", textures[i]);
-        put_texture(usd, row, input, range, file->name, reader);
+        put_texture(usd, row, input, range, file->name, place ? place : reader);
         usd_close(usd);
+        free(place);
     }
     free(reader);
     return good;

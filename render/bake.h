@@ -22,6 +22,7 @@ struct baking {
     const mxg_document *document;
     const mxg_document *source; /* of which the document was made; NULL: it is the file itself */
     const char *const *spaces;  /* as in the plan */
+    bool keeps_places;
     struct bake_plan plan;
     struct bake_surface surface;
     struct painter painter;

@@ -101,6 +101,35 @@ static bool is_default_place(const mxg_document *document, mxg_element node)
            && (!index || strcmp(bake_attribute(document, index, "value"), "0") == 0);
 }
 
+/* True if all inputs of a node are values, but for texture coordinates as they are, or of `place`.
+ */
+static bool has_values(const mxg_document *document, mxg_element node, mxg_element place)
+{
+    for (mxg_element child = bake_element(document, node).first_child; child;) {
+        mxg_element_info input = bake_element(document, child);
+        struct bake_end from = bake_follow(document, child);
+        bool is_place = strcmp(input.name, "texcoord") == 0;
+        if (strcmp(input.category, "input") == 0 && from.node
+            && !(is_place && (from.node == place || is_default_place(document, from.node))))
+            return false;
+        child = input.next;
+    }
+    return true;
+}
+
+/* True for texture coordinates that are scaled and moved, but not turned. */
+static bool is_plain_place(const struct bake_plan *plan, mxg_element node)
+{
+    const mxg_document *document = plan->document;
+    mxg_value value = {sizeof value};
+    mxg_element turn = mxg_document_find_element(document, node, "rotate");
+    if (!plan->keeps_places || !is_category(document, node, "place2d")
+        || !mxg_document_find_element(document, node, "texcoord") || !has_values(document, node, 0))
+        return false;
+    mxg_element from = turn ? bake_follow(document, turn).value : 0;
+    return !turn || (mxg_document_value(document, from, &value) == MXG_OK && value.values[0] == 0);
+}
+
 /* True for an image whose reader does not know the space of its colors. */
 static bool has_other_space(const struct bake_plan *plan, mxg_element image)
 {
@@ -110,25 +139,34 @@ static bool has_other_space(const struct bake_plan *plan, mxg_element image)
            && strncmp(bake_element(plan->document, image).type, "color", 5) == 0;
 }
 
+/* True if the sizes of a tiled image in the world are of one unit, so their ratio needs none. */
+static bool has_one_unit(const mxg_document *document, mxg_element node)
+{
+    static const char *const names[] = {"realworldimagesize", "realworldtilesize"};
+    const char *units[2];
+    for (size_t i = 0; i < 2; ++i) {
+        mxg_element size = mxg_document_find_element(document, node, names[i]);
+        const char *unit = size ? bake_attribute(document, size, "unit") : NULL;
+        units[i] = unit ? unit : "";
+    }
+    return strcmp(units[0], units[1]) == 0;
+}
+
 /* True for an image node whose inputs are values. */
 static bool passes(const struct bake_plan *plan, mxg_element node)
 {
     const mxg_document *document = plan->document;
-    mxg_element_info info = bake_element(document, node);
-    if (strcmp(info.category, "image") != 0 || has_other_space(plan, node))
+    mxg_element port = mxg_document_find_element(document, node, "texcoord"),
+                place = port ? bake_follow(document, port).node : 0;
+    bool is_image = is_category(document, node, "image"),
+         is_tiled = plan->keeps_places && is_category(document, node, "tiledimage")
+                    && has_one_unit(document, node);
+    if ((!is_image && !is_tiled) || has_other_space(plan, node))
         return false;
-    for (mxg_element child = info.first_child; child;) {
-        mxg_element_info input = bake_element(document, child);
-        struct bake_end from = bake_follow(document, child);
-        if (strcmp(input.category, "input") == 0 && from.node
-            && !(strcmp(input.name, "texcoord") == 0 && is_default_place(document, from.node)))
-            return false;
-        child = input.next;
-    }
-    return true;
+    return has_values(document, node, is_image && is_plain_place(plan, place) ? place : 0);
 }
 
-/* Materials, shaders, closures, maps of normals, and images without changes. */
+/* Materials, shaders, closures, maps of normals, images without changes, and what places them. */
 static bool stays(const struct bake_plan *plan, mxg_element node)
 {
     static const char *const types[] = {
@@ -136,7 +174,8 @@ static bool stays(const struct bake_plan *plan, mxg_element node)
         NULL};
     mxg_element_info info = bake_element(plan->document, node);
     return args_is_one_of(info.type, types) || strcmp(info.category, "normalmap") == 0
-           || passes(plan, node);
+           || passes(plan, node) || is_plain_place(plan, node)
+           || (plan->keeps_places && is_default_place(plan->document, node));
 }
 
 /* ---- The plan ---- */
@@ -294,7 +333,9 @@ static bool add_input(struct bake_plan *plan, struct visits *visits, mxg_element
     mxg_element_info info = bake_element(document, port);
     struct bake_end end = bake_follow(document, port);
     struct bake_input input = {.port = port, .name = info.name, .type = info.type};
-    if (!end.node && !end.value)
+    bool is_image =
+        strcmp(node->category, "image") == 0 || strcmp(node->category, "tiledimage") == 0;
+    if ((!end.node && !end.value) || (end.node && is_image && is_default_place(document, end.node)))
         return true;
     if (end.node && stays(plan, end.node)) {
         input.way = BAKE_NODE;
@@ -306,8 +347,6 @@ static bool add_input(struct bake_plan *plan, struct visits *visits, mxg_element
     } else if (end.value) {
         input.way = BAKE_KEEPS;
         input.origin = end.value;
-    } else if (is_default_place(document, end.node) && strcmp(node->category, "image") == 0) {
-        return true;
     } else {
         input.way = BAKE_DRAWS;
         if (!*end.output)

@@ -66,6 +66,7 @@ struct bake_plan {
     const mxg_document *document;
     struct report *report;
     const char *const *spaces; /* of colors in images that stay, which NULL ends; NULL: any */
+    bool keeps_places;         /* images stay that are scaled and moved, with what places them */
     struct bake_node *nodes;   /* a node comes after those that it reads */
     size_t num_nodes;
     struct bake_drawing *drawings;

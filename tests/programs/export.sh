@@ -171,6 +171,39 @@ EOF
 check 'metres, and y upwards' eval 'exits 0 "$mxgen" export image.mtlx -m tall.usda -o tall.glb && member tall.glb accessors/0/min "[-2.0, 1.0, -3.0]" && member tall.glb accessors/0/max "[0.0, 1.0, 0.0]"'
 check 'also in USD' eval 'exits 0 "$mxgen" export image.mtlx -m tall.usda -o metres.usda && has metres.usda "((-0.01, 0, 0, 0), (0, 0, -0.01, 0), (0, 0.01, 0, 0), (0, 0, 0, 1))"'
 
+# ---- Images that are placed ----
+
+# The color is scaled by 2 and 4 about the centre; metallic repeats twice, roughness not, and they share a texture.
+cat >placed.mtlx <<'EOF'
+<?xml version="1.0"?>
+<materialx version="1.39">
+  <texcoord name="uv" type="vector2"/>
+  <place2d name="place" type="vector2">
+    <input name="texcoord" type="vector2" nodename="uv"/>
+    <input name="pivot" type="vector2" value="0.5, 0.5"/>
+    <input name="scale" type="vector2" value="0.5, 0.25"/>
+    <input name="offset" type="vector2" value="0.1, 0.2"/>
+  </place2d>
+  <place2d name="turned" type="vector2"><input name="texcoord" type="vector2" nodename="uv"/><input name="rotate" type="float" value="45"/></place2d>
+  <image name="tone" type="color3"><input name="file" type="filename" value="flat/S_base_color.png" colorspace="srgb_texture"/><input name="texcoord" type="vector2" nodename="place"/></image>
+  <image name="rough" type="float"><input name="file" type="filename" value="flat/S_roughness.png"/></image>
+  <tiledimage name="metal" type="float"><input name="file" type="filename" value="flat/S_roughness.png"/><input name="uvtiling" type="vector2" value="2, 2"/></tiledimage>
+  <image name="glow" type="color3"><input name="file" type="filename" value="flat/S_base_color.png" colorspace="srgb_texture"/><input name="texcoord" type="vector2" nodename="turned"/></image>
+  <gltf_pbr name="S" type="surfaceshader">
+    <input name="base_color" type="color3" nodename="tone"/>
+    <input name="roughness" type="float" nodename="rough"/>
+    <input name="metallic" type="float" nodename="metal"/>
+    <input name="emissive" type="color3" nodename="glow"/>
+  </gltf_pbr>
+  <surfacematerial name="M" type="material"><input name="surfaceshader" type="surfaceshader" nodename="S"/></surfacematerial>
+</materialx>
+EOF
+check 'images stay behind a scale and a shift' eval 'exits 0 "$mxgen" export placed.mtlx -s 64 -o placed.gltf && cmp flat/S_base_color.png placed_M_baseColor.png'
+check 'which the texture has' eval 'member placed.gltf materials/M/pbrMetallicRoughness/baseColorTexture/extensions/KHR_texture_transform "{\"offset\": [-0.6, -1.3], \"scale\": [2.0, 4.0]}"'
+check 'parts with other places are drawn' eval 'texel placed.gltf materials/M/pbrMetallicRoughness/metallicRoughnessTexture 0.1 0.1875 255 166 128 && lacks placed.gltf materials/M/pbrMetallicRoughness/metallicRoughnessTexture/extensions'
+check 'an image without a size is told' eval 'sed "s/0.5, 0.25/0, 1/" placed.mtlx >flat.mtlx && exits 0 "$mxgen" export flat.mtlx -s 4 -o flat.gltf && has err "has no size"'
+check 'and images that are turned' lacks placed.gltf materials/M/emissiveTexture/extensions
+
 # ---- USD ----
 
 check 'a stage of USD' exits 0 "$mxgen" export marble.mtlx -m sphere -s 256 -o marble.usda
@@ -186,6 +219,11 @@ check 'and its images' draws preview.usda preview.exr
 "$render" marble.mtlx -m sphere -s 64 --camera 25,16,3 -q -o marble.exr
 check 'the graph is the one of the document' "$psnr" --at-least 24 marble.exr network.exr
 check 'and images are near' "$psnr" --at-least 24 marble.exr preview.exr
+sed '/name="\(metallic\|emissive\)"/d; s/gltf_pbr/UsdPreviewSurface/; s/base_color" type="color3" nodename/diffuseColor" type="color3" nodename/' placed.mtlx >moved.mtlx
+"$mxgen" export moved.mtlx -q -o placed.usda
+sed '/outputs:mtlx:surface.connect/d' placed.usda >placed_preview.usda
+check 'placed images' eval 'has placed.usda "inputs:scale = (2, 4)" "inputs:translation = (-0.6, -1.7)" && draws placed.usda placed.exr && draws placed_preview.usda placed_preview.exr'
+check 'lie where they lie in the graph' "$psnr" --at-least 40 placed.exr placed_preview.exr
 check 'images of maps and numbers above 1' eval 'exits 0 "$mxgen" export all.mtlx -o all.usda --size 4 && has all.usda "inputs:scale = (2, 2, 2, 1)" "inputs:bias = (-1, -1, -1, 0)" "inputs:scale = (14, 14, 14, 1)" "double3 xformOp:translate = (2.2, 0, 0)" && draws all.usda all.png'
 mkdir package
 check 'a package' exits 0 "$mxgen" export image.mtlx -o package/image.usdz
@@ -243,7 +281,7 @@ check 'nothing of failures is left' test "$(ls -A "$TMPDIR" | wc -l)" = 0
 check 'endings' exits 2 "$mxgen" export all.mtlx -o none.fbx
 check 'usage' exits 2 "$mxgen" export all.mtlx
 if [ -d "$root/tests/npm/node_modules/gltf-validator" ] && command -v node >valid.log; then
-    check "Khronos' validator has no objection" valid 'out1/all of it.gltf' all.glb marble.glb image.gltf aces.glb tall.glb loss.gltf
+    check "Khronos' validator has no objection" valid 'out1/all of it.gltf' all.glb marble.glb image.gltf aces.glb tall.glb loss.gltf placed.gltf
 else
     skip 'no gltf-validator (npm ci --prefix tests/npm) or no node'
 fi
