@@ -113,6 +113,8 @@ bool generation_slabs_are_few(struct generation *g, const struct slab_report *re
 struct slab_budget generation_slab_budget(const struct generation *g);
 /* Reads the option `features`; false after a message about a word. */
 bool generation_slab_features(struct generation *g);
+/* "1.25", or "unknown" for an error below 0. */
+void generation_write_error(struct text *out, float error);
 /* Replaces the slabs below the root by their lobes; needs the closures' host. */
 void generation_walk_slabs(struct generation *g);
 /* slabs.c: warns about media that a path tracer does not walk through */

@@ -189,10 +189,12 @@ static void add_outputs(struct candidates *c, const struct doc_change *change)
          has_moved = !is_new && has_new_place(doc, element);
     if (element == doc->root || (doc_is_same(doc, change) && !has_moved))
         return;
-    if (is_new || has_moved || doc_is_renamed(doc, change))
-        add_tree(c, doc, element);
     add(c, element);
-    add(c, doc_named_node(doc, element));
+    if (doc_has_element(doc, element)) {
+        if (is_new || has_moved || doc_is_renamed(doc, change))
+            add_tree(c, doc, element);
+        add(c, doc_named_node(doc, element));
+    }
     if (is_new || !doc_has_element(doc->origin, element))
         return;
     if (doc_is_renamed(doc, change))

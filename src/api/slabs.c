@@ -60,7 +60,7 @@ struct slab_budget generation_slab_budget(const struct generation *g)
 
 /* ---- The report ---- */
 
-static void write_error(struct text *out, float error)
+void generation_write_error(struct text *out, float error)
 {
     if (error < 0.0f)
         text_str(out, "unknown");
@@ -75,7 +75,7 @@ static void report_step(struct generation *g, const struct slab_step *step)
     text_init(&what, &g->scratch);
     text_init(&error, &g->scratch);
     slabs_describe_step(&g->result->shader, step, &what);
-    write_error(&error, step->error);
+    generation_write_error(&error, step->error);
     diag_add(diags_of(g), DIAG_ID_budget_step, doc_place(doc, g->element), text_cstr(&what),
              (unsigned)step->before.closures, (unsigned)step->after.closures,
              (unsigned)step->before.bytes, (unsigned)step->after.bytes, text_cstr(&error));
@@ -88,7 +88,7 @@ static void report_failure(struct generation *g, const struct slab_budget *budge
     const struct document *doc = &g->document->layer.doc;
     text_init(&limits, &g->scratch);
     text_init(&error, &g->scratch);
-    write_error(&error, report->error);
+    generation_write_error(&error, report->error);
     if (g->role->returns == RETURNS_PAYLOAD)
         text_str(&limits, "a payload, which is one slab");
     else if (budget->max_slabs)
@@ -97,7 +97,7 @@ static void report_failure(struct generation *g, const struct slab_budget *budge
         text_fmt(&limits, "%s%u bytes", limits.len ? ", " : "", (unsigned)budget->max_bytes);
     if (budget->max_error >= 0.0f) {
         text_fmt(&limits, "%san error of ", limits.len ? ", " : "");
-        write_error(&limits, budget->max_error);
+        generation_write_error(&limits, budget->max_error);
     }
     diag_add(diags_of(g), DIAG_ID_budget_impossible, doc_place(doc, g->element), text_cstr(&limits),
              (unsigned)report->after.closures, (unsigned)report->after.bytes, text_cstr(&error));

@@ -16,11 +16,11 @@ static bool find_leaf(void *user_data, const struct ir_graph *graph, ir_ref ref,
     return true;
 }
 
-static void report_at_surface(const struct translation *t, enum diag_id id, const char *input,
-                              const char *what)
+void translate_report(const struct translation *t, enum diag_id id, const char *first,
+                      const char *third)
 {
     const struct document *doc = &t->document->layer.doc;
-    diag_add(t->diags, id, doc_name_place(doc, t->surface), input, t->model, what);
+    diag_add(t->diags, id, doc_name_place(doc, t->surface), first, t->model, third);
 }
 
 /* Any number that is no special case. */
@@ -45,8 +45,7 @@ static bool choose_generally(struct translation *t, ir_ref root, struct translat
     return input->value.kind == OPERAND_CONSTANT;
 }
 
-/* Repeats the errors of what was built last. */
-static void repeat_errors(struct translation *t)
+void translate_repeat_errors(struct translation *t)
 {
     const struct diag_list *list = &t->value->object.diagnostics.list;
     for (uint32_t i = 0; i < list->items.len; i++)
@@ -54,22 +53,19 @@ static void repeat_errors(struct translation *t)
             diag_repeat(t->diags, &list->items.items[i]);
 }
 
-/* The value of an input of the model, by the output of the last translation. */
-static void find_value(struct translation *t, struct translated_input *input)
+void translate_set_input(struct translation *t, struct translated_input *input, ir_ref root)
 {
-    ir_ref root = translate_build(t, t->chain.len, translate_output_name(t, input->port.name),
-                                  TRANSLATE_CONNECTED);
     enum value_type type = value_type_of(input->port.type);
     if (!root || type == VALUE_NONE) {
-        repeat_errors(t);
+        translate_repeat_errors(t);
         return;
     }
     const char *lacks = value_nodes_add(&t->nodes, &t->value->graph, root, type, &input->value);
     bool fits = !lacks && (choose_generally(t, root, input) || !input->port.uniform);
     if (lacks)
-        report_at_surface(t, DIAG_ID_translation_op, input->port.name, lacks);
+        translate_report(t, DIAG_ID_translation_op, input->port.name, lacks);
     else if (!fits)
-        report_at_surface(t, DIAG_ID_translation_varies, input->port.name, input->port.value);
+        translate_report(t, DIAG_ID_translation_varies, input->port.name, input->port.value);
     input->is_set = fits;
 }
 
@@ -88,7 +84,10 @@ static void find_values(struct translation *t)
             && translate_find_port(t, vec_last(&t->chain),
                                    translate_output_name(t, input.port.name), true, &output);
         if (has_value)
-            find_value(t, &input);
+            translate_set_input(t, &input,
+                                translate_build(t, t->chain.len,
+                                                translate_output_name(t, input.port.name),
+                                                TRANSLATE_CONNECTED));
         vec_push(t->arena, &t->inputs, input);
     }
 }
@@ -144,7 +143,7 @@ static void report_losses(struct translation *t)
     }
 }
 
-static void forget_surface(struct translation *t)
+void translate_forget_surface(struct translation *t)
 {
     mxg_result_destroy(t->value);
     mxg_document_destroy(t->draft);
@@ -153,11 +152,12 @@ static void forget_surface(struct translation *t)
     memset(&t->chain, 0, sizeof t->chain);
     memset(&t->sources, 0, sizeof t->sources);
     memset(&t->inputs, 0, sizeof t->inputs);
+    memset(&t->closures, 0, sizeof t->closures);
+    memset(&t->leaves, 0, sizeof t->leaves);
     arena_finish(t->arena);
 }
 
-/* False after a message: the new surface could not have the name, or the old one has faults. */
-static bool is_sound(struct translation *t)
+bool translate_is_sound(struct translation *t)
 {
     const struct document *doc = &t->document->layer.doc;
     const struct element *e = doc_element(doc, t->surface);
@@ -173,19 +173,8 @@ static bool is_sound(struct translation *t)
     }
     bool builds = translate_can_build(t);
     if (!builds)
-        repeat_errors(t);
+        translate_repeat_errors(t);
     return builds;
-}
-
-/* False after a message: no translation leads on from the surface. */
-static bool has_way(struct translation *t, const char *category)
-{
-    const struct document *doc = &t->document->layer.doc;
-    bool has = translate_find_chain(t, category);
-    if (!has)
-        diag_add(t->diags, DIAG_ID_no_translation, doc_name_place(doc, t->surface), category,
-                 t->model);
-    return has;
 }
 
 static void translate_surface(struct translation *t, elem_id surface)
@@ -193,7 +182,8 @@ static void translate_surface(struct translation *t, elem_id surface)
     const struct document *doc = &t->document->layer.doc;
     const char *category = str_text(doc->strings, doc_element(doc, surface)->category);
     t->surface = surface;
-    if (strcmp(category, t->model) != 0 && is_sound(t) && has_way(t, category)) {
+    if (strcmp(category, t->model) != 0 && translate_find_chain(t, category)
+        && translate_is_sound(t)) {
         translate_make_draft(t, mxg_document_find_nodedef(t->document, surface));
         find_values(t);
         translate_geometry(t);
@@ -201,7 +191,7 @@ static void translate_surface(struct translation *t, elem_id surface)
         report_losses(t);
         translate_write(t);
     }
-    forget_surface(t);
+    translate_forget_surface(t);
 }
 
 /* ---- All surfaces ---- */
@@ -220,24 +210,48 @@ static bool is_surface(const struct translation *t, elem_id element)
     return !is_made && !is_second;
 }
 
-static void translate_below(struct translation *t, elem_id parent)
+void translate_visit_surfaces(struct translation *t, elem_id parent,
+                              void (*visit)(struct translation *t, elem_id surface))
 {
     const struct document *doc = &t->document->layer.doc;
     for (elem_id e = doc_element(doc, parent)->first_child, next; e; e = next) {
         next = doc_element(doc, e)->next;
         if (is_surface(t, e))
-            translate_surface(t, e);
+            visit(t, e);
         else if (doc_element(doc, e)->kind == KIND_NODEGRAPH
                  && !doc_attr_value(doc, e, STR_nodedef))
-            translate_below(t, e);
+            translate_visit_surfaces(t, e, visit);
     }
+}
+
+void translate_start_edit(struct translation *t)
+{
+    translate_expect(t, mxg_edit_create(t->context, t->library, t->document, NULL, &t->edit)
+                            == MXG_OK);
+}
+
+void translate_commit_edit(struct translation *t)
+{
+    mxg_document *product = NULL;
+    mxg_status status = mxg_edit_commit(t->edit, &product);
+    mxg_edit_destroy(t->edit);
+    t->edit = NULL;
+    mxg_document_destroy(t->product);
+    t->document = t->product = product;
+    translate_expect(t, status != MXG_ERROR_MEMORY);
+}
+
+void translate_each_surface(struct translation *t,
+                            void (*visit)(struct translation *t, elem_id surface))
+{
+    translate_start_edit(t);
+    translate_visit_surfaces(t, t->document->layer.doc.root, visit);
+    translate_commit_edit(t);
 }
 
 /* The document's XML becomes the text of the result. */
 static void finish(struct generation *g, struct translation *t)
 {
-    mxg_status status = mxg_edit_commit(t->edit, &t->product);
-    translate_expect(t, status != MXG_ERROR_MEMORY);
     const struct diag_list *faults = &t->product->object.diagnostics.list;
     for (uint32_t i = 0; i < faults->items.len; i++)
         diag_repeat(t->diags, &faults->items.items[i]);
@@ -256,9 +270,9 @@ static void translate(struct generation *g)
     t->arena = &g->scratch;
     if (!translate_find_model(t))
         return;
-    translate_expect(t, mxg_edit_create(t->context, t->library, t->document, NULL, &t->edit)
-                            == MXG_OK);
-    translate_below(t, t->document->layer.doc.root);
+    translate_closures(t);
+    if (!t->diags->num_errors)
+        translate_each_surface(t, translate_surface);
     if (!t->diags->num_errors)
         finish(g, t);
 }
@@ -276,7 +290,8 @@ mxg_status mxg_translate(mxg_context *context, const mxg_document *document, con
     struct translation t = {.context = context,
                             .library = (mxg_library *)origin->object.below,
                             .document = document,
-                            .model = model};
+                            .model = model,
+                            .wanted = model};
     mxg_status status = generation_run(context, document, NULL, translate, &t, out_result);
     mxg_result_destroy(t.value);
     mxg_edit_destroy(t.draft_edit);

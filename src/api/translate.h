@@ -37,7 +37,8 @@ struct translation {
     mxg_context *context;
     mxg_library *library;
     const mxg_document *document;
-    const char *model;                  /* a node category: "gltf_pbr" */
+    const char *wanted;                 /* the caller's model, a node category: "gltf_pbr" */
+    const char *model;                  /* of the pass: that one, or the first made of slabs */
     uint32_t definition;                /* of the model */
     VEC(struct translation_step) steps; /* all that there are */
     struct diag_list *diags;
@@ -57,6 +58,13 @@ struct translation {
     mxg_options *options;
     mxg_result *value; /* of the output in work */
     mxg_document *product;
+    /* the pass over closures: translate_closures.c */
+    const struct translation_step *slab_step; /* from slabs; NULL: there is none */
+    elem_id *seen;                            /* per element: the last surface that needs it */
+    uint32_t num_left;                        /* surfaces without another translation */
+    VEC(elem_id) closures;                    /* the surface, and what it is made of */
+    VEC(elem_id) leaves;                      /* their inputs with connected values */
+    VEC(elem_id) replaced;                    /* closures of all surfaces so far */
 };
 
 /* Ends the work if there is no memory. */
@@ -66,7 +74,30 @@ static inline void translate_expect(const struct translation *t, bool good)
         mem_fail(t->arena->mem);
 }
 
+/* translate.c */
+/* A message at the surface, whose second argument is the model. */
+void translate_report(const struct translation *t, enum diag_id id, const char *first,
+                      const char *third);
+/* Repeats the errors of what was built last. */
+void translate_repeat_errors(struct translation *t);
+/* Gives an input of the model a value of the graph of t->value. 0: it has faults. */
+void translate_set_input(struct translation *t, struct translated_input *input, ir_ref root);
+/* False after a message: the new surface could not have the name, or the old one has faults. */
+bool translate_is_sound(struct translation *t);
+void translate_forget_surface(struct translation *t);
+/* An edit of the document; and its end, after which the document is t->product. */
+void translate_start_edit(struct translation *t);
+void translate_commit_edit(struct translation *t);
+/* Visits the surfaces below an element. */
+void translate_visit_surfaces(struct translation *t, elem_id parent,
+                              void (*visit)(struct translation *t, elem_id surface));
+/* Visits the surfaces of the document, which then is t->product, as t->edit made it. */
+void translate_each_surface(struct translation *t,
+                            void (*visit)(struct translation *t, elem_id surface));
+
 /* translate_models.c */
+/* Finds the default definition of the surface t->model. */
+bool translate_find_surface(struct translation *t);
 /* Finds the model; false after a diagnostic. */
 bool translate_find_model(struct translation *t);
 /* Fills `chain`; false: no translation leads from the category to the model. */
@@ -80,10 +111,18 @@ const char *translate_output_name(const struct translation *t, const char *input
 
 /* translate_draft.c: fills `draft`, `sources`. */
 void translate_make_draft(struct translation *t, uint32_t definition);
+/* An edit of a new draft, without nodes; and its end, which makes it t->draft. */
+void translate_start_draft(struct translation *t);
+void translate_commit_draft(struct translation *t);
+/* Runs steps of a generation over an element. The result is t->value. */
+void translate_generate(struct translation *t, const mxg_document *document, const char *path,
+                        const char *uniforms, void steps(struct generation *g), void *user_data);
 /* True if a text has the value of a port's default, however it is spelt. */
 bool translate_is_default(const mxg_port *port, const struct strpool *strings, const char *text);
 /* True if the document connects the input, or gives it another value than the default. */
 bool translate_is_authored(const struct translation *t, const struct source_input *source);
+/* The start of names that no element of the root has. */
+const char *translate_free_name(const struct translation *t);
 /* The name of the draft's node of a step. */
 const char *translate_step_name(const struct translation *t, unsigned step);
 /* True if the surface itself has a value; else t->value has the errors. */
@@ -110,6 +149,23 @@ ir_ref translate_build(struct translation *t, unsigned step, const char *output,
 uint32_t translate_source_of(const struct translation *t, const struct ir_graph *graph, ir_ref ref);
 
 /* translate_geometry.c: normals and tangents. */
+enum meaning {
+    MEANING_NONE,
+    MEANING_NORMAL,
+    MEANING_TANGENT,
+    MEANING_COAT_NORMAL,
+    MEANING_COAT_TANGENT,
+    MEANING_MAPPED
+};
+enum meaning translate_meaning_of(const mxg_port *port);
+/* The output of a graph by name; "": its first one. 0: there is none. */
+mxg_element translate_find_graph_output(const struct translation *t, mxg_element graph,
+                                        const char *name);
+/*
+ * The element that gives the value of a connected input, through the outputs of graphs. 0: there is
+ * none, or the connections are a cycle.
+ */
+mxg_element translate_find_source(const struct translation *t, mxg_element port);
 void translate_geometry(struct translation *t);
 
 /*
@@ -117,6 +173,15 @@ void translate_geometry(struct translation *t);
  * coat that it does not have.
  */
 void translate_drop_idle(struct translation *t);
+
+/*
+ * translate_closures.c: surfaces that are made of closures, or of what has no translation, become
+ * the first model on the way from slabs.
+ */
+void translate_closures(struct translation *t);
+
+/* translate_remains.c: removes closures of t->replaced that nothing reads. */
+void translate_remove_remains(struct translation *t);
 
 /* translate_write.c */
 /* Replaces the surface in `edit`. */

@@ -17,8 +17,7 @@ const char *translate_step_name(const struct translation *t, unsigned step)
     return text_cstr(&name);
 }
 
-/* A name that no element of the root begins with. */
-static const char *free_name(const struct translation *t)
+const char *translate_free_name(const struct translation *t)
 {
     struct text name;
     text_init(&name, t->arena);
@@ -211,20 +210,36 @@ static const mxg_document *origin_of_draft(const struct translation *t)
     return has_definitions ? t->document : NULL;
 }
 
-void translate_make_draft(struct translation *t, uint32_t definition)
+void translate_start_draft(struct translation *t)
 {
-    read_sources(t, definition);
-    t->draft_name = free_name(t);
+    t->draft_name = translate_free_name(t);
     translate_expect(
         t, mxg_edit_create(t->context, t->library, origin_of_draft(t), NULL, &t->draft_edit)
                == MXG_OK);
+}
+
+void translate_commit_draft(struct translation *t)
+{
+    mxg_document *next = NULL;
+    mxg_status status = mxg_edit_commit(t->draft_edit, &next);
+    mxg_result_destroy(t->value); /* it refers to the draft before */
+    t->value = NULL;
+    mxg_document_destroy(t->draft);
+    t->draft = next;
+    mxg_edit_destroy(t->draft_edit);
+    t->draft_edit = NULL;
+    translate_expect(t, status != MXG_ERROR_MEMORY);
+}
+
+void translate_make_draft(struct translation *t, uint32_t definition)
+{
+    read_sources(t, definition);
+    translate_start_draft(t);
     add_first(t, 0, definition);
     add_first(t, 1, t->chain.items[0]);
     for (uint32_t i = 1; i < t->chain.len; i++)
         add_step(t, i);
-    translate_expect(t, mxg_edit_commit(t->draft_edit, &t->draft) != MXG_ERROR_MEMORY);
-    mxg_edit_destroy(t->draft_edit);
-    t->draft_edit = NULL;
+    translate_commit_draft(t);
 }
 
 /* ---- Values ---- */
@@ -251,9 +266,8 @@ const char *translate_uniforms(const struct translation *t, uint32_t more)
     return text_cstr(&list);
 }
 
-/* Runs steps of a generation over an element. The result is t->value. */
-static void generate(struct translation *t, const mxg_document *document, const char *path,
-                     const char *uniforms, void steps(struct generation *g), void *user_data)
+void translate_generate(struct translation *t, const mxg_document *document, const char *path,
+                        const char *uniforms, void steps(struct generation *g), void *user_data)
 {
     mxg_options_destroy(t->options); /* lists grow */
     t->options = NULL;
@@ -277,7 +291,7 @@ bool translate_can_build(struct translation *t)
     ir_ref root = 0;
     text_init(&path, t->arena);
     doc_path(&t->document->layer.doc, t->surface, '/', &path);
-    generate(t, t->document, text_cstr(&path), "", build, &root);
+    translate_generate(t, t->document, text_cstr(&path), "", build, &root);
     return root != 0;
 }
 
@@ -287,7 +301,8 @@ bool translate_surface_reads(struct translation *t, unsigned step, const char *i
     struct text path;
     text_init(&path, t->arena);
     text_fmt(&path, "%s/%s", translate_step_name(t, step), input);
-    generate(t, t->draft, translate_step_name(t, step), uniforms, generation_run_all, NULL);
+    translate_generate(t, t->draft, translate_step_name(t, step), uniforms, generation_run_all,
+                       NULL);
     return !t->value->has_shader
            || mxg_result_find_variable(t->value, text_cstr(&path)) != MXG_NONE;
 }
@@ -298,7 +313,7 @@ ir_ref translate_build(struct translation *t, unsigned step, const char *output,
     text_init(&path, t->arena);
     text_fmt(&path, "%s/%s", translate_step_name(t, step), output);
     ir_ref root = 0;
-    generate(t, t->draft, text_cstr(&path), translate_uniforms(t, more), build, &root);
+    translate_generate(t, t->draft, text_cstr(&path), translate_uniforms(t, more), build, &root);
     return root;
 }
 

@@ -6,16 +6,7 @@
  */
 #include "api/translate.h"
 
-enum meaning {
-    MEANING_NONE,
-    MEANING_NORMAL,
-    MEANING_TANGENT,
-    MEANING_COAT_NORMAL,
-    MEANING_COAT_TANGENT,
-    MEANING_MAPPED
-};
-
-static enum meaning meaning_of(const mxg_port *port)
+enum meaning translate_meaning_of(const mxg_port *port)
 {
     bool is_normal = strcmp(port->defaultgeomprop, "Nworld") == 0;
     bool is_tangent = strcmp(port->defaultgeomprop, "Tworld") == 0;
@@ -29,7 +20,7 @@ static enum meaning meaning_of(const mxg_port *port)
 static struct translated_input *find_input(const struct translation *t, enum meaning meaning)
 {
     for (uint32_t i = 0; i < t->inputs.len; i++)
-        if (meaning_of(&t->inputs.items[i].port) == meaning)
+        if (translate_meaning_of(&t->inputs.items[i].port) == meaning)
             return &t->inputs.items[i];
     return NULL;
 }
@@ -56,8 +47,8 @@ static struct operand scaled(struct translation *t, struct operand a, struct ope
     return value_nodes_call(&t->nodes, "add", VALUE_VECTOR3, "in1", product, "in2", offset);
 }
 
-/* The output of a graph by name; "": its first one. 0: there is none. */
-static mxg_element output_of(const struct translation *t, mxg_element graph, const char *name)
+mxg_element translate_find_graph_output(const struct translation *t, mxg_element graph,
+                                        const char *name)
 {
     mxg_element_info info = {.size = sizeof info};
     mxg_document_element(t->document, graph, &info);
@@ -69,11 +60,7 @@ static mxg_element output_of(const struct translation *t, mxg_element graph, con
     return 0;
 }
 
-/*
- * The element that gives the value of a connected input, through the outputs of graphs. 0: there is
- * none, or the connections are a cycle.
- */
-static mxg_element source_of(const struct translation *t, mxg_element port)
+mxg_element translate_find_source(const struct translation *t, mxg_element port)
 {
     enum { MAX_GRAPHS = 1000 };
     for (unsigned i = 0; i < MAX_GRAPHS; i++) {
@@ -84,7 +71,7 @@ static mxg_element source_of(const struct translation *t, mxg_element port)
         mxg_document_element(t->document, connection.source, &info);
         if (!connection.source || strcmp(info.category, "nodegraph") != 0)
             return connection.source;
-        port = output_of(t, connection.source, connection.output);
+        port = translate_find_graph_output(t, connection.source, connection.output);
     }
     return 0;
 }
@@ -95,7 +82,7 @@ static mxg_element source_of(const struct translation *t, mxg_element port)
  */
 static bool take_map(struct translation *t, uint32_t leaf, float *out_scale)
 {
-    mxg_element map = source_of(t, t->sources.items[leaf].element);
+    mxg_element map = translate_find_source(t, t->sources.items[leaf].element);
     mxg_element_info info = {.size = sizeof info};
     mxg_document_element(t->document, map, &info);
     mxg_element in = map && strcmp(info.category, "normalmap") == 0
@@ -143,7 +130,7 @@ void translate_geometry(struct translation *t)
 {
     for (uint32_t i = 0; i < t->sources.len; i++) {
         struct source_input *source = &t->sources.items[i];
-        enum meaning meaning = meaning_of(&source->port);
+        enum meaning meaning = translate_meaning_of(&source->port);
         if (meaning != MEANING_NONE && source->is_connected)
             source->is_used = translate_one(t, i, meaning);
     }

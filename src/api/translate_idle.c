@@ -12,19 +12,6 @@ static const char *node_name(const struct translation *t)
     return translate_step_name(t, t->chain.len + 1);
 }
 
-static void commit(struct translation *t)
-{
-    mxg_document *next = NULL;
-    mxg_status status = mxg_edit_commit(t->draft_edit, &next);
-    mxg_result_destroy(t->value); /* it refers to the draft */
-    t->value = NULL;
-    mxg_document_destroy(t->draft);
-    t->draft = next;
-    mxg_edit_destroy(t->draft_edit);
-    t->draft_edit = NULL;
-    translate_expect(t, status != MXG_ERROR_MEMORY);
-}
-
 static void begin(struct translation *t)
 {
     translate_expect(t, mxg_edit_create(t->context, t->library, t->draft, NULL, &t->draft_edit)
@@ -50,7 +37,7 @@ static void add_surface(struct translation *t)
                                                input->port.type, text_cstr(&text))
                                 == MXG_OK);
     }
-    commit(t);
+    translate_commit_draft(t);
 }
 
 static bool varies(const struct translated_input *input)
@@ -83,7 +70,7 @@ static void drop(struct translation *t, struct translated_input *input)
     mxg_element node = mxg_edit_find_element(t->draft_edit, 0, node_name(t));
     mxg_element element = mxg_edit_find_element(t->draft_edit, node, input->port.name);
     translate_expect(t, mxg_edit_remove_element(t->draft_edit, element) == MXG_OK);
-    commit(t);
+    translate_commit_draft(t);
 }
 
 void translate_drop_idle(struct translation *t)

@@ -55,8 +55,7 @@ static void list_steps(struct translation *t)
     }
 }
 
-/* The default definition of a surface by its category. */
-static bool find_surface(struct translation *t)
+bool translate_find_surface(struct translation *t)
 {
     uint32_t count = mxg_document_num_nodedefs(t->document);
     bool found = false;
@@ -85,10 +84,11 @@ static bool is_listed(const struct translation *t, uint32_t index)
 bool translate_find_model(struct translation *t)
 {
     bool is_made = false;
+    t->steps.len = 0;
     list_steps(t);
     for (uint32_t i = 0; i < t->steps.len && !is_made; i++)
         is_made = strcmp(t->steps.items[i].to, t->model) == 0;
-    if (is_made && find_surface(t))
+    if (is_made && translate_find_surface(t))
         return true;
     struct text known;
     struct diag_guess guess;

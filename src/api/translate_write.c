@@ -78,15 +78,17 @@ static void set_constant(const struct writing *w, mxg_element node, const char *
 }
 
 /* Gives the graph of a map an output for what the map reads. */
-static const char *add_map_output(const struct writing *w, mxg_element graph, elem_id map)
+static const char *add_map_output(const struct writing *w, mxg_element graph,
+                                  const struct source_input *source)
 {
     static const str_id kept[] = {STR_nodename, STR_nodegraph, STR_output};
     const struct document *doc = &w->t->document->layer.doc;
     const char *name = free_name(w, graph, "map", "_out");
-    mxg_element output = mxg_edit_add_element(w->t->edit, graph, "output", name, "vector3");
+    mxg_element output =
+        mxg_edit_add_element(w->t->edit, graph, "output", name, value_type_name(source->type));
     translate_expect(w->t, output != 0);
     for (size_t i = 0; i < sizeof kept / sizeof *kept; i++) {
-        str_id value = doc_attr_value(doc, map, kept[i]);
+        str_id value = doc_attr_value(doc, source->map, kept[i]);
         if (value)
             mxg_edit_set_attribute(w->t->edit, output, str_text(doc->strings, kept[i]),
                                    str_text(doc->strings, value));
@@ -107,7 +109,7 @@ static void copy_leaf(const struct writing *w, mxg_element to, const char *input
         return;
     }
     if (!source->map_output)
-        source->map_output = add_map_output(w, graph, from);
+        source->map_output = add_map_output(w, graph, source);
     translate_expect(w->t, mxg_edit_connect_input(w->t->edit, to, input, graph, source->map_output)
                                == MXG_OK);
 }

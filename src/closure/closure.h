@@ -281,6 +281,12 @@ ir_ref closure_way(struct shader *shader, const struct closure_host *host, ir_re
 /* The source of a LEAF; NULL: its functions are portable. */
 const struct source_leaf *closure_source(const struct shader *shader, ir_ref leaf);
 
+/*
+ * The part of the light from behind that passes a leaf straight on, by throughput and tint; 0: the
+ * leaf transmits none.
+ */
+ir_ref closure_through(struct shader *shader, const struct closure_host *host, ir_ref leaf);
+
 /* True if a leaf has a function. */
 bool closure_has(const struct shader *shader, const struct closure_host *host, ir_ref leaf,
                  enum leaf_function which);

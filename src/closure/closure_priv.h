@@ -14,12 +14,6 @@ void closure_write_output(struct shader *shader, ir_ref color, ir_ref alpha, ir_
  * kept. encodes: as closure_encoded. False: the type is no value.
  */
 bool closure_emit_value(struct shader *shader, bool encodes, ir_ref root);
-/*
- * The part of the light from behind that passes a leaf straight on, by throughput and tint; 0: the
- * leaf transmits none.
- */
-ir_ref closure_through(struct shader *shader, const struct closure_host *host, ir_ref leaf);
-
 /* occlusion_maps.c: the part of the first light that reaches the shaded point, by the host's shadow
  * map.
  */

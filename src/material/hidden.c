@@ -4,7 +4,7 @@
  * transmission is 0. The deferred pipeline leaves them out. Uniforms that decide about it are
  * compiled in, because another value needs another shader.
  */
-#include "build/build_priv.h"
+#include "material/tree.h"
 
 #include "lower/lower.h"
 
@@ -67,29 +67,6 @@ static ir_ref left_of(const struct hider *h, ir_ref ref)
     return ref ? h->left[ref] : 0;
 }
 
-/* The operator over what is left of its operands. */
-static ir_ref rebuilt(struct hider *h, ir_ref ref)
-{
-    const struct ir_node node = *ir_get(h->graph, ref);
-    ir_ref *args = ARENA_ARRAY(h->builder->arena, ir_ref, node.num_args);
-    bool is_same = true, has_operand = false;
-    for (uint32_t i = 0; i < node.num_args; i++) {
-        ir_ref arg = ir_arg(h->graph, ref, i);
-        bool is_tree = arg && ir_type_is_closure(ir_type_of(h->graph, arg));
-        args[i] = left_of(h, arg);
-        is_same &= args[i] == arg;
-        has_operand |= is_tree && args[i];
-    }
-    if (is_same)
-        return ref;
-    if ((node.op == IR_LAYER || node.op == IR_SLAB_LAYER || node.op == IR_CLOSURE_ADD)
-        && (!args[0] || !args[1]))
-        return ir_other_operand(h->graph, (enum ir_op)node.op, args[0], args[1]);
-    if (ir_type_is_closure(node.type) && !has_operand)
-        return 0;
-    return ir_build(h->graph, (enum ir_op)node.op, node.type, node.attr, args, node.num_args);
-}
-
 /* Another node is all that is left of it. */
 static ir_ref hidden(struct hider *h, ir_ref ref, ir_ref left)
 {
@@ -113,7 +90,7 @@ static ir_ref shown(struct hider *h, ir_ref ref)
         if (is_misfit(h, a) && is_document_value(h, share, 1.0f))
             return hidden(h, ref, b);
     }
-    return rebuilt(h, ref);
+    return build_over(h->builder, ref, h->left);
 }
 
 static bool any_misfit(const struct hider *h, ir_ref ref)

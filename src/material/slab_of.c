@@ -3,7 +3,7 @@
  * The slab that stands for a leaf: libraries/slabs/recognise.mtlx has a definition for each leaf
  * that is a part of matter.
  */
-#include "build/build_priv.h"
+#include "material/tree.h"
 #include "slabs/regime.h"
 
 #include "shader/formula.h"
@@ -15,21 +15,6 @@ static uint32_t definition_for(struct builder *b, const struct family *family)
     text_init(&name, b->arena);
     text_fmt(&name, "ND_slab_of_%s", strncmp(function, "mx_", 3) == 0 ? function + 3 : function);
     return build_definition_named(b, text_cstr(&name));
-}
-
-/* The operand of a leaf; 0: it has none of this name. */
-static ir_ref operand_of(struct builder *b, ir_ref leaf, const char *name)
-{
-    const struct ir_node *node = ir_get(b->graph, leaf);
-    const char *input;
-    if (!leaf)
-        return 0;
-    if (strcmp(name, "weight") == 0)
-        return ir_arg(b->graph, leaf, 0);
-    for (unsigned i = 0; (input = build_leaf_input(b, node->attr, i)); i++)
-        if (strcmp(input, name) == 0)
-            return ir_arg(b->graph, leaf, i + 1);
-    return 0;
 }
 
 /* True for 0 and false, also as the document's value of a uniform. */
@@ -54,10 +39,10 @@ static bool is_word(struct builder *b, ir_ref ref, const char *word)
  */
 static bool fits(struct builder *b, ir_ref leaf, bool loosely)
 {
-    ir_ref film = operand_of(b, leaf, "thinfilm_thickness"),
-           returns = operand_of(b, leaf, "retroreflective"),
-           facets = operand_of(b, leaf, "distribution");
-    if (!is_word(b, operand_of(b, leaf, "scatter_mode"), "R"))
+    ir_ref film = build_leaf_operand(b, leaf, "thinfilm_thickness"),
+           returns = build_leaf_operand(b, leaf, "retroreflective"),
+           facets = build_leaf_operand(b, leaf, "distribution");
+    if (!is_word(b, build_leaf_operand(b, leaf, "scatter_mode"), "R"))
         return false;
     return loosely || (is_zero(b, film) && is_zero(b, returns) && is_word(b, facets, "ggx"));
 }
@@ -79,7 +64,7 @@ static ir_ref apply_to(struct builder *b, uint32_t id, ir_ref leaf, bool is_top,
         const char *name = build_text(b, ports[i].name);
         args[i] = ports[i].name == STR_is_top             ? top
                   : covers && strcmp(name, "weight") == 0 ? one
-                                                          : operand_of(b, leaf, name);
+                                                          : build_leaf_operand(b, leaf, name);
         args[i] = args[i] ? args[i] : build_default(b, &ports[i]);
     }
     build_apply(b, id, build_doc(b)->root, args, results);
@@ -104,7 +89,8 @@ static ir_ref input_of(struct builder *b, uint32_t id, const ir_ref *results, st
 /* Turns a slab to the frame of a leaf. */
 static void take_frame(struct builder *b, ir_ref leaf, ir_ref *in)
 {
-    ir_ref normal = operand_of(b, leaf, "normal"), tangent = operand_of(b, leaf, "tangent");
+    ir_ref normal = build_leaf_operand(b, leaf, "normal"),
+           tangent = build_leaf_operand(b, leaf, "tangent");
     in[SLAB_normal] = normal ? normal : in[SLAB_normal];
     in[SLAB_tangent] = tangent ? tangent : in[SLAB_tangent];
 }
@@ -160,7 +146,7 @@ ir_ref build_slab_of(struct builder *b, ir_ref leaf, bool is_top, bool loosely)
 static ir_ref mean_roughness(struct builder *b, ir_ref leaf)
 {
     struct ir_graph *g = b->graph;
-    ir_ref roughness = operand_of(b, leaf, "roughness");
+    ir_ref roughness = build_leaf_operand(b, leaf, "roughness");
     if (!roughness || ir_type_of(g, roughness) != IR_TYPE_VEC2)
         return roughness && ir_type_of(g, roughness) == IR_TYPE_FLOAT ? roughness : 0;
     return FORMULA(b->shader, "mx_blend_roughness", roughness);

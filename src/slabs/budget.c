@@ -84,14 +84,14 @@ static void take_best(struct spender *s)
 
 /* ---- Before the limits ---- */
 
-/* The operators that the document asks to blend, the deepest first. */
-static void blend_asked(struct spender *s)
+/* Operators of a choice, the deepest first. */
+static void blend_while_any(struct spender *s, enum slab_choice choice)
 {
     while (goes_on(s)) {
-        struct slab_candidate c = slab_next_blend(&s->saver, SLAB_ASKED);
+        struct slab_candidate c = slab_next_blend(&s->saver, choice);
         if (!c.root)
             return;
-        c.step.kind = SLAB_STEP_ASKED;
+        c.step.kind = choice == SLAB_ASKED ? SLAB_STEP_ASKED : c.step.kind;
         record(s, c.step, c.root);
     }
 }
@@ -136,12 +136,14 @@ ir_ref slabs_budget(struct shader *shader, const struct slabs_host *host,
     if (!s.saver.cost.closures || (!slabs_is_asked(budget) && !slab_find_asked(&s.saver)))
         return root;
     recognise(&s);
-    blend_asked(&s);
+    blend_while_any(&s, SLAB_ASKED);
     turn_off(&s);
     if (searches(&s))
         take_best(&s);
     else
         take_in_order(&s);
+    if (budget->blends_all)
+        blend_while_any(&s, SLAB_ANY);
     out->is_met = !goes_on(&s) || (keeps_slabs(&s) && keeps_bytes(&s) && keeps_error(&s));
     out->unblended = goes_on(&s) ? slab_find_asked(&s.saver) : 0;
     out->after = s.saver.cost;

@@ -452,8 +452,31 @@ static void test_values(void)
     close_world(&w);
 }
 
+/* Without materials, outputs are what can be drawn: one of them goes, and the other stays. */
+static void test_outputs(void)
+{
+    static const char text[] =
+        "<materialx version='1.39'><nodegraph name='G'><constant name='a' type='color3'/>"
+        "<output name='one' type='color3' nodename='a'/>"
+        "<output name='two' type='color3' nodename='a'/></nodegraph>"
+        "<constant name='b' type='color3'/><output name='three' type='color3' nodename='b'/>"
+        "</materialx>";
+    struct world w = open_world();
+    mxg_document *document = parse(&w, text, sizeof text - 1), *next = NULL;
+    mxg_edit *edit = NULL;
+    REQUIRE_EQ(mxg_edit_create(w.context, w.library, document, NULL, &edit), MXG_OK);
+    REQUIRE_EQ(mxg_edit_remove_element(edit, mxg_edit_find_element(edit, 0, "G/one")), MXG_OK);
+    REQUIRE_EQ(commit(edit, &next), MXG_OK);
+    compare_with_text(&w, next);
+    REQUIRE_EQ(mxg_document_num_renderables(next), 2);
+    mxg_document_destroy(next);
+    mxg_document_destroy(document);
+    close_world(&w);
+}
+
 int main(void)
 {
+    test_outputs();
     test_values();
     test_memory();
     test_series();

@@ -18,6 +18,9 @@ LIMITS = [
     (FURTHER / "StandardSurface/standard_surface_carpaint.mtlx", "open_pbr_surface", "0.05"),
     (FURTHER / "StandardSurface/standard_surface_jade.mtlx", "gltf_pbr", "1.2"),
     (FURTHER / "GltfPbr/gltf_pbr_boombox.mtlx", "standard_surface", "0.5"),
+    # closures
+    (ROOT / "examples/car_paint.mtlx", "open_pbr_surface", "0.1"),
+    (ROOT / "examples/frosted.mtlx", "gltf_pbr", "1.6"),
 ]
 
 with tempfile.TemporaryDirectory() as folder:

@@ -197,8 +197,10 @@ def test_losses():
     cycle = "".join(f'<nodegraph name="{a}"><output name="o" type="vector3" nodegraph="{b}" output="o"/></nodegraph>' for a, b in ("AB", "BA"))
     translate(cycle + '<standard_surface name="S" type="surfaceshader"><input name="normal" type="vector3" nodegraph="A" output="o"/></standard_surface>',
               "UsdPreviewSurface", "a cycle", 1)
-    _, said, _ = translate('<surface name="S" type="surfaceshader"/>', "gltf_pbr", "closures", 1)
-    check("in.mtlx:1:" in said and "[no-translation]" in said, "closures have no translation")
+    studio = '<nodedef name="ND_s" node="studio"><output name="out" type="surfaceshader"/></nodedef>' \
+        '<nodedef name="ND_to" node="plain_to_studio" nodegroup="translation"><output name="a_out" type="float"/></nodedef>'
+    _, said, _ = translate(studio + '<surface name="S" type="surfaceshader"/>', "studio", "closures", 1)
+    check("in.mtlx:1:" in said and "[no-translation]" in said, "no way leads from slabs to a model with another source alone")
 
 
 def test_spaces():
