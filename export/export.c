@@ -135,6 +135,7 @@ static void bake_and_write(struct exporting *exporting, const mxg_document *tran
     baking->source = exporting->source;
     baking->spaces = flat_spaces;
     baking->keeps_places = true;
+    baking->draws_missing = baking->painter.checker;
     baking->options = exporting->options.bake;
     baking->options.output = exporting->folder;
     baking->options.format = "exr"; /* the writer rounds, and once is enough */

@@ -178,23 +178,16 @@ static void read_place(const struct flat *flat, mxg_element node, struct flat_im
 /* The path of a file, relative to the document. NULL after an error. The caller frees it. */
 static char *file_of(const struct flat *flat, mxg_element node, const char *file)
 {
-    const char *prefix = bake_inherited(flat->document, node, "fileprefix");
-    char *whole = cli_format("%s%s", prefix ? prefix : "", file),
-         *path = cli_beside(flat->path, whole);
-    bool is_set = strchr(file, '<') || strchr(file, '{');
-    if (is_set) {
-        char *name = bake_path(flat->document, node), *place = flat_place(flat, name);
-        report_error(flat->report, "export-tiles",
-                     "'%s' (%s) are several images, and a texture of this format is one: export "
-                     "onto a mesh whose texture coordinates lie between 0 and 1",
-                     file, place);
-        free(name);
-        free(place);
-        free(path);
-        path = NULL;
-    }
-    free(whole);
-    return path;
+    if (!bake_is_set(file))
+        return bake_file_path(flat->document, flat->path, node, file);
+    char *name = bake_path(flat->document, node), *place = flat_place(flat, name);
+    report_error(flat->report, "export-tiles",
+                 "'%s' (%s) are several images, and a texture of this format is one: export onto a "
+                 "mesh whose texture coordinates lie between 0 and 1",
+                 file, place);
+    free(name);
+    free(place);
+    return NULL;
 }
 
 /* An image node without a file is the value of its input `default`. */

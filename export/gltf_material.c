@@ -388,11 +388,12 @@ static void tell_others(struct state *state)
 bool gltf_add_material(struct gltf *gltf, const struct flat_material *material, bool *out_tangents)
 {
     struct state state = {.gltf = gltf, .material = material, .json = json_object()};
-    bool good;
+    bool good = true;
     json_array_append_new(gltf_array(gltf->root, "materials"), state.json);
     json_set_text(state.json, "name", material->name);
     state.alpha_mode = (int)value_of(&state, "alpha_mode", OPAQUE_MODE);
-    good = read_cells(&state);
+    if (!read_cells(&state))
+        return false;
     move_strength(&state);
     tell_others(&state);
     for (size_t i = 0; good && i < gltf_num_inputs; ++i) {

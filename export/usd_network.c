@@ -131,13 +131,9 @@ static char *pack(struct network *network, const char *path)
 static char *file_of(struct network *network, mxg_element origin, const char *file)
 {
     const struct writing *writing = network->usd->writing;
-    const char *prefix = bake_inherited(network->document, origin, "fileprefix"),
-               *from = bake_element(network->document, origin).file;
-    char *whole = cli_format("%s%s", prefix ? prefix : "", file),
-         *path = cli_beside(from ? from : writing->source_path, whole),
+    char *path = bake_file_path(network->document, writing->source_path, origin, file),
          *folder = write_folder(writing->path);
     char *name = network->usd->is_package ? pack(network, path) : relocate_file(folder, path);
-    free(whole);
     free(path);
     free(folder);
     return name;

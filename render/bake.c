@@ -80,6 +80,7 @@ static bool plan(struct baking *baking)
     bake_plan_begin(&baking->plan, baking->document, &baking->cli.report);
     baking->plan.spaces = baking->spaces;
     baking->plan.keeps_places = baking->keeps_places;
+    baking->plan.drawn_missing = baking->draws_missing ? baking->path : NULL;
     if (!num)
         report_error(&baking->cli.report, "nothing-to-bake", "'%s' has no material", baking->path);
     for (uint32_t i = 0; good && i < num; ++i) {

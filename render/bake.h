@@ -23,6 +23,7 @@ struct baking {
     const mxg_document *source; /* of which the document was made; NULL: it is the file itself */
     const char *const *spaces;  /* as in the plan */
     bool keeps_places;
+    bool draws_missing;
     struct bake_plan plan;
     struct bake_surface surface;
     struct painter painter;
@@ -67,8 +68,6 @@ bool bake_draw(struct baking *baking);
 bool bake_finish_drawing(struct baking *baking, struct bake_drawing *drawing,
                          const struct spool *spools, uint32_t num_spools);
 
-/* The path of a file that an element of the document names. The caller frees it. */
-char *bake_file_path(const struct baking *baking, mxg_element element, const char *file);
 /*
  * The place of an element in the file of the user: "wall.mtlx:3:5", or the file alone where it does
  * not have the element. The caller frees it.

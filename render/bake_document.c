@@ -21,7 +21,8 @@ struct writer {
 /* The name of a file that an element of the document has, for the new one. The caller frees it. */
 static char *name_file(struct writer *writer, mxg_element origin, const char *file)
 {
-    char *path = *file ? bake_file_path(writer->baking, origin, file) : NULL;
+    char *path =
+        *file ? bake_file_path(writer->baking->document, writer->baking->path, origin, file) : NULL;
     char *name = path ? relocate_file(writer->baking->options.output, path) : cli_format("%s", "");
     free(path);
     return name;

@@ -8,16 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-char *bake_file_path(const struct baking *baking, mxg_element element, const char *file)
-{
-    const char *prefix = bake_inherited(baking->document, element, "fileprefix");
-    mxg_element_info info = bake_element(baking->document, element);
-    char *whole = cli_format("%s%s", prefix ? prefix : "", file);
-    char *path = cli_beside(info.file ? info.file : baking->path, whole);
-    free(whole);
-    return path;
-}
-
 char *bake_place(const struct baking *baking, mxg_element element)
 {
     char *path = bake_path(baking->document, element);
@@ -27,12 +17,6 @@ char *bake_place(const struct baking *baking, mxg_element element)
     const char *file = info.file ? info.file : baking->path;
     free(path);
     return there ? cli_format("%s:%u:%u", file, info.line, info.column) : cli_format("%s", file);
-}
-
-/* True for a name that stands for several files: tiles, or frames. */
-static bool is_set(const char *file)
-{
-    return strchr(file, '<') || strchr(file, '{');
 }
 
 static bool tell_missing(struct baking *baking, mxg_element origin, const char *path)
@@ -87,13 +71,13 @@ static bool keep_file(struct baking *baking, struct bake_input *input)
     bool good = true;
     if (!*file)
         return true;
-    char *path = bake_file_path(baking, input->origin, file);
+    char *path = bake_file_path(baking->document, baking->path, input->origin, file);
     bool is_there = files_is_regular(path);
-    if (is_set(file) && baking->options.copy && !baking->cli.quiet)
+    if (bake_is_set(file) && baking->options.copy && !baking->cli.quiet)
         fprintf(stderr, "note: '%s' stands for several files, which stay where they are\n", path);
-    if (!is_set(file) && !is_there)
+    if (!bake_is_set(file) && !is_there)
         good = tell_missing(baking, input->origin, path);
-    else if (!is_set(file))
+    else if (!bake_is_set(file))
         good = outputs_read(&baking->files, &baking->cli.report, path)
                && (!baking->options.copy || copy_file(baking, input, path));
     free(path);

@@ -2,6 +2,7 @@
 #include "render/bake_plan.h"
 
 #include "program/cli.h"
+#include "program/files.h"
 #include "program/memory.h"
 
 #include <ctype.h>
@@ -52,6 +53,22 @@ const char *bake_inherited(const mxg_document *document, mxg_element element, co
         value = bake_attribute(document, element, name);
     }
     return value;
+}
+
+char *bake_file_path(const mxg_document *document, const char *path, mxg_element element,
+                     const char *file)
+{
+    const char *prefix = bake_inherited(document, element, "fileprefix"),
+               *from = bake_element(document, element).file;
+    char *whole = cli_format("%s%s", prefix ? prefix : "", file);
+    char *out = cli_beside(from ? from : path, whole);
+    free(whole);
+    return out;
+}
+
+bool bake_is_set(const char *file)
+{
+    return strchr(file, '<') || strchr(file, '{');
 }
 
 /* The output of a nodegraph; "" is its only one. 0: there is none. */
@@ -139,6 +156,20 @@ static bool has_other_space(const struct bake_plan *plan, mxg_element image)
            && strncmp(bake_element(plan->document, image).type, "color", 5) == 0;
 }
 
+/* True for an image that is drawn because its file is missing. */
+static bool is_missing(const struct bake_plan *plan, mxg_element image)
+{
+    mxg_element port = mxg_document_find_element(plan->document, image, "file"),
+                value = port ? bake_follow(plan->document, port).value : 0;
+    const char *file = value ? bake_attribute(plan->document, value, "value") : "";
+    if (!plan->drawn_missing || !*file || bake_is_set(file))
+        return false;
+    char *path = bake_file_path(plan->document, plan->drawn_missing, value, file);
+    bool is_there = files_is_regular(path);
+    free(path);
+    return !is_there;
+}
+
 /* True if the sizes of a tiled image in the world are of one unit, so their ratio needs none. */
 static bool has_one_unit(const mxg_document *document, mxg_element node)
 {
@@ -161,7 +192,7 @@ static bool passes(const struct bake_plan *plan, mxg_element node)
     bool is_image = is_category(document, node, "image"),
          is_tiled = plan->keeps_places && is_category(document, node, "tiledimage")
                     && has_one_unit(document, node);
-    if ((!is_image && !is_tiled) || has_other_space(plan, node))
+    if ((!is_image && !is_tiled) || has_other_space(plan, node) || is_missing(plan, node))
         return false;
     return has_values(document, node, is_image && is_plain_place(plan, place) ? place : 0);
 }

@@ -67,7 +67,9 @@ struct bake_plan {
     struct report *report;
     const char *const *spaces; /* of colors in images that stay, which NULL ends; NULL: any */
     bool keeps_places;         /* images stay that are scaled and moved, with what places them */
-    struct bake_node *nodes;   /* a node comes after those that it reads */
+    const char
+        *drawn_missing;      /* the document's path: images without a file do not stay; NULL: do */
+    struct bake_node *nodes; /* a node comes after those that it reads */
     size_t num_nodes;
     struct bake_drawing *drawings;
     size_t num_drawings;
@@ -96,6 +98,15 @@ mxg_element_info bake_element(const mxg_document *document, mxg_element element)
 const char *bake_attribute(const mxg_document *document, mxg_element element, const char *name);
 /* The attribute of the element or the nearest one around it. */
 const char *bake_inherited(const mxg_document *document, mxg_element element, const char *name);
+
+/*
+ * The path of a file that an element names in the document at `path`, with its fileprefix. The
+ * caller frees it.
+ */
+char *bake_file_path(const mxg_document *document, const char *path, mxg_element element,
+                     const char *file);
+/* True for a name that stands for several files: tiles, or frames. */
+bool bake_is_set(const char *file);
 
 /* Where an input or output gets its value from. */
 struct bake_end {

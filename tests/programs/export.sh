@@ -270,6 +270,8 @@ cat >own.mtlx <<'EOF'
 </materialx>
 EOF
 check 'a definition of the document is a loss for the graph alone' eval 'exits 0 "$mxgen" export own.mtlx -o own.usda && has err "[export-loss]" && has own.usda "inputs:metallic = 0.25" && ! grep -q ND_ own.usda'
+check 'a missing image is told' eval 'sed "s,flat/S,flat/N," image.mtlx >lost.mtlx && bad lost.mtlx M "[missing-texture]"'
+check 'or is a checker' eval 'exits 0 "$mxgen" export lost.mtlx --missing-texture checker -s 16 -o lost.glb && texel lost.glb materials/M/pbrMetallicRoughness/baseColorTexture 0.1 0.1 255 0 255'
 check 'another space of colors is told' bad bad.mtlx wide '(bad.mtlx:5:' '[export-space]'
 check 'tiles are told' bad bad.mtlx tiles '(bad.mtlx:6:3) are several images' '[export-tiles]'
 check 'surfaces of closures are told' bad closures.mtlx closures '[no-translation]'
