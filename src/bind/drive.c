@@ -369,7 +369,9 @@ void bind_drives(const struct bindings *b, const struct library *lib, const stru
 {
     struct driving d = {
         .b = b, .lib = lib, .doc = &lib->doc, .arena = arena, .out = out, .notes = notes};
-    assert(num > 0 && (items->kind == ITEM_LAYER || items->kind == ITEM_VERTICAL));
+    assert(num > 0
+           && (items->kind == ITEM_LAYER || items->kind == ITEM_VERTICAL
+               || items->kind == ITEM_VOLUME));
     diag_list_init(&d.ignored, arena);
     if (num == 1 && !b->look.variants.len)
         return;
