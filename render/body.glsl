@@ -41,7 +41,16 @@ vec3 chance_of_channels(Path path)
 vec3 weight_of_way(vec3 chance, vec3 extinction, vec3 scattering, float way, bool collides)
 {
     vec3 passed = exp(-extinction * way), density = collides ? passed * extinction : passed;
-    return (collides ? scattering / max(extinction, 1e-20) : vec3(1.0)) * density / max(dot(chance, density), 1e-30);
+    return (collides ? scattering * passed : passed) / max(dot(chance, density), 1e-30);
+}
+
+// The light that the medium sends over a way without a collision. Where a channel drew the way, a point of it stands for all.
+vec3 light_of_way(Path path, vec3 chance, float way, bool is_drawn)
+{
+    vec3 extinction = path.medium.extinction;
+    if (!is_drawn)
+        return path.medium.emission * mix(vec3(way), (1.0 - exp(-extinction * way)) / max(extinction, 1e-20), greaterThan(extinction * way, vec3(1e-4)));
+    return path.medium.emission * (way * weight_of_way(chance, extinction, vec3(0.0), way * next_random().x, false));
 }
 
 bool scatters(Medium medium)
@@ -90,10 +99,17 @@ int fly(inout Path path, out Hit hit)
         path.medium.triangle = ~0u;
         bool collides = what == NOTHING && limit < FAR;
         float way = what == OURS ? hit.distance : limit;
-        path.through *= may_collide ? weight_of_way(chance, extinction, path.medium.scattering, way, collides) : exp(-extinction * way);
+        if (is_light(path.medium.emission) && way < FAR)
+            path.light += path.through * light_of_way(path, chance, way, may_collide);
+        vec3 scattering = path.medium.is_volume != 0u ? vec3(1.0) : path.medium.scattering; // a volume's shader has its own
+        path.through *= may_collide ? weight_of_way(chance, extinction, scattering, way, collides) : exp(-extinction * way);
         if (!collides)
             return what;
         path.origin += path.direction * way;
+        if (path.medium.is_volume != 0u) {
+            path.phase = COLLIDED;
+            return COLLIDES;
+        }
         turn_inside(path, draw_phase(path.medium.anisotropy, path.direction, xi.zw));
         if (!goes_on(path, path.medium.collisions)) {
             path.phase = ENDED;
@@ -201,6 +217,7 @@ bool meet_boundary(inout Shadow ray, uint number, uint side)
 
 #endif
 
+#ifndef VOLUME
 bool pass_surface(inout Shadow ray, uint number, Hit hit)
 {
 #ifdef TRANSPARENT
@@ -231,3 +248,4 @@ bool pass_surface(inout Shadow ray, uint number, Hit hit)
     return true; // not asked: it blocks light
 #endif
 }
+#endif

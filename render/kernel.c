@@ -263,12 +263,25 @@ static void append_aovs(struct source *source, const mxg_result *result, const s
     append_light_aovs(source, aovs);
 }
 
+static bool has_output(const mxg_result *result, const char *name)
+{
+    for (uint32_t i = 0; i < mxg_result_num_variables(result); ++i) {
+        mxg_variable variable = {sizeof variable};
+        mxg_result_variable(result, i, &variable);
+        if (variable.block == MXG_BLOCK_OUTPUTS && strcmp(variable.name, name) == 0)
+            return true;
+    }
+    return false;
+}
+
 static bool compile(struct kernel *kernel, const struct trace_options *options, bool displaces,
                     struct compiled *out)
 {
     struct source source = {0};
     char line[160];
-    append(&source, mxg_result_source(kernel->bind->result, MXG_STAGE_PIXEL, NULL));
+    const mxg_result *result = kernel->bind->result;
+    bool is_pile = bind_has_semantic(result, "matter"); /* volumes have no levels of matter */
+    append(&source, mxg_result_source(result, MXG_STAGE_PIXEL, NULL));
     append_fill(&source, kernel->bind->result);
     snprintf(line, sizeof line,
              "#define TRACER_SET %u\n"
@@ -282,7 +295,9 @@ static bool compile(struct kernel *kernel, const struct trace_options *options, 
            options->as_drawn ? "const bool AS_DRAWN = true;\n" : "const bool AS_DRAWN = false;\n");
     append(&source, kernel->info.transparent ? "#define TRANSPARENT\n" : "");
     append(&source, kernel->info.num_lights ? "#define LIGHTS\n" : "");
-    append(&source, bind_has_semantic(kernel->bind->result, "matter") ? "#define MATTER\n" : "");
+    append(&source, is_pile ? "#define MATTER\n" : "");
+    append(&source, !is_pile && has_output(result, "out10") ? "#define VOLUME\n" : "");
+    append(&source, has_output(result, "out13") ? "#define INTERIOR\n" : "");
     snprintf(line, sizeof line, "const uint PARTS = %zuu;\n",
              1 + aovs_num_scattered(options->aovs));
     append(&source, line);

@@ -109,7 +109,7 @@ void go_through(inout Path path, Point point, vec4 towards)
             return;
         is_even = true;
     } else if (is_body && !AS_DRAWN) {
-        enter_body(path, point, Medium(out10.rgb, 0u, out9.rgb, out9.a, vec2(out12.w, 0.0), 0u, 0u));
+        enter_body(path, point, Medium(out10.rgb, 0u, out9.rgb, out9.a, vec3(0.0), 0u, vec2(out12.w, 0.0), 0u, 0u));
         return;
     } else if (is_body)
         is_even = false; // the next level stands for it

@@ -8,7 +8,7 @@ const uint OF_PATH = 0u; // whose media: of the path, or of the shadow with this
 
 Medium no_medium()
 {
-    return Medium(vec3(0.0), 0u, vec3(0.0), 0.0, vec2(-1.0, 0.0), ~0u, 0u);
+    return Medium(vec3(0.0), 0u, vec3(0.0), 0.0, vec3(0.0), 0u, vec2(-1.0, 0.0), ~0u, 0u);
 }
 
 // A number of the object and of its side that a direction meets; that of the other side differs in the last bit.

@@ -9,6 +9,8 @@
 //     LIGHTS        defined: lights are bound
 //     TRANSPARENT   defined: light may go through
 //     MATTER        defined: a surface is a pile of matter
+//     INTERIOR      defined: a medium inside a surface may scatter
+//     VOLUME        defined: what the mesh holds is a medium, and the mesh no surface
 //     DISPLACES     defined: it is a program of its own, which moves the corners and traces nothing
 //
 // A scene may have several such shaders. Each is a kernel of its own: a path that meets a surface of another one waits in `paths` until that
@@ -275,6 +277,15 @@ float trace_occlusion(vec3 normal, vec3 view, float angle, float limit)
 
 uint pick = PICKS; // the part of the numbers that may pick a closure; PICKS: all
 
+// Runs scatter() at a place in a volume.
+Point shade_inside(vec3 position, vec3 direction, vec4 light)
+{
+    work += 32u;
+    fill_vertex_data(position, -direction, frame_of(direction)[0], vec2(0.0), -direction, next_random(), light, -direction);
+    scatter();
+    return Point(position, vec3(0.0), vec3(0.0));
+}
+
 // Runs scatter() at the hit.
 Point shade(Hit hit, vec3 direction, vec4 light)
 {
@@ -372,8 +383,8 @@ const uint AT_HIT = 1u, AT_REST = 2u;
 
 const float FROM_SOLID = -2.0; // a level: the first one for light in the solid that the surface bounds
 
-// Results of meet().
-const int NOTHING = 0, OURS = 1, ANOTHERS = 2, RESTS = 3; // RESTS: the path has worked enough for now
+// Results of meet() and fly(). RESTS: the path has worked enough for now; COLLIDES: in a volume.
+const int NOTHING = 0, OURS = 1, ANOTHERS = 2, RESTS = 3, COLLIDES = 4;
 
 int meet(inout Path path, vec3 origin, vec3 direction, float limit, out Hit hit)
 {
@@ -426,8 +437,8 @@ bool follow_shadow(inout Path path)
 }
 
 // The next step of a path. CROSSING: it has gone into a solid, as a drawn picture has it, and leaves at the other side, whole. IN_MATTER: it
-// goes through a pile of matter on a surface.
-const uint GOING = 0u, CROSSING = 1u, ENDED = 2u, IN_MATTER = 3u;
+// goes through a pile of matter on a surface. COLLIDED: it has a collision in a volume.
+const uint GOING = 0u, CROSSING = 1u, ENDED = 2u, IN_MATTER = 3u, COLLIDED = 4u;
 // How it goes through matter: away from where it came in; as it is outside, where it enters a medium of index 1.5; out of a body;
 // into a solid or out of it.
 const uint DOWN = 1u, BENT = 2u, OUT = 4u, ACROSS = 8u;
@@ -442,6 +453,10 @@ void count_turn(inout Path path)
 bool sees_behind(Path path) { return path.turns > 0u || path.share > 0.0; }
 
 int fly(inout Path path, out Hit hit); // body.glsl
+void meet_surface(inout Path path, Hit hit);
+#ifdef VOLUME
+void scatter_in_volume(inout Path path); // volume.glsl
+#endif
 #ifdef MATTER
 void pass_hole(inout Path path, Hit hit);
 bool meet_boundary(inout Path path, Hit hit);
@@ -462,12 +477,30 @@ bool follow_matter(inout Path path)
     return true;
 }
 
+// A collision in a volume; false where the path has to wait for the shader of that.
+bool follow_collision(inout Path path)
+{
+    path.waits_for = objects[path.medium.body / 4u - 1u].shader;
+    if (path.waits_for != this_shader())
+        return wait(path, path.hit);
+    path.waits = 0u;
+#ifdef VOLUME
+    scatter_in_volume(path);
+#endif
+    return true;
+}
+
 // Into a solid that lets `inside` through over a unit of the world, or out of it.
 void cross_surface(inout Path path, Point point, vec3 inside)
 {
     Medium solid = no_medium();
     solid.body = side_of(met, path.direction) & ~IS_BODY;
     solid.extinction = -log(max(inside, 1e-30));
+#ifdef INTERIOR
+    solid.extinction = out14.rgb;
+    solid.scattering = out13.rgb;
+    solid.anisotropy = out13.a;
+#endif
     if (AS_DRAWN) {
         path.phase = CROSSING;
         path.through *= inside;
@@ -505,12 +538,44 @@ void bounce(inout Path path, Point point, vec4 towards)
         cross_surface(path, point, inside);
 }
 
+#ifndef VOLUME
+void meet_surface(inout Path path, Hit hit)
+{
+#ifdef MATTER
+    if (meet_boundary(path, hit))
+        return;
+#endif
+    if (!sees_behind(path)) {
+        path.phase = ENDED;
+        return;
+    }
+    vec4 towards = draw_environment(next_random());
+    at_level = vec2(is_in_solid(path, side_of(hit, path.direction)) ? FROM_SOLID : -1.0, next_random().x * (path.turns == 0u ? float(PARTS) : 1.0));
+    pick = path.turns == 0u ? path.number % PICKS : PICKS;
+    Point point = shade(hit, path.direction, towards);
+    pick = PICKS;
+    if (next_random().x >= out1.a) {
+        path.origin = point.position + path.direction * NEAR;
+#ifdef MATTER
+        pass_hole(path, hit);
+#endif
+        return;
+    }
+#ifdef MATTER
+    enter_matter(path, hit, point, towards);
+#else
+    bounce(path, point, towards);
+#endif
+}
+#endif
+
 // Goes to the next surface; false where it has to wait.
 bool follow_ray(inout Path path)
 {
     Hit hit;
-    bool is_inside = is_in_body(path); // from where light comes out yet
-    if (path.hits >= uint(MAX_HITS) || (AS_DRAWN && path.turns > 0u) || path.turns >= uint(camera.eye.w) + (is_inside ? 1u : 0u)) {
+    bool is_inside = is_in_body(path); // from where light comes out yet, however often it turns there
+    uint most = uint(camera.eye.w) + (is_inside ? 1u : 0u) + (path.medium.is_volume != 0u && path.medium.collisions > 0u ? 1u : 0u);
+    if (path.hits >= uint(MAX_HITS) || (AS_DRAWN && path.turns > 0u) || path.turns >= most) {
         if (path.hits < uint(MAX_HITS) && path.turns > 0u && !is_inside)
             path.light += path.through * meet_environment(path.direction, path.density);
         path.phase = ENDED;
@@ -529,31 +594,7 @@ bool follow_ray(inout Path path)
     if (what != OURS)
         return true;
     ++path.hits;
-#ifdef MATTER
-    if (meet_boundary(path, hit))
-        return true;
-#endif
-    if (!sees_behind(path)) {
-        path.phase = ENDED;
-        return true;
-    }
-    vec4 towards = draw_environment(next_random());
-    at_level = vec2(is_in_solid(path, side_of(hit, path.direction)) ? FROM_SOLID : -1.0, next_random().x * (path.turns == 0u ? float(PARTS) : 1.0));
-    pick = path.turns == 0u ? path.number % PICKS : PICKS;
-    Point point = shade(hit, path.direction, towards);
-    pick = PICKS;
-    if (next_random().x >= out1.a) {
-        path.origin = point.position + path.direction * NEAR;
-#ifdef MATTER
-        pass_hole(path, hit);
-#endif
-        return true;
-    }
-#ifdef MATTER
-    enter_matter(path, hit, point, towards);
-#else
-    bounce(path, point, towards);
-#endif
+    meet_surface(path, hit);
     return true;
 }
 
@@ -588,6 +629,8 @@ bool follow(inout Path path)
             goes = cross_solid(path);
         else if (goes && path.phase == IN_MATTER)
             goes = follow_matter(path);
+        else if (goes && path.phase == COLLIDED)
+            goes = follow_collision(path);
         else if (goes && path.phase == GOING)
             goes = follow_ray(path);
     }

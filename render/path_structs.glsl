@@ -10,6 +10,7 @@ struct Hit { float distance; uint triangle; vec2 weights; };
 struct Medium {
     vec3 extinction; uint body;      // the object, and the side where light came in, see side_of(); 0: it is nothing
     vec3 scattering; float anisotropy;
+    vec3 emission; uint is_volume;   // 1: at a collision the shader of the object says what happens
     vec2 level;                      // of the pile where light came in, below 0 without matter there, and the number that picked what is there
     uint triangle, collisions;       // the path starts there; since it came in or left a surface
 };

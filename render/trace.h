@@ -8,8 +8,8 @@
 #include "render/descriptors.h"
 #include "compile/compile.h"
 
-/* path_structs.glsl, path.glsl, media.glsl, body.glsl and matter.glsl, as lines in pieces; ends
- * with NULL. */
+/* path_structs.glsl, path.glsl, media.glsl, body.glsl, matter.glsl and volume.glsl, as lines in
+ * pieces; ends with NULL. */
 extern const char *const trace_source[];
 
 struct trace_options {

@@ -398,6 +398,14 @@ static bool cannot_fail(const struct generation *g)
            && closure_is_surface(&g->result->shader, g->root);
 }
 
+static const char *why_not_emitted(const struct generation *g)
+{
+    const char *not_traced = g->result->shader.reflection.not_traced;
+    return not_traced                         ? not_traced
+           : g->role->returns == RETURNS_PATH ? "a path tracer draws surfaces, volumes and values"
+                                              : gives_nothing;
+}
+
 bool generation_emit(struct generation *g)
 {
     assert(g->root > 0 && g->root < g->result->graph.nodes.len);
@@ -427,8 +435,7 @@ bool generation_emit(struct generation *g)
     }
     generation_tell_lost_aovs(g);
     if (!is_emitted)
-        generation_report_not_renderable(
-            g, is_traced ? "a path tracer draws only surfaces and values" : gives_nothing);
+        generation_report_not_renderable(g, why_not_emitted(g));
     if (is_emitted) {
         generation_tell_forward(g);
         generation_tell_media(g);

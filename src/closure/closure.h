@@ -107,6 +107,7 @@ struct closure_leaf {
     ir_ref steady; /* vec3; 0 = black */
     /* vec3: transmittance of the volume behind, for the light that the leaf refracts; 0 = 1 */
     ir_ref medium;
+    ir_ref interior; /* that volume: a VDF; 0: none */
 };
 
 struct closure_list {

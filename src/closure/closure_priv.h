@@ -102,6 +102,9 @@ struct closure_scatter *closure_scatter_begin(struct shader *shader,
 void closure_scatter_layer(struct closure_scatter *s, const struct closure_scatter_layer *layer);
 /* alpha 0: 1 */
 void closure_scatter_end(struct closure_scatter *s, ir_ref alpha);
+struct closure_medium;
+/* The outputs of a volume, behind those of a point of it. */
+void closure_scatter_medium(struct closure_scatter *s, const struct closure_medium *medium);
 /* A random number from 0 to below alpha. */
 ir_ref closure_scatter_number(struct shader *shader, ir_ref alpha);
 
@@ -114,6 +117,7 @@ struct closure_level {
     ir_ref scale;    /* vec3: multiplies what the leaf reflects; 0: 1 */
     bool refracts;   /* light that the leaf sends to the other side is in a solid, or leaves one */
     ir_ref solid;    /* vec3: transmittance of the solid over a unit of length; 0: 1 */
+    ir_ref interior; /* VDF of the solid; 0: none */
     /*
      * of a medium: vec3, over its thickness, and a float. 0: the leaf is none. Of a body: over a
      * unit of the world; light goes on inside the mesh.
@@ -134,7 +138,9 @@ bool closure_find_pile(struct shader *shader, const struct closure_host *host,
                        const ir_ref *closures, uint32_t num_closures, bool is_seen_through,
                        struct closure_pile *out);
 
-/* flatten.c: of a VDF, over a unit of length: exp(-absorption), Beer's law; 0: 1. */
+/* flatten.c: two volumes in one place; a may be 0. */
+ir_ref closure_joined(struct ir_graph *graph, ir_ref a, ir_ref b);
+/* Of a VDF, over a unit of length: exp(-absorption), Beer's law; 0: 1. */
 ir_ref closure_transmittance(struct shader *shader, const struct closure_host *host, ir_ref volume);
 
 /* volume.c: a volume behind the shaded point. */
@@ -147,6 +153,18 @@ struct closure_volume {
 };
 void closure_volume(struct shader *shader, const struct closure_host *host, ir_ref root,
                     struct closure_volume *out);
+
+/* A volume for path tracers: its parts, and vec3 over a unit of the world. */
+struct closure_medium {
+    ir_ref edf; /* 0: absent */
+    struct closure_list list;
+    ir_ref scattering, extinction;
+    ir_ref anisotropy; /* float: the mean over the scattered light */
+};
+void closure_medium(struct shader *shader, const struct closure_host *host, ir_ref root,
+                    struct closure_medium *out);
+/* True if a value differs from place to place, or by the direction of the viewer. */
+bool closure_varies(struct shader *shader, const ir_ref *values, uint32_t num_values);
 
 /* lights.c: the current light, for effects inside EFFECT_LIGHTS. */
 struct closure_light {

@@ -27,6 +27,7 @@ struct weight {
     ir_ref scalar, color; /* scalar 0: the node is not reached */
     ir_ref medium;        /* transmittance of the volume behind for refracted light; 0 = 1 */
     ir_ref decay;         /* of closure_throughput */
+    ir_ref interior;      /* that volume; 0: none */
 };
 
 /* A closure of the tree. */
@@ -253,7 +254,8 @@ static void add_weight(struct flattener *f, ir_ref ref, struct weight add)
         w->scalar = ir_op2(g, IR_ADD, w->scalar, scalar);
         return;
     }
-    *w = (struct weight){ir_const_float(g, 1.0f), sum_of_weights(g, *w, add), w->medium, w->decay};
+    *w = (struct weight){ir_const_float(g, 1.0f), sum_of_weights(g, *w, add), w->medium, w->decay,
+                         w->interior};
 }
 
 /* A factor multiplies the scalar if it is a float, else the colour. */
@@ -269,6 +271,12 @@ static void add_scaled(struct flattener *f, ir_ref ref, struct weight w, ir_ref 
     if (ref && !ir_const_is(g, factor, 1.0f))
         closure_name(f->shader, is_scalar ? w.scalar : w.color, ref, "weight");
     add_weight(f, ref, w);
+}
+
+ir_ref closure_joined(struct ir_graph *g, ir_ref a, ir_ref b)
+{
+    ir_ref args[2] = {a, b};
+    return a ? ir_build(g, IR_CLOSURE_ADD, IR_TYPE_VDF, 0, args, 2) : b;
 }
 
 ir_ref closure_transmittance(struct shader *shader, const struct closure_host *host, ir_ref volume)
@@ -299,9 +307,10 @@ static void spread(struct flattener *f, ir_ref ref, struct weight w)
     assert(a < ref && b < ref);
     if (op == IR_LAYER) {
         /* a volume behind changes only refracted light */
-        if (b && ir_type_of(g, b) == IR_TYPE_VDF)
+        if (b && ir_type_of(g, b) == IR_TYPE_VDF) {
             w.medium = ir_product(g, w.medium, closure_transmittance(f->shader, f->host, b));
-        else if (b) {
+            w.interior = closure_joined(g, w.interior, b);
+        } else if (b) {
             struct weight below = w;
             below.decay = closure_both_decays(g, w.decay, decay_of(f, a));
             add_scaled(f, b, below, through_of(f, a));
@@ -338,7 +347,7 @@ static void merge_leaf(struct flattener *f, struct closure_list *out, ir_ref lea
     struct ir_graph *g = f->graph;
     for (uint32_t i = 0; i < out->leaves.len; i++) {
         struct closure_leaf *have = &out->leaves.items[i];
-        if (have->leaf != leaf || have->medium != w.medium)
+        if (have->leaf != leaf || have->interior != w.interior)
             continue;
         have->color =
             sum_of_weights(g, (struct weight){.scalar = have->scalar, .color = have->color}, w);
@@ -352,6 +361,7 @@ static void merge_leaf(struct flattener *f, struct closure_list *out, ir_ref lea
                                    .scalar = w.scalar,
                                    .color = w.color,
                                    .medium = w.medium,
+                                   .interior = w.interior,
                                    .decay = w.decay});
 }
 
@@ -370,7 +380,7 @@ static void take_leaf(struct flattener *f, ir_ref ref, struct weight w, struct c
         return;
     ir_ref leaf = unit_leaf(g, ref, f->shader->arena);
     if (ir_get(g, leaf)->op == IR_LEAF) /* the node is POISON if the graph is full */
-        merge_leaf(f, out, leaf, (struct weight){scalar, w.color, w.medium, w.decay});
+        merge_leaf(f, out, leaf, (struct weight){scalar, w.color, w.medium, w.decay, w.interior});
 }
 
 /* The throughputs that layers below `root` need, and where `whole` its own. */
@@ -482,7 +492,7 @@ static void spread_mirrors(struct shader *shader, const struct closure_host *hos
         for (uint32_t k = 0; k < spread_list.leaves.len; k++) {
             const struct closure_leaf *from = &spread_list.leaves.items[k];
             struct closure_leaf *leaf = &list->leaves.items[i];
-            if (from->leaf == leaf->leaf && from->medium == leaf->medium
+            if (from->leaf == leaf->leaf && from->interior == leaf->interior
                 && mirrors(shader, host, leaf))
                 *leaf = *from;
         }

@@ -250,7 +250,7 @@ static void sample_lobe(struct closure_scatter *s, const struct closure_level *l
     scatter_effect(s, EFFECT_ASSIGN, s->direction, results[0]);
     scatter_effect(s, EFFECT_ASSIGN, s->is_inside, scatter_number(s, 0.0f));
     if (level->refracts)
-        scatter_take_side(s, results[0], level->solid, &density);
+        scatter_take_side(s, results[0], level->solid, level->interior, &density);
     scatter_effect(s, EFFECT_ASSIGN, s->parts[0].weight,
                    ir_product(s->graph, weight, level->scale));
     scatter_effect(s, EFFECT_ASSIGN, s->density, density);

@@ -35,9 +35,10 @@ struct finder {
 
 struct operand {
     ir_ref ref, is_here;
-    ir_ref scale;  /* of what its leaves reflect; 0: 1 */
-    ir_ref medium; /* transmittance of the solid behind; 0: 1 */
-    bool is_last;  /* nothing lies below it */
+    ir_ref scale;    /* of what its leaves reflect; 0: 1 */
+    ir_ref medium;   /* transmittance of the solid behind; 0: 1 */
+    ir_ref interior; /* VDF of this solid; 0: none */
+    bool is_last;    /* nothing lies below it */
 };
 
 static bool is_float(const struct ir_graph *g, ir_ref value)
@@ -111,8 +112,11 @@ static void add_leaf(struct finder *f, struct operand at)
         refuse(f, "one of its closures comes from a library");
         return;
     }
-    struct closure_level level = {
-        .leaf = at.ref, .is_here = at.is_here, .scale = at.scale, .solid = at.medium};
+    struct closure_level level = {.leaf = at.ref,
+                                  .is_here = at.is_here,
+                                  .scale = at.scale,
+                                  .solid = at.medium,
+                                  .interior = at.interior};
     level.refracts = scatter_refracts(&s, at.ref);
     f->any_solid |= level.refracts;
     find_medium(f, &level);
@@ -204,6 +208,7 @@ static void open_operands(struct finder *f, struct operand of, struct operand ou
     if (node.op == IR_LAYER && out[0].ref && ir_type_of(f->graph, out[0].ref) == IR_TYPE_VDF) {
         ir_ref medium = closure_transmittance(f->shader, f->host, out[0].ref);
         out[1].medium = ir_product(f->graph, of.medium, medium);
+        out[1].interior = closure_joined(f->graph, of.interior, out[0].ref);
         out[0].ref = 0;
     } else if (node.op == IR_LAYER) {
         out[1].is_last = of.is_last && !out[0].ref;

@@ -138,6 +138,10 @@ static ir_ref share_of(struct closure_scatter *s, const struct closure_leaf *lea
 {
     ir_ref albedo = closure_call(s->shader, s->host, leaf->leaf, LEAF_ALBEDO, NULL),
            light = weight_along(s, leaf, scatter_number(s, CLOSURE_MEAN_WAY));
+    if (ir_type_of(s->graph, leaf->leaf) == IR_TYPE_VDF) {
+        ir_ref scattering = closure_call(s->shader, s->host, leaf->leaf, LEAF_SCATTERING, NULL);
+        light = scattering ? scatter_op2(s, IR_MUL, light, scattering) : scatter_grey(s, 0.0f);
+    }
     if (albedo && !scatter_refracts(s, leaf->leaf))
         light = scatter_op2(s, IR_MUL, light,
                             scatter_likely(s, ir_convert(s->graph, IR_TYPE_VEC3, albedo)));
@@ -154,13 +158,14 @@ ir_ref scatter_is_in_front(struct closure_scatter *s, ir_ref direction)
     return FORMULA(s->shader, "mx_is_in_front", normal, view, direction);
 }
 
-/* The medium behind a leaf, of the first part that has one; 0: none. */
-static ir_ref medium_of(const struct closure_scatter *s, const struct scattering *leaf)
+/* The leaf in the first part where it has a medium behind it; NULL: in none. */
+static const struct closure_leaf *before_medium(const struct closure_scatter *s,
+                                                const struct scattering *leaf)
 {
     for (uint32_t p = 0; p < s->num_parts; p++)
-        if (leaf->in[p] && leaf->in[p]->medium)
-            return leaf->in[p]->medium;
-    return 0;
+        if (leaf->in[p] && leaf->in[p]->interior)
+            return leaf->in[p];
+    return NULL;
 }
 
 /* The weights of a sample in all parts that have the leaf. */
@@ -176,7 +181,18 @@ static void weigh(struct closure_scatter *s, const struct scattering *leaf, ir_r
     }
 }
 
-void scatter_take_side(struct closure_scatter *s, ir_ref direction, ir_ref medium, ir_ref *density)
+/* Writes how the medium of a solid scatters. */
+static void take_interior(struct closure_scatter *s, ir_ref interior)
+{
+    struct closure_medium medium;
+    closure_medium(s->shader, s->host, interior, &medium);
+    ir_ref parts[2] = {medium.scattering, medium.anisotropy};
+    scatter_effect(s, EFFECT_ASSIGN, s->scattering, ir_construct(s->graph, IR_TYPE_VEC4, parts, 2));
+    scatter_effect(s, EFFECT_ASSIGN, s->extinction, medium.extinction);
+}
+
+void scatter_take_side(struct closure_scatter *s, ir_ref direction, ir_ref medium, ir_ref interior,
+                       ir_ref *density)
 {
     ir_ref in_front = scatter_is_in_front(s, direction), nothing = scatter_number(s, 0.0f),
            one = scatter_number(s, 1.0f);
@@ -185,6 +201,8 @@ void scatter_take_side(struct closure_scatter *s, ir_ref direction, ir_ref mediu
     scatter_effect(s, EFFECT_ASSIGN, s->is_inside, is_inside);
     if (medium)
         scatter_effect(s, EFFECT_ASSIGN, s->medium, ir_convert(s->graph, IR_TYPE_VEC3, medium));
+    if (interior && s->scattering != UINT32_MAX)
+        take_interior(s, interior);
 }
 
 static void sample(struct closure_scatter *s, const struct scattering *leaf)
@@ -199,8 +217,10 @@ static void sample(struct closure_scatter *s, const struct scattering *leaf)
     weigh(s, leaf, results[0], results[1]);
     ir_ref density =
         scatter_op2(s, IR_MUL, results[2], scatter_op2(s, IR_DIV, leaf->share, s->total));
+    const struct closure_leaf *solid = before_medium(s, leaf);
     if (has(s, leaf->leaf, LEAF_REFRACTION))
-        scatter_take_side(s, results[0], medium_of(s, leaf), &density);
+        scatter_take_side(s, results[0], solid ? solid->medium : 0, solid ? solid->interior : 0,
+                          &density);
     scatter_effect(s, EFFECT_ASSIGN, s->density, density);
     scatter_effect(s, EFFECT_END, 0, 0);
     scatter_effect(s, EFFECT_ACCUMULATE, s->pick, ir_op1(s->graph, IR_NEG, leaf->share));
@@ -252,6 +272,39 @@ ir_ref scatter_random_number(struct shader *shader)
     return ir_component(shader->graph, shader_stream(shader, STR_random, IR_TYPE_VEC4), 3);
 }
 
+static bool scatters(struct closure_scatter *s, ir_ref interior)
+{
+    struct closure_medium medium = {0};
+    if (interior)
+        closure_medium(s->shader, s->host, interior, &medium);
+    return interior && !ir_const_is(s->graph, medium.scattering, 0.0f);
+}
+
+/* True if the graph has a volume inside a surface. */
+static bool has_interior(const struct ir_graph *g)
+{
+    bool any = false;
+    for (ir_ref ref = 1; ref < g->nodes.len && !any; ref++) {
+        ir_ref base = ir_get(g, ref)->op == IR_LAYER ? ir_arg(g, ref, 1) : 0;
+        any = base && ir_type_of(g, base) == IR_TYPE_VDF;
+    }
+    return any;
+}
+
+/* True if a medium inside the surface may scatter. Of a stack the layers are not known yet. */
+static bool any_interior_scatters(struct closure_scatter *s)
+{
+    bool any = s->is_stack && has_interior(s->graph);
+    for (uint32_t i = 0; s->pile && i < s->pile->levels.len; i++)
+        any = any || scatters(s, s->pile->levels.items[i].interior);
+    for (uint32_t i = 0; !s->pile && i < s->leaves.len; i++) {
+        const struct scattering *leaf = &s->leaves.items[i];
+        const struct closure_leaf *solid = before_medium(s, leaf);
+        any = any || (leaf->share && solid && scatters(s, solid->interior));
+    }
+    return any;
+}
+
 void scatter_declare_locals(struct closure_scatter *s, ir_ref pick)
 {
     s->pick = scatter_local(s, STR_pick, pick);
@@ -261,6 +314,11 @@ void scatter_declare_locals(struct closure_scatter *s, ir_ref pick)
         s->parts[p].weight = scatter_local(s, STR_weight, scatter_grey(s, 0.0f));
     s->density = scatter_local(s, STR_density, scatter_number(s, 0.0f));
     s->medium = scatter_local(s, STR_medium, scatter_grey(s, 1.0f));
+    if (!any_interior_scatters(s))
+        return;
+    ir_ref black = ir_const_splat(s->graph, IR_TYPE_VEC4, 0.0f);
+    s->scattering = scatter_local(s, STR_scattering, black);
+    s->extinction = scatter_local(s, STR_extinction, scatter_grey(s, 0.0f));
 }
 
 static void sample_leaves(struct closure_scatter *s)
@@ -416,6 +474,7 @@ struct closure_scatter *closure_scatter_begin(struct shader *shader,
                                   .graph = shader->graph,
                                   .host = host,
                                   .lighting = lighting,
+                                  .scattering = UINT32_MAX,
                                   .copies = {.shader = shader}};
     s->parts = ARENA_ARRAY(shader->arena, struct part, shader->interface.aovs.len + 1);
     s->num_parts = 1;
@@ -430,6 +489,7 @@ struct closure_scatter *closure_scatter_begin(struct shader *shader,
 static void declare_layers(struct closure_scatter *s)
 {
     ir_ref black = scatter_grey(s, 0.0f), nothing = scatter_number(s, 0.0f);
+    s->is_stack = true;
     scatter_declare_locals(s, nothing);
     s->emission_local = scatter_local(s, STR_emission, black);
     for (uint32_t p = 0; p < s->num_parts; p++)
@@ -445,7 +505,6 @@ static void declare_layers(struct closure_scatter *s)
         if (s->shader->interface.aovs.items[i].is_output)
             s->aov_locals[i] = scatter_local(s, s->shader->interface.aovs.items[i].name,
                                              closure_aov_value(s->shader, i, 0));
-    s->is_stack = true;
 }
 
 /* The response of a part to the light of the host's direction. */
@@ -556,6 +615,21 @@ static void write_lit(struct closure_scatter *s)
     scatter_write_output(s, STR_out7, s->parts[0].lit, scatter_number(s, 0.0f));
 }
 
+static void write_interior(struct closure_scatter *s)
+{
+    uint32_t out = shader_output(s->shader, STR_out13, IR_TYPE_VEC4);
+    scatter_effect(s, EFFECT_OUTPUT, out, scatter_read(s, s->scattering));
+    ir_ref extinction = scatter_read(s, s->extinction), nothing = scatter_number(s, 0.0f);
+    scatter_write_output(s, STR_out14, extinction, nothing);
+}
+
+void closure_scatter_medium(struct closure_scatter *s, const struct closure_medium *medium)
+{
+    ir_ref nothing = scatter_number(s, 0.0f);
+    scatter_write_output(s, STR_out9, medium->scattering, nothing);
+    scatter_write_output(s, STR_out10, medium->extinction, nothing);
+}
+
 void closure_scatter_end(struct closure_scatter *s, ir_ref alpha)
 {
     ir_ref one = scatter_number(s, 1.0f), nothing = scatter_number(s, 0.0f);
@@ -574,6 +648,8 @@ void closure_scatter_end(struct closure_scatter *s, ir_ref alpha)
     scatter_write_output(s, STR_out4, medium, inside);
     ir_ref seen = s->is_stack ? scatter_read(s, s->parts[0].seen_local) : seen_of(s, 0);
     scatter_write_output(s, STR_out5, seen, nothing);
+    if (s->scattering != UINT32_MAX)
+        write_interior(s);
     if (s->lighting->lights && !s->is_stack)
         light_up(s);
     for (uint32_t p = 0; s->lighting->lights && s->is_stack && p < s->num_parts; p++)

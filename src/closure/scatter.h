@@ -33,6 +33,8 @@ struct closure_scatter {
     uint32_t num_parts;
     VEC(struct scattering) leaves;                        /* of all parts of the layer at hand */
     uint32_t pick, direction, is_inside, density, medium; /* locals */
+    /* locals of the medium inside a surface; UINT32_MAX: no medium of the shader scatters there */
+    uint32_t scattering, extinction;
     ir_ref total;
     /* 1 / alpha, where the weights have the alpha that the tracer applies by chance; 0 = 1 */
     ir_ref scale;
@@ -80,10 +82,12 @@ ir_ref scatter_is_in_front(struct closure_scatter *s, ir_ref direction);
 /* True if a leaf sends light to the other side. */
 bool scatter_refracts(struct closure_scatter *s, ir_ref leaf);
 /*
- * Where a sample of a leaf that refracts goes: to the other side it is in the medium, 0 for none,
+ * Where a sample of a leaf that refracts goes: to the other side it is in the medium of the VDF
+ * `interior`, 0 for none,
  * and its density is 0, because no light draws such a direction.
  */
-void scatter_take_side(struct closure_scatter *s, ir_ref direction, ir_ref medium, ir_ref *density);
+void scatter_take_side(struct closure_scatter *s, ir_ref direction, ir_ref medium, ir_ref interior,
+                       ir_ref *density);
 /* The locals of the outputs 2 to 4; pick: the initial value of the local of this name. */
 void scatter_declare_locals(struct closure_scatter *s, ir_ref pick);
 void scatter_write_output(struct closure_scatter *s, str_id name, ir_ref rgb, ir_ref a);

@@ -341,6 +341,47 @@ static void emit_volume(struct emitter *e, ir_ref root)
     write_surface(e, emitter_color(e), volume.alpha, 0);
 }
 
+/* True if the medium is the same everywhere; false: the reflection has why it is not traced. */
+static bool is_homogeneous(struct emitter *e, const struct closure_medium *medium, ir_ref emission)
+{
+    ir_ref *values = ARENA_ARRAY(e->shader->arena, ir_ref, 3 + 3 * medium->list.leaves.len);
+    uint32_t num = 0;
+    values[num++] = medium->extinction;
+    if (emission)
+        values[num++] = emission;
+    for (uint32_t i = 0; i < medium->list.leaves.len; i++) {
+        const struct closure_leaf *leaf = &medium->list.leaves.items[i];
+        values[num++] = leaf->leaf;
+        values[num++] = leaf->scalar;
+        if (leaf->color)
+            values[num++] = leaf->color;
+    }
+    if (!closure_varies(e->shader, values, num))
+        return true;
+    e->shader->reflection.not_traced = "a path tracer draws volumes that are the same everywhere";
+    return false;
+}
+
+/*
+ * A volume for path tracers (docs/library.md): what it does at a point, as of a surface, and its
+ * coefficients.
+ */
+static bool emit_traced_volume(struct emitter *e, ir_ref root)
+{
+    struct closure_medium medium;
+    closure_medium(e->shader, e->host, root, &medium);
+    ir_ref emission = emitter_emission(e, medium.edf);
+    if (!is_homogeneous(e, &medium, emission))
+        return false;
+    struct closure_scatter_layer layer = {.list = medium.list, .emission = emission};
+    struct closure_scatter *scatter = closure_scatter_begin(e->shader, e->host, e->lighting);
+    closure_scatter_layer(scatter, &layer);
+    closure_scatter_end(scatter, 0);
+    closure_scatter_medium(scatter, &medium);
+    e->shader->reflection.transparent = true;
+    return true;
+}
+
 bool closure_is_surface(const struct shader *shader, ir_ref root)
 {
     const struct ir_graph *g = shader->graph;
@@ -377,7 +418,7 @@ bool closure_emit(struct shader *shader, const struct closure_host *host,
     }
     if (type == IR_TYPE_VOLUME || type == IR_TYPE_VDF) {
         if (shader->role->returns == RETURNS_PATH)
-            return false;
+            return emit_traced_volume(&e, root);
         emit_volume(&e, root);
         return true;
     }

@@ -11,7 +11,8 @@
  *     path = depth · (1 - exp(-τ)) / τ    the effective length: ∫ exp(-σt · x) dx over the depth
  *     color = path · (emission + Σ σs · light · phase + σs · environment)
  *
- * Incoming light is not attenuated.
+ * Incoming light is not attenuated. A path tracer has the coefficients, and walks through the
+ * medium itself (docs/library.md, "Path tracers").
  */
 #include "closure/closure_priv.h"
 
@@ -48,16 +49,17 @@ static struct parts parts_of(struct shader *shader, ir_ref root)
     return known[root];
 }
 
-/* σa + σs of all leaves. */
-static ir_ref extinction(struct shader *shader, const struct closure_host *host,
-                         const struct closure_list *list)
+static const enum leaf_function coefficients[] = {LEAF_SCATTERING, LEAF_ABSORPTION};
+
+/* The sum of the first coefficients, 1 or 2, of all leaves. */
+static ir_ref sum_of(struct shader *shader, const struct closure_host *host,
+                     const struct closure_list *list, size_t num)
 {
-    static const enum leaf_function coefficients[] = {LEAF_ABSORPTION, LEAF_SCATTERING};
     struct ir_graph *g = shader->graph;
     ir_ref sum = ir_black(g);
     for (uint32_t i = 0; i < list->leaves.len; i++) {
         const struct closure_leaf *leaf = &list->leaves.items[i];
-        for (size_t k = 0; k < sizeof coefficients / sizeof *coefficients; k++) {
+        for (size_t k = num; k-- > 0;) {
             ir_ref value = closure_call(shader, host, leaf->leaf, coefficients[k], NULL);
             if (value)
                 sum =
@@ -66,6 +68,47 @@ static ir_ref extinction(struct shader *shader, const struct closure_host *host,
     }
     assert(ir_type_of(g, sum) == IR_TYPE_VEC3);
     return sum;
+}
+
+/* Σ gᵢ · mean σsᵢ / Σ mean σsᵢ. */
+static ir_ref mean_anisotropy(struct shader *shader, const struct closure_host *host,
+                              const struct closure_list *list)
+{
+    struct ir_graph *g = shader->graph;
+    ir_ref sum = ir_const_float(g, 0.0f), all = ir_const_float(g, 1e-20f);
+    for (uint32_t i = 0; i < list->leaves.len; i++) {
+        const struct closure_leaf *leaf = &list->leaves.items[i];
+        ir_ref anisotropy = closure_call(shader, host, leaf->leaf, LEAF_ANISOTROPY, NULL),
+               light = closure_call(shader, host, leaf->leaf, LEAF_SCATTERING, NULL);
+        if (!anisotropy || !light)
+            continue;
+        light = ir_product(g, light, ir_product(g, leaf->color, leaf->scalar));
+        ir_ref part = FORMULA(shader, "mx_mean", light);
+        all = ir_add(g, all, part);
+        sum = ir_add(g, sum, ir_op2(g, IR_MUL, part, anisotropy));
+    }
+    return ir_op2(g, IR_DIV, sum, all);
+}
+
+void closure_medium(struct shader *shader, const struct closure_host *host, ir_ref root,
+                    struct closure_medium *out)
+{
+    struct parts parts = parts_of(shader, root);
+    *out = (struct closure_medium){.edf = parts.edf};
+    closure_flatten(shader, host, parts.vdf, &out->list);
+    out->scattering = sum_of(shader, host, &out->list, 1);
+    out->extinction = sum_of(shader, host, &out->list, 2);
+    out->anisotropy = mean_anisotropy(shader, host, &out->list);
+}
+
+bool closure_varies(struct shader *shader, const ir_ref *values, uint32_t num_values)
+{
+    const struct ir_graph *g = shader->graph;
+    uint8_t *needed = ir_mark(g, values, num_values, shader->arena);
+    for (ir_ref ref = 1; ref < g->nodes.len; ref++)
+        if (needed[ref] && ir_get(g, ref)->op == IR_STREAM)
+            return true;
+    return false;
 }
 
 void closure_volume(struct shader *shader, const struct closure_host *host, ir_ref root,
@@ -82,7 +125,7 @@ void closure_volume(struct shader *shader, const struct closure_host *host, ir_r
     ir_ref view = closure_view(shader, host), normal = closure_normal(shader, host);
     ir_ref depth = FORMULA(shader, "mx_volume_depth", diameter, normal, view);
     ir_change_name(g, STR_optical_depth);
-    ir_ref optical = ir_mul(g, extinction(shader, host, &out->scattering), depth);
+    ir_ref optical = ir_mul(g, sum_of(shader, host, &out->scattering, 2), depth);
     ir_change_name(g, STR_lost);
     ir_ref lost = FORMULA(shader, "mx_volume_lost", optical);
     ir_change_name(g, STR_path);

@@ -64,7 +64,7 @@ static const struct closure_leaf *same_leaf(const struct closure_list *list,
 {
     for (uint32_t i = 0; i < list->leaves.len; i++) {
         const struct closure_leaf *leaf = &list->leaves.items[i];
-        if (leaf->leaf == of->leaf && leaf->medium == of->medium)
+        if (leaf->leaf == of->leaf && leaf->interior == of->interior)
             return leaf;
     }
     return NULL;

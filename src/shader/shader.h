@@ -330,6 +330,7 @@ struct shader_reflection {
     bool lit;               /* reads lights or environment */
     bool displaced;         /* the vertex stage moves the surface */
     const char *not_walked; /* on paths: why its media are tables; NULL: they are not */
+    const char *not_traced; /* on paths: why a volume is not drawn; NULL: it is */
     const char *not_stored; /* where pixels store slabs: why it lights itself; NULL: it does not */
     /* words that it stores per pixel, at most, or in a payload; 0: it lights itself */
     uint32_t stored_words;

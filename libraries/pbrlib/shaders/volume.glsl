@@ -2,6 +2,7 @@
 // absorption_vdf and anisotropic_vdf.
 
 #include "environment.glsl"
+#include "sampling.glsl"
 
 vec3 mx_absorption_vdf_absorption(vec3 absorption)
 {
@@ -23,13 +24,34 @@ float mx_anisotropic_vdf_anisotropy(vec3 absorption, vec3 scattering, float anis
     return anisotropy;
 }
 
-// Light from L that a unit length of the medium scatters to V, by the phase function of Henyey and Greenstein 1941,
-// "Diffuse radiation in the galaxy".
-vec3 mx_anisotropic_vdf_eval(vec3 absorption, vec3 scattering, float anisotropy, vec3 V, vec3 L)
+// The phase function of Henyey and Greenstein 1941, "Diffuse radiation in the galaxy", per solid angle: the light that comes from L and goes to V.
+float mx_phase(float anisotropy, vec3 V, vec3 L)
 {
     float g = clamp(anisotropy, -0.99, 0.99);
     float d = 1.0 + g * g + 2.0 * g * dot(V, L);
-    return scattering * ((1.0 - g * g) / (4.0 * MX_PI * d * sqrt(d)));
+    return (1.0 - g * g) / (4.0 * MX_PI * d * sqrt(d));
+}
+
+// Light from L that a unit length of the medium scatters to V.
+vec3 mx_anisotropic_vdf_eval(vec3 absorption, vec3 scattering, float anisotropy, vec3 V, vec3 L)
+{
+    return scattering * mx_phase(anisotropy, V, L);
+}
+
+// A direction by the phase function, which is its own density.
+void mx_anisotropic_vdf_sample(vec3 absorption, vec3 scattering, float anisotropy, vec3 V, vec3 xi, out vec3 L, out vec3 weight, out float pdf)
+{
+    float g = clamp(anisotropy, -0.99, 0.99);
+    float part = (1.0 - g * g) / (1.0 - g + 2.0 * g * xi.x);
+    float cosine = abs(g) < 1e-3 ? 2.0 * xi.x - 1.0 : clamp((1.0 + g * g - part * part) / (2.0 * g), -1.0, 1.0);
+    L = mx_any_frame(-V) * vec3(mx_polar(sqrt(1.0 - cosine * cosine), xi.y), cosine);
+    weight = scattering;
+    pdf = mx_phase(anisotropy, V, L);
+}
+
+float mx_anisotropic_vdf_pdf(vec3 absorption, vec3 scattering, float anisotropy, vec3 V, vec3 L)
+{
+    return mx_phase(anisotropy, V, L);
 }
 
 // Light of the environment that a unit length of the medium scatters to V: a share from behind, the rest from in
