@@ -1,0 +1,160 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Volumes, path traced: what Beer and Lambert say, emission along the way, light that is scattered once by an integral, white media that lose no
+# light, media in media, shadows, and media inside surfaces. Arguments: mxgen-render, the root of the source tree, and "all" for what takes longer.
+render=$(realpath "$1") root=$(realpath "$2") extent=${3:-}
+. "$root/tests/programs/light.sh"
+
+if ! has_device "$render"; then
+    skip 'there is no Vulkan device'
+    finish volumes
+fi
+
+write_white white.hdr
+# medium NAME ABSORPTION SCATTERING ANISOTROPY
+medium() {
+    echo "<anisotropic_vdf name='$1' type='VDF'><input name='absorption' type='vector3' value='$2'/><input name='scattering' type='vector3' value='$3'/>
+      <input name='anisotropy' type='float' value='$4'/></anisotropic_vdf>"
+}
+# volume NAME VDF [INPUT]
+volume() {
+    echo "<volume name='V$1' type='volumeshader'><input name='vdf' type='VDF' nodename='$2'/>${3:-}</volume>
+      <volumematerial name='$1' type='material'><input name='volumeshader' type='volumeshader' nodename='V$1'/></volumematerial>"
+}
+# filled NAME VDF IOR: a solid with a medium inside.
+filled() {
+    echo "<dielectric_bsdf name='glass$1' type='BSDF'><input name='scatter_mode' type='string' value='RT'/><input name='ior' type='float' value='$3'/>
+        <input name='roughness' type='vector2' value='0, 0'/></dielectric_bsdf>
+      <layer name='b$1' type='BSDF'><input name='top' type='BSDF' nodename='glass$1'/><input name='base' type='VDF' nodename='$2'/></layer>
+      <surface name='S$1' type='surfaceshader'><input name='bsdf' type='BSDF' nodename='b$1'/></surface>"
+}
+assign() { echo "<materialassign material='$1' geom='//$2'/>"; } # MATERIAL PRIMITIVE
+{
+    echo '<materialx version="1.39">'
+    echo "<uniform_edf name='heat' type='EDF'><input name='color' type='color3' value='0.5, 1, 0.2'/></uniform_edf>
+      <uniform_edf name='light' type='EDF'><input name='color' type='color3' value='0.2, 0.5, 1'/></uniform_edf>
+      <oren_nayar_diffuse_bsdf name='paint' type='BSDF'><input name='color' type='color3' value='1, 1, 1'/></oren_nayar_diffuse_bsdf>
+      <surface name='SPaper' type='surfaceshader'><input name='bsdf' type='BSDF' nodename='paint'/></surface>
+      <surfacematerial name='Paper' type='material'><input name='surfaceshader' type='surfaceshader' nodename='SPaper'/></surfacematerial>"
+    echo "<absorption_vdf name='ink' type='VDF'><input name='absorption' type='vector3' value='0.5, 1, 2'/></absorption_vdf>
+      <absorption_vdf name='tea' type='VDF'><input name='absorption' type='vector3' value='0.5, 0.5, 0.5'/></absorption_vdf>"
+    medium milk '0, 0, 0' '0.5, 1, 2' 0.6
+    medium smoke '0, 0, 0' '1, 0.5, 0.5' -0.5
+    medium thick '0, 0, 0' '1, 2, 4' 0.3
+    medium faint '0.498, 0.996, 1.992' '0.002, 0.004, 0.008' 0.5
+    medium soup '1, 1, 1' '2, 2, 2' 0.4
+    medium gas '0.5, 1, 0.2' '1, 0.5, 1.5' 0.3
+    echo "<mix name='both' type='VDF'><input name='fg' type='VDF' nodename='milk'/><input name='bg' type='VDF' nodename='smoke'/>
+      <input name='mix' type='float' value='0.5'/></mix>"
+    volume Ink ink
+    volume Tea tea
+    volume Both both
+    volume Faint faint
+    volume Soup soup
+    volume Lamp tea "<input name='edf' type='EDF' nodename='light'/>"
+    volume Flame gas "<input name='edf' type='EDF' nodename='heat'/>"
+    filled Milk thick 1.5
+    filled Soup soup 1.00001
+    echo "<look name='inside'>$(assign Ink outer)$(assign Tea inner)</look><look name='paper'>$(assign Both outer)$(assign Paper inner)</look>
+      <look name='bulb'>$(assign Lamp ball)</look><look name='beam'>$(assign Faint ball)</look>
+      <look name='shadow'>$(assign Tea cube)$(assign Paper floor)</look></materialx>"
+} >volumes.mtlx
+
+# trace FILE ELEMENT ARGUMENT...: a ball in even light, from far away.
+trace() {
+    exits 0 "$render" volumes.mtlx -e "$2" -q --path-trace -o "$1" -m sphere --lights none --environment white.hdr --camera 0,0,60,2.2 --bounces 64 "${@:3}"
+}
+
+# White media.
+all() { of "($(channel "$1" R) + $(channel "$1" G) + $(channel "$1" B)) / 3 + 1 - $(channel "$1" A)"; } # FILE: the light, and what is seen through
+check 'a mix of two white media is traced in even light' trace both.exr VBoth --size 16 --paths 96
+check 'a mix of two white media loses no light' near "$(all both.exr)" 1 0.01
+check 'glass with a white medium inside is traced in even light' trace glass.exr SMilk --size 16 --paths 96
+check 'glass with a white medium inside loses no light' near "$(all glass.exr)" 1 0.01
+
+# Parallel light through a ball of the radius 1 with the extinction t: the mean over the disk of exp(-2 t cos) is (1 - (1 + 2 t) exp(-2 t)) / (2 t²).
+chords() { of "1 - (1 - (1 + 2 * $1) * exp(-2 * $1)) / (2 * $1 * $1)"; }
+disk=$(channel glass.exr A)
+check 'ink is traced' trace ink.exr VInk --size 16 --paths 96
+check 'ink is as opaque as its chords' near "$(of "$(channel ink.exr A) / $disk")" "$(of "($(chords 0.5) + $(chords 1) + $(chords 2)) / 3")" 0.01
+# Stages, from the front through a camera that sees the middle of a ball of the radius 1, or a floor.
+usd() { # FIELD Z LINE...: a stage
+    printf '#usda 1.0\n(\n upAxis = "Y"\n metersPerUnit = 0.01\n)\n'
+    printf 'def Camera "camera"\n{\n    float focalLength = 1\n    float horizontalAperture = %s\n    float verticalAperture = %s\n' "$1" "$1"
+    printf '    double3 xformOp:translate = (0, 0, %s)\n    uniform token[] xformOpOrder = ["xformOp:translate"]\n}\n' "$2"
+    printf '%s\n' "${@:3}"
+}
+sphere() { printf 'def Sphere "%s"\n{\n    double radius = %s\n}\n' "$1" "$2"; } # NAME RADIUS
+sun() { # OPERATION...: of its transform; it shines along -z
+    printf 'def DistantLight "sun"\n{\n    float inputs:intensity = 100\n    float inputs:angle = 0\n    bool inputs:normalize = 1\n'
+    printf '%s\n' "$@" '}'
+}
+# stage FILE STAGE LOOK ARGUMENT...
+stage() {
+    exits 0 "$render" volumes.mtlx --stage "$2" --look "$3" -q --path-trace -o "$1" --camera /camera --bounces 64 "${@:4}"
+}
+even="--lights none --environment white.hdr"
+usd 0.0004 60 "$(sphere ball 1)" >ball.usda
+# shellcheck disable=SC2086 # arguments, divided by spaces
+check 'a medium that shines and absorbs is traced' stage lamp.exr ball.usda bulb $even --size 4 --paths 16
+check 'a medium shines along the way' near "$(channel lamp.exr G)" "$(of '0.5 * (1 - exp(-1)) / 0.5')" 0.002
+
+# Light from the side that is scattered once, by an integral over the way of the view; so little is scattered that twice is below 1 %.
+usd 0.0004 60 "$(sphere ball 1)" "$(sun '    float xformOp:rotateY = 90' '    uniform token[] xformOpOrder = ["xformOp:rotateY"]')" >side.usda
+check 'light from the side is traced' stage side.exr side.usda beam --size 16 --paths 128
+once() { # SCATTERING EXTINCTION
+    python3 -c 'import math, sys
+scattering, extinction, steps, g = float(sys.argv[1]), float(sys.argv[2]), 4000, 0.5
+phase = (1 - g * g) / (4 * math.pi * (1 + g * g) ** 1.5)  # around a right angle
+total = 0
+for i in range(steps):
+    t = 2 * (i + 0.5) / steps  # from the eye
+    total += math.exp(-extinction * (t + math.sqrt(1 - (1 - t) ** 2))) * 2 / steps
+print(100 * scattering * phase * total)' "$1" "$2"
+}
+for row in 'R 0.002 0.5' 'G 0.004 1' 'B 0.008 2'; do
+    read -r name scattering extinction <<<"$row"
+    check "light from the side is scattered once: $name" near "$(of "$(channel side.exr "$name") / $(once "$scattering" "$extinction")")" 1 0.03
+done
+
+# Media in media, and what they hold. By order of entry: inside the inner one the outer one is not.
+usd 0.0004 60 "$(sphere outer 1)" "$(sphere inner 0.5)" >inside.usda
+# shellcheck disable=SC2086
+check 'a medium in a medium is traced' stage inside.exr inside.usda inside $even --size 4 --paths 16
+check 'a medium in a medium is as opaque as both ways' near "$(channel inside.exr A)" "$(of '1 - (exp(-0.5 - 0.5) + exp(-1 - 0.5) + exp(-2 - 0.5)) / 3')" 0.005
+# A shadow.
+usd 0.1 2 "$(sun)" 'def Cube "cube"
+{
+    double size = 1
+    double3 xformOp:translate = (0, 0, 3)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}
+def Mesh "floor"
+{
+    point3f[] points = [(-2, -2, 0), (2, -2, 0), (2, 2, 0), (-2, 2, 0)]
+    int[] faceVertexCounts = [4]
+    int[] faceVertexIndices = [0, 1, 2, 3]
+}' >shadow.usda
+check 'a floor below a medium is traced' stage shadow.exr shadow.usda shadow --size 4 --paths 16
+check 'light comes through the medium' near "$(channel shadow.exr R)" "$(of '100 / 3.14159265 * exp(-0.5)')" 0.1
+
+# As drawn: once scattered, and nothing takes from light that comes.
+check 'smoke is drawn' exits 0 "$render" "$root/examples/fog.mtlx" -q -o drawn.exr -m sphere --lights none --environment white.hdr --size 32 --samples 64
+check 'smoke is traced as drawn' exits 0 "$render" "$root/examples/fog.mtlx" -q -o traced.exr -m sphere --lights none --environment white.hdr --size 32 \
+    --path-trace --as-drawn --paths 64
+for name in R G B A; do
+    check "smoke is traced as it is drawn: $name" near "$(of "$(channel drawn.exr $name) / $(channel traced.exr $name)")" 1 0.02
+done
+if [ "$extent" = all ]; then
+    check 'a medium that sends what it absorbs is traced in even light' trace flame.exr VFlame --size 16 --paths 128
+    check 'a medium that sends what it absorbs is not to be seen' near "$(all flame.exr)" 1 0.01
+    # The same medium as a volume, and inside a surface that does not bend light.
+    check 'a medium that absorbs and scatters is traced' trace soup.exr VSoup --size 16 --paths 96
+    check 'a surface around it is traced' trace around.exr SSoup --size 16 --paths 96
+    check 'a surface that bends nothing changes nothing' near "$(all around.exr)" "$(all soup.exr)" 0.01
+    usd 0.04 60 "$(sphere outer 1)" "$(sphere inner 0.5)" >paper.usda
+    # shellcheck disable=SC2086
+    check 'white paper in a white medium is traced' stage paper.exr paper.usda paper $even --size 12 --paths 128
+    check 'white paper in a white medium loses no light' near "$(all paper.exr)" 1 0.02
+fi
+finish volumes
