@@ -254,7 +254,13 @@ cat >bad.mtlx <<'EOF'
   <gltf_pbr name="tiles" type="surfaceshader"><input name="base_color" type="color3" nodename="set"/></gltf_pbr>
 </materialx>
 EOF
-echo '<materialx version="1.39"><surface name="closures" type="surfaceshader"/></materialx>' >closures.mtlx
+cat >closures.mtlx <<'EOF'
+<?xml version="1.0"?>
+<materialx version="1.39">
+  <oren_nayar_diffuse_bsdf name="chalk" type="BSDF"><input name="color" type="color3" value="0.5, 0.25, 0.125"/></oren_nayar_diffuse_bsdf>
+  <surface name="closures" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="chalk"/></surface>
+</materialx>
+EOF
 check 'what glTF does not have is a loss' eval 'exits 0 "$mxgen" export bad.mtlx -e turned -o loss.gltf && has err "turned/tangent'"'"' (bad.mtlx:3:" "[export-loss]" "from 0 to 3" "[export-clamped]"'
 check 'or an error' eval 'exits 1 "$mxgen" export bad.mtlx -e turned -o none.gltf -W error=export-loss && has err "error: '"'"'turned/tangent" && test ! -e none.gltf'
 check 'or nobody wants to know' eval 'exits 0 "$mxgen" export bad.mtlx -e turned -o loss.gltf -Wno-export-loss && ! grep export-loss err'
@@ -274,7 +280,7 @@ check 'a missing image is told' eval 'sed "s,flat/S,flat/N," image.mtlx >lost.mt
 check 'or is a checker' eval 'exits 0 "$mxgen" export lost.mtlx --missing-texture checker -s 16 -o lost.glb && texel lost.glb materials/M/pbrMetallicRoughness/baseColorTexture 0.1 0.1 255 0 255'
 check 'another space of colors is told' bad bad.mtlx wide '(bad.mtlx:5:' '[export-space]'
 check 'tiles are told' bad bad.mtlx tiles '(bad.mtlx:6:3) are several images' '[export-tiles]'
-check 'surfaces of closures are told' bad closures.mtlx closures '[no-translation]'
+check 'surfaces of closures go through slabs' eval 'exits 0 "$mxgen" export closures.mtlx -e closures -o closures.gltf && grep -A4 baseColorFactor closures.gltf | tr -d " \n" | grep -q "0.5,0.25,0.125"'
 check 'a document is not written over itself' eval 'cp all.mtlx all.gltf && exits 1 "$mxgen" export all.gltf -o all.gltf && has err "[output-clash]" && cmp all.mtlx all.gltf'
 check 'nor an image that it reads' eval 'cp flat/S_base_color.png clash_M_baseColor.png && sed "s,flat/S_base_color,clash_M_baseColor," image.mtlx >clash.mtlx && exits 1 "$mxgen" export clash.mtlx -o clash.gltf && has err "[output-clash]" && cmp flat/S_base_color.png clash_M_baseColor.png && test ! -e clash.gltf'
 check 'a folder must exist' eval 'exits 1 "$mxgen" export image.mtlx -o none/a.gltf && has err "[output-failed]"'

@@ -168,7 +168,7 @@ def test_documents():
     """Every document of closures becomes one that generates."""
     documents = [ROOT / "examples" / name for name in ("slabs.mtlx", "slab_helpers.mtlx", "car_paint.mtlx", "frosted.mtlx")]
     if FURTHER.is_dir():
-        documents += sorted(FURTHER.glob("pbrlib/**/*.mtlx"))
+        documents += sorted(FURTHER.glob("pbrlib/bsdf/*.mtlx")) + sorted(FURTHER.glob("pbrlib/surfaceshader/lama/*.mtlx"))
     else:
         skip(f"{FURTHER} is absent")
     out = PLACE / "out.mtlx"
