@@ -168,6 +168,7 @@ elem_id doc_add_element(struct document *doc, elem_id parent, str_id category, s
     }
     doc->has_templates |= category == STR_template;
     doc->has_attributedefs |= category == STR_attributedef;
+    doc->has_aovs |= category == STR_aov || category == STR_aovpass;
     assert(doc->links.len == doc->elements.len && parent < doc->first_element + index);
     elem_id element = doc->first_element + index;
     if (parent)
@@ -250,6 +251,7 @@ void doc_set_category(struct document *doc, elem_id element, str_id category)
     own(doc, element)->category = category;
     own(doc, element)->kind = (uint16_t)doc_kind_of(category);
     doc->has_attributedefs |= category == STR_attributedef;
+    doc->has_aovs |= category == STR_aov || category == STR_aovpass;
 }
 
 void doc_set_name(struct document *doc, elem_id element, str_id name)

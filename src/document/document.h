@@ -167,6 +167,7 @@ struct document {
     uint32_t max_elements;
     bool has_templates;     /* a <template> was added after the last expansion */
     bool has_attributedefs; /* an <attributedef> was added somewhere */
+    bool has_aovs;          /* an <aov> or <aovpass> was added somewhere */
     bool is_global;         /* no element has a namespace (set by doc_qualify_names) */
     bool keeps_comments;    /* the reader adds the comments of files */
     /* blanks surround some '=', so no place of an attribute's name is known */

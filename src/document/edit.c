@@ -109,6 +109,7 @@ void doc_begin_edit(struct document *doc, struct arena *arena, struct strpool *s
                              .max_elements = from->max_elements,
                              .has_templates = from->has_templates,
                              .has_attributedefs = from->has_attributedefs,
+                             .has_aovs = from->has_aovs,
                              .is_global = from->is_global,
                              .keeps_comments = from->keeps_comments,
                              .has_loose_attrs = from->has_loose_attrs,
@@ -166,6 +167,7 @@ void doc_leave_origin(struct document *doc)
                              .max_elements = top.max_elements,
                              .has_templates = top.has_templates,
                              .has_attributedefs = top.has_attributedefs,
+                             .has_aovs = top.has_aovs,
                              .is_global = top.is_global,
                              .keeps_comments = top.keeps_comments,
                              .has_loose_attrs = top.has_loose_attrs};

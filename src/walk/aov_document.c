@@ -28,7 +28,7 @@ static const struct aov_nodes *nodes_of(struct builder *b)
     if (b->aov_nodes)
         return b->aov_nodes;
     b->aov_nodes = ARENA_NEW(b->arena, struct aov_nodes);
-    for (elem_id e = doc->root; e; e = doc_next_in_tree(doc, doc->root, e)) {
+    for (elem_id e = doc->has_aovs ? doc->root : 0; e; e = doc_next_in_tree(doc, doc->root, e)) {
         elem_id node = read_at_top(doc, e);
         if (node && build_is_aov(doc, node))
             vec_push(b->arena, &b->aov_nodes->read, node);
