@@ -54,7 +54,7 @@ struct check {
     struct check_root root;
     const char *root_folder; /* NULL: the working directory */
     const char *budget_args[NUM_MEASURES];
-    const char *cache_folder, *shard;
+    const char *cache_folder, *shard, *translate, *accept;
     uint64_t num_found; /* number of documents, including other shards */
 
     /* a ring: limits how far workers can be ahead of the report */
@@ -314,6 +314,10 @@ static void make_worker_args(struct check *check)
         add_worker_arg(check, "--no-compile", NULL);
     if (check->render)
         add_worker_arg(check, "--render", NULL);
+    if (check->translate)
+        add_worker_arg(check, "translate", check->translate);
+    if (check->accept)
+        add_worker_arg(check, "accept", check->accept);
     if (check->memory_limit)
         args_append(&check->worker_args, cli_format("--memory-limit=%zu", check->memory_limit));
     cli_forward(&check->cli, &check->worker_args);
@@ -389,7 +393,7 @@ static bool prepare(struct check *check)
 /* Reports a missing renderer once instead of for every element. */
 static bool find_renderer(struct check *check)
 {
-    char *program = check->render ? cli_program("mxgen-render") : NULL;
+    char *program = check->render || check->accept ? cli_program("mxgen-render") : NULL;
     bool found = !program || files_find_program(program);
     if (!found)
         report_error(&check->cli.report, "no-renderer",
@@ -451,10 +455,21 @@ static void finish(struct check *check)
     cli_finish(&check->cli);
 }
 
+static bool is_error(const char *text)
+{
+    char *end;
+    double value = strtod(text, &end);
+    return *text && !*end && value >= 0;
+}
+
 static const char *find_misuse(const struct check *check)
 {
     if (check->cli.parser.inputs.len == 0 && check->files_from.len == 0)
         return "nothing to check is named; see --help";
+    if (check->accept && !check->translate)
+        return "--accept is the drawn error of --translate MODEL";
+    if (check->accept && !is_error(check->accept))
+        return "--accept takes a number, at least 0";
     bool has_report = false;
     for (size_t i = 0; i < SINK_DEPFILE; ++i)
         has_report = has_report || check->reports.paths[i];
@@ -480,7 +495,7 @@ int command_check(const struct command *command, int argc, char **argv)
     if (argc > 1 && strcmp(argv[1], "merge") == 0)
         return check_merge(command, argc - 1, argv + 1);
     struct check check = {.time_limit = 120, .memory_limit = 4096};
-    struct arg args[16 + NUM_GATE_ARGS + NUM_SINK_KINDS + NUM_MEASURES] = {
+    struct arg args[18 + NUM_GATE_ARGS + NUM_SINK_KINDS + NUM_MEASURES] = {
         {"target", 't', ARG_LIST, "T,...", "targets (default: glsl)", &check.target_args},
         {"jobs", 'j', ARG_SIZE, "N",
          "documents checked at the same time; 0: number of cores (default: 0)", &check.jobs,
@@ -490,6 +505,12 @@ int command_check(const struct command *command, int argc, char **argv)
         {"no-compile", 0, ARG_FLAG, NULL, "does not compile the shaders", &check.no_compile},
         {"render", 0, ARG_FLAG, NULL,
          "renders each element, for the gallery and for comparison with a baseline", &check.render},
+        {"translate", 0, ARG_TEXT, "MODEL",
+         "checks the documents with their surfaces as another shading model", &check.translate},
+        {"accept", 0, ARG_TEXT, "ERROR",
+         "for --translate: an element fails whose pictures before and after differ by more (mean "
+         "CIEDE2000 of three views)",
+         &check.accept},
         {"time-limit", 0, ARG_SIZE, "S",
          "limit in seconds for one step: one element for one target; 0: none (default: 120)",
          &check.time_limit, .high = MAX_TIME_LIMIT},

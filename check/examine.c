@@ -164,8 +164,8 @@ static struct check_note *take_notes(const mxg_diagnostics *list, uint32_t index
     return notes;
 }
 
-static void add_diagnostics(struct examiner *examiner, const mxg_diagnostics *list,
-                            struct check_shader *shader, const char *element)
+void examine_diagnostics(struct examiner *examiner, const mxg_diagnostics *list,
+                         struct check_shader *shader, const char *element)
 {
     examiner->document->num_hidden += mxg_diagnostics_num_errors(list);
     for (uint32_t i = 0; i < mxg_diagnostics_num_items(list); ++i) {
@@ -195,9 +195,8 @@ static void add_diagnostics(struct examiner *examiner, const mxg_diagnostics *li
     }
 }
 
-/* Adds a message for a status without a diagnostic. */
-static void add_status(struct examiner *examiner, mxg_status status, struct check_shader *shader,
-                       const char *element)
+void examine_status(struct examiner *examiner, mxg_status status, struct check_shader *shader,
+                    const char *element)
 {
     if (status == MXG_OK || status == MXG_ERROR_DOCUMENT)
         return;
@@ -228,8 +227,8 @@ static mxg_document *load(struct examiner *examiner, const char *path)
     channel_mark(&examiner->channel, CHECK_LOAD, "", "");
     mxg_status status =
         mxg_document_load(examiner->cli->context, examiner->cli->library, path, &document);
-    add_diagnostics(examiner, mxg_document_diagnostics(document), NULL, NULL);
-    add_status(examiner, status, NULL, NULL);
+    examine_diagnostics(examiner, mxg_document_diagnostics(document), NULL, NULL);
+    examine_status(examiner, status, NULL, NULL);
     if (status != MXG_OK)
         check_fail(&examiner->document->failed, CHECK_LOAD);
     uint32_t count = mxg_document_num_files(document);
@@ -245,8 +244,8 @@ static void validate(struct examiner *examiner, const mxg_document *document)
     mxg_result *result = NULL;
     channel_mark(&examiner->channel, CHECK_VALIDATE, "", "");
     mxg_status status = mxg_validate(examiner->cli->context, document, &result);
-    add_diagnostics(examiner, mxg_result_diagnostics(result), NULL, NULL);
-    add_status(examiner, status, NULL, NULL);
+    examine_diagnostics(examiner, mxg_result_diagnostics(result), NULL, NULL);
+    examine_status(examiner, status, NULL, NULL);
     if (status != MXG_OK)
         check_fail(&examiner->document->failed, CHECK_VALIDATE);
     mxg_result_destroy(result);
@@ -270,8 +269,8 @@ static void generate(struct examiner *examiner, const mxg_document *document,
     mxg_result *result = NULL;
     channel_mark(&examiner->channel, CHECK_GENERATE, element->path, shader->target);
     mxg_status status = mxg_generate(examiner->cli->context, document, &desc, &result);
-    add_diagnostics(examiner, mxg_result_diagnostics(result), shader, element->path);
-    add_status(examiner, status, shader, element->path);
+    examine_diagnostics(examiner, mxg_result_diagnostics(result), shader, element->path);
+    examine_status(examiner, status, shader, element->path);
     if (status != MXG_OK)
         check_fail(&shader->failed, CHECK_GENERATE);
     shader->generate_ms = examine_clock() - begin;
@@ -300,6 +299,8 @@ static void examine_element(struct examiner *examiner, const mxg_document *docum
     }
     if (examiner->render && element->num_shaders && element->shaders[0].failed != CHECK_GENERATE)
         examine_picture(examiner, document, element);
+    if (examiner->accept >= 0 && element->num_shaders)
+        examine_likeness(examiner, element);
 }
 
 const struct check_document *examine(struct examiner *examiner, const char *path)
@@ -313,6 +314,8 @@ const struct check_document *examine(struct examiner *examiner, const char *path
     mxg_document *document = load(examiner, path);
     if (document && record->num_files)
         validate(examiner, document);
+    if (document && examiner->translate)
+        document = examine_translated(examiner, document);
     uint32_t count = mxg_document_num_renderables(document);
     record->elements = store_array(&examiner->store, count, sizeof *record->elements);
     for (uint32_t i = 0; i < count; ++i) {

@@ -11,7 +11,9 @@ struct examiner {
     struct cli *cli;
     struct arg_list targets;
     bool compile, render;
-    size_t memory_limit; /* of this process, in MiB; 0: none */
+    const char *translate; /* the model to which surfaces are translated; NULL: none */
+    double accept;         /* how far they may look from before; below 0: any distance */
+    size_t memory_limit;   /* of this process, in MiB; 0: none */
     struct channel channel;
     bool is_brief;    /* no report needs measures */
     bool errors_only; /* only errors need their printed form */
@@ -47,6 +49,26 @@ void examine_picture(struct examiner *examiner, const mxg_document *document,
  */
 void examine_slabs(struct examiner *examiner, const mxg_document *document,
                    struct check_element *element);
+
+/*
+ * examine_translation.c: the document with its surfaces as examiner->translate; takes `document`.
+ * NULL after a message.
+ */
+mxg_document *examine_translated(struct examiner *examiner, mxg_document *document);
+/* Compares pictures of an element before and after. */
+void examine_likeness(struct examiner *examiner, const struct check_element *element);
+
+/* Adds the messages of a list, for a shader or an element. */
+void examine_diagnostics(struct examiner *examiner, const mxg_diagnostics *list,
+                         struct check_shader *shader, const char *element);
+/* Adds a message for a status without a diagnostic. */
+void examine_status(struct examiner *examiner, mxg_status status, struct check_shader *shader,
+                    const char *element);
+/* Adds an error of the current document about an element, and fails at a stage. */
+void examine_fault(struct examiner *examiner, const char *element, enum check_stage stage,
+                   const char *id, const char *text);
+/* The folder for pictures, which is made once; NULL: it cannot be made. */
+const char *examine_folder(struct examiner *examiner);
 
 /* Adds a message of the current document for a shader and copies its text. */
 void examine_add(struct examiner *examiner, struct check_shader *shader,

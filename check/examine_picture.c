@@ -12,18 +12,31 @@
 
 enum { FRAME = 33 }; /* of images with a frame in their names */
 
+void examine_fault(struct examiner *examiner, const char *element, enum check_stage stage,
+                   const char *id, const char *text)
+{
+    char *rendered = cli_format("%s: error: %s [%s]\n", examiner->document->file, text, id);
+    examine_add(examiner, NULL,
+                (struct check_message){.id = id,
+                                       .text = text,
+                                       .file = examiner->document->file,
+                                       .element = element,
+                                       .rendered = rendered});
+    check_fail(&examiner->document->failed, stage);
+    free(rendered);
+}
+
+const char *examine_folder(struct examiner *examiner)
+{
+    if (!examiner->folder)
+        examiner->folder = folder_temporary("mxgen-check");
+    return examiner->folder;
+}
+
 static void fail(struct examiner *examiner, const struct check_element *element, const char *why)
 {
     char *text = cli_format("cannot render '%s': %s", element->path, why);
-    char *rendered = cli_format("%s: error: %s [render-failed]\n", examiner->document->file, text);
-    examine_add(examiner, NULL,
-                (struct check_message){.id = "render-failed",
-                                       .text = text,
-                                       .file = examiner->document->file,
-                                       .element = element->path,
-                                       .rendered = rendered});
-    check_fail(&examiner->document->failed, CHECK_RENDER);
-    free(rendered);
+    examine_fault(examiner, element->path, CHECK_RENDER, "render-failed", text);
     free(text);
 }
 
@@ -108,18 +121,18 @@ void examine_picture(struct examiner *examiner, const mxg_document *document,
                      struct check_element *element)
 {
     char frame[32];
-    const char *const look[] = {"--size=96", frame, NULL};
+    char *translate =
+        examiner->translate ? cli_format("--translate=%s", examiner->translate) : NULL;
+    const char *const look[] = {"--size=96", frame, translate, NULL};
     double begin = examine_clock();
     struct picture_step step = {examiner, element};
     struct drawn_comparison comparison = {0};
     snprintf(frame, sizeof frame, "--frame=%d", FRAME);
-    if (!examiner->folder)
-        examiner->folder = folder_temporary("mxgen-check");
     const struct drawn_subject subject = {.cli = examiner->cli,
                                           .file = examiner->document->file,
                                           .element = element->path,
                                           .look = look,
-                                          .folder = examiner->folder,
+                                          .folder = examine_folder(examiner),
                                           .begin = begin_picture,
                                           .user_data = &step};
     if (examiner->folder)
@@ -127,5 +140,6 @@ void examine_picture(struct examiner *examiner, const mxg_document *document,
     else
         fail(examiner, element, "there is no folder for pictures");
     drawn_finish(&comparison);
+    free(translate);
     examiner->document->render_ms += examine_clock() - begin;
 }

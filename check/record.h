@@ -20,6 +20,7 @@
     X(PASSED, "passed")     /* no failure */ \
     X(LOAD, "load")         /* the file is no document, or a part of it is missing */ \
     X(VALIDATE, "validate") /* validation against the library */ \
+    X(TRANSLATE, "translate") \
     X(GENERATE, "generate") \
     X(COMPILE, "compile") \
     X(RENDER, "render") \

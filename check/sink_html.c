@@ -172,6 +172,7 @@ static void write_reason(struct markup *out, const struct card *card)
     static const char *const words[NUM_CHECK_STAGES] = {
         [CHECK_LOAD] = "The document cannot be loaded",
         [CHECK_VALIDATE] = "The document does not match the node library",
+        [CHECK_TRANSLATE] = "The document cannot have the other shading model",
         [CHECK_GENERATE] = "mxgen cannot generate the shader",
         [CHECK_COMPILE] = "The compiler rejects the shader",
         [CHECK_RENDER] = "The element cannot be rendered",

@@ -79,6 +79,7 @@ int main(int argc, char **argv)
                                            "Checks documents.", NULL};
     struct cli cli;
     bool no_compile = false;
+    const char *accept = NULL;
     struct examiner examiner = {.cli = &cli};
     int output = take_output();
     parent_follow();
@@ -88,12 +89,15 @@ int main(int argc, char **argv)
         {"target", 't', ARG_LIST, "T", "a target", &examiner.targets},
         {"no-compile", 0, ARG_FLAG, NULL, "does not compile the shaders", &no_compile},
         {"render", 0, ARG_FLAG, NULL, "renders each element", &examiner.render},
+        {"translate", 0, ARG_TEXT, "MODEL", "translates surfaces", &examiner.translate},
+        {"accept", 0, ARG_TEXT, "ERROR", "compares pictures before and after", &accept},
         {"memory-limit", 0, ARG_SIZE, "MIB", "limit of this process", &memory_limit},
     };
     int code;
     if (cli_start(&cli, &command, args, sizeof args / sizeof *args, CLI_GENERATES, argc, argv,
                   &code)) {
         examiner.compile = !no_compile;
+        examiner.accept = accept ? strtod(accept, NULL) : -1;
         cli.report.colour = false;
         examiner.memory_limit = memory_limit;
         if (memory_limit)

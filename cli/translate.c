@@ -2,11 +2,11 @@
 /* mxgen translate: a document with its surfaces as another shading model. */
 #define _POSIX_C_SOURCE 200809L
 #include "cli/commands.h"
-#include "program/drawn.h"
 #include "program/files.h"
 #include "program/folder.h"
 #include "program/outputs.h"
 #include "program/relocate.h"
+#include "program/translated.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -21,35 +21,6 @@ struct translate_args {
 
 /* ---- Pictures ---- */
 
-/* Three views of a ball; the last has lights without an environment. */
-enum { NUM_VIEWS = 3, NUM_VIEW_OPTIONS = 4 };
-static const char *const views[NUM_VIEWS][NUM_VIEW_OPTIONS] = {
-    {"--size=64", "--mesh=sphere", "--camera=25,16"},
-    {"--size=64", "--mesh=sphere", "--camera=150,45"},
-    {"--size=64", "--mesh=sphere", "--camera=-70,5", "--environment=none"},
-};
-
-/* The mean error of the views; below 0: *out_fault has the reason. */
-static double draw_views(struct cli *cli, const char *path, const char *element, const char *model,
-                         const char *folder, char **out_fault)
-{
-    char *translate = cli_format("--translate=%s", model);
-    double sum = 0;
-    for (size_t i = 0; i < NUM_VIEWS && sum >= 0; ++i) {
-        const char *old[NUM_VIEW_OPTIONS + 1] = {0}, *new[NUM_VIEW_OPTIONS + 2] = {translate};
-        memcpy(old, views[i], sizeof views[i]);
-        memcpy(new + 1, views[i], sizeof views[i]);
-        struct drawn_subject one = {
-            .cli = cli, .file = path, .element = element, .look = old, .folder = folder};
-        struct drawn_subject other = one;
-        other.look = new;
-        double error = drawn_difference(&one, &other, out_fault);
-        sum = error < 0 ? error : sum + error;
-    }
-    free(translate);
-    return sum < 0 ? sum : sum / NUM_VIEWS;
-}
-
 /* Draws each renderable before and after, and tells the difference. */
 static void tell_drawn(struct cli *cli, const struct translate_args *args, const char *path,
                        const mxg_document *document)
@@ -59,7 +30,8 @@ static void tell_drawn(struct cli *cli, const struct translate_args *args, const
         mxg_renderable renderable = {.size = sizeof renderable};
         mxg_document_renderable(document, i, &renderable);
         char *fault = NULL;
-        double error = draw_views(cli, path, renderable.path, args->model, folder, &fault);
+        double error =
+            translated_difference(cli, path, renderable.path, args->model, folder, &fault);
         if (error < 0)
             report_error(&cli->report, "no-picture", "there is no drawn error of '%s': %s",
                          renderable.path, fault);

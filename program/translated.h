@@ -13,4 +13,12 @@ mxg_document *translated_load(struct cli *cli, const char *path, const char *mod
 mxg_document *translated_make(struct cli *cli, const mxg_document *from, const char *path,
                               const char *model);
 
+/*
+ * translated_drawn.c: how far an element of a file looks from its translation: the mean CIEDE2000
+ * of three views of a ball. `folder` is for files that do not outlive the call. Below 0: *out_fault
+ * has the reason, which the caller frees.
+ */
+double translated_difference(struct cli *cli, const char *path, const char *element,
+                             const char *model, const char *folder, char **out_fault);
+
 #endif

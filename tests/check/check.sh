@@ -204,6 +204,20 @@ check 'all documents with long paths are answered' says deep.json '{x["status"] 
 rm programs/mxgen-check
 check 'a run without a worker program fails' exits 1 env PATH= programs/mxgen check tree
 check 'a run without a worker program has an id' grep -q '\[check-failed\]' err
+# Another shading model
+cat >paint.mtlx <<'EOF'
+<?xml version="1.0"?>
+<materialx version="1.39">
+  <standard_surface name="S" type="surfaceshader"><input name="coat" type="float" value="1"/><input name="coat_anisotropy" type="float" value="0.5"/></standard_surface>
+</materialx>
+EOF
+check 'documents can be checked as another model' exits 0 "$mxgen" check paint.mtlx --translate gltf_pbr "${quick[@]}" --json model.json
+check 'what is lost is a message of the document' says model.json '[m["id"] for m in d[0]["messages"]]' "['translation-loss']"
+check 'what is lost fails the run where it is an error' eval 'exits 1 "$mxgen" check paint.mtlx --translate gltf_pbr -W error=translation-loss "${quick[@]}" && grep -q "(translate 1)" out'
+check 'a model that nothing makes fails the run' eval 'exits 1 "$mxgen" check paint.mtlx --translate none "${quick[@]}" && grep -q "\[unknown-model\]" out'
+check 'a drawn error is that of a translation' exits 2 "$mxgen" check paint.mtlx --accept 2
+check 'a drawn error is a number' exits 2 "$mxgen" check paint.mtlx --translate gltf_pbr --accept some
+
 printf '#!/bin/sh\nexit 3\n' >programs/mxgen-check && chmod +x programs/mxgen-check
 check 'a worker that cannot begin fails the run' exits 1 programs/mxgen check tree --json nothing.json
 check 'a worker that cannot begin leaves no report' test ! -e nothing.json

@@ -34,4 +34,7 @@ with tempfile.TemporaryDirectory() as folder:
     done = subprocess.run([MXGEN, "translate", ROOT / "examples/gold.mtlx", "--to", "gltf_pbr", "--accept", "0.001", "-o", out],
                           capture_output=True, text=True, check=False)
     check(done.returncode == 1 and "[translation-error]" in done.stderr, "an error above the limit fails")
+    for limit, code in (("2", 0), ("0.001", 1)):
+        done = subprocess.run([MXGEN, "check", ROOT / "examples/gold.mtlx", "--no-compile", "--translate", "gltf_pbr", "--accept", limit], capture_output=True, text=True, check=False)
+        check(done.returncode == code and ("[translation-error]" in done.stdout) == (code == 1), f"a check accepts {limit}: {done.stdout}")
 finish("translate-drawn")
