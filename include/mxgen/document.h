@@ -237,10 +237,10 @@ MXG_API mxg_status mxg_rewrite(mxg_context *context, mxg_rewriting rewriting, co
 /*
  * The document with each surface as one of another model, a node category like "gltf_pbr": its
  * inputs become graphs of the old surface's inputs, and constants where those are. The translations
- * are nodes of the library and of the document (docs/translate.md). mxg_result_text returns the new
- * document as XML; warnings tell what is lost. A surface that has the model already stays.
- * *out_result is set whenever memory allows; with MXG_ERROR_DOCUMENT it has diagnostics but no
- * text.
+ * are nodes of the library and of the document (docs/translate.md); surfaces of closures become
+ * slabs first. mxg_result_text returns the new document as XML; warnings tell what is lost. A
+ * surface that has the model already stays. *out_result is set whenever memory allows; with
+ * MXG_ERROR_DOCUMENT it has diagnostics but no text.
  */
 MXG_API mxg_status mxg_translate(mxg_context *context, const mxg_document *document,
                                  const char *model, mxg_result **out_result);

@@ -99,15 +99,22 @@ static ir_ref diffuse_part(struct taking *t, ir_ref leaf)
     return build_slab_like(t->builder, leaf, ir_mul(g, albedo, ir_arg(g, leaf, 0)));
 }
 
+/* A film on an interface; of several it is the last one. */
+static void take_film(struct taking *t, ir_ref leaf)
+{
+    ir_ref thickness = build_leaf_operand(t->builder, leaf, "thinfilm_thickness");
+    if (!thickness || ir_const_is(t->graph, thickness, 0.0f))
+        return;
+    t->out->film_thickness = thickness;
+    t->out->film_ior = build_leaf_operand(t->builder, leaf, "thinfilm_ior");
+}
+
 /* Notes an input of a closure that no slab has. */
 static void find_lost_input(struct taking *t, ir_ref leaf)
 {
     static const struct {
         const char *name, *word; /* its value where nothing is lost; NULL: 0 */
-    } inputs[] = {{"thinfilm_thickness", NULL},
-                  {"retroreflective", NULL},
-                  {"distribution", "ggx"},
-                  {"mode", "zeltner"}};
+    } inputs[] = {{"retroreflective", NULL}, {"distribution", "ggx"}, {"mode", "zeltner"}};
     for (size_t i = 0; i < sizeof inputs / sizeof *inputs; i++) {
         struct ir_value value;
         ir_ref operand = build_leaf_operand(t->builder, leaf, inputs[i].name);
@@ -143,6 +150,7 @@ static ir_ref reflecting_part(void *user_data, ir_ref ref)
             ir_const_string(t->graph, str_intern_z(t->builder->shader->strings, "R")));
     if (!build_slab_of(t->builder, ref, false, true))
         return diffuse_part(t, ref);
+    take_film(t, ref);
     find_lost_input(t, ref);
     return ref;
 }
@@ -250,9 +258,9 @@ bool build_matter(struct builder *b, const struct closure_host *closures, struct
     ir_ref thin = op == IR_SLAB_SURFACE     ? ir_arg(g, surface, 1)
                   : op == IR_SURFACE_SHADER ? ir_arg(g, surface, 3)
                                             : 0;
-    *out = (struct matter){.is_thin = thin ? thin : ir_const_bool(g, false),
-                           .opacity = parts.alpha ? parts.alpha : ir_const_float(g, 1.0f),
-                           .had_slabs = slabs_has(b->shader, parts.bsdf)};
+    *out = (struct matter){.had_slabs = slabs_has(b->shader, parts.bsdf)};
+    out->is_thin = thin ? thin : ir_const_bool(g, false);
+    out->opacity = parts.alpha ? parts.alpha : ir_const_float(g, 1.0f);
     out->transmits = sum_of_leaves(&t, parts.bsdf, light_through);
     out->emits = sum_of_leaves(&t, parts.edf, emitted_light);
     if (parts.unlit)
@@ -285,6 +293,8 @@ static ir_ref input_of_matter(struct builder *b, const struct matter *m, const c
         ir_ref value;
     } others[] = {{"transmits", m->transmits},
                   {"emits", m->emits},
+                  {"film_thickness", m->film_thickness},
+                  {"film_ior", m->film_ior},
                   {"absorption", m->absorption},
                   {"scattering", m->scattering},
                   {"medium_anisotropy", m->phase_anisotropy},

@@ -22,6 +22,7 @@ struct matter {
     bool is_part;              /* its BSDFs have no slab */
     /* vec3, vec3, float: the medium behind refracted light, absorption and scattering per unit */
     ir_ref absorption, scattering, phase_anisotropy; /* 0: there is none */
+    ir_ref film_thickness, film_ior;  /* floats, of a film on an interface; nanometres. 0: none */
     const char *lost_input, *lost_of; /* an input that no slab has, and its closure; or NULL */
     const char *other; /* a closure that became a diffuse slab: "chiang_hair_bsdf"; NULL: none */
 };
