@@ -25,6 +25,14 @@ static ir_ref axis(struct ir_graph *g, unsigned index)
     return ir_const(g, &value);
 }
 
+/* "dielectric_bsdf" */
+static const char *name_of(struct taking *t, ir_ref leaf)
+{
+    const struct family *family = build_leaf_family(t->builder, ir_get(t->graph, leaf)->attr);
+    const char *name = build_text(t->builder, family->name);
+    return strncmp(name, "mx_", 3) == 0 ? name + 3 : name;
+}
+
 /* ---- Light along the normal ---- */
 
 static ir_ref in_frame(struct taking *t, ir_ref leaf)
@@ -42,9 +50,23 @@ static void take_medium(struct taking *t, ir_ref leaf)
     t->out->phase_anisotropy = closure_call(shader, &t->closures, leaf, LEAF_ANISOTROPY, NULL);
 }
 
+/* Notes what makes light differ by direction. */
+static void find_direction(struct taking *t, ir_ref leaf)
+{
+    static const char *const inputs[] = {"color90", "inner_angle", "file"};
+    for (size_t i = 0; i < sizeof inputs / sizeof *inputs; i++) {
+        if (!build_leaf_operand(t->builder, leaf, inputs[i]))
+            continue;
+        t->out->lost_input = inputs[i];
+        t->out->lost_of = name_of(t, leaf);
+    }
+}
+
 static ir_ref framed_part(void *user_data, ir_ref ref)
 {
     struct taking *t = user_data;
+    if (ir_type_of(t->graph, ref) == IR_TYPE_EDF)
+        find_direction(t, ref);
     if (ir_type_of(t->graph, ref) == IR_TYPE_VDF)
         take_medium(t, ref);
     return ir_get(t->graph, ref)->op == IR_SLAB ? 0 : in_frame(t, ref);
@@ -79,14 +101,6 @@ static ir_ref emitted_light(struct taking *t, ir_ref leaf)
 }
 
 /* ---- What reflects ---- */
-
-/* "dielectric_bsdf" */
-static const char *name_of(struct taking *t, ir_ref leaf)
-{
-    const struct family *family = build_leaf_family(t->builder, ir_get(t->graph, leaf)->attr);
-    const char *name = build_text(t->builder, family->name);
-    return strncmp(name, "mx_", 3) == 0 ? name + 3 : name;
-}
 
 /* A diffuse slab with the albedo of a leaf that no slab stands for. */
 static ir_ref diffuse_part(struct taking *t, ir_ref leaf)

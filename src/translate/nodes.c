@@ -384,6 +384,26 @@ static struct operand write_swizzle(const struct writing *w, ir_ref ref)
     return count == 1 ? channels[0] : combine(w->nodes, result_type(w, ref), channels, count);
 }
 
+/* 1 where a number is at least its edge, else 0. */
+static struct operand write_step(const struct writing *w, ir_ref ref)
+{
+    struct operand edge = arg(w, ref, 0), value = arg(w, ref, 1), channels[4] = {0};
+    unsigned count = ir_type_components(ir_get(w->graph, ref)->type);
+    for (unsigned i = 0; i < count; i++) {
+        struct value_node node = {.category = "ifgreatereq",
+                                  .type = VALUE_FLOAT,
+                                  .num_inputs = 4,
+                                  .names = {"value1", "value2", "in1", "in2"},
+                                  .inputs = {value, edge, number(1.0f), number(0.0f)}};
+        if (count > 1)
+            node.inputs[0] = component(w->nodes, value, i);
+        if (edge.type != VALUE_FLOAT)
+            node.inputs[1] = component(w->nodes, edge, i);
+        channels[i] = add_node(w->nodes, &node);
+    }
+    return count == 1 ? channels[0] : combine(w->nodes, result_type(w, ref), channels, count);
+}
+
 /* ---- The walk ---- */
 
 /* An op without a node of its own, by others; false: there are none. */
@@ -395,6 +415,7 @@ static bool write_special(const struct writing *w, ir_ref ref, struct operand *o
     case IR_MIX: *out = write_mix(w, ref); return true;
     case IR_SELECT: *out = write_choice(w, ref); return type != VALUE_NONE;
     case IR_CONSTRUCT: *out = write_construct(w, ref); return type != VALUE_NONE;
+    case IR_STEP: *out = write_step(w, ref); return type != VALUE_NONE;
     case IR_SWIZZLE: *out = write_swizzle(w, ref); return type != VALUE_NONE;
     case IR_CONVERT: *out = converted(w->nodes, arg(w, ref, 0), type); return type != VALUE_NONE;
     case IR_NEG:

@@ -135,6 +135,13 @@ static void test_conditions(void)
            VALUE_FLOAT,
            "n0 = ifequal boolean value1 u3 value2 1; n1 = not boolean in n0; "
            "n2 = ifequal float value1 u3 value2 1 in1 0.25 in2 0.5; n2");
+    expect("%1 = uniform float @2\n%2 = step float 0.25, %1\nreturn %2\n", VALUE_FLOAT,
+           "n0 = ifgreatereq float value1 u2 value2 0.25 in1 1.0 in2 0.0; n0");
+    expect("%1 = uniform vec3\n%2 = step vec3 0.25, %1\nreturn %2\n", VALUE_COLOR3,
+           "n0 = extract float in u0 index 0; n1 = ifgreatereq float value1 n0 value2 0.25 in1 1.0 "
+           "in2 0.0; n2 = extract float in u0 index 1; n3 = ifgreatereq float value1 n2 value2 "
+           "0.25 in1 1.0 in2 0.0; n4 = extract float in u0 index 2; n5 = ifgreatereq float value1 "
+           "n4 value2 0.25 in1 1.0 in2 0.0; n6 = combine3 color3 in1 n1 in2 n3 in3 n5; n6");
     expect("%1 = uniform bool @4\n%2 = select float %1, 0.5, 0.25\nreturn %2\n", VALUE_FLOAT,
            "n0 = ifequal float value1 u4 value2 true in1 0.5 in2 0.25; n0");
     expect("%1 = uniform vec3\n%2 = eq bool %1, vec3(0.0, 0.0, 0.0)\nreturn %2\n", VALUE_BOOLEAN,

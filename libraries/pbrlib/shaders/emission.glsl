@@ -21,8 +21,8 @@ vec3 mx_conical_edf_emission(vec3 color, vec3 N, float inner_angle, float outer_
 
 // Schlick's curve from color0 facing the viewer to color90 at grazing angles, which scales an emission; the normal
 // is the geometry's own.
-vec3 mx_generalized_schlick_edf_factor(vec3 color0, vec3 color90, float exponent, vec3 V)
+vec3 mx_generalized_schlick_edf_factor(vec3 color0, vec3 color90, float exponent, vec3 N, vec3 V)
 {
-    float cosine = min(abs(dot(normalize(normalWorld), V)), 1.0);
+    float cosine = min(abs(dot(N, V)), 1.0);
     return mix(color0, color90, pow(1.0 - cosine, exponent));
 }
