@@ -157,7 +157,7 @@ static void read_tiling(const struct flat *flat, mxg_element node, struct flat_i
     }
 }
 
-/* Of a place2d that does not turn: (uv - pivot) / scale - offset + pivot; TRS moves first. */
+/* Reads a place2d that does not turn: (uv - pivot) / scale - offset + pivot; TRS moves first. */
 static void read_place(const struct flat *flat, mxg_element node, struct flat_image *out)
 {
     double size[2], offset[2], pivot[2];

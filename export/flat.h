@@ -70,7 +70,7 @@ const struct flat_input *flat_find(const struct flat_material *material, const c
  * frees it.
  */
 char *flat_place(const struct flat *flat, const char *path);
-/* The same for an input of a surface. */
+/* Returns the place of an input of a surface; the caller frees it. */
 char *flat_input_place(const struct flat *flat, const struct flat_material *material,
                        const char *input);
 

@@ -5,7 +5,7 @@
 
 #include "export/flat.h"
 
-/* What a channel has: the number of the image, or a direction's part in place of its angle. */
+/* A channel holds the number of the image, or a part of a direction in place of its angle. */
 enum texture_part { TEXTURE_VALUE, TEXTURE_COSINE, TEXTURE_SINE };
 
 struct texture_channel {
@@ -42,7 +42,7 @@ bool texture_find_range(struct report *report, const struct flat_image *image, f
  */
 bool texture_make(struct report *report, const struct texture *texture, const char *folder,
                   struct texture_file *out);
-/* What two equal textures share. The caller frees it. */
+/* Returns a text that is equal for equal textures. The caller frees it. */
 char *texture_key(const struct texture *texture);
 
 #endif

@@ -58,8 +58,8 @@ const struct usd_file *usd_add_file(struct usd *usd, const char *key, const char
  * reporting an error. */
 bool usd_put_preview(struct usd *usd, const struct flat_material *material, const char *path,
                      struct name_table *names);
-/* The same for the graph of the user's document; nothing of it, with a warning, where USD cannot
- * have all. */
+/* Writes the graph of the user's document in this way; nothing of it, with a warning, where USD
+ * cannot have all. */
 void usd_put_network(struct usd *usd, const struct flat_material *material, const char *path,
                      struct name_table *names);
 

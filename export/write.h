@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* What a writer of a format has. */
+/* The run of a writer of a format. */
 #ifndef MXG_EXPORT_WRITE_H
 #define MXG_EXPORT_WRITE_H
 

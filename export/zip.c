@@ -50,7 +50,7 @@ static uint32_t find_crc(const uint8_t *data, size_t size)
     return ~crc;
 }
 
-/* What both headers have, from the version to the length of the name. */
+/* Writes the part that both headers have, from the version to the length of the name. */
 static void put_common(struct zip_bytes *bytes, const char *name, uint32_t crc, size_t size)
 {
     put_number(bytes, VERSION, 2);

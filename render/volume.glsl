@@ -53,7 +53,7 @@ void scatter_in_volume(inout Path path)
     path.phase = goes_on(path, path.medium.collisions) ? GOING : ENDED;
 }
 
-// The same for a ray to a light.
+// A ray to a light goes through a surface of media in this way, too.
 bool pass_surface(inout Shadow ray, uint number, Hit hit)
 {
     uint side = side_of(hit, ray.direction), at = find_around(number, ray.around, side);

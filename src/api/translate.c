@@ -182,7 +182,7 @@ static void translate_surface(struct translation *t, elem_id surface)
     const struct document *doc = &t->document->layer.doc;
     const char *category = str_text(doc->strings, doc_element(doc, surface)->category);
     t->surface = surface;
-    if (strcmp(category, t->model) != 0 && translate_find_chain(t, category)
+    if (strcmp(category, t->model) != 0 && translate_find_chain(t, category, t->model)
         && translate_is_sound(t)) {
         translate_make_draft(t, mxg_document_find_nodedef(t->document, surface));
         find_values(t);

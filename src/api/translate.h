@@ -100,8 +100,8 @@ void translate_each_surface(struct translation *t,
 bool translate_find_surface(struct translation *t);
 /* Finds the model; false after a diagnostic. */
 bool translate_find_model(struct translation *t);
-/* Fills `chain`; false: no translation leads from the category to the model. */
-bool translate_find_chain(struct translation *t, const char *category);
+/* Fills `chain`; false: no translation leads from the category to the model `to`. */
+bool translate_find_chain(struct translation *t, const char *category, const char *to);
 /* The input or output of a definition by name; false: there is none. */
 bool translate_find_port(const struct translation *t, uint32_t definition, const char *name,
                          bool is_output, mxg_port *out);

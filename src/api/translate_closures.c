@@ -160,22 +160,24 @@ static void take(struct generation *g)
     taken->is_good = diags_of(g)->num_errors == 0;
 }
 
+static bool is_taken(const struct translation *t, const char *name)
+{
+    for (uint32_t i = 0; i < t->sources.len; i++)
+        if (strcmp(t->sources.items[i].port.name, name) == 0)
+            return true;
+    return false;
+}
+
 /* "NG_coat_roughness" for the path "NG/coat/roughness", with a number if another leaf has it. */
 static const char *leaf_name(const struct translation *t, elem_id port)
 {
-    struct text base, name;
-    bool is_free = false;
-    text_init(&base, t->arena);
+    struct text name;
     text_init(&name, t->arena);
-    doc_path(&t->document->layer.doc, port, '_', &base);
-    text_str(&name, text_cstr(&base));
-    for (unsigned number = 2; !is_free; number++) {
-        is_free = true;
-        for (uint32_t i = 0; i < t->sources.len && is_free; i++)
-            is_free = strcmp(t->sources.items[i].port.name, text_cstr(&name)) != 0;
-        name.len = is_free ? name.len : 0;
-        if (!is_free)
-            text_fmt(&name, "%s%u", text_cstr(&base), number);
+    doc_path(&t->document->layer.doc, port, '_', &name);
+    size_t len = name.len;
+    for (unsigned number = 2; is_taken(t, text_cstr(&name)); number++) {
+        name.len = len;
+        text_fmt(&name, "%u", number);
     }
     return text_cstr(&name);
 }
@@ -244,18 +246,20 @@ static void set_direction(struct translation *t, const struct taken *taken,
         translate_set_input(t, input, value);
 }
 
-static uint32_t index_of_output(const struct translation *t, uint32_t definition, const char *name)
+/* The value that a translation gives an input; 0: it has none. */
+static ir_ref result_for(const struct translation *t, uint32_t definition,
+                         const struct taken *taken, const char *input)
 {
     mxg_nodedef info = {.size = sizeof info};
-    mxg_port port = {.size = sizeof port, .name = ""};
+    const char *name = translate_output_name(t, input);
     mxg_document_nodedef(t->document, definition, &info);
-    uint32_t index = 0;
-    for (; index < info.num_outputs; index++) {
-        mxg_document_port(t->document, definition, info.num_inputs + index, &port);
+    for (uint32_t i = 0; i < info.num_outputs; i++) {
+        mxg_port port = {.size = sizeof port};
+        mxg_document_port(t->document, definition, info.num_inputs + i, &port);
         if (strcmp(port.name, name) == 0)
-            break;
+            return taken->results[i];
     }
-    return index;
+    return 0;
 }
 
 static void set_inputs(struct translation *t, uint32_t step, const struct taken *taken)
@@ -265,13 +269,12 @@ static void set_inputs(struct translation *t, uint32_t step, const struct taken 
     t->nodes = (struct value_nodes){.arena = t->arena, .leaf = find_leaf, .user_data = t};
     for (uint32_t i = 0; i < info.num_inputs; i++) {
         struct translated_input input = {.port.size = sizeof input.port};
-        mxg_port output;
         mxg_document_port(t->document, t->definition, i, &input.port);
+        ir_ref value = result_for(t, step, taken, input.port.name);
         if (*input.port.defaultgeomprop)
             set_direction(t, taken, &input);
-        else if (translate_find_port(t, step, translate_output_name(t, input.port.name), true,
-                                     &output))
-            translate_set_input(t, &input, taken->results[index_of_output(t, step, output.name)]);
+        else if (value)
+            translate_set_input(t, &input, value);
         vec_push(t->arena, &t->inputs, input);
     }
 }
@@ -323,8 +326,6 @@ static void report_matter(struct translation *t, const struct matter *matter)
     report_blends(t, &matter->report);
     report_features(t, matter->base);
     report_features(t, matter->coat);
-    if (matter->is_part)
-        translate_report(t, DIAG_ID_translation_closure, "bsdf", NULL);
     if (matter->lost_input)
         report_loss(t, matter->lost_input, matter->lost_of);
     if (matter->other)
@@ -365,7 +366,7 @@ static void translate_one(struct translation *t, elem_id surface)
 static const struct translation_step *first_step(struct translation *t)
 {
     const struct translation_step *step = NULL;
-    bool found = translate_find_chain(t, "slab");
+    bool found = translate_find_chain(t, "slab", t->wanted);
     for (uint32_t i = 0; i < t->steps.len && found; i++)
         if (t->steps.items[i].definition == t->chain.items[0])
             step = &t->steps.items[i];
@@ -378,10 +379,7 @@ static bool is_left(struct translation *t, elem_id surface)
 {
     const struct document *doc = &t->document->layer.doc;
     const char *category = str_text(doc->strings, doc_element(doc, surface)->category);
-    const char *model = t->model;
-    t->model = t->wanted;
-    bool is = strcmp(category, t->wanted) != 0 && !translate_find_chain(t, category);
-    t->model = model;
+    bool is = strcmp(category, t->wanted) != 0 && !translate_find_chain(t, category, t->wanted);
     t->chain.len = 0;
     return is;
 }

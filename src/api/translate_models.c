@@ -125,14 +125,15 @@ static void fill_chain(struct translation *t, const struct reached *all, uint32_
         chain[--len] = t->steps.items[all[at].step].definition;
 }
 
-static bool find_chain(struct translation *t, const char *category, bool are_versioned)
+static bool find_chain(struct translation *t, const char *category, const char *to,
+                       bool are_versioned)
 {
     struct reached *all = ARENA_ARRAY(t->arena, struct reached, t->steps.len + 1);
     uint32_t count = 0;
     all[count++] = (struct reached){category, NO_STEP, NO_STEP};
     /* the nearest first, so the chain is one of the shortest; each step adds one model at most */
     for (uint32_t at = 0; at < count; at++) {
-        if (strcmp(all[at].model, t->model) == 0) {
+        if (strcmp(all[at].model, to) == 0) {
             fill_chain(t, all, at);
             return true;
         }
@@ -149,7 +150,7 @@ static bool find_chain(struct translation *t, const char *category, bool are_ver
     return false;
 }
 
-bool translate_find_chain(struct translation *t, const char *category)
+bool translate_find_chain(struct translation *t, const char *category, const char *to)
 {
-    return find_chain(t, category, true) || find_chain(t, category, false);
+    return find_chain(t, category, to, true) || find_chain(t, category, to, false);
 }

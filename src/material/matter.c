@@ -150,8 +150,10 @@ static ir_ref reflecting_part(void *user_data, ir_ref ref)
 {
     struct taking *t = user_data;
     struct ir_value mode;
-    if (ir_get(t->graph, ref)->op == IR_SLAB || ir_type_of(t->graph, ref) != IR_TYPE_BSDF)
+    if (ir_get(t->graph, ref)->op == IR_SLAB)
         return ref;
+    if (ir_type_of(t->graph, ref) != IR_TYPE_BSDF) /* a medium, which take_medium knows */
+        return 0;
     ir_ref operand = build_leaf_operand(t->builder, ref, "scatter_mode");
     const char *word = operand && ir_get_const(t->graph, operand, &mode)
                            ? build_text(t->builder, mode.w[0].u)
@@ -250,7 +252,6 @@ static void find_slabs(struct taking *t, struct arena *scratch, ir_ref bsdf)
         out->base = only_slab(t, scratch, whole, &coverage);
     }
     out->opacity = ir_mul(g, out->opacity, coverage);
-    out->is_part = !out->base;
 }
 
 /* ---- The surface ---- */

@@ -19,7 +19,6 @@ struct matter {
     ir_ref is_thin; /* bool */
     bool had_slabs; /* before other closures became slabs */
     struct slab_report report; /* what was blended */
-    bool is_part;              /* its BSDFs have no slab */
     /* vec3, vec3, float: the medium behind refracted light, absorption and scattering per unit */
     ir_ref absorption, scattering, phase_anisotropy; /* 0: there is none */
     ir_ref film_thickness, film_ior;  /* floats, of a film on an interface; nanometres. 0: none */

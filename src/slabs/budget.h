@@ -16,7 +16,7 @@ struct slab_budget {
     float max_error; /* mean CIEDE2000; cheaper until the next step is above it. Below 0: none */
     uint32_t off;    /* features that are turned off before, as bits */
     bool recognises; /* all closures become slabs before */
-    bool blends_all; /* operators that cost nothing are blended, too */
+    bool blends_all; /* in the end all operators, until a slab is left */
     /* the first steps alone, those of the document too, whatever the limits; below 0: all */
     int32_t max_steps;
 };

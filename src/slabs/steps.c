@@ -105,7 +105,9 @@ static struct slab_candidate blend_at(const struct slab_saver *s, const struct s
 
 static bool is_worth(enum slab_choice choice, struct slab_cost after, struct slab_cost before)
 {
-    return choice == SLAB_CHEAPER ? is_lower(after, before) : !slab_cost_is_higher(after, before);
+    return choice == SLAB_ANY
+           || (choice == SLAB_ASKED ? !slab_cost_is_higher(after, before)
+                                    : is_lower(after, before));
 }
 
 /*

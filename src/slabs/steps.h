@@ -51,7 +51,7 @@ bool slab_cost_is_higher(struct slab_cost cost, struct slab_cost than);
 enum slab_choice {
     SLAB_CHEAPER, /* if the tree is cheaper then */
     SLAB_ASKED,   /* those that the document asks for, if the tree is not costlier then */
-    SLAB_ANY      /* all, if the tree is not costlier then */
+    SLAB_ANY      /* all, whatever the tree costs then */
 };
 /* The deepest of them; where operators share slabs, several may go in one step. */
 struct slab_candidate slab_next_blend(const struct slab_saver *saver, enum slab_choice choice);

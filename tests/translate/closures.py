@@ -118,6 +118,12 @@ def test_slabs():
     check(metal is not None and metal.get("nodegraph") is not None and "second_roughness" not in said, f"one of two slabs is a choice of values: {said}")
 
 
+    fuzzy = node("slab", "fuzzy", "BSDF", port("fuzz_amount", "float", "0.5"))
+    brushed = node("slab", "brushed", "BSDF", port("anisotropy", "float", "0.5"), port("second_roughness_weight", "float", "0.5"), port("f0", "color3", "0.9, 0.9, 0.9"))
+    root, _ = translate(either + fuzzy + brushed + node("slab_select", "top", "BSDF", port("in1", "BSDF", node="fuzzy"), port("in2", "BSDF", node="brushed"), port("mask", "float", node="u")))
+    check(any(i.get("name") == "fuzz_weight" for i in surface(root).findall("input")), "a choice of slabs that has more features than each of them")
+
+
 def test_connections():
     graph = '<nodegraph name="G">' + node("image", "i", "color3", port("file", "filename", "none.png")) + node("normalmap", "m", "vector3") \
         + node("oren_nayar_diffuse_bsdf", "d", "BSDF", port("color", "color3", node="i"), port("normal", "vector3", node="m")) \
