@@ -266,7 +266,9 @@ typedef enum mxg_bindings_format {
     MXG_BINDINGS_TABLE, /* a line for each primitive */
     MXG_BINDINGS_TABLE_COLOUR,
     MXG_BINDINGS_JSON,
-    MXG_BINDINGS_USDA, /* slot bindings; MXG_ERROR_DOCUMENT after all is written: some are lost */
+    /* a layer over the stage with slot bindings; MXG_ERROR_DOCUMENT after all is written: some are
+     * lost */
+    MXG_BINDINGS_USDA,
     MXG_BINDINGS_FORMAT_MAX_ENUM = 0x7fffffff
 } mxg_bindings_format;
 /* Writes all bindings as text, in pieces. Stops when `write` returns false. */

@@ -30,7 +30,7 @@ elem_id maker_add_free(struct maker *m, elem_id parent, const char *category, st
     str_id id = str_intern(m->doc->strings, name->data, len);
     for (unsigned suffix = 2;
          doc_child(m->doc, parent, id)
-         || (parent == m->doc->root && scene_has_material(m->scene, text_cstr(name)));
+         || (parent == m->doc->root && scene_material_named(m->scene, text_cstr(name)));
          suffix++) {
         name->len = len;
         text_fmt(name, "_%u", suffix);

@@ -7,7 +7,7 @@
 
 void scene_init(struct scene *scene, uint32_t max_prims, struct arena *arena)
 {
-    *scene = (struct scene){.arena = arena, .max_prims = max_prims};
+    *scene = (struct scene){.arena = arena, .max_prims = max_prims, .purpose = ""};
     vec_push(arena, &scene->prims, (struct scene_prim){.name = ""});
     vec_push(arena, &scene->words, "");
     text_init(&scene->written, arena);

@@ -82,6 +82,7 @@ struct scene {
     struct table material_prims; /* prim → 1 + index of its material */
     VEC(struct scene_source) sources;
     VEC(uint32_t) first_source; /* by primitive: 1 + index; shorter than prims: 0 */
+    const char *purpose;        /* whose bindings it has: "full", "preview"; "": of all purposes */
     const char *slot_order;     /* with commas; NULL: the scene has none */
     struct diag_place slot_order_place;
     VEC(const char *) words; /* those that a host gives again and again */
@@ -184,8 +185,8 @@ void scene_read_usda(struct scene *scene, const char *file, const char *text, si
 void scene_name_materials(struct scene *scene);
 /* The material at a path of the layer, also below an instance; NULL: none. */
 const struct scene_material *scene_material_at(const struct scene *scene, struct text_word path);
-/* True if a material of the layer has this name in documents. */
-bool scene_has_material(const struct scene *scene, const char *name);
+/* The material of the layer that has this name in documents; NULL: none. */
+const struct scene_material *scene_material_named(const struct scene *scene, const char *name);
 /* The first material whose prim has this name, and the one after it; NULL: none. */
 const struct scene_material *scene_namesakes(const struct scene *scene, struct text_word name);
 const struct scene_material *scene_next_namesake(const struct scene *scene,

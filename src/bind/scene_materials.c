@@ -52,33 +52,25 @@ static void add_material(struct scene *scene, usda_prim_id prim, bool is_graph)
     table_add(&scene->material_prims, scene->arena, hash_pair(prim, 0), added);
 }
 
-bool scene_has_material(const struct scene *scene, const char *name)
+const struct scene_material *scene_material_named(const struct scene *scene, const char *name)
 {
     uint32_t hash = hash_bytes(name, strlen(name));
     for (uint32_t at = hash, found; (found = table_next(&scene->material_names, hash, &at));)
         if (strcmp(scene->materials.items[found - 1].name, name) == 0)
-            return true;
-    return false;
+            return &scene->materials.items[found - 1];
+    return NULL;
 }
 
 /* The path of a prim with '_' in the place of '/', and a number behind one that is taken. */
 static const char *long_name(struct scene *scene, usda_prim_id prim)
 {
-    const struct usda_prim *prims = scene->layer.prims.items;
-    usda_prim_id chain[USDA_MAX_DEPTH];
-    uint32_t num = 0;
     struct text text;
     text_init(&text, scene->arena);
-    for (; prim && num < USDA_MAX_DEPTH; prim = prims[prim].parent)
-        chain[num++] = prim;
-    while (num) {
-        text_str(&text, text.len ? "_" : "");
-        text_put(&text, prims[chain[--num]].name);
-    }
+    usda_join(&scene->layer, prim, '_', &text);
     size_t len = text.len;
     for (unsigned suffix = 2;; suffix++) {
         const struct text_word name = {text_cstr(&text), text.len};
-        if (!scene_has_material(scene, name.bytes) && !scene_namesakes(scene, name))
+        if (!scene_material_named(scene, name.bytes) && !scene_namesakes(scene, name))
             return name.bytes;
         text.len = len;
         text_fmt(&text, "_%u", suffix);

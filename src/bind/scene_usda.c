@@ -557,6 +557,7 @@ void scene_read_usda(struct scene *scene, const char *file, const char *text, si
     if (s.layer->prims.items[0].arc.len)
         diag_add(diags, DIAG_ID_usda_arc, place_of(&s, 1, 1), file,
                  text_of(&s, s.layer->prims.items[0].arc));
+    scene->purpose = scene_keep_word(scene, (struct text_word){purpose, strlen(purpose)});
     scene_name_materials(scene);
     read_slot_order(&s);
     push_children(&s, 0, (struct visit){0});

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The bindings of a look as slot bindings of USD: a layer with all primitives, in which a primitive
- * says what its parent does not (docs/slots.md, "In USD").
+ * The bindings of a look as slot bindings of USD: a layer of overs, to be sublayered on the stage
+ * (docs/slots.md, "In USD"). A primitive says what its parent does not. Where the stage itself
+ * binds at a primitive, the layer says the same names again, because its opinion has to be the
+ * stronger one.
  */
 #include "bind/bind.h"
 #include "usda/text.h"
@@ -10,7 +12,7 @@
 
 /* The values that a primitive has of one name. */
 struct said {
-    uint32_t name, target;
+    uint32_t name, target; /* target 0: None */
 };
 
 struct said_list {
@@ -18,12 +20,18 @@ struct said_list {
     uint32_t len, cap;
 };
 
+enum { SAYS = 1, SAYS_BELOW = 2 }; /* what a primitive has in the layer */
+
 struct usda_writer {
     struct bind_writer *w;
     struct usda_text text;
-    struct said_list own, above;
-    VEC(uint32_t) materials; /* marks by assignment target, in order of appearance */
+    struct said_list own, above, changes; /* of the primitive at hand */
+    VEC(uint32_t) materials;              /* targets that the stage lacks, in order of appearance */
     struct table seen;
+    uint32_t *name_of; /* by binding of the scene: 1 + its name; 0: it is no assignment */
+    uint8_t *says;     /* by primitive: bits of SAYS */
+    prim_id first;     /* the default prim; 0: none */
+    struct text looks; /* the name of the scope of `materials` */
     uint32_t num_lost; /* items that slot bindings cannot hold */
 };
 
@@ -52,6 +60,71 @@ static const struct said *find_said(const struct said_list *list, uint32_t name)
     return NULL;
 }
 
+/* ---- What a primitive says ---- */
+
+/*
+ * The bindings of the stage that the layer replaces: all, or with a purpose those for it, which
+ * beat the others.
+ */
+static bool is_replaced(const struct usda_writer *u, const struct scene_binding *binding)
+{
+    return !binding->is_removed && (!*u->w->b->scene->purpose || binding->is_purpose);
+}
+
+/* Adds a name with what the primitive has of it. */
+static void add_change(struct usda_writer *u, uint32_t name)
+{
+    const struct said *own = find_said(&u->own, name);
+    if (!find_said(&u->changes, name))
+        vec_push(u->w->scratch, &u->changes, (struct said){name, own ? own->target : 0});
+}
+
+/* Adds the names of the stage's own bindings here. True if one of them stands in a collection. */
+static bool add_bound(struct usda_writer *u, prim_id prim)
+{
+    const struct scene *scene = u->w->b->scene;
+    bool has_collection = false;
+    for (uint32_t at = scene_first_binding(scene, prim); at;) {
+        const struct scene_binding *binding = &scene->bindings.items[at - 1];
+        if (is_replaced(u, binding) && binding->is_collection)
+            has_collection = true;
+        else if (is_replaced(u, binding) && u->name_of[at - 1])
+            add_change(u, u->name_of[at - 1] - 1);
+        at = binding->next;
+    }
+    return has_collection;
+}
+
+/* Finds what a primitive says; false: nothing. */
+static bool find_changes(struct usda_writer *u, prim_id prim)
+{
+    const struct bindings *b = u->w->b;
+    prim_id parent = b->scene->prims.items[prim].parent;
+    const struct bind_state *own = bind_state_of(b, prim),
+                            *above = parent ? bind_state_of(b, parent) : NULL;
+    u->own.len = u->above.len = u->changes.len = 0;
+    if (own == above && !scene_first_binding(b->scene, prim))
+        return false;
+    if (above)
+        collect(u, above, &u->above);
+    collect(u, own, &u->own);
+    for (uint32_t i = 0; i < u->own.len; i++) {
+        const struct said *said = &u->own.items[i], *inherited = find_said(&u->above, said->name);
+        if (!inherited || inherited->target != said->target)
+            add_change(u, said->name);
+    }
+    for (uint32_t i = 0; i < u->above.len; i++)
+        if (!find_said(&u->own, u->above.items[i].name))
+            add_change(u, u->above.items[i].name);
+    /* a binding for a purpose beats all others, so roots have one of each name */
+    for (uint32_t i = 0; i < b->scene->bindings.len && !parent && *b->scene->purpose; i++)
+        if (u->name_of[i])
+            add_change(u, u->name_of[i] - 1);
+    return add_bound(u, prim) || u->changes.len;
+}
+
+/* ---- Materials ---- */
+
 static struct text_word target_name(const struct usda_writer *u, uint32_t target)
 {
     const struct document *doc = u->w->b->look.doc;
@@ -59,8 +132,15 @@ static struct text_word target_name(const struct usda_writer *u, uint32_t target
     return (struct text_word){name, strlen(name)};
 }
 
+static const struct scene_material *material_of_stage(const struct usda_writer *u, uint32_t target)
+{
+    return scene_material_named(u->w->b->scene, target_name(u, target).bytes);
+}
+
 static void note_material(struct usda_writer *u, uint32_t target)
 {
+    if (!target || material_of_stage(u, target))
+        return;
     for (uint32_t at = target, found; (found = table_next(&u->seen, target, &at));)
         if (u->materials.items[found - 1] == target)
             return;
@@ -68,68 +148,163 @@ static void note_material(struct usda_writer *u, uint32_t target)
     table_add(&u->seen, u->w->scratch, target, u->materials.len);
 }
 
+static void put_name_of(struct usda_writer *u, prim_id prim)
+{
+    const struct scene_prim *at = &u->w->b->scene->prims.items[prim];
+    usda_put_name(&u->text, (struct text_word){at->name, at->name_len});
+}
+
+static void put_target(struct usda_writer *u, uint32_t target)
+{
+    const struct scene_material *material = material_of_stage(u, target);
+    usda_put(&u->text, "</");
+    if (material) {
+        usda_join(&u->w->b->scene->layer, material->prim, '/', u->text.out);
+    } else {
+        put_name_of(u, u->first);
+        usda_put(&u->text, "/");
+        text_put(u->text.out, (struct text_word){u->looks.data, u->looks.len});
+        usda_put(&u->text, "/");
+        usda_put_name(&u->text, target_name(u, target));
+    }
+    usda_put(&u->text, ">");
+}
+
+/* The prim below the default prim that has the materials, as the stage has it; 0: it has none. */
+static usda_prim_id find_looks(struct usda_writer *u)
+{
+    struct text path;
+    text_init(&path, u->w->scratch);
+    scene_path(u->w->b->scene, u->first, &path);
+    text_fmt(&path, "/%s", text_cstr(&u->looks));
+    return usda_find(&u->w->b->scene->layer, path.data, path.len);
+}
+
+/* Names the scope "Looks", unless the layer has a prim of this name for another reason. */
+static void name_looks(struct usda_writer *u)
+{
+    const struct scene *scene = u->w->b->scene;
+    text_init(&u->looks, u->w->scratch);
+    text_str(&u->looks, "Looks");
+    for (unsigned suffix = 2;; suffix++) {
+        prim_id taken = scene_find_child(scene, u->first, u->looks.data, u->looks.len);
+        if (!taken || !u->says[taken])
+            return;
+        u->looks.len = strlen("Looks");
+        text_fmt(&u->looks, "_%u", suffix);
+    }
+}
+
+/* The materials that the stage lacks: prims that a layer with their networks fills. */
+static void put_materials(struct usda_writer *u)
+{
+    const struct document *doc = u->w->b->look.doc;
+    if (!u->materials.len)
+        return;
+    usda_put(&u->text, find_looks(u) ? "    over \"" : "    def Scope \"");
+    usda_put(&u->text, text_cstr(&u->looks));
+    usda_put(&u->text, "\"\n    {\n");
+    for (uint32_t i = 0; i < u->materials.len; i++) {
+        bool is_graph = doc_element(doc, u->materials.items[i])->kind == KIND_NODEGRAPH;
+        usda_put(&u->text, is_graph ? "        def NodeGraph \"" : "        def Material \"");
+        usda_put_name(&u->text, target_name(u, u->materials.items[i]));
+        usda_put(&u->text, "\"\n        {\n        }\n");
+    }
+    usda_put(&u->text, "    }\n");
+}
+
+/* ---- Properties ---- */
+
 /* Slot 000, which a tool without slots knows as the plain binding. */
 static bool is_base(const struct usda_writer *u, uint32_t name)
 {
-    return strcmp(u->w->b->look.names.items[name].text, "000") == 0;
+    return strcmp(u->w->b->look.names.items[name].text, SLOT_DEFAULT) == 0;
 }
 
-/*
- * `material:slotBinding:_050 = </Looks/Dust>`, or of slot 000 `material:binding`; target 0: None.
+/* `rel material:binding = </set/Looks/Dust>`; it is weak, also where that of the stage is strong.
  */
-static void put_binding(struct usda_writer *u, uint32_t depth, uint32_t name, uint32_t target)
+static void put_relation(struct usda_writer *u, uint32_t depth, const char *property,
+                         uint32_t target, bool was_strong)
 {
-    struct usda_text *out = &u->text;
-    bool is_plain = target && is_base(u, name);
-    usda_put_indent(out, depth);
-    usda_put(out, is_plain ? "rel material:binding" : "rel material:slotBinding:");
+    usda_put_indent(&u->text, depth);
+    usda_put(&u->text, "rel ");
+    usda_put(&u->text, property);
+    usda_put(&u->text, " = ");
+    if (target)
+        put_target(u, target);
+    else
+        usda_put(&u->text, "None");
+    usda_put(&u->text, was_strong ? " (bindMaterialAs = \"weakerThanDescendants\")\n" : "\n");
+}
+
+/* "material:slotBinding:_050:full", or of slot 000 "material:binding:full". */
+static const char *property_of(struct usda_writer *u, struct said said)
+{
+    const char *purpose = u->w->b->scene->purpose;
+    struct text text;
+    text_init(&text, u->w->scratch);
+    bool is_plain = said.target && is_base(u, said.name);
+    text_str(&text, is_plain ? "material:binding" : "material:slotBinding:");
     if (!is_plain)
-        slot_encode(&u->w->b->look.names.items[name].name, out->out);
-    if (target) {
-        usda_put(out, " = </Looks/");
-        usda_put_name(out, target_name(u, target));
-        usda_put(out, ">\n");
-        note_material(u, target);
-    } else {
-        usda_put(out, " = None\n");
-    }
+        slot_encode(&u->w->b->look.names.items[said.name].name, &text);
+    text_str(&text, *purpose ? ":" : "");
+    text_str(&text, purpose);
+    return text_cstr(&text);
 }
 
-/* The bindings of slot 000, or all others, that differ from those above. */
-static void put_changes(struct usda_writer *u, uint32_t depth, bool of_base)
+/* The name of a binding's property: what stands behind the path in "/a.material:binding". */
+static const char *bound_property(const struct scene_binding *binding)
 {
-    for (uint32_t i = 0; i < u->own.len; i++) {
-        const struct said *said = &u->own.items[i], *inherited = find_said(&u->above, said->name);
-        if (is_base(u, said->name) == of_base && (!inherited || inherited->target != said->target))
-            put_binding(u, depth, said->name, said->target);
+    return strrchr(binding->label, '.') + 1;
+}
+
+/* Says a name, in its property and in those that the stage has for it. */
+static void put_change(struct usda_writer *u, prim_id prim, uint32_t depth, struct said said)
+{
+    const struct scene *scene = u->w->b->scene;
+    const char *property = property_of(u, said);
+    bool is_said = false;
+    for (uint32_t at = scene_first_binding(scene, prim), next; at; at = next) {
+        const struct scene_binding *binding = &scene->bindings.items[at - 1];
+        next = binding->next;
+        if (binding->is_collection || !is_replaced(u, binding)
+            || u->name_of[at - 1] != said.name + 1)
+            continue;
+        put_relation(u, depth, bound_property(binding), said.target, binding->is_strong);
+        is_said |= strcmp(bound_property(binding), property) == 0;
+    }
+    if (!is_said)
+        put_relation(u, depth, property, said.target, false);
+}
+
+/* Collections of the stage bind nothing any more: their members have bindings of their own. */
+static void put_collections(struct usda_writer *u, prim_id prim, uint32_t depth)
+{
+    const struct scene *scene = u->w->b->scene;
+    for (uint32_t at = scene_first_binding(scene, prim); at;) {
+        const struct scene_binding *binding = &scene->bindings.items[at - 1];
+        if (binding->is_collection && is_replaced(u, binding))
+            put_relation(u, depth, bound_property(binding), 0, false);
+        at = binding->next;
     }
 }
 
+/* Slot 000 comes last: tools without slots let the last binding win. */
 static void put_bindings(struct usda_writer *u, prim_id prim, uint32_t depth)
 {
-    const struct bindings *b = u->w->b;
-    prim_id parent = b->scene->prims.items[prim].parent;
-    const struct bind_state *own = bind_state_of(b, prim),
-                            *above = parent ? bind_state_of(b, parent) : NULL;
-    if (own == above)
-        return;
-    u->above.len = 0;
-    if (above)
-        collect(u, above, &u->above);
-    collect(u, own, &u->own);
-    put_changes(u, depth, false);
-    for (uint32_t i = 0; i < u->above.len; i++)
-        if (!find_said(&u->own, u->above.items[i].name))
-            put_binding(u, depth, u->above.items[i].name, 0);
-    /* tools without slots let the last one win */
-    put_changes(u, depth, true);
+    find_changes(u, prim);
+    put_collections(u, prim, depth);
+    for (unsigned of_base = 0; of_base < 2; of_base++)
+        for (uint32_t i = 0; i < u->changes.len; i++)
+            if (is_base(u, u->changes.items[i].name) == (of_base != 0))
+                put_change(u, prim, depth, u->changes.items[i]);
 }
 
 /* The slotorder of the look, or of the scene itself. */
 static void put_order(struct usda_writer *u)
 {
     const struct bind_look *look = &u->w->b->look;
-    if (!look->order_parts.len)
+    if (!look->order_parts.len && !u->w->b->scene->slot_order)
         return;
     usda_put_indent(&u->text, 1);
     usda_put(&u->text, "uniform token[] material:slotOrder = [");
@@ -140,66 +315,136 @@ static void put_order(struct usda_writer *u)
     usda_put(&u->text, "]\n");
 }
 
-/* The names of the materials, which a file with their networks may fill. */
-static void put_materials(struct usda_writer *u)
-{
-    const struct document *doc = u->w->b->look.doc;
-    if (!u->materials.len)
-        return;
-    usda_put(&u->text, "over \"Looks\"\n{\n");
-    for (uint32_t i = 0; i < u->materials.len; i++) {
-        bool is_graph = doc_element(doc, u->materials.items[i])->kind == KIND_NODEGRAPH;
-        usda_put(&u->text, is_graph ? "    over NodeGraph \"" : "    over Material \"");
-        usda_put_name(&u->text, target_name(u, u->materials.items[i]));
-        usda_put(&u->text, "\"\n    {\n    }\n");
-    }
-    usda_put(&u->text, "}\n");
-}
+/* ---- Prims ---- */
 
-static void put_prim_name(struct usda_writer *u, prim_id prim)
-{
-    const struct scene_prim *at = &u->w->b->scene->prims.items[prim];
-    usda_put(&u->text, "\"");
-    usda_put_name(&u->text, (struct text_word){at->name, at->name_len});
-    usda_put(&u->text, "\"\n");
-}
-
-/* Opens a primitive, and closes the bodies that end before `next`; 0: all. */
-static void put_prim(struct usda_writer *u, prim_id prim, prim_id next)
+/* Overs below an instance count only if it is none. */
+static bool is_instance(const struct usda_writer *u, prim_id prim)
 {
     const struct scene *scene = u->w->b->scene;
-    uint32_t depth = scene_depth(scene, prim), open = next ? scene_depth(scene, next) : 1;
-    usda_put_indent(&u->text, depth - 1);
-    usda_put(&u->text, "def ");
-    put_prim_name(u, prim);
-    usda_put_indent(&u->text, depth - 1);
+    for (uint32_t i = scene_source(scene, prim); i; i = scene->sources.items[i - 1].next)
+        if (scene->layer.prims.items[scene->sources.items[i - 1].prim].is_instance)
+            return true;
+    return false;
+}
+
+static void put_metadata(struct usda_writer *u, prim_id prim, uint32_t depth)
+{
+    bool binds = u->says[prim] & SAYS, splits = u->says[prim] & SAYS_BELOW && is_instance(u, prim);
+    if (!binds && !splits)
+        return;
+    usda_put(&u->text, " (\n");
+    if (binds) {
+        usda_put_indent(&u->text, depth + 1);
+        usda_put(&u->text, "prepend apiSchemas = [\"MaterialBindingAPI\"]\n");
+    }
+    if (splits) {
+        usda_put_indent(&u->text, depth + 1);
+        usda_put(&u->text, "instanceable = false\n");
+    }
+    usda_put_indent(&u->text, depth);
+    usda_put(&u->text, ")");
+}
+
+/* Opens a primitive, and says all but what stands below it. */
+static void open_prim(struct usda_writer *u, prim_id prim)
+{
+    uint32_t depth = scene_depth(u->w->b->scene, prim) - 1;
+    usda_put_indent(&u->text, depth);
+    usda_put(&u->text, "over \"");
+    put_name_of(u, prim);
+    usda_put(&u->text, "\"");
+    put_metadata(u, prim, depth);
+    usda_put(&u->text, "\n");
+    usda_put_indent(&u->text, depth);
     usda_put(&u->text, "{\n");
-    if (prim == scene->prims.items[0].first_child)
+    if (prim == u->first)
         put_order(u);
-    put_bindings(u, prim, depth);
-    for (; depth >= open; depth--) {
-        usda_put_indent(&u->text, depth - 1);
+    if (u->says[prim] & SAYS)
+        put_bindings(u, prim, depth + 1);
+    if (prim == u->first)
+        put_materials(u);
+}
+
+static void close_prims(struct usda_writer *u, uint32_t open, uint32_t depth)
+{
+    while (open > depth) {
+        usda_put_indent(&u->text, --open);
         usda_put(&u->text, "}\n");
     }
 }
 
+/* Finds the primitives that the layer has. */
+static void mark_prims(struct usda_writer *u)
+{
+    const struct scene *scene = u->w->b->scene;
+    for (prim_id prim = scene_next(scene, 0); prim; prim = scene_next(scene, prim)) {
+        if (!find_changes(u, prim))
+            continue;
+        u->says[prim] |= SAYS;
+        for (uint32_t i = 0; i < u->changes.len; i++)
+            note_material(u, u->changes.items[i].target);
+        for (prim_id p = scene->prims.items[prim].parent; p && !(u->says[p] & SAYS_BELOW);
+             p = scene->prims.items[p].parent)
+            u->says[p] |= SAYS_BELOW;
+    }
+    if (u->first && !u->says[u->first])
+        u->says[u->first] = SAYS_BELOW;
+    name_looks(u);
+}
+
+/* The default prim of the stage, or its first one; 0: it has no primitives. */
+static prim_id find_first(const struct scene *scene)
+{
+    struct text_word name = scene->layer.default_prim;
+    prim_id found = name.len ? scene_find_child(scene, 0, name.bytes, name.len) : 0;
+    return found ? found : scene->prims.items[0].first_child;
+}
+
+/* A layer that opens a stage says its unit and axis itself: those of sublayers do not count. */
+static void put_head(struct usda_writer *u)
+{
+    const struct usda_layer *layer = &u->w->b->scene->layer;
+    usda_put(&u->text, "#usda 1.0\n(\n");
+    if (u->first) {
+        usda_put(&u->text, "    defaultPrim = \"");
+        put_name_of(u, u->first);
+        usda_put(&u->text, "\"\n");
+    }
+    if (layer->meters_per_unit.len) {
+        usda_put(&u->text, "    metersPerUnit = ");
+        text_put(u->text.out, layer->meters_per_unit);
+        usda_put(&u->text, "\n");
+    }
+    if (layer->up_axis.len) {
+        usda_put(&u->text, "    upAxis = ");
+        usda_put_string(&u->text, layer->up_axis);
+        usda_put(&u->text, "\n");
+    }
+    usda_put(&u->text, ")\n");
+}
+
 uint32_t bind_write_usda(struct bind_writer *w)
 {
-    const struct scene *scene = w->b->scene;
-    struct usda_writer u = {.w = w, .text = {.out = w->out}};
-    prim_id first = scene->prims.items[0].first_child;
-    usda_put(&u.text, "#usda 1.0\n(\n");
-    if (first) {
-        usda_put(&u.text, "    defaultPrim = ");
-        put_prim_name(&u, first);
-    }
-    usda_put(&u.text, ")\n");
-    for (prim_id prim = scene_next(scene, 0), next; prim; prim = next) {
-        next = scene_next(scene, prim);
-        put_prim(&u, prim, next);
+    const struct bindings *b = w->b;
+    const struct scene *scene = b->scene;
+    struct usda_writer u = {.w = w, .text = {.out = w->out}, .first = find_first(scene)};
+    u.name_of = ARENA_ARRAY(w->scratch, uint32_t, scene->bindings.len);
+    u.says = ARENA_ARRAY(w->scratch, uint8_t, scene->prims.len);
+    for (uint32_t i = 0; i < b->look.assigns.len; i++)
+        if (b->look.assigns.items[i].binding)
+            u.name_of[b->look.assigns.items[i].binding - 1] = b->look.assigns.items[i].name + 1;
+    mark_prims(&u);
+    put_head(&u);
+    uint32_t open = 0;
+    for (prim_id prim = scene_next(scene, 0); prim; prim = scene_next(scene, prim)) {
+        if (!u.says[prim])
+            continue;
+        close_prims(&u, open, scene_depth(scene, prim) - 1);
+        open_prim(&u, prim);
+        open = scene_depth(scene, prim);
         if (w->flush)
             w->flush(w->user_data, w->out);
     }
-    put_materials(&u);
+    close_prims(&u, open, 0);
     return u.num_lost + u.text.num_changed;
 }

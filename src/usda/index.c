@@ -168,3 +168,17 @@ const struct usda_property *usda_find_attribute(const struct usda_layer *layer,
         layer, (usda_prim_id)(prim - layer->prims.items), (struct text_word){name, strlen(name)});
     return named && named->attribute ? &layer->properties.items[named->attribute] : NULL;
 }
+
+void usda_join(const struct usda_layer *layer, usda_prim_id prim, char between, struct text *out)
+{
+    const struct usda_prim *prims = layer->prims.items;
+    usda_prim_id chain[USDA_MAX_DEPTH];
+    uint32_t num = 0;
+    for (; prim && num < USDA_MAX_DEPTH; prim = prims[prim].parent)
+        chain[num++] = prim;
+    while (num--) {
+        text_put(out, prims[chain[num]].name);
+        if (num)
+            text_char(out, between);
+    }
+}

@@ -151,7 +151,7 @@ static bool is_arc(struct text_word name)
 struct metadata {
     struct text_word references, arc, bind_as, interpolation, color_space, default_prim, up_axis,
         unit;
-    bool is_inactive;
+    bool is_inactive, is_instance;
 };
 
 /* The metadata whose value is a word in quotes. */
@@ -181,6 +181,8 @@ static void keep_metadata(struct metadata *out, struct text_word name, struct te
         out->unit = value;
     else if (usda_is(name, "active"))
         out->is_inactive = usda_is(value, "false") || usda_is(value, "0");
+    else if (usda_is(name, "instanceable"))
+        out->is_instance = usda_is(value, "true") || usda_is(value, "1");
     else if (keep_word(out, name, value))
         return;
     else if (is_arc(name) && !usda_is(value, "None") && !usda_is(value, "[]"))
@@ -365,6 +367,7 @@ static void read_prim(struct parser *p, uint8_t specifier)
     prim.references = metadata.references;
     prim.arc = metadata.arc;
     prim.is_inactive = metadata.is_inactive;
+    prim.is_instance = metadata.is_instance;
     add_prim(p, prim);
     open_body(p, 'p');
 }

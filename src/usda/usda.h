@@ -34,6 +34,7 @@ struct usda_prim {
     uint8_t specifier; /* enum usda_specifier */
     bool is_variant;   /* it stands in a variant set */
     bool is_inactive;  /* active = false */
+    bool is_instance;  /* instanceable = true */
 };
 
 /* What a prim has under a name. */
@@ -89,6 +90,9 @@ static inline uint32_t usda_end_property(const struct usda_prim *prim)
 usda_prim_id usda_find(const struct usda_layer *layer, const char *path, size_t len);
 /* As usda_find, where a prim also has the children of its references inside the layer. */
 usda_prim_id usda_find_composed(const struct usda_layer *layer, const char *path, size_t len);
+
+/* Writes the names of a prim and of those above it: "a/b" with '/' between them. */
+void usda_join(const struct usda_layer *layer, usda_prim_id prim, char between, struct text *out);
 
 /*
  * Reads the paths or words of a list value, "[</a>, </b>]" or "</a>", one after the other: `at` is

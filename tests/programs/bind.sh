@@ -273,7 +273,7 @@ check 'a collection counts only at or below its primitive' row '/outside default
 check 'a collection may have a purpose' exits 0 "$mxgen" bind materials.mtlx --stage collections.usda --purpose full
 check 'a collection of the purpose beats the others' row '/s/a (000 Clay) (050 Dust) (::010 Clay)'
 check 'reasons of a primitive in collections are printed' exits 0 "$mxgen" bind materials.mtlx --stage collections.usda --geom /s/a
-check 'a collection that is missing is an error' eval 'sed -i "s/s.collection:metal>/s.collection:mteal>/" collections.usda; fails bad-binding materials.mtlx --stage collections.usda'
+check 'a collection that is missing is an error' eval 'sed "s/s.collection:metal>/s.collection:mteal>/" collections.usda >odd.usda; fails bad-binding materials.mtlx --stage odd.usda'
 
 # Materials of the stage: a network, the same as nodes of MaterialX.
 cat >network.usda <<'USD'
@@ -414,31 +414,48 @@ cp "$mxgen" alone/mxgen
 check 'a stage of OBJ fails without the renderer' exits 1 env PATH=/nonexistent LD_LIBRARY_PATH="$(dirname "$mxgen")" alone/mxgen bind obj.mtlx --stage one.obj
 check 'the error is no-renderer' grep -qF '[no-renderer]' err
 
-# Looks as slot bindings of USD: reading them again gives the same stacks.
+# Looks as slot bindings of USD: a layer over the stage, with which the stage has the same stacks.
 cat >stacks.py <<'PY'
 import json, sys
 read = lambda file: {p["path"]: (p["stack"], [l["slot"] for l in p["layers"]]) for p in json.load(open(file))["primitives"]}
-assert read(sys.argv[1]) == read(sys.argv[2]), (read(sys.argv[1]), read(sys.argv[2]))
+before, after = read(sys.argv[1]), read(sys.argv[2])
+assert before == {path: after.get(path) for path in before}, (before, after)
 PY
 # round_trip DOCUMENT STAGE OPTION...: the look of a document as USD, and back, with the document's materials alone.
 round_trip() {
     exits 0 "$mxgen" bind "$1" --stage "$2" --json before.json --usda round.usda "${@:3}" || return
     sed "s|href=\"\([^/]\)|href=\"$examples/slots/\1|" "$1" | python3 -c 'import re, sys; print(re.sub(r"<look [^>]*/>|<look .*?</look>", "", sys.stdin.read(), flags=re.S))' >without.mtlx
-    exits 0 "$mxgen" bind without.mtlx --stage round.usda --json after.json && python3 stacks.py before.json after.json
+    again "$2" without.mtlx
+}
+# again STAGE ARGUMENT...: the stage with round.usda over it has the stacks of before.json.
+again() {
+    python3 "$here/sublayer.py" round.usda "$1" >composed.usda
+    exits 0 "$mxgen" bind --stage composed.usda --json after.json "${@:2}" && python3 stacks.py before.json after.json
 }
 check 'a stage comes back from USD' round_trip materials.mtlx stage.usda
 check 'a look comes back from USD' round_trip "$looks" "$receiver" --look finished
 check 'writing USD gives no warning' test ! -s err
-check 'a primitive of the USD has only what is new' eval '! grep -A4 "def \"bar_1\"" round.usda | grep -q _050'
-check 'slot 000 is the plain binding' grep -q 'rel material:binding = </Looks/ribbed_steel>' round.usda
+check 'a primitive of the USD has only what is new' eval '! grep -A6 "over \"bar_1\"" round.usda | grep -q _050'
+check 'slot 000 is the plain binding' grep -q 'rel material:binding = </receiver/Looks/ribbed_steel>' round.usda
 check 'the plain binding is the last one of its prim' eval '! grep -A1 "rel material:binding = " round.usda | grep -q slotBinding'
 check 'slot 000 is written once' eval '! grep -q "slotBinding:_000 = <" round.usda'
 check 'the USD removes slots' grep -q 'material:slotBinding:_050 = None' round.usda
-check 'the USD names overrides' grep -q 'rel material:slotBinding:_000:_:_020 = </Looks/red_color>' round.usda
-check 'the USD names vertical layers' grep -q 'rel material:slotBinding:_000:over:_010 = </Looks/varnish>' round.usda
+check 'the USD names overrides' grep -q 'rel material:slotBinding:_000:_:_020 = </receiver/Looks/red_color>' round.usda
+check 'the USD names vertical layers' grep -q 'rel material:slotBinding:_000:over:_010 = </receiver/Looks/varnish>' round.usda
 sed "s|<look name=\"default\"/>|<look name=\"default\" slotorder=\"050, 000, 010, 020, 040\"/>|; s|href=\"|&$examples/slots/|" "$looks" >ordered.mtlx
+check 'primitives with bindings have the schema of them' awk '/over "/ { schema = 0 } /MaterialBindingAPI/ { schema = 1 } /^ *rel / && !schema { exit 1 }' round.usda
+check 'materials that the stage lacks are prims below the default prim' eval 'grep -A1 "^    def Scope \"Looks\"" round.usda && grep -q "^        def NodeGraph \"red_color\"" round.usda'
 check 'a look with a slotorder comes back from USD' round_trip ordered.mtlx "$receiver" --look finished
 check 'the USD has the slotorder' grep -q 'uniform token\[\] material:slotOrder = \["050", "000"' round.usda
+sed 's|<materialassign material="Clay" geom="/left"/>|<materialassign material="Dust" geom="/set/shelf"/><materialassign slot="base" material="" geom="/set/cup"/><materialassign slot="_1" material="Clay" geom="/set/table/leg"/>|' obj.mtlx >shelf.mtlx
+check 'a look over bindings of the stage comes back' round_trip shelf.mtlx stage.usda
+check 'bindings that were strong are weak' eval 'grep -A3 "over \"shelf\"" round.usda && grep -q "rel material:binding = </set/Looks/Dust> (bindMaterialAs = \"weakerThanDescendants\")" round.usda'
+check 'an instance with other bindings below it is none' eval 'grep -A4 "over \"table\"" round.usda | grep -q "instanceable = false"'
+check 'materials of the stage keep their paths' grep -qF '</Clay>' round.usda
+check 'a purpose has bindings of its own' eval 'exits 0 usd --purpose full --json before.json --usda round.usda && again stage.usda materials.mtlx --purpose full && ! grep "rel " round.usda | grep -v ":full = "'
+check 'those for all purposes stay' eval 'exits 0 usd --json before.json && again stage.usda materials.mtlx'
+check 'collections of the stage do not bind beside the layer' eval 'exits 0 "$mxgen" bind materials.mtlx --stage collections.usda --json before.json --usda round.usda && again collections.usda materials.mtlx && grep -q "rel material:binding:collection:[a-z]* = None" round.usda'
+check 'a slot alone comes back' eval 'exits 0 usd --solo dust --json before.json --usda round.usda && again stage.usda materials.mtlx'
 check 'a look with variants gives USD' exits 0 bind --usda lossy.usda
 check 'a warning says that variants are lost' grep -qF '[usda-loss]' err
 check 'USD in a folder that is missing fails' exits 1 bind --usda none/out.usda

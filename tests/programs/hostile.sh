@@ -69,7 +69,7 @@ printf '<materialx version="1.39"><surface name="s" type="surfaceshader"/><surfa
 printf '%s\n' /a '/b" (references = @evil.usd@) {}' '/b_(references = @evil.usd@) {}' '/1' /é >usd.txt
 check 'bind --usda writes hostile names' exits 0 "$mxgen" bind usd.mtlx --stage usd.txt --usda usd.usda
 check 'a warning tells that names are changed' grep -q '\[usda-loss\]' err
-check 'names of USD are identifiers' eval 'sed "s/\"\(\\\\.\|[^\"\\]\)*\"//g" usd.usda >bare && ! grep -q "@" bare && [ "$(grep -c "^def " usd.usda)" -eq 5 ]'
+check 'names of USD are identifiers' eval 'sed "s/\"\(\\\\.\|[^\"\\]\)*\"//g" usd.usda >bare && ! grep -q "@" bare && [ "$(grep -c "^over " usd.usda)" -eq 5 ]'
 check 'the stage can be read' exits 0 "$mxgen" bind --stage usd.usda scene.mtlx --look L
 
 # Files that are written.
