@@ -301,10 +301,12 @@ static bool put_primitives(const struct stacks *s, FILE *out)
         }
         mxg_scene_primitive_path(s->stage.scene, i, path, capacity);
         json_t *text = json_text(path);
-        char *name = stack_name(s, mxg_bindings_stack(s->stage.bindings, i));
+        uint32_t stack = mxg_bindings_stack(s->stage.bindings, i);
+        char *name = stack == MXG_NONE ? NULL : stack_name(s, stack);
         fputs(i ? ",\n    {\"path\":" : "\n    {\"path\":", out);
         json_dumpf(text, out, JSON_ENCODE_ANY | JSON_COMPACT);
-        fprintf(out, ",\"stack\":\"%s\"", name);
+        if (name)
+            fprintf(out, ",\"stack\":\"%s\"", name);
         put_facts(s, i, out);
         fputs("}", out);
         json_decref(text);

@@ -157,6 +157,7 @@ void site_close(struct site *site)
     for (uint32_t i = 0; i < site->num_cameras; ++i)
         free(site->cameras[i].path);
     free(site->cameras);
+    free(site->instances);
     free(site->lights);
     image_finish(&site->dome);
     free(site->objects);

@@ -9,9 +9,17 @@
 #include "program/cli.h"
 #include "render/studio.h"
 
+/* An instance of a PointInstancer, as long as objects are parts of it. */
+struct site_instance {
+    uint32_t instancer, above; /* above: the instance around it, 1 + index; 0: none */
+    size_t number;
+    double id;
+};
+
 struct site_object {
     struct scene_object object;
     uint32_t primitive;        /* of the scene */
+    uint32_t instance;         /* the innermost one, 1 + index; 0: none */
     bool is_shared;            /* an object before it has the mesh and the primvars */
     uint32_t num_own_primvars; /* the last ones, which are of an instance alone */
 };
@@ -29,6 +37,9 @@ struct site {
     mxg_scene *scene;
     struct site_object *objects;
     uint32_t num_objects, capacity;
+    struct site_instance *instances; /* in the order of the walk */
+    uint32_t num_instances, instance_capacity;
+    uint32_t num_primitives; /* of the scene, without those of instances that a look names */
     struct site_camera *cameras;
     uint32_t num_cameras;
     struct scene_light *lights;
@@ -82,6 +93,8 @@ struct scene_object *site_add(struct site *site, uint32_t primitive, struct matr
 void site_repeat(struct site *site, uint32_t first, uint32_t num, struct matrix world);
 /* The path of a primitive, which the caller frees. */
 char *site_path(const mxg_scene *scene, uint32_t primitive);
+/* The primitive whose layers an object has: that of its instance, if a look names it. */
+uint32_t site_bound_primitive(const struct site *site, const struct site_object *object);
 /* Reports a fault of a primitive, at the property's place if it is not NULL. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 4, 5)))

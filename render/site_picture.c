@@ -80,10 +80,11 @@ bool site_subjects_make(struct painter *painter, const struct site *site,
     out->items = memory_alloc(site->num_objects * sizeof *out->items);
     out->objects = memory_alloc(site->num_objects * sizeof *out->objects);
     uint32_t num = 0;
-    for (uint32_t i = 0; i < site->num_objects; ++i)
-        if (is_visible(out->bindings, site->objects[i].primitive))
-            dressed[num++] =
-                (struct dressed){mxg_bindings_stack(out->bindings, site->objects[i].primitive), i};
+    for (uint32_t i = 0; i < site->num_objects; ++i) {
+        uint32_t primitive = site_bound_primitive(site, &site->objects[i]);
+        if (is_visible(out->bindings, primitive))
+            dressed[num++] = (struct dressed){mxg_bindings_stack(out->bindings, primitive), i};
+    }
     qsort(dressed, num, sizeof *dressed, compare_dressed);
     group(site, document, path, dressed, num, out);
     if (!num)

@@ -51,21 +51,13 @@ struct visit {
     uint32_t primitive;
     struct matrix parent;
     uint32_t depth;    /* of instancers around it */
-    uint32_t instance; /* 1 + index in `instances`; 0: none */
-};
-
-/* An instance that is drawn, in the order of the walk. */
-struct instance {
-    uint32_t instancer, above; /* above: the instance around it, as in struct visit */
-    size_t number;
+    uint32_t instance; /* 1 + index in the instances of the site; 0: none */
 };
 
 struct walk {
     struct site *site;
     struct visit *visits;
     size_t num_visits, capacity, num_instances;
-    struct instance *instances; /* of the instancers around what is visited, and others */
-    uint32_t num_drawn, room;
     struct made *made; /* by primitive */
 };
 
@@ -151,9 +143,14 @@ static int compare_numbers(const void *a, const void *b)
     return x < y ? -1 : x > y;
 }
 
+static double id_of(const struct instances *instances, size_t i)
+{
+    return i < instances->num_ids ? instances->ids[i] : (double)i;
+}
+
 static bool is_invisible(const struct instances *instances, size_t i)
 {
-    double id = i < instances->num_ids ? instances->ids[i] : (double)i;
+    double id = id_of(instances, i);
     return instances->num_hidden
            && bsearch(&id, instances->hidden, instances->num_hidden, sizeof id, compare_numbers);
 }
@@ -211,14 +208,16 @@ static struct matrix instance_matrix(const struct instances *instances, size_t i
     return out;
 }
 
-static uint32_t add_instance(struct walk *walk, struct visit at, size_t number)
+static uint32_t add_instance(struct site *site, struct visit at, size_t number, double id)
 {
-    if (walk->num_drawn == walk->room) {
-        walk->room = walk->room ? 2 * walk->room : 64;
-        walk->instances = memory_resize(walk->instances, walk->room * sizeof *walk->instances);
+    if (site->num_instances == site->instance_capacity) {
+        site->instance_capacity = site->instance_capacity ? 2 * site->instance_capacity : 64;
+        site->instances =
+            memory_resize(site->instances, site->instance_capacity * sizeof *site->instances);
     }
-    walk->instances[walk->num_drawn++] = (struct instance){at.primitive, at.instance, number};
-    return walk->num_drawn;
+    site->instances[site->num_instances++] =
+        (struct site_instance){at.primitive, at.instance, number, id};
+    return site->num_instances;
 }
 
 static void add_instances(struct walk *walk, struct visit at, struct matrix world)
@@ -242,19 +241,21 @@ static void add_instances(struct walk *walk, struct visit at, struct matrix worl
         }
         if (!is_invisible(&in, i))
             push(walk, (struct visit){prototype, matrix_multiply(world, instance_matrix(&in, i)),
-                                      at.depth + 1, add_instance(walk, at, i)});
+                                      at.depth + 1, add_instance(site, at, i, id_of(&in, i))});
     }
     free_instances(&in);
 }
 
-/* Adds the primvars of the instances that objects are parts of; the innermost first. */
-static void add_instance_primvars(struct walk *walk, uint32_t first, uint32_t instance)
+/* Notes the instances that objects are parts of, and adds their primvars; the innermost first. */
+static void set_instance(struct walk *walk, uint32_t first, uint32_t instance)
 {
     struct site *site = walk->site;
-    for (; instance; instance = walk->instances[instance - 1].above)
+    for (uint32_t i = first; i < site->num_objects; ++i)
+        site->objects[i].instance = instance;
+    for (; instance; instance = site->instances[instance - 1].above)
         for (uint32_t i = first; i < site->num_objects; ++i)
-            usd_add_instance_primvars(site, walk->instances[instance - 1].instancer,
-                                      walk->instances[instance - 1].number, &site->objects[i]);
+            usd_add_instance_primvars(site, site->instances[instance - 1].instancer,
+                                      site->instances[instance - 1].number, &site->objects[i]);
 }
 
 /* Adds the geometry of a primitive, for the first time or again. */
@@ -279,7 +280,7 @@ static void add_geometry(struct walk *walk, struct visit at, const char *type, s
 {
     uint32_t first = walk->site->num_objects;
     add_objects(walk, at.primitive, type, world);
-    add_instance_primvars(walk, first, at.instance);
+    set_instance(walk, first, at.instance);
 }
 
 static void visit(struct walk *walk, struct visit at)
@@ -315,6 +316,7 @@ void site_read_usd(struct site *site)
     mxg_primitive at = {sizeof at};
     uint32_t num = mxg_scene_num_primitives(site->scene);
     walk.made = memory_alloc(num * sizeof *walk.made);
+    site->num_primitives = num;
     for (uint32_t i = num; i-- > 0;) { /* roots in their order: the first is visited first */
         mxg_scene_primitive(site->scene, i, &at);
         if (at.parent == UINT32_MAX)
@@ -323,6 +325,23 @@ void site_read_usd(struct site *site)
     while (walk.num_visits && !site->has_fault)
         visit(&walk, walk.visits[--walk.num_visits]);
     free(walk.made);
-    free(walk.instances);
     free(walk.visits);
+}
+
+uint32_t site_bound_primitive(const struct site *site, const struct site_object *object)
+{
+    uint32_t found = MXG_NONE;
+    if (mxg_scene_num_primitives(site->scene) == site->num_primitives)
+        return object->primitive;
+    for (uint32_t i = object->instance; i && found == MXG_NONE; i = site->instances[i - 1].above) {
+        const struct site_instance *instance = &site->instances[i - 1];
+        char *instancer = site_path(site->scene, instance->instancer);
+        for (char *c = instancer; *c; ++c)
+            *c = *c == '/' ? ':' : *c;
+        char *path = cli_format("%s/%s[%.0f]", object->object.path, instancer + 1, instance->id);
+        found = mxg_scene_find_primitive(site->scene, path);
+        free(path);
+        free(instancer);
+    }
+    return found == MXG_NONE ? object->primitive : found;
 }

@@ -186,7 +186,9 @@ typedef struct mxg_bindings_desc {
 #define MXG_BINDINGS_DESC_INIT MXG_INIT(mxg_bindings_desc)
 
 /*
- * Finds the layers of each primitive of a scene. desc may be NULL: all defaults. *out_bindings is
+ * Finds the layers of each primitive of a scene. Instances of a PointInstancer that the document
+ * names, "/set/forest[12]", become primitives of the scene. desc may be NULL: all defaults.
+ * *out_bindings is
  * set whenever memory allows; with MXG_ERROR_DOCUMENT the faulty assignments are missing.
  */
 MXG_API mxg_status mxg_bindings_create(mxg_context *context, const mxg_document *document,
@@ -227,7 +229,10 @@ typedef struct mxg_layer {
 MXG_API uint32_t mxg_bindings_num_layers(const mxg_bindings *bindings, uint32_t primitive);
 MXG_API mxg_status mxg_bindings_layer(const mxg_bindings *bindings, uint32_t primitive,
                                       uint32_t index, mxg_layer *out);
-/* Primitives with equal layers have the same stack. MXG_NONE: there is no such primitive. */
+/*
+ * Primitives with equal layers have the same stack. MXG_NONE: there is no such primitive, or it is
+ * a group of a stage, and nothing that is drawn has its layers.
+ */
 MXG_API uint32_t mxg_bindings_num_stacks(const mxg_bindings *bindings);
 MXG_API uint32_t mxg_bindings_stack(const mxg_bindings *bindings, uint32_t primitive);
 /*

@@ -49,6 +49,16 @@ static void resolve(void *arg)
     result->is_resolved = true;
 }
 
+/* The instances that the document names become primitives: a change of the scene. */
+static void add_instances(void *arg)
+{
+    struct bind_job *job = arg;
+    struct mxg_scene *scene = job->result->scene;
+    uint32_t num = scene->scene.prims.len;
+    scene_add_instances(&scene->scene, &job->result->document->layer.doc);
+    scene->version += scene->scene.prims.len != num;
+}
+
 mxg_status mxg_bindings_create(mxg_context *context, const mxg_document *document, mxg_scene *scene,
                                const mxg_bindings_desc *desc, mxg_bindings **out_bindings)
 {
@@ -66,10 +76,14 @@ mxg_status mxg_bindings_create(mxg_context *context, const mxg_document *documen
     result->document = document;
     result->scene = scene;
     object_ref(&scene->object);
-    result->version = scene->version;
     job.result = result;
     arena_init(&job.scratch, &result->object.mem);
-    mxg_status status = object_run(&result->object, resolve, &job);
+    mxg_status status = scene_has_instancers(&scene->scene)
+                            ? object_run(&scene->object, add_instances, &job)
+                            : MXG_OK;
+    result->version = scene->version;
+    if (status == MXG_OK)
+        status = object_run(&result->object, resolve, &job);
     arena_finish(&job.scratch);
     bindings_finish(&result->bindings);
     bindings_finish(&result->facts);

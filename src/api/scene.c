@@ -257,22 +257,14 @@ mxg_status mxg_scene_primitive(const mxg_scene *scene, uint32_t index, mxg_primi
     if (!has_primitive(scene, index))
         return MXG_ERROR_ARGUMENT;
     const struct scene_prim *prim = &scene->scene.prims.items[index + 1];
+    struct text_word type = scene_type(&scene->scene, index + 1);
     mxg_primitive full = {.parent = scene_number(prim->parent),
                           .first_child = scene_number(prim->first_child),
                           .next_sibling = scene_number(prim->next),
                           .name = prim->name,
                           .name_len = prim->name_len,
-                          .type = ""};
-    if (index + 1 < scene->scene.types.len && scene->scene.types.items[index + 1])
-        full.type = scene->scene.types.items[index + 1];
-    full.type_len = strlen(full.type);
-    for (uint32_t i = scene_source(&scene->scene, index + 1); i && !full.type_len;
-         i = scene->scene.sources.items[i - 1].next) {
-        const struct text_word type =
-            scene->scene.layer.prims.items[scene->scene.sources.items[i - 1].prim].type;
-        full.type = type.len ? type.bytes : "";
-        full.type_len = type.len;
-    }
+                          .type = type.len ? type.bytes : "",
+                          .type_len = type.len};
     return struct_write(out, &full, sizeof full);
 }
 

@@ -72,6 +72,8 @@ static void mark_matches(struct again *a, uint32_t number)
     const struct look_matcher *m = &look->matchers.items[number];
     const char *list = m->list;
     struct text whole;
+    prim_id instancer;
+    int64_t id;
     text_init(&whole, a->w->scratch);
     for (uint32_t i = 0; i < m->num_prims; i++)
         mark(a, look->matched.items[m->first_prim + i]);
@@ -79,6 +81,9 @@ static void mark_matches(struct again *a, uint32_t number)
         whole.len = 0;
         text_str(&whole, m->prefix);
         text_put(&whole, name);
+        if (scene_parse_instance(a->w->b->scene, (struct text_word){whole.data, whole.len},
+                                 &instancer, &id))
+            continue; /* all primitives of instances are unknown */
         if (!pattern_is_path(text_cstr(&whole), whole.len)) {
             /* a faulty one, which is reported, matches nothing */
             a->has_added |= !pattern_add(&a->w->b->added, text_cstr(&whole), whole.len, number);
@@ -140,7 +145,7 @@ static void mark_patterns(struct again *a)
     pattern_walk_init(&walk, &a->w->b->added, a->w->scratch);
     for (;;) {
         uint32_t num;
-        pattern_walk_matches(&walk, prim && !prims[prim].first_child, &num);
+        pattern_walk_matches(&walk, prim && scene_is_leaf(a->w->b->scene, prim), &num);
         if (num)
             mark(a, prim);
         if (!num && prims[prim].first_child && pattern_walk_is_alive(&walk)) {
@@ -218,6 +223,8 @@ void walk_take_states(struct state_walk *w, const struct bindings *before)
         mark_patterns(&a);
     mark_new(&a);
     mark_emptied(&a);
+    for (uint32_t i = 0; i < b->scene->instances.len; i++)
+        mark(&a, b->scene->instances.items[i].node);
     a.states = ARENA_ARRAY(w->scratch, uint32_t, before->states.len);
     memset(a.states, 0xff, before->states.len * sizeof *a.states);
     for (prim_id prim = 0; prim < before->num_prims; prim++)

@@ -37,9 +37,10 @@ struct bind_entry {
 struct bind_state {
     uint32_t first_entry, num_entries; /* sorted by matcher */
     uint32_t first_item, num_items;    /* base first */
-    uint32_t stack;
-    prim_id first_prim; /* 0: no primitive has it */
+    uint32_t stack;                    /* STACK_NONE: only groups have these layers */
+    prim_id first_prim;                /* 0: no primitive has it */
 };
+#define STACK_NONE UINT32_MAX
 
 struct bind_stack {
     uint32_t state; /* one with its items */
@@ -118,9 +119,11 @@ struct layer_notes {
     uint32_t *sleeps_at; /* by name: 1 + a state where it sleeps */
     bool *has_layer;     /* by layer number: a state has it */
 };
-/* Fills the items and the stack of a state. */
+/* Fills the items of a state. */
 void bind_layers(struct bindings *b, uint32_t state, struct stands *stands,
                  struct layer_notes *notes);
+/* Finds the stack of a state; `adds` a new one if there is none. */
+void bind_stack(struct bindings *b, uint32_t state, bool adds, struct arena *scratch);
 /* The variants that apply to an assignment's material, in order; a later one wins. */
 struct variant_list {
     struct look_variant *items;

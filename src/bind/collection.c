@@ -46,6 +46,8 @@ static void read_geometry_name(struct list *list, struct look_matcher matcher, c
         vec_push(look->arena, &look->matchers, matcher);
         list->matcher = look->matchers.len;
     }
+    if (look_match_instance(look, (struct text_word){whole.data, whole.len}, list->matcher - 1))
+        return;
     const char *fault =
         pattern_add(&look->patterns, text_cstr(&whole), whole.len, list->matcher - 1);
     look->matchers.items[list->matcher - 1].has_fault |= fault != NULL;

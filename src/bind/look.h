@@ -51,6 +51,12 @@ struct look_assign {
     bool is_shared;   /* exclusive="false" */
 };
 
+/* A primitive of an instance that a matcher names. */
+struct look_instance {
+    prim_id prim;
+    uint32_t matcher;
+};
+
 struct look_variant {
     elem_id set, variant;
 };
@@ -88,7 +94,8 @@ struct bind_look {
     const struct scene *scene;
     struct pattern_set patterns;
     VEC(struct look_matcher) matchers;
-    VEC(prim_id) matched;            /* primitives that matchers name one by one */
+    VEC(prim_id) matched; /* primitives that matchers name one by one */
+    VEC(struct look_instance) instances;
     VEC(struct look_assign) assigns; /* a stronger one stands behind a weaker one */
     VEC(struct look_name) names;     /* sorted: base first; a slot, its overrides, its verticals */
     struct table name_table;
@@ -177,6 +184,18 @@ uint32_t look_read_geometry(struct bind_look *look, elem_id element, str_id attr
 
 /* The next name of a list of geometry, without blanks; empty at its end. Moves the list on. */
 struct text_word look_next_name(const char **list);
+
+/* ---- instances.c ---- */
+
+/* Adds the primitives of the instances that a document names. */
+void scene_add_instances(struct scene *scene, const struct document *doc);
+/* Adds the primitives of the instance that a name is to a matcher; false: it is no instance. */
+bool look_match_instance(struct bind_look *look, struct text_word name, uint32_t matcher);
+/* Sorts them by primitive, for look_instances_of. */
+void look_sort_instances(struct bind_look *look);
+/* The matchers that name an instance's primitive, ascending. */
+const struct look_instance *look_instances_of(const struct bind_look *look, prim_id prim,
+                                              uint32_t *out_num);
 
 /* order.c: reads the slotorder of look->order into `order_parts`, and reports its faults. */
 void look_read_order(struct bind_look *look);

@@ -103,7 +103,7 @@ static void put_row(struct bind_writer *w, prim_id prim, size_t width)
         put_cell(w, &place, &place.items[i]);
     }
     if (!place.num_items)
-        text_str(w->out, "default");
+        text_str(w->out, scene_is_group(w->b->scene, prim) ? "-" : "default");
     text_char(w->out, '\n');
 }
 
@@ -277,8 +277,10 @@ static void put_primitive(struct bind_writer *w, struct json *json, prim_id prim
     json_open_flat(json, '{');
     json_key(json, "path");
     put_path(w, prim);
-    json_key(json, "stack");
-    put_stack_name(w, bind_state_of(w->b, prim)->stack);
+    if (bind_state_of(w->b, prim)->stack != STACK_NONE) {
+        json_key(json, "stack");
+        put_stack_name(w, bind_state_of(w->b, prim)->stack);
+    }
     json_key(json, "layers");
     json_open(json, '[');
     for (uint32_t i = 0; i < place.num_items; i++) {
@@ -309,7 +311,8 @@ static struct members find_members(const struct bind_writer *w)
     for (uint32_t i = 1; i < b->stacks.len; i++)
         m.ends[i] = m.ends[i - 1] + b->stacks.items[i - 1].num_prims;
     for (prim_id prim = scene_next(b->scene, 0); prim; prim = scene_next(b->scene, prim))
-        m.items[m.ends[bind_state_of(b, prim)->stack]++] = prim;
+        if (bind_state_of(b, prim)->stack != STACK_NONE)
+            m.items[m.ends[bind_state_of(b, prim)->stack]++] = prim;
     return m;
 }
 

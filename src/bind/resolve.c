@@ -140,6 +140,21 @@ static void warn(struct resolver *r)
 
 /* ---- The whole ---- */
 
+/* The stacks of all primitives that are drawn make those that there are; groups may share them. */
+static void make_stacks(struct resolver *r, bool of_drawn)
+{
+    struct bindings *b = r->b;
+    for (prim_id prim = 1; prim < b->num_prims; prim++) {
+        uint32_t number = b->state_of[prim];
+        if (!scene_has(b->scene, prim) || scene_is_group(b->scene, prim) == of_drawn)
+            continue;
+        if (b->states.items[number].stack == STACK_NONE)
+            bind_stack(b, number, of_drawn, r->scratch);
+        if (b->states.items[number].stack != STACK_NONE)
+            b->stacks.items[b->states.items[number].stack].num_prims++;
+    }
+}
+
 /*
  * The layers of each state that a primitive has. The order of the primitives decides that of the
  * stacks, whatever the order of the states is.
@@ -158,8 +173,9 @@ static void make_layers(struct resolver *r)
             b->states.items[number].first_prim = prim;
             bind_layers(b, number, &stands, &r->notes);
         }
-        b->stacks.items[b->states.items[number].stack].num_prims++;
     }
+    make_stacks(r, true);
+    make_stacks(r, false);
 }
 
 void bind_resolve(struct bindings *b, const struct document *doc, elem_id look,

@@ -126,6 +126,31 @@ void scene_set_type(struct scene *scene, prim_id prim, struct text_word type)
     scene->types.items[prim] = kept;
 }
 
+struct text_word scene_type(const struct scene *scene, prim_id prim)
+{
+    const char *given = prim < scene->types.len ? scene->types.items[prim] : NULL;
+    struct text_word type = {given, given ? strlen(given) : 0};
+    for (uint32_t i = scene_source(scene, prim); i && !type.len;
+         i = scene->sources.items[i - 1].next)
+        type = scene->layer.prims.items[scene->sources.items[i - 1].prim].type;
+    return type;
+}
+
+bool scene_is_group(const struct scene *scene, prim_id prim)
+{
+    static const char *const groups[] = {"Xform",    "Scope",         "PointInstancer", "Camera",
+                                         "SkelRoot", "SkelAnimation", "Skeleton"};
+    static const char light[] = "Light";
+    enum { LIGHT = sizeof light - 1 };
+    struct text_word type = scene_type(scene, prim);
+    if (!type.len) /* USD has types, lists of paths have none */
+        return scene_source(scene, prim) != 0;
+    for (size_t i = 0; i < sizeof groups / sizeof *groups; i++)
+        if (usda_is(type, groups[i]))
+            return true;
+    return type.len >= LIGHT && memcmp(type.bytes + type.len - LIGHT, light, LIGHT) == 0;
+}
+
 /* ---- Removal ---- */
 
 /* Takes the children without a name out of a list, and makes their parent PRIM_REMOVED. */

@@ -62,6 +62,19 @@ struct scene_material {
     uint32_t last, num, num_graphs; /* of the first one: the last, and how many there are */
 };
 
+/* The arrays of a PointInstancer. */
+struct scene_instancer {
+    prim_id prim;
+    uint32_t num, num_ids;
+    int64_t *prototypes, *ids; /* without ids, the number of an instance is its id */
+};
+
+/* A primitive that stands for a primitive of one instance; it is the child of that one. */
+struct scene_instance {
+    prim_id node, instancer;
+    int64_t id;
+};
+
 struct scene {
     struct arena *arena;          /* owns everything */
     uint32_t max_prims;           /* a limit of the context; readers report more */
@@ -85,7 +98,10 @@ struct scene {
     const char *purpose;        /* whose bindings it has: "full", "preview"; "": of all purposes */
     const char *slot_order;     /* with commas; NULL: the scene has none */
     struct diag_place slot_order_place;
-    VEC(const char *) words; /* those that a host gives again and again */
+    VEC(struct scene_instancer) instancers;
+    VEC(struct scene_instance) instances; /* by primitive; those of one instance in a row */
+    struct table instance_table;          /* (instancer, id) → 1 + index of the first */
+    VEC(const char *) words;              /* those that a host gives again and again */
     struct table words_table;
     struct text written;     /* a name at hand */
     VEC(const char *) types; /* that a host gives, by primitive, like first_source; or NULL */
@@ -153,6 +169,17 @@ void scene_add_path(struct scene *scene, const char *path, size_t len, struct di
 void scene_read_list(struct scene *scene, const char *file, const char *text, size_t len,
                      struct diag_list *diags);
 
+/* ---- instances.c: instances of a PointInstancer ---- */
+
+bool scene_has_instancers(const struct scene *scene);
+/* Reads "/set/forest[12]"; false: it does not name an instancer and a number. */
+bool scene_parse_instance(const struct scene *scene, struct text_word name, prim_id *out_instancer,
+                          int64_t *out_id);
+/* True for a primitive of an instance. */
+bool scene_is_instance(const struct scene *scene, prim_id prim);
+/* True if no primitive stands below, other than of instances. */
+bool scene_is_leaf(const struct scene *scene, prim_id prim);
+
 /* ---- Bindings ---- */
 
 /* Adds a binding behind the others of its primitive: its index. */
@@ -197,6 +224,10 @@ static inline uint32_t scene_source(const struct scene *scene, prim_id prim)
 {
     return prim < scene->first_source.len ? scene->first_source.items[prim] : 0;
 }
+/* Its type, "Mesh"; empty: unknown, or none. */
+struct text_word scene_type(const struct scene *scene, prim_id prim);
+/* True for what is never drawn itself: a group, a camera, a light. Its layers are for others. */
+bool scene_is_group(const struct scene *scene, prim_id prim);
 /*
  * The strongest property of a name (usda_find_attribute), and its source in *out_source, which may
  * be NULL; NULL: none.

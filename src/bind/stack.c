@@ -212,19 +212,23 @@ static bool has_items(const struct bindings *b, const struct bind_stack *stack,
     return same;
 }
 
-static uint32_t find_stack(struct bindings *b, uint32_t number, struct arena *scratch)
+void bind_stack(struct bindings *b, uint32_t number, bool adds, struct arena *scratch)
 {
-    const struct bind_state *state = &b->states.items[number];
+    struct bind_state *state = &b->states.items[number];
     uint64_t hash = HASH_STABLE_SEED;
     for (uint32_t i = 0; i < state->num_items; i++)
         hash = hash_item(b, &b->items.items[state->first_item + i], hash, scratch);
     uint32_t key = (uint32_t)(hash ^ hash >> 32);
     for (uint32_t at = key, found; (found = table_next(&b->stack_table, key, &at));)
-        if (has_items(b, &b->stacks.items[found - 1], state))
-            return found - 1;
+        if (has_items(b, &b->stacks.items[found - 1], state)) {
+            state->stack = found - 1;
+            return;
+        }
+    if (!adds)
+        return;
+    state->stack = b->stacks.len;
     vec_push(b->arena, &b->stacks, (struct bind_stack){.state = number, .hash = hash});
     table_add(&b->stack_table, b->arena, key, b->stacks.len);
-    return b->stacks.len - 1;
 }
 
 void bind_layers(struct bindings *b, uint32_t number, struct stands *stands,
@@ -239,5 +243,5 @@ void bind_layers(struct bindings *b, uint32_t number, struct stands *stands,
         add_name(b, number, &stands->items[i], num, &met, notes);
     }
     state->num_items = b->items.len - state->first_item;
-    state->stack = find_stack(b, number, stands->scratch);
+    state->stack = STACK_NONE;
 }

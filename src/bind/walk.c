@@ -118,12 +118,29 @@ static void go_to(struct state_walk *w, prim_id prim)
         go_down(w, vec_pop(&down));
 }
 
+/* The matchers that name an instance; patterns match its prototype alone. */
+static const uint32_t *instance_matches(struct state_walk *w, prim_id prim, uint32_t *out_num)
+{
+    uint32_t num;
+    const struct look_instance *named = look_instances_of(&w->b->look, prim, &num);
+    w->named.len = 0;
+    for (uint32_t i = 0; i < num; i++)
+        if (!i || named[i].matcher != named[i - 1].matcher)
+            vec_push(w->scratch, &w->named, named[i].matcher);
+    *out_num = w->named.len;
+    return w->named.items;
+}
+
 /* Finds the state of the primitive where the walk is, from that of the one above. */
 static void find_state(struct state_walk *w, prim_id prim)
 {
-    const struct scene_prim *p = &w->b->scene->prims.items[prim];
-    uint32_t num, from = prim ? w->b->state_of[p->parent] : walk_intern_state(w, w->b->entries.len);
-    const uint32_t *matches = pattern_walk_matches(&w->patterns, prim && !p->first_child, &num);
+    const struct scene *scene = w->b->scene;
+    uint32_t num, from = prim ? w->b->state_of[scene->prims.items[prim].parent]
+                              : walk_intern_state(w, w->b->entries.len);
+    const uint32_t *matches =
+        scene_is_instance(scene, prim)
+            ? instance_matches(w, prim, &num)
+            : pattern_walk_matches(&w->patterns, prim && scene_is_leaf(scene, prim), &num);
     assert(from != STATE_UNKNOWN);
     w->b->state_of[prim] = num ? step_to(w, from, matches, num, w->path.len + 1) : from;
     w->b->num_resolved += prim != 0;
@@ -159,6 +176,7 @@ void bind_find_states(struct bindings *b, const struct bindings *before, struct 
     b->state_of = ARENA_ARRAY(b->arena, uint32_t, b->num_prims);
     vec_push(scratch, &w.steps, (struct state_step){0});
     pattern_walk_init(&w.patterns, &b->look.patterns, scratch);
+    look_sort_instances(&b->look);
     if (before)
         walk_take_states(&w, before);
     else

@@ -17,6 +17,7 @@ struct state_walk {
     VEC(prim_id) path;            /* from below the root to the current primitive */
     VEC(struct state_step) steps; /* 0 unused */
     VEC(uint32_t) matches;        /* of the steps */
+    VEC(uint32_t) named;          /* of instance_matches */
     struct table steps_table;
     struct table states_table;
 };

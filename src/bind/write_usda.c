@@ -380,6 +380,10 @@ static void mark_prims(struct usda_writer *u)
     for (prim_id prim = scene_next(scene, 0); prim; prim = scene_next(scene, prim)) {
         if (!find_changes(u, prim))
             continue;
+        if (scene_is_instance(scene, prim)) {
+            u->num_lost++; /* USD has no prim for it */
+            continue;
+        }
         u->says[prim] |= SAYS;
         for (uint32_t i = 0; i < u->changes.len; i++)
             note_material(u, u->changes.items[i].target);

@@ -36,12 +36,15 @@ bool usda_next_number(struct text_word *at, double *out)
     struct text_word word;
     while (usda_next_item(at, &word)) {
         float value;
+        int64_t whole;
         if (usda_is(word, "true") || usda_is(word, "false"))
             *out = *word.bytes == 't';
         else if (usda_is(word, "inf") || usda_is(word, "-inf"))
             *out = *word.bytes == '-' ? -INFINITY : INFINITY;
         else if (usda_is(word, "nan") || usda_is(word, "-nan"))
             *out = NAN;
+        else if (num_parse_int(word.bytes, word.len, &whole) == word.len)
+            *out = (double)whole; /* an id has more digits than a float */
         else if (num_parse_float(word.bytes, word.len, &value))
             *out = (double)value;
         else

@@ -334,7 +334,7 @@ check 'a document alone is wrong usage' exits 2 "$mxgen" bind like.mtlx
 # Overrides of the stage: a Material without terminals, and a NodeGraph.
 cat >drives.usda <<'USD'
 #usda 1.0
-def Xform "set"
+def Mesh "set"
 {
     rel material:slotBinding:_000 = </Looks/Paint>
     rel material:slotBinding:_000:_:_010 = </Looks/Red>
@@ -387,7 +387,7 @@ check 'overrides of a stage are layers' row '/set/a (000 Paint) (::010 Red) [::0
 check 'overrides of a stage give JSON' exits 0 "$mxgen" bind --stage drives.usda --json -
 check 'the JSON has overrides of a stage as graphs' json '[o["nodegraph"] for o in p["/set/a"]["layers"][0]["overrides"]] == ["Red", "Pattern"]'
 # main PATH: what the shader of a primitive does
-main() { sed -n '/^void main/,$p' "drives.d/$(python3 -c "import json; print({p['path']: p['stack'] for p in json.load(open('drives.d/bindings.json'))['primitives']}['$1'])").frag"; }
+main() { sed -n '/^void main/,$p' "drives.d/$(python3 -c "import json; print({p['path']: p.get('stack') for p in json.load(open('drives.d/bindings.json'))['primitives']}['$1'])").frag"; }
 check 'materials of a stage give shaders' exits 0 "$mxgen" nothing.mtlx --stage drives.usda --target vulkan --interface reduced -o drives.d
 check 'values of overrides drive inputs' eval 'main /set | grep -qF "out1 = vec4(0.5, 0.0, 0.0, 0.5)"'
 check 'networks of overrides drive inputs' eval 'main /set/a | grep -qF "mx_noise_float(vd.positionObject) * 0.25 * 0.5 * vec3(1.0, 0.0, 0.0)"'
@@ -396,10 +396,12 @@ check 'a material with terminals overrides by its shaders' eval 'sed "s|float ou
 # Files of Assimp come through mxgen-render: the same primitives as in USD.
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\ng left\nf 1 2 3\n' >one.obj
 sed 's|</materialx>|<look name="l"><materialassign material="Clay" geom="/left"/></look>&|' materials.mtlx >obj.mtlx
+# json_layers FILE: the layers by path; nobody knows what is a group in a file without types
+json_layers() { python3 -c 'import json, sys; print(*((p["path"], p["layers"]) for p in json.load(open(sys.argv[1]))["primitives"]), sep="\n")' "$1"; }
 if [ -x "$(dirname "$mxgen")/mxgen-render" ]; then
     check 'a stage may be glTF' exits 0 "$mxgen" bind "$looks" --stage "$examples/slots/receiver.gltf" --look finished --json gltf.json
     check 'the stage may be USD' exits 0 "$mxgen" bind "$looks" --stage "$receiver" --look finished --json usda.json
-    check 'both stages have the same bindings' diff gltf.json usda.json
+    check 'both stages have the same bindings' eval 'for f in gltf usda; do json_layers $f.json >$f.layers || exit; done; diff gltf.layers usda.layers'
     check 'a stage may be OBJ' exits 0 "$mxgen" bind obj.mtlx --stage one.obj
     check 'a stage of OBJ has its groups' row '/left [000 Clay]'
     check 'a stage of OBJ gives shaders' exits 0 "$mxgen" obj.mtlx --stage one.obj --look l -o obj.d
@@ -417,7 +419,7 @@ check 'the error is no-renderer' grep -qF '[no-renderer]' err
 # Looks as slot bindings of USD: a layer over the stage, with which the stage has the same stacks.
 cat >stacks.py <<'PY'
 import json, sys
-read = lambda file: {p["path"]: (p["stack"], [l["slot"] for l in p["layers"]]) for p in json.load(open(file))["primitives"]}
+read = lambda file: {p["path"]: (p.get("stack"), [l["slot"] for l in p["layers"]]) for p in json.load(open(file))["primitives"]}
 before, after = read(sys.argv[1]), read(sys.argv[2])
 assert before == {path: after.get(path) for path in before}, (before, after)
 PY

@@ -216,8 +216,14 @@ def Mesh "local" { rel material:binding = </Object>
     $(at 2 -4)
 }
 USD
+sed 's|<look .*</look>|<look name="l"><materialassign material="Blue" geom="/many[7]"/></look>|' colors.mtlx >one.mtlx
+sed 's|int64\[\] invisibleIds = \[2\]|int64[] ids = [8, 16777217, 7]|' scene.usda >ids.usda
 # the look of colors.mtlx is for another stage
 check 'a stage with bindings of its own is drawn' draw scene -W no-pattern-unmatched
+check 'a look that names an instance is drawn' exits 0 "$render" one.mtlx --stage ids.usda -s 64 -o ids.ppm
+check 'the instance of the id has its layer' eval '[ "$(cell ids.ppm -1.5 -3.5)" = b ]'
+check 'others have those of their prototypes' eval '[ "$(cell ids.ppm -2.5 -3.5)" = r ]'
+check 'the first one is of the other prototype' eval '[ "$(cell ids.ppm -3.5 -3.5)" = g ]'
 check 'the stage gives no message' test ! -s err
 sees 'a mesh with its material' scene -3.5 3.5 r
 sees 'nothing below it' scene -3.5 2.5 -
