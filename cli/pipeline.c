@@ -19,10 +19,11 @@ static bool write_file(struct report *report, const char *folder, const char *na
     return !reason;
 }
 
-static bool write_pass(struct cli *cli, uint32_t index, const char *target, const char *folder)
+static bool write_pass(struct cli *cli, uint32_t index, const mxg_target *target,
+                       const char *folder)
 {
     mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
-    desc.target = target;
+    desc.target = target->name;
     desc.options = cli->options;
     mxg_result *result;
     mxg_status status = mxg_generate_pass(cli->context, index, &desc, &result);
@@ -37,7 +38,7 @@ static bool write_pass(struct cli *cli, uint32_t index, const char *target, cons
                    *text = mxg_result_source(result, MXG_STAGE_PIXEL, &size),
                    *json = mxg_result_reflection_json(result, &json_size);
         good = !text /* the options do not ask for it */
-               || (write_file(&cli->report, folder, name, pass.group_size[0] ? "comp" : "glsl",
+               || (write_file(&cli->report, folder, name, target->pass_suffix[!pass.group_size[0]],
                               text, size)
                    && write_file(&cli->report, folder, name, "json", json, json_size));
     }
@@ -45,7 +46,7 @@ static bool write_pass(struct cli *cli, uint32_t index, const char *target, cons
     return good;
 }
 
-static bool write_passes(struct cli *cli, const char *target, const char *folder)
+static bool write_passes(struct cli *cli, const mxg_target *target, const char *folder)
 {
     const char *reason = files_make_folder(folder);
     bool good = !reason;
@@ -61,7 +62,8 @@ int command_pipeline(const struct command *command, int argc, char **argv)
 {
     const char *name = "vulkan";
     const struct arg args[] = {
-        {"target", 't', ARG_TEXT, "T", "target language: vulkan (default) or glsl", &name},
+        {"target", 't', ARG_TEXT, "T",
+         "target language: vulkan (default), glsl, hlsl, slang or msl", &name},
     };
     struct cli cli;
     mxg_target target;
@@ -74,9 +76,9 @@ int command_pipeline(const struct command *command, int argc, char **argv)
             fprintf(stderr, "mxgen: 'mxgen pipeline' takes one folder\n");
             is_usage = false;
         }
-        code = !is_usage                                                     ? EXIT_USAGE
-               : write_passes(&cli, target.name, cli.parser.inputs.items[0]) ? EXIT_DONE
-                                                                             : EXIT_FAULT;
+        code = !is_usage                                                 ? EXIT_USAGE
+               : write_passes(&cli, &target, cli.parser.inputs.items[0]) ? EXIT_DONE
+                                                                         : EXIT_FAULT;
     }
     cli_finish(&cli);
     return code;

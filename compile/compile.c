@@ -236,10 +236,11 @@ static void compile_once(const struct dialect *dialect, const char *const source
 }
 
 /* Vulkan 1.1 is the first to allow the packing of constant buffers. */
-static bool compile_hlsl(const char *const sources[MXG_NUM_STAGES], struct compiled *out)
+static bool compile_hlsl(const char *const sources[MXG_NUM_STAGES], bool is_compute,
+                         struct compiled *out)
 {
     struct hlsl_module modules[MXG_NUM_STAGES];
-    bool good = hlsl_compile(sources, modules);
+    bool good = hlsl_compile(sources, is_compute, modules);
     for (int stage = 0; stage < MXG_NUM_STAGES; ++stage) {
         struct hlsl_module *module = &modules[stage];
         struct compiled_stage *code = &out->stages[stage];
@@ -278,7 +279,7 @@ bool compile_program(const char *target, const char *const sources[MXG_NUM_STAGE
     if (worker_knows_target(target))
         return compile_by_worker(target, sources, out);
     if (strcmp(target, "hlsl") == 0)
-        return compile_hlsl(sources, out);
+        return compile_hlsl(sources, false, out);
     const struct dialect *dialect = find_dialect(target);
     if (!dialect) {
         compiled_add(out, MXG_STAGE_PIXEL, MXG_SEVERITY_ERROR, 0, "unknown dialect", 15);
@@ -291,9 +292,8 @@ bool compile_program(const char *target, const char *const sources[MXG_NUM_STAGE
     return out->errors == 0;
 }
 
-bool compile_compute(const char *source, struct compiled *out)
+static bool compile_glsl_compute(const char *source, struct compiled *out)
 {
-    *out = (struct compiled){0};
     glslang_input_t input = input_of(find_dialect("vulkan"), GLSLANG_STAGE_COMPUTE, source, true);
     glslang_shader_t *shader = glslang_shader_create(&input);
     glslang_program_t *program = glslang_program_create();
@@ -316,4 +316,13 @@ bool compile_compute(const char *source, struct compiled *out)
     glslang_program_delete(program);
     glslang_shader_delete(shader);
     return good;
+}
+
+bool compile_compute(const char *target, const char *source, struct compiled *out)
+{
+    const char *const sources[MXG_NUM_STAGES] = {[MXG_STAGE_PIXEL] = source};
+    *out = (struct compiled){0};
+    return worker_knows_target(target)   ? compile_by_worker(target, sources, out)
+           : strcmp(target, "hlsl") == 0 ? compile_hlsl(sources, true, out)
+                                         : compile_glsl_compute(source, out);
 }

@@ -62,10 +62,10 @@ void compiled_finish(struct compiled *compiled);
 bool compile_result(const char *target, const mxg_result *result, struct compiled *out);
 
 /*
- * Compiles the source of a compute shader for Vulkan; code and messages stand in the place of
- * the pixel stage.
+ * Compiles the source of a compute shader in the language of "vulkan", "hlsl" or a target of
+ * worker.h; code and messages stand in the place of the pixel stage.
  */
-bool compile_compute(const char *source, struct compiled *out);
+bool compile_compute(const char *target, const char *source, struct compiled *out);
 
 /* compiled.c: adds a message, for what compiles. */
 void compiled_add(struct compiled *compiled, mxg_stage stage, mxg_severity severity, uint32_t line,

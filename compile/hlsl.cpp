@@ -9,8 +9,6 @@
 #include <cstring>
 #include <memory>
 
-static const EShLanguage stages[MXG_NUM_STAGES] = {EShLangVertex, EShLangFragment};
-
 static const EShMessages messages = static_cast<EShMessages>(
     EShMsgSpvRules | EShMsgVulkanRules | EShMsgReadHlsl | EShMsgCascadingErrors);
 
@@ -50,8 +48,10 @@ static bool link(glslang::TProgram &program, hlsl_module out_modules[])
     return false;
 }
 
-bool hlsl_compile(const char *const sources[], hlsl_module out_modules[])
+bool hlsl_compile(const char *const sources[], bool is_compute, hlsl_module out_modules[])
 {
+    const EShLanguage stages[MXG_NUM_STAGES] = {EShLangVertex,
+                                                is_compute ? EShLangCompute : EShLangFragment};
     glslang::TProgram program;
     std::unique_ptr<glslang::TShader> shaders[MXG_NUM_STAGES];
     bool good = true;

@@ -22,9 +22,10 @@ struct hlsl_module { /* of one stage; hlsl_module_free */
 
 /*
  * Compiles the function main of each stage that is not NULL for Vulkan 1.1, as `glslangValidator -D
- * -V -Od` does. False after errors, which are in the logs. Between compile_begin and compile_end.
+ * -V -Od` does; is_compute: the source in the place of the pixel stage is a compute stage. False
+ * after errors, which are in the logs. Between compile_begin and compile_end.
  */
-bool hlsl_compile(const char *const sources[MXG_NUM_STAGES],
+bool hlsl_compile(const char *const sources[MXG_NUM_STAGES], bool is_compute,
                   struct hlsl_module out_modules[MXG_NUM_STAGES]);
 void hlsl_module_free(struct hlsl_module *module);
 

@@ -304,7 +304,7 @@ static bool compile(struct kernel *kernel, const struct trace_options *options, 
     append(&source, displaces ? "#define DISPLACES\n" : "");
     for (const char *const *piece = trace_source; *piece; ++piece)
         append(&source, *piece);
-    bool good = source.text && compile_compute(source.text, out);
+    bool good = source.text && compile_compute("vulkan", source.text, out);
     free(source.text);
     if (good)
         return true;

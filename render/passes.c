@@ -34,12 +34,17 @@ static const struct {
     {"light_rays", -1, LIGHTS_RAYS}, {"over", -1, STORES_OVER},
 };
 
+static const char *target_of(const struct passes_setup *setup)
+{
+    return setup->target ? setup->target : "vulkan";
+}
+
 /* Makes the text of a pass; false: with the first message. */
 static bool generate(struct passes *passes, const struct passes_setup *setup, uint32_t index,
                      mxg_result **out)
 {
     mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
-    desc.target = "vulkan";
+    desc.target = target_of(setup);
     desc.options = setup->options;
     mxg_status status = mxg_generate_pass(setup->context, index, &desc, out);
     mxg_diagnostic first = {sizeof first};
@@ -52,9 +57,9 @@ static bool generate(struct passes *passes, const struct passes_setup *setup, ui
 
 /* Adds a pass to the device. */
 static bool add_pass(struct passes *passes, const struct passes_setup *setup,
-                     struct pass_part *part, const char *text, int which)
+                     struct pass_part *part, const char *target, const char *text, int which)
 {
-    if (!compile_compute(text, &part->compiled))
+    if (!compile_compute(target, text, &part->compiled))
         return fail(passes, "bad-shader",
                     part->compiled.num_messages ? part->compiled.messages[0].text
                                                 : "the pass does not compile");
@@ -77,7 +82,7 @@ static bool add_source(struct passes *passes, const struct passes_setup *setup,
         return fail(passes, "render-failed", "out of memory");
     memcpy(text, source, size);
     strcpy(text + size, host);
-    bool good = add_pass(passes, setup, part, text, which);
+    bool good = add_pass(passes, setup, part, target_of(setup), text, which);
     free(text);
     return good;
 }
@@ -111,12 +116,12 @@ static bool open_pass(struct passes *passes, const struct passes_setup *setup, u
     return add_source(passes, setup, part, which);
 }
 
-/* text: writes payloads. */
+/* text: writes payloads, in GLSL. */
 static bool open_payloads(struct passes *passes, const struct passes_setup *setup, const char *text)
 {
     passes->payloads = stored_hold_rays(passes->stored);
     return (passes->payloads || fail_device(passes, setup))
-           && add_pass(passes, setup, &passes->parts[passes->num_parts++], text, -1);
+           && add_pass(passes, setup, &passes->parts[passes->num_parts++], "vulkan", text, -1);
 }
 
 static bool open_tints(struct passes *passes, const struct passes_setup *setup)

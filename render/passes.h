@@ -33,6 +33,7 @@ struct passes {
 struct passes_setup {
     mxg_context *context;
     const mxg_options *options;
+    const char *target; /* of the passes; NULL: "vulkan" */
     const struct scene *scene;
     struct draw_canvas *canvas;
     const char *host; /* functions that the passes ask the host for; NULL: they ask for none */

@@ -51,4 +51,5 @@ const struct target target_glsl = {
     .frame = &glsl_frame,
     .source = &glsl_source,
     .stage_suffix = {"vert", "frag"},
+    .pass_suffix = {"comp", "glsl"},
 };

@@ -110,9 +110,25 @@ static void write_textures(struct spell *spell)
     }
 }
 
-void hlsl_image(struct spell *spell, const struct spell_resource *r)
+char hlsl_resource(struct spell *spell, const struct spell_resource *r)
 {
-    SPELL(spell, spell_image(spell, r)->type, " mx_", r->resource->name);
+    const char *type = spell_image(spell, r)->type;
+    bool is_buffer = strncmp(type, "cbuffer", strlen("cbuffer")) == 0;
+    SPELL(spell, type, is_buffer ? "" : " mx_", is_buffer ? "" : r->resource->name);
+    return is_buffer ? 'b' : strncmp(type, "RW", 2) == 0 ? 'u' : 't';
+}
+
+void hlsl_members(struct spell *spell, const struct spell_resource *r)
+{
+    bool is_buffer = strcmp(r->resource->kind, "uniform") == 0;
+    spell_text(spell, is_buffer ? "\n{\n" : "");
+    for (uint32_t i = 0; is_buffer && i < r->resource->num_members; i++) {
+        const struct deferred_member *member = &r->resource->members[i];
+        ir_type_id type = spell_member_type(member);
+        SPELL(spell, ir_type_is_matrix(type) ? "    row_major " : "    ",
+              lang_syntax_type(spell->style->syntax, type), " ", member->name, ";\n");
+    }
+    spell_text(spell, is_buffer ? "};\n" : ";\n");
 }
 
 static void write_resources(struct spell *spell)
@@ -120,10 +136,10 @@ static void write_resources(struct spell *spell)
     SPELL_EACH_RESOURCE(r, spell)
     {
         write_binding(spell, r.binding, r.set);
-        hlsl_image(spell, &r);
-        bool is_view = strcmp(r.resource->kind, "sampler2D") == 0;
-        text_fmt(spell->out, " : register(%c%u, space%u);\n", is_view ? 't' : 'u',
-                 (unsigned)r.binding, (unsigned)r.set);
+        char kind = hlsl_resource(spell, &r);
+        text_fmt(spell->out, " : register(%c%u, space%u)", kind, (unsigned)r.binding,
+                 (unsigned)r.set);
+        hlsl_members(spell, &r);
     }
 }
 
@@ -163,7 +179,13 @@ static void open_main(struct spell *spell)
     hlsl_open_main(spell, &io);
 }
 
+static void close_context(struct spell *spell)
+{
+    hlsl_write_run(spell, "", "main");
+}
+
 const struct target_frame hlsl_frame = {.declare = declare,
                                         .open = open_main,
                                         .close = hlsl_close_main,
+                                        .close_context = close_context,
                                         .declare_for_function = declare_for_function};

@@ -32,8 +32,13 @@ extern const struct target_frame hlsl_frame;
 void hlsl_variable(struct spell *spell, const struct shader_variable *variable);
 /* "    row_major float4x4 u_m": a line of a constant buffer without its end. */
 void hlsl_member(struct spell *spell, const struct shader_variable *variable);
-/* "RWTexture2D<uint> mx_word0": an image of programs. */
-void hlsl_image(struct spell *spell, const struct spell_resource *r);
+/*
+ * "RWTexture2D<uint> mx_word0", "cbuffer MxFrame": an image or buffer of programs. Returns the
+ * letter of its registers.
+ */
+char hlsl_resource(struct spell *spell, const struct spell_resource *r);
+/* The end of its declaration: the members of a constant buffer, and ";". */
+void hlsl_members(struct spell *spell, const struct spell_resource *r);
 void hlsl_light_struct(struct spell *spell); /* "struct LightData {…};" */
 void hlsl_light_member(struct spell *spell); /* "    LightData u_lightData[3];" */
 
@@ -50,5 +55,7 @@ struct hlsl_io {
 void hlsl_declare_io(struct spell *spell, const struct hlsl_io *io);
 void hlsl_open_main(struct spell *spell, const struct hlsl_io *io);
 void hlsl_close_main(struct spell *spell);
+/* The compute stage of a pass, if it has one. */
+void hlsl_write_run(struct spell *spell, const char *attribute, const char *name);
 
 #endif

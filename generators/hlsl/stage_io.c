@@ -186,3 +186,13 @@ void hlsl_close_main(struct spell *spell)
         SPELL(spell, "    vd_out = ", spell_frame_name(spell, "vd"), ";\n");
     spell_text(spell, "}\n");
 }
+
+void hlsl_write_run(struct spell *spell, const char *attribute, const char *name)
+{
+    const struct source_pass *pass = &spell->shader->sources.pass;
+    if (!pass->program || pass->is_part)
+        return;
+    text_fmt(spell->out, "\n%s[numthreads(%d, %d, 1)]\n", attribute, DEFERRED_TILE, DEFERRED_TILE);
+    SPELL(spell, "void ", name, "(uint3 group : SV_GroupID, uint3 place : SV_GroupThreadID)\n{\n",
+          "    mx_run(group.xy, place.xy);\n}\n");
+}

@@ -26,6 +26,13 @@ static bool has_outputs(const struct spell *spell)
     return !is_vertex(spell) && first[1] > first[0];
 }
 
+/* False for a pass that lights nothing. */
+static bool has_surface(const struct spell *spell)
+{
+    const struct source_pass *pass = &spell->shader->sources.pass;
+    return !pass->program || pass->has_surface;
+}
+
 static const char *entry_name(const struct spell *spell)
 {
     const char *entry = is_called(spell)   ? spell->shader->role->entry
@@ -170,6 +177,23 @@ static void declare_for_function(struct spell *spell)
     write_blocks(spell);
 }
 
+/* The uniforms of passes. */
+static void write_frame(struct spell *spell)
+{
+    SPELL_EACH_RESOURCE(r, spell)
+    {
+        if (strcmp(r.resource->kind, "uniform") != 0)
+            continue;
+        spell_text(spell, "struct MxFrame {\n");
+        for (uint32_t i = 0; i < r.resource->num_members; i++) {
+            const struct deferred_member *member = &r.resource->members[i];
+            SPELL(spell, "    ", lang_syntax_type(spell->style->syntax, spell_member_type(member)),
+                  " ", member->name, ";\n");
+        }
+        spell_text(spell, "};\n");
+    }
+}
+
 static void declare(struct spell *spell)
 {
     const char *version =
@@ -179,6 +203,9 @@ static void declare(struct spell *spell)
     SPELL(spell, "\n// Metal Shading Language ", version, "\n");
     declare_for_function(spell);
     write_lights(spell);
+    write_frame(spell);
+    if (!has_surface(spell))
+        return;
     if (is_vertex(spell))
         write_inputs(spell);
     write_vertex_data(spell);
@@ -246,15 +273,18 @@ static void list_texture(struct spell *spell, enum list list,
     spell_text(spell, ends[list]);
 }
 
-/* An image of programs. */
+/* An image or buffer of programs. */
 static void list_resource(struct spell *spell, enum list list, const struct spell_resource *r)
 {
     spell_text(spell, begins[list]);
     if (list != ARGUMENTS)
         SPELL(spell, spell_image(spell, r)->type, " ");
-    SPELL(spell, "mx_", r->resource->name);
+    if (strcmp(r->resource->kind, "uniform") == 0)
+        spell_text(spell, SPELL_FRAME_INSTANCE);
+    else
+        SPELL(spell, "mx_", r->resource->name);
     if (list == PARAMETERS)
-        text_fmt(spell->out, " [[texture(%u)]]",
+        text_fmt(spell->out, " [[%s(%u)]]", r->resource->num_members ? "buffer" : "texture",
                  (unsigned)(spell->target->first_resource + r->binding));
     spell_text(spell, ends[list]);
 }
@@ -290,6 +320,8 @@ static void write_inputs_and_outputs(struct spell *spell)
 {
     const char *vd = spell_frame_name(spell, "vd"),
                *vertex_data = spell_frame_name(spell, "VertexData");
+    if (!has_surface(spell))
+        return;
     if (spell->shader->role->is_in_host_file) {
         if (spell->shares_vertex_data)
             SPELL(spell, "    ", vertex_data, " ", vd, ";\n");
@@ -331,9 +363,39 @@ static void write_parameters(struct spell *spell)
     spell_text(spell, ")\n{\n");
 }
 
+/* "    GlobalContext context = {u_prv, mx_words": the begin of a list. */
+static void open_arguments(struct spell *spell)
+{
+    SPELL(spell, "    ", spell_frame_name(spell, "GlobalContext"), " context = {");
+    size_t begin = spell->out->len;
+    list_bound(spell, ARGUMENTS);
+    if (spell->out->len == begin)
+        return;
+    memmove(spell->out->data + begin, spell->out->data + begin + 2, /* without the first comma */
+            spell->out->len - begin - 2);
+    spell->out->len -= 2;
+}
+
+static void write_kernel(struct spell *spell)
+{
+    const struct source_pass *pass = &spell->shader->sources.pass;
+    SPELL(spell, "\nkernel void ComputeMain(\n    uint3 group [[threadgroup_position_in_grid]],\n",
+          "    uint3 place [[thread_position_in_threadgroup]]");
+    list_bound(spell, PARAMETERS);
+    spell_text(spell, ")\n{\n");
+    open_arguments(spell);
+    SPELL(spell, "};\n",
+          pass->has_group ? "    threadgroup atomic_uint bits;\n    context.mx_bits = &bits;\n"
+                          : "",
+          "    context.mx_run(group.xy, place.xy);\n}\n");
+}
+
 static void close_context(struct spell *spell)
 {
+    const struct source_pass *pass = &spell->shader->sources.pass;
     spell_text(spell, "};\n");
+    if (pass->program && !pass->is_part)
+        write_kernel(spell);
     if (is_called(spell))
         return;
     const char *entry = entry_name(spell), *vd = spell_frame_name(spell, "vd");
@@ -347,15 +409,8 @@ static void close_context(struct spell *spell)
                            : "void",
           " ", entry);
     write_parameters(spell);
-    SPELL(spell, "    ", spell_frame_name(spell, "GlobalContext"), " context = {");
-    size_t begin = spell->out->len;
-    list_bound(spell, ARGUMENTS);
-    if (spell->out->len > begin) { /* without the first comma */
-        memmove(spell->out->data + begin, spell->out->data + begin + 2,
-                spell->out->len - begin - 2);
-        spell->out->len -= 2;
-        spell_text(spell, ", ");
-    }
+    open_arguments(spell);
+    spell_text(spell, spell->out->data[spell->out->len - 1] == '{' ? "" : ", ");
     SPELL(spell, inputs, returns ? ", {}};\n" : "};\n", "    context.", entry, "();\n");
     if (returns)
         SPELL(spell, "    return context.", outputs, ";\n");

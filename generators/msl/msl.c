@@ -114,7 +114,7 @@ const struct target target_msl = {
     .brief = "Metal Shading Language 2.3 and 3.0",
     .caps = CAP_VERTEX_STAGE | CAP_OVERLOADS | CAP_BITWISE | CAP_IMPLICIT_LOD | CAP_TEXTURE_ARRAYS
             | CAP_UNIFORM_BLOCKS | CAP_BINDINGS | CAP_OWN_NUMBERS | CAP_BLOCK_STAGE_IO
-            | CAP_SAMPLERS | CAP_HOST_FILES | CAP_STORES,
+            | CAP_SAMPLERS | CAP_HOST_FILES | CAP_STORES | CAP_PASSES,
     .max_textures = 16, /* section 2.10: samplers of a function */
     .versions = versions,
     .syntax = &syntax,
@@ -128,4 +128,5 @@ const struct target target_msl = {
     .instances = instances,
     .position = ".pos",
     .stage_suffix = {"vert.metal", "frag.metal"},
+    .pass_suffix = {"comp.metal", "metal"},
 };

@@ -77,8 +77,8 @@ static void write_resources(struct spell *spell)
 {
     SPELL_EACH_RESOURCE(r, spell)
     {
-        hlsl_image(spell, &r);
-        spell_text(spell, ";\n");
+        (void)hlsl_resource(spell, &r);
+        hlsl_members(spell, &r);
     }
 }
 
@@ -108,7 +108,13 @@ static void open_main(struct spell *spell)
     hlsl_open_main(spell, &io);
 }
 
+static void close_context(struct spell *spell)
+{
+    hlsl_write_run(spell, "[shader(\"compute\")]\n", "computeMain");
+}
+
 const struct target_frame slang_frame = {.declare = declare,
                                          .open = open_main,
                                          .close = hlsl_close_main,
+                                         .close_context = close_context,
                                          .declare_for_function = declare_for_function};

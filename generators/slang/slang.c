@@ -54,7 +54,8 @@ const struct target target_slang = {
     .materialx_name = "genslang",
     .brief = "Slang 2025.3, with the names of MaterialX's generator",
     .caps = CAP_VERTEX_STAGE | CAP_OVERLOADS | CAP_BITWISE | CAP_IMPLICIT_LOD | CAP_TEXTURE_ARRAYS
-            | CAP_BLOCK_STAGE_IO | CAP_SAMPLERS | CAP_HOST_FILES | CAP_STORES | CAP_HOST_FUNCTIONS,
+            | CAP_BLOCK_STAGE_IO | CAP_SAMPLERS | CAP_HOST_FILES | CAP_STORES | CAP_PASSES
+            | CAP_HOST_FUNCTIONS,
     .versions = versions,
     .syntax = &syntax,
     .frame = &slang_frame,
@@ -65,4 +66,5 @@ const struct target target_slang = {
     .images = hlsl_images,
     .position = ".position",
     .stage_suffix = {"vert.slang", "frag.slang"},
+    .pass_suffix = {"comp.slang", "slang"},
 };

@@ -14,4 +14,5 @@ const struct target target_vulkan = {
     .versions = versions,
     .syntax = &glsl_syntax,
     .stage_suffix = {"vert", "frag"},
+    .pass_suffix = {"comp", "glsl"},
 };

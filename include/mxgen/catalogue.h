@@ -22,6 +22,11 @@ typedef struct mxg_target {
      * such stage
      */
     const char *stage_suffix[2];
+    /*
+     * of the passes of mxg_generate_pass: of a compute stage, and of functions alone; NULL: the
+     * target has no passes
+     */
+    const char *pass_suffix[2];
 } mxg_target;
 MXG_API uint32_t mxg_catalogue_num_targets(void);
 MXG_API mxg_status mxg_catalogue_target(uint32_t index, mxg_target *out);

@@ -62,7 +62,7 @@ export interface Target {
     materialxName: string;
     brief: string;
     /** file endings; null: no such stage */
-    suffixes: { vertex: string | null; pixel: string | null };
+    suffixes: { vertex: string | null; pixel: string | null; pass: string | null; functions: string | null };
 }
 
 export interface Option {

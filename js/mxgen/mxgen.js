@@ -39,7 +39,7 @@ export class Mxgen {
     get targets() {
         const { lib } = this.#native;
         return this.#native.records("mxg_target", lib.mxg_catalogue_num_targets(), (index, out) => lib.mxg_catalogue_target(index, out)).map(
-            ({ stageSuffix: [vertex, pixel], ...target }) => ({ ...target, suffixes: { vertex, pixel } }));
+            ({ stageSuffix: [vertex, pixel], passSuffix: [pass, functions], ...target }) => ({ ...target, suffixes: { vertex, pixel, pass, functions } }));
     }
 
     /** Every option of `Document.generate`. */

@@ -18,6 +18,8 @@ class Target:
     brief: str
     #: file endings of the vertex and the pixel stage; None: no such stage
     stage_suffix: tuple[str | None, str | None]
+    #: of the passes of the deferred pipeline: of a compute stage, of functions alone; None: the target has no passes
+    pass_suffix: tuple[str | None, str | None]
 
 
 class OptionType(enum.IntEnum):

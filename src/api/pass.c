@@ -37,38 +37,49 @@ static void leave_bindings(struct shader *shader)
     shader->reflection.closures.len = shader->reflection.compiled.len = 0;
 }
 
-/* Replaces the source of the surface by the text of the pass. */
-static void write_pass(struct generation *g, enum deferred_pass pass)
+/* Replaces the source of the surface by the text of the pass, in the language of the texts. */
+static void write_text(struct generation *g)
 {
     mxg_result *result = g->result;
     struct stage_source *stage = &result->stages[STAGE_PIXEL];
     struct text text;
     const char *version = g->options[OPTION_version].text;
-    result->storage = generation_storage(g);
-    result->has_shader = deferred_has_pass(pass, &result->storage);
-    if (!result->has_shader)
-        return;
     text_init(&text, &result->object.arena);
-    deferred_write_pass(pass, &result->storage, *version ? version : result->target->versions[0],
+    deferred_write_pass(result->pass, &result->storage,
+                        *version ? version : result->target->versions[0],
                         g->stored ? &result->shader : NULL, stage->text, &text);
-    leave_bindings(&result->shader);
     stage->text = text_cstr(&text);
     stage->size = text.len;
     source_find_lines(stage, &result->object.arena);
 }
 
+/* True if the shader is what the pass is about: the surface of its class, or nothing. */
+static bool make_surface(struct generation *g)
+{
+    return generation_start(g) && (!g->stored || (generation_build(g) && generation_emit(g)));
+}
+
 static void generate(struct generation *g)
 {
     const enum deferred_pass pass = *(const enum deferred_pass *)g->user_data;
-    g->result->pass = pass;
+    mxg_result *result = g->result;
+    result->pass = pass;
     g->stored = deferred_pass_class(pass);
     g->role = &roles[pass == PASS_LIGHT_RAYS ? ROLE_lighting_rays : ROLE_lighting];
-    if (g->stored)
-        generation_run_all(g);
-    else
-        g->result->has_shader = generation_start(g);
-    if (g->result->has_shader)
-        write_pass(g, pass);
+    if (!make_surface(g) || !generation_finish(g))
+        return;
+    result->storage = generation_storage(g);
+    bool is_program = result->storage.parse != NULL;
+    result->has_shader = deferred_has_pass(pass, &result->storage);
+    if (!result->has_shader)
+        return;
+    if (is_program)
+        deferred_add_pass(pass, &result->storage, &result->shader);
+    if (is_program || g->stored)
+        result->has_shader = generation_spell(g);
+    if (!is_program && result->has_shader)
+        write_text(g);
+    leave_bindings(&result->shader);
 }
 
 /* The document of the lighting passes. */

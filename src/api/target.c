@@ -31,6 +31,7 @@ mxg_status mxg_catalogue_target(uint32_t index, mxg_target *out)
         .name = target->name,
         .materialx_name = target->materialx_name,
         .brief = target->brief,
-        .stage_suffix = {target->stage_suffix[STAGE_VERTEX], target->stage_suffix[STAGE_PIXEL]}};
+        .stage_suffix = {target->stage_suffix[STAGE_VERTEX], target->stage_suffix[STAGE_PIXEL]},
+        .pass_suffix = {target->pass_suffix[0], target->pass_suffix[1]}};
     return struct_write(out, &full, sizeof full);
 }

@@ -144,12 +144,19 @@ uint32_t deferred_reads(enum deferred_pass pass, const struct deferred_layout *l
 uint32_t deferred_writes(enum deferred_pass pass, const struct deferred_layout *layout);
 
 /*
- * Writes the text of a pass. surface: of a lighting pass, the shader of its function, with the
- * source of its pixel stage; else NULL.
+ * Writes the text of a pass, in the language of the texts. surface: of a lighting pass, the shader
+ * of its function, with the source of its pixel stage; else NULL.
  */
 void deferred_write_pass(enum deferred_pass pass, const struct deferred_layout *layout,
                          const char *version, const struct shader *surface, const char *source,
                          struct text *out);
+
+/*
+ * The same for other languages: makes a pass of a shader, whose program (shader_sources.pass) is
+ * its text. After shader_finish; of a lighting pass, the shader has the function of its surface.
+ */
+void deferred_add_pass(enum deferred_pass pass, const struct deferred_layout *layout,
+                       struct shader *shader);
 
 /* The document with the surfaces of the lighting passes. */
 size_t deferred_closures_size(void);

@@ -33,8 +33,12 @@ void deferred_write_store(struct text *out);
 /* Types and names of the values join a hash. */
 uint64_t deferred_hash_values(uint64_t hash);
 
-/* resources.c: declares a resource for those who read or write it. */
+/* resources.c: declares the buffers for programs: uniforms, and words that functions read. */
+void deferred_declare_buffers(struct text *out);
+/* Declares a resource for those who read or write it. */
 void deferred_declare(enum deferred_binding binding, const struct deferred_layout *layout,
                       bool reads, bool writes, struct text *out);
+/* After all declarations: the functions by which passes read and write buffers. */
+void deferred_write_access(uint32_t reads, uint32_t writes, struct text *out);
 
 #endif

@@ -247,25 +247,41 @@ static const char *stream_value(const char *name)
     return NULL;
 }
 
-/* mx_fill(): the values of the closure become those that surface() reads. */
-static void write_fill(const struct shader *surface, struct text *out)
+#define EACH_STREAM(i, surface) \
+    uint32_t i = (surface)->interface.first_of_block[BLOCK_VERTEX_DATA]; \
+    i < (surface)->interface.first_of_block[BLOCK_VERTEX_DATA + 1]; \
+    i++
+
+/* mx_fill(): the values of the closure become those that surface() reads, members of `instance`. */
+static void write_fill(const struct shader *surface, const char *instance, struct text *out)
 {
     static const char prefix[] = "geomprop_";
     text_str(out, "void mx_fill(MxClosure closure, vec3 point, vec3 top)\n{\n");
-    for (uint32_t i = surface->interface.first_of_block[BLOCK_VERTEX_DATA];
-         i < surface->interface.first_of_block[BLOCK_VERTEX_DATA + 1]; i++) {
+    for (EACH_STREAM(i, surface)) {
         const struct shader_variable *v = shader_interface_variable(surface, i);
         const char *name = str_text(surface->strings, v->name), *value = stream_value(name);
         assert(value || strncmp(name, prefix, sizeof prefix - 1) == 0);
-        text_fmt(out, "    vd.%s = %s%s;\n", name, value ? "" : "closure.",
+        text_fmt(out, "    %s%s = %s%s;\n", instance, name, value ? "" : "closure.",
                  value ? value : name + sizeof prefix - 1);
     }
     text_str(out, "}\n\n");
 }
 
-/* The numbers that the texts of passes share with C. */
-static void write_numbers(enum deferred_pass pass, uint32_t used, struct text *out)
+/* What a program sees of the surface. */
+static void declare_surface(const struct shader *surface, struct text *out)
 {
+    for (EACH_STREAM(i, surface)) {
+        const struct shader_variable *v = shader_interface_variable(surface, i);
+        text_fmt(out, "in %s %s;\n", ir_type_text(v->type), str_text(surface->strings, v->name));
+    }
+    text_str(out, "in vec4 out1;\nvoid surface();\n");
+}
+
+/* The numbers that the texts of passes share with C. */
+static void write_numbers(enum deferred_pass pass, const struct deferred_layout *layout,
+                          struct text *out)
+{
+    uint32_t used = deferred_reads(pass, layout) | deferred_writes(pass, layout);
     if (passes[pass].is_part)
         return;
     if (pass == PASS_OVER)
@@ -279,35 +295,86 @@ static void write_numbers(enum deferred_pass pass, uint32_t used, struct text *o
         define(view_macros[i], i, out);
 }
 
-void deferred_write_pass(enum deferred_pass pass, const struct deferred_layout *layout,
-                         const char *version, const struct shader *surface, const char *source,
-                         struct text *out)
+static bool has_host_functions(enum deferred_pass pass, const struct shader *surface)
 {
-    uint32_t reads = deferred_reads(pass, layout), writes = deferred_writes(pass, layout);
-    bool is_part = passes[pass].is_part,
-         is_hosts =
-             is_part || pass == PASS_OVER || (surface && surface->reflection.host_functions.len);
-    assert((deferred_pass_class(pass) != CLASS_EMPTY) == (surface && source));
-    if (surface)
-        text_fmt(out, "%s\n", source);
-    else if (!is_part)
-        text_fmt(out, "#version %s\n", version);
-    write_numbers(pass, reads | writes, out);
-    deferred_write_storage(layout, out);
-    for (uint32_t i = 0; i < NUM_RESOURCES; i++)
-        if ((reads | writes) >> i & 1)
-            deferred_declare((enum deferred_binding)i, layout, reads >> i & 1, writes >> i & 1,
-                             out);
+    return passes[pass].is_part || pass == PASS_OVER
+           || (surface && surface->reflection.host_functions.len);
+}
+
+/* The files of a pass, with mx_fill() before the last one. */
+static void write_texts(enum deferred_pass pass, const struct deferred_layout *layout,
+                        const struct shader *surface, const char *instance, struct text *out)
+{
     for (unsigned i = 0; i < MAX_TEXTS && passes[pass].texts[i]; i++) {
         bool is_last = i + 1 == MAX_TEXTS || !passes[pass].texts[i + 1];
+        text_str(out, i ? "\n" : "");
         if (surface && is_last)
-            write_fill(surface, out);
-        deferred_write_lines(passes[pass].texts[i], is_hosts, out);
+            write_fill(surface, instance, out);
+        deferred_write_lines(passes[pass].texts[i], has_host_functions(pass, surface), out);
         if (passes[pass].texts[i] == deferred_read && layout->storage == STORAGE_FLOAT)
             deferred_write_get(out);
         if (passes[pass].texts[i] == deferred_write && layout->storage == STORAGE_FLOAT)
             deferred_write_put(out);
     }
+}
+
+static struct source_resources resources_of_pass(enum deferred_pass pass,
+                                                 const struct deferred_layout *layout)
+{
+    return (struct source_resources){.reads = deferred_reads(pass, layout),
+                                     .writes = deferred_writes(pass, layout),
+                                     .set = layout->set};
+}
+
+void deferred_write_pass(enum deferred_pass pass, const struct deferred_layout *layout,
+                         const char *version, const struct shader *surface, const char *source,
+                         struct text *out)
+{
+    const struct source_resources of = resources_of_pass(pass, layout);
+    assert((deferred_pass_class(pass) != CLASS_EMPTY) == (surface && source));
+    if (surface)
+        text_fmt(out, "%s\n", source);
+    else if (!passes[pass].is_part)
+        text_fmt(out, "#version %s\n", version);
+    write_numbers(pass, layout, out);
+    deferred_write_storage(layout, out);
+    for (uint32_t i = 0; i < NUM_RESOURCES; i++)
+        if ((of.reads | of.writes) >> i & 1)
+            deferred_declare((enum deferred_binding)i, layout, of.reads >> i & 1,
+                             of.writes >> i & 1, out);
+    deferred_write_access(of.reads, of.writes, out);
+    if (pass == PASS_CLASSIFY)
+        deferred_write_lines(deferred_group, false, out);
+    write_texts(pass, layout, surface, "vd.", out);
+    if (!passes[pass].is_part)
+        deferred_write_lines(deferred_main, false, out);
+}
+
+void deferred_add_pass(enum deferred_pass pass, const struct deferred_layout *layout,
+                       struct shader *shader)
+{
+    const struct source_resources of = resources_of_pass(pass, layout);
+    bool is_lit = deferred_pass_class(pass) != CLASS_EMPTY;
+    struct text text, program;
+    text_init(&text, shader->arena);
+    text_init(&program, shader->arena);
+    write_numbers(pass, layout, &text);
+    deferred_write_storage(layout, &text);
+    if (!passes[pass].is_part) {
+        deferred_declare_buffers(&text);
+        deferred_write_lines(deferred_buffers, false, &text);
+    }
+    if (is_lit)
+        declare_surface(shader, &text);
+    write_texts(pass, layout, is_lit ? shader : NULL, "", &text);
+    deferred_make_program(text_cstr(&text), &of, &program);
+    uint32_t source =
+        shader_add_program(shader, str_intern(shader->strings, program.data, program.len),
+                           layout->parse(shader, &program), of);
+    shader->sources.pass = (struct source_pass){.program = source + 1,
+                                                .has_surface = is_lit,
+                                                .is_part = passes[pass].is_part,
+                                                .has_group = pass == PASS_CLASSIFY};
 }
 
 /* ---- lighting ---- */

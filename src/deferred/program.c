@@ -7,6 +7,7 @@
  *     #if MX_STORAGE == 0 …            the lines whose condition holds
  *     layout(…) in;                    nothing
  *     layout(location = 1) out uint x; uint x;
+ *     #define mx_word0 mx_packed0      the name, until #undef
  *     imageLoad(mx_word0, pixel)       mx_word0_load(pixel), a function without a body
  */
 #include "deferred/deferred_priv.h"
@@ -20,6 +21,8 @@ enum { MAX_MACROS = 64, MAX_DEPTH = 8 };
 struct macro {
     const char *name;
     size_t len;
+    const char *word; /* what stands for it, if that is no number; NULL: a number */
+    size_t word_len;
     int value;
 };
 
@@ -54,22 +57,28 @@ static const char *read_word(const char **at, size_t *out_len)
     return word;
 }
 
-static int read_number(const struct reader *r, const char **at)
+static struct macro *find_macro(struct reader *r, const char *word, size_t len)
+{
+    for (unsigned i = 0; i < r->num_macros; i++)
+        if (r->macros[i].len == len && memcmp(r->macros[i].name, word, len) == 0)
+            return &r->macros[i];
+    return NULL;
+}
+
+static int read_number(struct reader *r, const char **at)
 {
     size_t len;
     const char *word = read_word(at, &len);
     assert(len > 0);
     if (isdigit((unsigned char)*word))
         return (int)strtol(word, NULL, 10);
-    for (unsigned i = 0; i < r->num_macros; i++)
-        if (r->macros[i].len == len && memcmp(r->macros[i].name, word, len) == 0)
-            return r->macros[i].value;
-    assert(false); /* a line before it defines each number of a condition */
-    return 0;
+    const struct macro *macro = find_macro(r, word, len);
+    assert(macro); /* a line before it defines each number of a condition */
+    return macro->value;
 }
 
 /* "MX_WORDS > 3": a number, an operator, a number. */
-static bool read_condition(const struct reader *r, const char *at)
+static bool read_condition(struct reader *r, const char *at)
 {
     int a = read_number(r, &at);
     char operator= * at;
@@ -94,11 +103,15 @@ static void read_directive(struct reader *r, const char *at)
     } else if (len == 5 && strncmp(word, "endif", len) == 0) {
         assert(r->depth > 0);
         r->depth--;
+    } else if (r->is_kept[r->depth] && len == 5 && strncmp(word, "undef", len) == 0) {
+        word = read_word(&at, &len);
+        find_macro(r, word, len)->len = 0;
     } else if (r->is_kept[r->depth]) {
         assert(len == 6 && strncmp(word, "define", len) == 0 && r->num_macros < MAX_MACROS);
         struct macro *macro = &r->macros[r->num_macros++];
         macro->name = read_word(&at, &macro->len);
-        macro->value = (int)strtol(at, NULL, 10);
+        macro->word = isdigit((unsigned char)*at) ? NULL : read_word(&at, &macro->word_len);
+        macro->value = macro->word ? 0 : (int)strtol(at, NULL, 10);
     }
 }
 
@@ -107,28 +120,42 @@ static const char *call_of_resource(const char *at)
 {
     static const struct {
         const char *call, *name;
-    } calls[] = {{"imageLoad(", "load"}, {"imageStore(", "store"}, {"texelFetch(", "fetch"}};
+    } calls[] = {{"imageLoad(", "load"},
+                 {"imageStore(", "store"},
+                 {"imageSize(", "size"},
+                 {"texelFetch(", "fetch"}};
     for (size_t i = 0; i < sizeof calls / sizeof *calls; i++)
         if (strncmp(at, calls[i].call, strlen(calls[i].call)) == 0)
             return calls[i].name;
     return NULL;
 }
 
+/* Copies a word, or another character. */
+static void copy_word(struct reader *r, const char *at, size_t len)
+{
+    const struct macro *macro = len ? find_macro(r, at, len) : NULL;
+    if (macro && macro->word)
+        text_mem(r->out, macro->word, macro->word_len);
+    else
+        text_mem(r->out, at, len ? len : 1);
+}
+
 /* Copies a line. A call of a resource becomes a call of its function. */
-static void copy_line(const char *at, const char *end, struct text *out)
+static void copy_line(struct reader *r, const char *at, const char *end)
 {
     while (at < end) {
         const char *name = is_word(*at) ? call_of_resource(at) : NULL;
         size_t len = word_length(at);
         if (!name) {
-            text_mem(out, at, len ? len : 1);
+            copy_word(r, at, len);
             at += len ? len : 1;
             continue;
         }
         at += len + 1;
         len = word_length(at); /* of the resource */
-        text_fmt(out, "%.*s_%s(", (int)len, at, name);
-        at += len + 2; /* and the comma and the blank behind it */
+        text_fmt(r->out, "%.*s_%s(", (int)len, at, name);
+        at += len;
+        at += *at == ',' ? 2 : 0; /* and the blank behind it */
     }
 }
 
@@ -147,14 +174,15 @@ static void read_line(struct reader *r, const char *at, const char *end)
             return;
         at = close + sizeof output - 1;
     }
-    copy_line(at, end, r->out);
+    copy_line(r, at, end);
 }
 
 static void define_macros(const struct reader *r, struct text *out)
 {
     for (unsigned i = 0; i < r->num_macros; i++)
-        text_fmt(out, "#define %.*s %d\n", (int)r->macros[i].len, r->macros[i].name,
-                 r->macros[i].value);
+        if (!r->macros[i].word)
+            text_fmt(out, "#define %.*s %d\n", (int)r->macros[i].len, r->macros[i].name,
+                     r->macros[i].value);
 }
 
 /* ---- Functions and variables of the frame ---- */
@@ -166,8 +194,10 @@ static void declare_image(const struct deferred_resource *r, struct text *out)
     if (strcmp(r->kind, "sampler2D") == 0)
         text_fmt(out, "vec4 mx_%s_fetch(ivec2 at, int level);\n", r->name);
     else
-        text_fmt(out, "%s mx_%s_load(%s at);\nvoid mx_%s_store(%s at, %s value);\n", value, r->name,
-                 at, r->name, at, value);
+        text_fmt(out,
+                 "%s mx_%s_load(%s at);\nvoid mx_%s_store(%s at, %s value);\n"
+                 "ivec3 mx_%s_size();\n",
+                 value, r->name, at, r->name, at, value, r->name);
 }
 
 static void declare_resources(const struct source_resources *resources, struct text *out)

@@ -177,8 +177,8 @@ static void write_members(const struct deferred_resource *r, bool are_nested, st
             write_member(&r->members[i], out);
 }
 
-/* The struct of the first member of a buffer, if it is one. */
-static void write_struct(const struct deferred_resource *r, struct text *out)
+/* The struct of the elements of a buffer, if these are structs. */
+static void write_element(const struct deferred_resource *r, struct text *out)
 {
     if (r->num_members < 2 || !r->members[1].is_nested)
         return;
@@ -209,13 +209,30 @@ static void declare_buffer(const struct deferred_resource *r, const char *access
     text_str(out, "};\n");
 }
 
+void deferred_declare_buffers(struct text *out)
+{
+    for (uint32_t i = 0; i < NUM_RESOURCES; i++) {
+        const struct deferred_resource *r = &resources[i];
+        bool is_uniform = strcmp(r->kind, "uniform") == 0;
+        write_element(r, out);
+        for (uint32_t k = 0; is_uniform && k < r->num_members; k++)
+            text_fmt(out, "uniform %s %s;\n", r->members[k].type, r->members[k].name);
+        if (r->num_members && !is_uniform)
+            text_fmt(out,
+                     "uint mx_%s_load(uint at);\nvoid mx_%s_store(uint at, uint value);\n"
+                     "uint mx_%s_add(uint at, uint value);\n",
+                     r->name, r->name, r->name);
+    }
+    text_fmt(out, "#define MX_FIRST_TILE %u\n", (unsigned)tiles[1].offset / WORD);
+}
+
 void deferred_declare(enum deferred_binding binding, const struct deferred_layout *layout,
                       bool reads, bool writes, struct text *out)
 {
     const struct deferred_resource *r = deferred_resource(binding);
     const char *access = !writes ? "readonly " : !reads ? "writeonly " : "";
     assert(reads || writes);
-    write_struct(r, out);
+    write_element(r, out);
     write_place(binding, layout, out);
     if (r->num_members)
         declare_buffer(r, access, out);
@@ -224,4 +241,24 @@ void deferred_declare(enum deferred_binding binding, const struct deferred_layou
     else
         text_fmt(out, "uniform %srestrict %s%s mx_%s;\n", access,
                  strcmp(r->format, "r32ui") == 0 ? "u" : "", r->kind, r->name);
+}
+
+/* What passes call to read and to write a buffer; passes/buffers.glsl has them for programs. */
+static const char *const readers[NUM_RESOURCES] = {
+    [RESOURCE_TILES] = "uint mx_tile_at(uint i)\n{\n    return mx_tile[i];\n}\n",
+    [RESOURCE_PAYLOADS] = "MxPayload mx_payload_at(uint i)\n{\n    return mx_payloads[i];\n}\n",
+    [RESOURCE_RAYS] = "MxRay mx_ray_at(uint i)\n{\n    return mx_rays[i];\n}\n",
+};
+static const char *const writers[NUM_RESOURCES] = {
+    [RESOURCE_TILES] = "void mx_add_tile(uint class_, uint tile)\n{\n"
+                       "    mx_tile[class_ * mx_num_tiles + atomicAdd(mx_dispatch[class_].x, 1u)] "
+                       "= tile;\n}\n",
+};
+
+void deferred_write_access(uint32_t reads, uint32_t writes, struct text *out)
+{
+    for (uint32_t i = 0; i < NUM_RESOURCES; i++) {
+        text_str(out, reads >> i & 1 && readers[i] ? readers[i] : "");
+        text_str(out, writes >> i & 1 && writers[i] ? writers[i] : "");
+    }
 }

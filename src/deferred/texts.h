@@ -23,6 +23,9 @@ extern const char *const deferred_over_head[];
 extern const char *const deferred_over[];
 extern const char *const deferred_words[];
 extern const char *const deferred_words_end[];
+extern const char *const deferred_group[];
+extern const char *const deferred_main[];
+extern const char *const deferred_buffers[];
 extern const char *const deferred_closures[];
 
 #endif

@@ -312,6 +312,16 @@ struct shader_sources {
     VEC(struct source_leaf) leaves;
     bool is_1_38;              /* it has closures of MaterialX 1.38 */
     struct table helper_table; /* names of the target's helpers to bits + 1 */
+    /*
+     * A pass over pixels or rays (deferred_add_pass): a program, whose mx_run() a compute stage
+     * calls.
+     */
+    struct source_pass {
+        uint32_t program; /* a source + 1; 0: the shader is none */
+        bool has_surface; /* the program calls the function of the shader's surface */
+        bool is_part;     /* no stage calls it: all functions are for passes of the host */
+        bool has_group;   /* the invocations of a group have bits in common: mx_or_in_group() */
+    } pass;
 };
 
 /* Facts of the whole, which a host is told: api/reflection.c. */

@@ -25,11 +25,22 @@ static const char *position_name(const struct spell *spell)
     return text_cstr(&name);
 }
 
+/* A uniform of the passes, where blocks of uniforms are variables. */
+static const char *member_name(const struct spell *spell, str_id name)
+{
+    struct text text;
+    text_init(&text, spell->scratch);
+    text_fmt(&text, SPELL_FRAME_INSTANCE ".%s", str_text(spell->shader->strings, name));
+    return text_cstr(&text);
+}
+
 /* Inputs of a program are variables of the interface, if it has such a name. */
 static const char *global_name(void *user_data, uint32_t id)
 {
     const struct spell *spell = user_data;
     const struct lang_global *global = lang_global(spell->program->unit, id, NULL);
+    if (global->kind == LANG_GLOBAL_UNIFORM && spell->target->instances)
+        return member_name(spell, global->name);
     if (global->kind != LANG_GLOBAL_STREAM)
         return NULL;
     if (strcmp(str_text(spell->shader->strings, global->name), "gl_FragCoord") == 0)
@@ -83,6 +94,20 @@ static void name_functions(struct spell *spell, struct spell_program *program)
     }
 }
 
+/* Of a pass, the stage calls the function that runs it, or its host may call all. */
+static void find_pass(struct spell *spell)
+{
+    const struct source_pass *pass = &spell->shader->sources.pass;
+    if (!pass->program)
+        return;
+    struct spell_program *program =
+        program_of(spell, &spell->shader->sources.all.items[pass->program - 1]);
+    const str_id run = str_find(spell->shader->strings, "mx_run", strlen("mx_run"));
+    for (uint32_t k = 0; k < program->unit->functions.len; k++)
+        if (pass->is_part || program->unit->functions.items[k].name == run)
+            lang_reach_add(&program->reach, program->unit, k);
+}
+
 void spell_find_programs(struct spell *spell)
 {
     const struct shader_sources *sources = &spell->shader->sources;
@@ -98,6 +123,7 @@ void spell_find_programs(struct spell *spell)
                 || spell->shader->role->is_in_host_file)
                 lang_reach_add(&program->reach, unit, k);
     }
+    find_pass(spell);
     for (uint32_t i = 0; i < spell->programs.len; i++)
         name_functions(spell, &spell->programs.items[i]);
 }
@@ -116,8 +142,6 @@ static void write_images(struct spell *spell)
 {
     SPELL_EACH_RESOURCE(r, spell)
     {
-        if (r.resource->num_members)
-            continue;
         const struct target_image *image = spell_image(spell, &r);
         if (image->load)
             write_of_image(spell, image->load, r.resource->name);
@@ -210,7 +234,7 @@ void spell_programs(struct spell *spell)
         size_t begin = spell->out->len;
         for (uint32_t k = 0; k < program->reach.globals.len; k++)
             write_variable(spell, &names, program->reach.globals.items[k]);
-        spell_text(spell, "\n");
+        spell_text(spell, spell->out->len > begin ? "\n" : "");
         for (uint32_t k = 0; k < program->reach.functions.len; k++)
             write_function(spell, &names, program->reach.functions.items[k]);
         if (!spell->frame->open_context) /* otherwise each context has its own */

@@ -32,6 +32,14 @@ const struct target_image *spell_image(const struct spell *spell, const struct s
     return image;
 }
 
+ir_type_id spell_member_type(const struct deferred_member *member)
+{
+    ir_type_id type = 0;
+    while (strcmp(ir_type_text(type), member->type) != 0)
+        type++;
+    return type;
+}
+
 bool spell_reads_position(const struct spell *spell)
 {
     str_id name = str_find(spell->shader->strings, "gl_FragCoord", strlen("gl_FragCoord"));

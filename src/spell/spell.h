@@ -195,6 +195,10 @@ bool spell_resource_from(const struct spell *spell, uint32_t binding, struct spe
     for (struct spell_resource r = {0}; spell_resource_from((spell), r.binding, &(r)); r.binding++)
 /* The row of the target's table for a resource. */
 const struct target_image *spell_image(const struct spell *spell, const struct spell_resource *r);
+/* The variable that has the uniforms of passes, where blocks are variables (target.instances). */
+#define SPELL_FRAME_INSTANCE "mx_uniforms"
+/* The type of a member of a uniform buffer. */
+ir_type_id spell_member_type(const struct deferred_member *member);
 /* True if a program reads gl_FragCoord: the position among the vertex data. */
 bool spell_reads_position(const struct spell *spell);
 /*

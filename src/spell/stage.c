@@ -270,6 +270,17 @@ static void join(struct spell *spell, struct text *out, const struct text *body)
     text_mem(out, body->data, body->len);
 }
 
+static void write_main(struct spell *spell, const struct target_frame *frame)
+{
+    frame->open(spell);
+    names_open_scope(&spell->names);
+    spell_statements(spell, &spell->stage->statements, 1);
+    if (frame->close)
+        frame->close(spell);
+    else
+        spell_text(spell, "}\n");
+}
+
 void spell_stage(struct spell *spell, enum shader_stage_id stage)
 {
     (void)stage;
@@ -286,13 +297,8 @@ void spell_stage(struct spell *spell, enum shader_stage_id stage)
         spell->out = &body;
     }
     write_functions(spell);
-    frame->open(spell);
-    names_open_scope(&spell->names);
-    spell_statements(spell, &spell->stage->statements, 1);
-    if (frame->close)
-        frame->close(spell);
-    else
-        spell_text(spell, "}\n");
+    if (!spell->shader->sources.pass.program || spell->shader->sources.pass.has_surface)
+        write_main(spell, frame);
     if (spell->frame->close_context)
         spell->frame->close_context(spell);
     if (spell->out != out)

@@ -85,13 +85,14 @@ struct target_function {
 };
 
 /*
- * An image of programs. In the texts, $N is the name of the resource.
+ * An image or buffer of programs. In the texts, $N is the name of the resource. A buffer is read as
+ * words of 32 bits.
  */
 struct target_image {
     const char *kind, *format; /* of struct deferred_resource */
     unsigned access;           /* 1 reads, 2 writes, 3 both */
     const char *type;          /* its type in the language */
-    /* the functions of programs that read and write it; NULL: it does not */
+    /* the functions of programs that read and write it; NULL: none */
     const char *load, *store;
 };
 
@@ -149,6 +150,7 @@ struct target {
     const char *const *instances;
     const char *position; /* of a vertex; ".x": of the vertex data; NULL: gl_Position */
     const char *stage_suffix[NUM_STAGES]; /* file endings: "vert", "frag" */
+    const char *pass_suffix[2]; /* of passes: of a compute stage, of functions; with CAP_PASSES */
     /*
      * The type of a node's local, or of each result of a call, if it differs from the IR's type.
      * May be NULL, and may return NULL for the IR's type.

@@ -12,6 +12,8 @@ static bool open_device(struct bench *b)
         printf("skip: no device that can store: %s\n", b->gpu.reason);
         return false;
     }
+    const char *target = getenv("DEFERRED_TARGET");
+    b->target = target ? target : "vulkan";
     compile_begin();
     REQUIRE_EQ(mxg_context_create(NULL, &b->context), MXG_OK);
     REQUIRE_EQ(mxg_options_create(b->context, &b->options), MXG_OK);
@@ -76,7 +78,9 @@ bool drawing_generate(struct bench *b, const char *element, const char *role_nam
                       const char *storage, mxg_result **out)
 {
     mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
-    desc.target = "vulkan";
+    /* the stages of these tests that call a function are GLSL */
+    bool is_called = strcmp(role_name, "payload") == 0 || strcmp(role_name, "pack") == 0;
+    desc.target = is_called ? "vulkan" : b->target;
     desc.element = b->bindings ? NULL : element;
     desc.bindings = b->bindings;
     desc.options = b->options;
@@ -106,6 +110,7 @@ bool drawing_open_passes(struct bench *b, struct drawing *d, const struct passes
     struct passes_setup setup = *what;
     setup.context = b->context;
     setup.options = b->options;
+    setup.target = b->target;
     setup.scene = &b->scene;
     setup.canvas = d->canvas;
     setup.host = b->host;

@@ -16,6 +16,7 @@ struct bench {
     mxg_context *context;
     mxg_options *options;
     mxg_document *document;
+    const char *target;     /* of materials and passes: DEFERRED_TARGET of the environment */
     char path[1024];        /* of the document */
     const char *host;       /* NULL, or the functions that the passes ask their host for */
     const char *decals;     /* NULL, or a compute shader whose payloads are stored over materials */

@@ -381,25 +381,41 @@ layout(set = 1, binding = 8, std140) uniform MxFrame
     uint mx_num_tiles;
     uint mx_show;
 };
+uint mx_tile_at(uint i)
+{
+    return mx_tile[i];
+}
 // The part that all passes share: a group covers a tile.
-
-layout(local_size_x = MX_TILE, local_size_y = MX_TILE) in;
 
 bool mx_is_outside(ivec2 pixel)
 {
     return any(greaterThanEqual(pixel, ivec2(mx_size)));
 }
-// The pixel of an invocation, in a pass that runs over the tiles of a class.
-ivec2 mx_pixel_of(uint class_)
+
+// The pixel of an invocation, in a pass over all tiles.
+ivec2 mx_pixel_in(uvec2 group, uvec2 place)
 {
-    uint tile = mx_tile[class_ * mx_num_tiles + gl_WorkGroupID.x];
-    return MX_TILE * ivec2(tile % mx_tiles_per_row, tile / mx_tiles_per_row) + ivec2(gl_LocalInvocationID.xy);
+    return MX_TILE * ivec2(group) + ivec2(place);
 }
+
+// The pixel of an invocation, in a pass that runs over the tiles of a class.
+ivec2 mx_pixel_of(uint class_, uint group, uvec2 place)
+{
+    uint tile = mx_tile_at(class_ * mx_num_tiles + group);
+    return MX_TILE * ivec2(tile % mx_tiles_per_row, tile / mx_tiles_per_row) + ivec2(place);
+}
+
 // One group per tile that has pixels without closures: their colour is that of the colour target.
+
+void mx_run(uvec2 group, uvec2 place)
+{
+    ivec2 pixel = mx_pixel_of(uint(MX_EMPTY), group.x, place);
+    if (!mx_is_outside(pixel) && mx_class(imageLoad(mx_word0, pixel).x) == MX_EMPTY)
+        imageStore(mx_lit, pixel, texelFetch(mx_color, pixel, 0));
+}
+layout(local_size_x = MX_TILE, local_size_y = MX_TILE) in;
 
 void main()
 {
-    ivec2 pixel = mx_pixel_of(MX_EMPTY);
-    if (!mx_is_outside(pixel) && mx_class(imageLoad(mx_word0, pixel).x) == MX_EMPTY)
-        imageStore(mx_lit, pixel, texelFetch(mx_color, pixel, 0));
+    mx_run(gl_WorkGroupID.xy, gl_LocalInvocationID.xy);
 }

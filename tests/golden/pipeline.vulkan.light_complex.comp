@@ -1038,6 +1038,10 @@ layout(set = 1, binding = 8, std140) uniform MxFrame
     uint mx_num_tiles;
     uint mx_show;
 };
+uint mx_tile_at(uint i)
+{
+    return mx_tile[i];
+}
 // The closures of a pixel, from the top down.
 
 struct MxReader
@@ -1062,15 +1066,15 @@ void mx_get(inout MxReader reader, out float value)
 
 void mx_get(inout MxReader reader, out vec2 value)
 {
-    mx_get(reader, value.x);
-    mx_get(reader, value.y);
+    value.x = uintBitsToFloat(mx_get(reader));
+    value.y = uintBitsToFloat(mx_get(reader));
 }
 
 void mx_get(inout MxReader reader, out vec3 value)
 {
-    mx_get(reader, value.x);
-    mx_get(reader, value.y);
-    mx_get(reader, value.z);
+    value.x = uintBitsToFloat(mx_get(reader));
+    value.y = uintBitsToFloat(mx_get(reader));
+    value.z = uintBitsToFloat(mx_get(reader));
 }
 
 MxClosure mx_get_whole(inout MxReader reader);
@@ -1133,20 +1137,27 @@ MxClosure mx_next(inout MxReader reader)
     return mx_unpack(r, normal, is_top ? mx_top_roughness(reader.top) : mx_uncut(r.body, 20u, 8u));
 #endif
 }
-// The part that all passes share: a group covers a tile.
 
-layout(local_size_x = MX_TILE, local_size_y = MX_TILE) in;
+// The part that all passes share: a group covers a tile.
 
 bool mx_is_outside(ivec2 pixel)
 {
     return any(greaterThanEqual(pixel, ivec2(mx_size)));
 }
-// The pixel of an invocation, in a pass that runs over the tiles of a class.
-ivec2 mx_pixel_of(uint class_)
+
+// The pixel of an invocation, in a pass over all tiles.
+ivec2 mx_pixel_in(uvec2 group, uvec2 place)
 {
-    uint tile = mx_tile[class_ * mx_num_tiles + gl_WorkGroupID.x];
-    return MX_TILE * ivec2(tile % mx_tiles_per_row, tile / mx_tiles_per_row) + ivec2(gl_LocalInvocationID.xy);
+    return MX_TILE * ivec2(group) + ivec2(place);
 }
+
+// The pixel of an invocation, in a pass that runs over the tiles of a class.
+ivec2 mx_pixel_of(uint class_, uint group, uvec2 place)
+{
+    uint tile = mx_tile_at(class_ * mx_num_tiles + group);
+    return MX_TILE * ivec2(tile % mx_tiles_per_row, tile / mx_tiles_per_row) + ivec2(place);
+}
+
 void mx_fill(MxClosure closure, vec3 point, vec3 top)
 {
     vd.positionWorld = point;
@@ -1186,9 +1197,9 @@ vec3 mx_split(MxClosure closure, vec3 point, vec3 top)
 }
 #endif
 
-void main()
+void mx_run(uvec2 group, uvec2 place)
 {
-    ivec2 pixel = mx_pixel_of(MX_CLASS);
+    ivec2 pixel = mx_pixel_of(uint(MX_CLASS), group.x, place);
     if (mx_is_outside(pixel))
         return;
     MxReader reader = mx_open(pixel);
@@ -1241,4 +1252,10 @@ void main()
     }
 #endif
     imageStore(mx_lit, pixel, lit);
+}
+layout(local_size_x = MX_TILE, local_size_y = MX_TILE) in;
+
+void main()
+{
+    mx_run(gl_WorkGroupID.xy, gl_LocalInvocationID.xy);
 }

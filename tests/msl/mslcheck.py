@@ -61,6 +61,11 @@ def parse(path, args):
     else: units[key] = ci.Index.create().parse(path, args + ['-ferror-limit=0'], options=PREAMBLE)
     return units[key]
 
+def in_kernel(lines, line):
+    """whether a line is in the body of a kernel; functions begin in the first column"""
+    heads = [text for text in lines[:line] if re.match(r'\w', text)]
+    return bool(heads) and heads[-1].startswith('kernel ')
+
 def diagnostics(path, args, waive):
     tu = parse(path, args)
     text = open(path).read().split('\n')
@@ -68,8 +73,10 @@ def diagnostics(path, args, waive):
         if d.severity < ci.Diagnostic.Error: continue
         notes = ' '.join(n.spelling for n in d.children)
         # clang's C++ for OpenCL cannot copy a user struct out of constant or device space, and *this is __generic in a method; Metal can.
+        # Kernels are no kernels of OpenCL here, but may have threadgroup variables.
         # (a __generic value comes from *this or from an unqualified pointer or reference, which lint() reports)
-        if waive and ((d.spelling.startswith('program scope variable must') and re.match(r'\s*(static )?constexpr sampler', text[d.location.line - 1])) or
+        if waive and ((d.spelling.startswith('non-kernel function variable cannot be declared in local') and in_kernel(text, d.location.line)) or
+                      (d.spelling.startswith('program scope variable must') and re.match(r'\s*(static )?constexpr sampler', text[d.location.line - 1])) or
                       re.search(r"binding reference of type '__private .* to value of type '__generic", d.spelling) or
                       ('no matching' in d.spelling and re.search(r"cannot (bind reference|pass pointer) (in|to) address space '__generic'", notes)) or
                       re.match(r"no viable conversion from '(?:const )?__(constant|global) \w+' to", d.spelling) or

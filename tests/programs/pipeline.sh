@@ -74,6 +74,35 @@ else
     skip "no glslangValidator"
 fi
 
+# ---- other languages ----
+
+for target in hlsl slang msl; do
+    check "passes are generated for $target" "$mxgen" pipeline "$target" --target "$target"
+done
+check "files of passes have the endings of their languages" test -s hlsl/over.cs.hlsl -a -s hlsl/read.hlsl -a -s slang/over.comp.slang -a -s msl/show.comp.metal -a -s msl/read.metal
+if command -v glslangValidator >/dev/null; then
+    cat hlsl/read.hlsl - >read.hlsl <<'X'
+RWTexture2D<float4> picture : register(u0, space0);
+[numthreads(8, 8, 1)]
+void main(uint3 pixel : SV_DispatchThreadID)
+{
+    MxClosure top;
+    picture[pixel.xy] = mx_read_top(int2(pixel.xy), top) ? float4(top.f0, top.roughness) : (float4)0.0;
+}
+X
+    check "a pass of a host in HLSL reads the top" glslangValidator -D -V -e main -S comp -o code.spv read.hlsl
+    "$mxgen" pipeline hosted_hlsl --target hlsl --host-lights --host-environment >/dev/null
+    cat hosted_hlsl/light_single.cs.hlsl - >hosted.hlsl <<'X'
+int mxg_light_count() { return mxg_pixel.x; }
+void mxg_light(int i, float3 P, out float3 L, out float3 radiance) { L = normalize(P); radiance = P; }
+float3 mxg_irradiance(float3 P, float3 N) { return P + N; }
+float3 mxg_radiance(float3 P, float3 L, float roughness) { return P + roughness * L; }
+X
+    check "a pass in HLSL calls functions of a host" glslangValidator -D -V -e main -S comp -o code.spv hosted.hlsl
+else
+    skip "no glslangValidator"
+fi
+
 # ---- reflection ----
 
 # The arguments of pass_layouts.py: the JSON of all passes of some folders, each with its SPIR-V as text.
@@ -315,7 +344,7 @@ check "mixes of equal slabs are stored" exits 1 too_heavy sum a b again
 for target in essl essl310 wgsl osl; do
     check "material passes for $target are an error" reports options-clash "$mxgen" "$examples/deferred.mtlx" -e Plain --target "$target" --role deferred -o no
 done
-for target in essl hlsl slang msl wgsl; do
+for target in essl wgsl; do
     check "passes for $target are an error" reports options-clash "$mxgen" pipeline no --target "$target"
 done
 check "passes for OpenGL 3.3 are an error" reports options-clash "$mxgen" pipeline no --target glsl --target-version 330

@@ -4,9 +4,9 @@
 
 const int MX_NUM_SAMPLES = 48;
 
-void main()
+void mx_run(uvec2 group, uvec2 place)
 {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = mx_pixel_in(group, place);
     if (mx_is_outside(pixel))
         return;
     vec4 own = imageLoad(mx_below, ivec3(pixel, 0));

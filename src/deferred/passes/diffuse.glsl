@@ -30,9 +30,9 @@ vec3 mx_profile(float r, vec3 d)
     return (exp(-r / d) + exp(-r / (3.0 * d))) / d;
 }
 
-void main()
+void mx_run(uvec2 group, uvec2 place)
 {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = mx_pixel_in(group, place);
     if (mx_is_outside(pixel) || imageLoad(mx_scattered, ivec3(pixel, 0)).w == 0.0)
         return;
     MxClosure body = mx_body(pixel);

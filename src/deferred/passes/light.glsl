@@ -12,9 +12,9 @@ vec3 mx_split(MxClosure closure, vec3 point, vec3 top)
 }
 #endif
 
-void main()
+void mx_run(uvec2 group, uvec2 place)
 {
-    ivec2 pixel = mx_pixel_of(MX_CLASS);
+    ivec2 pixel = mx_pixel_of(uint(MX_CLASS), group.x, place);
 @    mxg_pixel = pixel;
     if (mx_is_outside(pixel))
         return;

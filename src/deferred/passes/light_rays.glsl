@@ -13,12 +13,12 @@ vec4 mx_light_payload(MxPayload payload, MxRay ray)
     return vec4(lit.xyz + out1.xyz, lit.w);
 }
 
-void main()
+void mx_run(uvec2 group, uvec2 place)
 {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = mx_pixel_in(group, place);
 @    mxg_pixel = pixel;
     if (mx_is_outside(pixel))
         return;
     uint at = uint(pixel.y) * mx_size.x + uint(pixel.x);
-    imageStore(mx_lit, pixel, mx_light_payload(mx_payloads[at], mx_rays[at]));
+    imageStore(mx_lit, pixel, mx_light_payload(mx_payload_at(at), mx_ray_at(at)));
 }

@@ -12,7 +12,8 @@ uint mx_count;
 // Packs them. Returns how many words they take behind the targets.
 uint mx_write_all()
 {
-    mx_num_closures = mx_num_words = 0u;
+    mx_num_closures = 0u;
+    mx_num_words = 0u;
     mx_is_special = false;
     for (uint i = 0u; i < mx_count; ++i)
         mx_keep(mx_closures[i]);
@@ -106,12 +107,12 @@ void mx_store_over(ivec2 pixel, MxPayload payload)
     imageStore(mx_word2, pixel, uvec4(mx_packed2));
 }
 
-void main()
+void mx_run(uvec2 group, uvec2 place)
 {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = mx_pixel_in(group, place);
     if (mx_is_outside(pixel))
         return;
-    MxPayload payload = mx_payloads[uint(pixel.y) * mx_size.x + uint(pixel.x)];
+    MxPayload payload = mx_payload_at(uint(pixel.y) * mx_size.x + uint(pixel.x));
     if (mx_class(payload.words[0]) != MX_EMPTY || payload.words[10] != 0u)
         mx_store_over(pixel, payload);
 }

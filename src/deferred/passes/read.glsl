@@ -22,15 +22,15 @@ void mx_get(inout MxReader reader, out float value)
 
 void mx_get(inout MxReader reader, out vec2 value)
 {
-    mx_get(reader, value.x);
-    mx_get(reader, value.y);
+    value.x = uintBitsToFloat(mx_get(reader));
+    value.y = uintBitsToFloat(mx_get(reader));
 }
 
 void mx_get(inout MxReader reader, out vec3 value)
 {
-    mx_get(reader, value.x);
-    mx_get(reader, value.y);
-    mx_get(reader, value.z);
+    value.x = uintBitsToFloat(mx_get(reader));
+    value.y = uintBitsToFloat(mx_get(reader));
+    value.z = uintBitsToFloat(mx_get(reader));
 }
 
 MxClosure mx_get_whole(inout MxReader reader);

@@ -7,9 +7,9 @@ vec3 mx_heat(float value)
     return clamp(vec3(2.0 * x - 1.0, 1.0 - abs(2.0 * x - 1.0), 1.0 - 2.0 * x), 0.0, 1.0);
 }
 
-void main()
+void mx_run(uvec2 group, uvec2 place)
 {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = mx_pixel_in(group, place);
     if (mx_is_outside(pixel))
         return;
     MxReader reader = mx_open(pixel);
