@@ -105,20 +105,32 @@ static void print_views(struct cli *cli, const mxg_document *document,
         print_view(cli, document, inspect, MXG_VIEW_ELEMENTS);
 }
 
+/* The primitive at the path; without one the first that is drawn. */
+static uint32_t find_primitive(const struct bound_scene *stage, const char *path)
+{
+    uint32_t first = 0, num = mxg_scene_num_primitives(stage->scene);
+    while (!path && first + 1 < num && mxg_bindings_stack(stage->bindings, first) == MXG_NONE)
+        ++first;
+    return path ? mxg_scene_find_primitive(stage->scene, path) : first;
+}
+
 /* The stack of a primitive of a stage. */
 static void print_stack(struct cli *cli, const mxg_document *own, struct inspect *inspect)
 {
     struct bound_scene stage;
     if (scene_file_bind(cli, &inspect->place, own, &stage)) {
         const char *path = inspect->element;
-        uint32_t primitive = path ? mxg_scene_find_primitive(stage.scene, path) : 0;
+        uint32_t primitive = find_primitive(&stage, path);
         inspect->bindings = stage.bindings;
-        if (primitive < mxg_scene_num_primitives(stage.scene)) {
-            inspect->stack = mxg_bindings_stack(stage.bindings, primitive);
+        inspect->stack = mxg_bindings_stack(stage.bindings, primitive);
+        if (inspect->stack != MXG_NONE)
             print_views(cli, stage.document, inspect);
-        } else {
+        else if (primitive < mxg_scene_num_primitives(stage.scene))
+            report_error(&cli->report, "unknown-primitive",
+                         "'%s' is a group, and nothing that is drawn has its layers",
+                         path ? path : "/");
+        else
             scene_file_report_unknown(&cli->report, stage.scene, path ? path : "/");
-        }
     }
     scene_file_unbind(&stage);
     inspect->bindings = NULL;

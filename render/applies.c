@@ -51,6 +51,8 @@ static const struct {
     {"aovs", FACT_ONE_PICTURE, "sheets and turntables have no AOVs"},
     {"max-outputs", 0, "AOVs are drawn as many as the device has attachments for"},
     {"ambient-occlusion", FACT_RASTER, "--path-trace traces it"},
+    {"solo", FACT_STAGE, "only a stage has slots"},
+    {"mute", FACT_STAGE, "only a stage has slots"},
     {"purpose", FACT_STAGE, "only a stage has bindings for purposes"},
 };
 

@@ -222,6 +222,7 @@ static void note_lack(struct bind *bind, uint32_t object, const mxg_variable *va
     if (bind->num_lacking++)
         return;
     bind->lacking = bind->objects[object].path;
+    bind->lacking_slot = variable->slot;
     if (is_property)
         snprintf(bind->lacked, sizeof bind->lacked, "%s", variable->semantic + len + 1);
     else

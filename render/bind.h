@@ -69,6 +69,7 @@ struct bind {
     uint32_t **orders;   /* by object: triangles from far to near, if the shader blends */
     const char *lacking; /* an object, and a property that it lacks: "st" */
     char lacked[SCENE_MAX_NAME];
+    const char *lacking_slot;                         /* the slot that reads it, or "" */
     uint32_t num_lacking;                             /* how many there are */
     struct bind_mistyped mistyped[BIND_MAX_MISTYPED]; /* the first ones */
     uint32_t num_mistyped;

@@ -29,7 +29,13 @@ static void draw_stage(struct job *job, const mxg_document *document, const char
     struct image picture = {0};
     const char *show = job_shows_slots(job) ? job->options.show : NULL;
     job->painter.wants_aovs = show || job_writes_channels(job);
-    if (site_subjects_make(&job->painter, &job->site, document, path, job->options.look, &subjects)
+    mxg_bindings_desc desc = MXG_BINDINGS_DESC_INIT;
+    desc.look = job->options.look;
+    desc.solo = job->options.solo.items;
+    desc.num_solo = job->options.solo.len;
+    desc.mute = job->options.mute.items;
+    desc.num_mute = job->options.mute.len;
+    if (site_subjects_make(&job->painter, &job->site, document, path, &desc, &subjects)
         && picture_draw(&job->painter, subjects.items, subjects.len, &picture)) {
         if (show)
             aovs_show(&job->painter.aovs, strcmp(show, "weights") == 0, &picture, print_slot, job);
@@ -174,5 +180,7 @@ int main(int argc, char **argv)
     job_free_values(job.values, job.options.settings.len);
     free(job.options.settings.items);
     free(job.options.environments.items);
+    free(job.options.solo.items);
+    free(job.options.mute.items);
     return code;
 }

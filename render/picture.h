@@ -31,6 +31,7 @@ struct painter {
     size_t num_values;
     bool unwraps;                      /* surfaces are flat, at their texture coordinates */
     bool checker;                      /* replaces missing textures by a checker */
+    bool told_occlusion;               /* that rasters compute none */
     const mxg_document *told_document; /* the last document with textures that cannot be read */
     struct name_table told_textures;   /* what was printed of them; names_finish frees it */
     enum background background;

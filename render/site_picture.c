@@ -63,15 +63,13 @@ static bool is_visible(const mxg_bindings *bindings, uint32_t primitive)
 }
 
 bool site_subjects_make(struct painter *painter, const struct site *site,
-                        const mxg_document *document, const char *path, const char *look,
-                        struct site_subjects *out)
+                        const mxg_document *document, const char *path,
+                        const mxg_bindings_desc *desc, struct site_subjects *out)
 {
     struct report *report = &painter->cli->report;
-    mxg_bindings_desc desc = MXG_BINDINGS_DESC_INIT;
     *out = (struct site_subjects){0};
-    desc.look = look;
     mxg_status status =
-        mxg_bindings_create(painter->cli->context, document, site->scene, &desc, &out->bindings);
+        mxg_bindings_create(painter->cli->context, document, site->scene, desc, &out->bindings);
     if (out->bindings)
         report_list(report, mxg_bindings_diagnostics(out->bindings));
     if (!report_status(report, status))

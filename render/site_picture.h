@@ -14,12 +14,12 @@ struct site_subjects {
 };
 
 /*
- * Binds a look (NULL: as for mxg_bindings_create) to the site, and groups its objects. false after
- * reporting an error. Call site_subjects_finish in any case.
+ * Binds a look to the site, and groups its objects. false after reporting an error. Call
+ * site_subjects_finish in any case.
  */
 bool site_subjects_make(struct painter *painter, const struct site *site,
-                        const mxg_document *document, const char *path, const char *look,
-                        struct site_subjects *out);
+                        const mxg_document *document, const char *path,
+                        const mxg_bindings_desc *desc, struct site_subjects *out);
 void site_subjects_finish(struct site_subjects *subjects);
 
 #endif

@@ -54,11 +54,19 @@ struct visit {
     uint32_t instance; /* 1 + index in the instances of the site; 0: none */
 };
 
+/* Geometry of UsdGeom that is told instead of drawn. */
+static const char *const undrawn[] = {"BasisCurves", "NurbsCurves", "HermiteCurves", "Points",
+                                      "NurbsPatch",  "TetMesh",     "Volume"};
+enum { NUM_UNDRAWN = sizeof undrawn / sizeof *undrawn };
+
 struct walk {
     struct site *site;
     struct visit *visits;
     size_t num_visits, capacity, num_instances;
     struct made *made; /* by primitive */
+    struct {
+        uint32_t first, num;
+    } undrawn[NUM_UNDRAWN]; /* primitives of these types */
 };
 
 /* The objects of a primitive, which its other instances share. */
@@ -258,6 +266,26 @@ static void set_instance(struct walk *walk, uint32_t first, uint32_t instance)
                                       site->instances[instance - 1].number, &site->objects[i]);
 }
 
+static void note_undrawn(struct walk *walk, uint32_t primitive, const char *type)
+{
+    for (size_t i = 0; i < NUM_UNDRAWN; ++i)
+        if (strcmp(type, undrawn[i]) == 0 && !walk->undrawn[i].num++)
+            walk->undrawn[i].first = primitive;
+}
+
+/* One warning for each type, at its first primitive. */
+static void tell_undrawn(const struct walk *walk)
+{
+    for (size_t i = 0; i < NUM_UNDRAWN; ++i)
+        if (walk->undrawn[i].num > 1)
+            site_warn(walk->site, "not-drawn", walk->undrawn[i].first, NULL,
+                      "and %u more are %s, which mxgen does not draw",
+                      (unsigned)walk->undrawn[i].num - 1, undrawn[i]);
+        else if (walk->undrawn[i].num)
+            site_warn(walk->site, "not-drawn", walk->undrawn[i].first, NULL,
+                      "is %s, which mxgen does not draw", undrawn[i]);
+}
+
 /* Adds the geometry of a primitive, for the first time or again. */
 static void add_objects(struct walk *walk, uint32_t primitive, const char *type,
                         struct matrix world)
@@ -271,8 +299,8 @@ static void add_objects(struct walk *walk, uint32_t primitive, const char *type,
     *made = (struct made){.first = site->num_objects, .is_known = true};
     if (strcmp(type, "Mesh") == 0)
         usd_add_mesh(site, primitive, world);
-    else
-        usd_add_shape(site, primitive, type, world);
+    else if (!usd_add_shape(site, primitive, type, world))
+        note_undrawn(walk, primitive, type);
     made->num = site->num_objects - made->first;
 }
 
@@ -324,6 +352,7 @@ void site_read_usd(struct site *site)
     }
     while (walk.num_visits && !site->has_fault)
         visit(&walk, walk.visits[--walk.num_visits]);
+    tell_undrawn(&walk);
     free(walk.made);
     free(walk.visits);
 }

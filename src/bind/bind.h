@@ -112,6 +112,20 @@ void bind_stands(const struct bindings *b, const struct bind_state *state, struc
 bool bind_is_excluded(const struct bindings *b, const struct bind_state *state,
                       uint32_t collection);
 
+/* ---- idle.c: names that a state has, and no layer ---- */
+
+struct bind_idle {
+    struct bind_item item; /* without a kind */
+    bool is_removed;       /* otherwise it sleeps */
+};
+struct idle_list {
+    struct bind_idle *items;
+    uint32_t len, cap;
+};
+/* Fills the list by name; `stands` is a work area. */
+void bind_find_idle(const struct bindings *b, const struct bind_state *state, struct stands *stands,
+                    struct idle_list *out);
+
 /* ---- stack.c: the layers of a state ---- */
 
 /* Notes about the layers of all states together, for warnings. */
@@ -179,6 +193,9 @@ struct bind_writer {
     void *user_data;
     bool colour;
     struct text path, name; /* of the item at hand */
+    const struct bind_state *idle_state;
+    struct stands stands;
+    struct idle_list idle; /* of idle_state */
 };
 /* Sets up a writer for the functions below; the members before `path` are the caller's. */
 void bind_writer_init(struct bind_writer *writer);

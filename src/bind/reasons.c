@@ -47,6 +47,11 @@ static void put_head(const struct explanation *e, uint32_t assign, uint32_t leve
     text_str(e->out, "\n      ");
 }
 
+static bool is_for_purpose(const struct bind_look *look, const struct look_assign *a)
+{
+    return a->binding && look->scene->bindings.items[a->binding - 1].is_purpose;
+}
+
 /* The reason why `weak` loses to `strong`, which stands before it in the order of strength. */
 static void put_loss(const struct explanation *e, const struct stand *weak,
                      const struct stand *strong)
@@ -59,7 +64,9 @@ static void put_loss(const struct explanation *e, const struct stand *weak,
     if (strong->level > weak->level) {
         text_str(e->out, ", which stands deeper, at ");
         put_path(e, strong->level);
-    } else if (w->collection && s->collection && look_contains(look, w->collection, s->collection))
+    } else if (is_for_purpose(look, s) && !is_for_purpose(look, w))
+        text_fmt(e->out, ", which is for the purpose '%s'", e->b->scene->purpose);
+    else if (w->collection && s->collection && look_contains(look, w->collection, s->collection))
         text_str(e->out, ", whose collection this one's includes");
     else if (w->binding && !s->binding)
         text_str(e->out, ", which a look has");

@@ -24,6 +24,7 @@ void bind_writer_init(struct bind_writer *w)
 {
     text_init(&w->path, w->scratch);
     text_init(&w->name, w->scratch);
+    w->stands.scratch = w->scratch;
 }
 
 static void flush(struct bind_writer *w)
@@ -90,6 +91,34 @@ static void put_cell(struct bind_writer *w, const struct place *place, const str
     put_close(w, is_here);
 }
 
+/* What the primitive lacks although it has the name; neighbours often share a state. */
+static const struct idle_list *idle_of(struct bind_writer *w, prim_id prim)
+{
+    const struct bind_state *state = bind_state_of(w->b, prim);
+    if (w->idle_state != state)
+        bind_find_idle(w->b, state, &w->stands, &w->idle);
+    w->idle_state = state;
+    return &w->idle;
+}
+
+/* "[050 removed]", "(050::010 pattern asleep)" */
+static void put_idle_cells(struct bind_writer *w, const struct place *place)
+{
+    const struct idle_list *idle = idle_of(w, place->prim);
+    for (uint32_t i = 0; i < idle->len; i++) {
+        const struct bind_item *item = &idle->items[i].item;
+        bool is_here = item->level == place->level;
+        text_str(w->out, "  ");
+        put_open(w, is_here);
+        text_str(w->out, slot_of(w, item));
+        if (idle->items[i].is_removed)
+            text_str(w->out, " removed");
+        else
+            text_fmt(w->out, " %s asleep", name_of(w, assign_of(w, item)->target));
+        put_close(w, is_here);
+    }
+}
+
 static void put_row(struct bind_writer *w, prim_id prim, size_t width)
 {
     struct place place = place_of(w, prim);
@@ -104,6 +133,7 @@ static void put_row(struct bind_writer *w, prim_id prim, size_t width)
     }
     if (!place.num_items)
         text_str(w->out, scene_is_group(w->b->scene, prim) ? "-" : "default");
+    put_idle_cells(w, &place);
     text_char(w->out, '\n');
 }
 
@@ -163,7 +193,9 @@ static void put_source(struct bind_writer *w, struct json *json, const struct pl
 {
     const struct look_assign *a = assign_of(w, item);
     struct diag_place at = look_assign_place(&w->b->look, a);
-    json_put_text(json, a->kind == ASSIGN_GRAPH ? "nodegraph" : "material", name_of(w, a->target));
+    if (a->target)
+        json_put_text(json, a->kind == ASSIGN_GRAPH ? "nodegraph" : "material",
+                      name_of(w, a->target));
     json_key(json, "from");
     put_path(w, bind_prim_at(w->b, place->prim, item->level));
     json_put_bool(json, "inherited", item->level != place->level);
@@ -270,6 +302,30 @@ static void put_beside(struct bind_writer *w, struct json *json, const struct pl
     }
 }
 
+/* The names that are removed, or those that sleep. */
+static void put_idle(struct bind_writer *w, struct json *json, const struct place *place,
+                     bool is_removed)
+{
+    const struct idle_list *idle = idle_of(w, place->prim);
+    bool is_open = false;
+    for (uint32_t i = 0; i < idle->len; i++) {
+        if (idle->items[i].is_removed != is_removed)
+            continue;
+        if (!is_open) {
+            json_key(json, is_removed ? "removed" : "asleep");
+            json_open(json, '[');
+            is_open = true;
+        }
+        json_item(json);
+        json_open(json, '{');
+        json_put_text(json, "slot", slot_of(w, &idle->items[i].item));
+        put_source(w, json, place, &idle->items[i].item);
+        json_close(json, '}');
+    }
+    if (is_open)
+        json_close(json, ']');
+}
+
 static void put_primitive(struct bind_writer *w, struct json *json, prim_id prim)
 {
     struct place place = place_of(w, prim);
@@ -294,6 +350,8 @@ static void put_primitive(struct bind_writer *w, struct json *json, prim_id prim
     }
     json_close(json, ']');
     put_beside(w, json, &place);
+    put_idle(w, json, &place, true);
+    put_idle(w, json, &place, false);
     json_close(json, '}');
 }
 

@@ -19,6 +19,8 @@ static void open_by_default(struct builder *b, uint32_t index)
     struct shader_variable *variable = &b->shader->interface.variables.items[index];
     variable->has_default = true;
     variable->value = ir_value_float(1.0f);
+    if (!variable->slot)
+        variable->slot = b->slot;
 }
 
 static ir_ref primvar(struct builder *b)

@@ -306,7 +306,20 @@ class Resolver:
             if vertical:
                 layer["vertical"] = vertical
             result["layers"].append(layer)
+        result.update(self.idle(names, result, path))
         return result
+
+    def idle(self, names, result, path):
+        """The names that are removed, and those that sleep: they have a material, and no layer."""
+        said, idle = set(re.findall(r"'slot': '([^']*)'", str(result))), {"removed": [], "asleep": []}
+        for name in names:
+            ranked = self.ranked(name, path)
+            if ranked and not ranked[0][0].target and len(ranked) > 1:
+                place = ranked[0][1]
+                idle["removed"].append({"slot": name, "from": place, "inherited": place != path, "assign": ranked[0][0].label})
+            elif ranked and ranked[0][0].target and name not in said:
+                idle["asleep"].append({"slot": name, **self.source(*ranked[0], path)})
+        return {key: value for key, value in idle.items() if value}
 
     def resolve(self):
         return [self.primitive(path) for path in self.paths]

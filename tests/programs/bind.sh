@@ -181,16 +181,20 @@ check 'a stage of USD needs no look' exits 0 usd
 check 'a stage of USD has bindings in its slotOrder' row '/set [dust Dust] [base Clay]'
 check 'a primitive of an instance has layers' row '/set/table/leg [000 Clay] (dust Dust) (::010 Clay) (base Clay)'
 check 'each instance has layers of its own' row '/set/stool/leg [000 Clay] (dust Dust) (base Clay)'
-check 'None removes a slot' row '/set/cup (base Clay)'
-check 'a slot binding beats a plain one' row '/set/cup/rim [000 Dust] (base Clay)'
+check 'None removes a slot' row '/set/cup (base Clay) [dust removed]'
+check 'a removal of what is not there is none' row '/set/stool/leg [000 Clay] (dust Dust) (base Clay)'
+check 'a slot binding beats a plain one' row '/set/cup/rim [000 Dust] (base Clay) (dust removed)'
 check 'a stronger binding beats those below' row '/set/shelf/board (000 Dust) (dust Dust) (base Clay)'
 check 'shading and other subsets are no primitives' eval '! grep -qE "/Clay|/faces|Prototype" out'
 check 'a stage of USD gives JSON' exits 0 usd --json -
+check 'the JSON has what is removed' json 'p["/set/cup"]["removed"] == [{"slot": "dust", "from": "/set/cup", "inherited": False, "assign": "/set/cup.material:slotBinding:_dust stage.usda:31"}]'
 check 'the JSON names the property and its line' json 'p["/set/table/leg"]["layers"][0]["assign"] == "/set/table/leg.material:binding stage.usda:9"'
 check 'the purpose full is accepted' exits 0 usd --purpose full
-check 'a binding of the purpose beats all others' row '/set/cup/rim (000 Dust) (base Clay)'
+check 'a binding of the purpose beats all others' row '/set/cup/rim (000 Dust) (base Clay) (dust removed)'
 check 'the purpose preview is accepted' exits 0 usd --purpose preview
-check 'the other purpose has its own binding' row '/set/cup [000 Clay] (base Clay)'
+check 'the reason is the purpose' eval 'exits 0 usd --purpose full --geom /set/cup/rim && grep -qF "which is for the purpose '"'full'"'" out'
+exits 0 usd --purpose preview
+check 'the other purpose has its own binding' row '/set/cup [000 Clay] (base Clay) [dust removed]'
 sed 's|<look name="day">|&<materialassign slot="000" material="Clay" geom="/set/shelf, /set/stool"/>|' look.mtlx >over.mtlx
 check 'a look counts beside the stage' exits 0 env document=over.mtlx "$mxgen" bind over.mtlx --stage stage.usda --mute 050
 check 'a look beats the scene at one path' row '/set/shelf [000 Clay] (dust Dust) (base Clay)'

@@ -220,11 +220,22 @@ sed 's|<look .*</look>|<look name="l"><materialassign material="Blue" geom="/man
 sed 's|int64\[\] invisibleIds = \[2\]|int64[] ids = [8, 16777217, 7]|' scene.usda >ids.usda
 # the look of colors.mtlx is for another stage
 check 'a stage with bindings of its own is drawn' draw scene -W no-pattern-unmatched
+check 'the stage gives no message' test ! -s err
 check 'a look that names an instance is drawn' exits 0 "$render" one.mtlx --stage ids.usda -s 64 -o ids.ppm
 check 'the instance of the id has its layer' eval '[ "$(cell ids.ppm -1.5 -3.5)" = b ]'
 check 'others have those of their prototypes' eval '[ "$(cell ids.ppm -2.5 -3.5)" = r ]'
 check 'the first one is of the other prototype' eval '[ "$(cell ids.ppm -3.5 -3.5)" = g ]'
-check 'the stage gives no message' test ! -s err
+sed 's|<look .*</look>|<look name="l"><materialassign material="Blue" geom="//" slot="050"/></look>|' colors.mtlx >two.mtlx
+check 'a slot may be muted' exits 0 "$render" two.mtlx --stage scene.usda -s 64 --mute 050 -o mute.ppm
+check 'what is below shows' eval '[ "$(cell mute.ppm -2.5 -3.5)" = r ]'
+check 'a slot may be alone' exits 0 "$render" two.mtlx --stage scene.usda -s 64 --solo 050 -o solo.ppm
+check 'it is above' eval '[ "$(cell solo.ppm -2.5 -3.5)" = b ]'
+check 'an unknown slot is an error' eval 'exits 1 "$render" two.mtlx --stage scene.usda -s 64 --mute 060 -o none.ppm && grep -qF "[unknown-slot]" err'
+sed 's|<surface_unlit name=.SBlue.|<ambientocclusion name="ao" type="float"/><surface_unlit name="SBlue"|; s|value=.0,0,1./>|&<input name="emission" type="float" nodename="ao"/>|' two.mtlx >open.mtlx
+check 'occlusion that a stage lacks is told once' eval 'exits 0 "$render" open.mtlx --stage scene.usda -s 64 -o open.ppm && [ "$(grep -c "\[missing-primvar\]" err)" = 1 ] && grep -qF "which the slot '"'050'"' reads; rasters compute no occlusion, so 1 (open) stands in" err'
+check 'and 1 stands in' eval '[ "$(cell open.ppm -2.5 -3.5)" = b ]'
+printf '#usda 1.0\ndef Cube "c" {}\ndef Points "p" {\n    point3f[] points = [(0, 0, 0)]\n}\ndef BasisCurves "a" {\n    token type = "linear"\n}\ndef BasisCurves "b" {}\n' >undrawn.usda
+check 'geometry that is not drawn is told beside what is' eval 'exits 0 "$render" --stage undrawn.usda -s 16 -o undrawn.ppm && grep -F "[not-drawn]" err >told; grep -qF "(undrawn.usda:4) is Points, which mxgen does not draw" told && grep -qF "(undrawn.usda:7) and 1 more are BasisCurves" told'
 sees 'a mesh with its material' scene -3.5 3.5 r
 sees 'nothing below it' scene -3.5 2.5 -
 sees 'transforms in their order, for children' scene -2.5 3.5 g

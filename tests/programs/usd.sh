@@ -412,7 +412,7 @@ XML
 check 'a look names instances' exits 0 bind forest.mtlx --stage forest.usda
 check 'an instance has the layers of its prototype, and its own' eval 'row "/set/forest/tree/top/set:forest[12] (000 Green) [050 Red]" && row "/set/forest/tree/trunk/set:forest[12] (000 Green) [050 Red]"'
 check 'an id has as many digits as it has' row '/set/forest/stone/set:forest[9007199254740993] (000 Green) [050 Red]'
-check 'an instance removes, and stands in a collection' row '/set/forest/stone/set:forest[11] [060 Red]'
+check 'an instance removes, and stands in a collection' row '/set/forest/stone/set:forest[11] [060 Red] [000 removed]'
 check 'without ids its number is the id' row '/set/forest/stone/set:row[1] (000 Green) [060 Red]'
 check 'the prototype stays as it is, and a leaf' row '/set/forest/stone [000 Green]'
 check 'instances that nobody names are no primitives' test "$(grep -c '\[' <(grep -o '^[^ ]*\[' out))" = 5
