@@ -1,18 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // The page's side of the worker.
 
-import workerSource from "worker.bundle.js";
-
 const TOO_LONG = 20_000; // milliseconds
 
 export class Compiler {
     #worker = null;
     #waiting = new Map();
     #next = 1;
-    #files = new Map();
+    #remembered = new Map();
+    #source;
+
+    /** `source` is the text of the worker. */
+    constructor(source) {
+        this.#source = source;
+    }
 
     #start() {
-        this.#worker = new Worker(URL.createObjectURL(new Blob([workerSource], { type: "text/javascript" })));
+        this.#worker = new Worker(URL.createObjectURL(new Blob([this.#source], { type: "text/javascript" })));
         this.#worker.onmessage = ({ data: { id, answer, error } }) => {
             const { resolve, reject, timer } = this.#waiting.get(id);
             clearTimeout(timer);
@@ -23,8 +27,8 @@ export class Compiler {
                 reject(new Error(error));
         };
         this.#worker.onerror = event => this.#stop(event.message || "the compiler does not start");
-        if (this.#files.size)
-            this.ask("addFiles", { added: [...this.#files] });
+        for (const [kind, request] of this.#remembered.values())
+            this.ask(kind, request).catch(() => {});
     }
 
     /** Ends the worker with all that waits for it; the next request starts another one. */
@@ -50,10 +54,10 @@ export class Compiler {
         });
     }
 
-    /** Files that documents include, by name. */
-    addFiles(added) {
-        for (const [name, text] of added)
-            this.#files.set(name, text);
-        return this.ask("addFiles", { added });
+    /** Asks now, and again whenever another worker starts; of requests with the same kind and name only the last one. */
+    remember(kind, request) {
+        const answer = this.ask(kind, request);
+        this.#remembered.set(`${kind} ${request.name}`, [kind, request]);
+        return answer;
     }
 }

@@ -20,10 +20,18 @@ function rangeOf(variable) {
     return [least, greatest];
 }
 
-const toHex = values => "#" + values.slice(0, 3).map(x => Math.round(255 * encode(Math.max(0, Math.min(1, x)))).toString(16).padStart(2, "0")).join("");
 const encode = x => x <= 0.0031308 ? 12.92 * x : 1.055 * x ** (1 / 2.4) - 0.055;
 const decode = x => x <= 0.04045 ? x / 12.92 : ((x + 0.055) / 1.055) ** 2.4;
+const same = x => x;
+/** To sRGB, in which browsers pick colours, and back; the values of other spaces than srgb_texture count as linear. */
+const spaceOf = ({ colorspace }) => colorspace === "srgb_texture" ? [same, same] : [encode, decode];
+const toHex = (values, toSrgb) => "#" + values.slice(0, 3).map(x => Math.round(255 * toSrgb(Math.max(0, Math.min(1, x)))).toString(16).padStart(2, "0")).join("");
 const short = x => String(Number(x.toPrecision(6)));
+
+/** The text of a value in a document. */
+export function valueText({ documentType }, values) {
+    return documentType === "boolean" ? String(values[0] !== 0) : values.map(short).join(", ");
+}
 
 /** The control of a variable. `set(values, isFinal)` tells new values: while a slider moves, and when it rests. */
 function controlOf(variable, set) {
@@ -49,10 +57,10 @@ function controlOf(variable, set) {
         }), numberBox(0));
     } else {
         if (/^color/.test(documentType)) {
-            const color = element("input", { type: "color", value: toHex(values) });
+            const [toSrgb, fromSrgb] = spaceOf(variable), color = element("input", { type: "color", value: toHex(values, toSrgb) });
             label.append(listen(color, () => {
-                const linear = [1, 3, 5].map(at => decode(parseInt(color.value.slice(at, at + 2), 16) / 255));
-                linear.forEach((x, i) => { boxes()[i].value = short(x); });
+                const picked = [1, 3, 5].map(at => fromSrgb(parseInt(color.value.slice(at, at + 2), 16) / 255));
+                picked.forEach((x, i) => { boxes()[i].value = short(x); });
                 return boxes().map(box => Number(box.value));
             }));
         }

@@ -9,17 +9,18 @@ import gold from "../examples/gold.mtlx";
 import marble from "../examples/marble.mtlx";
 import shaderx from "../examples/shaderx.mtlx";
 import { Compiler } from "./compiler.js";
-import { showInputs } from "./inputs.js";
+import { showInputs, valueText } from "./inputs.js";
 import { addressOf, textOf } from "./link.js";
 import { SHAPE_NAMES } from "./scene.js";
 import { View, ViewError } from "./view.js";
+import workerSource from "worker.bundle.js";
 
 const EXAMPLES = { "Gold": gold, "Marble": marble, "Car paint": carPaint, "Displaced": displaced, "ShaderX nodes": shaderx, "Custom node": expression, "Fog": fog };
 const MAX_TEXT = 4 << 20; // an editor of more is slow
 const PAUSE = 250; // milliseconds after a key before the document is compiled
 
 const $ = id => document.getElementById(id);
-const compiler = new Compiler();
+const compiler = new Compiler(workerSource);
 let view = null;
 let shader = null; // of the last document without errors
 let element = null;
@@ -164,10 +165,6 @@ function nameTextures() {
 
 // ---- Inputs ----
 
-function valueText({ documentType }, values) {
-    return documentType === "boolean" ? String(values[0] !== 0) : values.map(x => Number(x.toPrecision(6))).join(", ");
-}
-
 async function setInput(variable, values, isFinal) {
     variable.values = values;
     if (view) {
@@ -212,8 +209,8 @@ async function take(files) {
             faults.push(file.name);
         }
     }
-    if (texts.length)
-        await compiler.addFiles(texts);
+    for (const [name, content] of texts)
+        await compiler.remember("addFile", { name, content });
     if (opened && opened.size > MAX_TEXT)
         setText({ length: opened.size });
     else if (opened)

@@ -3,9 +3,8 @@
 
 import { DocumentError, instantiate } from "../js/mxgen/mxgen.js";
 import compressed from "mxgen.wasm.gz";
+import { distinct, generate, partsOf, REDUCED, serve, shaderOf } from "./shaders.js";
 
-const OPTIONS = { "sample-filter": "narrow" }; // as in `mxgen render`
-const REDUCED = { options: { interface: "reduced" } };
 const files = new Map(); // texts that documents include, by their last name
 
 const nameOf = path => path.slice(path.lastIndexOf("/") + 1);
@@ -37,46 +36,7 @@ function withDocument(context, text, found, use) {
     }
 }
 
-/** What the page needs to draw a shader, as plain data. */
-function partsOf({ info: { name, displaced, alpha }, vertex, pixel, variables }) {
-    return { info: { name, displaced, alpha, alphaNow: alpha }, vertex, pixel, variables };
-}
-
-function generate(document, element, options, use) {
-    const shader = document.generate("essl", { element, ...options, options: { ...OPTIONS, ...options.options } });
-    try {
-        return use(shader);
-    } finally {
-        shader.destroy();
-    }
-}
-
-/** The shader of an element. */
-function shaderOf(document, element, found) {
-    try {
-        const parts = generate(document, element, {}, shader => {
-            found.push(...shader.diagnostics);
-            return partsOf(shader);
-        });
-        // What the values of the document make of it: most materials are opaque, although their opacity is a uniform.
-        generate(document, element, { ...REDUCED, withoutSource: true }, ({ info: { alpha, numClosures } }) => {
-            Object.assign(parts.info, { alphaNow: alpha, numClosures });
-        });
-        return parts;
-    } catch (error) {
-        if (!(error instanceof DocumentError))
-            throw error;
-        found.push(...error.diagnostics);
-        return null;
-    }
-}
-
-/** The same fault can stand in the diagnostics of the document and of the shader. */
-function distinct(diagnostics) {
-    return [...new Map(diagnostics.map(item => [JSON.stringify({ ...item, parent: 0 }), item])).values()];
-}
-
-const KINDS = {
+serve({
     /** The answer tells that the worker runs; the compiler may not be ready. */
     started() {
         return {};
@@ -87,9 +47,8 @@ const KINDS = {
         return { version: mxgen.version, targets: mxgen.targets.map(({ name }) => name) };
     },
 
-    addFiles({ added }) {
-        for (const [name, text] of added)
-            files.set(name, text);
+    addFile({ name, content }) {
+        files.set(name, content);
         return {};
     },
 
@@ -158,12 +117,4 @@ const KINDS = {
         const { context } = await ready;
         return { text: context.format(text, { name: "document.mtlx" }) };
     },
-};
-
-addEventListener("message", async ({ data: { id, kind, ...request } }) => {
-    try {
-        postMessage({ id, answer: await KINDS[kind](request) });
-    } catch (error) {
-        postMessage({ id, error: String(error?.message ?? error) });
-    }
 });

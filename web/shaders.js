@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// Shaders for the view (view.js), made in a worker, and how a worker answers.
+
+import { DocumentError } from "../js/mxgen/mxgen.js";
+
+const OPTIONS = { "sample-filter": "narrow" }; // as in `mxgen render`
+export const REDUCED = { options: { interface: "reduced" } };
+
+/** What the page needs to draw a shader, as plain data. */
+export function partsOf({ info: { name, displaced, alpha }, vertex, pixel, variables }) {
+    return { info: { name, displaced, alpha, alphaNow: alpha }, vertex, pixel, variables };
+}
+
+export function generate(document, element, options, use) {
+    const shader = document.generate("essl", { element, ...options, options: { ...OPTIONS, ...options.options } });
+    try {
+        return use(shader);
+    } finally {
+        shader.destroy();
+    }
+}
+
+/** The shader of an element. */
+export function shaderOf(document, element, found) {
+    try {
+        const parts = generate(document, element, {}, shader => {
+            found.push(...shader.diagnostics);
+            return partsOf(shader);
+        });
+        // What the values of the document make of it: most materials are opaque, although their opacity is a uniform.
+        generate(document, element, { ...REDUCED, withoutSource: true }, ({ info: { alpha, numClosures } }) => {
+            Object.assign(parts.info, { alphaNow: alpha, numClosures });
+        });
+        return parts;
+    } catch (error) {
+        if (!(error instanceof DocumentError))
+            throw error;
+        found.push(...error.diagnostics);
+        return null;
+    }
+}
+
+/** The same fault can stand in the diagnostics of the document and of the shader. */
+export function distinct(diagnostics) {
+    return [...new Map(diagnostics.map(item => [JSON.stringify({ ...item, parent: 0 }), item])).values()];
+}
+
+/** Answers messages { id, kind, … } by the function of their kind; the answer has the same id. */
+export function serve(kinds) {
+    addEventListener("message", async ({ data: { id, kind, ...request } }) => {
+        try {
+            postMessage({ id, answer: await kinds[kind](request) });
+        } catch (error) {
+            postMessage({ id, error: String(error?.message ?? error) });
+        }
+    });
+}
