@@ -74,7 +74,7 @@ NOT_OURS = {"stdosl.h"}
 def sources():
     for folder in FOLDERS:
         for path in sorted((ROOT / folder).rglob("*")):
-            if path.suffix in TEXTS and path.is_file() and "__pycache__" not in path.parts:
+            if path.suffix in TEXTS and path.is_file() and not {"__pycache__", "node_modules"} & set(path.parts):
                 yield path
 
 

@@ -12,12 +12,12 @@ from checks import check, finish
 
 ROOT = pathlib.Path(sys.argv[1])
 COMPILER = sys.argv[2:]
-CODE = "src generators program cli check compile doc export lsp render bench tests examples fits include python js web blender action".split()
+CODE = "src generators program cli check compile doc export lsp render bench tests examples fits include python js web editors blender action".split()
 
 
 def files(folder, *endings):
     found = (path for path in sorted((ROOT / folder).rglob("*")) if path.suffix in endings)
-    return [path for path in found if path.is_file()]
+    return [path for path in found if path.is_file() and "node_modules" not in path.parts]
 
 
 def lines(path):

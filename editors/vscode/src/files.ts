@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// The files that documents name. What the editor has open stands for the file on the disk.
+
+import * as vscode from "vscode";
+
+/** The settings of a folder that are paths, absolute; relative ones begin at the first folder of the workspace. */
+export function settingPaths(key: string): vscode.Uri[] {
+    const base = vscode.workspace.workspaceFolders?.[0]?.uri;
+    return vscode.workspace.getConfiguration("mxgen").get<string[]>(key, []).flatMap(path => {
+        if (/^(\/|[A-Za-z]:[\\/])/.test(path))
+            return [base?.with({ path: vscode.Uri.file(path).path }) ?? vscode.Uri.file(path)];
+        return base ? [vscode.Uri.joinPath(base, path)] : [];
+    });
+}
+
+/** The address of `ref` beside the file `from`; null: it has none. */
+export function join(from: string, ref: string): string | null {
+    try {
+        return vscode.Uri.parse(new URL(ref.replaceAll("\\", "/"), from).href).toString();
+    } catch {
+        return null;
+    }
+}
+
+function isBelow(uri: vscode.Uri, folder: vscode.Uri): boolean {
+    return uri.scheme === folder.scheme && uri.authority === folder.authority && uri.path.startsWith(folder.path.replace(/\/?$/, "/"));
+}
+
+/** Whether a document may read a file: it is below the document's folder, a folder of the workspace, or one of the settings. */
+function mayRead(document: vscode.Uri, file: vscode.Uri): boolean {
+    const folders = (vscode.workspace.workspaceFolders ?? []).map(({ uri }) => uri);
+    return [vscode.Uri.joinPath(document, ".."), ...folders, ...settingPaths("includeRoots")].some(folder => isBelow(file, folder));
+}
+
+/** The bytes of a file; null: there is none that the document may read. */
+export async function readFile(document: vscode.Uri, name: string): Promise<Uint8Array<ArrayBuffer> | null> {
+    const uri = vscode.Uri.parse(name);
+    if (!mayRead(document, uri))
+        return null;
+    const open = vscode.workspace.textDocuments.find(one => one.uri.toString() === uri.toString());
+    if (open)
+        return new TextEncoder().encode(open.getText());
+    try {
+        return new Uint8Array(await vscode.workspace.fs.readFile(uri));
+    } catch {
+        return null;
+    }
+}

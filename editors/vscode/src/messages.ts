@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the extension and its preview tell each other.
+
+import type { InputPlace } from "./text";
+
+/** Line and column from 1; columns count characters. */
+export interface Position {
+    line: number;
+    column: number;
+}
+
+/** `file` is the address of a file, as the extension named it. */
+export interface Place extends Position {
+    file: string;
+}
+
+export type ToView =
+    /** The document that the preview shows, also after each change. */
+    | { type: "document"; name: string; text: string; cursor: Position }
+    | { type: "cursor"; cursor: Position }
+    /** The answer to `read`, and again when the file changes. null: there is none that the document may read. */
+    | { type: "file"; name: string; content: Uint8Array<ArrayBuffer> | null }
+    | { type: "texture"; name: string; file: string; content: Uint8Array<ArrayBuffer> | null };
+
+export type FromView =
+    | { type: "ready" }
+    | { type: "read"; name: string }
+    /** `file` is a texture as the document `name` names it. */
+    | { type: "readTexture"; name: string; file: string }
+    | { type: "reveal"; place: Place }
+    | { type: "setInput"; place: InputPlace & { file: string }; value: string }
+    | { type: "openShader"; name: string; element: string; target: string };

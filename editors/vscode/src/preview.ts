@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+// The panel beside the text. It shows the MaterialX document that was active last; view/ draws it, and this side gives it texts
+// and files, and writes what its controls change.
+
+import * as vscode from "vscode";
+
+import { join, readFile } from "./files";
+import type { FromView, Place, Position, ToView } from "./messages";
+import type { Shaders } from "./shaders";
+import { changeOfInput, offsetOf } from "./text";
+
+const TYPE = "mxgen.preview";
+
+/** The cursor; before the first letter of a line it counts as being at that letter. */
+function cursorOf(document: vscode.TextDocument): Position {
+    const editor = vscode.window.visibleTextEditors.find(one => one.document === document), place = editor?.selection.active;
+    if (!place)
+        return { line: 1, column: 1 };
+    const { text, firstNonWhitespaceCharacterIndex } = document.lineAt(place.line);
+    return { line: place.line + 1, column: [...text.slice(0, Math.max(place.character, firstNonWhitespaceCharacterIndex))].length + 1 };
+}
+
+export class Preview implements vscode.WebviewPanelSerializer, vscode.Disposable {
+    #panel: vscode.WebviewPanel | null = null;
+    #source: vscode.TextDocument | null = null;
+    readonly #given = new Set<string>(); // files that the view has
+    readonly #listeners: vscode.Disposable[];
+
+    constructor(private readonly extension: vscode.Uri, private readonly shaders: Shaders) {
+        const watcher = vscode.workspace.createFileSystemWatcher("**/*"), changed = (uri: vscode.Uri) => this.#fileChanged(uri);
+        this.#listeners = [watcher, watcher.onDidChange(changed), watcher.onDidCreate(changed), watcher.onDidDelete(changed),
+            vscode.window.registerWebviewPanelSerializer(TYPE, this),
+            vscode.workspace.onDidChangeTextDocument(({ document }) => {
+                if (document === this.#source)
+                    this.#sendDocument();
+                else
+                    changed(document.uri);
+            }),
+            vscode.window.onDidChangeActiveTextEditor(editor => {
+                if (this.#panel && editor?.document.languageId === "materialx" && editor.document !== this.#source)
+                    this.#setSource(editor.document);
+            }),
+            vscode.window.onDidChangeTextEditorSelection(({ textEditor: { document } }) => {
+                if (document === this.#source)
+                    this.#post({ type: "cursor", cursor: cursorOf(document) });
+            }),
+            vscode.window.onDidChangeActiveColorTheme(() => this.#sendDocument())];
+    }
+
+    show(source: vscode.TextDocument): void {
+        const column = { viewColumn: vscode.ViewColumn.Beside, preserveFocus: true };
+        if (this.#panel)
+            this.#panel.reveal(this.#panel.viewColumn, true);
+        else
+            this.#open(vscode.window.createWebviewPanel(TYPE, "Preview", column, { retainContextWhenHidden: true }));
+        this.#setSource(source);
+    }
+
+    /** Opens the panel again that was open when the window closed. */
+    async deserializeWebviewPanel(panel: vscode.WebviewPanel, state?: { name?: string }): Promise<void> {
+        this.#open(panel);
+        const editor = vscode.window.visibleTextEditors.find(({ document }) => document.languageId === "materialx");
+        const source = editor?.document ?? (state?.name ? await vscode.workspace.openTextDocument(vscode.Uri.parse(state.name)) : null);
+        if (source)
+            this.#setSource(source);
+    }
+
+    #open(panel: vscode.WebviewPanel): void {
+        const root = vscode.Uri.joinPath(this.extension, "dist");
+        this.#panel = panel;
+        panel.webview.options = { enableScripts: true, localResourceRoots: [root] };
+        panel.iconPath = { light: vscode.Uri.joinPath(this.extension, "media", "file-light.svg"), dark: vscode.Uri.joinPath(this.extension, "media", "file-dark.svg") };
+        panel.onDidDispose(() => {
+            this.#panel = this.#source = null;
+            this.#given.clear();
+        });
+        panel.webview.onDidReceiveMessage((message: FromView) => this.#answer(message).catch(error => void vscode.window.showErrorMessage(`mxgen: ${error.message}`)));
+        panel.webview.html = pageOf(panel.webview, root);
+    }
+
+    #setSource(source: vscode.TextDocument): void {
+        this.#source = source;
+        this.#given.clear();
+        this.#panel!.title = `Preview ${source.uri.path.split("/").at(-1)}`;
+        this.#sendDocument();
+    }
+
+    #post(message: ToView): void {
+        void this.#panel?.webview.postMessage(message);
+    }
+
+    #sendDocument(): void {
+        if (this.#source)
+            this.#post({ type: "document", name: this.#source.uri.toString(), text: this.#source.getText(), cursor: cursorOf(this.#source) });
+    }
+
+    async #sendFile(name: string): Promise<void> {
+        const source = this.#source;
+        if (source)
+            this.#post({ type: "file", name, content: await readFile(source.uri, name) });
+    }
+
+    #fileChanged(uri: vscode.Uri): void {
+        if (this.#given.has(uri.toString()))
+            void this.#sendFile(uri.toString());
+    }
+
+    async #answer(message: FromView): Promise<void> {
+        switch (message.type) {
+        case "ready":
+            return this.#sendDocument();
+        case "read": {
+            this.#given.add(vscode.Uri.parse(message.name).toString());
+            return this.#sendFile(message.name);
+        }
+        case "readTexture": {
+            const { name, file } = message, address = join(name, file), source = this.#source;
+            const content = source && address ? await readFile(source.uri, address) : null;
+            return this.#post({ type: "texture", name, file, content });
+        }
+        case "reveal":
+            return reveal(message.place);
+        case "setInput": {
+            const { place, value } = message, document = await vscode.workspace.openTextDocument(vscode.Uri.parse(place.file));
+            const change = changeOfInput(document.getText(), place, value), edit = new vscode.WorkspaceEdit();
+            if (!change)
+                throw new Error(`"${place.node}" is not where it was; the text keeps its value`);
+            edit.replace(document.uri, new vscode.Range(document.positionAt(change.start), document.positionAt(change.end)), change.text);
+            await vscode.workspace.applyEdit(edit);
+            return;
+        }
+        case "openShader": {
+            const document = await vscode.workspace.openTextDocument(vscode.Uri.parse(message.name));
+            return this.shaders.open(document, message);
+        }
+        }
+    }
+
+    dispose(): void {
+        this.#panel?.dispose();
+        for (const listener of this.#listeners)
+            listener.dispose();
+    }
+}
+
+/** Shows an element in the text, without leaving the preview. */
+async function reveal({ file, line, column }: Place): Promise<void> {
+    const document = await vscode.workspace.openTextDocument(vscode.Uri.parse(file));
+    const shown = vscode.window.visibleTextEditors.find(one => one.document === document);
+    const at = document.positionAt(offsetOf(document.getText(), line, column));
+    const editor = await vscode.window.showTextDocument(document, { viewColumn: shown?.viewColumn ?? vscode.ViewColumn.One });
+    editor.selection = new vscode.Selection(at, at);
+    editor.revealRange(new vscode.Range(at, at), vscode.TextEditorRevealType.InCenterIfOutsideViewport);
+}
+
+function pageOf(webview: vscode.Webview, root: vscode.Uri): string {
+    const address = (name: string) => webview.asWebviewUri(vscode.Uri.joinPath(root, name)).toString(), own = webview.cspSource;
+    const shape = vscode.workspace.getConfiguration("mxgen").get("shape", "ball");
+    return `<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta http-equiv="Content-Security-Policy" content="default-src 'none'; script-src ${own} 'wasm-unsafe-eval'; style-src ${own}; connect-src ${own}; img-src blob:; worker-src blob:">
+<title>Preview</title>
+<link rel="stylesheet" href="${address("view.css")}">
+</head>
+<body data-wasm="${address("mxgen.wasm")}" data-shape="${shape}">
+<script src="${address("view.js")}"></script>
+</body>
+</html>
+`;
+}

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// The language server: `mxgen lsp` over standard input and output.
+
+import * as vscode from "vscode";
+import { LanguageClient, RevealOutputChannelOn } from "vscode-languageclient/node";
+
+import { settingPaths } from "./files";
+
+/** The options of the program that stand in the settings. */
+export function programOptions(): string[] {
+    return [...settingPaths("libraries").flatMap(({ fsPath }) => ["--library", fsPath]),
+        ...settingPaths("includeRoots").flatMap(({ fsPath }) => ["--include-root", fsPath])];
+}
+
+export const programPath = () => vscode.workspace.getConfiguration("mxgen").get("path", "mxgen");
+
+/** Starts the server. Throws if the program does not start. */
+export async function startServer(): Promise<LanguageClient> {
+    const client = new LanguageClient("mxgen", "MaterialX (mxgen)",
+        { command: programPath(), args: ["lsp", ...programOptions()] },
+        {
+            documentSelector: [{ language: "materialx", scheme: "file" }, { language: "materialx", scheme: "untitled" }],
+            revealOutputChannelOn: RevealOutputChannelOn.Never,
+            initializationFailedHandler: () => false,
+        });
+    await client.start();
+    return client;
+}

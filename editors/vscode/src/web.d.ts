@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the extension uses of the page (web/), and what the build makes.
+
+declare module "@web/compiler.js" {
+    /** A worker that answers requests, and is stopped when an answer takes too long. */
+    export class Compiler {
+        constructor(source: string);
+        ask<Answer>(kind: string, request?: object): Promise<Answer>;
+        /** Asks now, and again whenever another worker starts. */
+        remember(kind: string, request: object): Promise<unknown>;
+    }
+}
+
+declare module "@web/inputs.js" {
+    import type { Variable } from "mxgen";
+    export function showInputs(panel: HTMLElement, variables: Variable[], set: (variable: Variable, values: number[], isFinal: boolean) => void): void;
+    export function valueText(variable: Variable, values: number[]): string;
+}
+
+declare module "@web/scene.js" {
+    export const SHAPE_NAMES: string[];
+}
+
+declare module "@web/shaders.js" {
+    import type { Diagnostic, Document, ShaderInfo, Variable } from "mxgen";
+    export interface Parts {
+        info: Pick<ShaderInfo, "name" | "displaced" | "alpha"> & { alphaNow: string; numClosures?: number };
+        vertex: string;
+        pixel: string;
+        variables: Variable[];
+    }
+    /** The shader that the page draws; null: it has errors, which go to `found`. */
+    export function shaderOf(document: Document, element: string, found: Diagnostic[]): Parts | null;
+    export function distinct(diagnostics: Diagnostic[]): Diagnostic[];
+    export function serve(kinds: Record<string, (request: any) => unknown>): void;
+}
+
+declare module "@web/view.js" {
+    import type { Parts } from "@web/shaders.js";
+    export class ViewError extends Error {}
+    export class View {
+        constructor(canvas: HTMLCanvasElement);
+        shape: string;
+        hasMoved: boolean;
+        onChange: () => void;
+        onPicture: (isWhole: boolean) => void;
+        onError: (fault: string) => void;
+        setShader(shader: Parts): void;
+        setTexture(file: string, image: ImageBitmap): void;
+        draw(): void;
+    }
+}
+
+/** view/worker.ts, bundled, as text. */
+declare module "worker.bundle.js" {
+    const source: string;
+    export default source;
+}

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+// The extension in a real VS Code: what its users do. Arguments: a folder with the npm package, the root of the project, Chromium, the
+// program. With KEEP the screenshots stay.
+
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import fs from "node:fs";
+import os from "node:os";
+import path from "node:path";
+
+import { run, test } from "../js/harness.mjs";
+import { Browser } from "../web/browser.mjs";
+import { Server } from "./editor.mjs";
+
+const [library, root, chromium, program] = process.argv.slice(2).map(name => path.resolve(name)), code = path.join(root, "tests/vscode/node_modules/code-server/lib/vscode");
+for (const [isThere, what] of [[fs.existsSync(path.join(root, "editors/vscode/node_modules")), "what the extension is built with"],
+    [fs.existsSync(path.join(code, "node_modules")), "the server of VS Code, npm's code-server"], [parseInt(process.versions.node) >= 20, "Node 20, which that server needs"]])
+    if (!isThere) {
+        console.log(`skip: ${what} is not installed; script/test --suite reach installs packages of npm`);
+        process.exit(77);
+    }
+const work = fs.mkdtempSync(path.join(os.tmpdir(), "mxgen-vscode-")), folder = path.join(work, "materials"), file = path.join(folder, "marble.mtlx");
+const original = fs.readFileSync(path.join(root, "examples/marble.mtlx"), "utf8"), size = { width: 1400, height: 900 };
+const settings = { "mxgen.path": program, "workbench.startupEditor": "none", "files.autoSave": "afterDelay", "files.autoSaveDelay": 100, "editor.minimap.enabled": false,
+    "workbench.tips.enabled": false };
+
+const extension = path.join(work, "mxgen.vsix");
+execFileSync(process.execPath, [path.join(root, "editors/vscode/build.mjs"), library, path.join(work, "extension"), extension], { stdio: ["ignore", "ignore", "pipe"] });
+fs.mkdirSync(folder);
+fs.writeFileSync(file, original);
+const browser = new Browser(chromium), server = new Server(code, extension, work);
+
+/** A window with the preview of the document, and its whole picture. */
+async function openPreview(changes) {
+    server.settings = { ...settings, ...changes };
+    const editor = await server.open(browser, folder, "marble.mtlx", size);
+    await editor.press("document.querySelector('.editor-actions .codicon-open-preview')");
+    await editor.untilView("document.body.dataset.state === 'done'");
+    return editor;
+}
+
+const shot = (editor, name) => editor.screenshot(path.join(work, `${name}.png`));
+const shows = name => `document.getElementById('element').options[0].text === 'At the cursor: ${name}' && document.body.dataset.whole === 'true'`;
+const saved = async (editor, isRight) => {
+    for (let i = 0; i < 100 && !isRight(fs.readFileSync(file, "utf8")); i++)
+        await new Promise(resolve => setTimeout(resolve, 50));
+    return fs.readFileSync(file, "utf8");
+};
+
+/** The mean colour of a part of the picture around its centre, from 0 to 255. */
+const MEAN = `(() => {
+    const canvas = document.getElementById("canvas"), copy = new OffscreenCanvas(canvas.width, canvas.height).getContext("2d");
+    copy.drawImage(canvas, 0, 0);
+    const size = 40, { data } = copy.getImageData((canvas.width - size) / 2, (canvas.height - size) / 2, size, size);
+    return [0, 1, 2].map(c => data.reduce((sum, x, i) => i % 4 === c ? sum + x : sum, 0) / (size * size));
+})()`;
+
+let editor;
+
+test("the preview shows the material", async () => {
+    editor = await openPreview({ "workbench.colorTheme": "Default Dark Modern" });
+    await editor.untilView(shows("Marble"));
+    assert((await editor.view(MEAN)).every(x => x > 60));
+    assert.equal(await editor.view("document.getElementById('status').textContent"), "Marble · 2 closures");
+    await editor.until("document.querySelector('.colorpicker-color-decoration')"); // by the language server
+    await shot(editor, "dark");
+});
+
+test("a slider writes one attribute, and undo takes it back", async () => {
+    const slider = "document.querySelector('[data-path=\"NG_marble/scale\"] input[type=range]')";
+    await editor.view(`(slider => { slider.value = 12; slider.dispatchEvent(new Event("input", { bubbles: true })); slider.dispatchEvent(new Event("change", { bubbles: true })); })(${slider})`);
+    const text = await saved(editor, one => one !== original), value = /name="scale" type="float" value="([^"]*)"/.exec(text)[1];
+    assert(Math.abs(Number(value) - 12) < 0.1, value);
+    assert.equal(text.replace(`name="scale" type="float" value="${value}"`, 'name="scale" type="float" value="5"'), original);
+    // An input that the document does not have
+    const coat = "document.querySelector('[data-path=\"SR_marble/metalness\"] input[type=range]')";
+    await editor.view(`(slider => { slider.value = 1; slider.dispatchEvent(new Event("change", { bubbles: true })); })(${coat})`);
+    const added = await saved(editor, one => one.includes("metalness"));
+    assert.equal(added.replace(/\n *<input name="metalness" type="float" value="1" \/>/, ""), text);
+    await editor.pressLine("The veins are");
+    for (let i = 0; i < 2; i++)
+        await editor.key("z", "KeyZ", 90, 2);
+    assert.equal(await saved(editor, one => one === original), original);
+});
+
+test("the picture follows the cursor", async () => {
+    await editor.pressLine("<fractal3d");
+    await editor.untilView(shows("NG_marble/noise"));
+    assert.deepEqual(await editor.view("[...document.querySelectorAll('#inputs label[data-path]')].map(label => label.dataset.path).slice(0, 1)"), ["NG_marble/noise/amplitude"]);
+    await shot(editor, "node");
+    await editor.view("document.getElementById('pin').click()");
+    await editor.pressLine("<sin");
+    await editor.untilView("document.getElementById('element').value === 'NG_marble/noise'");
+    await editor.view("document.getElementById('pin').click()");
+    await editor.untilView(shows("NG_marble/wave"));
+});
+
+test("the graph follows the cursor, and leads to the text", async () => {
+    await editor.view("document.querySelector('[data-tab=graph]').click()");
+    await editor.untilView("document.querySelector('.card.current .name')?.textContent === 'wave'");
+    assert.equal(await editor.view("document.querySelectorAll('.card').length"), original.match(/<(?!\?|!|\/|input|materialx|output)\w+ /g).length);
+    await shot(editor, "graph");
+    await editor.view("[...document.querySelectorAll('.card')].find(card => card.querySelector('.name').textContent === 'bent').dispatchEvent(new MouseEvent('click'))");
+    const line = original.slice(0, original.indexOf('name="bent"')).split("\n").length;
+    await editor.until(`document.querySelector('.statusbar').textContent.includes('Ln ${line},')`);
+    await editor.untilView(shows("NG_marble/bent"));
+});
+
+test("lines of the shader lead to nodes, and nodes to lines", async () => {
+    await editor.view("document.querySelector('[data-tab=shader]').click()");
+    await editor.view("(select => { select.value = 'Marble'; select.dispatchEvent(new Event('change')); })(document.getElementById('element'))");
+    await editor.view("(select => { select.value = 'hlsl'; select.dispatchEvent(new Event('change')); })(document.getElementById('target'))");
+    await editor.untilView("document.getElementById('shader').textContent.includes('cbuffer')");
+    await editor.pressLine('name="scaled"');
+    await editor.untilView("document.querySelector('#shader .current')?.title === 'NG_marble/scaled, line 11'");
+    await shot(editor, "shader");
+    await editor.view("[...document.querySelectorAll('#shader .linked')].find(line => line.title.startsWith('SR_marble,')).click()");
+    const line = original.slice(0, original.indexOf('name="SR_marble"')).split("\n").length;
+    await editor.until(`document.querySelector('.statusbar').textContent.includes('Ln ${line},')`);
+    await editor.view("document.getElementById('open-shader').click()");
+    await editor.until("[...document.querySelectorAll('.tab')].some(tab => tab.textContent.includes('Marble.ps.hlsl'))");
+    await shot(editor, "document");
+});
+
+test("a broken text keeps the picture and tells the error", async () => {
+    await editor.close();
+    editor = await openPreview({ "workbench.colorTheme": "Default Light Modern" });
+    await editor.untilView("document.body.dataset.whole === 'true'");
+    await shot(editor, "light");
+    await editor.press("document.querySelector('.monaco-editor .view-line span span')");
+    await editor.key("End", "End", 35, 2);
+    await editor.pressLine("<surfacematerial");
+    await editor.key("End", "End", 35);
+    await editor.type("<");
+    await editor.untilView("!document.getElementById('notice').hidden && document.getElementById('notice').className === 'error'");
+    assert.match(await editor.view("document.getElementById('notice').textContent"), /last text without errors/);
+    await editor.until("document.querySelector('.squiggly-error')");
+    assert((await editor.view(MEAN)).every(x => x > 60));
+    await shot(editor, "broken");
+    await editor.key("z", "KeyZ", 90, 2);
+    await editor.untilView("document.getElementById('notice').hidden");
+    await editor.close();
+});
+
+test("without the program messages come from the extension", async () => {
+    fs.writeFileSync(file, original.replace('name="octaves" type="integer"', 'name="octaves" type="float"'));
+    editor = await openPreview({ "mxgen.path": path.join(work, "none") });
+    await editor.until("document.querySelector('.notification-toast')?.textContent.includes('does not start')");
+    await editor.until("/Errors: 1/.test(document.getElementById('status.problems').getAttribute('aria-label') ?? document.getElementById('status.problems').innerHTML)");
+    await shot(editor, "without");
+    await editor.close();
+});
+
+try {
+    await run("vscode");
+} finally {
+    await browser.close();
+    server.close();
+}
+if (process.env.KEEP)
+    console.log(work);
+else
+    fs.rmSync(work, { recursive: true, force: true, maxRetries: 5 });
