@@ -15,6 +15,7 @@ struct bind {
     struct cli cli;
     const char *look, *stage, *json, *usda, *geom, *purpose;
     struct arg_list solo, mute;
+    bool checks;
 };
 
 /* A file that --max-output-size limits: paths of deep scenes are much longer than the scene. */
@@ -136,12 +137,23 @@ static mxg_document *load(struct bind *bind, const char *path, const mxg_scene *
     return whole;
 }
 
+/* Tells the faults of materials, masks and graphs, which the layers do not depend on. */
+static void check(struct bind *bind, const mxg_document *document)
+{
+    mxg_result *result = NULL;
+    mxg_validate(bind->cli.context, document, &result);
+    report_list(&bind->cli.report, mxg_result_diagnostics(result));
+    mxg_result_destroy(result);
+}
+
 static void bind_file(struct bind *bind, const char *path)
 {
     mxg_document *document = NULL;
     mxg_scene *scene = scene_file_load(&bind->cli, bind->stage, bind->purpose);
     if (scene && (document = load(bind, path, scene)) != NULL)
         bind_document(bind, document, scene);
+    if (document && bind->checks)
+        check(bind, document);
     mxg_scene_destroy(scene);
     mxg_document_destroy(document);
 }
@@ -162,6 +174,8 @@ int command_bind(const struct command *command, int argc, char **argv)
         {"geom", 0, ARG_TEXT, "PATH", "explains the layers of one primitive", &bind.geom},
         {"solo", 0, ARG_LIST, "SLOT", "shows only this slot, layer or override", &bind.solo},
         {"mute", 0, ARG_LIST, "SLOT", "leaves out this slot, layer or override", &bind.mute},
+        {"check", 0, ARG_FLAG, NULL,
+         "also finds faults of materials, masks and graphs, without generating", &bind.checks},
     };
     int code;
     if (cli_start(&bind.cli, command, args, sizeof args / sizeof *args, 0, argc, argv, &code)) {

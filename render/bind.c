@@ -3,6 +3,7 @@
 
 #include "render/prefilter.h"
 #include "render/stored.h"
+#include "render/twins.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -35,13 +36,18 @@ static uint32_t num_variables(const struct bind *bind)
     return bind->program ? bind->program->num_variables : mxg_result_num_variables(bind->result);
 }
 
-static mxg_variable get_variable(const struct bind *bind, uint32_t index)
+static mxg_variable read_variable(const struct bind *bind, uint32_t index)
 {
     mxg_variable variable = {sizeof variable};
     if (bind->program)
         return bind->program->variables[index];
     mxg_result_variable(bind->result, index, &variable);
     return variable;
+}
+
+static mxg_variable get_variable(const struct bind *bind, uint32_t index)
+{
+    return bind->variables ? bind->variables[index] : read_variable(bind, index);
 }
 
 static mxg_shader_info get_info(const struct bind *bind)
@@ -213,38 +219,6 @@ static bool store_public(struct bind *bind, uint32_t object, const mxg_variable 
     return true;
 }
 
-/* Notes that an object lacks what the shader reads, so that its default stands in. */
-static void note_lack(struct bind *bind, uint32_t object, const mxg_variable *variable)
-{
-    static const char family[] = "geomprop";
-    size_t len = sizeof family - 1;
-    bool is_property = strncmp(variable->semantic, family, len) == 0;
-    if (bind->num_lacking++)
-        return;
-    bind->lacking = bind->objects[object].path;
-    bind->lacking_slot = variable->slot;
-    if (is_property)
-        snprintf(bind->lacked, sizeof bind->lacked, "%s", variable->semantic + len + 1);
-    else
-        scene_primvar_name(variable->name, bind->lacked);
-}
-
-/* Notes a primvar of another type than the shader reads; false: the object has none. */
-static bool note_type(struct bind *bind, uint32_t object, const char *attribute,
-                      const struct shape *shape)
-{
-    const struct scene_object *from = &bind->objects[object];
-    const struct primvar *primvar = scene_primvar(from, attribute);
-    bool is_color = strncmp(attribute, "i_color_", 8) == 0 && shape->rows >= 3;
-    if (!primvar)
-        return false;
-    if (primvar->components == shape->rows || (is_color && primvar->components >= 3)
-        || bind->num_mistyped == BIND_MAX_MISTYPED)
-        return true;
-    bind->mistyped[bind->num_mistyped++] = (struct bind_mistyped){primvar, from->path, shape->rows};
-    return true;
-}
-
 static void store_private(struct bind *bind, uint32_t object, const mxg_variable *variable)
 {
     float values[MAX_COMPONENTS] = {0};
@@ -254,7 +228,7 @@ static void store_private(struct bind *bind, uint32_t object, const mxg_variable
     if (!is_there && variable->num_values)
         memcpy(values, variable->values, sizeof values);
     if (!is_there && name == buffer)
-        note_lack(bind, object, variable);
+        bind_note_lack(bind, object, variable);
     if (strcmp(variable->name, "u_numActiveLightSources") == 0
         && values[0] > (float)bind->max_lights)
         values[0] = (float)bind->max_lights;
@@ -337,14 +311,20 @@ static bool make_blocks(struct bind *bind)
     return true;
 }
 
+/* What is not private is the same for all objects, so the others copy it from the first. */
 static bool fill_blocks(struct bind *bind, uint32_t object)
 {
+    for (uint32_t i = 0; object && i < bind->draw.num_blocks; ++i)
+        memcpy(bind->draw.objects[object].blocks[i], bind->draw.objects[0].blocks[i],
+               bind->draw.blocks[i].size);
     for (uint32_t i = 0; i < num_variables(bind); ++i) {
-        mxg_variable variable = get_variable(bind, i);
-        if (variable.block == MXG_BLOCK_PUBLIC_UNIFORMS && !store_public(bind, object, &variable))
-            return false;
+        const mxg_variable variable = get_variable(bind, i);
         if (is_private(&variable))
             store_private(bind, object, &variable);
+        if (object)
+            continue;
+        if (variable.block == MXG_BLOCK_PUBLIC_UNIFORMS && !store_public(bind, object, &variable))
+            return false;
         if (variable.block == MXG_BLOCK_LIGHT_DATA && !store_lights(bind, object, &variable))
             return false;
     }
@@ -413,7 +393,7 @@ static struct draw_texture document_texture(struct bind *bind, uint32_t index,
     struct image *image = &bind->images[bind->num_images];
     const char *file = bind_user_value(bind, variable);
     if (strncmp(variable->semantic, "geomprop_", 9) == 0)
-        note_lack(bind, 0, variable);
+        bind_note_lack(bind, 0, variable);
     if (!file && bind->program)
         file = variable->file;
     bool is_checker = false,
@@ -477,12 +457,14 @@ static bool fill_attribute(struct bind *bind, uint32_t object, const mxg_variabl
     const struct scene_object *from = &bind->objects[object];
     char buffer[SCENE_MAX_NAME];
     const char *name = scene_name(variable->name, variable->semantic, buffer);
-    uint32_t count = from->mesh.num_vertices;
-    float(*data)[4] = calloc(count, sizeof *data);
+    bool is_twin = bind->draw.objects[object].twin != 0; /* only tells what it lacks */
+    uint32_t count = is_twin ? 1 : from->mesh.num_vertices;
+    float one[1][4], (*data)[4] = is_twin ? one : calloc(count, sizeof *data);
     if (!data)
         return fail(bind, "out of memory");
-    bind->draw.objects[object].attributes[bind->draw.num_attributes - 1] = data;
-    bool has_primvar = note_type(bind, object, name, shape);
+    if (!is_twin)
+        bind->draw.objects[object].attributes[bind->draw.num_attributes - 1] = data;
+    bool has_primvar = bind_note_type(bind, object, name, shape->rows);
     for (uint32_t i = 0; i < count; ++i) {
         bool has_stand_in = !shape->is_float && !from->path;
         float values[4] = {INTEGER_ATTRIBUTE, INTEGER_ATTRIBUTE, INTEGER_ATTRIBUTE,
@@ -490,7 +472,7 @@ static bool fill_attribute(struct bind *bind, uint32_t object, const mxg_variabl
         for (uint32_t k = 0; !has_stand_in && k < 4; ++k)
             values[k] = k < variable->num_values ? variable->values[k] : 0.0f;
         if (!has_stand_in && !scene_attribute(from, name, i, values) && i == 0 && !has_primvar)
-            note_lack(bind, object, variable);
+            bind_note_lack(bind, object, variable);
         for (uint32_t k = 0; k < 4; ++k) {
             int32_t integer = (int32_t)values[k];
             if (shape->is_float)
@@ -537,6 +519,8 @@ static bool bind_unwrapped(struct bind *bind)
         (struct draw_attribute){bind_unwrapped_location(bind), VK_FORMAT_R32G32_SFLOAT};
     for (uint32_t o = 0; o < bind->num_objects; ++o) {
         const struct mesh *mesh = &bind->objects[o].mesh;
+        if (draw->objects[o].twin)
+            continue;
         float(*data)[4] = calloc(mesh->num_vertices, sizeof *data);
         draw->objects[o].attributes[at] = data;
         for (uint32_t i = 0; data && i < mesh->num_vertices; ++i)
@@ -590,6 +574,16 @@ static bool check_values(struct bind *bind)
     return true;
 }
 
+/* The variables of the shader, which are read for each object. */
+static bool keep_variables(struct bind *bind)
+{
+    uint32_t num = num_variables(bind);
+    bind->variables = calloc(num + 1, sizeof *bind->variables);
+    for (uint32_t i = 0; bind->variables && i < num; ++i)
+        bind->variables[i] = read_variable(bind, i);
+    return bind->variables || fail(bind, "out of memory");
+}
+
 static bool make_objects(struct bind *bind)
 {
     if (!bind->num_objects) {
@@ -601,10 +595,13 @@ static bool make_objects(struct bind *bind)
     if (!bind->draw.objects || !bind->orders)
         return fail(bind, "out of memory");
     bind->draw.num_objects = bind->num_objects;
+    uint32_t *twins = twins_find(bind->objects, bind->num_objects);
     for (uint32_t o = 0; o < bind->num_objects; ++o) {
+        bind->draw.objects[o].twin = twins[o];
         bind->draw.objects[o].num_vertices = bind->objects[o].mesh.num_vertices;
         bind->draw.objects[o].num_indices = bind->objects[o].mesh.num_indices;
     }
+    free(twins);
     return true;
 }
 
@@ -628,8 +625,8 @@ bool bind_shader(struct bind *bind)
     mxg_result_storage(bind->result, &storage);
     bind->draw.stores_layers = storage.words > STORED_TARGETS;
     bind->max_lights = info.num_lights;
-    return make_objects(bind) && check_values(bind) && make_blocks(bind) && bind_textures(bind)
-           && bind_attributes(bind) && bind_scene(bind);
+    return keep_variables(bind) && make_objects(bind) && check_values(bind) && make_blocks(bind)
+           && bind_textures(bind) && bind_attributes(bind) && bind_scene(bind);
 }
 
 /* Triangles that can be seen through come from far to near. */
@@ -665,7 +662,7 @@ bool bind_scene(struct bind *bind)
 void bind_finish(struct bind *bind)
 {
     for (uint32_t o = 0; o < bind->draw.num_objects; ++o) {
-        for (uint32_t i = 0; i < bind->draw.num_attributes; ++i)
+        for (uint32_t i = 0; i < bind->draw.num_attributes; ++i) /* twins have none */
             free(bind->draw.objects[o].attributes[i]);
         for (uint32_t i = 0; i < bind->draw.num_blocks; ++i)
             free(bind->draw.objects[o].blocks[i]);
@@ -674,6 +671,7 @@ void bind_finish(struct bind *bind)
     for (uint32_t i = 0; i < bind->num_images; ++i)
         image_finish(&bind->images[i]);
     free(bind->faults);
+    free(bind->variables);
     free(bind->draw.objects);
     free(bind->orders);
 }

@@ -63,6 +63,7 @@ struct bind {
 
     const struct tints *tints; /* tables of stored materials; NULL: there are none */
 
+    mxg_variable *variables;                /* of the shader, once they are read */
     struct draw draw;                       /* the result */
     struct image images[DRAW_MAX_TEXTURES]; /* images for the textures */
     uint32_t num_images;
@@ -98,5 +99,13 @@ bool bind_scene(struct bind *bind);
 bool bind_read_texture(struct bind *bind, uint32_t index, const mxg_variable *variable,
                        const char *file, struct image *out, bool *out_checker);
 void bind_finish(struct bind *bind);
+
+/* ---- bind_notes.c ---- */
+
+/* Notes that an object lacks what the shader reads, so that its default stands in. */
+void bind_note_lack(struct bind *bind, uint32_t object, const mxg_variable *variable);
+/* Notes a primvar of another number of numbers than the shader reads; false: the object has none.
+ */
+bool bind_note_type(struct bind *bind, uint32_t object, const char *attribute, uint32_t num_read);
 
 #endif

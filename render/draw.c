@@ -143,6 +143,11 @@ void draw_close_canvas(struct draw_canvas *canvas)
     free(canvas);
 }
 
+static bool owns_indices(const struct draw *draw, uint32_t object)
+{
+    return draw->blend || !draw->objects[object].twin;
+}
+
 static bool create_buffers(struct draw_program *program)
 {
     const struct draw *draw = program->draw;
@@ -152,10 +157,13 @@ static bool create_buffers(struct draw_program *program)
         return gpu_check(program->gpu, VK_ERROR_OUT_OF_HOST_MEMORY, "preparing to draw");
     for (uint32_t o = 0; good && o < draw->num_objects; ++o) {
         const struct draw_object *object = &draw->objects[o];
-        good = gpu_create_buffer(program->gpu, VK_BUFFER_USAGE_INDEX_BUFFER_BIT, object->indices,
-                                 object->num_indices * sizeof *object->indices,
-                                 &program->objects[o].indices);
-        for (uint32_t i = 0; good && i < draw->num_attributes; ++i)
+        if (object->twin)
+            program->objects[o] = program->objects[object->twin - 1];
+        if (owns_indices(draw, o))
+            good = gpu_create_buffer(program->gpu, VK_BUFFER_USAGE_INDEX_BUFFER_BIT,
+                                     object->indices, object->num_indices * sizeof *object->indices,
+                                     &program->objects[o].indices);
+        for (uint32_t i = 0; good && !object->twin && i < draw->num_attributes; ++i)
             good = gpu_create_buffer(program->gpu, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT,
                                      object->attributes[i], (size_t)object->num_vertices * 16,
                                      &program->objects[o].attributes[i]);
@@ -526,7 +534,7 @@ static void update(struct draw_program *program)
 {
     const struct draw *draw = program->draw;
     inputs_update(draw, &program->inputs);
-    for (uint32_t o = 0; o < draw->num_objects; ++o)
+    for (uint32_t o = 0; draw->blend && o < draw->num_objects; ++o)
         memcpy(program->objects[o].indices.mapped, draw->objects[o].indices,
                draw->objects[o].num_indices * sizeof *draw->objects[o].indices);
 }
@@ -598,9 +606,11 @@ void draw_close(struct draw_program *program)
     vkDestroyPipelineLayout(gpu->device, program->layout, NULL);
     inputs_destroy(gpu, program->draw, &program->inputs);
     for (uint32_t o = 0; program->objects && o < program->draw->num_objects; ++o) {
-        for (uint32_t i = 0; i < program->draw->num_attributes; ++i)
+        for (uint32_t i = 0; !program->draw->objects[o].twin && i < program->draw->num_attributes;
+             ++i)
             gpu_destroy_buffer(gpu, &program->objects[o].attributes[i]);
-        gpu_destroy_buffer(gpu, &program->objects[o].indices);
+        if (owns_indices(program->draw, o))
+            gpu_destroy_buffer(gpu, &program->objects[o].indices);
     }
     free(program->objects);
     free(program);

@@ -34,6 +34,8 @@ struct draw_texture {
 
 /* A mesh, with the values that the program reads for it. */
 struct draw_object {
+    /* 1 + an object before it, which has the attributes, and the indices unless programs blend */
+    uint32_t twin;
     uint32_t num_vertices, num_indices;
     const uint32_t *indices;
     void *attributes[DRAW_MAX_ATTRIBUTES];  /* 16 bytes per vertex; malloc */

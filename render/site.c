@@ -58,7 +58,8 @@ void site_repeat(struct site *site, uint32_t first, uint32_t num, struct matrix 
         again.object.world = world;
         again.object.num_primvars -= again.num_own_primvars;
         *added = again.object;
-        site->objects[site->num_objects - 1].is_shared = true;
+        site->objects[site->num_objects - 1].shares_mesh = true;
+        site->objects[site->num_objects - 1].shares_primvars = true;
     }
 }
 
@@ -148,12 +149,14 @@ void site_list(const struct site *site)
 void site_close(struct site *site)
 {
     for (uint32_t i = 0; i < site->num_objects; ++i) {
-        free((void *)(uintptr_t)site->objects[i].object.path);
-        if (!site->objects[i].is_shared)
-            object_finish(&site->objects[i].object);
-        else
-            object_finish_primvars(&site->objects[i].object, site->objects[i].num_own_primvars);
+        struct site_object *at = &site->objects[i];
+        free((void *)(uintptr_t)at->object.path);
+        if (!at->shares_mesh)
+            mesh_finish(&at->object.mesh);
+        object_finish_primvars(&at->object, at->shares_primvars ? at->num_own_primvars
+                                                                : at->object.num_primvars);
     }
+    names_finish(&site->shapes);
     for (uint32_t i = 0; i < site->num_cameras; ++i)
         free(site->cameras[i].path);
     free(site->cameras);

@@ -7,6 +7,7 @@
 #define MXG_RENDER_SITE_H
 
 #include "program/cli.h"
+#include "program/name_table.h"
 #include "render/studio.h"
 
 /* An instance of a PointInstancer, as long as objects are parts of it. */
@@ -20,8 +21,9 @@ struct site_object {
     struct scene_object object;
     uint32_t primitive;        /* of the scene */
     uint32_t instance;         /* the innermost one, 1 + index; 0: none */
-    bool is_shared;            /* an object before it has the mesh and the primvars */
-    uint32_t num_own_primvars; /* the last ones, which are of an instance alone */
+    bool shares_mesh;          /* an object before it has the mesh */
+    bool shares_primvars;      /* and the primvars, without the last ones: */
+    uint32_t num_own_primvars; /* those of an instance alone */
 };
 
 struct site_camera {
@@ -48,6 +50,7 @@ struct site {
     struct matrix dome_world; /* from USD's map to the world: a rotation */
     bool has_dome, is_lit;    /* is_lit: it has lights, also such as are left out */
     bool lights_scene;        /* they are the light of the picture */
+    struct name_table shapes; /* by type and size: 1 + the first object with this mesh */
     double meters_per_unit;   /* 0: unknown */
     bool is_z_up;
     bool has_fault;         /* an error was reported */

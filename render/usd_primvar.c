@@ -237,7 +237,7 @@ static void add_instance_primvar(struct site *site, uint32_t instancer, size_t i
     struct scene_object made = {0};
     add_primvar(site, instancer, property, false, &one, &made);
     if (made.num_primvars && !has_primvar(&to->object, made.primvars->name)) {
-        if (to->is_shared && !to->num_own_primvars)
+        if (to->shares_primvars && !to->num_own_primvars)
             own_primvars(to);
         append(&to->object, *made.primvars);
         to->num_own_primvars++;

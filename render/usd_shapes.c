@@ -185,48 +185,84 @@ static char axis_of(const struct site *site, uint32_t primitive)
                                                   : 'Z';
 }
 
-bool usd_add_shape(struct site *site, uint32_t primitive, const char *type, struct matrix world)
+static const struct {
+    const char *type;
+    double radius, height; /* where the file has none: the schema's */
+    void (*make)(struct shape *shape, double radius, double height);
+} round_shapes[] = {{"Sphere", 1, 0, make_sphere},
+                    {"Cylinder", 1, 2, make_cylinder},
+                    {"Cone", 1, 2, make_cone},
+                    {"Capsule", 0.5, 1, make_capsule}};
+enum { NUM_ROUND = sizeof round_shapes / sizeof *round_shapes };
+
+/* What a shape depends on: two numbers, and the axis of a round one. */
+struct measures {
+    size_t round; /* index in round_shapes; NUM_ROUND: it is flat */
+    bool is_cube;
+    double a, b;
+    char axis;
+};
+
+static bool measure(struct site *site, uint32_t primitive, const char *type, struct measures *out)
 {
-    static const struct {
-        const char *type;
-        double radius, height; /* where the file has none: the schema's */
-        void (*make)(struct shape *shape, double radius, double height);
-    } round_shapes[] = {{"Sphere", 1, 0, make_sphere},
-                        {"Cylinder", 1, 2, make_cylinder},
-                        {"Cone", 1, 2, make_cone},
-                        {"Capsule", 0.5, 1, make_capsule}};
-    static const char *const flat_shapes[] = {"Cube", "Plane"};
-    bool is_shape = false;
-    for (size_t i = 0; i < sizeof round_shapes / sizeof *round_shapes; ++i)
-        is_shape = is_shape || strcmp(type, round_shapes[i].type) == 0;
-    for (size_t i = 0; i < sizeof flat_shapes / sizeof *flat_shapes; ++i)
-        is_shape = is_shape || strcmp(type, flat_shapes[i]) == 0;
-    if (!is_shape)
-        return false;
-    struct shape shape = {0};
-    begin(&shape, 3 * ROUND_VERTICES, 3 * ROUND_INDICES);
-    for (size_t i = 0; i < sizeof round_shapes / sizeof *round_shapes; ++i)
-        if (strcmp(type, round_shapes[i].type) == 0)
-            round_shapes[i].make(&shape,
-                                 usd_number(site, primitive, "radius", round_shapes[i].radius),
-                                 usd_number(site, primitive, "height", round_shapes[i].height));
-    if (strcmp(type, "Cube") == 0)
-        make_cube(&shape, usd_number(site, primitive, "size", 2) / 2);
-    if (strcmp(type, "Plane") == 0)
-        add_quad(&shape, (const double[3]){0, 0, 0},
-                 (const double[3]){usd_number(site, primitive, "width", 2) / 2, 0, 0},
-                 (const double[3]){0, usd_number(site, primitive, "length", 2) / 2, 0},
-                 (const double[3]){0, 0, 1});
-    end(&shape);
-    if (!site_has_room(site, primitive, shape.num_indices / 3)) {
-        mesh_finish(&shape.mesh);
+    *out = (struct measures){.is_cube = strcmp(type, "Cube") == 0, .axis = 'Z'};
+    while (out->round < NUM_ROUND && strcmp(type, round_shapes[out->round].type) != 0)
+        ++out->round;
+    if (out->round < NUM_ROUND) {
+        out->a = usd_number(site, primitive, "radius", round_shapes[out->round].radius);
+        out->b = usd_number(site, primitive, "height", round_shapes[out->round].height);
+    } else if (out->is_cube) {
+        out->a = usd_number(site, primitive, "size", 2) / 2;
+        return true;
+    } else if (strcmp(type, "Plane") == 0) {
+        out->a = usd_number(site, primitive, "width", 2) / 2;
+        out->b = usd_number(site, primitive, "length", 2) / 2;
+    } else {
         return false;
     }
-    set_axis(&shape.mesh, axis_of(site, primitive));
+    out->axis = axis_of(site, primitive);
+    return true;
+}
+
+static struct mesh make_mesh(const struct measures *m)
+{
+    struct shape shape = {0};
+    begin(&shape, 3 * ROUND_VERTICES, 3 * ROUND_INDICES);
+    if (m->round < NUM_ROUND)
+        round_shapes[m->round].make(&shape, m->a, m->b);
+    else if (m->is_cube)
+        make_cube(&shape, m->a);
+    else
+        add_quad(&shape, (const double[3]){0, 0, 0}, (const double[3]){m->a, 0, 0},
+                 (const double[3]){0, m->b, 0}, (const double[3]){0, 0, 1});
+    end(&shape);
+    set_axis(&shape.mesh, m->axis);
+    mesh_complete(&shape.mesh, MESH_TANGENTS);
+    return shape.mesh;
+}
+
+/* Equal shapes have one mesh, which belongs to the first of them. */
+bool usd_add_shape(struct site *site, uint32_t primitive, const char *type, struct matrix world)
+{
+    struct measures measures;
+    bool is_new;
+    if (!measure(site, primitive, type, &measures))
+        return false;
+    char *key = cli_format("%s %.17g %.17g %c", type, measures.a, measures.b, measures.axis);
+    struct name_entry *first = names_add(&site->shapes, key, &is_new);
+    struct mesh mesh = is_new ? make_mesh(&measures) : site->objects[first->value - 1].object.mesh;
+    free(key);
+    if (!site_has_room(site, primitive, mesh.num_indices / 3)) {
+        if (is_new)
+            mesh_finish(&mesh);
+        return true;
+    }
     struct scene_object *object = site_add(site, primitive, world);
-    object->mesh = shape.mesh;
-    mesh_complete(&object->mesh, MESH_TANGENTS);
-    const struct usd_corners constant = {.count = shape.num_vertices};
+    object->mesh = mesh;
+    site->objects[site->num_objects - 1].shares_mesh = !is_new;
+    if (is_new)
+        first->value = site->num_objects;
+    const struct usd_corners constant = {.count = mesh.num_vertices};
     usd_add_primvars(site, primitive, &constant, object);
     return true;
 }

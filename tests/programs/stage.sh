@@ -462,4 +462,26 @@ check 'a stage of glTF is seen through its camera' eval 'test "$(cell_of one.ppm
 check 'a list without a stage is wrong usage' exits 2 "$render" --list
 check 'a list of a file that is missing fails' exits 1 "$render" --stage none.gltf --list
 check 'the error is bad-mesh' grep -qF '[bad-mesh]' err
+# ---- Many objects ----
+
+# spheres NUM: as many instances, and as many prims
+spheres() {
+    python3 - "$1" <<'P'
+import sys
+num = int(sys.argv[1])
+places = [(i % 50 * 3, i // 50 * 3, 0) for i in range(num)]
+print('#usda 1.0\ndef PointInstancer "many" {\n    int[] protoIndices =', [0] * num, '\n    point3f[] positions =', places)
+print('    rel prototypes = </many/s>\n    def Sphere "s" {}\n}\ndef Xform "row" {')
+for x, y, z in places:
+    print(f'    def Sphere "s_{x}_{y}" {{\n        double3 xformOp:translate = ({x}, {y}, 5)\n        uniform token[] xformOpOrder = ["xformOp:translate"]\n    }}')
+print('}')
+P
+}
+# peak FILE: the most memory that reading takes, in KiB; the memory of drawing is the driver's
+peak() { python3 -c 'import resource, subprocess, sys; subprocess.run(sys.argv[1:], check=True, stdout=subprocess.DEVNULL); print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss)' "$render" --stage "$1" --list; }
+spheres 1 >one.usda
+spheres 1000 >thousand.usda
+check 'equal spheres share their mesh: each needs less than 4 KiB' eval '[ $(($(peak thousand.usda) - $(peak one.usda))) -lt $((2 * 999 * 4)) ]'
+check 'they are drawn' exits 0 "$render" --stage thousand.usda -s 32 -o thousand.ppm
+
 finish stage

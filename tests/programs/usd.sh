@@ -312,6 +312,20 @@ check 'without --stage the message names it' eval 'exits 2 bind plain.mtlx; grep
 check 'a document of several looks needs none beside bindings of the stage' eval 'sed "s|</materialx>|<look name=\"k\"/>&|" plain.mtlx >two.mtlx; exits 0 bind two.mtlx --stage foreign.usda && row "/b [000 n]"'
 check 'validate knows the attribute overrides' eval 'echo "<materialx version=\"1.39\"><nodegraph name=\"n\"><constant name=\"c\" type=\"float\"/><output name=\"o\" type=\"float\" nodename=\"c\" overrides=\"NG/scale\"/></nodegraph></materialx>" >over.mtlx; exits 0 "$mxgen" validate over.mtlx && test ! -s err'
 
+cat >masks.mtlx <<'XML'
+<materialx version="1.39">
+  <nodegraph name="loop"><add name="a" type="float"><input name="in1" type="float" nodename="b"/></add>
+    <add name="b" type="float"><input name="in1" type="float" nodename="a"/></add><output name="mask" type="float" nodename="a"/></nodegraph>
+  <constant name="c" type="color3"/>
+  <surface name="s" type="surfaceshader"/>
+  <substance name="Dust" type="material"><input name="surfaceshader" type="surfaceshader" nodename="s"/><input name="mask" type="float" nodename="c"/></substance>
+  <look name="l"><materialassign material="Dust" geom="/table"/><materialassign slot="000::010" nodegraph="loop" geom="/table"/></look>
+</materialx>
+XML
+check 'faults of masks and graphs stop no layers' eval 'exits 0 bind masks.mtlx --stage espresso.txt && row "/table [000 Dust] [::010 loop]"'
+check 'they are found without generating' eval 'exits 1 bind masks.mtlx --stage espresso.txt --check && row "/table [000 Dust] [::010 loop]" && grep -q "^masks.mtlx:2:.*cycle" err && grep -q "^masks.mtlx:6:.*\[type-mismatch\]" err'
+check 'those of a stage are found, too' eval 'sed "s|token inputs:varname.connect = </m.inputs:frame:uv>|float inputs:none = 1|" preview.usda >port.usda; exits 0 bind --stage port.usda && [ ! -s err ] && exits 0 bind --stage port.usda --check && grep -q "^port.usda:.*\[unknown-input\]" err'
+
 cat >odd.usda <<'USD'
 #usda 1.0
 def Xform "s" {
