@@ -1,16 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
  * A document with its includes and sources: loaded, validated, looked at, and what it renders
- * generated, for a target and an interface that the bytes choose. A status that a document cannot
- * be the reason of is a fault.
+ * generated, for a target, a role and an interface that the bytes choose. A status that a document
+ * cannot be the reason of is a fault.
  */
 #include "files.h"
 #include "mutate.h"
 
 enum { MAX_RENDERABLES = 3 };
 
-static const char *const targets[] = {"glsl", "vulkan", "essl", "hlsl", "osl", "essl310"};
+static const char *const targets[] = {"glsl",    "vulkan", "essl", "hlsl", "osl",
+                                      "essl310", "slang",  "msl",  "wgsl", "mdl"};
 static const char *const interfaces[] = {"complete", "authored", "reduced"};
+/* Each with the options that it takes most code with. */
+static const struct {
+    const char *role, *option, *value;
+} roles[] = {{"raster", NULL, NULL},      {"raster", "slabs", "true"},
+             {"raster", "max-slabs", "1"}, {"deferred", "slabs", "true"},
+             {"scatter", NULL, NULL},     {"payload", NULL, NULL},
+             {"pack", "slabs", "true"},   {"function", NULL, NULL}};
+enum {
+    NUM_TARGETS = sizeof targets / sizeof *targets,
+    NUM_ROLES = sizeof roles / sizeof *roles
+};
 
 static bool is_expected(mxg_status status)
 {
@@ -37,6 +49,13 @@ static void generate(mxg_context *context, const mxg_document *document,
     mxg_result_destroy(result);
 }
 
+static void set_role(mxg_options *options, unsigned which)
+{
+    mxg_options_set(options, "role", roles[which].role);
+    if (roles[which].option)
+        mxg_options_set(options, roles[which].option, roles[which].value);
+}
+
 static void use(mxg_context *context, const mxg_document *document, const struct fuzz_files *files,
                 unsigned choice)
 {
@@ -44,12 +63,16 @@ static void use(mxg_context *context, const mxg_document *document, const struct
     mxg_result *result = NULL;
     if (mxg_options_create(context, &options) == MXG_OK)
         mxg_options_set(options, "interface", interfaces[choice / 8 % 3]);
-    if (options && choice / 64 % 6 == 4 && choice % 4 == 0)
+    const char *target = targets[choice / 64 % NUM_TARGETS];
+    bool has_closures = strcmp(target, "osl") == 0 || strcmp(target, "mdl") == 0;
+    if (options && strcmp(target, "osl") == 0 && choice % 4 == 0)
         mxg_options_set(options, "osl-network", "true");
+    if (options && !has_closures && choice % 2)
+        set_role(options, choice / 2 % NUM_ROLES);
     FUZZ_REQUIRE(is_expected(mxg_validate(context, document, &result)));
     format_all(mxg_result_diagnostics(result), files);
     mxg_result_destroy(result);
-    mxg_generate_desc desc = {sizeof desc, targets[choice / 64 % 6], NULL, options};
+    mxg_generate_desc desc = {sizeof desc, target, NULL, options};
     for (uint32_t i = 0; i < mxg_document_num_renderables(document) && i < MAX_RENDERABLES; i++) {
         mxg_renderable renderable = {sizeof renderable};
         FUZZ_REQUIRE(mxg_document_renderable(document, i, &renderable) == MXG_OK);
@@ -86,27 +109,3 @@ void fuzz_run(const char *data, size_t size, struct fuzz_heap *heap)
     mxg_context_destroy(context);
     FUZZ_REQUIRE(files.num_open == 0);
 }
-
-/* ---- Mutation, which libFuzzer calls ---- */
-
-size_t LLVMFuzzerMutate(uint8_t *data, size_t size, size_t max_size);
-size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t max_size, unsigned seed);
-size_t LLVMFuzzerCustomCrossOver(const uint8_t *a, size_t a_size, const uint8_t *b, size_t b_size,
-                                 uint8_t *out, size_t max_size, unsigned seed);
-
-#ifdef MXG_FUZZ
-enum { BYTES = 8 }; /* one mutation of so many is of bytes */
-
-size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t max_size, unsigned seed)
-{
-    return seed % BYTES == 0 ? LLVMFuzzerMutate(data, size, max_size)
-                             : mutate_document((char *)data, size, max_size, seed);
-}
-
-size_t LLVMFuzzerCustomCrossOver(const uint8_t *a, size_t a_size, const uint8_t *b, size_t b_size,
-                                 uint8_t *out, size_t max_size, unsigned seed)
-{
-    return mutate_cross((const char *)a, a_size, (const char *)b, b_size, (char *)out, max_size,
-                        seed);
-}
-#endif

@@ -3,6 +3,7 @@
 
 #include <ctype.h>
 #include <stdbool.h>
+#include <stdint.h>
 #include <string.h>
 
 enum { MAX_ELEMENTS = 1024, MAX_ATTRIBUTES = 4096, MAX_OPEN = 64 };
@@ -294,3 +295,27 @@ size_t mutate_cross(const char *data, size_t size, const char *other, size_t oth
     replace(&m, (struct span){to, to}, piece, len);
     return m.size;
 }
+
+/* ---- Mutation, which libFuzzer calls ---- */
+
+size_t LLVMFuzzerMutate(uint8_t *data, size_t size, size_t max_size);
+size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t max_size, unsigned seed);
+size_t LLVMFuzzerCustomCrossOver(const uint8_t *a, size_t a_size, const uint8_t *b, size_t b_size,
+                                 uint8_t *out, size_t max_size, unsigned seed);
+
+#ifdef MXG_FUZZ
+enum { BYTES = 8 }; /* one mutation of so many is of bytes */
+
+size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t max_size, unsigned seed)
+{
+    return seed % BYTES == 0 ? LLVMFuzzerMutate(data, size, max_size)
+                             : mutate_document((char *)data, size, max_size, seed);
+}
+
+size_t LLVMFuzzerCustomCrossOver(const uint8_t *a, size_t a_size, const uint8_t *b, size_t b_size,
+                                 uint8_t *out, size_t max_size, unsigned seed)
+{
+    return mutate_cross((const char *)a, a_size, (const char *)b, b_size, (char *)out, max_size,
+                        seed);
+}
+#endif
