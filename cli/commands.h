@@ -14,6 +14,7 @@ int command_lsp(const struct command *command, int argc, char **argv);
 int command_validate(const struct command *command, int argc, char **argv);
 int command_explain(const struct command *command, int argc, char **argv);
 int command_export(const struct command *command, int argc, char **argv);
+int command_import(const struct command *command, int argc, char **argv);
 int command_render(const struct command *command, int argc, char **argv);
 int command_format(const struct command *command, int argc, char **argv);
 int command_pipeline(const struct command *command, int argc, char **argv);

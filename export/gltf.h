@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
  * glTF 2.0 (Khronos, glTF 2.0 Specification, 2.0.1) of a flat document whose surfaces are gltf_pbr.
- * gltf.c has the whole and its files, gltf_material.c the materials, gltf_inputs.c where each input
- * goes, gltf_mesh.c the geometry.
+ * gltf.c has the whole and its files, gltf_material.c the materials, gltf_mesh.c the geometry;
+ * program/gltf_inputs.c says where each input goes.
  */
 #ifndef MXG_EXPORT_GLTF_H
 #define MXG_EXPORT_GLTF_H
@@ -10,46 +10,8 @@
 #include "export/flat.h"
 #include "export/texture.h"
 #include "export/write.h"
+#include "program/gltf_inputs.h"
 #include "program/json.h"
-
-/* Images that textures of a material share, by channels. */
-enum gltf_image {
-    GLTF_BASE,
-    GLTF_SURFACE, /* occlusion, roughness, metallic */
-    GLTF_NORMAL,
-    GLTF_EMISSIVE,
-    GLTF_CLEARCOAT,
-    GLTF_CLEARCOAT_NORMAL,
-    GLTF_SHEEN,
-    GLTF_TRANSMISSION, /* and thickness */
-    GLTF_SPECULAR,
-    GLTF_IRIDESCENCE,
-    GLTF_ANISOTROPY,
-    GLTF_NUM_IMAGES
-};
-extern const struct gltf_image_kind {
-    const char *name; /* of its file */
-    bool is_srgb;
-} gltf_images[GLTF_NUM_IMAGES];
-
-/* Where an input of gltf_pbr goes. */
-struct gltf_input {
-    const char *name;
-    const char *object;  /* of the material's JSON; "KHR_…": an extension; NULL: itself */
-    const char *factor;  /* the member with its value; NULL: only a texture has it */
-    const char *texture; /* the member with its texture; NULL: it must be a value */
-    enum gltf_image image;
-    unsigned channel;     /* of the image: its first */
-    unsigned count;       /* of its numbers */
-    unsigned at;          /* of the factor: its first number there */
-    bool has_array;       /* the factor is an array, of which other inputs may be a part */
-    bool is_open;         /* it may be greater than 1, also in a texture */
-    float value;          /* without the input */
-    float omitted;        /* the value that glTF has without the member */
-    const char *needs[2]; /* inputs that must not be 0, or this one does nothing */
-};
-extern const struct gltf_input gltf_inputs[];
-extern const size_t gltf_num_inputs;
 
 struct gltf_texture_file {
     char *key; /* texture_key */

@@ -155,7 +155,9 @@ bool read_levels(const char *path, const char *layer, bool all, struct image *ou
 {
     if (!check_file(path, reason, capacity))
         return false;
-    auto input = OIIO::ImageInput::open(path);
+    OIIO::ImageSpec wanted; /* as they are stored: a texture's alpha may be any number */
+    wanted.attribute("oiio:UnassociatedAlpha", 1);
+    auto input = OIIO::ImageInput::open(path, &wanted);
     if (!input)
         return fail(reason, capacity, OIIO::geterror());
     Part part;

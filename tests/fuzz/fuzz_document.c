@@ -15,14 +15,11 @@ static const char *const interfaces[] = {"complete", "authored", "reduced"};
 /* Each with the options that it takes most code with. */
 static const struct {
     const char *role, *option, *value;
-} roles[] = {{"raster", NULL, NULL},      {"raster", "slabs", "true"},
+} roles[] = {{"raster", NULL, NULL},       {"raster", "slabs", "true"},
              {"raster", "max-slabs", "1"}, {"deferred", "slabs", "true"},
-             {"scatter", NULL, NULL},     {"payload", NULL, NULL},
-             {"pack", "slabs", "true"},   {"function", NULL, NULL}};
-enum {
-    NUM_TARGETS = sizeof targets / sizeof *targets,
-    NUM_ROLES = sizeof roles / sizeof *roles
-};
+             {"scatter", NULL, NULL},      {"payload", NULL, NULL},
+             {"pack", "slabs", "true"},    {"function", NULL, NULL}};
+enum { NUM_TARGETS = sizeof targets / sizeof *targets, NUM_ROLES = sizeof roles / sizeof *roles };
 
 static bool is_expected(mxg_status status)
 {

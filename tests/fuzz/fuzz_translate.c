@@ -17,7 +17,7 @@ static bool is_expected(mxg_status status)
 }
 
 /* Translates a text once more. */
-static void repeat(mxg_context *context, const mxg_library *library, const char *text, size_t size,
+static void repeat(mxg_context *context, mxg_library *library, const char *text, size_t size,
                    const char *model)
 {
     mxg_document *document = NULL;
@@ -35,8 +35,8 @@ static void repeat(mxg_context *context, const mxg_library *library, const char 
     mxg_document_destroy(document);
 }
 
-static void translate(mxg_context *context, const mxg_library *library,
-                      const mxg_document *document, const char *model)
+static void translate(mxg_context *context, mxg_library *library, const mxg_document *document,
+                      const char *model)
 {
     mxg_result *result = NULL;
     size_t size = 0;

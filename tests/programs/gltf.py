@@ -92,4 +92,5 @@ def main():
         print(*rows[y][x * channels:(x + 1) * channels])
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -143,6 +143,19 @@ check 'a frame that is out of range shows the default' \
     test "$("$render" tiles.mtlx --scene grid --frame 44 | tr ',' '\n' | sort -u | tr '\n' ' ')" = '0.400000006 NG/out '
 check 'a box blur has its mean' all_near NG/o_box 0.03
 check 'a gaussian blur has its mean' all_near NG/o_gaussian 0.01
+python3 - <<'X'
+import struct, zlib
+part = lambda kind, data: struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+for alpha in 51, 255:
+    open(f"leaf_{alpha}.png", "wb").write(b"\x89PNG\r\n\x1a\n" + part(b"IHDR", struct.pack(">IIBBBBB", 1, 1, 8, 6, 0, 0, 0))
+                                         + part(b"IDAT", zlib.compress(bytes((0, 204, 102, 51, alpha)))) + part(b"IEND", b""))
+    open(f"leaf_{alpha}.mtlx", "w").write(f"""<materialx version="1.39">
+  <image name="leaf" type="color3"><input name="file" type="filename" value="leaf_{alpha}.png"/></image>
+  <surface_unlit name="S" type="surfaceshader"><input name="emission_color" type="color3" nodename="leaf"/></surface_unlit>
+</materialx>""")
+X
+check 'an image without holes is drawn' exits 0 "$render" leaf_255.mtlx -e S --size 8 -o drawn_255.png
+check 'colours of an image are not multiplied by its alpha' eval 'exits 0 "$render" leaf_51.mtlx -e S --size 8 -o drawn_51.png && cmp drawn_51.png drawn_255.png'
 check 'a missing tile of a frame fails the run' exits 1 "$render" tiles.mtlx --scene grid --frame 34
 check 'the error names the file of the tile' grep -q "t.1001.0031.ppm" err
 # Found out before anything is drawn: the document is not even read

@@ -15,7 +15,7 @@ from checks import check, finish, skip
 
 ROOT, MXGEN, COMPILER = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve(), sys.argv[3:]
 LINK = re.compile(r"\]\(([^)\s]+)\)")
-DRAWS = re.compile(r" render | bake | export | --pictures")
+DRAWS = re.compile(r" render | bake | export | import | --pictures")
 
 
 def text_of(page):

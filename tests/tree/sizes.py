@@ -12,7 +12,7 @@ from checks import check, finish
 
 ROOT = pathlib.Path(sys.argv[1])
 COMPILER = sys.argv[2:]
-CODE = "src generators program cli check compile doc export lsp render bench tests examples fits include python js web editors blender action".split()
+CODE = "src generators program cli check compile doc export import lsp render bench tests examples fits include python js web editors blender action".split()
 
 
 def files(folder, *endings):

@@ -1,10 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/*
- * The inputs of gltf_pbr as members of glTF: materials of the specification (section 5.19), and the
- * ratified extensions KHR_materials_…
- * (github.com/KhronosGroup/glTF/tree/main/extensions/2.0/Khronos).
- */
-#include "export/gltf.h"
+#include "program/gltf_inputs.h"
 
 #define PBR "pbrMetallicRoughness"
 #define COAT "KHR_materials_clearcoat"

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * A file of glTF 2.0 (Khronos, glTF 2.0 Specification, 2.0.1), as text or binary (section 4.4):
+ * its JSON, and the bytes that it has in itself or in files beside it.
+ */
+#ifndef MXG_IMPORT_GLTF_SOURCE_H
+#define MXG_IMPORT_GLTF_SOURCE_H
+
+#include "program/cli.h"
+#include "program/json.h"
+
+struct gltf_bytes {
+    uint8_t *data; /* NULL: not read yet, or it cannot be */
+    size_t size;
+    bool is_tried;
+};
+
+struct gltf_source {
+    struct cli *cli;
+    const char *path;
+    json_t *root;
+    struct gltf_bytes chunk;    /* of a binary file */
+    struct gltf_bytes *buffers; /* by index */
+    size_t num_buffers;
+};
+
+/* false after reporting an error. gltf_source_close follows in any case. */
+bool gltf_source_open(struct gltf_source *source, struct cli *cli, const char *path);
+void gltf_source_close(struct gltf_source *source);
+
+/* The item of an array of the root: "images"; NULL: there is none. */
+const json_t *gltf_source_item(const struct gltf_source *source, const char *array, size_t index);
+/* A member that is the index of something; SIZE_MAX: there is none. */
+size_t gltf_index_of(const json_t *object, const char *key);
+
+/* The bytes of a part of a buffer; NULL: they are not there. */
+const uint8_t *gltf_source_view(struct gltf_source *source, size_t index, size_t *out_size);
+
+/*
+ * What a URI names: the bytes of "data:…", which the caller frees; or NULL, and the path of a file,
+ * which the caller frees, or why it must not be read. NULL and NULL: the URI is no path.
+ */
+uint8_t *gltf_source_resolve(const struct gltf_source *source, const char *uri, size_t *out_size,
+                             char **out_path, const char **out_fault);
+
+#endif

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "import/import.h"
+
+#include "program/files.h"
+#include "program/memory.h"
+#include "program/relocate.h"
+
+#include <ctype.h>
+#include <errno.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+void import_tell_loss(struct importing *importing, const char *of, const char *format, ...)
+{
+    char text[256];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    report_warning(&importing->source.cli->report, "import-loss",
+                   "'%s' of '%s' is not in the document as it is: %s", of, importing->source.path,
+                   text);
+}
+
+char *import_name(const struct importing *importing, mxg_element parent, const char *wanted)
+{
+    char *valid = cli_format("%s%s", isdigit((unsigned char)*wanted) ? "_" : "", wanted);
+    for (char *at = valid; *at; ++at)
+        *at = isalnum((unsigned char)*at) && (unsigned char)*at < 0x80 ? *at : '_';
+    char *name = cli_format("%s", *valid ? valid : "_");
+    for (unsigned i = 2; mxg_edit_find_element(importing->edit, parent, name); ++i) {
+        free(name);
+        name = cli_format("%s_%u", valid, i);
+    }
+    free(valid);
+    return name;
+}
+
+bool import_write_file(struct importing *importing, const char *name, const void *data, size_t size)
+{
+    struct report *report = &importing->source.cli->report;
+    char *path = cli_format("%s%s", importing->folder, name);
+    bool is_free = outputs_write(&importing->outputs, report, path, "a file beside the document");
+    const char *reason =
+        is_free ? files_write(batch_begin(&importing->files, importing->folder, name), data, size)
+                : NULL;
+    if (reason)
+        report_error(report, "output-failed", "cannot write '%s': %s", path, reason);
+    free(path);
+    return is_free && !reason;
+}
+
+/* ---- The document ---- */
+
+static void add_materials(struct importing *importing)
+{
+    const struct gltf_source *source = &importing->source;
+    size_t num = json_array_size(json_object_get(source->root, "materials"));
+    mxg_edit_set_attribute(importing->edit, mxg_edit_find_element(importing->edit, 0, ""),
+                           "colorspace", "lin_rec709");
+    for (size_t i = 0; i < num; ++i)
+        import_add_material(importing, i);
+    if (!num)
+        report_error(&source->cli->report, "import-file", "cannot read '%s': it has no materials",
+                     source->path);
+    if (json_object_get(json_object_get(source->root, "extensions"), "KHR_materials_variants"))
+        import_tell_loss(importing, "KHR_materials_variants", "%s",
+                         "variants assign materials to meshes, and these are not read");
+}
+
+/* Writes the document that the edit makes. */
+static void write_document(struct importing *importing)
+{
+    struct cli *cli = importing->source.cli;
+    mxg_document *document = NULL;
+    char reason[256] = "";
+    size_t size = 0;
+    mxg_edit_error(importing->edit, reason, sizeof reason);
+    if (*reason)
+        report_error(&cli->report, "import-file", "cannot read '%s': %s", importing->source.path,
+                     reason);
+    else
+        report_status(&cli->report, mxg_edit_commit(importing->edit, &document));
+    const char *text = document ? mxg_document_xml(document, &size) : NULL;
+    if (document)
+        report_list(&cli->report, mxg_document_diagnostics(document));
+    if (text && !cli->report.errors)
+        import_write_file(importing, files_base_name(importing->output), text, size);
+    mxg_document_destroy(document);
+}
+
+static void run(struct importing *importing)
+{
+    struct cli *cli = importing->source.cli;
+    size_t num = json_array_size(json_object_get(importing->source.root, "materials"));
+    importing->folder = relocate_folder(importing->output);
+    if (!importing->folder) {
+        report_error(&cli->report, "output-failed", "cannot write '%s': %s", importing->output,
+                     strerror(errno));
+        return;
+    }
+    importing->num_images = json_array_size(json_object_get(importing->source.root, "images"));
+    importing->images = memory_alloc((importing->num_images + 1) * sizeof *importing->images);
+    outputs_read(&importing->outputs, &cli->report, importing->source.path);
+    if (report_status(&cli->report, mxg_edit_create(cli->context, cli->library, NULL,
+                                                    importing->output, &importing->edit))) {
+        add_materials(importing);
+        write_document(importing);
+    }
+    bool good = batch_end(&importing->files, &cli->report, !cli->report.errors);
+    if (good && !cli->quiet)
+        fprintf(stderr, "note: '%s' has %zu material%s\n", importing->output, num,
+                num == 1 ? "" : "s");
+}
+
+void import_document(struct cli *cli, const char *path, const char *output)
+{
+    struct importing importing = {.output = output};
+    if (gltf_source_open(&importing.source, cli, path))
+        run(&importing);
+    mxg_edit_destroy(importing.edit);
+    gltf_source_close(&importing.source);
+    batch_finish(&importing.files);
+    outputs_finish(&importing.outputs);
+    for (size_t i = 0; i < importing.num_images; ++i)
+        free(importing.images[i].name);
+    free(importing.images);
+    free(importing.folder);
+}
