@@ -29,8 +29,9 @@ static char *write_image(struct importing *importing, const char *name, const ui
 {
     const char *ending = data ? ending_of(data, size) : NULL;
     if (!ending) {
-        import_tell_loss(importing, name, "%s", data ? "the image is neither PNG nor JPEG"
-                                                     : "the bytes of the image are missing");
+        import_tell_loss(importing, name, "%s",
+                         data ? "the image is neither PNG nor JPEG"
+                              : "the bytes of the image are missing");
         return NULL;
     }
     char *file = cli_format("%s.%s", name, ending);
@@ -54,8 +55,8 @@ static char *name_of(const struct importing *importing, const json_t *image, siz
         *at = *at == '/' || *at == '.' ? '_' : *at;
     char *name = file_name_clean(wanted), *path = cli_format("%s%s.png", importing->folder, name),
          *other = cli_format("%s%s.jpg", importing->folder, name);
-    bool is_taken = outputs_has(&importing->outputs, path)
-                    || outputs_has(&importing->outputs, other);
+    bool is_taken =
+        outputs_has(&importing->outputs, path) || outputs_has(&importing->outputs, other);
     char *unique = is_taken ? cli_format("%s_%zu", name, index) : cli_format("%s", name);
     free(wanted);
     free(name);
@@ -84,8 +85,7 @@ static char *find_image(struct importing *importing, const json_t *image, size_t
         free(data);
         free(path);
     } else {
-        const uint8_t *data =
-            gltf_source_view(source, gltf_index_of(image, "bufferView"), &size);
+        const uint8_t *data = gltf_source_view(source, gltf_index_of(image, "bufferView"), &size);
         file = write_image(importing, name, data, size);
     }
     free(name);

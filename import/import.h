@@ -24,7 +24,7 @@ struct importing {
     struct import_image {
         char *name; /* as the document names it; NULL: it cannot be used */
         bool is_tried;
-    } *images; /* by index */
+    } * images; /* by index */
     size_t num_images;
 };
 

@@ -18,9 +18,9 @@ static const json_t *extension_of(const struct import_material *material, const 
 /* The object with the members of a row; NULL: the material has none. */
 static const json_t *object_of(const struct import_material *material, const struct gltf_input *row)
 {
-    return !row->object                             ? material->json
+    return !row->object                           ? material->json
            : strncmp(row->object, "KHR_", 4) == 0 ? extension_of(material, row->object)
-                                                    : json_object_get(material->json, row->object);
+                                                  : json_object_get(material->json, row->object);
 }
 
 /* The numbers of a row: its part of the factor, or what glTF has without it. */
@@ -35,8 +35,8 @@ static void read_factor(const json_t *object, const struct gltf_input *row, floa
 
 static void read_color(const struct import_material *material, float out[4])
 {
-    const json_t *factor = json_object_get(
-        json_object_get(material->json, "pbrMetallicRoughness"), "baseColorFactor");
+    const json_t *factor =
+        json_object_get(json_object_get(material->json, "pbrMetallicRoughness"), "baseColorFactor");
     for (size_t i = 0; i < 4; ++i) {
         const json_t *item = json_array_get(factor, i);
         out[i] = json_is_number(item) ? (float)json_number_value(item) : 1;
@@ -72,7 +72,9 @@ static void connect(struct import_material *material, mxg_element shader, const 
 
 static const char *type_of(const struct gltf_input *row)
 {
-    return row->count == 1 ? "float" : gltf_images[row->image].is_srgb || row->factor ? "color3" : "vector3";
+    return row->count == 1                                  ? "float"
+           : gltf_images[row->image].is_srgb || row->factor ? "color3"
+                                                            : "vector3";
 }
 
 /* What the image of a row gives; a node of 0: it has none. */
@@ -151,7 +153,8 @@ static const struct gltf_input *find_row(const char *name)
 }
 
 /* A mask as a number: 1 where alpha reaches the cutoff. */
-static void add_mask(struct import_material *material, mxg_element shader, float alpha, float cutoff)
+static void add_mask(struct import_material *material, mxg_element shader, float alpha,
+                     float cutoff)
 {
     mxg_edit *edit = material->importing->edit;
     const float one = 1;
@@ -213,8 +216,8 @@ void import_add_material(struct importing *importing, size_t index)
          *shader_name = import_name(importing, 0, shader_wanted);
     struct import_material material = {.importing = importing, .json = json, .name = name};
     bool is_unlit = extension_of(&material, UNLIT) != NULL;
-    mxg_element shader = mxg_edit_add_element(
-        edit, 0, is_unlit ? "surface_unlit" : "gltf_pbr", shader_name, "surfaceshader");
+    mxg_element shader = mxg_edit_add_element(edit, 0, is_unlit ? "surface_unlit" : "gltf_pbr",
+                                              shader_name, "surfaceshader");
     (is_unlit ? add_unlit : add_lit)(&material, shader);
     tell_extensions(&material);
     mxg_element element = mxg_edit_add_element(edit, 0, "surfacematerial", name, "material");

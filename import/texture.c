@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * A texture as nodes: an image placed by KHR_texture_transform, and what takes a channel of it. Each
- * image of a material is read once for each way in which it is read.
+ * A texture as nodes: an image placed by KHR_texture_transform, and what takes a channel of it.
+ * Each image of a material is read once for each way in which it is read.
  */
 #include "import/import.h"
 
@@ -16,8 +16,8 @@ mxg_element import_node(struct import_material *material, const char *category, 
                         const char *type)
 {
     char *free_name = import_name(material->importing, material->graph, name);
-    mxg_element node = mxg_edit_add_element(material->importing->edit, material->graph, category,
-                                            free_name, type);
+    mxg_element node =
+        mxg_edit_add_element(material->importing->edit, material->graph, category, free_name, type);
     free(free_name);
     return node;
 }
@@ -48,8 +48,8 @@ static void place(struct import_material *material, mxg_element node, const json
 static void set_sampler(struct import_material *material, mxg_element node, const json_t *sampler)
 {
     enum { CLAMP = 33071, MIRROR = 33648, CLOSEST = 9728 };
-    static const char *const members[] = {"wrapS", "wrapT"},
-                             *const inputs[] = {"uaddressmode", "vaddressmode"};
+    static const char *const members[] = {"wrapS", "wrapT"}, *const inputs[] = {"uaddressmode",
+                                                                                "vaddressmode"};
     mxg_edit *edit = material->importing->edit;
     for (int i = 0; i < 2; ++i) {
         uint64_t wrap = json_count_of(sampler, members[i]);
@@ -84,11 +84,11 @@ static char *reader_name(const struct gltf_input *row, const char *type, const j
     unsigned hash = 2166136261u, set = (unsigned)json_count_of(info, "texCoord"); /* FNV-1a */
     for (const char *at = transform ? transform : ""; *at; ++at)
         hash = (hash ^ (unsigned char)*at) * 16777619u;
-    char *name = cli_format("%s%s_%zu", gltf_images[row->image].name,
-                            strcmp(type, "color4") == 0 ? "Alpha" : "",
-                            gltf_index_of(info, "index")),
-         *whole = transform || set ? cli_format("%s_%u_%08x", name, set, hash)
-                                   : cli_format("%s", name);
+    char *name =
+             cli_format("%s%s_%zu", gltf_images[row->image].name,
+                        strcmp(type, "color4") == 0 ? "Alpha" : "", gltf_index_of(info, "index")),
+         *whole =
+             transform || set ? cli_format("%s_%u_%08x", name, set, hash) : cli_format("%s", name);
     free(transform);
     free(name);
     return whole;
@@ -100,8 +100,8 @@ static const char *file_of(struct import_material *material, const struct gltf_i
 {
     size_t index = gltf_index_of(texture, "source");
     if (index == SIZE_MAX)
-        import_tell_loss(material->importing, material->name,
-                         "'%s' has no image in PNG or JPEG", row->texture);
+        import_tell_loss(material->importing, material->name, "'%s' has no image in PNG or JPEG",
+                         row->texture);
     return import_image(material->importing, index);
 }
 
@@ -127,9 +127,9 @@ static mxg_element make_reader(struct import_material *material, const struct gl
         place(material, reader, transform);
         set_texcoord(material, reader,
                      set ? json_count_of(transform, "texCoord") : json_count_of(info, "texCoord"));
-        set_sampler(material, reader,
-                    gltf_source_item(&importing->source, "samplers",
-                                     gltf_index_of(texture, "sampler")));
+        set_sampler(
+            material, reader,
+            gltf_source_item(&importing->source, "samplers", gltf_index_of(texture, "sampler")));
     }
     free(name);
     return reader;
@@ -240,13 +240,12 @@ struct import_port import_texture(struct import_material *material, const struct
     mxg_edit *edit = material->importing->edit;
     bool is_base = row->image == GLTF_BASE, is_srgb = gltf_images[row->image].is_srgb,
          is_color = is_srgb && row->count == 3;
-    mxg_element reader =
-        make_reader(material, row, is_base ? "gltf_colorimage" : "gltf_image",
-                    is_base    ? "multioutput"
-                    : is_color ? "color3"
-                    : is_srgb  ? "color4"
-                               : "vector3",
-                    info);
+    mxg_element reader = make_reader(material, row, is_base ? "gltf_colorimage" : "gltf_image",
+                                     is_base    ? "multioutput"
+                                     : is_color ? "color3"
+                                     : is_srgb  ? "color4"
+                                                : "vector3",
+                                     info);
     if (!reader)
         return (struct import_port){0, NULL};
     if (is_base) {
