@@ -137,6 +137,9 @@ struct matrix usd_transform(struct site *site, uint32_t primitive, bool *out_res
 /* usd_mesh.c: adds the objects of a Mesh: its own, and those of its subsets. */
 void usd_add_mesh(struct site *site, uint32_t primitive, struct matrix world);
 
+/* usd_points.c: adds the object of Points, a sphere for each. */
+void usd_add_points(struct site *site, uint32_t primitive, struct matrix world);
+
 /* usd_light.c: adds a light, or says why not; ignores other types. */
 void usd_add_light(struct site *site, uint32_t primitive, const char *type, struct matrix world);
 

@@ -55,7 +55,7 @@ struct visit {
 };
 
 /* Geometry of UsdGeom that is told instead of drawn. */
-static const char *const undrawn[] = {"BasisCurves", "NurbsCurves", "HermiteCurves", "Points",
+static const char *const undrawn[] = {"BasisCurves", "NurbsCurves", "HermiteCurves",
                                       "NurbsPatch",  "TetMesh",     "Volume"};
 enum { NUM_UNDRAWN = sizeof undrawn / sizeof *undrawn };
 
@@ -299,6 +299,8 @@ static void add_objects(struct walk *walk, uint32_t primitive, const char *type,
     *made = (struct made){.first = site->num_objects, .is_known = true};
     if (strcmp(type, "Mesh") == 0)
         usd_add_mesh(site, primitive, world);
+    else if (strcmp(type, "Points") == 0)
+        usd_add_points(site, primitive, world);
     else if (!usd_add_shape(site, primitive, type, world))
         note_undrawn(walk, primitive, type);
     made->num = site->num_objects - made->first;

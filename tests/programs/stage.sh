@@ -234,8 +234,8 @@ check 'an unknown slot is an error' eval 'exits 1 "$render" two.mtlx --stage sce
 sed 's|<surface_unlit name=.SBlue.|<ambientocclusion name="ao" type="float"/><surface_unlit name="SBlue"|; s|value=.0,0,1./>|&<input name="emission" type="float" nodename="ao"/>|' two.mtlx >open.mtlx
 check 'occlusion that a stage lacks is told once' eval 'exits 0 "$render" open.mtlx --stage scene.usda -s 64 -o open.ppm && [ "$(grep -c "\[missing-primvar\]" err)" = 1 ] && grep -qF "which the slot '"'050'"' reads; rasters compute no occlusion, so 1 (open) stands in" err'
 check 'and 1 stands in' eval '[ "$(cell open.ppm -2.5 -3.5)" = b ]'
-printf '#usda 1.0\ndef Cube "c" {}\ndef Points "p" {\n    point3f[] points = [(0, 0, 0)]\n}\ndef BasisCurves "a" {\n    token type = "linear"\n}\ndef BasisCurves "b" {}\n' >undrawn.usda
-check 'geometry that is not drawn is told beside what is' eval 'exits 0 "$render" --stage undrawn.usda -s 16 -o undrawn.ppm && grep -F "[not-drawn]" err >told; grep -qF "(undrawn.usda:4) is Points, which mxgen does not draw" told && grep -qF "(undrawn.usda:7) and 1 more are BasisCurves" told'
+printf '#usda 1.0\ndef Cube "c" {}\ndef NurbsPatch "p" {\n    point3f[] points = [(0, 0, 0)]\n}\ndef BasisCurves "a" {\n    token type = "linear"\n}\ndef BasisCurves "b" {}\n' >undrawn.usda
+check 'geometry that is not drawn is told beside what is' eval 'exits 0 "$render" --stage undrawn.usda -s 16 -o undrawn.ppm && grep -F "[not-drawn]" err >told; grep -qF "(undrawn.usda:4) is NurbsPatch, which mxgen does not draw" told && grep -qF "(undrawn.usda:7) and 1 more are BasisCurves" told'
 sees 'a mesh with its material' scene -3.5 3.5 r
 sees 'nothing below it' scene -3.5 2.5 -
 sees 'transforms in their order, for children' scene -2.5 3.5 g
@@ -462,6 +462,32 @@ check 'a stage of glTF is seen through its camera' eval 'test "$(cell_of one.ppm
 check 'a list without a stage is wrong usage' exits 2 "$render" --list
 check 'a list of a file that is missing fails' exits 1 "$render" --stage none.gltf --list
 check 'the error is bad-mesh' grep -qF '[bad-mesh]' err
+# ---- Points ----
+
+{
+    cat <<<"$head"
+    cat <<'USD'
+def Points "dots" {
+    rel material:binding = </Painted>
+    point3f[] points = [(-2, 0, 0), (0, 0, 0), (2, 0, 0)]
+    float[] widths = [1, 2, 0.2]
+    color3f[] primvars:paint = [(1, 0, 0), (0, 1, 0), (0, 0, 1)] ( interpolation = "vertex" )
+    int primvars:number = 0
+}
+def Points "plain" {
+    rel material:binding = </Red>
+    point3f[] points = [(0, 3, 0)]
+}
+USD
+} >points.usda
+check 'points are drawn' draw points -W no-pattern-unmatched
+check 'without a message' test ! -s err
+for place in '-2 0 r' '-1.7 0 r' '-1.3 0 -' '0 0 g' '0.8 0 g' '0 1.2 -' '2 0 b' '2.3 0 -' '0 3 r' '0 3.3 r' '0.7 3 -'; do
+    read -r x y color <<<"$place"
+    sees "a point or none at $x, $y" points "$x" "$y" "$color"
+done
+check 'widths for other points are an error' eval 'sed "s/\[1, 2, 0.2\]/[1, 2]/" points.usda >widths.usda; exits 1 "$render" colors.mtlx --stage widths.usda -s 16 -o widths.ppm && grep -F "[bad-geometry]" err | grep -qF "has 2 numbers for 3 points"'
+
 # ---- Many objects ----
 
 # spheres NUM: as many instances, and as many prims
