@@ -118,9 +118,10 @@ struct bind_idle {
     struct bind_item item; /* without a kind */
     bool is_removed;       /* otherwise it sleeps */
 };
-struct idle_list {
+struct idle_list { /* zero at first; serves one state after the other */
     struct bind_idle *items;
     uint32_t len, cap;
+    uint32_t *marks, epoch; /* by assignment: the epoch in which it has an item */
 };
 /* Fills the list by name; `stands` is a work area. */
 void bind_find_idle(const struct bindings *b, const struct bind_state *state, struct stands *stands,
