@@ -6,6 +6,7 @@
 #include "lsp/query.h"
 #include "lsp/wire.h"
 
+#include <mxgen/reflection.h>
 #include <string.h>
 
 json_t *handle_lenses(struct lsp_session *session, const json_t *params, struct lsp_error *error)
@@ -30,25 +31,43 @@ json_t *handle_lenses(struct lsp_session *session, const json_t *params, struct 
     return list;
 }
 
-/* The figures for GLSL, or why there are none. */
+/* The textures of the document: those of the environment belong to no element. */
+static uint32_t count_textures(const mxg_result *result)
+{
+    uint32_t num = 0;
+    for (uint32_t i = 0; i < mxg_result_num_variables(result); ++i) {
+        mxg_variable variable = MXG_INIT(mxg_variable);
+        num += mxg_result_variable(result, i, &variable) == MXG_OK
+               && variable.block == MXG_BLOCK_TEXTURES && *variable.path;
+    }
+    return num;
+}
+
+/* The figures of the shader in GLSL with the values of the document, or why there are none. */
 static json_t *describe(const struct lsp_document *document, const char *name)
 {
     mxg_result *result = NULL;
+    mxg_options *options = NULL;
     mxg_shader_info info = MXG_INIT(mxg_shader_info);
     mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
     desc.target = "glsl";
     desc.element = name;
     desc.without_source = true;
-    bool is_made =
-        document && document->check && document->parsed
-        && mxg_generate(document->check->context, document->parsed, &desc, &result) == MXG_OK
-        && mxg_result_info(result, &info) == MXG_OK;
+    bool is_made = document && document->check && document->parsed
+                   && mxg_options_create(document->check->context, &options) == MXG_OK
+                   && mxg_options_set(options, "interface", "reduced") == MXG_OK;
+    desc.options = options;
+    is_made = is_made
+              && mxg_generate(document->check->context, document->parsed, &desc, &result) == MXG_OK
+              && mxg_result_info(result, &info) == MXG_OK;
+    uint32_t num_textures = is_made ? count_textures(result) : 0;
     json_t *title =
         is_made ? json_sprintf("shader: %u closure%s, %u texture%s", (unsigned)info.num_closures,
-                               info.num_closures == 1 ? "" : "s", (unsigned)info.num_textures,
-                               info.num_textures == 1 ? "" : "s")
+                               info.num_closures == 1 ? "" : "s", (unsigned)num_textures,
+                               num_textures == 1 ? "" : "s")
                 : json_string("shader: none, because of errors");
     mxg_result_destroy(result);
+    mxg_options_destroy(options);
     return title;
 }
 

@@ -334,7 +334,7 @@ def check_lenses(client):
     client.diagnostics(URI)
     lens = client.of("textDocument/codeLens", URI)
     same([text_at(client, item["range"]) for item in lens], ["surfacematerial"], "lenses")
-    same(client.request("codeLens/resolve", lens[0])["command"]["title"], "shader: 9 closures, 3 textures", "a lens")
+    same(client.request("codeLens/resolve", lens[0])["command"]["title"], "shader: 2 closures, 1 texture", "a lens")
     open_text(client, within(GRAPH, 'nodename="SR"', 'nodename="SS"'))
     client.diagnostics(URI)
     same(client.request("codeLens/resolve", lens[0])["command"]["title"], "shader: none, because of errors", "a lens without a shader")

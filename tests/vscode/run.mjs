@@ -41,6 +41,19 @@ async function openPreview(changes) {
 
 const shot = (editor, name) => editor.screenshot(path.join(work, `${name}.png`));
 const shows = name => `document.getElementById('element').options[0].text === 'At the cursor: ${name}' && document.body.dataset.whole === 'true'`;
+let editor;
+
+/** Puts the cursor into a line, until the preview shows an element: the text may move while it is clicked. */
+async function moveTo(line, name) {
+    for (let i = 0; i < 20; i++) {
+        await editor.pressLine(line);
+        for (let k = 0; k < 20; k++, await new Promise(resolve => setTimeout(resolve, 100)))
+            if (await editor.view(shows(name)))
+                return;
+    }
+    throw new Error(`the preview does not show ${name}`);
+}
+
 const saved = async (editor, isRight) => {
     for (let i = 0; i < 100 && !isRight(fs.readFileSync(file, "utf8")); i++)
         await new Promise(resolve => setTimeout(resolve, 50));
@@ -54,8 +67,6 @@ const MEAN = `(() => {
     const size = 40, { data } = copy.getImageData((canvas.width - size) / 2, (canvas.height - size) / 2, size, size);
     return [0, 1, 2].map(c => data.reduce((sum, x, i) => i % 4 === c ? sum + x : sum, 0) / (size * size));
 })()`;
-
-let editor;
 
 test("the preview shows the material", async () => {
     editor = await openPreview({ "workbench.colorTheme": "Default Dark Modern" });
@@ -122,14 +133,37 @@ test("lines of the shader lead to nodes, and nodes to lines", async () => {
     await shot(editor, "document");
 });
 
-test("a broken text keeps the picture and tells the error", async () => {
+test("libraries of the settings, included files and their textures", async () => {
     await editor.close();
-    editor = await openPreview({ "workbench.colorTheme": "Default Light Modern" });
-    await editor.untilView("document.body.dataset.whole === 'true'");
-    await shot(editor, "light");
+    const library = path.join(work, "library"), added = `  <studio_tint name="tint" type="color3"/>
+  <xi:include href="parts/part.mtlx" xmlns:xi="http://www.w3.org/2001/XInclude"/>
+  <multiply name="bright" type="color3"><input name="in1" type="color3" nodename="picture"/><input name="in2" type="color3" value="1, 1, 1"/></multiply>
+`;
+    fs.mkdirSync(path.join(folder, "parts"));
+    fs.copyFileSync(path.join(root, "editors/vscode/media/icon.png"), path.join(folder, "parts/ball.png"));
+    fs.writeFileSync(path.join(folder, "parts/part.mtlx"), `<materialx version="1.39"><image name="picture" type="color3">
+        <input name="file" type="filename" value="ball.png"/></image></materialx>`);
+    fs.mkdirSync(library);
+    fs.writeFileSync(path.join(library, "studio.mtlx"), `<materialx version="1.39">
+        <nodedef name="ND_studio_tint" node="studio_tint"><input name="shade" type="color3" value="1, 0, 0"/><output name="out" type="color3"/></nodedef>
+        <implementation name="IM_studio_tint" nodedef="ND_studio_tint" file="studio.glsl" function="studio_tint"/></materialx>`);
+    fs.writeFileSync(path.join(library, "studio.glsl"), "void studio_tint(vec3 shade, out vec3 result)\n{\n    result = shade * 0.5;\n}\n");
+    fs.writeFileSync(file, original.replace("  <surfacematerial", `${added}  <surfacematerial`));
+    editor = await openPreview({ "workbench.colorTheme": "Default Light Modern", "mxgen.libraries": [library] });
     await editor.press("document.querySelector('.monaco-editor .view-line span span')");
     await editor.key("End", "End", 35, 2);
-    await editor.pressLine("<surfacematerial");
+    await moveTo("<studio_tint", "tint");
+    const [red, green] = await editor.view(MEAN);
+    assert(red > 100 && green < 60, `${red} ${green}`);
+    await editor.until("(text => /Warnings: 2/.test(text) && !/Errors/.test(text))(document.getElementById('status.problems').outerHTML)"); // nothing uses the two nodes
+    await moveTo('name="bright"', "bright");
+    await editor.untilView(`${MEAN}[1] > 60`); // the texture of an included file; without it there is a checker without green
+    assert.equal(await editor.view("document.getElementById('notice').hidden"), true);
+});
+
+test("a broken text keeps the picture and tells the error", async () => {
+    await moveTo("<surfacematerial", "Marble");
+    await shot(editor, "light");
     await editor.key("End", "End", 35);
     await editor.type("<");
     await editor.untilView("!document.getElementById('notice').hidden && document.getElementById('notice').className === 'error'");
@@ -146,7 +180,8 @@ test("without the program messages come from the extension", async () => {
     fs.writeFileSync(file, original.replace('name="octaves" type="integer"', 'name="octaves" type="float"'));
     editor = await openPreview({ "mxgen.path": path.join(work, "none") });
     await editor.until("document.querySelector('.notification-toast')?.textContent.includes('does not start')");
-    await editor.until("/Errors: 1/.test(document.getElementById('status.problems').getAttribute('aria-label') ?? document.getElementById('status.problems').innerHTML)");
+    await editor.until("/Errors: 1/.test(document.getElementById('status.problems').outerHTML)");
+    await editor.untilView("document.getElementById('notice').textContent.includes(\"input 'octaves'\")");
     await shot(editor, "without");
     await editor.close();
 });

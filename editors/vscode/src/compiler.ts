@@ -2,17 +2,18 @@
 // The library as WebAssembly, for what the extension itself does: shaders as documents, explanations, and messages and formatting
 // where there is no language server.
 
-import type { Context, Diagnostic, Document, Mxgen } from "mxgen";
+import type { Context, Diagnostic, Document, Library, Mxgen } from "mxgen";
 import { DocumentError, instantiate } from "mxgen";
 import * as vscode from "vscode";
 
-import { join, readFile } from "./files";
+import { join, readFile, readLibraries } from "./files";
+import { loadLibraries, resolve } from "./library";
 
 const TOO_LONG = 10_000; // milliseconds of one call; the extension host answers nobody meanwhile
 
 export class Compiler {
     #module: Promise<Mxgen> | null = null;
-    #context: Context | null = null;
+    #opening: Promise<{ context: Context; library: Library | null }> | null = null;
     #end = 0;
 
     constructor(private readonly extension: vscode.Uri) {}
@@ -22,22 +23,41 @@ export class Compiler {
         return this.#module;
     }
 
-    async #open(): Promise<Context> {
-        const mxgen = await this.mxgen();
-        this.#context ??= mxgen.createContext({ cancel: () => Date.now() > this.#end, resolver: () => null });
+    /** Reads the libraries of the settings anew. */
+    forget(): void {
+        this.#opening = null;
+    }
+
+    async #start(): Promise<{ context: Context; library: Library | null }> {
+        const mxgen = await this.mxgen(), files = new Map(await readLibraries());
+        const context = mxgen.createContext({ cancel: () => Date.now() > this.#end, resolver: (from, ref) => {
+            const name = resolve(from, ref), data = name !== null && files.get(name);
+            return data ? { name, data } : null;
+        } });
         this.#end = Date.now() + TOO_LONG;
-        return this.#context;
+        try {
+            return { context, library: loadLibraries(context, files.keys()) };
+        } catch (error) {
+            void vscode.window.showWarningMessage(`mxgen.libraries: ${error instanceof Error ? error.message.split("\n")[0] : error}`);
+            return { context, library: null };
+        }
+    }
+
+    async #open(): Promise<{ context: Context; library: Library | null }> {
+        const opened = await (this.#opening ??= this.#start());
+        this.#end = Date.now() + TOO_LONG;
+        return opened;
     }
 
     /** Calls `use` with a document and the diagnostics of reading it. null: it is too broken to be one. */
     async withDocument<Answer>(source: vscode.TextDocument, use: (document: Document | null, diagnostics: Diagnostic[]) => Answer): Promise<Answer> {
-        const context = await this.#open(), name = source.uri.toString();
+        const { context, library } = await this.#open(), name = source.uri.toString();
         let document: Document | null = null, diagnostics: Diagnostic[] = [];
         try {
             document = await context.loadAsync(name, async (from, ref) => {
                 const file = from ? join(from, ref) : name, data = file && await readFile(source.uri, file);
                 return data ? { name: file, data } : null;
-            });
+            }, { library });
             diagnostics = [...document.diagnostics];
         } catch (error) {
             if (!(error instanceof DocumentError))
@@ -55,6 +75,6 @@ export class Compiler {
 
     /** The text in one layout. Throws DocumentError. */
     async format(source: vscode.TextDocument): Promise<string> {
-        return (await this.#open()).format(source.getText(), { name: source.uri.toString() });
+        return (await this.#open()).context.format(source.getText(), { name: source.uri.toString() });
     }
 }

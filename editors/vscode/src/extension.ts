@@ -30,7 +30,13 @@ export function register(name: string, work: (...given: any[]) => unknown): vsco
 export function start(context: vscode.ExtensionContext): Compiler {
     const compiler = new Compiler(context.extensionUri), shaders = new Shaders(compiler), messages = new Messages(compiler);
     const preview = new Preview(context.extensionUri, shaders);
+    const readLibraries = () => {
+        compiler.forget();
+        return preview.sendLibraries();
+    };
     context.subscriptions.push(shaders, preview,
+        vscode.workspace.onDidGrantWorkspaceTrust(readLibraries),
+        vscode.workspace.onDidChangeConfiguration(event => event.affectsConfiguration("mxgen.libraries") && readLibraries()),
         vscode.workspace.registerTextDocumentContentProvider(SHADER, shaders),
         vscode.workspace.registerTextDocumentContentProvider(MESSAGE, messages),
         register("mxgen.preview", () => {

@@ -3,6 +3,8 @@
 
 import * as vscode from "vscode";
 
+import { resolve } from "./library";
+
 /** The settings of a folder that are paths, absolute; relative ones begin at the first folder of the workspace. */
 export function settingPaths(key: string): vscode.Uri[] {
     const base = vscode.workspace.workspaceFolders?.[0]?.uri;
@@ -13,13 +15,34 @@ export function settingPaths(key: string): vscode.Uri[] {
     });
 }
 
-/** The address of `ref` beside the file `from`; null: it has none. */
+/** The address of `ref` beside the file `from`, as the editor writes it; null: it has none. */
 export function join(from: string, ref: string): string | null {
-    try {
-        return vscode.Uri.parse(new URL(ref.replaceAll("\\", "/"), from).href).toString();
-    } catch {
-        return null;
+    const address = resolve(from, ref);
+    return address && vscode.Uri.parse(address).toString();
+}
+
+const LIBRARY_FILE = /\.(mtlx|glsl|inline|h)$/, MAX_LIBRARY_FILES = 2000;
+
+/** A file of a library: its address and its bytes. */
+export type LibraryFile = [name: string, content: Uint8Array<ArrayBuffer>];
+
+async function readBelow(uri: vscode.Uri, found: LibraryFile[]): Promise<void> {
+    const { type } = await vscode.workspace.fs.stat(uri);
+    if (!(type & vscode.FileType.Directory)) {
+        found.push([uri.toString(), new Uint8Array(await vscode.workspace.fs.readFile(uri))]);
+        return;
     }
+    for (const [name, kind] of (await vscode.workspace.fs.readDirectory(uri)).sort())
+        if (found.length < MAX_LIBRARY_FILES && (kind & vscode.FileType.Directory || LIBRARY_FILE.test(name)))
+            await readBelow(vscode.Uri.joinPath(uri, name), found);
+}
+
+/** The files of the libraries in the settings; those that are not there are left out. */
+export async function readLibraries(): Promise<LibraryFile[]> {
+    const found: LibraryFile[] = [];
+    for (const uri of settingPaths("libraries"))
+        await readBelow(uri, found).catch(() => {});
+    return found;
 }
 
 function isBelow(uri: vscode.Uri, folder: vscode.Uri): boolean {

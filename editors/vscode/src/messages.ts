@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the extension and its preview tell each other.
 
+import type { LibraryFile } from "./files";
 import type { InputPlace } from "./text";
 
 /** Line and column from 1; columns count characters. */
@@ -18,6 +19,8 @@ export type ToView =
     /** The document that the preview shows, also after each change. */
     | { type: "document"; name: string; text: string; cursor: Position }
     | { type: "cursor"; cursor: Position }
+    /** The files of the libraries in the settings, before the first document. */
+    | { type: "libraries"; files: LibraryFile[] }
     /** The answer to `read`, and again when the file changes. null: there is none that the document may read. */
     | { type: "file"; name: string; content: Uint8Array<ArrayBuffer> | null }
     | { type: "texture"; name: string; file: string; content: Uint8Array<ArrayBuffer> | null };
@@ -25,8 +28,8 @@ export type ToView =
 export type FromView =
     | { type: "ready" }
     | { type: "read"; name: string }
-    /** `file` is a texture as the document `name` names it. */
-    | { type: "readTexture"; name: string; file: string }
+    /** `file` is a texture as the file `from` names it, of the document `name`. */
+    | { type: "readTexture"; name: string; from: string; file: string }
     | { type: "reveal"; place: Place }
     | { type: "setInput"; place: InputPlace & { file: string }; value: string }
     | { type: "openShader"; name: string; element: string; target: string };

@@ -4,7 +4,7 @@
 
 import * as vscode from "vscode";
 
-import { join, readFile } from "./files";
+import { join, readFile, readLibraries } from "./files";
 import type { FromView, Place, Position, ToView } from "./messages";
 import type { Shaders } from "./shaders";
 import { changeOfInput, offsetOf } from "./text";
@@ -23,7 +23,7 @@ function cursorOf(document: vscode.TextDocument): Position {
 export class Preview implements vscode.WebviewPanelSerializer, vscode.Disposable {
     #panel: vscode.WebviewPanel | null = null;
     #source: vscode.TextDocument | null = null;
-    readonly #given = new Set<string>(); // files that the view has
+    readonly #given = new Map<string, () => Promise<void>>(); // how files that the view has are sent again, by their addresses
     readonly #listeners: vscode.Disposable[];
 
     constructor(private readonly extension: vscode.Uri, private readonly shaders: Shaders) {
@@ -43,8 +43,7 @@ export class Preview implements vscode.WebviewPanelSerializer, vscode.Disposable
             vscode.window.onDidChangeTextEditorSelection(({ textEditor: { document } }) => {
                 if (document === this.#source)
                     this.#post({ type: "cursor", cursor: cursorOf(document) });
-            }),
-            vscode.window.onDidChangeActiveColorTheme(() => this.#sendDocument())];
+            })];
     }
 
     show(source: vscode.TextDocument): void {
@@ -94,29 +93,40 @@ export class Preview implements vscode.WebviewPanelSerializer, vscode.Disposable
             this.#post({ type: "document", name: this.#source.uri.toString(), text: this.#source.getText(), cursor: cursorOf(this.#source) });
     }
 
-    async #sendFile(name: string): Promise<void> {
-        const source = this.#source;
-        if (source)
-            this.#post({ type: "file", name, content: await readFile(source.uri, name) });
+    /** Sends what `message` makes of a file, now and when it changes. */
+    async #give(address: string | null, message: (content: Uint8Array<ArrayBuffer> | null) => ToView): Promise<void> {
+        const source = this.#source, send = async () => {
+            const content = source && address ? await readFile(source.uri, address) : null;
+            if (source === this.#source)
+                this.#post(message(content));
+        };
+        if (address)
+            this.#given.set(vscode.Uri.parse(address).toString(), send);
+        await send();
     }
 
     #fileChanged(uri: vscode.Uri): void {
-        if (this.#given.has(uri.toString()))
-            void this.#sendFile(uri.toString());
+        void this.#given.get(uri.toString())?.();
+    }
+
+    /** Sends the libraries of the settings. */
+    async sendLibraries(): Promise<void> {
+        if (this.#panel)
+            this.#post({ type: "libraries", files: await readLibraries() });
     }
 
     async #answer(message: FromView): Promise<void> {
         switch (message.type) {
         case "ready":
+            await this.sendLibraries();
             return this.#sendDocument();
         case "read": {
-            this.#given.add(vscode.Uri.parse(message.name).toString());
-            return this.#sendFile(message.name);
+            const { name } = message;
+            return this.#give(name, content => ({ type: "file", name, content }));
         }
         case "readTexture": {
-            const { name, file } = message, address = join(name, file), source = this.#source;
-            const content = source && address ? await readFile(source.uri, address) : null;
-            return this.#post({ type: "texture", name, file, content });
+            const { name, from, file } = message;
+            return this.#give(join(from, file), content => ({ type: "texture", name, file, content }));
         }
         case "reveal":
             return reveal(message.place);

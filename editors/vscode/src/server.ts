@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The language server: `mxgen lsp` over standard input and output.
 
+import { execFile } from "node:child_process";
+import { promisify } from "node:util";
 import * as vscode from "vscode";
 import { LanguageClient, RevealOutputChannelOn } from "vscode-languageclient/node";
 
@@ -16,6 +18,7 @@ export const programPath = () => vscode.workspace.getConfiguration("mxgen").get(
 
 /** Starts the server. Throws if the program does not start. */
 export async function startServer(): Promise<LanguageClient> {
+    await promisify(execFile)(programPath(), ["--version"]); // the client would tell a failure in its own words
     const client = new LanguageClient("mxgen", "MaterialX (mxgen)",
         { command: programPath(), args: ["lsp", ...programOptions()] },
         {

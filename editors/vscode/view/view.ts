@@ -8,6 +8,7 @@ import { View, ViewError } from "@web/view.js";
 import type { Diagnostic, Variable } from "mxgen";
 import workerSource from "worker.bundle.js";
 
+import type { LibraryFile } from "../src/files";
 import type { FromView, Place, Position, ToView } from "../src/messages";
 import { GraphView } from "./graph";
 import { layOut } from "./layout";
@@ -35,10 +36,13 @@ let shown: { text: string; cursor: Position } | null = null; // the newest docum
 let last: Compilation | null = null; // of which the picture is
 let node: string | null = null; // at the cursor
 let number = 0; // of the newest compilation
+let isReady = false; // the compiler is there
+let isBusy = false; // a compilation runs; one of the newest text follows
 let nodes = new Map<string, Place>();
 const asked = new Set<string>(); // files
 const textures = new Map<string, boolean>(); // by their names in the document: whether there is a picture
 let fault = ""; // of the picture
+let libraryFault = "";
 
 const post = (message: FromView) => host.postMessage(message);
 const remember = (change: Partial<State>) => host.setState(Object.assign(state, change));
@@ -61,9 +65,27 @@ function setDocument({ name, text, cursor }: { name: string; text: string; curso
     void compile();
 }
 
+async function setLibraries(added: LibraryFile[]): Promise<void> {
+    libraryFault = "";
+    await compiler.remember("libraries", { name: "", added }).catch(error => { libraryFault = `mxgen.libraries: ${error.message.split("\n")[0]}`; });
+    await compile();
+}
+
 async function compile(): Promise<void> {
-    const mine = ++number, { name, pinned } = state, { text, cursor } = shown!;
+    number++;
     document.body.dataset.state = "working";
+    if (!isReady || isBusy || !shown)
+        return;
+    isBusy = true;
+    let done = 0;
+    while (done !== number)
+        await compileOnce(done = number);
+    isBusy = false;
+    document.body.dataset.state = "done";
+}
+
+async function compileOnce(mine: number): Promise<void> {
+    const { name, pinned } = state, { text, cursor } = shown!;
     try {
         const answer = await compiler.ask<Compilation>("compile", { name, text, cursor, element: pinned });
         if (mine !== number)
@@ -77,8 +99,6 @@ async function compile(): Promise<void> {
     } catch (error) {
         tell([String((error as Error).message)], "error");
     }
-    if (mine === number)
-        document.body.dataset.state = "done";
 }
 
 function take(answer: Compilation): void {
@@ -87,7 +107,7 @@ function take(answer: Compilation): void {
     if (answer.shader && answer.element !== null) {
         last = answer;
         view?.setShader(answer.shader);
-        askTextures(answer.shader.variables);
+        askTextures(answer);
         showControls(answer);
         page.status.textContent = statusOf(answer);
     }
@@ -126,8 +146,8 @@ function missingTextures(): string[] {
 
 function showNotice({ shader, diagnostics, renderables }: Pick<Compilation, "shader" | "diagnostics" | "renderables">): void {
     const errors = diagnostics.filter(({ severity }: Diagnostic) => severity === "error"), missing = missingTextures();
-    if (fault)
-        tell([fault], "error");
+    if (fault || libraryFault)
+        tell([fault, libraryFault].filter(Boolean), "error");
     else if (errors.length)
         tell([`${errors[0].line ? `Line ${errors[0].line}: ` : ""}${errors[0].message}`, ...(errors.length > 1 ? [`and ${errors.length - 1} more`] : []),
             ...(shader || !last ? [] : ["The picture is of the last text without errors."])], "error");
@@ -139,11 +159,11 @@ function showNotice({ shader, diagnostics, renderables }: Pick<Compilation, "sha
 
 // ---- Textures ----
 
-function askTextures(variables: Variable[]): void {
-    for (const { block, file } of variables)
+function askTextures({ shader, places }: Compilation): void {
+    for (const { block, file, path } of shader!.variables)
         if (block === "textures" && file && !asked.has(`texture ${file}`)) {
             asked.add(`texture ${file}`);
-            post({ type: "readTexture", name: state.name, file });
+            post({ type: "readTexture", name: state.name, from: places[path.slice(0, path.lastIndexOf("/"))]?.file ?? state.name, file });
         }
 }
 
@@ -236,6 +256,8 @@ function showTab(tab: string): void {
 
 async function follow(cursor: Position): Promise<void> {
     shown!.cursor = cursor;
+    if (!isReady)
+        return;
     const { text } = shown!, found = await compiler.ask<string | null>("locate", { name: state.name, text, cursor });
     if (shown?.text !== text || shown.cursor !== cursor || found === node)
         return;
@@ -252,7 +274,10 @@ function openView(): void {
         view = new View(page.canvas);
         view.shape = state.shape;
         view.onChange = () => { document.body.dataset.whole = "false"; };
-        view.onPicture = isWhole => { document.body.dataset.whole = String(isWhole); };
+        view.onPicture = isWhole => {
+            page.canvas.classList.add("drawn");
+            document.body.dataset.whole = String(isWhole);
+        };
         view.onError = text => { fault = `The driver refuses the shader, a bug in mxgen: ${text}`; };
     } catch (error) {
         if (!(error instanceof ViewError))
@@ -310,6 +335,8 @@ function listen(): void {
             void follow(data.cursor);
         else if (data.type === "texture")
             void setTexture(data);
+        else if (data.type === "libraries")
+            void setLibraries(data.files);
         else if (data.type === "file")
             void compiler.remember("addFile", { name: data.name, content: data.content ?? new Uint8Array() }).then(compile);
     });
@@ -324,6 +351,7 @@ async function begin(): Promise<void> {
     const module = await WebAssembly.compileStreaming(fetch(document.body.dataset.wasm!));
     const targets = await compiler.remember("begin", { module }) as string[];
     page.target.replaceChildren(...targets.map(name => new Option(name, name, false, name === state.target)));
+    isReady = true;
     post({ type: "ready" });
 }
 

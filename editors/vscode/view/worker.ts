@@ -2,9 +2,11 @@
 // The compiler of the preview, in a worker, so that the preview answers while it works.
 
 import { distinct, serve, shaderOf, type Parts } from "@web/shaders.js";
-import type { CompiledModule, Context, Diagnostic, Document, Element, Mxgen, Renderable } from "mxgen";
+import type { CompiledModule, Context, Diagnostic, Document, Element, Library, Renderable } from "mxgen";
 import { DocumentError, instantiate } from "mxgen";
 
+import type { LibraryFile } from "../src/files";
+import { loadLibraries, resolve } from "../src/library";
 import type { Place, Position } from "../src/messages";
 import { edgesOf, elementAt, matters, type Link } from "./documents";
 
@@ -26,7 +28,7 @@ export interface Compilation {
     shader: Parts | null;
     diagnostics: Diagnostic[];
     missing: string[];
-    /** where the nodes of the inputs stand, by their paths */
+    /** where the nodes of the inputs and textures stand, by their paths */
     places: Record<string, Place>;
 }
 
@@ -44,18 +46,22 @@ export interface Source {
 }
 
 const files = new Map<string, Uint8Array>();
-let mxgen: Mxgen, context: Context, reading: Reading | null = null;
+let context: Context, library: Library | null = null, reading: Reading | null = null;
 const missing = new Set<string>(); // of the text that is read
+
+function forget(): void {
+    reading?.document?.destroy();
+    reading = null;
+}
 
 function open(name: string, text: string): Reading {
     if (reading?.name === name && reading.text === text)
         return reading;
     const made: Reading = { name, text, document: null, diagnostics: [], missing: [] };
-    reading?.document?.destroy();
-    reading = null;
+    forget();
     missing.clear();
     try {
-        made.document = context.parse(text, { name });
+        made.document = context.parse(text, { name, library });
         made.diagnostics = [...made.document.diagnostics];
     } catch (error) {
         if (!(error instanceof DocumentError))
@@ -67,14 +73,10 @@ function open(name: string, text: string): Reading {
     return reading = made;
 }
 
-function resolve(from: string, ref: string): { name: string; data: Uint8Array } | null {
-    let name;
-    try {
-        name = new URL(ref.replaceAll("\\", "/"), from).href;
-    } catch {
+function find(from: string, ref: string): { name: string; data: Uint8Array } | null {
+    const name = resolve(from, ref), data = name === null ? undefined : files.get(name);
+    if (name === null)
         return null;
-    }
-    const data = files.get(name);
     if (!data)
         missing.add(name);
     return data?.length ? { name, data } : null; // of length 0: the editor has none
@@ -104,7 +106,7 @@ function placesOf(document: Document, { variables }: Parts): Record<string, Plac
     const places: Record<string, Place> = {};
     for (const { block, path } of variables) {
         const node = path.slice(0, path.lastIndexOf("/"));
-        if (block !== "publicUniforms" || !node || node in places)
+        if (!["publicUniforms", "textures"].includes(block) || !node || node in places)
             continue;
         const place = document.find(node)?.place;
         if (place)
@@ -149,16 +151,24 @@ function sourceOf(document: Document, element: string, target: string): Source {
 
 serve({
     async begin({ module }: { module: CompiledModule }) {
-        mxgen = await instantiate(module);
-        context = mxgen.createContext({ resolver: resolve });
+        const mxgen = await instantiate(module);
+        context = mxgen.createContext({ resolver: find });
         return mxgen.targets.map(({ name }) => name);
     },
 
     /** Content of length 0: there is no such file. */
     addFile({ name, content }: { name: string; content: Uint8Array }) {
         files.set(name, content);
-        reading?.document?.destroy();
-        reading = null;
+        forget();
+    },
+
+    /** Throws DocumentError; then only the library that is built in counts. */
+    libraries({ added }: { added: LibraryFile[] }) {
+        forget();
+        library = null;
+        for (const [name, content] of added)
+            files.set(name, content);
+        library = loadLibraries(context, added.map(([name]) => name));
     },
 
     /** The shader of an element of a document, or of what is at the cursor. */
