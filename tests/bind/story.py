@@ -151,7 +151,7 @@ def check_pictures(folder):
     if shown is None:
         skip("no Vulkan device: no look is drawn")
         return
-    stacks = {look: {one["path"]: one["stack"] for one in json.loads(bind(SLOTS / "looks.mtlx", look))["primitives"]} for look in ["default", *STEPS]}
+    stacks = {look: {one["path"]: one.get("stack") for one in json.loads(bind(SLOTS / "looks.mtlx", look))["primitives"]} for look in ["default", *STEPS]}
     pictures = {look: draw(SLOTS / "looks.mtlx", look, folder) for look in stacks}
     for look, step in STEPS.items():
         if pictures[look] and pictures[step[0]]:
