@@ -33,6 +33,26 @@ static bool is_instancer(const struct scene *scene, prim_id prim)
     return false;
 }
 
+static int64_t id_of(const struct scene_instancer *instancer, uint32_t number)
+{
+    return number < instancer->num_ids ? instancer->ids[number] : number;
+}
+
+static uint32_t hash_id(int64_t id)
+{
+    return hash_pair((uint32_t)id, (uint32_t)((uint64_t)id >> 32));
+}
+
+/* The number of the first instance with an id; `num`: there is none. */
+static uint32_t number_of(const struct scene_instancer *instancer, int64_t id)
+{
+    uint32_t hash = hash_id(id);
+    for (uint32_t at = hash, found; (found = table_next(&instancer->by_id, hash, &at));)
+        if (id_of(instancer, found - 1) == id)
+            return found - 1;
+    return instancer->num;
+}
+
 /* The arrays of an instancer, which are read once. */
 static const struct scene_instancer *instancer_of(struct scene *scene, prim_id prim)
 {
@@ -42,6 +62,8 @@ static const struct scene_instancer *instancer_of(struct scene *scene, prim_id p
     struct scene_instancer added = {.prim = prim};
     added.ids = read_integers(scene, prim, "ids", &added.num_ids);
     added.prototypes = read_integers(scene, prim, "protoIndices", &added.num);
+    for (uint32_t i = 0; i < added.num; i++)
+        table_add(&added.by_id, scene->arena, hash_id(id_of(&added, i)), i + 1);
     vec_push(scene->arena, &scene->instancers, added);
     return &vec_last(&scene->instancers);
 }
@@ -63,10 +85,7 @@ bool scene_parse_instance(const struct scene *scene, struct text_word name, prim
 static prim_id prototype_of(struct scene *scene, prim_id prim, int64_t id)
 {
     const struct scene_instancer *instancer = instancer_of(scene, prim);
-    uint32_t number = 0, source;
-    while (number < instancer->num
-           && (number < instancer->num_ids ? instancer->ids[number] : number) != id)
-        number++;
+    uint32_t number = number_of(instancer, id), source;
     const struct usda_property *targets = scene_property(scene, prim, "prototypes", &source);
     struct text_word rest = targets ? targets->value : (struct text_word){0}, path = {0};
     int64_t wanted = number < instancer->num ? instancer->prototypes[number] : -1;
@@ -107,6 +126,23 @@ static struct text_word name_instance(struct scene *scene, prim_id instancer, in
     return (struct text_word){text_cstr(&name) + 1, name.len - 1};
 }
 
+static const struct scene_prototype *find_prototype(struct scene *scene, prim_id root)
+{
+    uint32_t hash = hash_pair(root, 0);
+    for (uint32_t at = hash, found; (found = table_next(&scene->prototype_table, hash, &at));)
+        if (scene->prototypes.items[found - 1].root == root)
+            return &scene->prototypes.items[found - 1];
+    struct scene_prototype added = {.root = root};
+    for (prim_id prim = root;
+         prim && (prim == root || scene_depth(scene, prim) > scene_depth(scene, root));
+         prim = scene_next(scene, prim))
+        if (!scene_is_instance(scene, prim) && !scene_is_group(scene, prim))
+            vec_push(scene->arena, &added.drawn, prim);
+    vec_push(scene->arena, &scene->prototypes, added);
+    table_add(&scene->prototype_table, scene->arena, hash, scene->prototypes.len);
+    return &vec_last(&scene->prototypes);
+}
+
 /* Adds the primitives of an instance: the last ones of the scene. */
 static void add_instance(struct scene *scene, prim_id instancer, int64_t id)
 {
@@ -116,14 +152,10 @@ static void add_instance(struct scene *scene, prim_id instancer, int64_t id)
     if (!root)
         return;
     struct text_word name = name_instance(scene, instancer, id);
-    uint32_t first = scene->instances.len, end = scene->prims.len;
-    for (prim_id prim = root;
-         prim && (prim == root || scene_depth(scene, prim) > scene_depth(scene, root));
-         prim = scene_next(scene, prim)) {
-        if (prim >= end || scene_is_instance(scene, prim) || scene_is_group(scene, prim)
-            || scene->prims.len > scene->max_prims)
-            continue;
-        prim_id node = scene_child(scene, prim, name.bytes, name.len);
+    const struct scene_prototype *prototype = find_prototype(scene, root);
+    uint32_t first = scene->instances.len;
+    for (uint32_t i = 0; i < prototype->drawn.len && scene->prims.len <= scene->max_prims; i++) {
+        prim_id node = scene_child(scene, prototype->drawn.items[i], name.bytes, name.len);
         vec_push(scene->arena, &scene->instances, (struct scene_instance){node, instancer, id});
     }
     if (scene->instances.len > first)
@@ -183,6 +215,8 @@ bool scene_has_instancers(const struct scene *scene)
 void scene_add_instances(struct scene *scene, const struct document *doc)
 {
     static const str_id attrs[] = {STR_geom, STR_includegeom, STR_excludegeom};
+    scene->prototypes.len = 0; /* the scene may have changed */
+    scene->prototype_table = (struct table){0};
     for (elem_id e = doc->first_element; e < doc->first_element + doc_num_elements(doc); e++)
         for (size_t i = 0; i < sizeof attrs / sizeof *attrs; i++)
             if (doc_attr_value(doc, e, attrs[i]))

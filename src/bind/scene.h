@@ -67,6 +67,13 @@ struct scene_instancer {
     prim_id prim;
     uint32_t num, num_ids;
     int64_t *prototypes, *ids; /* without ids, the number of an instance is its id */
+    struct table by_id;        /* id → 1 + number of the instance */
+};
+
+/* What is drawn below the root of a prototype, which each of its instances has: found once. */
+struct scene_prototype {
+    prim_id root;
+    VEC(prim_id) drawn;
 };
 
 /* A primitive that stands for a primitive of one instance; it is the child of that one. */
@@ -99,6 +106,8 @@ struct scene {
     const char *slot_order;     /* with commas; NULL: the scene has none */
     struct diag_place slot_order_place;
     VEC(struct scene_instancer) instancers;
+    VEC(struct scene_prototype) prototypes;
+    struct table prototype_table;         /* root → 1 + index */
     VEC(struct scene_instance) instances; /* by primitive; those of one instance in a row */
     struct table instance_table;          /* (instancer, id) → 1 + index of the first */
     VEC(const char *) words;              /* those that a host gives again and again */

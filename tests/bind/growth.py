@@ -71,6 +71,17 @@ def overrides(count):
             + each(count, 'def NodeGraph "N{i}" {{ float outputs:base = 0.5 }}\n'))
 
 
+def instances(count):
+    """Half of the instances have an assignment of their own (look_at_instances)."""
+    ids = ", ".join(str(i + 5) for i in range(count))
+    return (f'def PointInstancer "f"\n{{\nint[] protoIndices = [{", ".join(["0"] * count)}]\nint64[] ids = [{ids}]\n'
+            f'point3f[] positions = [{", ".join(["(0, 0, 0)"] * count)}]\nrel prototypes = </f/tree>\ndef Mesh "tree" {{}}\n}}\n')
+
+
+def look_at_instances(count):
+    return LOOK.replace("<look name=\"L\">", "<look name=\"L\">" + each(count // 2, '<materialassign name="i{i}" material="A" geom="/f[{next}]"/>'))
+
+
 def write_stack(path, layers):
     """So many materials with noise over each other, which a budget has to blend."""
     parts, looks = [], []
@@ -95,9 +106,10 @@ def seconds(folder, layers):
     return resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
 
 
-def work(folder, text):
+def work(folder, text, look=LOOK):
     """Instructions, in millions."""
     (folder / "stage.usda").write_text("#usda 1.0\n" + text, encoding="utf-8")
+    (folder / "look.mtlx").write_text(look, encoding="utf-8")
     counter = ["valgrind", "--tool=cachegrind", "--cache-sim=no", "--cachegrind-out-file=/dev/null"]
     command = [MXGEN, "bind", folder / "look.mtlx", "--look", "L", "--stage", folder / "stage.usda", "--json", "/dev/null", "--quiet"]
     result = subprocess.run(counter + command, capture_output=True, check=False)
@@ -112,10 +124,10 @@ def main():
         return
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        (folder / "look.mtlx").write_text(LOOK, encoding="utf-8")
         start = work(folder, 'def Mesh "m" {}\n')
-        for make in members, collections, references, siblings, properties, slots, networks, equal_names, overrides:
-            few, many = work(folder, make(COUNT)) - start, work(folder, make(2 * COUNT)) - start
+        for make in members, collections, references, siblings, properties, slots, networks, equal_names, overrides, instances:
+            look = look_at_instances if make is instances else lambda count: LOOK
+            few, many = (work(folder, make(n), look(n)) - start for n in (COUNT, 2 * COUNT))
             print(f"{make.__name__}: {few:.0f} M instructions, {many / few:.2f} times as many for twice the size")
             check(many / few < MOST, f"{make.__name__}: {many / few:.2f} times the work for twice the size")
         few, many = seconds(folder, 3), seconds(folder, 6)
