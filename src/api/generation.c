@@ -629,6 +629,13 @@ static void drop_source(mxg_result *result)
         result->stages[stage] = (struct stage_source){0};
 }
 
+bool generation_shade(struct generation *g)
+{
+    return generation_emit(g) && (!g->desc.only_diagnostics || g->desc.bindings)
+           && generation_finish(g) && generation_keeps_textures(g) && generation_keeps_outputs(g)
+           && !g->desc.only_diagnostics;
+}
+
 void generation_run_all(struct generation *g)
 {
     bool built = generation_start(g) && generation_build(g);
@@ -636,9 +643,7 @@ void generation_run_all(struct generation *g)
         g->result->has_shader = built && generation_make_network(g);
     else
         g->result->has_shader =
-            built && generation_emit(g) && (!g->desc.only_diagnostics || g->desc.bindings)
-            && generation_finish(g) && generation_keeps_textures(g) && generation_keeps_outputs(g)
-            && !g->desc.only_diagnostics && (g->desc.without_source || generation_spell(g));
+            built && generation_shade(g) && (g->desc.without_source || generation_spell(g));
     if (!g->result->has_shader)
         drop_source(g->result);
     assert(!g->result->has_shader || diags_of(g)->num_errors == 0);

@@ -123,6 +123,8 @@ void generation_tell_media(struct generation *g);
 bool generation_emit(struct generation *g);
 bool generation_finish(struct generation *g); /* scheduling and layout */
 bool generation_spell(struct generation *g);  /* source */
+/* all steps between build and source; false also where the description asks for none */
+bool generation_shade(struct generation *g);
 /* replaces the last two steps */
 bool generation_make_network(struct generation *g); /* network.c */
 

@@ -53,10 +53,12 @@ static void write_text(struct generation *g)
     source_find_lines(stage, &result->object.arena);
 }
 
-/* True if the shader is what the pass is about: the surface of its class, or nothing. */
+/* Makes the shader of the surface that the pass lights, or an empty one; false: without a shader.
+ */
 static bool make_surface(struct generation *g)
 {
-    return generation_start(g) && (!g->stored || (generation_build(g) && generation_emit(g)));
+    return generation_start(g)
+           && (g->stored ? generation_build(g) && generation_shade(g) : generation_finish(g));
 }
 
 static void generate(struct generation *g)
@@ -66,7 +68,7 @@ static void generate(struct generation *g)
     result->pass = pass;
     g->stored = deferred_pass_class(pass);
     g->role = &roles[pass == PASS_LIGHT_RAYS ? ROLE_lighting_rays : ROLE_lighting];
-    if (!make_surface(g) || !generation_finish(g))
+    if (!make_surface(g))
         return;
     result->storage = generation_storage(g);
     bool is_program = result->storage.parse != NULL;

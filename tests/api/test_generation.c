@@ -705,6 +705,23 @@ static void test_options_of_targets(void)
             && !mxg_catalogue_has_option(0, NULL));
 }
 
+/* A pass that lights has no shader where only diagnostics are wanted, in each way of writing it. */
+static void test_pass_without_shader(const struct bench *b, mxg_generate_desc desc)
+{
+    static const char *const languages[] = {"vulkan", "hlsl"};
+    uint32_t index = 0;
+    while (strcmp(mxg_catalogue_pass(index), "light_simple") != 0)
+        index++;
+    desc.only_diagnostics = true;
+    for (size_t i = 0; i < sizeof languages / sizeof *languages; i++) {
+        mxg_result *result;
+        desc.target = languages[i];
+        REQUIRE_EQ(mxg_generate_pass(b->context, index, &desc, &result), MXG_OK);
+        REQUIRE(!mxg_result_source(result, MXG_STAGE_PIXEL, NULL));
+        mxg_result_destroy(result);
+    }
+}
+
 /*
  * A pass that the options do not ask for has no source. A surface is no pass. The pass "read" has
  * functions for passes of the host.
@@ -733,6 +750,7 @@ static void test_passes(const struct bench *b)
     REQUIRE_EQ(mxg_catalogue_pass_member(mxg_catalogue_num_pass_resources(), 0, &member),
                MXG_ERROR_ARGUMENT);
     REQUIRE_EQ(mxg_result_pass(NULL, NULL), MXG_ERROR_ARGUMENT);
+    test_pass_without_shader(b, desc);
     desc.without_source = true;
     REQUIRE_EQ(mxg_generate_pass(b->context, 0, &desc, NULL), MXG_ERROR_ARGUMENT);
 }
