@@ -31,10 +31,7 @@ struct state {
 
 static struct cell *find(struct state *state, const char *name)
 {
-    size_t i = 0;
-    while (strcmp(gltf_inputs[i].name, name) != 0)
-        ++i;
-    return &state->cells[i];
+    return &state->cells[gltf_find_input(name) - gltf_inputs];
 }
 
 static float value_of(const struct state *state, const char *name, float otherwise)

@@ -37,8 +37,8 @@ size_t gltf_index_of(const json_t *object, const char *key);
 const uint8_t *gltf_source_view(struct gltf_source *source, size_t index, size_t *out_size);
 
 /*
- * What a URI names: the bytes of "data:…", which the caller frees; or NULL, and the path of a file,
- * which the caller frees, or why it must not be read. NULL and NULL: the URI is no path.
+ * Follows a URI. Returns the bytes of a "data:" URI, which the caller frees; or NULL, and the path
+ * of a file, which the caller frees, or why it must not be read. NULL and NULL: it is no path.
  */
 uint8_t *gltf_source_resolve(const struct gltf_source *source, const char *uri, size_t *out_size,
                              char **out_path, const char **out_fault);

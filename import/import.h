@@ -63,7 +63,7 @@ void import_add_material(struct importing *importing, size_t index);
 
 /* ---- texture.c: the nodes of a texture, which stand in the graph of the material ---- */
 
-/* What a node gives: its output, NULL for the only one. */
+/* An output of a node; NULL: the only one. */
 struct import_port {
     mxg_element node; /* 0: nothing */
     const char *output;

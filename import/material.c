@@ -77,7 +77,7 @@ static const char *type_of(const struct gltf_input *row)
                                                             : "vector3";
 }
 
-/* What the image of a row gives; a node of 0: it has none. */
+/* Reads the image of a row; a node of 0: it has none. */
 static struct import_port read_texture(struct import_material *material,
                                        const struct gltf_input *row, const float *factor)
 {
@@ -144,21 +144,13 @@ static void add_lit(struct import_material *material, mxg_element shader)
         mxg_edit_set_numbers(edit, shader, "alpha_cutoff", "float", &cutoff, 1);
 }
 
-static const struct gltf_input *find_row(const char *name)
-{
-    size_t i = 0;
-    while (strcmp(gltf_inputs[i].name, name) != 0)
-        ++i;
-    return &gltf_inputs[i];
-}
-
 /* A mask as a number: 1 where alpha reaches the cutoff. */
 static void add_mask(struct import_material *material, mxg_element shader, float alpha,
                      float cutoff)
 {
     mxg_edit *edit = material->importing->edit;
     const float one = 1;
-    struct import_port port = read_texture(material, find_row("alpha"), &alpha);
+    struct import_port port = read_texture(material, gltf_find_input("alpha"), &alpha);
     open_graph(material);
     mxg_element mask = import_node(material, "ifgreatereq", "opaque", "float");
     if (port.node)
@@ -176,14 +168,14 @@ static void add_unlit(struct import_material *material, mxg_element shader)
     float color[4], cutoff;
     int mode = alpha_mode_of(material, &cutoff);
     read_color(material, color);
-    add_value(material, shader, find_row("base_color"), "emission_color", color);
+    add_value(material, shader, gltf_find_input("base_color"), "emission_color", color);
     if (mode == 1)
         add_mask(material, shader, color[3], cutoff);
     else if (mode == 2)
-        add_value(material, shader, find_row("alpha"), "opacity", &color[3]);
+        add_value(material, shader, gltf_find_input("alpha"), "opacity", &color[3]);
 }
 
-/* ---- What is lost ---- */
+/* ---- Losses ---- */
 
 static bool is_known(const char *extension)
 {

@@ -135,7 +135,7 @@ static mxg_element make_reader(struct import_material *material, const struct gl
     return reader;
 }
 
-/* ---- What is made of it ---- */
+/* ---- Values of the image ---- */
 
 static void set_number(struct import_material *material, mxg_element node, const char *input,
                        double value)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "program/gltf_inputs.h"
 
+#include <string.h>
+
 #define PBR "pbrMetallicRoughness"
 #define COAT "KHR_materials_clearcoat"
 #define SHEEN "KHR_materials_sheen"
@@ -55,3 +57,11 @@ const struct gltf_input gltf_inputs[] = {
 };
 /* clang-format on */
 const size_t gltf_num_inputs = sizeof gltf_inputs / sizeof *gltf_inputs;
+
+const struct gltf_input *gltf_find_input(const char *name)
+{
+    const struct gltf_input *row = gltf_inputs;
+    while (strcmp(row->name, name) != 0)
+        ++row;
+    return row;
+}

@@ -48,5 +48,7 @@ struct gltf_input {
 };
 extern const struct gltf_input gltf_inputs[];
 extern const size_t gltf_num_inputs;
+/* The row of an input, which the table has. */
+const struct gltf_input *gltf_find_input(const char *name);
 
 #endif

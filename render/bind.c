@@ -311,7 +311,7 @@ static bool make_blocks(struct bind *bind)
     return true;
 }
 
-/* What is not private is the same for all objects, so the others copy it from the first. */
+/* Uniforms that are not private are equal for all objects: the others copy them from the first. */
 static bool fill_blocks(struct bind *bind, uint32_t object)
 {
     for (uint32_t i = 0; object && i < bind->draw.num_blocks; ++i)

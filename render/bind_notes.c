@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* What objects lack of the attributes that a shader reads. */
+/* The attributes that a shader reads and objects lack. */
 #include "render/bind.h"
 
 #include <stdio.h>

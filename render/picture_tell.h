@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* What is told about the inputs of a shader while a picture is made. */
+/* Messages about the inputs of a shader while a picture is made. */
 #ifndef MXG_RENDER_PICTURE_TELL_H
 #define MXG_RENDER_PICTURE_TELL_H
 

@@ -195,7 +195,7 @@ static const struct {
                     {"Capsule", 0.5, 1, make_capsule}};
 enum { NUM_ROUND = sizeof round_shapes / sizeof *round_shapes };
 
-/* What a shape depends on: two numbers, and the axis of a round one. */
+/* The measures of a shape: two numbers, and the axis of a round one. */
 struct measures {
     size_t round; /* index in round_shapes; NUM_ROUND: it is flat */
     bool is_cube;

@@ -6,7 +6,7 @@ import { DocumentError } from "../js/mxgen/mxgen.js";
 const OPTIONS = { "sample-filter": "narrow" }; // as in `mxgen render`
 export const REDUCED = { options: { interface: "reduced" } };
 
-/** What the page needs to draw a shader, as plain data. */
+/** Plain data of a shader, from which the page draws it. */
 export function partsOf({ info: { name, displaced, alpha }, vertex, pixel, variables }) {
     return { info: { name, displaced, alpha, alphaNow: alpha }, vertex, pixel, variables };
 }
@@ -27,7 +27,7 @@ export function shaderOf(document, element, found) {
             found.push(...shader.diagnostics);
             return partsOf(shader);
         });
-        // What the values of the document make of it: most materials are opaque, although their opacity is a uniform.
+        // With the values of the document: most materials are opaque, although their opacity is a uniform.
         generate(document, element, { ...REDUCED, withoutSource: true }, ({ info: { alpha, numClosures } }) => {
             Object.assign(parts.info, { alphaNow: alpha, numClosures });
         });

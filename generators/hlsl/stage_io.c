@@ -189,8 +189,7 @@ void hlsl_close_main(struct spell *spell)
 
 void hlsl_write_run(struct spell *spell, const char *attribute, const char *name)
 {
-    const struct source_pass *pass = &spell->shader->sources.pass;
-    if (!pass->program || pass->is_part)
+    if (!spell->shader->sources.pass.runs)
         return;
     text_fmt(spell->out, "\n%s[numthreads(%d, %d, 1)]\n", attribute, DEFERRED_TILE, DEFERRED_TILE);
     SPELL(spell, "void ", name, "(uint3 group : SV_GroupID, uint3 place : SV_GroupThreadID)\n{\n",

@@ -26,13 +26,6 @@ static bool has_outputs(const struct spell *spell)
     return !is_vertex(spell) && first[1] > first[0];
 }
 
-/* False for a pass that lights nothing. */
-static bool has_surface(const struct spell *spell)
-{
-    const struct source_pass *pass = &spell->shader->sources.pass;
-    return !pass->program || pass->has_surface;
-}
-
 static const char *entry_name(const struct spell *spell)
 {
     const char *entry = is_called(spell)   ? spell->shader->role->entry
@@ -204,7 +197,7 @@ static void declare(struct spell *spell)
     declare_for_function(spell);
     write_lights(spell);
     write_frame(spell);
-    if (!has_surface(spell))
+    if (spell->shader->sources.pass.lacks_surface)
         return;
     if (is_vertex(spell))
         write_inputs(spell);
@@ -320,7 +313,7 @@ static void write_inputs_and_outputs(struct spell *spell)
 {
     const char *vd = spell_frame_name(spell, "vd"),
                *vertex_data = spell_frame_name(spell, "VertexData");
-    if (!has_surface(spell))
+    if (spell->shader->sources.pass.lacks_surface)
         return;
     if (spell->shader->role->is_in_host_file) {
         if (spell->shares_vertex_data)
@@ -392,9 +385,8 @@ static void write_kernel(struct spell *spell)
 
 static void close_context(struct spell *spell)
 {
-    const struct source_pass *pass = &spell->shader->sources.pass;
     spell_text(spell, "};\n");
-    if (pass->program && !pass->is_part)
+    if (spell->shader->sources.pass.runs)
         write_kernel(spell);
     if (is_called(spell))
         return;

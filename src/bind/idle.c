@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* What a state has no item for: names that are removed, and names that sleep. */
+/* Names of a state without an item: those that are removed, and those that sleep. */
 #include "bind/bind.h"
 
 /* Marks the assignments that have items, because a state may have thousands. */

@@ -91,7 +91,7 @@ static void put_cell(struct bind_writer *w, const struct place *place, const str
     put_close(w, is_here);
 }
 
-/* What the primitive lacks although it has the name; neighbours often share a state. */
+/* The names that the primitive has without a layer; neighbours often share a state. */
 static const struct idle_list *idle_of(struct bind_writer *w, prim_id prim)
 {
     const struct bind_state *state = bind_state_of(w->b, prim);

@@ -70,7 +70,7 @@ struct scene_instancer {
     struct table by_id;        /* id → 1 + number of the instance */
 };
 
-/* What is drawn below the root of a prototype, which each of its instances has: found once. */
+/* The primitives of a prototype that are drawn, which each of its instances has: found once. */
 struct scene_prototype {
     prim_id root;
     VEC(prim_id) drawn;

@@ -152,8 +152,8 @@ void deferred_write_pass(enum deferred_pass pass, const struct deferred_layout *
                          struct text *out);
 
 /*
- * The same for other languages: makes a pass of a shader, whose program (shader_sources.pass) is
- * its text. After shader_finish; of a lighting pass, the shader has the function of its surface.
+ * Makes a pass in another language of a shader, whose program (shader_sources.pass) is the text.
+ * After shader_finish; of a lighting pass, the shader has the function of its surface.
  */
 void deferred_add_pass(enum deferred_pass pass, const struct deferred_layout *layout,
                        struct shader *shader);

@@ -267,7 +267,7 @@ static void write_fill(const struct shader *surface, const char *instance, struc
     text_str(out, "}\n\n");
 }
 
-/* What a program sees of the surface. */
+/* Declares the function of the surface, its inputs and its result for a program. */
 static void declare_surface(const struct shader *surface, struct text *out)
 {
     for (EACH_STREAM(i, surface)) {
@@ -372,8 +372,8 @@ void deferred_add_pass(enum deferred_pass pass, const struct deferred_layout *la
         shader_add_program(shader, str_intern(shader->strings, program.data, program.len),
                            layout->parse(shader, &program), of);
     shader->sources.pass = (struct source_pass){.program = source + 1,
-                                                .has_surface = is_lit,
-                                                .is_part = passes[pass].is_part,
+                                                .lacks_surface = !is_lit,
+                                                .runs = !passes[pass].is_part,
                                                 .has_group = pass == PASS_CLASSIFY};
 }
 

@@ -243,7 +243,7 @@ void deferred_declare(enum deferred_binding binding, const struct deferred_layou
                  strcmp(r->format, "r32ui") == 0 ? "u" : "", r->kind, r->name);
 }
 
-/* What passes call to read and to write a buffer; passes/buffers.glsl has them for programs. */
+/* Passes call these to read and to write a buffer; passes/buffers.glsl has them for programs. */
 static const char *const readers[NUM_RESOURCES] = {
     [RESOURCE_TILES] = "uint mx_tile_at(uint i)\n{\n    return mx_tile[i];\n}\n",
     [RESOURCE_PAYLOADS] = "MxPayload mx_payload_at(uint i)\n{\n    return mx_payloads[i];\n}\n",

@@ -317,10 +317,10 @@ struct shader_sources {
      * calls.
      */
     struct source_pass {
-        uint32_t program; /* a source + 1; 0: the shader is none */
-        bool has_surface; /* the program calls the function of the shader's surface */
-        bool is_part;     /* no stage calls it: all functions are for passes of the host */
-        bool has_group;   /* the invocations of a group have bits in common: mx_or_in_group() */
+        uint32_t program;   /* a source + 1; 0: the shader is none */
+        bool lacks_surface; /* there is no function beside the program */
+        bool runs;          /* a compute stage calls it; otherwise all functions are the host's */
+        bool has_group;     /* the invocations of a group have bits in common: mx_or_in_group() */
     } pass;
 };
 

@@ -104,7 +104,7 @@ static void find_pass(struct spell *spell)
         program_of(spell, &spell->shader->sources.all.items[pass->program - 1]);
     const str_id run = str_find(spell->shader->strings, "mx_run", strlen("mx_run"));
     for (uint32_t k = 0; k < program->unit->functions.len; k++)
-        if (pass->is_part || program->unit->functions.items[k].name == run)
+        if (!pass->runs || program->unit->functions.items[k].name == run)
             lang_reach_add(&program->reach, program->unit, k);
 }
 

@@ -297,7 +297,7 @@ void spell_stage(struct spell *spell, enum shader_stage_id stage)
         spell->out = &body;
     }
     write_functions(spell);
-    if (!spell->shader->sources.pass.program || spell->shader->sources.pass.has_surface)
+    if (!spell->shader->sources.pass.lacks_surface)
         write_main(spell, frame);
     if (spell->frame->close_context)
         spell->frame->close_context(spell);

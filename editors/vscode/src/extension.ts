@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the desktop and the browser edition share: the preview and the commands.
+// The desktop and the browser edition share this: the preview and the commands.
 
 import * as vscode from "vscode";
 

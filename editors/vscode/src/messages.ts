@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the extension and its preview tell each other.
+// The messages between the extension and its preview.
 
 import type { LibraryFile } from "./files";
 import type { InputPlace } from "./text";

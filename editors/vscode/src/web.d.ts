@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the extension uses of the page (web/), and what the build makes.
+// The parts of the page (web/) that the extension uses, and the files that the build makes.
 
 declare module "@web/compiler.js" {
     /** A worker that answers requests, and is stopped when an answer takes too long. */

@@ -17,7 +17,7 @@ import type { Compilation, Graph, Source } from "./worker";
 
 declare function acquireVsCodeApi(): { postMessage(message: FromView): void; getState(): unknown; setState(state: State): void };
 
-/** What the preview remembers. */
+/** The state that the preview remembers. */
 interface State {
     name: string;
     pinned: string | null;

@@ -94,7 +94,7 @@ function draw(document: Document, paths: string[], found: Diagnostic[]): { eleme
     return { element: null, shader: null };
 }
 
-/** What may be drawn for an element, the nearest first: itself, an output of it, what is around it. */
+/** Elements that may be drawn for an element, the nearest first: itself, an output of it, what is around it. */
 function candidates(element: Element | null): string[] {
     const paths: string[] = [];
     for (let at = element; at?.path; at = at.parent)
