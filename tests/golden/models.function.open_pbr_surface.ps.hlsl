@@ -263,28 +263,29 @@ Surface surface(float3 positionWorld, float3 normalWorld)
     float scale = (1.0 / albedo.x - 1.0) * 0.08571429 + 1.0;
     float3 N = faceforward(normal_N, -V, normal_N);
     float ggx_masking = sqrt(cos_v * cos_v * 0.9919 + 0.0081);
-    mx_GgxLobe reflection_vector = make_mx_GgxLobe(N, cos_v, float3(0.0, 0.0, 0.0), float2(0.09, 0.09), ggx_masking);
-    float scaled_reflection_throughput = (1.0 - lerp(0.04, 1.0, albedo.y) * albedo.x * scale) * 0.8;
+    mx_GgxLobe reflection_bare_vector = make_mx_GgxLobe(N, cos_v, float3(0.0, 0.0, 0.0), float2(0.09, 0.09),
+        ggx_masking);
+    float reflection_bare_throughput = 1.0 - lerp(0.04, 1.0, albedo.y) * albedo.x * scale;
+    float diffuse_product = reflection_bare_throughput * 0.31830987 * 0.8;
     // from the last light, so that drivers do not unroll the loop
     for (int i = mxg_light_count() - 1; i >= 0; --i) {
-        // reflection, diffuse
+        // reflection_bare, diffuse
         float3 light_L, light_radiance;
         mxg_light(i, positionWorld, light_L, light_radiance);
-        float reflection_product = scale
+        float reflection_bare_product = scale
             * mx_fresnel_permittivity(sqrt(clamp(dot(V, light_L) * 0.5 + 0.500001, 0.0, 1.0)));
-        float reflection_response = reflection_product * mx_ggx_light(reflection_vector, V, light_L);
-        color += light_radiance * (reflection_response + max(dot(light_L, N), 1e-8)
-            * (scaled_reflection_throughput * 0.31830987));
+        float reflection_bare_response = reflection_bare_product * mx_ggx_light(reflection_bare_vector, V, light_L);
+        color += light_radiance * (reflection_bare_response + max(dot(light_L, N), 1e-8) * diffuse_product);
     }
     // environment: diffuse
-    color += u_envIrradiance.SampleLevel(u_envIrradiance_sampler,
-        mx_map_point(normalize(mul(N, (float3x3)u_envMatrix))), 0.0).xyz
-        * (u_envLightIntensity * scaled_reflection_throughput);
-    // environment: reflection
-    mx_GgxSamples reflection_ggx_samples = mx_ggx_samples(normal_N, V);
+    float3 diffuse_part = u_envIrradiance.SampleLevel(u_envIrradiance_sampler,
+        mx_map_point(normalize(mul(N, (float3x3)u_envMatrix))), 0.0).xyz;
+    color += diffuse_part * (u_envLightIntensity * (reflection_bare_throughput * 0.8));
+    // environment: reflection_bare
+    mx_GgxSamples reflection_bare_ggx_samples = mx_ggx_samples(normal_N, V);
     float2 turn = float2(1.0, 0.0);
     for (int i = 0; i < u_envRadianceSamples; ++i) {
-        mx_GgxLight light = mx_ggx_reflected(reflection_ggx_samples, i, turn);
+        mx_GgxLight light = mx_ggx_reflected(reflection_bare_ggx_samples, i, turn);
         color += light.color * (light.weight * (scale * mx_fresnel_permittivity(light.cosine)));
         turn = float2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
     }

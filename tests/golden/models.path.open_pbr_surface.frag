@@ -221,13 +221,14 @@ void main()
     float r = (1.0 - index_ahead) / (index_ahead + 1.0);
     float cos_v = max(abs(normal_n_dot_v), 1e-8);
     vec2 albedo = mx_ggx_albedo_fit(0.09 / (cos_v + 0.09), cos_v);
-    float reflection_difference = 1.0 / albedo.x - 1.0;
-    float ggx_compensation = mix(r * r, 1.0, 0.04761905) * reflection_difference + 1.0;
+    float reflection_bare_difference = 1.0 / albedo.x - 1.0;
+    float ggx_compensation = mix(r * r, 1.0, 0.04761905) * reflection_bare_difference + 1.0;
     vec3 N = faceforward(normal_N, -V, normal_N);
-    mat3 reflection_frame = mx_frame(N, normalize(vd.tangentWorld));
-    float scaled_reflection_throughput = (1.0
+    mat3 reflection_bare_frame = mx_frame(N, normalize(vd.tangentWorld));
+    float reflection_bare_throughput = 1.0
         - mx_fresnel_permittivity(max(1.0 - pow(albedo.y, 0.2), 1e-8), index_ahead * index_ahead) * albedo.x
-        * ggx_compensation) * 0.8;
+        * ggx_compensation;
+    float diffuse_product = reflection_bare_throughput * 0.31830987 * 0.8;
     // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         vec3 L;
@@ -250,22 +251,22 @@ void main()
                     -dot(u_lightData[i].direction, to_light)) * ratio : 0.0;
             }
         }
-        // reflection, diffuse
+        // reflection_bare, diffuse
         float cosine = sqrt(clamp(dot(V, L) * 0.5 + 0.500001, 0.0, 1.0));
-        float reflection_product = ggx_compensation * mx_fresnel_permittivity(cosine, index_ahead * index_ahead);
-        float reflection_response = reflection_product * mx_ggx_smith_lobe(reflection_frame, V, L);
+        float reflection_bare_product = ggx_compensation * mx_fresnel_permittivity(cosine, index_ahead * index_ahead);
+        float reflection_bare_response = reflection_bare_product * mx_ggx_smith_lobe(reflection_bare_frame, V, L);
         color += u_lightData[i].color * (intensity
-            * (reflection_response + max(dot(L, N), 1e-8) * (scaled_reflection_throughput * 0.31830987)));
+            * (reflection_bare_response + max(dot(L, N), 1e-8) * diffuse_product));
     }
     // environment: diffuse
-    color += textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * N)), 0.0).xyz
-        * (u_envLightIntensity * scaled_reflection_throughput);
-    // environment: reflection
-    mx_GgxSamples reflection_ggx_samples = mx_ggx_samples(normal_N, V);
-    float scale = reflection_difference * 0.08571429 + 1.0;
+    vec3 diffuse_part = textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * N)), 0.0).xyz;
+    color += diffuse_part * (u_envLightIntensity * (reflection_bare_throughput * 0.8));
+    // environment: reflection_bare
+    mx_GgxSamples reflection_bare_ggx_samples = mx_ggx_samples(normal_N, V);
+    float scale = reflection_bare_difference * 0.08571429 + 1.0;
     vec2 turn = vec2(1.0, 0.0);
     for (int i = 0; i < u_envRadianceSamples; ++i) {
-        mx_GgxLight light = mx_ggx_reflected(reflection_ggx_samples, i, turn);
+        mx_GgxLight light = mx_ggx_reflected(reflection_bare_ggx_samples, i, turn);
         color += light.color * (light.weight * (scale * mx_fresnel_permittivity(light.cosine, 2.25)));
         turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
     }

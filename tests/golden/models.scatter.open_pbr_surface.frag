@@ -87,7 +87,7 @@ float mx_fresnel_dielectric_facing(const float ior)
 }
 
 // Factor that gives back the light of multiple scattering (Turquin 2019, equations 14 and 16).
-// Here model = "dielectric", k = vec3(0.0), f90 = vec3(1.0), film = 0.0, film_ior = 1.5.
+// Here model = "dielectric", k = vec3(0.0), f90 = vec3(1.0), film = 0.0, film_ior = 1.4.
 vec3 mx_ggx_compensation(const vec2 albedo, const vec3 n)
 {
     return vec3(1.0) + mix(vec3(mx_fresnel_dielectric_facing(n.x)), vec3(1.0), vec3(0.04761905))
@@ -125,7 +125,7 @@ mat3 mx_frame(const vec3 N, const vec3 X)
 // A direction L that the lobe reflects or refracts light from, by three random numbers xi, with the value over the
 // density (`weight`) and the density (`pdf`).
 // Here roughness = vec2(0.09), by_direction = false, mode = 1, model = "dielectric", k = vec3(0.0), f90 = vec3(1.0),
-// exponent = 0.0, film = 0.0, film_ior = 1.5.
+// exponent = 0.0, film = 0.0, film_ior = 1.4.
 void mx_ggx_scatter(const vec3 N, const vec3 X, const vec3 V, const vec3 xi, const vec3 n, out vec3 L, out vec3 weight,
     out float pdf)
 {
@@ -164,7 +164,7 @@ vec3 mx_refracting_normal(const vec3 v, const vec3 l, const float eta)
 
 // Density of the directions L that mx_ggx_scatter takes.
 // Here roughness = vec2(0.09), mode = 1, model = "dielectric", k = vec3(0.0), f90 = vec3(1.0), exponent = 0.0,
-// film = 0.0, film_ior = 1.5.
+// film = 0.0, film_ior = 1.4.
 float mx_ggx_pdf(const vec3 N, const vec3 X, const vec3 V, const vec3 L, const float eta)
 {
     mat3 frame = mx_frame(faceforward(N, -V, N), X);
@@ -191,9 +191,9 @@ void scatter()
     float ggx_compensation = mix(r * r, 1.0, 0.04761905) * (1.0 / albedo.x - 1.0) + 1.0;
     float dielectric_bsdf_albedo = mx_fresnel_permittivity(max(1.0 - pow(albedo.y, 0.2), 1e-8), scaled_eta) * albedo.x
         * ggx_compensation;
-    float reflection_share = max(dot(vec3(dielectric_bsdf_albedo * 0.9 + 0.1), vec3(0.33333334)), 0.0);
+    float reflection_bare_share = max(dot(vec3(dielectric_bsdf_albedo * 0.9 + 0.1), vec3(0.33333334)), 0.0);
     float diffuse_share = max(dot(vec3((1.0 - dielectric_bsdf_albedo) * 0.82), vec3(0.33333334)), 0.0);
-    float sum = reflection_share + diffuse_share;
+    float sum = reflection_bare_share + diffuse_share;
     float pick = sum * vd.random.w;
     vec3 L = vec3(0.0);
     float inside = 0.0;
@@ -201,17 +201,18 @@ void scatter()
     float density = 0.0;
     vec3 medium = vec3(1.0);
     vec3 X = normalize(vd.tangentWorld);
-    if (pick >= 0.0 && pick < reflection_share) {
-        vec3 reflection_L, reflection_weight;
-        float reflection_pdf;
-        mx_ggx_scatter(N, X, vd.viewWorld, vd.random.xyz, vec3(eta), reflection_L, reflection_weight, reflection_pdf);
-        L = reflection_L;
-        weight = reflection_weight * (sum / reflection_share);
-        bool is_in_front = n_dot_lobe_view * dot(N, reflection_L) > 0.0;
+    if (pick >= 0.0 && pick < reflection_bare_share) {
+        vec3 reflection_bare_L, reflection_bare_weight;
+        float reflection_bare_pdf;
+        mx_ggx_scatter(N, X, vd.viewWorld, vd.random.xyz, vec3(eta), reflection_bare_L, reflection_bare_weight,
+            reflection_bare_pdf);
+        L = reflection_bare_L;
+        weight = reflection_bare_weight * (sum / reflection_bare_share);
+        bool is_in_front = n_dot_lobe_view * dot(N, reflection_bare_L) > 0.0;
         inside = is_in_front ? 0.0 : 1.0;
-        density = is_in_front ? reflection_pdf * (reflection_share / sum) : 0.0;
+        density = is_in_front ? reflection_bare_pdf * (reflection_bare_share / sum) : 0.0;
     }
-    pick += -reflection_share;
+    pick += -reflection_bare_share;
     vec3 N_2 = faceforward(N, -vd.viewWorld, N);
     if (pick >= 0.0 && pick < diffuse_share) {
         mat3 any_frame = mx_frame(N_2, abs(N_2.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0));
@@ -229,13 +230,13 @@ void scatter()
     out2 = vec4(L, inside);
     out3 = vec4(weight, density);
     out4 = vec4(medium, 0.0);
-    float reflection_product = ggx_compensation
+    float reflection_bare_product = ggx_compensation
         * mx_fresnel_permittivity(sqrt(clamp(dot(vd.viewWorld, vd.lightWorld.xyz) * 0.5 + 0.500001, 0.0, 1.0)),
         scaled_eta);
     mat3 frame = mx_frame(N_2, X);
-    float sum_2 = vd.lightWorld.w * (reflection_share / sum * mx_ggx_pdf(N, X, vd.viewWorld, vd.lightWorld.xyz, eta))
-        + 1.0;
-    vec3 balanced = vec3(reflection_product * mx_ggx_smith_lobe(frame, vd.viewWorld, vd.lightWorld.xyz) / sum_2);
+    float sum_2 = vd.lightWorld.w * (reflection_bare_share / sum
+        * mx_ggx_pdf(N, X, vd.viewWorld, vd.lightWorld.xyz, eta)) + 1.0;
+    vec3 balanced = vec3(reflection_bare_product * mx_ggx_smith_lobe(frame, vd.viewWorld, vd.lightWorld.xyz) / sum_2);
     float n_2_dot_l = dot(N_2, vd.lightWorld.xyz);
     float sum_3 = vd.lightWorld.w * (diffuse_share / sum * (max(n_2_dot_l, 0.0) / 3.1415927)) + 1.0;
     float balanced_2 = (1.0 - dielectric_bsdf_albedo) * (max(n_2_dot_l, 1e-8) * 0.31830987 * 0.8) / sum_3;
@@ -268,9 +269,9 @@ void scatter()
                     -dot(u_lightData[i].direction, to_light)) * ratio : 0.0;
             }
         }
-        float reflection_product_2 = ggx_compensation
+        float reflection_bare_product_2 = ggx_compensation
             * mx_fresnel_permittivity(sqrt(clamp(dot(vd.viewWorld, L_4) * 0.5 + 0.500001, 0.0, 1.0)), scaled_eta);
-        vec3 dielectric_bsdf_eval = vec3(reflection_product_2 * mx_ggx_smith_lobe(frame, vd.viewWorld, L_4));
+        vec3 dielectric_bsdf_eval = vec3(reflection_bare_product_2 * mx_ggx_smith_lobe(frame, vd.viewWorld, L_4));
         float product = (1.0 - dielectric_bsdf_albedo) * (max(dot(N_2, L_4), 1e-8) * 0.31830987 * 0.8);
         vec3 sum_5 = (n_dot_lobe_view * dot(N, L_4) > 0.0 ? dielectric_bsdf_eval : vec3(0.0)) + product;
         vec3 lit = u_lightData[i].color * intensity * sum_5;

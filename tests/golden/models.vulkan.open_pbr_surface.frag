@@ -99,6 +99,12 @@ layout(location = 0) in VertexData {
 } vd;
 layout(location = 0) out vec4 out1;
 
+// Roughness of a lobe that is seen through a rough coat (OpenPBR Surface specification, "Roughening").
+float mx_open_pbr_blurred(const float roughness, const float coat_roughness)
+{
+    return pow(min(2.0 * pow(coat_roughness, 4.0) + pow(roughness, 4.0), 1.0), 0.25);
+}
+
 // Squared roughness along X and across (OpenPBR Surface specification, "Microfacet model").
 vec2 mx_open_pbr_anisotropy(const float roughness, const float anisotropy)
 {
@@ -187,6 +193,19 @@ vec3 mx_fresnel_facing(const vec3 n, const float film, const float film_ior)
     if (film > 0.0)
         return mx_film_index_facing(n * n, film, film_ior);
     return vec3(mx_fresnel_dielectric_facing(n.x));
+}
+
+// Factor of what lies below a coat: the coat's colour, and what bounces below it, of which the share K stays inside:
+//     coat_color mix(1, (1 - K) / (1 - K E coat_color), coat_darkening), E the albedo of the base
+// (OpenPBR Surface specification 1.2, "Darkening").
+// Here coat_color = vec3(1.0).
+vec3 mx_open_pbr_coat_darkening(const vec3 base_color, const float base_metalness, const float specular_weight,
+    const float subsurface_weight, const vec3 subsurface_color, const float coat_ior, const float coat_darkening)
+{
+    float kept = max(1.0 - 4.0 * coat_ior / ((coat_ior + 1.0) * (coat_ior + 1.0)) / (coat_ior * coat_ior), 0.0);
+    return mix(vec3(1.0), vec3(1.0 - kept)
+        / (vec3(1.0) - kept * mix(mix(base_color, subsurface_color, subsurface_weight), base_color
+        * min(specular_weight, 1.0), base_metalness)), coat_darkening);
 }
 
 // The numbers a and b of the linear transform that makes the sheen lobe of roughness r, at the cosine c of the viewer,
@@ -521,44 +540,40 @@ void main()
     float coat_weight = SR_open_pbr_surface_coat_weight;
     float coating_weight = clamp(coat_weight, 0.0, 1.0);
     float coat_ior = SR_open_pbr_surface_coat_ior;
-    float coat_front = coat_ior * 4.0 / ((coat_ior + 1.0) * (coat_ior + 1.0));
+    float coat_transmittance = coat_ior * 4.0 / ((coat_ior + 1.0) * (coat_ior + 1.0));
     vec3 N = normalize(vd.normalWorld);
     vec3 V = normalize(u_viewPosition - vd.positionWorld);
     float absolute = abs(dot(N, V));
     vec3 color = SR_open_pbr_surface_emission_luminance
         * (SR_open_pbr_surface_emission_color
         * (1.0 - coating_weight + SR_open_pbr_surface_coat_color
-        * (coating_weight * (coat_front * (1.0 - pow(1.0 - min(absolute, 1.0), 5.0))))));
+        * (coating_weight * (coat_transmittance * (1.0 - pow(1.0 - min(absolute, 1.0), 5.0))))));
     // lights
     vec3 subsurface_positive = max(SR_open_pbr_surface_subsurface_color, 0.0);
     float ior_relative = mix(SR_open_pbr_surface_specular_ior,
         max(SR_open_pbr_surface_specular_ior / coat_ior, coat_ior / SR_open_pbr_surface_specular_ior), coat_weight);
-    float amplitude_bound = clamp((ior_relative - 1.0) / (ior_relative + 1.0)
-        * sqrt(SR_open_pbr_surface_specular_weight), -0.999995, 0.999995);
-    float ior = (amplitude_bound + 1.0) / (1.0 - amplitude_bound);
+    float amplitude = clamp((ior_relative - 1.0) / (ior_relative + 1.0) * sqrt(SR_open_pbr_surface_specular_weight),
+        -0.999995, 0.999995);
+    float ior = (amplitude + 1.0) / (1.0 - amplitude);
     float r = (1.0 - ior) / (ior + 1.0);
     vec2 roughness = mx_open_pbr_anisotropy(mix(SR_open_pbr_surface_specular_roughness,
-        pow(min(pow(SR_open_pbr_surface_coat_roughness, 4.0) * 2.0 + pow(SR_open_pbr_surface_specular_roughness, 4.0),
-        1.0), 0.25), coat_weight), SR_open_pbr_surface_specular_roughness_anisotropy);
+        mx_open_pbr_blurred(SR_open_pbr_surface_specular_roughness, SR_open_pbr_surface_coat_roughness), coat_weight),
+        SR_open_pbr_surface_specular_roughness_anisotropy);
     vec2 alpha = clamp(roughness, 1e-8, 1.0);
     float a = sqrt(alpha.x * alpha.y);
     float cos_v = max(absolute, 1e-8);
     vec2 albedo = mx_ggx_albedo_fit(a, a / (cos_v + a), cos_v);
     float product = mix(r * r, 1.0, albedo.y) * albedo.x;
     float difference = 1.0 / albedo.x - 1.0;
-    float reflection_scale = difference * mix(r * r, 1.0, 0.04761905) + 1.0;
+    float reflection_bare_scale = difference * mix(r * r, 1.0, 0.04761905) + 1.0;
     float film_thickness = SR_open_pbr_surface_thin_film_thickness * 1000.0;
     float thin_film_ior = SR_open_pbr_surface_thin_film_ior;
     vec3 reflection_film_scale = mix(mx_fresnel_facing(vec3(ior), film_thickness, thin_film_ior), vec3(1.0), 0.04761905)
         * difference + vec3(1.0);
     float clamped_thin_film_weight = clamp(SR_open_pbr_surface_thin_film_weight, 0.0, 1.0);
-    float coat_ior2 = coat_ior * coat_ior;
-    vec3 albedo_2 = mix(mix(SR_open_pbr_surface_base_color, SR_open_pbr_surface_subsurface_color,
-        SR_open_pbr_surface_subsurface_weight), SR_open_pbr_surface_base_color * SR_open_pbr_surface_specular_weight,
-        SR_open_pbr_surface_base_metalness);
-    vec3 darkening = coat_front / coat_ior2 / (vec3(1.0) - albedo_2 * (1.0 - coat_front / coat_ior2));
-    vec3 clamped_darkened = clamp(mix(vec3(1.0), darkening, coat_weight * SR_open_pbr_surface_coat_darkening), 0.0,
-        1.0);
+    vec3 clamped_darkened = clamp(mx_open_pbr_coat_darkening(SR_open_pbr_surface_base_color,
+        SR_open_pbr_surface_base_metalness, SR_open_pbr_surface_specular_weight, SR_open_pbr_surface_subsurface_weight,
+        SR_open_pbr_surface_subsurface_color, coat_ior, coat_weight * SR_open_pbr_surface_coat_darkening), 0.0, 1.0);
     float fuzz_weight = clamp(SR_open_pbr_surface_fuzz_weight, 0.0, 1.0);
     float fuzz_r = clamp(SR_open_pbr_surface_fuzz_roughness, 0.01, 1.0);
     float width = fuzz_r * (fuzz_r * 1.58491 + 0.0206607) / (fuzz_r * (fuzz_r + 1.32227) + 0.0379424);
@@ -579,7 +594,7 @@ void main()
         * coating_scale));
     vec3 substrate_weight = clamped_darkened
         * (clamp(mix(vec3(1.0), SR_open_pbr_surface_coat_color, coat_weight), 0.0, 1.0) * coated_weight);
-    vec3 body_weight = mix(vec3(1.0 - product * reflection_scale), vec3(1.0) - product * reflection_film_scale,
+    vec3 body_weight = mix(vec3(1.0 - product * reflection_bare_scale), vec3(1.0) - product * reflection_film_scale,
         clamped_thin_film_weight) * substrate_weight;
     float clamped_backward_share = clamp((1.0 - SR_open_pbr_surface_subsurface_scatter_anisotropy) * 0.5, 0.0, 1.0);
     float thin = float(SR_open_pbr_surface_geometry_thin_walled);
@@ -615,8 +630,9 @@ void main()
     float reflection_film_weight = clamped_thin_film_weight * (1.0 - metal_weight);
     vec3 reflection_film_product = substrate_weight * reflection_film_weight
         * (reflection_film_scale * limited_specular_color);
-    float reflection_weight = (1.0 - metal_weight) * (1.0 - clamped_thin_film_weight);
-    vec3 reflection_product = reflection_scale * (limited_specular_color * (substrate_weight * reflection_weight));
+    float reflection_bare_weight = (1.0 - metal_weight) * (1.0 - clamped_thin_film_weight);
+    vec3 reflection_bare_product = reflection_bare_scale
+        * (limited_specular_color * (substrate_weight * reflection_bare_weight));
     float scaled_ior = ior * ior;
     float scatter_weight = clamped_subsurface_weight * opaque_weight * (1.0 - thin);
     vec3 scatter_radius = SR_open_pbr_surface_subsurface_radius * SR_open_pbr_surface_subsurface_radius_scale;
@@ -670,7 +686,7 @@ void main()
         // coating
         float cosine = sqrt(clamp(v_dot_l * 0.5 + 0.500001, 0.0, 1.0));
         if (coating_weight > 0.0) {
-            float coating_product_2 = mx_fresnel_permittivity(cosine, coat_ior2) * coating_product;
+            float coating_product_2 = mx_fresnel_permittivity(cosine, coat_ior * coat_ior) * coating_product;
             color += light_color * (intensity * (mx_ggx_light(coating_lobe, V, L) * coating_product_2));
         }
         // metal_film
@@ -688,10 +704,10 @@ void main()
             color += light_color * (intensity
                 * (reflection_film_product
                 * (ggx_light * mx_fresnel(cosine, vec3(ior), film_thickness, thin_film_ior))));
-        // reflection
-        if (reflection_weight > 0.0)
+        // reflection_bare
+        if (reflection_bare_weight > 0.0)
             color += light_color * (intensity
-                * (reflection_product * (ggx_light * mx_fresnel_permittivity(cosine, scaled_ior))));
+                * (reflection_bare_product * (ggx_light * mx_fresnel_permittivity(cosine, scaled_ior))));
         // scatter
         if (scatter_weight > 0.0)
             color += light_color * (intensity
@@ -730,14 +746,14 @@ void main()
         vec2 turn = vec2(1.0, 0.0);
         for (int i = 0; i < u_envRadianceSamples; ++i) {
             mx_GgxLight light = mx_ggx_reflected(coating_ggx_samples, i, turn);
-            color += light.color * (mx_fresnel_permittivity(light.cosine, coat_ior2)
+            color += light.color * (mx_fresnel_permittivity(light.cosine, coat_ior * coat_ior)
                 * (coating_product * light.weight));
             turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
         }
     }
-    // environment: metal_film, metal_bare, reflection_film, reflection
+    // environment: metal_film, metal_bare, reflection_film, reflection_bare
     mx_GgxSamples samples = mx_ggx_samples(roughness, N, X, V);
-    if (reflection_weight > 0.0 || (reflection_film_weight > 0.0
+    if (reflection_bare_weight > 0.0 || (reflection_film_weight > 0.0
         || (metal_film_weight > 0.0 || metal_bare_weight > 0.0))) {
         if (film_thickness > 0.0) {
             vec2 turn = vec2(1.0, 0.0);
@@ -760,8 +776,8 @@ void main()
                         * (metal_film_ggx_reflected.weight
                         * mx_film_index(metal_film_ggx_reflected.cosine, vec3(scaled_ior), film_thickness,
                         thin_film_ior)));
-                if (reflection_weight > 0.0)
-                    color += reflection_product
+                if (reflection_bare_weight > 0.0)
+                    color += reflection_bare_product
                         * (metal_film_ggx_reflected.color
                         * (metal_film_ggx_reflected.weight
                         * mx_fresnel_permittivity(metal_film_ggx_reflected.cosine, scaled_ior)));
@@ -774,26 +790,23 @@ void main()
                 vec3 metal_bare_product_2 = metal_film_ggx_reflected.color
                     * (metal_film_ggx_reflected.weight
                     * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_facing, schlick_bend));
-                if (metal_film_weight > 0.0)
-                    color += metal_film_product * metal_bare_product_2;
-                if (metal_bare_weight > 0.0)
-                    color += metal_bare_product * metal_bare_product_2;
-                vec3 reflection_product_2 = metal_film_ggx_reflected.color
+                color += metal_bare_product * metal_bare_product_2 + metal_film_product * metal_bare_product_2;
+                vec3 reflection_bare_product_2 = metal_film_ggx_reflected.color
                     * (metal_film_ggx_reflected.weight
                     * mx_fresnel_permittivity(metal_film_ggx_reflected.cosine, scaled_ior));
                 if (reflection_film_weight > 0.0)
-                    color += reflection_film_product * reflection_product_2;
-                if (reflection_weight > 0.0)
-                    color += reflection_product * reflection_product_2;
+                    color += reflection_film_product * reflection_bare_product_2;
+                if (reflection_bare_weight > 0.0)
+                    color += reflection_bare_product * reflection_bare_product_2;
                 turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
             }
         }
     }
-    // environment: refraction_film, refraction
+    // environment: refraction_film, refraction_bare
     float filled_weight = clamped_transmission_weight * (1.0 - metal_weight);
     bool refraction_film_visible = clamped_thin_film_weight * filled_weight > 0.0;
-    float refraction_weight = filled_weight * (1.0 - clamped_thin_film_weight);
-    if (refraction_film_visible || refraction_weight > 0.0) {
+    float refraction_bare_weight = filled_weight * (1.0 - clamped_thin_film_weight);
+    if (refraction_film_visible || refraction_bare_weight > 0.0) {
         vec3 tint = max(SR_open_pbr_surface_transmission_depth > 0.0 ? vec3(1.0)
             : SR_open_pbr_surface_transmission_color, 0.0);
         vec3 absorbed = -(SR_open_pbr_surface_transmission_scatter + log(SR_open_pbr_surface_transmission_color))
@@ -802,7 +815,7 @@ void main()
             - min(min(min(absorbed.x, absorbed.y), absorbed.z), 0.0) : vec3(0.0))) * tint;
         vec3 product_3 = (u_refractionTwoSided ? tint : vec3(1.0)) * product_2;
         vec3 refraction_film_product = body_weight * (clamped_thin_film_weight * filled_weight) * product_3;
-        vec3 refraction_product = product_3 * (body_weight * refraction_weight);
+        vec3 refraction_bare_product = product_3 * (body_weight * refraction_bare_weight);
         if (film_thickness > 0.0) {
             vec2 turn = vec2(1.0, 0.0);
             for (int i = 0; i < u_envRadianceSamples; ++i) {
@@ -813,8 +826,8 @@ void main()
                         * (refraction_film_ggx_transmitted.weight
                         * (vec3(1.0) - mx_film_index(refraction_film_ggx_transmitted.cosine, vec3(scaled_ior),
                         film_thickness, thin_film_ior))));
-                if (refraction_weight > 0.0)
-                    color += refraction_product
+                if (refraction_bare_weight > 0.0)
+                    color += refraction_bare_product
                         * (refraction_film_ggx_transmitted.color
                         * (refraction_film_ggx_transmitted.weight
                         * (1.0 - mx_fresnel_permittivity(refraction_film_ggx_transmitted.cosine, scaled_ior))));
@@ -824,13 +837,13 @@ void main()
             vec2 turn = vec2(1.0, 0.0);
             for (int i = 0; i < u_envRadianceSamples; ++i) {
                 mx_GgxLight refraction_film_ggx_transmitted = mx_ggx_transmitted(samples, ior, i, turn);
-                vec3 refraction_product_2 = refraction_film_ggx_transmitted.color
+                vec3 refraction_bare_product_2 = refraction_film_ggx_transmitted.color
                     * (refraction_film_ggx_transmitted.weight
                     * (1.0 - mx_fresnel_permittivity(refraction_film_ggx_transmitted.cosine, scaled_ior)));
                 if (refraction_film_visible)
-                    color += refraction_film_product * refraction_product_2;
-                if (refraction_weight > 0.0)
-                    color += refraction_product * refraction_product_2;
+                    color += refraction_film_product * refraction_bare_product_2;
+                if (refraction_bare_weight > 0.0)
+                    color += refraction_bare_product * refraction_bare_product_2;
                 turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
             }
         }

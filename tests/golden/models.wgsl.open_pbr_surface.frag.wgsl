@@ -107,6 +107,12 @@ fn wgsl_mat3x3f_of_mat4x4f(m: mat4x4f) -> mat3x3f
     return mat3x3f(m[0].xyz, m[1].xyz, m[2].xyz);
 }
 
+// Roughness of a lobe that is seen through a rough coat (OpenPBR Surface specification, "Roughening").
+fn mx_open_pbr_blurred(roughness: f32, coat_roughness: f32) -> f32
+{
+    return pow(min(2.0 * pow(coat_roughness, 4.0) + pow(roughness, 4.0), 1.0), 0.25);
+}
+
 // Squared roughness along X and across (OpenPBR Surface specification, "Microfacet model").
 fn mx_open_pbr_anisotropy(roughness: f32, anisotropy: f32) -> vec2f
 {
@@ -196,6 +202,19 @@ fn mx_fresnel_facing(n: vec3f, film: f32, film_ior: f32) -> vec3f
         return mx_film_index_facing(n * n, film, film_ior);
     }
     return vec3f(mx_fresnel_dielectric_facing(n.x));
+}
+
+// Factor of what lies below a coat: the coat's colour, and what bounces below it, of which the share K stays inside:
+//     coat_color mix(1, (1 - K) / (1 - K E coat_color), coat_darkening), E the albedo of the base
+// (OpenPBR Surface specification 1.2, "Darkening").
+// Here coat_color = vec3f(1.0).
+fn mx_open_pbr_coat_darkening(base_color: vec3f, base_metalness: f32, specular_weight: f32, subsurface_weight: f32,
+    subsurface_color: vec3f, coat_ior: f32, coat_darkening: f32) -> vec3f
+{
+    let kept: f32 = max(1.0 - 4.0 * coat_ior / ((coat_ior + 1.0) * (coat_ior + 1.0)) / (coat_ior * coat_ior), 0.0);
+    return mix(vec3f(1.0), vec3f(1.0 - kept)
+        / (vec3f(1.0) - kept * mix(mix(base_color, subsurface_color, subsurface_weight), base_color
+        * min(specular_weight, 1.0), base_metalness)), coat_darkening);
 }
 
 // The numbers a and b of the linear transform that makes the sheen lobe of roughness r, at the cosine c of the viewer,
@@ -539,45 +558,41 @@ fn main(vd: VertexData) -> @location(0) vec4f
     let coat_weight: f32 = u_pub.SR_open_pbr_surface_coat_weight;
     let coating_weight: f32 = clamp(coat_weight, 0.0, 1.0);
     let coat_ior: f32 = u_pub.SR_open_pbr_surface_coat_ior;
-    let coat_front: f32 = coat_ior * 4.0 / ((coat_ior + 1.0) * (coat_ior + 1.0));
+    let coat_transmittance: f32 = coat_ior * 4.0 / ((coat_ior + 1.0) * (coat_ior + 1.0));
     let N: vec3f = normalize(vd.normalWorld);
     let V: vec3f = normalize(u_prv.u_viewPosition - vd.positionWorld);
     let absolute: f32 = abs(dot(N, V));
     var color: vec3f = u_pub.SR_open_pbr_surface_emission_luminance
         * (u_pub.SR_open_pbr_surface_emission_color
         * (1.0 - coating_weight + u_pub.SR_open_pbr_surface_coat_color
-        * (coating_weight * (coat_front * (1.0 - pow(1.0 - min(absolute, 1.0), 5.0))))));
+        * (coating_weight * (coat_transmittance * (1.0 - pow(1.0 - min(absolute, 1.0), 5.0))))));
     // lights
     let subsurface_positive: vec3f = max(u_pub.SR_open_pbr_surface_subsurface_color, vec3f(0.0));
     let ior_relative: f32 = mix(u_pub.SR_open_pbr_surface_specular_ior,
         max(u_pub.SR_open_pbr_surface_specular_ior / coat_ior, coat_ior / u_pub.SR_open_pbr_surface_specular_ior),
         coat_weight);
-    let amplitude_bound: f32 = clamp((ior_relative - 1.0) / (ior_relative + 1.0)
+    let amplitude: f32 = clamp((ior_relative - 1.0) / (ior_relative + 1.0)
         * sqrt(u_pub.SR_open_pbr_surface_specular_weight), -0.999995, 0.999995);
-    let ior: f32 = (amplitude_bound + 1.0) / (1.0 - amplitude_bound);
+    let ior: f32 = (amplitude + 1.0) / (1.0 - amplitude);
     let r: f32 = (1.0 - ior) / (ior + 1.0);
     let roughness: vec2f = mx_open_pbr_anisotropy(mix(u_pub.SR_open_pbr_surface_specular_roughness,
-        pow(min(pow(u_pub.SR_open_pbr_surface_coat_roughness, 4.0) * 2.0
-        + pow(u_pub.SR_open_pbr_surface_specular_roughness, 4.0), 1.0), 0.25), coat_weight),
-        u_pub.SR_open_pbr_surface_specular_roughness_anisotropy);
+        mx_open_pbr_blurred(u_pub.SR_open_pbr_surface_specular_roughness, u_pub.SR_open_pbr_surface_coat_roughness),
+        coat_weight), u_pub.SR_open_pbr_surface_specular_roughness_anisotropy);
     let alpha: vec2f = clamp(roughness, vec2f(1e-8), vec2f(1.0));
     let a: f32 = sqrt(alpha.x * alpha.y);
     let cos_v: f32 = max(absolute, 1e-8);
     let albedo: vec2f = mx_ggx_albedo_fit(a, a / (cos_v + a), cos_v);
     let product: f32 = mix(r * r, 1.0, albedo.y) * albedo.x;
     let difference: f32 = 1.0 / albedo.x - 1.0;
-    let reflection_scale: f32 = difference * mix(r * r, 1.0, 0.04761905) + 1.0;
+    let reflection_bare_scale: f32 = difference * mix(r * r, 1.0, 0.04761905) + 1.0;
     let film_thickness: f32 = u_pub.SR_open_pbr_surface_thin_film_thickness * 1000.0;
     let thin_film_ior: f32 = u_pub.SR_open_pbr_surface_thin_film_ior;
     let reflection_film_scale: vec3f = mix(mx_fresnel_facing(vec3f(ior), film_thickness, thin_film_ior), vec3f(1.0),
         0.04761905) * difference + vec3f(1.0);
     let clamped_thin_film_weight: f32 = clamp(u_pub.SR_open_pbr_surface_thin_film_weight, 0.0, 1.0);
-    let coat_ior2: f32 = coat_ior * coat_ior;
-    let albedo_2: vec3f = mix(mix(u_pub.SR_open_pbr_surface_base_color, u_pub.SR_open_pbr_surface_subsurface_color,
-        u_pub.SR_open_pbr_surface_subsurface_weight), u_pub.SR_open_pbr_surface_base_color
-        * u_pub.SR_open_pbr_surface_specular_weight, u_pub.SR_open_pbr_surface_base_metalness);
-    let darkening: vec3f = coat_front / coat_ior2 / (vec3f(1.0) - albedo_2 * (1.0 - coat_front / coat_ior2));
-    let clamped_darkened: vec3f = clamp(mix(vec3f(1.0), darkening, coat_weight
+    let clamped_darkened: vec3f = clamp(mx_open_pbr_coat_darkening(u_pub.SR_open_pbr_surface_base_color,
+        u_pub.SR_open_pbr_surface_base_metalness, u_pub.SR_open_pbr_surface_specular_weight,
+        u_pub.SR_open_pbr_surface_subsurface_weight, u_pub.SR_open_pbr_surface_subsurface_color, coat_ior, coat_weight
         * u_pub.SR_open_pbr_surface_coat_darkening), vec3f(0.0), vec3f(1.0));
     let fuzz_weight: f32 = clamp(u_pub.SR_open_pbr_surface_fuzz_weight, 0.0, 1.0);
     let fuzz_r: f32 = clamp(u_pub.SR_open_pbr_surface_fuzz_roughness, 0.01, 1.0);
@@ -601,8 +616,8 @@ fn main(vd: VertexData) -> @location(0) vec4f
     let substrate_weight: vec3f = clamped_darkened
         * (clamp(mix(vec3f(1.0), u_pub.SR_open_pbr_surface_coat_color, coat_weight), vec3f(0.0), vec3f(1.0))
         * coated_weight);
-    let body_weight: vec3f = mix(vec3f(1.0 - product * reflection_scale), vec3f(1.0) - product * reflection_film_scale,
-        clamped_thin_film_weight) * substrate_weight;
+    let body_weight: vec3f = mix(vec3f(1.0 - product * reflection_bare_scale), vec3f(1.0) - product
+        * reflection_film_scale, clamped_thin_film_weight) * substrate_weight;
     let clamped_backward_share: f32 = clamp((1.0 - u_pub.SR_open_pbr_surface_subsurface_scatter_anisotropy) * 0.5, 0.0,
         1.0);
     let thin: f32 = f32(u_pub.SR_open_pbr_surface_geometry_thin_walled != 0u);
@@ -640,9 +655,9 @@ fn main(vd: VertexData) -> @location(0) vec4f
     let reflection_film_weight: f32 = clamped_thin_film_weight * (1.0 - metal_weight);
     let reflection_film_product: vec3f = substrate_weight * reflection_film_weight
         * (reflection_film_scale * limited_specular_color);
-    let reflection_weight: f32 = (1.0 - metal_weight) * (1.0 - clamped_thin_film_weight);
-    let reflection_product: vec3f = reflection_scale
-        * (limited_specular_color * (substrate_weight * reflection_weight));
+    let reflection_bare_weight: f32 = (1.0 - metal_weight) * (1.0 - clamped_thin_film_weight);
+    let reflection_bare_product: vec3f = reflection_bare_scale
+        * (limited_specular_color * (substrate_weight * reflection_bare_weight));
     let scaled_ior: f32 = ior * ior;
     let scatter_weight: f32 = clamped_subsurface_weight * opaque_weight * (1.0 - thin);
     let scatter_radius: vec3f = u_pub.SR_open_pbr_surface_subsurface_radius
@@ -697,7 +712,7 @@ fn main(vd: VertexData) -> @location(0) vec4f
         // coating
         let cosine: f32 = sqrt(clamp(v_dot_l * 0.5 + 0.500001, 0.0, 1.0));
         if (coating_weight > 0.0) {
-            let coating_product_2: f32 = mx_fresnel_permittivity(cosine, coat_ior2) * coating_product;
+            let coating_product_2: f32 = mx_fresnel_permittivity(cosine, coat_ior * coat_ior) * coating_product;
             color += light_color * (intensity * (mx_ggx_light(coating_lobe, V, L) * coating_product_2));
         }
         // metal_film
@@ -718,10 +733,10 @@ fn main(vd: VertexData) -> @location(0) vec4f
                 * (reflection_film_product
                 * (ggx_light * mx_fresnel_2(cosine, vec3f(ior), film_thickness, thin_film_ior))));
         }
-        // reflection
-        if (reflection_weight > 0.0) {
+        // reflection_bare
+        if (reflection_bare_weight > 0.0) {
             color += light_color * (intensity
-                * (reflection_product * (ggx_light * mx_fresnel_permittivity(cosine, scaled_ior))));
+                * (reflection_bare_product * (ggx_light * mx_fresnel_permittivity(cosine, scaled_ior))));
         }
         // scatter
         if (scatter_weight > 0.0) {
@@ -768,14 +783,14 @@ fn main(vd: VertexData) -> @location(0) vec4f
         var turn: vec2f = vec2f(1.0, 0.0);
         for (var i: i32 = 0; i < u_prv.u_envRadianceSamples; i++) {
             let light: mx_GgxLight = mx_ggx_reflected(coating_ggx_samples, i, turn);
-            color += light.color * (mx_fresnel_permittivity(light.cosine, coat_ior2)
+            color += light.color * (mx_fresnel_permittivity(light.cosine, coat_ior * coat_ior)
                 * (coating_product * light.weight));
             turn = vec2f(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
         }
     }
-    // environment: metal_film, metal_bare, reflection_film, reflection
+    // environment: metal_film, metal_bare, reflection_film, reflection_bare
     let samples: mx_GgxSamples = mx_ggx_samples(roughness, N, X, V);
-    if (reflection_weight > 0.0 || (reflection_film_weight > 0.0
+    if (reflection_bare_weight > 0.0 || (reflection_film_weight > 0.0
         || (metal_film_weight > 0.0 || metal_bare_weight > 0.0))) {
         if (film_thickness > 0.0) {
             var turn: vec2f = vec2f(1.0, 0.0);
@@ -801,8 +816,8 @@ fn main(vd: VertexData) -> @location(0) vec4f
                         * mx_film_index(metal_film_ggx_reflected.cosine, vec3f(scaled_ior), film_thickness,
                         thin_film_ior)));
                 }
-                if (reflection_weight > 0.0) {
-                    color += reflection_product
+                if (reflection_bare_weight > 0.0) {
+                    color += reflection_bare_product
                         * (metal_film_ggx_reflected.color
                         * (metal_film_ggx_reflected.weight
                         * mx_fresnel_permittivity(metal_film_ggx_reflected.cosine, scaled_ior)));
@@ -816,30 +831,25 @@ fn main(vd: VertexData) -> @location(0) vec4f
                 let metal_bare_product_2: vec3f = metal_film_ggx_reflected.color
                     * (metal_film_ggx_reflected.weight
                     * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_facing, schlick_bend));
-                if (metal_film_weight > 0.0) {
-                    color += metal_film_product * metal_bare_product_2;
-                }
-                if (metal_bare_weight > 0.0) {
-                    color += metal_bare_product * metal_bare_product_2;
-                }
-                let reflection_product_2: vec3f = metal_film_ggx_reflected.color
+                color += metal_bare_product * metal_bare_product_2 + metal_film_product * metal_bare_product_2;
+                let reflection_bare_product_2: vec3f = metal_film_ggx_reflected.color
                     * (metal_film_ggx_reflected.weight
                     * mx_fresnel_permittivity(metal_film_ggx_reflected.cosine, scaled_ior));
                 if (reflection_film_weight > 0.0) {
-                    color += reflection_film_product * reflection_product_2;
+                    color += reflection_film_product * reflection_bare_product_2;
                 }
-                if (reflection_weight > 0.0) {
-                    color += reflection_product * reflection_product_2;
+                if (reflection_bare_weight > 0.0) {
+                    color += reflection_bare_product * reflection_bare_product_2;
                 }
                 turn = vec2f(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
             }
         }
     }
-    // environment: refraction_film, refraction
+    // environment: refraction_film, refraction_bare
     let filled_weight: f32 = clamped_transmission_weight * (1.0 - metal_weight);
     let refraction_film_visible: bool = clamped_thin_film_weight * filled_weight > 0.0;
-    let refraction_weight: f32 = filled_weight * (1.0 - clamped_thin_film_weight);
-    if (refraction_film_visible || refraction_weight > 0.0) {
+    let refraction_bare_weight: f32 = filled_weight * (1.0 - clamped_thin_film_weight);
+    if (refraction_film_visible || refraction_bare_weight > 0.0) {
         let tint: vec3f = max(select(u_pub.SR_open_pbr_surface_transmission_color, vec3f(1.0),
             u_pub.SR_open_pbr_surface_transmission_depth > 0.0), vec3f(0.0));
         let absorbed: vec3f = -(u_pub.SR_open_pbr_surface_transmission_scatter
@@ -849,7 +859,7 @@ fn main(vd: VertexData) -> @location(0) vec4f
             > 0.0)) * tint;
         let product_3: vec3f = select(vec3f(1.0), tint, u_prv.u_refractionTwoSided != 0u) * product_2;
         let refraction_film_product: vec3f = body_weight * (clamped_thin_film_weight * filled_weight) * product_3;
-        let refraction_product: vec3f = product_3 * (body_weight * refraction_weight);
+        let refraction_bare_product: vec3f = product_3 * (body_weight * refraction_bare_weight);
         if (film_thickness > 0.0) {
             var turn: vec2f = vec2f(1.0, 0.0);
             for (var i: i32 = 0; i < u_prv.u_envRadianceSamples; i++) {
@@ -861,8 +871,8 @@ fn main(vd: VertexData) -> @location(0) vec4f
                         * (vec3f(1.0) - mx_film_index(refraction_film_ggx_transmitted.cosine, vec3f(scaled_ior),
                         film_thickness, thin_film_ior))));
                 }
-                if (refraction_weight > 0.0) {
-                    color += refraction_product
+                if (refraction_bare_weight > 0.0) {
+                    color += refraction_bare_product
                         * (refraction_film_ggx_transmitted.color
                         * (refraction_film_ggx_transmitted.weight
                         * (1.0 - mx_fresnel_permittivity(refraction_film_ggx_transmitted.cosine, scaled_ior))));
@@ -873,14 +883,14 @@ fn main(vd: VertexData) -> @location(0) vec4f
             var turn: vec2f = vec2f(1.0, 0.0);
             for (var i: i32 = 0; i < u_prv.u_envRadianceSamples; i++) {
                 let refraction_film_ggx_transmitted: mx_GgxLight = mx_ggx_transmitted(samples, ior, i, turn);
-                let refraction_product_2: vec3f = refraction_film_ggx_transmitted.color
+                let refraction_bare_product_2: vec3f = refraction_film_ggx_transmitted.color
                     * (refraction_film_ggx_transmitted.weight
                     * (1.0 - mx_fresnel_permittivity(refraction_film_ggx_transmitted.cosine, scaled_ior)));
                 if (refraction_film_visible) {
-                    color += refraction_film_product * refraction_product_2;
+                    color += refraction_film_product * refraction_bare_product_2;
                 }
-                if (refraction_weight > 0.0) {
-                    color += refraction_product * refraction_product_2;
+                if (refraction_bare_weight > 0.0) {
+                    color += refraction_bare_product * refraction_bare_product_2;
                 }
                 turn = vec2f(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
             }
