@@ -195,6 +195,14 @@ MXG_API mxg_status mxg_edit_move_element(mxg_edit *edit, mxg_element element, mx
 MXG_API mxg_element mxg_edit_copy_element(mxg_edit *edit, mxg_element parent,
                                           const mxg_document *document, mxg_element element,
                                           const char *name);
+/*
+ * Replaces a node by the nodes of the nodegraph that implements its definition. Their names begin
+ * with its name; the one behind its only output has the name itself, and whatever read the node
+ * reads its outputs there. They give the values that the node gave: inputs of the definition are
+ * those of the node, or their defaults. Nodes with definitions that are nodegraphs stay as they
+ * are; each takes a call of its own. An edit does not know the definitions that it adds itself.
+ */
+MXG_API mxg_status mxg_edit_flatten_node(mxg_edit *edit, mxg_element node);
 
 /* The reason of the last failure; length 0 if no call failed. */
 MXG_API size_t mxg_edit_error(const mxg_edit *edit, char *buffer, size_t capacity);

@@ -93,6 +93,14 @@ export class Draft {
         return this;
     }
 
+    /**
+     * Replaces the node by the nodes of the nodegraph that implements its definition. Their names begin with its name, and the one behind
+     * its only output has the name itself.
+     */
+    flatten() {
+        this.edit._change((lib, _, pointer) => lib.mxg_edit_flatten_node(pointer, this.number));
+    }
+
     /** Appends a copy of an element of any document, with all below it. */
     copy(element, name = null) {
         expect(element, Element, "element");

@@ -377,6 +377,7 @@ export class Draft {
     connect(input: string | null, source: Draft | Element, output?: string | null): this;
     remove(): void;
     move(parent?: Draft | Element | null, before?: Draft | Element | null): this;
+    flatten(): void;
     copy(element: Element, name?: string | null): Draft;
 }
 

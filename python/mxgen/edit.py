@@ -94,6 +94,11 @@ class Draft:
         self.edit._change(lib.mxg_edit_move_element, self.number, *numbers)
         return self
 
+    def flatten(self) -> None:
+        """Replaces the node by the nodes of the nodegraph that implements its definition. Their names begin with its name, and the one
+        behind its only output has the name itself."""
+        self.edit._change(lib.mxg_edit_flatten_node, self.number)
+
     def copy(self, element: Element, name: str | None = None) -> Draft:
         """Appends a copy of an element of any document, with all below it."""
         if not isinstance(element, Element):

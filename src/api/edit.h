@@ -64,4 +64,15 @@ const char *edit_label(const mxg_edit *edit, elem_id element);
 /* The text in the pool of the document; NULL is "". */
 str_id edit_word(const struct edit_change *change, const char *text);
 
+/*
+ * The tree of the edit with the definitions that it knows, those of its origin: what it defines
+ * itself is unknown. For reading, until the next change.
+ */
+void edit_view(const mxg_edit *edit, struct library *out);
+/* The definition of a node, and the view. LIBRARY_NONE: there is none. */
+uint32_t edit_find_definition(const struct edit_change *change, elem_id node, struct library *view);
+
+/* The nodegraph that implements a definition for every target; 0: there is none. */
+elem_id edit_find_graph(const struct library *lib, uint32_t nodedef);
+
 #endif

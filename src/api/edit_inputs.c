@@ -41,18 +41,19 @@ static void remove_attrs(struct document *doc, elem_id element, const str_id *at
 static const str_id sources[] = {STR_nodename, STR_nodegraph, STR_interfacename, STR_output,
                                  STR_value};
 
-/*
- * The definition of a node, as far as the document was indexed: what the edit itself defines is
- * unknown. The view has the definitions of the origin. LIBRARY_NONE: there is none.
- */
-static uint32_t find_definition(const struct edit_change *c, elem_id node, struct library *view)
+void edit_view(const mxg_edit *edit, struct library *out)
 {
-    const mxg_document *document = c->edit->document;
+    const mxg_document *document = edit->document;
+    *out = document->layer;
+    if (document->origin)
+        library_share(out, &document->origin->layer);
+}
+
+uint32_t edit_find_definition(const struct edit_change *c, elem_id node, struct library *view)
+{
     struct diag_list unheard;
     diag_list_init(&unheard, &c->edit->document->object.arena);
-    *view = document->layer;
-    if (document->origin)
-        library_share(view, &document->origin->layer);
+    edit_view(c->edit, view);
     return doc_element(&view->doc, node)->kind == KIND_NODE ? library_match(view, node, &unheard)
                                                             : LIBRARY_NONE;
 }
@@ -69,7 +70,7 @@ static const char *port_type(const struct library *view, uint32_t nodedef, int p
 static const char *type_by_definition(const struct edit_change *c)
 {
     struct library view;
-    uint32_t nodedef = find_definition(c, c->element, &view);
+    uint32_t nodedef = edit_find_definition(c, c->element, &view);
     str_id name = str_find(&view.strings, c->name, strlen(c->name));
     return nodedef == LIBRARY_NONE
                ? ""
@@ -192,7 +193,7 @@ static str_id connecting_attr(struct edit_change *c, elem_id scope)
 static const char *output_type(const struct edit_change *c)
 {
     struct library view;
-    uint32_t nodedef = find_definition(c, c->other, &view);
+    uint32_t nodedef = edit_find_definition(c, c->other, &view);
     str_id name = c->text ? str_find(&view.strings, c->text, strlen(c->text)) : STR_EMPTY;
     int output = nodedef == LIBRARY_NONE ? -1 : library_find_output(&view, nodedef, name);
     return output < 0

@@ -16,59 +16,6 @@ static bool find_leaf(void *user_data, const struct ir_graph *graph, ir_ref ref,
     return true;
 }
 
-void translate_report(const struct translation *t, enum diag_id id, const char *first,
-                      const char *third)
-{
-    const struct document *doc = &t->document->layer.doc;
-    diag_add(t->diags, id, doc_name_place(doc, t->surface), first, t->model, third);
-}
-
-/* Any number that is no special case. */
-static bool general_value(void *user_data, const struct ir_graph *graph, ir_ref ref,
-                          struct ir_value *out)
-{
-    (void)user_data;
-    *out = (struct ir_value){.type = ir_type_of(graph, ref)};
-    for (unsigned i = 0; i < ir_type_components(out->type); i++)
-        out->w[i].f = 0.5f;
-    return ir_type_scalar(out->type) == IR_TYPE_FLOAT;
-}
-
-/* A mode or a switch takes its value in the general case: BLEND, where the opacity is a texture. */
-static bool choose_generally(struct translation *t, ir_ref root, struct translated_input *input)
-{
-    const struct ir_eval_env env = {.source = general_value};
-    bool is_choice = input->value.type == VALUE_INTEGER || input->value.type == VALUE_BOOLEAN;
-    if (is_choice && input->value.kind != OPERAND_CONSTANT
-        && ir_eval(&t->value->graph, root, &env, t->arena, &input->value.value))
-        input->value.kind = OPERAND_CONSTANT;
-    return input->value.kind == OPERAND_CONSTANT;
-}
-
-void translate_repeat_errors(struct translation *t)
-{
-    const struct diag_list *list = &t->value->object.diagnostics.list;
-    for (uint32_t i = 0; i < list->items.len; i++)
-        if (list->items.items[i].severity == DIAG_ERROR)
-            diag_repeat(t->diags, &list->items.items[i]);
-}
-
-void translate_set_input(struct translation *t, struct translated_input *input, ir_ref root)
-{
-    enum value_type type = value_type_of(input->port.type);
-    if (!root || type == VALUE_NONE) {
-        translate_repeat_errors(t);
-        return;
-    }
-    const char *lacks = value_nodes_add(&t->nodes, &t->value->graph, root, type, &input->value);
-    bool fits = !lacks && (choose_generally(t, root, input) || !input->port.uniform);
-    if (lacks)
-        translate_report(t, DIAG_ID_translation_op, input->port.name, lacks);
-    else if (!fits)
-        translate_report(t, DIAG_ID_translation_varies, input->port.name, input->port.value);
-    input->is_set = fits;
-}
-
 static void find_values(struct translation *t)
 {
     mxg_nodedef info = {.size = sizeof info};
@@ -143,40 +90,6 @@ static void report_losses(struct translation *t)
     }
 }
 
-void translate_forget_surface(struct translation *t)
-{
-    mxg_result_destroy(t->value);
-    mxg_document_destroy(t->draft);
-    t->value = NULL;
-    t->draft = NULL;
-    memset(&t->chain, 0, sizeof t->chain);
-    memset(&t->sources, 0, sizeof t->sources);
-    memset(&t->inputs, 0, sizeof t->inputs);
-    memset(&t->closures, 0, sizeof t->closures);
-    memset(&t->leaves, 0, sizeof t->leaves);
-    arena_finish(t->arena);
-}
-
-bool translate_is_sound(struct translation *t)
-{
-    const struct document *doc = &t->document->layer.doc;
-    const struct element *e = doc_element(doc, t->surface);
-    const char *name = str_text(doc->strings, e->name);
-    if (!e->name) {
-        diag_add(t->diags, DIAG_ID_name_missing, doc_place(doc, t->surface),
-                 str_text(doc->strings, e->category));
-        return false;
-    }
-    if (!doc_is_name(name)) {
-        diag_add(t->diags, DIAG_ID_translation_name, doc_name_place(doc, t->surface), name);
-        return false;
-    }
-    bool builds = translate_can_build(t);
-    if (!builds)
-        translate_repeat_errors(t);
-    return builds;
-}
-
 static void translate_surface(struct translation *t, elem_id surface)
 {
     const struct document *doc = &t->document->layer.doc;
@@ -195,59 +108,6 @@ static void translate_surface(struct translation *t, elem_id surface)
 }
 
 /* ---- All surfaces ---- */
-
-/* True for a node that is a surface and is not made of other surfaces. */
-static bool is_surface(const struct translation *t, elem_id element)
-{
-    const struct document *doc = &t->document->layer.doc;
-    const struct element *e = doc_element(doc, element);
-    if (e->kind != KIND_NODE || doc_attr_value(doc, element, STR_type) != STR_surfaceshader)
-        return false;
-    bool is_second = e->name && doc_child(doc, e->parent, e->name) != element; /* of its name */
-    bool is_made = false;
-    for (elem_id child = e->first_child; child && !is_made; child = doc_element(doc, child)->next)
-        is_made = doc_attr_value(doc, child, STR_type) == STR_surfaceshader;
-    return !is_made && !is_second;
-}
-
-void translate_visit_surfaces(struct translation *t, elem_id parent,
-                              void (*visit)(struct translation *t, elem_id surface))
-{
-    const struct document *doc = &t->document->layer.doc;
-    for (elem_id e = doc_element(doc, parent)->first_child, next; e; e = next) {
-        next = doc_element(doc, e)->next;
-        if (is_surface(t, e))
-            visit(t, e);
-        else if (doc_element(doc, e)->kind == KIND_NODEGRAPH
-                 && !doc_attr_value(doc, e, STR_nodedef))
-            translate_visit_surfaces(t, e, visit);
-    }
-}
-
-void translate_start_edit(struct translation *t)
-{
-    translate_expect(t, mxg_edit_create(t->context, t->library, t->document, NULL, &t->edit)
-                            == MXG_OK);
-}
-
-void translate_commit_edit(struct translation *t)
-{
-    mxg_document *product = NULL;
-    mxg_status status = mxg_edit_commit(t->edit, &product);
-    mxg_edit_destroy(t->edit);
-    t->edit = NULL;
-    mxg_document_destroy(t->product);
-    t->document = t->product = product;
-    translate_expect(t, status != MXG_ERROR_MEMORY);
-}
-
-void translate_each_surface(struct translation *t,
-                            void (*visit)(struct translation *t, elem_id surface))
-{
-    translate_start_edit(t);
-    translate_visit_surfaces(t, t->document->layer.doc.root, visit);
-    translate_commit_edit(t);
-}
 
 /* The document's XML becomes the text of the result. */
 static void finish(struct generation *g, struct translation *t)
@@ -270,9 +130,12 @@ static void translate(struct generation *g)
     t->arena = &g->scratch;
     if (!translate_find_model(t))
         return;
+    translate_definitions(t);
     translate_closures(t);
     if (!t->diags->num_errors)
         translate_each_surface(t, translate_surface);
+    if (!t->diags->num_errors && t->replaced.len)
+        translate_remove_remains(t);
     if (!t->diags->num_errors)
         finish(g, t);
 }

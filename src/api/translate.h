@@ -64,7 +64,11 @@ struct translation {
     uint32_t num_left;                        /* surfaces without another translation */
     VEC(elem_id) closures;                    /* the surface, and what it is made of */
     VEC(elem_id) leaves;                      /* their inputs with connected values */
-    VEC(elem_id) replaced;                    /* closures of all surfaces so far */
+    VEC(elem_id) replaced; /* closures of all surfaces so far, and what definitions had inside */
+    /* definitions: translate_flatten.c */
+    VEC(elem_id) opened;    /* closures and surfaces that definitions had inside */
+    uint32_t num_flattened; /* nodes of this level */
+    uint8_t *patterns;      /* per definition: what is known of it */
 };
 
 /* Ends the work if there is no memory. */
@@ -74,7 +78,7 @@ static inline void translate_expect(const struct translation *t, bool good)
         mem_fail(t->arena->mem);
 }
 
-/* translate.c */
+/* translate_surfaces.c */
 /* A message at the surface, whose second argument is the model. */
 void translate_report(const struct translation *t, enum diag_id id, const char *first,
                       const char *third);
@@ -102,6 +106,8 @@ bool translate_find_surface(struct translation *t);
 bool translate_find_model(struct translation *t);
 /* Fills `chain`; false: no translation leads from the category to the model `to`. */
 bool translate_find_chain(struct translation *t, const char *category, const char *to);
+/* True if the node is the model that is wanted, or a translation leads there. */
+bool translate_leads(struct translation *t, elem_id node);
 /* The input or output of a definition by name; false: there is none. */
 bool translate_find_port(const struct translation *t, uint32_t definition, const char *name,
                          bool is_output, mxg_port *out);
@@ -125,6 +131,9 @@ bool translate_is_authored(const struct translation *t, const struct source_inpu
 const char *translate_free_name(const struct translation *t);
 /* The name of the draft's node of a step. */
 const char *translate_step_name(const struct translation *t, unsigned step);
+/* The value of an element in the graph of t->value; 0: it has none. */
+ir_ref translate_build_path(struct translation *t, const mxg_document *document, const char *path,
+                            const char *uniforms);
 /* True if the surface itself has a value; else t->value has the errors. */
 bool translate_can_build(struct translation *t);
 /*
@@ -179,11 +188,29 @@ void translate_drop_idle(struct translation *t);
  * the first model on the way from slabs.
  */
 void translate_closures(struct translation *t);
+/*
+ * Fills t->closures and t->leaves for t->surface. A closure that several of its parts have is in
+ * the list once; translate_forget_closures begins anew, for all surfaces of a document.
+ */
+void translate_find_closures(struct translation *t);
+void translate_forget_closures(struct translation *t);
 
 /* translate_remains.c: removes closures of t->replaced that nothing reads. */
 void translate_remove_remains(struct translation *t);
 
+/*
+ * translate_flatten.c: puts definitions that are nodegraphs in the place of their nodes, where what
+ * is inside of them has to stand in the document.
+ */
+void translate_definitions(struct translation *t);
+
 /* translate_write.c */
+/*
+ * Gives an input a constant. Colours are in the working space; a document whose default is another
+ * space has to say so.
+ */
+void translate_set_constant(const struct translation *t, mxg_element node, const char *input,
+                            const struct operand *value);
 /* Replaces the surface in `edit`. */
 void translate_write(struct translation *t);
 

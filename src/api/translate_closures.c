@@ -49,6 +49,11 @@ static bool is_new(struct translation *t, elem_id element)
     return is;
 }
 
+void translate_forget_closures(struct translation *t)
+{
+    t->seen = ARENA_ARRAY(t->kept, elem_id, doc_num_elements(&t->document->layer.doc));
+}
+
 /* Lists what gives an input its closure, or the input, if a value is connected. */
 static void follow(struct translation *t, elem_id input)
 {
@@ -68,8 +73,7 @@ static void follow(struct translation *t, elem_id input)
         vec_push(t->arena, &t->leaves, port);
 }
 
-/* Fills t->closures and t->leaves. */
-static void find_closures(struct translation *t)
+void translate_find_closures(struct translation *t)
 {
     const struct document *doc = &t->document->layer.doc;
     is_new(t, t->surface);
@@ -117,6 +121,9 @@ static void add_number(struct translation *t, uint32_t leaf, struct text *paths)
                                          str_text(doc->strings, doc_element(doc, port)->name),
                                          number, NULL)
                       == MXG_OK);
+    /* colours of the document may have another space */
+    mxg_edit_set_attribute(t->draft_edit, mxg_edit_find_element(t->draft_edit, number, "value"),
+                           "colorspace", "none");
     text_str(paths, paths->len ? "," : "");
     doc_path(doc, scope, '/', paths);
     text_fmt(paths, "%s%s/value", scope == doc->root ? "" : "/", translate_step_name(t, leaf));
@@ -346,7 +353,7 @@ static void translate_one(struct translation *t, elem_id surface)
     text_init(&path, t->arena);
     if (!translate_is_sound(t))
         return;
-    find_closures(t);
+    translate_find_closures(t);
     const char *uniforms = make_draft(t);
     doc_path(&t->document->layer.doc, surface, '/', &path);
     translate_generate(t, t->draft, text_cstr(&path), uniforms, take, &taken);
@@ -370,30 +377,20 @@ static const struct translation_step *first_step(struct translation *t)
     for (uint32_t i = 0; i < t->steps.len && found; i++)
         if (t->steps.items[i].definition == t->chain.items[0])
             step = &t->steps.items[i];
-    t->chain.len = 0;
+    memset(&t->chain, 0, sizeof t->chain);
     return step;
-}
-
-/* True for a surface from which no translation leads to the model. */
-static bool is_left(struct translation *t, elem_id surface)
-{
-    const struct document *doc = &t->document->layer.doc;
-    const char *category = str_text(doc->strings, doc_element(doc, surface)->category);
-    bool is = strcmp(category, t->wanted) != 0 && !translate_find_chain(t, category, t->wanted);
-    t->chain.len = 0;
-    return is;
 }
 
 static void count(struct translation *t, elem_id surface)
 {
-    t->num_left += is_left(t, surface);
+    t->num_left += !translate_leads(t, surface);
 }
 
 static void visit(struct translation *t, elem_id surface)
 {
     const struct document *doc = &t->document->layer.doc;
     const char *category = str_text(doc->strings, doc_element(doc, surface)->category);
-    if (!is_left(t, surface))
+    if (translate_leads(t, surface))
         return;
     if (t->slab_step)
         translate_one(t, surface);
@@ -405,11 +402,12 @@ static void visit(struct translation *t, elem_id surface)
 
 void translate_closures(struct translation *t)
 {
+    t->num_left = 0;
     translate_visit_surfaces(t, t->document->layer.doc.root, count);
     if (!t->num_left)
         return;
     t->slab_step = first_step(t);
-    t->seen = ARENA_ARRAY(t->kept, elem_id, doc_num_elements(&t->document->layer.doc));
+    translate_forget_closures(t);
     t->model = t->slab_step ? t->slab_step->to : t->model;
     translate_find_surface(t);
     translate_each_surface(t, visit);

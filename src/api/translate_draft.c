@@ -285,14 +285,20 @@ void translate_generate(struct translation *t, const mxg_document *document, con
                             != MXG_ERROR_MEMORY);
 }
 
+ir_ref translate_build_path(struct translation *t, const mxg_document *document, const char *path,
+                            const char *uniforms)
+{
+    ir_ref root = 0;
+    translate_generate(t, document, path, uniforms, build, &root);
+    return root;
+}
+
 bool translate_can_build(struct translation *t)
 {
     struct text path;
-    ir_ref root = 0;
     text_init(&path, t->arena);
     doc_path(&t->document->layer.doc, t->surface, '/', &path);
-    translate_generate(t, t->document, text_cstr(&path), "", build, &root);
-    return root != 0;
+    return translate_build_path(t, t->document, text_cstr(&path), "") != 0;
 }
 
 bool translate_surface_reads(struct translation *t, unsigned step, const char *input,
@@ -312,9 +318,7 @@ ir_ref translate_build(struct translation *t, unsigned step, const char *output,
     struct text path;
     text_init(&path, t->arena);
     text_fmt(&path, "%s/%s", translate_step_name(t, step), output);
-    ir_ref root = 0;
-    translate_generate(t, t->draft, text_cstr(&path), translate_uniforms(t, more), build, &root);
-    return root;
+    return translate_build_path(t, t->draft, text_cstr(&path), translate_uniforms(t, more));
 }
 
 /* The input of the draft that a uniform comes from; NULL: the node is none. */

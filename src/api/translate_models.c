@@ -154,3 +154,12 @@ bool translate_find_chain(struct translation *t, const char *category, const cha
 {
     return find_chain(t, category, to, true) || find_chain(t, category, to, false);
 }
+
+bool translate_leads(struct translation *t, elem_id node)
+{
+    const struct document *doc = &t->document->layer.doc;
+    const char *category = str_text(doc->strings, doc_element(doc, node)->category);
+    bool leads = strcmp(category, t->wanted) == 0 || translate_find_chain(t, category, t->wanted);
+    memset(&t->chain, 0, sizeof t->chain); /* the arena may end before the next one */
+    return leads;
+}

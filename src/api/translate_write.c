@@ -51,30 +51,26 @@ static const char *free_name(const struct writing *w, mxg_element scope, const c
     return text_cstr(&name);
 }
 
-static const char *text_of(const struct writing *w, const struct operand *constant)
+static const char *text_of(const struct translation *t, const struct operand *constant)
 {
     struct text text;
-    text_init(&text, w->t->arena);
+    text_init(&text, t->arena);
     value_write(constant, &text);
     return text_cstr(&text);
 }
 
-/*
- * A constant. Colours are in the working space; a document whose default is another space has to
- * say so.
- */
-static void set_constant(const struct writing *w, mxg_element node, const char *input,
-                         const struct operand *value)
+void translate_set_constant(const struct translation *t, mxg_element node, const char *input,
+                            const struct operand *value)
 {
-    const struct document *doc = &w->t->document->layer.doc;
-    translate_expect(w->t, mxg_edit_set_value(w->t->edit, node, input, value_type_name(value->type),
-                                              text_of(w, value))
-                               == MXG_OK);
-    str_id space = doc_inherited_attr(doc, w->t->surface, STR_colorspace);
+    const struct document *doc = &t->document->layer.doc;
+    translate_expect(
+        t, mxg_edit_set_value(t->edit, node, input, value_type_name(value->type), text_of(t, value))
+               == MXG_OK);
+    str_id space = doc_inherited_attr(doc, t->surface, STR_colorspace);
     bool is_color = value->type == VALUE_COLOR3 || value->type == VALUE_COLOR4;
     if (is_color && space && strcmp(str_text(doc->strings, space), library_color_hub) != 0)
-        mxg_edit_set_attribute(w->t->edit, mxg_edit_find_element(w->t->edit, node, input),
-                               "colorspace", library_color_hub);
+        mxg_edit_set_attribute(t->edit, mxg_edit_find_element(t->edit, node, input), "colorspace",
+                               library_color_hub);
 }
 
 /* Gives the graph of a map an output for what the map reads. */
@@ -121,7 +117,7 @@ static void set_input(const struct writing *w, mxg_element node, const char *inp
 {
     mxg_edit *edit = w->t->edit;
     if (value->kind == OPERAND_CONSTANT) {
-        set_constant(w, node, input, value);
+        translate_set_constant(w->t, node, input, value);
     } else if (value->kind == OPERAND_NODE) {
         translate_expect(w->t,
                          mxg_edit_connect_input(edit, node, input, w->elements[value->index], NULL)
@@ -215,7 +211,7 @@ static bool is_default(const struct writing *w, const struct translated_input *i
 {
     return input->value.kind == OPERAND_CONSTANT
            && translate_is_default(&input->port, w->t->document->layer.doc.strings,
-                                   text_of(w, &input->value));
+                                   text_of(w->t, &input->value));
 }
 
 static void set_surface_input(const struct writing *w, const struct translated_input *input)

@@ -404,6 +404,37 @@ static struct operand write_step(const struct writing *w, ir_ref ref)
     return count == 1 ? channels[0] : combine(w->nodes, result_type(w, ref), channels, count);
 }
 
+/* The operand that is a matrix; 0: there is none. */
+static ir_ref matrix_of(const struct ir_graph *graph, ir_ref ref)
+{
+    ir_ref matrix = 0;
+    for (unsigned i = 0; i < ir_get(graph, ref)->num_args; i++)
+        if (ir_type_is_matrix(ir_type_of(graph, ir_arg(graph, ref, i))))
+            matrix = ir_arg(graph, ref, i);
+    return matrix;
+}
+
+/* A constant matrix times a vector, or a vector times the matrix: products with its rows or
+ * columns. */
+static bool write_product(const struct writing *w, ir_ref ref, ir_ref matrix, struct operand *out)
+{
+    struct ir_value value, row = {.type = ir_type_of(w->graph, ref)};
+    enum value_type type = type_of(row.type, false);
+    if (ir_get(w->graph, ref)->op != IR_MUL || !ir_get_const(w->graph, matrix, &value))
+        return false;
+    bool is_left = ir_arg(w->graph, ref, 0) == matrix;
+    struct operand vector = converted(w->nodes, arg(w, ref, is_left), type), channels[4] = {0};
+    unsigned count = ir_type_components(row.type);
+    for (unsigned i = 0; i < count; i++) {
+        for (unsigned k = 0; k < count; k++)
+            row.w[k] = value.w[is_left ? k * count + i : i * count + k];
+        channels[i] = value_nodes_call(w->nodes, "dotproduct", VALUE_FLOAT, "in1", vector, "in2",
+                                       constant(&row, type));
+    }
+    *out = combine(w->nodes, type, channels, count);
+    return true;
+}
+
 /* ---- The walk ---- */
 
 /* An op without a node of its own, by others; false: there are none. */
@@ -450,8 +481,13 @@ static bool write_one(const struct writing *w, ir_ref ref)
 {
     const struct ir_node *node = ir_get(w->graph, ref);
     struct operand *out = &w->operands[ref];
+    ir_ref matrix = matrix_of(w->graph, ref);
+    if (node->op == IR_CONST && ir_type_is_matrix(node->type))
+        return true; /* products with it have its numbers */
     if (!is_value(node->type))
         return false;
+    if (matrix)
+        return write_product(w, ref, matrix, out);
     if (node->op == IR_CONST) {
         struct ir_value value;
         ir_get_const(w->graph, ref, &value);

@@ -225,6 +225,7 @@ static void change_edit(struct machine *m, unsigned slot, unsigned argument)
         mxg_edit_copy_element(edit, other, m->documents[argument % NUM_SLOTS], argument % 64,
                               argument & 2 ? "copy" : NULL);
         break;
+    case 5: mxg_edit_flatten_node(edit, argument & 1 ? element : other); break;
     default: change_names(edit, element, other, argument);
     }
     char reason[40];

@@ -199,6 +199,9 @@ test("edits", () => {
     assert.deepEqual(after.root.children.map(({ name }) => name), ["Second", "Surface", "Copper"]);
     assert.equal(after.find("Copper/surfaceshader").get("nodename"), "Surface");
     assert.equal(after.find("Second").place, null);
+    const flattened = after.edit();
+    flattened.find("Surface").flatten();
+    assert.equal(flattened.end().find("Surface").category, "surface");
     const lossy = after.edit();
     lossy.find("Surface").remove();
     assert.throws(() => lossy.end(), error => error instanceof DocumentError && error.diagnostics.items[0].id === "removed-reference");

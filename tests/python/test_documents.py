@@ -185,6 +185,10 @@ class Edits(unittest.TestCase):
         self.assertEqual(changed["Shader/specular_roughness"].connection.source.name, "N")
         self.assertEqual(changed.validate().errors, 0)
         self.assertIsNotNone(built.find("Spots")) # documents stay
+        with built.edit() as edit:
+            edit["SR"].flatten()
+        self.assertEqual(edit.document["SR"].category, "surface")
+        self.assertEqual(edit.document["Gold/surfaceshader"].connection.source.name, "SR")
         self.assertEqual(repr(mxgen.Draft(edit, 7)), "<Draft 7>")
 
     def test_failures(self):

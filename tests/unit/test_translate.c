@@ -152,6 +152,25 @@ static void test_conditions(void)
            "boolean in1 n4 in2 n6; n7");
 }
 
+/* Matrices are stored by column: 1, 2, 3 is the first column. */
+static void test_matrices(void)
+{
+    expect("%1 = uniform vec3 @1\n%2 = mul vec3 mat3(1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0), "
+           "%1\nreturn %2\n",
+           VALUE_VECTOR3,
+           "n0 = dotproduct float in1 u1 in2 1.0, 4.0, 7.0; n1 = dotproduct float in1 u1 in2 2.0, "
+           "5.0, 8.0; n2 = dotproduct float in1 u1 in2 3.0, 6.0, 9.0; n3 = combine3 vector3 in1 n0 "
+           "in2 n1 in3 n2; n3");
+    expect("%1 = uniform vec3 @1\n%2 = mul vec3 %1, mat3(1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, "
+           "9.0)\nreturn %2\n",
+           VALUE_VECTOR3,
+           "n0 = dotproduct float in1 u1 in2 1.0, 2.0, 3.0; n1 = dotproduct float in1 u1 in2 4.0, "
+           "5.0, 6.0; n2 = dotproduct float in1 u1 in2 7.0, 8.0, 9.0; n3 = combine3 vector3 in1 n0 "
+           "in2 n1 in3 n2; n3");
+    expect("%1 = uniform mat3 @9\n%2 = uniform vec3 @1\n%3 = mul vec3 %1, %2\nreturn %3\n",
+           VALUE_VECTOR3, "no uniform");
+}
+
 static void test_faults(void)
 {
     expect("%1 = uniform float @9\nreturn %1\n", VALUE_FLOAT, "no uniform");
@@ -167,6 +186,7 @@ int main(void)
     test_values();
     test_arithmetic();
     test_conditions();
+    test_matrices();
     test_faults();
     arena_finish(&arena);
     return test_report("translate");

@@ -1,0 +1,484 @@
+// SPDX-License-Identifier: Apache-2.0
+/* mxg_edit_flatten_node: what the document is afterwards, and that it draws the same. */
+#include "fixture.h"
+
+#include <mxgen/document.h>
+#include <mxgen/reflection.h>
+
+struct fixture {
+    mxg_context *context;
+    mxg_library *library;
+};
+
+static void open_fixture(struct fixture *f, uint32_t max_elements)
+{
+    mxg_context_desc desc = MXG_CONTEXT_DESC_INIT;
+    desc.max_elements = max_elements;
+    REQUIRE_EQ(mxg_context_create(&desc, &f->context), MXG_OK);
+    f->library = mxg_library_builtin(f->context);
+}
+
+static void close_fixture(struct fixture *f)
+{
+    mxg_library_unref(f->library);
+    mxg_context_destroy(f->context);
+}
+
+#define DOCUMENT(attributes, text) \
+    "<?xml version=\"1.0\"?><materialx version=\"1.39\"" attributes ">" text "</materialx>"
+#define INPUT(name, type, rest) "<input name=\"" name "\" type=\"" type "\" " rest "/>"
+
+static mxg_document *parse(const struct fixture *f, const char *text)
+{
+    mxg_document *document = NULL;
+    REQUIRE_EQ(
+        mxg_document_parse(f->context, f->library, "text.mtlx", text, strlen(text), &document),
+        MXG_OK);
+    return document;
+}
+
+/* The document with the nodes of some paths flattened, one after the other. */
+static mxg_document *flatten(const struct fixture *f, const mxg_document *from,
+                             const char *const *paths)
+{
+    mxg_edit *edit = NULL;
+    mxg_document *document = NULL;
+    REQUIRE_EQ(mxg_edit_create(f->context, f->library, from, NULL, &edit), MXG_OK);
+    for (; *paths; paths++)
+        if (!REQUIRE_EQ(mxg_edit_flatten_node(edit, mxg_edit_find_element(edit, 0, *paths)),
+                        MXG_OK))
+            printf("    %s\n", *paths);
+    REQUIRE_EQ(commit(edit, &document), MXG_OK);
+    return document;
+}
+
+static mxg_result *generate(const struct fixture *f, const mxg_document *document,
+                            const char *element)
+{
+    mxg_options *options = NULL;
+    mxg_result *result = NULL;
+    mxg_options_create(f->context, &options);
+    mxg_options_set(options, "interface", "reduced");
+    mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
+    desc.target = "glsl";
+    desc.element = element;
+    desc.options = options;
+    REQUIRE_EQ(mxg_generate(f->context, document, &desc, &result), MXG_OK);
+    mxg_options_destroy(options);
+    return result;
+}
+
+/* True if the pixels of an element have the same program, with the same values. */
+static bool draws_the_same(const struct fixture *f, const mxg_document *a, const mxg_document *b,
+                           const char *element)
+{
+    mxg_result *before = generate(f, a, element), *after = generate(f, b, element);
+    mxg_change change = mxg_result_change(before, after, NULL, 0, NULL);
+    mxg_result_destroy(before);
+    mxg_result_destroy(after);
+    return change == MXG_CHANGE_NOTHING;
+}
+
+static void expect_attribute(const mxg_document *document, const char *path, const char *name,
+                             const char *wanted)
+{
+    mxg_element element = mxg_document_find_element(document, 0, path);
+    mxg_attribute attribute = MXG_INIT(mxg_attribute);
+    uint32_t index = mxg_document_find_attribute(document, element, name);
+    bool has = mxg_document_attribute(document, element, index, &attribute) == MXG_OK;
+    if (!REQUIRE(element) || !REQUIRE_STR(has ? attribute.value : "", wanted))
+        printf("    %s of %s\n", name, path);
+}
+
+/* ---- Values ---- */
+
+#define PATTERN \
+    "<nodedef name=\"ND_p\" node=\"pattern\">" INPUT( \
+        "hue", "color3", "value=\"0.25, 0.5, 0.75\"") INPUT("scale", "float", "value=\"4\"") \
+        INPUT("st", "vector2", "defaultgeomprop=\"UV0\"") INPUT( \
+            "at", "vector3", \
+            "defaultgeomprop=\"Pobject\"") "<output name=\"out\" type=\"color3\"/></nodedef>" \
+                                           "<nodegraph name=\"NG_p\" nodedef=\"ND_p\">" \
+                                           "<multiply name=\"wide\" type=\"vector2\">" INPUT( \
+                                               "in1", "vector2", "interfacename=\"st\"") \
+                                               INPUT( \
+                                                   "in2", "float", \
+                                                   "interfacename=\"scale\"") "</multiply>" \
+                                                                              "<noise2d " \
+                                                                              "name=\"spots\" " \
+                                                                              "type=" \
+                                                                              "\"float\">" INPUT("texcoord", "vector2", "nodename=\"wide\"") "</noise2d><noise2d name=\"plain\" type=\"float\">" INPUT( \
+                                                                                  "texcoord", \
+                                                                                  "vector2", \
+                                                                                  "interfacename=" \
+                                                                                  "\"st\"") "</" \
+                                                                                            "nois" \
+                                                                                            "e2d>" \
+                                                                                            "<ext" \
+                                                                                            "ract" \
+                                                                                            " nam" \
+                                                                                            "e=" \
+                                                                                            "\"x" \
+                                                                                            "\" " \
+                                                                                            "type" \
+                                                                                            "=\"f" \
+                                                                                            "loat" \
+                                                                                            "\"" \
+                                                                                            ">" INPUT("in", "vector3", "interfacename=\"at\"") "</extract><add name=\"sum\" type=\"float\">" INPUT( \
+                                                                                                "in1", \
+                                                                                                "float", \
+                                                                                                "nodename=\"spots\"") \
+                                                                                                INPUT( \
+                                                                                                    "in2", \
+                                                                                                    "float", \
+                                                                                                    "nodename=\"plain\"") "</add>" \
+                                                                                                                          "<add name=\"more\" type=\"float\">" INPUT( \
+                                                                                                                              "in1", \
+                                                                                                                              "float", \
+                                                                                                                              "nodename=\"sum\"") \
+                                                                                                                              INPUT( \
+                                                                                                                                  "in2", \
+                                                                                                                                  "float", \
+                                                                                                                                  "nodename=\"x\"") "</add>" \
+                                                                                                                                                    "<multiply name=\"end\" type=\"color3\">" INPUT( \
+                                                                                                                                                        "in1", \
+                                                                                                                                                        "color3", \
+                                                                                                                                                        "interfacename=\"hue\"") \
+                                                                                                                                                        INPUT( \
+                                                                                                                                                            "in2", \
+                                                                                                                                                            "float", \
+                                                                                                                                                            "nodename=\"more\"") "</multiply>" \
+                                                                                                                                                                                 "<output name=\"out\" type=\"color3\" nodename=\"end\"/></nodegraph>"
+#define SURFACE(input) \
+    "<standard_surface name=\"S\" type=\"surfaceshader\">" input "</standard_surface>"
+
+static void test_values(void)
+{
+    struct fixture f;
+    open_fixture(&f, 0);
+    mxg_document *before = parse(
+        &f,
+        DOCUMENT(
+            " colorspace=\"srgb_texture\"",
+            PATTERN "<constant name=\"size\" type=\"float\">" INPUT(
+                "value", "float",
+                "value=\"2\"") "</constant>"
+                               "<constant name=\"P_sum\" type=\"float\"/>"
+                               "<pattern name=\"P\" type=\"color3\">" INPUT("scale", "float",
+                                                                            "nodename=\"size\"")
+                                   INPUT("hue", "color3", "value=\"0.5, 0.1, 0.1\" colorspace=\"none\"") "</pattern>" SURFACE(
+                                       INPUT("base_color", "color3",
+                                             "nodename=\"P\" output=\"out\"")
+                                           INPUT("emission_color", "color3", "nodename=\"P\""))));
+    mxg_document *after = flatten(&f, before, (const char *const[]){"P", NULL});
+    expect_attribute(after, "S/base_color", "nodename", "P");
+    expect_attribute(after, "S/base_color", "output", "");
+    expect_attribute(after, "P/in1", "value", "0.5, 0.1, 0.1");
+    expect_attribute(after, "P/in1", "colorspace", "none");
+    expect_attribute(after, "P_wide/in2", "nodename", "size");
+    /* what an input has by itself is left out; otherwise a node gives it */
+    REQUIRE(!mxg_document_find_element(after, 0, "P_plain/texcoord"));
+    expect_attribute(after, "P_wide/in1", "nodename", "P_UV0");
+    expect_attribute(after, "P_Pobject/space", "value", "object");
+    /* the document has the name already */
+    expect_attribute(after, "P_more/in1", "nodename", "P_sum2");
+    REQUIRE(draws_the_same(&f, before, after, "S"));
+    mxg_document_destroy(before);
+    mxg_document_destroy(after);
+    close_fixture(&f);
+}
+
+/* Defaults of a definition mean what they mean in its own file. */
+static void test_defaults(void)
+{
+    struct fixture f;
+    open_fixture(&f, 0);
+    mxg_document *before = parse(
+        &f, DOCUMENT(" colorspace=\"srgb_texture\"", PATTERN
+                     "<nodegraph name=\"G\" colorspace=\"lin_rec709\">"
+                     "<pattern name=\"P\" type=\"color3\"/>"
+                     "<output name=\"out\" type=\"color3\" nodename=\"P\"/></nodegraph>" SURFACE(
+                         INPUT("base_color", "color3", "nodegraph=\"G\""))));
+    mxg_document *after = flatten(&f, before, (const char *const[]){"G/P", NULL});
+    expect_attribute(after, "G/P/in1", "value", "0.25, 0.5, 0.75");
+    expect_attribute(after, "G/P/in1", "colorspace", "srgb_texture");
+    expect_attribute(after, "G/out", "nodename", "P");
+    REQUIRE(draws_the_same(&f, before, after, "S"));
+    mxg_document_destroy(before);
+    mxg_document_destroy(after);
+    close_fixture(&f);
+}
+
+/* ---- Outputs, units, files ---- */
+
+#define SPLIT \
+    "<nodedef name=\"ND_s\" node=\"split\">" INPUT("depth", "float", "value=\"1\" unit=\"meter\" unittype=\"distance\"") INPUT( \
+        "file", "filename", \
+        "value=\"none.png\"") "<token name=\"kind\" type=\"string\" value=\"color\"/>" \
+                              "<output name=\"a\" type=\"color3\"/><output name=\"b\" " \
+                              "type=\"float\"/>" \
+                              "<output name=\"c\" type=\"float\"/></nodedef>" \
+                              "<nodegraph name=\"NG_s\" nodedef=\"ND_s\" " \
+                              "fileprefix=\"there/\">" \
+                              "<image name=\"i\" type=\"color3\">" INPUT("file", "filename", "interfacename=\"file\"") "</image><image name=\"own\" type=\"color3\">" INPUT( \
+                                  "file", "filename", \
+                                  "value=\"[kind].png\"") "</image>" \
+                                                          "<add name=\"both\" " \
+                                                          "type=\"color3\">" INPUT("in1", "color3", "nodename=\"i\"") INPUT( \
+                                                              "in2", "color3", \
+                                                              "nodename=\"own\"") "</add>" \
+                                                                                  "<separ" \
+                                                                                  "ate3 " \
+                                                                                  "name=" \
+                                                                                  "\"part" \
+                                                                                  "s\" " \
+                                                                                  "type=" \
+                                                                                  "\"mult" \
+                                                                                  "ioutpu" \
+                                                                                  "t\"" \
+                                                                                  ">" INPUT( \
+                                                                                      "i" \
+                                                                                      "n", \
+                                                                                      "co" \
+                                                                                      "lo" \
+                                                                                      "r" \
+                                                                                      "3", \
+                                                                                      "no" \
+                                                                                      "de" \
+                                                                                      "na" \
+                                                                                      "me" \
+                                                                                      "=" \
+                                                                                      "\"" \
+                                                                                      "bo" \
+                                                                                      "th" \
+                                                                                      "\"") "</" \
+                                                                                            "sepa" \
+                                                                                            "rate" \
+                                                                                            "3><" \
+                                                                                            "outp" \
+                                                                                            "ut " \
+                                                                                            "name" \
+                                                                                            "=\"a" \
+                                                                                            "\" " \
+                                                                                            "type" \
+                                                                                            "=\"c" \
+                                                                                            "olor" \
+                                                                                            "3\" " \
+                                                                                            "node" \
+                                                                                            "name" \
+                                                                                            "=\"b" \
+                                                                                            "oth" \
+                                                                                            "\"/>" \
+                                                                                            "<out" \
+                                                                                            "put " \
+                                                                                            "name" \
+                                                                                            "=\"b" \
+                                                                                            "\" " \
+                                                                                            "type" \
+                                                                                            "=\"f" \
+                                                                                            "loat" \
+                                                                                            "\" " \
+                                                                                            "node" \
+                                                                                            "name" \
+                                                                                            "=\"p" \
+                                                                                            "arts" \
+                                                                                            "\" " \
+                                                                                            "outp" \
+                                                                                            "ut=" \
+                                                                                            "\"ou" \
+                                                                                            "tg\"" \
+                                                                                            "/>" \
+                                                                                            "<out" \
+                                                                                            "put " \
+                                                                                            "name" \
+                                                                                            "=\"c" \
+                                                                                            "\" " \
+                                                                                            "type" \
+                                                                                            "=\"f" \
+                                                                                            "loat" \
+                                                                                            "\" " \
+                                                                                            "inte" \
+                                                                                            "rfac" \
+                                                                                            "enam" \
+                                                                                            "e=" \
+                                                                                            "\"de" \
+                                                                                            "pth" \
+                                                                                            "\"/" \
+                                                                                            "></" \
+                                                                                            "node" \
+                                                                                            "grap" \
+                                                                                            "h>"
+
+static void test_outputs(void)
+{
+    struct fixture f;
+    open_fixture(&f, 0);
+    mxg_document *before = parse(
+        &f,
+        DOCUMENT(" fileprefix=\"here/\"", SPLIT
+                 "<split name=\"P\" type=\"multioutput\">" INPUT("depth", "float",
+                                                                 "value=\"0.5\" unit=\"kilometer\"")
+                     INPUT("file", "filename",
+                           "value=\"wood.png\"") "<token name=\"kind\" "
+                                                 "type=\"string\" "
+                                                 "value=\"rust\"/></split>" SURFACE(
+                                                     INPUT("base_color", "color3",
+                                                           "nodename=\"P\" "
+                                                           "output=\"a\"") INPUT("base", "float",
+                                                                                 "nodename=\"P\" "
+                                                                                 "output=\"b\"")
+                                                         INPUT("coat", "float",
+                                                               "nodename=\"P\" "
+                                                               "output=\"c\""))));
+    mxg_document *after = flatten(&f, before, (const char *const[]){"P", NULL});
+    expect_attribute(after, "S/base_color", "nodename", "P_both");
+    expect_attribute(after, "S/base_color", "output", "");
+    expect_attribute(after, "S/base", "nodename", "P_parts");
+    expect_attribute(after, "S/base", "output", "outg");
+    /* in the unit of the definition, which the surface does not know */
+    expect_attribute(after, "S/coat", "value", "500.0");
+    expect_attribute(after, "S/coat", "unit", "");
+    expect_attribute(after, "P_own/file", "fileprefix", "there/");
+    expect_attribute(after, "P_own/kind", "value", "rust");
+    expect_attribute(after, "P_i/file", "value", "wood.png");
+    REQUIRE(!mxg_document_find_element(after, 0, "P"));
+    REQUIRE(draws_the_same(&f, before, after, "S"));
+    mxg_document_destroy(before);
+    mxg_document_destroy(after);
+    close_fixture(&f);
+}
+
+/* ---- Definitions inside of others, and those of the library ---- */
+
+static void test_levels(void)
+{
+    struct fixture f;
+    open_fixture(&f, 0);
+    mxg_document *before = parse(
+        &f,
+        DOCUMENT(
+            "",
+            PATTERN "<nodedef name=\"ND_o\" node=\"outer\">" INPUT(
+                "tint", "color3",
+                "value=\"1, 0.5, 0.5\"") "<output name=\"out\" type=\"surfaceshader\"/></nodedef>"
+                                         "<nodegraph name=\"NG_o\" nodedef=\"ND_o\">"
+                                         "<pattern name=\"p\" type=\"color3\">" INPUT(
+                                             "hue", "color3",
+                                             "interfacename=\"tint\"") "</pattern>"
+                                                                       "<standard_surface "
+                                                                       "name=\"s\" "
+                                                                       "type="
+                                                                       "\"surfaceshader\">" INPUT(
+                                                                           "base_color", "color3",
+                                                                           "nodename=\"p\"") "</"
+                                                                                             "stand"
+                                                                                             "ard_"
+                                                                                             "surfa"
+                                                                                             "ce>"
+                                                                                             "<outp"
+                                                                                             "ut "
+                                                                                             "name="
+                                                                                             "\"out"
+                                                                                             "\" "
+                                                                                             "type="
+                                                                                             "\"sur"
+                                                                                             "faces"
+                                                                                             "hader"
+                                                                                             "\" "
+                                                                                             "noden"
+                                                                                             "ame="
+                                                                                             "\"s\""
+                                                                                             "/>"
+                                                                                             "</"
+                                                                                             "nodeg"
+                                                                                             "raph>"
+                                                                                             "<oute"
+                                                                                             "r "
+                                                                                             "name="
+                                                                                             "\"S\""
+                                                                                             " type"
+                                                                                             "=\"su"
+                                                                                             "rface"
+                                                                                             "shade"
+                                                                                             "r\"/"
+                                                                                             ">"));
+    mxg_document *one = flatten(&f, before, (const char *const[]){"S", NULL}),
+                 *all = flatten(&f, before, (const char *const[]){"S", "S_p", "S", NULL});
+    expect_attribute(one, "S/base_color", "nodename", "S_p");
+    expect_attribute(all, "S_p/in1", "value", "1, 0.5, 0.5");
+    mxg_element_info info = MXG_INIT(mxg_element_info);
+    mxg_document_element(all, mxg_document_find_element(all, 0, "S"), &info);
+    REQUIRE_STR(info.category, "surface"); /* the standard_surface of the library is a graph, too */
+    REQUIRE(draws_the_same(&f, before, one, "S"));
+    mxg_document_destroy(before);
+    mxg_document_destroy(one);
+    mxg_document_destroy(all);
+    close_fixture(&f);
+}
+
+static void test_library(void)
+{
+    struct fixture f;
+    open_fixture(&f, 0);
+    mxg_document *before = parse(
+                     &f,
+                     DOCUMENT("", SURFACE(INPUT("base_color", "color3", "value=\"0.5, 0.1, 0.2\"")
+                                              INPUT("coat", "float", "value=\"0.5\"")
+                                                  INPUT("metalness", "float", "value=\"0.25\"")))),
+                 *after = flatten(&f, before, (const char *const[]){"S", NULL});
+    REQUIRE(draws_the_same(&f, before, after, "S"));
+    mxg_document_destroy(before);
+    mxg_document_destroy(after);
+    close_fixture(&f);
+}
+
+/* ---- What is no such node ---- */
+
+static void expect_failure(const struct fixture *f, const mxg_document *from, const char *path,
+                           const char *reason)
+{
+    char said[256];
+    mxg_edit *edit = NULL;
+    mxg_document *after = NULL;
+    mxg_edit_create(f->context, f->library, from, NULL, &edit);
+    REQUIRE_EQ(mxg_edit_flatten_node(edit, mxg_edit_find_element(edit, 0, path)),
+               MXG_ERROR_ARGUMENT);
+    mxg_edit_error(edit, said, sizeof said);
+    if (!REQUIRE(strstr(said, reason)))
+        printf("    %s: %s\n", path, said);
+    commit(edit, &after);
+    REQUIRE_STR(mxg_document_xml(after, NULL), mxg_document_xml(from, NULL));
+    mxg_document_destroy(after);
+}
+
+static void test_failures(void)
+{
+    struct fixture f;
+    open_fixture(&f, 100);
+    mxg_document *document = parse(
+        &f, DOCUMENT("", "<nodedef name=\"ND_r\" node=\"round\"><output name=\"out\" "
+                         "type=\"float\"/></nodedef><nodegraph name=\"NG_r\" nodedef=\"ND_r\">"
+                         "<round name=\"r\" type=\"float\"/>"
+                         "<output name=\"out\" type=\"float\" nodename=\"r\"/></nodegraph>"
+                         "<add name=\"a\" type=\"float\"/>"
+                         "<standard_surface name=\"S\" type=\"surfaceshader\"/>"));
+    expect_failure(&f, document, "a", "no nodegraph implements the definition of 'a'");
+    expect_failure(&f, document, "NG_r", "no nodegraph implements the definition of 'NG_r'");
+    expect_failure(&f, document, "NG_r/r", "'r' is a part of its own definition");
+    expect_failure(&f, document, "S", "more elements than the context allows");
+    expect_failure(&f, document, "nothing", "there is no such element");
+    REQUIRE_EQ(mxg_edit_flatten_node(NULL, 1), MXG_ERROR_ARGUMENT);
+    mxg_document_destroy(document);
+    close_fixture(&f);
+}
+
+int main(void)
+{
+    test_values();
+    test_defaults();
+    test_outputs();
+    test_levels();
+    test_library();
+    test_failures();
+    return test_report("api-flatten");
+}
