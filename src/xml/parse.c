@@ -383,11 +383,11 @@ static bool is_trailing_text(const struct xml_reader *reader, const xmlError *er
 }
 
 /* The raw character in an attribute value that may cause an error; 0: none. */
-static char raw_character(const xmlError *error)
+static char raw_character(const xmlError *error, char before)
 {
     switch (error->code) {
     case XML_ERR_LT_IN_ATTRIBUTE: return '<';
-    case XML_ERR_NAME_REQUIRED:
+    case XML_ERR_NAME_REQUIRED: return before == '&' ? '&' : 0;
     case XML_ERR_ENTITYREF_SEMICOL_MISSING:
     case XML_ERR_UNDECLARED_ENTITY:
     case XML_WAR_UNDECLARED_ENTITY:
@@ -398,6 +398,20 @@ static char raw_character(const xmlError *error)
     }
 }
 
+/* A name is missing: of an element behind '<', or of an attribute. */
+static void report_name(struct xml_reader *reader, size_t offset, char before)
+{
+    char found = reader->source->text[offset];
+    struct text message;
+    text_init(&message, &reader->scratch);
+    text_str(&message, before == '<' ? "'<' begins no element here; write '&lt;' for the character"
+                                     : "expected the name of an attribute, '>' or '/>'");
+    if (before != '<' && found > ' ' && found <= '~')
+        text_fmt(&message, ", not '%c'", found);
+    diag_add(reader->diags, DIAG_ID_xml_syntax, xml_place(reader, offset - (before == '<')),
+             text_cstr(&message));
+}
+
 static void report_error(void *arg)
 {
     const struct parser_error *e = arg;
@@ -406,8 +420,9 @@ static void report_error(void *arg)
     size_t offset = parser_offset(reader);
     struct diag_place place = xml_place(reader, offset);
     const char *message = message_of(reader, e->error);
-    if (raw_character(e->error) && !source->raw.len) {
-        reader->raw_character = raw_character(e->error);
+    char before = offset > source->start ? source->text[offset - 1] : 0;
+    if (raw_character(e->error, before) && !source->raw.len) {
+        reader->raw_character = raw_character(e->error, before);
         reader->raw_place = place;
     } else if (source->raw.len) {
         reader->repair_failed = true; /* the author did not write the repaired text */
@@ -423,6 +438,8 @@ static void report_error(void *arg)
         str_id innermost = doc_element(reader->doc, source->current)->category;
         diag_add(reader->diags, DIAG_ID_xml_truncated, place,
                  str_text(reader->doc->strings, innermost));
+    } else if (e->error->code == XML_ERR_NAME_REQUIRED && offset < source->size) {
+        report_name(reader, offset, before);
     } else {
         diag_add(reader->diags, DIAG_ID_xml_syntax, place, message);
     }

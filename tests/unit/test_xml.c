@@ -151,7 +151,7 @@ static void test_limits(void)
         {ROOT "<a><b><c/></b></a></materialx>", "1:33 xml-depth"},
         {ROOT "<a/><a/><a/><a/><a/></materialx>", "1:43 too-many-elements"},
         {ROOT "<template vars=\"t\" rows=\"a; b; c; d; e; f\"><@t@/></template></materialx>",
-         "1:71 xml-syntax"},
+         "1:70 xml-syntax"},
         {ROOT "<template vars=\"t\" rows=\"a; b; c; d; e; f\"><x/></template></materialx>",
          "1:1 too-many-elements"},
     };
