@@ -140,6 +140,7 @@ static void read_paths(void *arg)
         read_path(load, load->paths[i]);
     library->layer.knows_target = target_exists;
     library->layer.target_user_data = library->object.context;
+    library_leave_older(&library->layer, &library->object.diagnostics.list);
     library_index(&library->layer, &reader, &library->object.diagnostics.list);
     library->layer.digest = load->files.digest;
     library_resolve_graphs(&library->layer, &library->object.diagnostics.list);

@@ -123,17 +123,6 @@ static ir_ref struct_of(struct call *c, ir_type_id type, struct closure_value va
     return ir_build(c->graph, IR_CONSTRUCT, type, 0, members, user->num_members);
 }
 
-/* The struct of a closure operand. */
-static ir_type_id operand_struct(struct call *c, const struct source_leaf *source, ir_type_id type)
-{
-    if (type == IR_TYPE_EDF)
-        return IR_TYPE_VEC3;
-    bool is_1_38 = source->convention != SOURCE_CLOSURE_DATA;
-    return shader_source_struct(c->shader, is_1_38               ? SOURCE_STRUCT_BSDF_1_38
-                                           : type == IR_TYPE_VDF ? SOURCE_STRUCT_VDF
-                                                                 : SOURCE_STRUCT_BSDF);
-}
-
 /* ---- Calls ---- */
 
 static struct closure_value nothing(struct call *c)
@@ -154,15 +143,15 @@ struct closure_value closure_call_with(struct shader *shader, const struct closu
     if (index == UINT32_MAX)
         return nothing(&c);
     c.args = ARENA_ARRAY(shader->arena, ir_ref, MAX_LEADING + node.num_args + INITIAL);
-    if (source.convention == SOURCE_CLOSURE_DATA)
+    if (source_has_closure_data(source.convention))
         put_closure_data(&c);
     else if (source.convention == SOURCE_VALUES)
         put_values(&c);
     for (unsigned i = 1; i < node.num_args; i++) {
         ir_type_id type = source.operand_types[i - 1];
-        put(&c, ir_type_is_closure(type)
-                    ? struct_of(&c, operand_struct(&c, &source, type), operands[i])
-                    : ir_arg(g, leaf, i));
+        put(&c, ir_type_is_closure(type) ? struct_of(
+                    &c, shader_closure_struct(shader, source.convention, type), operands[i])
+                                         : ir_arg(g, leaf, i));
     }
     const struct shader_verbatim *verbatim = &shader->sources.calls.items[index];
     assert(verbatim->num_results == 1 && verbatim->has_initial);

@@ -157,6 +157,11 @@ struct doc_reference {
     uint32_t next; /* of the same scope and name: index plus 1; 0 = none */
 };
 
+/* Elements from `first` to before `end`. */
+struct doc_range {
+    elem_id first, end;
+};
+
 struct document {
     const struct document *base;                    /* the layer below, or NULL */
     struct strpool *strings;                        /* the pool of this layer */
@@ -185,8 +190,9 @@ struct document {
     uint32_t num_added;           /* elements that the origin does not have */
     VEC(struct element) elements; /* elements of this layer */
     VEC(struct attribute) attrs;
-    VEC(str_id) files;          /* names from the user or from includes */
-    VEC(struct doc_link) links; /* parallel to `elements`; empty in an image layer */
+    VEC(str_id) files;           /* names from the user or from includes */
+    VEC(struct doc_range) older; /* elements of files of older versions, which are upgraded */
+    VEC(struct doc_link) links;  /* parallel to `elements`; empty in an image layer */
     VEC(struct doc_comment) comments;
     VEC(struct comment_lists) comment_lists;
     VEC(struct doc_place_path) paths; /* ascending by element: doc_keep_paths */

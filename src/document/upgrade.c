@@ -575,8 +575,10 @@ static int read_version(struct document *doc, elem_id root, struct diag_list *di
 
 static bool is_outdated(const struct document *doc, elem_id root, elem_id end)
 {
+    str_id complex_ior = str_find(doc->strings, "complex_ior", 11);
     for (elem_id e = root; e < end; e++)
-        if (doc_attr(doc, e, STR_channels) || doc_element(doc, e)->category == STR_parameter)
+        if (doc_attr(doc, e, STR_channels) || doc_element(doc, e)->category == STR_parameter
+            || (complex_ior && doc_element(doc, e)->category == complex_ior))
             return true;
     return false;
 }
@@ -621,12 +623,14 @@ void doc_upgrade(struct document *doc, elem_id root, elem_id end, struct diag_li
     if (minor >= 38) {
         u.minor = 38;
         upgrade_parameters(&u);
+        upgrade_complex_ior(&u);
     }
     if (u.outdated) {
         u.minor = CURRENT_MINOR;
         upgrade_channels(&u);
         return;
     }
+    vec_push(doc->arena, &doc->older, (struct doc_range){root, end});
     for (size_t i = 0; i < LENGTH(steps); i++) {
         u.minor = steps[i].minor;
         assert(i == 0 || steps[i].minor > steps[i - 1].minor);

@@ -76,8 +76,9 @@ void upgrade_legacy_nodedefs(struct upgrade *u);    /* 1.37 */
 void upgrade_materials(struct upgrade *u);          /* 1.38 */
 
 /* upgrade_closures.c */
-void upgrade_closures(struct upgrade *u);   /* 1.38 */
-void upgrade_thin_films(struct upgrade *u); /* 1.39 */
+void upgrade_closures(struct upgrade *u);    /* 1.38 */
+void upgrade_complex_ior(struct upgrade *u); /* 1.38 */
+void upgrade_thin_films(struct upgrade *u);  /* 1.39 */
 
 /* upgrade_always.c: every version */
 void upgrade_always(struct upgrade *u);

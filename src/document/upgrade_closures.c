@@ -112,6 +112,92 @@ static void set_artistic_output_types(struct upgrade *u, elem_id node)
             doc_set_attr(u->doc, e, STR_type, STR_color3);
 }
 
+/*
+ * <complex_ior> gave the artistic parameters of a metal by its index of refraction. It has no
+ * successor, but behind it <artistic_ior> gives that index again.
+ */
+static const struct {
+    const char *name, *value; /* an output of <artistic_ior>, and the default of <complex_ior> */
+} complex_inputs[] = {{"ior", "0.271, 0.677, 1.316"}, {"extinction", "3.609, 2.625, 2.292"}};
+
+/* The <complex_ior> that gives both inputs of the <artistic_ior> before a port; 0: none does. */
+static elem_id complex_before(const struct upgrade *u, elem_id port)
+{
+    static const char *const artistic[] = {"reflectivity", "edge_color"};
+    elem_id converter = upgrade_upstream(u, port), found[2] = {0};
+    if (!converter || !upgrade_is_category(u, converter, "artistic_ior"))
+        return 0;
+    for (int i = 0; i < 2; i++) {
+        elem_id input = upgrade_child(u, converter, artistic[i]);
+        if (input && upgrade_is(u, doc_attr_value(u->doc, input, STR_output), artistic[i]))
+            found[i] = upgrade_upstream(u, input);
+    }
+    bool is_one = found[0] && found[0] == found[1];
+    return is_one && upgrade_is_category(u, found[0], "complex_ior") ? found[0] : 0;
+}
+
+/* Reads an input of <complex_ior>, which is a vector, in place of the node. */
+static void read_complex(struct upgrade *u, elem_id port, elem_id complex)
+{
+    struct document *doc = u->doc;
+    str_id output = doc_attr_value(doc, port, STR_output),
+           type = doc_attr_value(doc, port, STR_type);
+    elem_id node = doc_element(doc, port)->parent;
+    size_t row = upgrade_is(u, output, complex_inputs[1].name);
+    elem_id source = upgrade_child(u, complex, complex_inputs[row].name);
+    if (!source)
+        source = upgrade_add_input(u, complex, complex_inputs[row].name, STR_vector3,
+                                   upgrade_word(u, complex_inputs[row].value));
+    if (upgrade_is_connected(u, source) && type == STR_color3) {
+        elem_id convert = upgrade_add_node(u, node, "convert", "convert", STR_color3);
+        upgrade_copy_input(u, source, convert, "in", NULL);
+        upgrade_connect(u, port, convert, NULL);
+        doc_remove_attr(doc, port, STR_output);
+        return;
+    }
+    doc_remove_attr(doc, port, STR_nodename);
+    doc_remove_attr(doc, port, STR_output);
+    for (uint32_t i = 0; i < doc_element(doc, source)->num_attrs; i++) {
+        struct attribute attr = doc_attrs(doc, source)[i];
+        if (attr.name != STR_name && attr.name != STR_type)
+            doc_set_attr(doc, port, attr.name, attr.value);
+    }
+}
+
+/* Removes nodes of a category that nothing reads any more. */
+static void remove_unread(struct upgrade *u, const char *category)
+{
+    struct document *doc = u->doc;
+    bool *is_read = ARENA_ARRAY(doc->arena, bool, doc->elements.len);
+    for (elem_id e = upgrade_first(u); e; e = upgrade_next(u, e)) {
+        elem_id node = upgrade_upstream(u, e);
+        if (node)
+            is_read[node - doc->first_element] = true;
+    }
+    for (elem_id e = upgrade_first(u); e; e = upgrade_next(u, e))
+        if (upgrade_is_category(u, e, category) && !is_read[e - doc->first_element])
+            doc_remove_element(doc, e);
+}
+
+void upgrade_complex_ior(struct upgrade *u)
+{
+    struct document *doc = u->doc;
+    bool has_some = false;
+    for (elem_id e = upgrade_first(u); e; e = upgrade_next(u, e)) {
+        elem_id complex = doc_element(doc, e)->kind == KIND_INPUT ? complex_before(u, e) : 0;
+        if (!complex)
+            continue;
+        read_complex(u, e, complex);
+        upgrade_note(u, e, "'%s' has the value of <complex_ior>, which is no node any more",
+                     str_text(doc->strings, doc_element(doc, e)->name));
+        has_some = true;
+    }
+    if (has_some) {
+        remove_unread(u, "artistic_ior");
+        remove_unread(u, "complex_ior");
+    }
+}
+
 void upgrade_closures(struct upgrade *u)
 {
     for (elem_id e = upgrade_first(u); e; e = upgrade_next(u, e)) {
@@ -121,6 +207,7 @@ void upgrade_closures(struct upgrade *u)
             set_artistic_output_types(u, e);
         upgrade_closure(u, e);
     }
+    upgrade_complex_ior(u);
     for (elem_id e = upgrade_first(u); e; e = upgrade_next(u, e))
         convert_artistic_ior(u, e);
 }

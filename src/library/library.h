@@ -278,6 +278,12 @@ uint32_t library_first_override(const struct library *layer, uint32_t nodedef);
  */
 bool library_is_portable(const struct library *lib, const struct implementation *impl);
 
+/*
+ * Leaves out the definitions of files before 1.39 that a lower layer has by their names, with their
+ * implementations: before the layer is indexed. Warns of them once.
+ */
+void library_leave_older(struct library *lib, struct diag_list *diags);
+
 /* Reports how many implementations of a layer are for targets that mxgen does not have. */
 void library_report_foreign(const struct library *lib, struct arena *scratch,
                             struct diag_list *diags);

@@ -101,25 +101,28 @@ static bool add_expressions(struct indexer *ix, const struct implementation *imp
 enum { ALL_CONTEXTS = (1 << NUM_SOURCE_CONTEXTS) - 1 };
 static const struct convention {
     doc_type type;
-    const char *first; /* type of the first parameter; NULL: any */
+    const char *first, *last; /* types of parameters; NULL: any */
     const char *suffix;
     uint8_t leading;
     uint8_t convention, contexts;
     bool is_plain;
 } conventions[] = {
-    {DOC_TYPE_BSDF, "ClosureData", "", 1, SOURCE_CLOSURE_DATA, ALL_CONTEXTS, false},
-    {DOC_TYPE_EDF, "ClosureData", "", 1, SOURCE_CLOSURE_DATA, 1 << SOURCE_EMISSION, false},
-    {DOC_TYPE_VDF, "ClosureData", "", 1, SOURCE_CLOSURE_DATA, 1 << SOURCE_TRANSMISSION, false},
-    {DOC_TYPE_BSDF, NULL, "_reflection", 4, SOURCE_VALUES, 1 << SOURCE_REFLECTION, false},
-    {DOC_TYPE_BSDF, NULL, "_transmission", 1, SOURCE_VALUES, 1 << SOURCE_TRANSMISSION, false},
-    {DOC_TYPE_BSDF, NULL, "_indirect", 1, SOURCE_VALUES, 1 << SOURCE_INDIRECT, false},
-    {DOC_TYPE_EDF, NULL, "", 2, SOURCE_VALUES, 1 << SOURCE_EMISSION, false},
-    {DOC_TYPE_VDF, "vec3", "", 0, SOURCE_NOTHING, 1 << SOURCE_TRANSMISSION, false},
-    {DOC_TYPE_lightshader, "LightData", "", 2, SOURCE_NOTHING, 0, false},
+    {DOC_TYPE_BSDF, "ClosureData", NULL, "", 1, SOURCE_CLOSURE_DATA, ALL_CONTEXTS, false},
+    {DOC_TYPE_EDF, "ClosureData", NULL, "", 1, SOURCE_CLOSURE_DATA, 1 << SOURCE_EMISSION, false},
+    {DOC_TYPE_VDF, "ClosureData", "BSDF", "", 1, SOURCE_CLOSURE_BSDF, 1 << SOURCE_TRANSMISSION,
+     false},
+    {DOC_TYPE_VDF, "ClosureData", NULL, "", 1, SOURCE_CLOSURE_DATA, 1 << SOURCE_TRANSMISSION,
+     false},
+    {DOC_TYPE_BSDF, NULL, NULL, "_reflection", 4, SOURCE_VALUES, 1 << SOURCE_REFLECTION, false},
+    {DOC_TYPE_BSDF, NULL, NULL, "_transmission", 1, SOURCE_VALUES, 1 << SOURCE_TRANSMISSION, false},
+    {DOC_TYPE_BSDF, NULL, NULL, "_indirect", 1, SOURCE_VALUES, 1 << SOURCE_INDIRECT, false},
+    {DOC_TYPE_EDF, NULL, NULL, "", 2, SOURCE_VALUES, 1 << SOURCE_EMISSION, false},
+    {DOC_TYPE_VDF, "vec3", NULL, "", 0, SOURCE_NOTHING, 1 << SOURCE_TRANSMISSION, false},
+    {DOC_TYPE_lightshader, "LightData", NULL, "", 2, SOURCE_NOTHING, 0, false},
     /* for targets with closures */
-    {DOC_TYPE_BSDF, NULL, "", 0, SOURCE_NOTHING, 0, true},
-    {DOC_TYPE_EDF, NULL, "", 0, SOURCE_NOTHING, 0, true},
-    {DOC_TYPE_VDF, NULL, "", 0, SOURCE_NOTHING, 0, true},
+    {DOC_TYPE_BSDF, NULL, NULL, "", 0, SOURCE_NOTHING, 0, true},
+    {DOC_TYPE_EDF, NULL, NULL, "", 0, SOURCE_NOTHING, 0, true},
+    {DOC_TYPE_VDF, NULL, NULL, "", 0, SOURCE_NOTHING, 0, true},
 };
 
 struct signature {
@@ -221,7 +224,8 @@ static bool fits_convention(const struct signature *s, const struct convention *
     bool is_light = row->type == DOC_TYPE_lightshader;
     unsigned n = row->leading + (is_light ? 0u : s->def->num_inputs) + s->def->num_outputs;
     return s->num_parameters == (int)n
-           && (!row->first || scan_is(&s->parameters[0].type, row->first));
+           && (!row->first || scan_is(&s->parameters[0].type, row->first))
+           && (!row->last || scan_is(&s->parameters[n - 1].type, row->last));
 }
 
 /* Reads the function for a row of the conventions; false: it is absent, or has another one. */

@@ -51,6 +51,18 @@ ir_type_id shader_source_struct(struct shader *shader, enum source_struct which)
         shader->graph, str_intern_z(shader->strings, structs[which].name), members, n);
 }
 
+ir_type_id shader_closure_struct(struct shader *shader, enum source_convention convention,
+                                 ir_type_id type)
+{
+    bool is_vdf = type == IR_TYPE_VDF && convention == SOURCE_CLOSURE_DATA;
+    if (type == IR_TYPE_EDF) /* a colour */
+        return IR_TYPE_VEC3;
+    return shader_source_struct(shader, !source_has_closure_data(convention)
+                                            ? SOURCE_STRUCT_BSDF_1_38
+                                        : is_vdf ? SOURCE_STRUCT_VDF
+                                                 : SOURCE_STRUCT_BSDF);
+}
+
 /* ---- Tokens ---- */
 
 const struct shader_token *shader_find_token(const struct shader *shader, const char *name,

@@ -63,6 +63,7 @@ enum source_context {
 /* How a function takes the context, before the inputs of its node. */
 enum source_convention {
     SOURCE_CLOSURE_DATA, /* one struct, for every context: MaterialX 1.39 */
+    SOURCE_CLOSURE_BSDF, /* the same, of a VDF that is a BSDF: MaterialX before 1.39.5 */
     /*
      * MaterialX 1.38: (L, V, P, occlusion) for reflection, (V) for transmission and indirect,
      * (N, V) for emission
@@ -121,6 +122,13 @@ void shader_index_helpers(struct shader *shader);
 
 /* The type of a struct in the shader's graph. */
 ir_type_id shader_source_struct(struct shader *shader, enum source_struct which);
+/* The type of a closure in functions of a convention, whose context is one struct or not. */
+ir_type_id shader_closure_struct(struct shader *shader, enum source_convention convention,
+                                 ir_type_id type);
+static inline bool source_has_closure_data(enum source_convention convention)
+{
+    return convention == SOURCE_CLOSURE_DATA || convention == SOURCE_CLOSURE_BSDF;
+}
 
 /*
  * Adds a text; `includes` are the sources of its #include lines, in order. Its tokens become

@@ -374,17 +374,6 @@ static void call_function(const struct source_call *c, struct shader_verbatim *v
 
 /* ---- Closures ---- */
 
-/* The struct of a closure's result; an EDF is a colour. */
-static ir_type_id closure_struct(const struct source_call *c, ir_type_id type)
-{
-    bool is_1_38 = c->verbatim->convention != SOURCE_CLOSURE_DATA;
-    if (type == IR_TYPE_EDF)
-        return IR_TYPE_VEC3;
-    return shader_source_struct(c->b->shader, is_1_38               ? SOURCE_STRUCT_BSDF_1_38
-                                              : type == IR_TYPE_VDF ? SOURCE_STRUCT_VDF
-                                                                    : SOURCE_STRUCT_BSDF);
-}
-
 static uint32_t add_context(const struct source_call *c, const struct shader_verbatim *files,
                             enum source_context context)
 {
@@ -404,8 +393,9 @@ static uint32_t add_context(const struct source_call *c, const struct shader_ver
     v.num_results = 1;
     v.first_result = shader->sources.result_types.len;
     v.has_initial = true;
-    vec_push(shader->arena, &shader->sources.result_types,
-             closure_struct(c, type_of(c, c->def->num_inputs)));
+    vec_push(
+        shader->arena, &shader->sources.result_types,
+        shader_closure_struct(shader, c->verbatim->convention, type_of(c, c->def->num_inputs)));
     return add_verbatim(c, &v);
 }
 
@@ -476,7 +466,7 @@ static void build_leaf(const struct source_call *c, const struct shader_verbatim
         leaf.verbatim[0] = add_native(c, files);
     }
     uint32_t index = add_leaf(shader, &leaf);
-    shader->sources.is_1_38 |= !is_native && leaf.convention != SOURCE_CLOSURE_DATA;
+    shader->sources.is_1_38 |= !is_native && !source_has_closure_data(leaf.convention);
     ir_ref *operands = ARENA_ARRAY(c->b->arena, ir_ref, num_args + 1);
     operands[0] = ir_const_float(c->b->graph, 1.0f);
     memcpy(operands + 1, args, num_args * sizeof *args);

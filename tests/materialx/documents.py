@@ -2,6 +2,7 @@
 """A document per definition of a library: the node with its default values, and a way to draw each output. Inputs of closures and
 shaders are connected, because they have no defaults."""
 import pathlib
+import re
 import xml.etree.ElementTree as ElementTree
 
 # Sources for inputs without defaults.
@@ -67,11 +68,14 @@ def document(definition, prefix):
     return f'<materialx version="1.39">\n{text}</materialx>\n'
 
 
+RAW = re.compile(r"&(?!(?:lt|gt|amp|quot|apos|#\d+|#x[0-9a-fA-F]+);)")  # as MaterialX's libraries up to 1.39.4 have it
+
+
 def write(libraries, folder):
     """Writes the documents; returns the names of the definitions that have one, and of the others."""
     written, others = [], []
     for file in sorted(pathlib.Path(libraries).rglob("*.mtlx")):
-        root = ElementTree.parse(file).getroot()
+        root = ElementTree.fromstring(RAW.sub("&amp;", file.read_text()))
         prefix = f"{root.get('namespace')}:" if root.get("namespace") else ""
         for definition in root.iter("nodedef"):
             text = document(definition, prefix) if definition.findall("output") else None

@@ -53,6 +53,74 @@ check 'a library is packed' exits 0 "$mxgen" library pack vendor/folder/maker --
 check 'an image is listed' exits 0 "$mxgen" library list ash maker.mxlib
 check 'an image keeps the note about foreign targets' grep -q 'genrsl (1) \[foreign-implementations\]' err
 
+# A library of MaterialX before 1.39: <extract> and <convert> have the graphs and the generators of their time, and <surface> no 'thin_walled'.
+# Nodes of other names are upgraded with their graphs.
+mkdir -p older
+cat >older/defs.mtlx <<'END'
+<materialx version="1.38">
+  <nodedef name="ND_extract_color3" node="extract">
+    <input name="in" type="color3" value="0, 0, 0"/><input name="index" type="integer" value="0"/><output name="out" type="float"/>
+  </nodedef>
+  <nodegraph name="NG_extract_color3" nodedef="ND_extract_color3">
+    <swizzle name="r" type="float"><input name="in" type="color3" interfacename="in"/><input name="channels" type="string" value="r"/></swizzle>
+    <output name="out" type="float" nodename="r"/>
+  </nodegraph>
+  <nodedef name="ND_convert_float_color3" node="convert"><input name="in" type="float" value="0"/><output name="out" type="color3"/></nodedef>
+  <nodedef name="ND_surface" node="surface"><input name="bsdf" type="BSDF" value=""/><output name="out" type="surfaceshader"/></nodedef>
+  <nodedef name="ND_ember" node="ember"><parameter name="in" type="color3" value="0, 0.25, 0"/><output name="out" type="float"/></nodedef>
+  <nodegraph name="NG_ember" nodedef="ND_ember">
+    <swizzle name="g" type="float"><input name="in" type="color3" interfacename="in"/><input name="channels" type="string" value="g"/></swizzle>
+    <convert name="grey" type="color3"><input name="in" type="float" nodename="g"/></convert>
+    <swizzle name="r" type="float"><input name="in" type="color3" nodename="grey"/><input name="channels" type="string" value="r"/></swizzle>
+    <output name="out" type="float" nodename="r"/>
+  </nodegraph>
+</materialx>
+END
+cat >older/impl.mtlx <<'END'
+<materialx version="1.38">
+  <implementation name="IM_convert_float_color3_genglsl" nodedef="ND_convert_float_color3" target="genglsl"/>
+  <implementation name="IM_surface_genglsl" nodedef="ND_surface" target="genglsl"/>
+</materialx>
+END
+sed 's/ash/ember/g' document.mtlx >ember.mtlx
+check 'a library before 1.39 is upgraded with its graphs' exits 0 "$mxgen" ember.mtlx --interface reduced --library older -o made
+check 'its definitions give way to those of 1.39' grep -q "older/defs.mtlx:2:.* warning: 3 definitions .*: ND_extract_color3, ND_convert_float_color3, ND_surface \[older-definitions\]" err
+check 'and its nodes compute' grep -F 'vec4(0.25, 0.25, 0.25, 1.0)' made/o.frag
+check 'a surface keeps its inputs' exits 0 "$mxgen" "$root/examples/gold.mtlx" --library older -o made
+sed -i 's/version="1.38"/version="1.39"/' older/*.mtlx
+check 'definitions of 1.39 replace' exits 1 "$mxgen" ember.mtlx --library older -o made
+
+# Before 1.39.5 a VDF was a BSDF, <heighttonormal> had a generator, and conditions had raw ampersands.
+cat >volume.mtlx <<'END'
+<materialx version="1.39">
+  <nodedef name="ND_mist" node="mist"><input name="absorption" type="vector3" value="1, 1, 1"/><output name="out" type="VDF"/></nodedef>
+  <implementation name="IM_mist_genglsl" nodedef="ND_mist" file="mist.glsl" function="mist" target="genglsl"/>
+  <nodedef name="ND_heighttonormal_vector3" node="heighttonormal">
+    <input name="in" type="float" value="0"/><input name="scale" type="float" value="1"/><output name="out" type="vector3"/>
+  </nodedef>
+  <implementation name="IM_heighttonormal_vector3_genglsl" nodedef="ND_heighttonormal_vector3" target="genglsl"/>
+  <nodedef name="ND_both" node="both"><input name="a" type="boolean" value="true"/><output name="out" type="boolean"/></nodedef>
+  <implementation name="IM_both" nodedef="ND_both" target="genglsl" sourcecode="{{a}} && {{a}}"/>
+</materialx>
+END
+cat >mist.glsl <<'END'
+void mist(ClosureData closureData, vec3 absorption, inout BSDF bsdf) { if (closureData.closureType == CLOSURE_TYPE_TRANSMISSION) bsdf.throughput = exp(-absorption); }
+END
+cat >misty.mtlx <<'END'
+<materialx version="1.39">
+  <mist name="m" type="VDF"/>
+  <dielectric_bsdf name="glass" type="BSDF"><input name="scatter_mode" type="string" value="T"/></dielectric_bsdf>
+  <layer name="l" type="BSDF"><input name="top" type="BSDF" nodename="glass"/><input name="base" type="VDF" nodename="m"/></layer>
+  <surface name="s" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="l"/></surface>
+  <surfacematerial name="Misty" type="material"><input name="surfaceshader" type="surfaceshader" nodename="s"/></surfacematerial>
+  <heighttonormal name="h" type="vector3"/><output name="slope" type="vector3" nodename="h"/>
+  <both name="b" type="boolean"/><output name="both" type="boolean" nodename="b"/>
+</materialx>
+END
+check 'libraries of 1.39.0 to 1.39.4 load' exits 0 "$mxgen" misty.mtlx --library volume.mtlx -o made -e Misty -e slope -e both
+check 'a VDF may be a BSDF' grep -q '^ *BSDF m = BSDF(' made/Misty.frag
+check 'raw ampersands are told' grep -q 'volume.mtlx:9:.*xml-raw-ampersand' err
+
 # A broken implementation is an error of the nodes that need it; the rest of its library works.
 cat >partly.mtlx <<'END'
 <materialx version="1.39">

@@ -207,6 +207,33 @@ static void test_closures(void)
                     "type=\"color3\" nodename=\"artistic_ior\" output=\"ior\"/>\n"
                     "  <input name=\"extinction\" type=\"color3\" nodename=\"artistic_ior\" "
                     "output=\"extinction\"/>\n</conductor_bsdf>\n");
+    /* the index of a metal comes back, and a connected one is converted */
+    require_upgrade("1.37",
+                    "<normal name=\"n\" type=\"vector3\"/><complex_ior name=\"c\" "
+                    "type=\"multioutput\"><input name=\"extinction\" type=\"vector3\" "
+                    "nodename=\"n\"/></complex_ior>"
+                    "<conductor_brdf name=\"a\" type=\"BSDF\"><input name=\"reflectivity\" "
+                    "type=\"color3\" nodename=\"c\" output=\"reflectivity\"/><input "
+                    "name=\"edge_color\" type=\"color3\" nodename=\"c\" "
+                    "output=\"edge_color\"/></conductor_brdf>",
+                    "<normal name=\"n\" type=\"vector3\"/>\n"
+                    "<convert name=\"convert\" type=\"color3\">\n  <input name=\"in\" "
+                    "type=\"vector3\" nodename=\"n\"/>\n</convert>\n"
+                    "<conductor_bsdf name=\"a\" type=\"BSDF\">\n  <input name=\"ior\" "
+                    "type=\"color3\" value=\"0.271, 0.677, 1.316\"/>\n"
+                    "  <input name=\"extinction\" type=\"color3\" nodename=\"convert\"/>\n"
+                    "</conductor_bsdf>\n");
+    require_upgrade("1.38",
+                    "<complex_ior name=\"c\" type=\"multioutput\"><input name=\"ior\" "
+                    "type=\"vector3\" value=\"1,2,3\"/></complex_ior>"
+                    "<artistic_ior name=\"a\" type=\"multioutput\"><input "
+                    "name=\"reflectivity\" type=\"color3\" nodename=\"c\" "
+                    "output=\"reflectivity\"/><input name=\"edge_color\" type=\"color3\" "
+                    "nodename=\"c\" output=\"edge_color\"/></artistic_ior>"
+                    "<convert name=\"x\" type=\"vector3\"><input name=\"in\" "
+                    "type=\"color3\" nodename=\"a\" output=\"ior\"/></convert>",
+                    "<convert name=\"x\" type=\"vector3\">\n  <input name=\"in\" "
+                    "type=\"color3\" value=\"1,2,3\"/>\n</convert>\n");
     require_upgrade(
         "1.38",
         "<thin_film_bsdf name=\"t\" type=\"BSDF\"><input name=\"thickness\" type=\"float\" "
