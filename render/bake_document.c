@@ -115,6 +115,31 @@ static void add_input(struct writer *writer, mxg_element node, const struct bake
 
 /* ---- Nodes ---- */
 
+/* An output reads a node: a value is one of a <constant>. */
+static void add_output(struct writer *writer, size_t index)
+{
+    struct bake_plan *plan = &writer->baking->plan;
+    const struct bake_node *node = &plan->nodes[index];
+    mxg_element from = 0;
+    if (node->num_inputs && is_drawn(writer, node->inputs)) {
+        from = draw(writer, node->inputs->index);
+    } else if (node->num_inputs && node->inputs->way == BAKE_NODE) {
+        from = writer->nodes[node->inputs->index];
+    } else if (node->num_inputs) {
+        struct bake_input value = *node->inputs;
+        char *wanted = cli_format("%s_value", node->name), *name = bake_plan_name(plan, wanted);
+        value.name = "value";
+        from = mxg_edit_add_element(writer->edit, 0, "constant", name, node->type);
+        add_input(writer, from, &value);
+        free(wanted);
+        free(name);
+    }
+    writer->nodes[index] =
+        mxg_edit_add_element(writer->edit, 0, node->category, node->name, node->type);
+    if (from)
+        mxg_edit_connect_input(writer->edit, writer->nodes[index], NULL, from, NULL);
+}
+
 static void add_node(struct writer *writer, size_t index)
 {
     static const char *const others[] = {"name",      "type",     "colorspace", "fileprefix",
@@ -230,7 +255,7 @@ char *bake_write_document(struct baking *baking, size_t *out_size)
                                    "colorspace", space);
         copy_definitions(&writer);
         for (size_t i = 0; i < plan->num_nodes; ++i)
-            add_node(&writer, i);
+            (plan->nodes[i].is_output ? add_output : add_node)(&writer, i);
         text = text_of(baking, writer.edit, out_size);
     }
     mxg_edit_destroy(writer.edit);

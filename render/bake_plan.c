@@ -285,7 +285,7 @@ static size_t add_drawing(struct bake_plan *plan, const struct bake_node *node,
             return i;
     plan->drawings =
         memory_resize(plan->drawings, (plan->num_drawings + 1) * sizeof *plan->drawings);
-    char *name = cli_format("%s_%s", node->name, input->name);
+    char *name = cli_format("%s_%s", node->name, node->is_output ? "image" : input->name);
     char *path = bake_path(plan->document, end->node);
     plan->drawings[plan->num_drawings] =
         (struct bake_drawing){.source = end->node,
@@ -336,15 +336,21 @@ struct visits {
     size_t num;
 };
 
+/* An output stands beside all else in the new document: "NG_color" for "NG/color". */
 static void begin_node(struct bake_plan *plan, struct visits *visits, mxg_element element)
 {
     mxg_element_info info = bake_element(plan->document, element);
+    bool is_output = is_category(plan->document, element, "output");
+    char *path = is_output ? bake_path(plan->document, element) : NULL;
     visits->items = memory_resize(visits->items, (visits->num + 1) * sizeof *visits->items);
-    visits->items[visits->num++] = (struct visit){{.element = element,
-                                                   .category = info.category,
-                                                   .type = info.type,
-                                                   .name = free_name(plan, info.name, false)},
-                                                  info.first_child};
+    visits->items[visits->num++] =
+        (struct visit){{.element = element,
+                        .category = info.category,
+                        .type = info.type,
+                        .name = free_name(plan, path ? path : info.name, false),
+                        .is_output = is_output},
+                       is_output ? element : info.first_child};
+    free(path);
 }
 
 static void end_node(struct bake_plan *plan, struct visits *visits)
@@ -390,6 +396,17 @@ static bool add_input(struct bake_plan *plan, struct visits *visits, mxg_element
     return true;
 }
 
+/* Adds the next child of the node on top, or what an output reads. */
+static void add_child(struct bake_plan *plan, struct visits *visits)
+{
+    size_t top = visits->num - 1;
+    bool is_output = visits->items[top].node.is_output;
+    mxg_element child = visits->items[top].next;
+    bool is_port = is_output || is_category(plan->document, child, "input");
+    if (!is_port || add_input(plan, visits, child))
+        visits->items[top].next = is_output ? 0 : bake_element(plan->document, child).next;
+}
+
 /* True if an <implementation> names a nodegraph. */
 static bool implements(const mxg_document *document, const char *graph)
 {
@@ -430,23 +447,19 @@ bool bake_plan_add(struct bake_plan *plan, const char *path)
 {
     struct visits visits = {0};
     mxg_element root = mxg_document_find_element(plan->document, 0, path);
-    if (!stays(plan, root)) {
+    if (!stays(plan, root) && !is_category(plan->document, root, "output")) {
         report_error(plan->report, "nothing-to-bake",
-                     "'%s' is no material and no surface, so it has no inputs to bake", path);
+                     "'%s' is no material, no surface and no output, so it has no inputs to bake",
+                     path);
         return false;
     }
     if (find_node(plan, root) == plan->num_nodes)
         begin_node(plan, &visits, root);
     while (visits.num) {
-        struct visit *top = &visits.items[visits.num - 1];
-        mxg_element child = top->next;
-        if (!child) {
+        if (visits.items[visits.num - 1].next)
+            add_child(plan, &visits);
+        else
             end_node(plan, &visits);
-            continue;
-        }
-        mxg_element_info info = bake_element(plan->document, child);
-        if (strcmp(info.category, "input") != 0 || add_input(plan, &visits, child))
-            visits.items[visits.num - 1].next = info.next;
     }
     free(visits.items);
     return true;

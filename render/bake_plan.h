@@ -29,7 +29,8 @@ struct bake_input {
 struct bake_node {
     mxg_element element;
     const char *category, *type;
-    char *name; /* in the new document */
+    char *name;     /* in the new document */
+    bool is_output; /* an <output>, whose only input is what it reads */
     struct bake_input *inputs;
     size_t num_inputs;
 };
