@@ -38,7 +38,7 @@ static const struct command commands[] = {
      command_explain},
     {"render", "render FILE|FOLDER... -o PICTURE.png [options]",
      "Renders materials without a display: one picture, or a sheet of several.", command_render},
-    {"bake", "bake FILE -o DIR [--mesh FILE] [options]",
+    {"bake", "bake FILE|FOLDER -o DIR [--mesh FILE] [options]",
      "Bakes what varies over the surface of a material into images, with a flat document.",
      command_bake},
     {"export", "export FILE -o FILE.glb|.gltf|.usda|.usdz [--mesh FILE] [options]",

@@ -35,8 +35,9 @@ static bool parse(struct baking *baking)
                                                                           "error", "checker", NULL};
     struct bake_options *options = &baking->options;
     struct cli *cli = &baking->cli;
-    if (cli->parser.inputs.len != 1 || !options->output) {
-        fputs("usage: mxgen bake FILE -o DIR\n", stderr);
+    bool is_one = cli->parser.inputs.len == 1 && options->output;
+    if (!is_one || (options->element && files_is_folder(cli->parser.inputs.items[0]))) {
+        fputs("usage: mxgen bake FILE|FOLDER -o DIR; --element is for a file\n", stderr);
         return false;
     }
     if ((options->format && !check_word("format", options->format, formats))
@@ -54,6 +55,7 @@ void bake_begin(struct baking *baking, const char *path)
 {
     struct cli *cli = &baking->cli;
     baking->path = path;
+    baking->errors_before = cli->report.errors;
     baking->space = setting(cli, "colorspace", "lin_rec709");
     baking->is_709 = strcmp(baking->space, "lin_rec709") == 0;
     baking->painter.checker = strcmp(baking->options.missing_texture, "checker") == 0;
@@ -148,9 +150,10 @@ static void tell(const struct baking *baking)
         values += baking->plan.drawings[i].is_value;
     if (!baking->cli.quiet)
         fprintf(stderr,
-                "note: of %zu graphs of inputs, %zu are images (%zu file%s) and %zu values\n",
-                baking->plan.num_drawings, baking->plan.num_drawings - values, baking->num_images,
-                baking->num_images == 1 ? "" : "s", values);
+                "note: of %zu graphs of inputs of '%s', %zu are images (%zu file%s) and %zu "
+                "values\n",
+                baking->plan.num_drawings, baking->path, baking->plan.num_drawings - values,
+                baking->num_images, baking->num_images == 1 ? "" : "s", values);
 }
 
 static bool open_device(struct baking *baking)
@@ -185,7 +188,8 @@ bool bake_document(struct baking *baking, const mxg_document *document)
     good = good && !reason && bake_keep_files(baking) && open_device(baking) && bake_draw(baking)
            && write_document(baking, output);
     compile_end();
-    good = batch_end(&baking->written, &baking->cli.report, good && !baking->cli.report.errors);
+    good = batch_end(&baking->written, &baking->cli.report,
+                     good && baking->cli.report.errors == baking->errors_before);
     if (good)
         tell(baking);
     else if (is_new)
@@ -205,10 +209,20 @@ void bake_finish(struct baking *baking)
     batch_finish(&baking->written);
 }
 
+static void bake_one(struct baking *baking, const char *path)
+{
+    bake_begin(baking, path);
+    mxg_document *document = cli_load(&baking->cli, path);
+    if (document)
+        bake_document(baking, document);
+    bake_finish(baking);
+    mxg_document_destroy(document);
+}
+
 int bake_main(int argc, char **argv)
 {
     static const struct command command = {
-        "bake", "bake FILE -o DIR [--mesh FILE] [options]",
+        "bake", "bake FILE|FOLDER -o DIR [--mesh FILE] [options]",
         "Bakes what varies over the surface of a material into images, with a flat document.",
         NULL};
     struct baking baking = {.options = BAKE_OPTIONS_DEFAULTS};
@@ -218,12 +232,11 @@ int bake_main(int argc, char **argv)
                   argc, argv, &code)) {
         code = EXIT_USAGE;
         if (parse(&baking)) {
-            bake_begin(&baking, baking.cli.parser.inputs.items[0]);
-            mxg_document *document = cli_load(&baking.cli, baking.path);
-            if (document)
-                bake_document(&baking, document);
-            bake_finish(&baking);
-            mxg_document_destroy(document);
+            const char *path = baking.cli.parser.inputs.items[0];
+            if (files_is_folder(path))
+                bake_folder(&baking, path);
+            else
+                bake_one(&baking, path);
             code = baking.cli.report.errors ? EXIT_FAULT : EXIT_DONE;
         }
     }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
  * mxgen bake: a document whose inputs are values and images, from one with graphs. bake.c runs it,
- * bake_plan.c finds the inputs, bake_needs.c what they read, bake_draw.c draws them,
- * bake_image.c writes images, bake_keep.c
- * keeps those that stay, and bake_document.c the document.
+ * bake_folder.c for many, bake_plan.c finds the inputs, bake_needs.c what they read, bake_draw.c
+ * draws them, bake_image.c writes images, bake_keep.c keeps those that stay, and bake_document.c
+ * the document.
  */
 #ifndef MXG_RENDER_BAKE_H
 #define MXG_RENDER_BAKE_H
@@ -33,6 +33,7 @@ struct baking {
     const char *space; /* the working colour space */
     bool is_709;       /* it has the primaries of srgb_texture */
     bool has_told_overlap;
+    uint32_t errors_before; /* of other documents */
 };
 
 int bake_main(int argc, char **argv);
@@ -49,6 +50,12 @@ void bake_begin(struct baking *baking, const char *path);
 bool bake_document(struct baking *baking, const mxg_document *document);
 /* "flat/wall.mtlx". The caller frees it. */
 char *bake_document_name(const struct baking *baking);
+/*
+ * Bakes all documents below a folder, each into the same place below the folder of the options;
+ * those below the latter are none of them. A document that fails does not stop the others, and one
+ * without renderables is left out.
+ */
+void bake_folder(struct baking *baking, const char *folder);
 /* Frees all but baking->cli. */
 void bake_finish(struct baking *baking);
 

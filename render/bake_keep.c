@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /* Files of images that stay: they must exist, and can be copied. */
+#define _POSIX_C_SOURCE 200809L
 #include "render/bake.h"
 
 #include "program/files.h"
 
 #include <errno.h>
+#include <glob.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -51,35 +53,109 @@ static char *name_copy(struct baking *baking, const char *path)
     return name;
 }
 
-static bool copy_file(struct baking *baking, struct bake_input *input, const char *path)
+/* ---- Sets of files: tiles and frames ---- */
+
+/* The patterns of glob(7) for tokens in file names. */
+static const struct {
+    const char *token, *pattern;
+} tokens[] = {{"<UDIM>", "[0-9][0-9][0-9][0-9]"}, {"<UVTILE>", "u[0-9]*_v[0-9]*"}, {"{", "[0-9]*"}};
+
+/* Length of the token at the start of a name, with its pattern; 0: there is none. */
+static size_t read_token(const char *name, const char **out_pattern)
 {
-    char *name = name_copy(baking, path), *to = cli_format("%s/%s", baking->options.output, name);
-    bool is_free = outputs_write(&baking->files, &baking->cli.report, to, "a copy");
+    for (size_t i = 0; i < sizeof tokens / sizeof *tokens; ++i) {
+        const char *end = strchr(name, '}');
+        size_t len = strlen(tokens[i].token);
+        if (strncmp(name, tokens[i].token, len) != 0 || (*name == '{' && !end))
+            continue;
+        *out_pattern = tokens[i].pattern;
+        return *name == '{' ? (size_t)(end - name) + 1 : len;
+    }
+    return 0;
+}
+
+/* The pattern of the files that a path stands for. The caller frees it. */
+static char *pattern_of(const char *path)
+{
+    static const char special[] = "*?[]\\";
+    char *out = cli_format("%s", "");
+    while (*path) {
+        const char *pattern = NULL;
+        size_t len = read_token(path, &pattern);
+        char *more = len ? cli_format("%s%s", out, pattern)
+                         : cli_format("%s%s%c", out, strchr(special, *path) ? "\\" : "", *path);
+        free(out);
+        out = more;
+        path += len ? len : 1;
+    }
+    return out;
+}
+
+static bool copy_to(struct baking *baking, const char *from, const char *name)
+{
+    char *to = cli_format("%s/%s", baking->options.output, name);
+    bool is_free = outputs_read(&baking->files, &baking->cli.report, from)
+                   && outputs_write(&baking->files, &baking->cli.report, to, "a copy");
     const char *reason =
-        is_free ? copy(path, batch_begin(&baking->written, baking->options.output, name)) : NULL;
+        is_free ? copy(from, batch_begin(&baking->written, baking->options.output, name)) : NULL;
     if (reason)
-        report_error(&baking->cli.report, "output-failed", "cannot copy '%s' to '%s': %s", path, to,
+        report_error(&baking->cli.report, "output-failed", "cannot copy '%s' to '%s': %s", from, to,
                      reason);
-    input->copy = name;
     free(to);
     return is_free && !reason;
+}
+
+/*
+ * Copies the files of a set. Their names keep what stands for the tile or the frame, and what
+ * follows; before it stands a name that is free.
+ */
+static bool copy_set(struct baking *baking, struct bake_input *input, const char *path)
+{
+    const char *base = files_base_name(path);
+    size_t len = strcspn(base, "<{"), stem_len = len;
+    while (stem_len && strchr("._", base[stem_len - 1]))
+        --stem_len;
+    char *pattern = pattern_of(path), *stem = cli_copy(base, stem_len),
+         *free_stem = bake_plan_file(&baking->plan, stem);
+    glob_t found = {0};
+    bool good = glob(pattern, 0, NULL, &found) == 0 || tell_missing(baking, input->origin, path);
+    for (size_t i = 0; good && i < found.gl_pathc; ++i) {
+        char *name = cli_format("%s%s", free_stem, files_base_name(found.gl_pathv[i]) + stem_len);
+        good = copy_to(baking, found.gl_pathv[i], name);
+        free(name);
+    }
+    input->copy = cli_format("%s%s", free_stem, base + stem_len);
+    globfree(&found);
+    free(pattern);
+    free(stem);
+    free(free_stem);
+    return good;
+}
+
+/* ---- Files that stay ---- */
+
+static bool copy_file(struct baking *baking, struct bake_input *input, const char *path)
+{
+    input->copy = name_copy(baking, path);
+    return copy_to(baking, path, input->copy);
 }
 
 static bool keep_file(struct baking *baking, struct bake_input *input)
 {
     const char *file = bake_attribute(baking->document, input->origin, "value");
-    bool good = true;
     if (!*file)
         return true;
     char *path = bake_file_path(baking->document, baking->path, input->origin, file);
-    bool is_there = files_is_regular(path);
-    if (bake_is_set(file) && baking->options.copy && !baking->cli.quiet)
-        fprintf(stderr, "note: '%s' stands for several files, which stay where they are\n", path);
-    if (!bake_is_set(file) && !is_there)
+    bool is_set = bake_is_set(path), copies = baking->options.copy, good = true;
+    if (is_set && copies && !bake_is_set(files_base_name(path)) && !baking->cli.quiet)
+        fprintf(stderr, "note: '%s' stands for files of several folders, which stay there\n", path);
+    else if (is_set)
+        good = !copies || copy_set(baking, input, path);
+    else if (!files_is_regular(path))
         good = tell_missing(baking, input->origin, path);
-    else if (!bake_is_set(file))
-        good = outputs_read(&baking->files, &baking->cli.report, path)
-               && (!baking->options.copy || copy_file(baking, input, path));
+    else
+        good = copies ? copy_file(baking, input, path)
+                      : outputs_read(&baking->files, &baking->cli.report, path);
     free(path);
     return good;
 }

@@ -117,10 +117,47 @@ static bool add_tile_of(struct bake_surface *surface, const struct mesh *mesh, c
     return true;
 }
 
+/* Twice the area of a triangle, above 0 where it turns to the left. */
+static double turn(const double a[2], const double b[2], const double c[2])
+{
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+static bool has_area(const struct mesh *mesh, const uint32_t *at)
+{
+    double corners[3][2];
+    for (size_t k = 0; k < 3; ++k)
+        for (size_t c = 0; c < 2; ++c)
+            corners[k][c] = (double)mesh->vertices[at[k]].texcoord[c];
+    return turn(corners[0], corners[1], corners[2]) != 0;
+}
+
+/* False after an error: no triangle has an area in texture coordinates. */
+static bool tell_flat(const struct scene_object *object, struct report *report)
+{
+    const struct mesh *mesh = &object->mesh;
+    uint32_t num = mesh->num_indices / 3, num_flat = 0;
+    for (uint32_t i = 0; i < num; ++i)
+        num_flat += !has_area(mesh, mesh->indices + 3 * i);
+    if (num_flat == num)
+        report_error(report, "no-texcoords",
+                     "no triangle of '%s' has an area in texture coordinates, so its surface has "
+                     "no place in an image",
+                     object->path);
+    else if (num_flat)
+        report_warning(report, "bake-degenerate",
+                       "%u of the %u triangles of '%s' have no area in texture coordinates, so no "
+                       "texel has their values",
+                       num_flat, num, object->path);
+    return num_flat < num;
+}
+
 static bool find_tiles(struct bake_surface *surface, struct report *report)
 {
     for (uint32_t o = 0; o < surface->num_objects; ++o) {
         const struct mesh *mesh = &surface->objects[o].mesh;
+        if (!tell_flat(&surface->objects[o], report))
+            return false;
         for (uint32_t i = 0; i + 2 < mesh->num_indices; i += 3)
             if (!add_tile_of(surface, mesh, mesh->indices + i)) {
                 report_error(report, "no-texcoords",
@@ -156,12 +193,6 @@ void bake_surface_close(struct bake_surface *surface)
 }
 
 /* ---- Overlaps ---- */
-
-/* Twice the area of a triangle, above 0 where it turns to the left. */
-static double turn(const double a[2], const double b[2], const double c[2])
-{
-    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-}
 
 /* Counts the points of the grid that lie inside a triangle, off its edges. */
 static void cover(double at[3][2], uint32_t size, uint8_t *counts)

@@ -16,7 +16,7 @@ from .document import Connection, Document, Edge, Element, Item, Renderable, Val
 from .edit import Draft, Edit, NewValue
 from .error import ArgumentError, CancelledError, DocumentError, EditError, Error, InternalError, MissingFileError, OutOfMemoryError
 from .files import ZipFiles
-from .render import RenderError, render, render_picture
+from .render import RenderError, bake, render, render_picture
 from .scene import (Bindings, BindingsFormat, Fact, FactKind, Layer, LayerKind, NewPrimitive, Primitive, Property, Scene, SlotBinding,
                     Stack, decode_slot, encode_slot)
 from .shader import (Alpha, Block, BlockInfo, Change, CompiledInput, InputState, LightType, OptionValue, Part, PassInfo, Place, Semantic,
@@ -30,5 +30,5 @@ __all__ = ["Alpha", "ArgumentError", "Bindings", "BindingsFormat", "Block", "Blo
            "Layer", "LayerKind", "Library", "LightType", "ListFolder", "MissingFileError", "NewPrimitive", "NewValue", "NodeDef", "Option", "OptionType",
            "OptionValue", "OutOfMemoryError", "Part", "PassInfo", "PassMember", "PassResource", "Place", "Port", "Primitive", "Property",
            "ReadTexels", "RenderError", "Renderable", "Resolver", "Rewriting", "Rewritten", "Scene", "Semantic", "Severity", "Shader", "ShaderInfo", "SlotBinding",
-           "Stack", "Stage", "Storage", "Target", "Tile", "UserInterface", "Value", "Variable", "View", "ZipFiles", "color_difference", "decode_slot", "diagnostic_kinds", "encode_slot",
+           "Stack", "Stage", "Storage", "Target", "Tile", "UserInterface", "Value", "Variable", "View", "ZipFiles", "bake", "color_difference", "decode_slot", "diagnostic_kinds", "encode_slot",
            "equal", "library_version", "option_applies", "options", "pass_resources", "render", "render_picture", "semantics", "targets"]

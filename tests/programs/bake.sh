@@ -55,7 +55,7 @@ cat >wall.mtlx <<'EOF'
 </materialx>
 EOF
 check 'a document is baked' exits 0 "$mxgen" bake wall.mtlx -o flat --size 64 --samples 2
-check 'it says what it did' has err 'of 5 graphs of inputs, 4 are images (4 files) and 1 values'
+check 'it says what it did' has err 'of 5 graphs of inputs of '"'wall.mtlx'"', 4 are images (4 files) and 1 values'
 check 'the new document is flat and valid' eval 'exits 0 "$mxgen" validate flat/wall.mtlx -Werror && ! grep -q "nodegraph\|fractal" flat/wall.mtlx'
 check 'values stay, and constants become values' has flat/wall.mtlx 'name="coat" type="float" value="0.25"' \
     'name="specular_IOR" type="float" value="3.0"' 'name="base" type="float" value="0.75"' '<materialx version="1.39" colorspace="lin_rec709">'

@@ -177,6 +177,20 @@ class Pictures(unittest.TestCase):
         with self.assertRaisesRegex(mxgen.RenderError, "none"):
             mxgen.render(self.gold, "none", program=self.program)
 
+    def test_bake(self):
+        if not self.program.exists():
+            self.skipTest("mxgen-render is not built")
+        with tempfile.TemporaryDirectory() as folder:
+            with self.assertRaisesRegex(mxgen.RenderError, "textures/wood_color.png.*missing-texture"):
+                mxgen.bake(self.gold, folder, program=self.program)
+            marble = mxgen.Context().load(common.EXAMPLES / "marble.mtlx")
+            path = mxgen.bake(marble, folder, marble.renderables[0], options=["--mesh", "plane", "--size", "16"], program=self.program)
+            flat = mxgen.Context().load(path)
+            self.assertEqual([element.category for element in flat if element.category in ("image", "nodegraph")], ["image"])
+            self.assertTrue((pathlib.Path(folder) / "SR_marble_base_color.png").exists())
+            with self.assertRaisesRegex(mxgen.RenderError, "none"):
+                mxgen.bake(marble, folder, "none", program=self.program)
+
     def test_without_the_program(self):
         with self.assertRaisesRegex(mxgen.RenderError, "no-such-program"):
             mxgen.render_picture(self.gold, program="no-such-program")

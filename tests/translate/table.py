@@ -17,7 +17,7 @@ import tempfile
 MODELS = ("gltf_pbr", "open_pbr_surface", "UsdPreviewSurface")
 # the first word that a document has as an element, in this order
 FAMILIES = ("open_pbr_surface", "gltf_pbr", "UsdPreviewSurface", "disney_principled", "standard_surface", "Lama", "surface_unlit", "surface")
-LIMIT = 120 # seconds
+LIMIT = 600 # seconds
 
 
 def run(*arguments):
