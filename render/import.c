@@ -3,6 +3,7 @@
 #include "render/import.h"
 
 #include "program/files.h"
+#include "program/memory.h"
 #include "render/import_files.h"
 
 #include <assimp/cimport.h>
@@ -210,9 +211,10 @@ static void copy_scene(const struct aiScene *scene, struct mesh *out)
     out->num_indices = index;
 }
 
-static bool convert(const struct aiScene *scene, unsigned made, struct mesh *out,
+static bool convert(const struct aiScene *scene, unsigned made, struct scene_object *object,
                     struct mesh_fault *fault)
 {
+    struct mesh *out = &object->mesh;
     uint32_t vertices, indices;
     if (!count(scene, &vertices, &indices))
         return fail(fault, "bad-mesh", "it has too many triangles");
@@ -224,14 +226,22 @@ static bool convert(const struct aiScene *scene, unsigned made, struct mesh *out
     mesh_fit(out);
     if (!(mesh_area(out) > 1e-12))
         return fail(fault, "empty-mesh", "its triangles have no area");
-    return mesh_complete(out, made & ~(unsigned)MESH_NORMALS)
-           || fail(fault, "bad-mesh", "out of memory");
+    uint32_t *origins = NULL;
+    if (made & MESH_TEXCOORDS) { /* mesh_complete gives each corner a vertex of its own */
+        origins = memory_alloc(indices * sizeof *origins);
+        memcpy(origins, out->indices, indices * sizeof *origins);
+    }
+    bool good = mesh_complete(out, made & ~(unsigned)MESH_NORMALS);
+    if (good)
+        import_primvars(scene->mMeshes, scene->mNumMeshes, origins, object);
+    free(origins);
+    return good || fail(fault, "bad-mesh", "out of memory");
 }
 
-bool mesh_import(const mxg_context *context, const char *path, struct mesh *out, unsigned *out_made,
-                 struct mesh_fault *fault)
+bool mesh_import(const mxg_context *context, const char *path, struct scene_object *out,
+                 unsigned *out_made, struct mesh_fault *fault)
 {
-    *out = (struct mesh){0};
+    *out = (struct scene_object){0};
     const struct aiScene *scene = import_read(context, path, false, fault);
     if (!scene)
         return false;
@@ -244,6 +254,6 @@ bool mesh_import(const mxg_context *context, const char *path, struct mesh *out,
     bool good = convert(scene, *out_made, out, fault);
     aiReleaseImport(scene);
     if (!good)
-        mesh_finish(out);
+        object_finish(out);
     return good;
 }

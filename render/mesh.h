@@ -65,16 +65,9 @@ uint32_t *mesh_sorted(const struct mesh *mesh, const double eye[3]);
 const char *const *shape_names(void); /* NULL after the last */
 bool shape_make(const char *name, unsigned detail, struct mesh *out);
 
-/*
- * import.c: reads a file in OBJ, glTF or another format of Assimp. *out_made are the parts that it
- * added. `context` says which files it may refer to. On failure returns false with an id and a
- * reason.
- */
+/* Why a file is no mesh: an id and a reason. */
 struct mesh_fault {
     const char *id;
     char text[256];
 };
-bool mesh_import(const mxg_context *context, const char *path, struct mesh *out, unsigned *out_made,
-                 struct mesh_fault *fault);
-
 #endif

@@ -75,41 +75,6 @@ static struct matrix matrix_of(const struct aiMatrix4x4 *m)
                             {m->a4, m->b4, m->c4, m->d4}}};
 }
 
-/* `origins` has the vertex of the file of each vertex of the object; NULL: its own number. */
-static void add_primvar(struct scene_object *object, const uint32_t *origins, const char *name,
-                        unsigned components, const void *from, size_t stride)
-{
-    struct primvar made = {.name = cli_format("%s", name),
-                           .components = components,
-                           .type = components == 2 ? "float2" : "float4",
-                           .type_len = (int)strlen("float2"),
-                           .num = object->mesh.num_vertices};
-    made.values = memory_alloc(made.num * sizeof *made.values + 1);
-    for (uint32_t i = 0; i < made.num; ++i)
-        memcpy(made.values[i], (const char *)from + (origins ? origins[i] : i) * stride,
-               components * sizeof(float));
-    object->primvars =
-        memory_resize(object->primvars, (object->num_primvars + 1) * sizeof *object->primvars);
-    object->primvars[object->num_primvars++] = made;
-}
-
-/* Colours and texture coordinates, under the names that USD gives them. */
-static void add_primvars(const struct aiMesh *mesh, const uint32_t *origins,
-                         struct scene_object *object)
-{
-    for (unsigned i = 0; i < AI_MAX_NUMBER_OF_TEXTURECOORDS && mesh->mTextureCoords[i]; ++i) {
-        char *name = i ? cli_format("st%u", i) : cli_format("st");
-        add_primvar(object, origins, name, 2, mesh->mTextureCoords[i],
-                    sizeof *mesh->mTextureCoords[i]);
-        free(name);
-    }
-    for (unsigned i = 0; i < AI_MAX_NUMBER_OF_COLOR_SETS && mesh->mColors[i]; ++i) {
-        char *name = i ? cli_format("displayColor%u", i) : cli_format("displayColor");
-        add_primvar(object, origins, name, 4, mesh->mColors[i], sizeof *mesh->mColors[i]);
-        free(name);
-    }
-}
-
 static void add_object(struct importer *in, const struct aiMesh *mesh, const char *path,
                        struct matrix world)
 {
@@ -141,7 +106,7 @@ static void add_object(struct importer *in, const struct aiMesh *mesh, const cha
     object->mesh = made;
     if (!mesh_complete(&object->mesh, missing))
         memory_fail();
-    add_primvars(mesh, origins, object);
+    import_primvars((struct aiMesh *const[]){(struct aiMesh *)(uintptr_t)mesh}, 1, origins, object);
     free(origins);
 }
 

@@ -2,6 +2,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "render/studio.h"
 
+#include "render/import.h"
 #include "render/prefilter.h"
 
 #include <math.h>
@@ -44,13 +45,13 @@ static bool fail(struct studio_fault *fault, const char *id, const char *what, c
     return false;
 }
 
-static bool open_mesh(const struct studio *studio, struct mesh *out, unsigned *out_made,
+static bool open_mesh(const struct studio *studio, struct scene_object *out, unsigned *out_made,
                       struct studio_fault *fault)
 {
     *out_made = 0;
-    *out = (struct mesh){0};
+    *out = (struct scene_object){0};
     if (args_is_one_of(studio->mesh, shape_names()))
-        return shape_make(studio->mesh, 1, out)
+        return shape_make(studio->mesh, 1, &out->mesh)
                || fail(fault, "render-failed", "cannot make", studio->mesh, "out of memory");
     struct mesh_fault mesh_fault;
     if (mesh_import(studio->context, studio->mesh, out, out_made, &mesh_fault))
@@ -126,12 +127,13 @@ bool studio_open_light(const struct studio *studio, struct image map, struct sce
 bool studio_open(const struct studio *studio, double aspect, struct scene *scene,
                  unsigned *out_made, struct studio_fault *fault)
 {
-    struct mesh mesh;
+    struct scene_object object;
     *scene = (struct scene){0};
     *out_made = 0;
-    bool good = open_mesh(studio, &mesh, out_made, fault);
+    bool good = open_mesh(studio, &object, out_made, fault);
     good = good && studio_open_light(studio, (struct image){0}, scene, fault);
-    scene->object.mesh = mesh;
+    scene->object = object;
+    scene->object.world = matrix_identity();
     scene->object.path = studio->mesh;
     scene->object.names_texcoords = true;
     if (good)

@@ -540,4 +540,39 @@ for channel in R=1 G=0.5 B=1.867; do
     check "normals turn with their tile: $channel" near "$(python3 "$exr" hextile.exr ${channel%=*} 0.5 0.5)" ${channel#*=} 0.01
 done
 
+# Further texture coordinates and colours of a file: (0.25, 0.5) and (0.1, 0.2, 0.3) at each corner.
+python3 - <<'X' >sets.gltf
+import base64, json, struct
+corners = [((x, y, 0), (x / 2 + .5, y / 2 + .5), (.25, .5), (.1, .2, .3, 1)) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+parts = [b"".join(struct.pack(f"<{len(v)}f", *v) for v in column) for column in zip(*corners)] + [struct.pack("<6H", 0, 1, 2, 0, 2, 3)]
+kinds = [("VEC3", 5126), ("VEC2", 5126), ("VEC2", 5126), ("VEC4", 5126), ("SCALAR", 5123)]
+accessors = [{"bufferView": i, "componentType": kind, "count": 6 if kind == 5123 else 4, "type": name} for i, (name, kind) in enumerate(kinds)]
+accessors[0].update(min=[-1, -1, 0], max=[1, 1, 0])
+names = {"POSITION": 0, "TEXCOORD_0": 1, "TEXCOORD_1": 2, "COLOR_0": 3}
+uri = "data:application/octet-stream;base64," + base64.b64encode(b"".join(parts)).decode()
+print(json.dumps({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}], "accessors": accessors,
+    "meshes": [{"primitives": [{"attributes": names, "indices": 4}]}], "buffers": [{"byteLength": sum(map(len, parts)), "uri": uri}],
+    "bufferViews": [{"buffer": 0, "byteOffset": sum(map(len, parts[:i])), "byteLength": len(p)} for i, p in enumerate(parts)]}))
+X
+cat >sets.mtlx <<'X'
+<?xml version="1.0"?>
+<materialx version="1.39">
+  <texcoord name="uv" type="vector2"><input name="index" type="integer" value="1"/></texcoord>
+  <geompropvalue name="st" type="vector2"><input name="geomprop" type="string" value="st1"/></geompropvalue>
+  <geomcolor name="color" type="color3"/>
+  <extract name="u" type="float"><input name="in" type="vector2" nodename="uv"/></extract>
+  <extract name="v" type="float"><input name="in" type="vector2" nodename="st"/><input name="index" type="integer" value="1"/></extract>
+  <extract name="b" type="float"><input name="in" type="color3" nodename="color"/><input name="index" type="integer" value="2"/></extract>
+  <combine3 name="all" type="color3">
+    <input name="in1" type="float" nodename="u"/><input name="in2" type="float" nodename="v"/><input name="in3" type="float" nodename="b"/>
+  </combine3>
+  <surface_unlit name="M" type="surfaceshader"><input name="emission_color" type="color3" nodename="all"/></surface_unlit>
+</materialx>
+X
+check 'a file with several sets is drawn' exits 0 "$render" sets.mtlx -e M -m sets.gltf --camera 0,0 --size 8 -o sets.exr
+check 'nothing is missing' test -z "$(grep missing-primvar err)"
+for channel in R=0.25 G=0.5 B=0.3; do
+    check "sets of coordinates and colours are read: $channel" near "$(python3 "$exr" sets.exr ${channel%=*} 0.5 0.5)" ${channel#*=} 0.001
+done
+
 finish render
