@@ -338,8 +338,10 @@ static str_id convert_shader_ref(struct upgrade *u, elem_id shader_ref, elem_id 
     elem_id nodedef = shader_definition(u, shader_ref);
     str_id category = shader_category(u, shader_ref, nodedef),
            type = nodedef ? nodedef_type(doc, nodedef) : STR_EMPTY;
-    if (!category)
+    if (!doc_is_name(str_text(doc->strings, category))) {
+        upgrade_note(u, shader_ref, "<shaderref> names no shader, and is left out");
         return 0;
+    }
     str_id name =
         upgrade_free_name(u, u->root, str_text(doc->strings, doc_element(doc, shader_ref)->name));
     doc_move_before(doc, shader_ref, material);

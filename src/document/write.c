@@ -113,9 +113,11 @@ static void write_start_tag(const struct document *doc, elem_id element, uint32_
     if (e->name)
         write_attr(doc, STR_name, e->name, out);
     const struct attribute *attrs = doc_attrs(doc, element);
+    bool declares_xi = element == doc->root && has_includes(doc, element);
     for (uint32_t i = 0; i < e->num_attrs; i++)
-        write_attr(doc, attrs[i].name, attrs[i].value, out);
-    if (element == doc->root && has_includes(doc, element))
+        if (!declares_xi || strcmp(str_text(doc->strings, attrs[i].name), "xmlns:xi") != 0)
+            write_attr(doc, attrs[i].name, attrs[i].value, out);
+    if (declares_xi)
         text_str(out, " xmlns:xi=\"http://www.w3.org/2001/XInclude\"");
     if (has_content(doc, element)) {
         text_str(out, ">\n");

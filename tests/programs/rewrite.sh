@@ -49,6 +49,10 @@ check 'the upgraded document gives the same shader' cmp from_old/M.frag from_new
 check 'a second upgrade changes nothing' exits 0 "$mxgen" upgrade new.mtlx --check
 check '--verbose notes the changes' eval '"$mxgen" upgrade old.mtlx --verbose 2>&1 >/dev/null | grep -q upgraded'
 
+# The prefix of includes is declared once, whatever the document says of it.
+echo '<materialx version="1.39" xmlns:xi="ours"><xi:include href="new.mtlx"/></materialx>' >prefix.mtlx
+check 'a document with a prefix of its own is formatted' exits 0 "$mxgen" format prefix.mtlx --in-place
+check 'and has the prefix once' exits 0 "$mxgen" format prefix.mtlx --check
 check '--check fails for a document that would change' exits 1 "$mxgen" format old.mtlx new.mtlx --check
 check 'the error names the document that would change' grep -q "'old.mtlx' would change \[would-change\]" err
 check 'the error names no other document' eval '! grep -q new.mtlx err'
