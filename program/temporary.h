@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Files that have no final name yet. If SIGINT, SIGTERM or SIGHUP ends the program, it removes them
- * first.
+ * Files that have no final name yet. If a signal that a user, a terminal, a closed pipe or a limit
+ * of file sizes sends ends the program, it removes them first.
  */
 #ifndef MXG_PROGRAM_TEMPORARY_H
 #define MXG_PROGRAM_TEMPORARY_H

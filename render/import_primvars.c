@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Colours and texture coordinates of meshes that Assimp reads, under the names that USD gives them. */
+/* Colours and texture coordinates of meshes that Assimp reads, under the names that USD gives them.
+ */
 #include "render/import.h"
 
 #include "program/cli.h"

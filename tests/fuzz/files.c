@@ -69,3 +69,33 @@ mxg_context *fuzz_files_context(struct fuzz_files *files, struct fuzz_heap *heap
     desc.resolver = &resolver;
     return mxg_context_create(&desc, &context) == MXG_OK ? context : NULL;
 }
+
+bool fuzz_is_expected(mxg_status status)
+{
+    return status == MXG_OK || status == MXG_ERROR_DOCUMENT || status == MXG_ERROR_MEMORY;
+}
+
+void fuzz_files_open(const char *data, size_t size, struct fuzz_heap *heap, bool trust,
+                     void (*work)(const struct fuzz_document *opened, unsigned choice))
+{
+    struct fuzz_files files;
+    fuzz_files_split(&files, data, size);
+    mxg_context_desc limits = {.max_memory = (size_t)256 << 20,
+                               .max_elements = 20000,
+                               .max_nodes = 50000,
+                               .max_output_mib = 4,
+                               .trust = trust};
+    mxg_context *context = fuzz_files_context(&files, heap, limits);
+    mxg_document *document = NULL;
+    if (!context)
+        return;
+    mxg_library *library = mxg_library_builtin(context);
+    FUZZ_REQUIRE(fuzz_is_expected(mxg_document_load(context, library, "main.mtlx", &document)));
+    if (document)
+        work(&(struct fuzz_document){context, library, document, &files},
+             fuzz_choice(data, size, 4096));
+    mxg_document_destroy(document);
+    mxg_library_unref(library);
+    mxg_context_destroy(context);
+    FUZZ_REQUIRE(files.num_open == 0);
+}

@@ -21,11 +21,6 @@ static const struct {
              {"pack", "slabs", "true"},    {"function", NULL, NULL}};
 enum { NUM_TARGETS = sizeof targets / sizeof *targets, NUM_ROLES = sizeof roles / sizeof *roles };
 
-static bool is_expected(mxg_status status)
-{
-    return status == MXG_OK || status == MXG_ERROR_DOCUMENT || status == MXG_ERROR_MEMORY;
-}
-
 static void format_all(const mxg_diagnostics *list, const struct fuzz_files *files)
 {
     char text[512];
@@ -39,7 +34,7 @@ static void generate(mxg_context *context, const mxg_document *document,
 {
     mxg_result *result = NULL;
     mxg_status status = mxg_generate(context, document, desc, &result);
-    FUZZ_REQUIRE(is_expected(status));
+    FUZZ_REQUIRE(fuzz_is_expected(status));
     FUZZ_REQUIRE((status == MXG_OK) == (mxg_result_source(result, MXG_STAGE_PIXEL, NULL) != NULL));
     format_all(mxg_result_diagnostics(result), files);
     mxg_result_reflection_json(result, NULL);
@@ -53,9 +48,12 @@ static void set_role(mxg_options *options, unsigned which)
         mxg_options_set(options, roles[which].option, roles[which].value);
 }
 
-static void use(mxg_context *context, const mxg_document *document, const struct fuzz_files *files,
-                unsigned choice)
+static void use(const struct fuzz_document *opened, unsigned choice)
 {
+    mxg_context *context = opened->context;
+    const mxg_document *document = opened->document;
+    const struct fuzz_files *files = opened->files;
+    format_all(mxg_document_diagnostics(document), files);
     mxg_options *options = NULL;
     mxg_result *result = NULL;
     if (mxg_options_create(context, &options) == MXG_OK)
@@ -66,7 +64,7 @@ static void use(mxg_context *context, const mxg_document *document, const struct
         mxg_options_set(options, "osl-network", "true");
     if (options && !has_closures && choice % 2)
         set_role(options, choice / 2 % NUM_ROLES);
-    FUZZ_REQUIRE(is_expected(mxg_validate(context, document, &result)));
+    FUZZ_REQUIRE(fuzz_is_expected(mxg_validate(context, document, &result)));
     format_all(mxg_result_diagnostics(result), files);
     mxg_result_destroy(result);
     mxg_generate_desc desc = {sizeof desc, target, NULL, options};
@@ -76,33 +74,13 @@ static void use(mxg_context *context, const mxg_document *document, const struct
         desc.element = renderable.path;
         generate(context, document, &desc, files);
     }
-    FUZZ_REQUIRE(
-        is_expected(mxg_inspect(context, document, (mxg_view)(choice / 512 % 6), &desc, &result)));
+    FUZZ_REQUIRE(fuzz_is_expected(
+        mxg_inspect(context, document, (mxg_view)(choice / 512 % 6), &desc, &result)));
     mxg_result_destroy(result);
     mxg_options_destroy(options);
 }
 
 void fuzz_run(const char *data, size_t size, struct fuzz_heap *heap)
 {
-    struct fuzz_files files;
-    fuzz_files_split(&files, data, size);
-    mxg_context_desc limits = {.max_memory = (size_t)256 << 20,
-                               .max_elements = 20000,
-                               .max_nodes = 50000,
-                               .max_output_mib = 4,
-                               .trust = fuzz_choice(data, size, 2) != 0};
-    mxg_context *context = fuzz_files_context(&files, heap, limits);
-    mxg_document *document = NULL;
-    if (!context)
-        return;
-    mxg_library *library = mxg_library_builtin(context);
-    FUZZ_REQUIRE(is_expected(mxg_document_load(context, library, "main.mtlx", &document)));
-    if (document) {
-        format_all(mxg_document_diagnostics(document), &files);
-        use(context, document, &files, fuzz_choice(data, size, 4096));
-    }
-    mxg_document_destroy(document);
-    mxg_library_unref(library);
-    mxg_context_destroy(context);
-    FUZZ_REQUIRE(files.num_open == 0);
+    fuzz_files_open(data, size, heap, fuzz_choice(data, size, 2) != 0, use);
 }

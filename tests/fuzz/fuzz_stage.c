@@ -17,11 +17,6 @@ static const char look[] =
     "<materialassign name='b' slot='050' material='A' collection='C'/>"
     "<materialassign name='c' slot='000::x' nodegraph='NG' geom='//*'/></look></materialx>";
 
-static bool is_expected(mxg_status status)
-{
-    return status == MXG_OK || status == MXG_ERROR_DOCUMENT || status == MXG_ERROR_MEMORY;
-}
-
 struct sink {
     char *text;
     size_t len;
@@ -47,7 +42,7 @@ static void read_again(mxg_context *context, struct fuzz_files *files, const str
     files->items[0].size = usda->len;
     snprintf(files->items[0].name, sizeof files->items[0].name, "again.usda");
     mxg_status status = mxg_scene_load(context, "again.usda", NULL, &scene);
-    FUZZ_REQUIRE(is_expected(status));
+    FUZZ_REQUIRE(fuzz_is_expected(status));
     const mxg_diagnostics *list = mxg_scene_diagnostics(scene);
     mxg_diagnostic item = {sizeof item};
     for (uint32_t i = 0; i < mxg_diagnostics_num_items(list); i++) {
@@ -87,7 +82,7 @@ static void write_all(mxg_context *context, struct fuzz_files *files, const mxg_
         struct sink other = {0};
         struct sink *sink = format == MXG_BINDINGS_USDA ? &usda : &other;
         mxg_status status = mxg_bindings_write(bindings, (mxg_bindings_format)format, append, sink);
-        FUZZ_REQUIRE(is_expected(status) || status == MXG_ERROR_ARGUMENT);
+        FUZZ_REQUIRE(fuzz_is_expected(status) || status == MXG_ERROR_ARGUMENT);
         if (sink == &usda && status != MXG_ERROR_MEMORY && usda.len)
             read_again(context, files, &usda);
         free(other.text);
@@ -104,7 +99,7 @@ static void bind(mxg_context *context, struct fuzz_files *files, const mxg_docum
                  mxg_scene *scene)
 {
     mxg_bindings *bindings = NULL;
-    FUZZ_REQUIRE(is_expected(mxg_bindings_create(context, document, scene, NULL, &bindings)));
+    FUZZ_REQUIRE(fuzz_is_expected(mxg_bindings_create(context, document, scene, NULL, &bindings)));
     if (bindings)
         write_all(context, files, bindings);
     mxg_bindings_destroy(bindings);
@@ -141,12 +136,13 @@ void fuzz_run(const char *data, size_t size, struct fuzz_heap *heap)
     if (!context)
         return;
     mxg_library *library = mxg_library_builtin(context);
-    FUZZ_REQUIRE(is_expected(
+    FUZZ_REQUIRE(fuzz_is_expected(
         mxg_document_parse(context, library, "look.mtlx", look, sizeof look - 1, &own)));
-    FUZZ_REQUIRE(is_expected(
+    FUZZ_REQUIRE(fuzz_is_expected(
         mxg_scene_load(context, files.items[0].name, choice % 2 ? "full" : NULL, &scene)));
     if (own && scene)
-        FUZZ_REQUIRE(is_expected(mxg_document_import(context, library, own, scene, &document)));
+        FUZZ_REQUIRE(
+            fuzz_is_expected(mxg_document_import(context, library, own, scene, &document)));
     if (document)
         use(context, &files, document, scene, choice);
     mxg_document_destroy(document);

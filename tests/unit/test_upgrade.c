@@ -197,8 +197,7 @@ static void test_closures(void)
                     "<dielectric_bsdf name=\"b\" type=\"BSDF\">\n  <input name=\"scatter_mode\" "
                     "type=\"string\" value=\"T\"/>\n</dielectric_bsdf>\n");
     /* the name of a shader must be one of an element */
-    require_upgrade("1.37",
-                    "<material name=\"M\"><shaderref name=\"S\" node=\"10\"/></material>",
+    require_upgrade("1.37", "<material name=\"M\"><shaderref name=\"S\" node=\"10\"/></material>",
                     "<surfacematerial name=\"M\" type=\"material\"/>\n");
     require_upgrade("1.37",
                     "<conductor_brdf name=\"a\" type=\"BSDF\"><input name=\"reflectivity\" "
