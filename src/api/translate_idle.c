@@ -2,9 +2,12 @@
 /*
  * Inputs that do nothing: the new surface is built with one input after the other as a uniform. An
  * input whose uniform the surface does not read goes, before the next one is tried, because two
- * inputs may each be idle only beside the other.
+ * inputs may each be idle only beside the other. One that the nodegraph of the model never reads
+ * stays: it is for renderers that know more of the model, as the volume of glTF is.
  */
 #include "api/translate.h"
+
+#include "api/edit.h"
 
 /* The draft's node of the new surface. */
 static const char *node_name(const struct translation *t)
@@ -63,6 +66,26 @@ static bool reads(struct translation *t, uint32_t index)
                                    uniforms(t, index));
 }
 
+/* True for 0 at an input without a default, such as a distance that is endless. */
+static bool says_nothing(const struct translated_input *input)
+{
+    const struct operand zero = value_zero(input->value.type);
+    return !*input->port.value && input->value.kind == OPERAND_CONSTANT
+           && ir_value_equal(&input->value.value, &zero.value);
+}
+
+/* True if a nodegraph implements the model, and does not read the input at all. */
+static bool is_for_others(const struct translation *t, const struct translated_input *input)
+{
+    const struct library *lib = &t->document->layer;
+    elem_id graph = says_nothing(input) ? 0 : edit_find_graph(lib, t->definition);
+    str_id name = str_find(lib->doc.strings, input->port.name, strlen(input->port.name));
+    bool is_read = !graph;
+    for (elem_id e = graph; e && !is_read; e = doc_next_in_tree(&lib->doc, graph, e))
+        is_read = doc_attr_value(&lib->doc, e, STR_interfacename) == name;
+    return !is_read;
+}
+
 static void drop(struct translation *t, struct translated_input *input)
 {
     input->is_set = false;
@@ -78,7 +101,8 @@ void translate_drop_idle(struct translation *t)
     add_surface(t);
     for (uint32_t i = 0; i < t->inputs.len; i++) {
         struct translated_input *input = &t->inputs.items[i];
-        if (input->is_set && !*input->port.defaultgeomprop && !reads(t, i))
+        if (input->is_set && !*input->port.defaultgeomprop && !is_for_others(t, input)
+            && !reads(t, i))
             drop(t, input);
     }
 }

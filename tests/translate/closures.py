@@ -86,6 +86,9 @@ def test_matter():
     root, _ = translate(node("dielectric_bsdf", "glass", "BSDF", port("scatter_mode", "string", "RT")) + volume + layer("top", "glass", "inside", "VDF"))
     check(near(number(root, "transmission_color"), math.exp(-0.75), math.exp(-1), 1) and near(number(root, "transmission_depth"), 1), "what is inside of glass takes its light by Beer and Lambert")
     check(near(number(root, "transmission_scatter"), 0.25, 0, 0), "and scatters it")
+    root, _ = translate(node("dielectric_bsdf", "glass", "BSDF", port("scatter_mode", "string", "RT")) + volume + layer("top", "glass", "inside", "VDF"), "gltf_pbr")
+    check(near(number(root, "attenuation_color"), math.exp(-0.75), math.exp(-1), 1) and near(number(root, "attenuation_distance"), 1) and near(number(root, "thickness"), 1),
+          "the volume of glTF, which MaterialX does not draw, stays")
     clear = node("dielectric_bsdf", "clear", "BSDF", port("ior", "float", "1.4"), port("roughness", "vector2", "0.01, 0.01"))
     plastic = RED + GLOSS + layer("plastic", "gloss", "red")
     root, said = translate(plastic + clear + layer("top", "clear", "plastic"))

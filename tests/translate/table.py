@@ -75,17 +75,24 @@ def draw(path, model, out, row):
 
 
 def spread(numbers):
-    return f"{statistics.median(numbers):.2g} / {max(numbers):.3g}" if numbers else "–"
+    return f"{statistics.median(numbers):.3g} / {max(numbers):.3g}" if numbers else "–"
+
+
+def cell(row, is_itself):
+    """How many have losses told, and the drawn errors."""
+    drawn = f"; {spread(row.drawn)}" if row.drawn else ""
+    return "–" if is_itself else f"{row.lossy}{drawn}"
 
 
 def print_tables(rows, reasons):
-    print("| source | model | documents | losses told | failed | estimated | drawn |")
-    print("| --- | --- | --- | --- | --- | --- | --- |")
-    for (family, model), row in rows.items():
-        drawn = f"{spread(row.drawn)} of {len(row.drawn)}" if row.drawn else "–"
-        print(f"| {family} | {model} | {row.translated} | {row.lossy} | {row.failed} | {spread(row.estimated)} | {drawn} |")
+    print(f"| source | documents | failed | estimated | {' | '.join(MODELS)} |\n| --- | --- | --- | --- |{' --- |' * len(MODELS)}")
+    for family in dict.fromkeys(family for family, _ in rows):
+        of_models = [rows[family, model] for model in MODELS]
+        cells = [cell(row, family == model) for row, model in zip(of_models, MODELS)]
+        first = of_models[0]
+        print(f"| {family} | {first.translated + first.failed} | {max(row.failed for row in of_models)} | {spread(first.estimated)} | {' | '.join(cells)} |")
     print("\n| reason | documents |\n| --- | --- |")
-    for reason, documents in sorted(reasons.items(), key=lambda item: -len(item[1])):
+    for reason, documents in sorted(reasons.items(), key=lambda item: (-len(item[1]), item[0])):
         print(f"| {reason} | {len(documents)} |")
 
 

@@ -146,7 +146,7 @@ def test_graphs():
     check(root.find(".//multiply/input[@name='in2']").get("value") == "1.0, 1.0, 2.0", "the scale is part of the product")
     _, said, _ = translate(text.replace("normalmap", "normalize"), "UsdPreviewSurface", "a normal of the world")
     check("'normal' of <standard_surface>" in said and "[translation-loss]" in said, "a normal of the world is told")
-    idle = text.split("<standard_surface")[0] + '<standard_surface name="S" type="surfaceshader"><input name="transmission_dispersion" type="float" nodegraph="G" output="number"/></standard_surface>'
+    idle = text.split("<standard_surface")[0] + '<standard_surface name="S" type="surfaceshader"><input name="coat_roughness" type="float" nodegraph="G" output="number"/></standard_surface>'
     root, _, _ = translate(idle, "gltf_pbr", "an idle texture")
     check([g.get("name") for g in root.findall("nodegraph")] == ["G"], "a graph that nothing reads is not written")
     # a surface inside of a graph
