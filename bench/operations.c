@@ -233,7 +233,11 @@ static uint32_t weight_of(struct pass *pass, uint32_t op, const uint32_t *words)
 {
     bool moves_nothing = op == OP_LABEL || op == OP_VARIABLE || op == OP_LINE || op == OP_NO_LINE
                          || op == OP_LOOP_MERGE || op == OP_SELECTION_MERGE;
-    return pass->what == COUNT_OPERATIONS ? size_of(pass, op, words) : !moves_nothing;
+    switch (pass->what) {
+    case COUNT_OPERATIONS: return size_of(pass, op, words);
+    case COUNT_READS: return op >= OP_IMAGE_SAMPLE && op <= OP_IMAGE_READ;
+    default: return !moves_nothing;
+    }
 }
 
 static uint32_t load_counter(struct pass *pass)

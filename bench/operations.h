@@ -7,8 +7,9 @@
 #include <stdint.h>
 
 enum count_of {
-    COUNT_OPERATIONS,  /* scalar ones: arithmetic, comparisons, functions, samples, branches */
-    COUNT_INSTRUCTIONS /* all of SPIR-V's, with the loads and stores that drivers remove */
+    COUNT_OPERATIONS,   /* scalar ones: arithmetic, comparisons, functions, samples, branches */
+    COUNT_INSTRUCTIONS, /* all of SPIR-V's, with the loads and stores that drivers remove */
+    COUNT_READS         /* of textures */
 };
 
 /*

@@ -11,8 +11,8 @@
  * operations: what the shaders do, counted by themselves (operations.h), means over the pixels.
  */
 #define _POSIX_C_SOURCE 200809L
+#include "bench/counted.h"
 #include "bench/drawn.h"
-#include "bench/operations.h"
 #include "render/render.h"
 
 #include <mxgen/mxgen.h>
@@ -156,22 +156,6 @@ static void measure_pixels(struct bench *b)
 
 /* ---- Operations ---- */
 
-static void instrument(struct bench *b, struct drawn *drawn, enum count_of what)
-{
-    struct compiled_stage *stage = &drawn->render.compiled.stages[MXG_STAGE_PIXEL];
-    size_t num_words = 0;
-    uint32_t *words = operations_instrument(stage->words, stage->num_words, what, &num_words);
-    if (!words)
-        bench_fail("the shader cannot be instrumented");
-    draw_close(drawn->render.program);
-    drawn->bind.draw.code[MXG_STAGE_PIXEL] = words;
-    drawn->bind.draw.code_words[MXG_STAGE_PIXEL] = num_words;
-    drawn->render.program = draw_open(b->canvas, &drawn->bind.draw);
-    if (!drawn->render.program)
-        bench_fail("an instrumented shader does not open: %s", b->gpu.reason);
-    free(words);
-}
-
 /* The mean over the pixels; with one number for all of them, over the rounds, too. */
 static double mean_count(struct bench *b, uint32_t look, enum mode mode)
 {
@@ -188,8 +172,8 @@ static double mean_count(struct bench *b, uint32_t look, enum mode mode)
 static void measure_operations(struct bench *b, enum count_of what, const char *unit)
 {
     for (uint32_t look = 0; look < b->num_looks; ++look) {
-        instrument(b, &b->blended[look], what);
-        instrument(b, &b->picked[look], what);
+        counted_instead(&b->blended[look].render, b->canvas, what);
+        counted_instead(&b->picked[look].render, b->canvas, what);
     }
     double one = mean_count(b, 0, MODE_BLEND);
     print_head(unit);

@@ -33,7 +33,7 @@ static const struct {
     {"as-drawn", FACT_TRACED, "it needs --path-trace"},
     {"samples", FACT_SAMPLED,
      "only a raster with --environment importance samples the environment"},
-    {"sample-filter", FACT_SAMPLED,
+    {"quality", FACT_SAMPLED,
      "only a raster with --environment importance samples the environment"},
     {"element", FACT_NO_STAGE, "the look selects the materials of a stage"},
     {"element", FACT_NO_LOOK, "--look selects the elements"},

@@ -196,8 +196,8 @@ static bool parse(struct job *job)
     if (!args_is_given(&job->cli.parser, "texture-modes"))
         mxg_options_set(job->cli.options, "texture-modes", "shared");
     /* there is no picture of MaterialX to match */
-    if (!job->options.path_trace && !args_is_given(&job->cli.parser, "sample-filter"))
-        mxg_options_set(job->cli.options, "sample-filter", "narrow");
+    if (!job->options.path_trace && !args_is_given(&job->cli.parser, "quality"))
+        mxg_options_set(job->cli.options, "quality", "reference");
     if (job->options.path_trace) {
         mxg_options_set(job->cli.options, "role", "scatter");
         job->painter.trace.paths = (uint32_t)job->options.paths;

@@ -3,7 +3,7 @@
 
 import { DocumentError } from "../js/mxgen/mxgen.js";
 
-const OPTIONS = { "sample-filter": "narrow" }; // as in `mxgen render`
+const OPTIONS = { quality: "reference" }; // as in `mxgen render`
 export const REDUCED = { options: { interface: "reduced" } };
 
 /** Plain data of a shader, from which the page draws it. */

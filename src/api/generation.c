@@ -92,7 +92,7 @@ static void set_build_options(struct generation *g)
         .environment = hosts_environment ? 1 : o[OPTION_environment].number,
         .host_environment = hosts_environment,
         .albedo = o[OPTION_albedo].number,
-        .sample_filter = o[OPTION_sample_filter].number,
+        .quality = o[OPTION_quality].number,
         .texture_origin = o[OPTION_texture_origin].number,
         .texture_modes =
             caps & CAP_SAMPLERS ? o[OPTION_texture_modes].number : TEXTURE_MODES_BUT_BORDERS,

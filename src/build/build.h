@@ -41,7 +41,7 @@ struct build_options {
     int environment;    /* values of option_environment… */
     bool host_environment;
     int albedo;
-    int sample_filter;
+    int quality;
     int texture_modes;
     int texture_origin;               /* 1: v is 0 at the top of images */
     bool tiles;                       /* images with tiles are texture arrays */

@@ -183,6 +183,7 @@ struct closure_part {
     uint32_t order; /* of the leaf among those of the surface */
     ir_ref scalar;  /* if 0, the leaf is skipped */
     ir_ref value;
+    ir_ref count;    /* of a value per sample: the number of samples that bring light */
     bool is_guarded; /* needs a branch around the leaf */
 };
 
@@ -236,8 +237,12 @@ void closure_enter_loop(struct closure_copies *c, uint32_t loop);
 ir_ref closure_in_loop(struct closure_copies *c, ir_ref root);
 /* A value of a sample where the choice is true, or false: always the same for one `c`. */
 ir_ref closure_chosen(struct closure_copies *c, ir_ref root, ir_ref choice, bool is_true);
+/* The value of the first sample. */
+ir_ref closure_at_first_sample(struct closure_copies *c, ir_ref root);
 /* True if the value reads the turn of the sample, unless an earlier value of `c` told that. */
 bool closure_reads_turn(struct closure_copies *c, ir_ref root);
+/* A condition `index of the sample < count` that chooses in the value; 0: there is none. */
+ir_ref closure_last_sample(struct closure_copies *c, ir_ref root);
 
 /* samples.c: the loops over the samples of the environment, in the order of their first parts. */
 struct closure_sample_loop {
@@ -250,12 +255,19 @@ struct closure_sample_loops {
 void closure_find_sample_loops(struct shader *shader, const struct closure_parts *list,
                                struct closure_sample_loops *out);
 /*
+ * The number of samples that a value per sample is to be added up for. Where the value is
+ * `index < count ? x : 0`, it becomes x, and the value of the first sample where that is the only
+ * one: a value without samples. Other values are added up for all samples.
+ */
+ir_ref closure_num_samples(struct shader *shader, ir_ref *value);
+/*
  * The turn of samples, a unit vector: the golden angle further around from sample to sample. 0: the
- * parts do not read it.
+ * parts do not read it. `first` is of the first sample.
  */
 struct closure_turn {
     ir_ref first, next;
 };
+ir_ref closure_first_turn(struct ir_graph *graph);
 struct closure_turn closure_turn_of_samples(struct shader *shader,
                                             const struct closure_parts *list);
 /* The sum of a value over all samples, for code that does more than add it up: adds effects. */

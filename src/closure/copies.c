@@ -110,6 +110,22 @@ ir_ref closure_chosen(struct closure_copies *c, ir_ref root, ir_ref choice, bool
     return copy_of(c, root);
 }
 
+ir_ref closure_at_first_sample(struct closure_copies *c, ir_ref root)
+{
+    struct ir_graph *g = c->shader->graph;
+    for (ir_ref ref = open_needed(c, root); ref <= root; ref++) {
+        if (c->became.items[ref] != OPEN)
+            continue;
+        const struct ir_node *node = ir_get(g, ref);
+        if (node->op != IR_SAMPLE)
+            c->became.items[ref] = closure_over_copies(c, ref, 0);
+        else
+            c->became.items[ref] =
+                node->attr == IR_SAMPLE_TURN ? closure_first_turn(g) : ir_const_int(g, 0);
+    }
+    return copy_of(c, root);
+}
+
 bool closure_reads_turn(struct closure_copies *c, ir_ref root)
 {
     bool any = false;
@@ -121,4 +137,23 @@ bool closure_reads_turn(struct closure_copies *c, ir_ref root)
         c->became.items[ref] = ref;
     }
     return any;
+}
+
+ir_ref closure_last_sample(struct closure_copies *c, ir_ref root)
+{
+    const struct ir_graph *g = c->shader->graph;
+    ir_ref found = 0;
+    for (ir_ref ref = open_needed(c, root); ref <= root; ref++) {
+        if (c->became.items[ref] != OPEN)
+            continue;
+        c->became.items[ref] = ref;
+        ir_ref condition = ir_get(g, ref)->op == IR_SELECT ? ir_arg(g, ref, 0) : 0;
+        if (!condition || ir_get(g, condition)->op != IR_LT)
+            continue;
+        const struct ir_node *index = ir_get(g, ir_arg(g, condition, 0)),
+                             *count = ir_get(g, ir_arg(g, condition, 1));
+        if (index->op == IR_SAMPLE && !(count->flags & IR_NODE_LOOP))
+            found = condition;
+    }
+    return found;
 }

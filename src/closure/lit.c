@@ -65,14 +65,18 @@ void emitter_declare_color(struct emitter *e)
                                : ir_const_splat(e->graph, IR_TYPE_VEC3, 0.0f));
 }
 
+/* count: of a value per sample. */
 static void add_part(struct emitter *e, enum closure_place place, const struct closure_list *list,
-                     uint32_t order, ir_ref value)
+                     uint32_t order, ir_ref value, ir_ref count)
 {
     const struct closure_leaf *leaf = &list->leaves.items[order];
     if (value)
         vec_push(e->shader->arena, &e->lit.at[place].parts,
-                 (struct closure_part){
-                     .leaf = leaf->leaf, .order = order, .scalar = leaf->scalar, .value = value});
+                 (struct closure_part){.leaf = leaf->leaf,
+                                       .order = order,
+                                       .scalar = leaf->scalar,
+                                       .value = value,
+                                       .count = count});
 }
 
 static void accumulate(struct emitter *e, ir_ref factor, ir_ref value)
@@ -232,22 +236,14 @@ static void find_lit_parts(struct emitter *e, ir_ref bsdf, const struct closure_
         ir_ref value = weighted(
             e, leaf,
             closure_call(e->shader, e->host, leaf->leaf, LEAF_EVAL, &e->lit.light.direction), way);
-        add_part(e, PLACE_LIGHT, list, i, value);
+        add_part(e, PLACE_LIGHT, list, i, value, 0);
         emitted[i] |= value != 0;
     }
 }
 
-/* A value that only the first sample brings needs no loop. */
-static ir_ref out_of_loop(struct emitter *e, ir_ref value)
+static bool is_per_sample(const struct emitter *e, ir_ref value)
 {
-    struct ir_graph *g = e->graph;
-    if (!value || !(ir_get(g, value)->flags & IR_NODE_LOOP))
-        return value;
-    struct closure_copies later = {.shader = e->shader}, first = later;
-    ir_ref index = ir_build(g, IR_SAMPLE, IR_TYPE_INT, IR_SAMPLE_INDEX, NULL, 0);
-    ir_ref is_first = ir_op2(g, IR_EQ, index, ir_const_int(g, 0));
-    bool is_rest_black = ir_const_is(g, closure_chosen(&later, value, is_first, false), 0.0f);
-    return is_rest_black ? closure_chosen(&first, value, is_first, true) : value;
+    return value && ir_get(e->graph, value)->flags & IR_NODE_LOOP;
 }
 
 static bool add_surrounding_part(struct emitter *e, const struct closure_list *list, uint32_t order,
@@ -255,9 +251,9 @@ static bool add_surrounding_part(struct emitter *e, const struct closure_list *l
 {
     const struct closure_leaf *leaf = &list->leaves.items[order];
     ir_ref way = value && leaf->decay ? closure_environment_way(e->shader, e->host, leaf->leaf) : 0;
-    value = weighted(e, leaf, out_of_loop(e, value), way);
-    bool is_sampled = value && ir_get(e->graph, value)->flags & IR_NODE_LOOP;
-    add_part(e, is_sampled ? PLACE_SAMPLE : PLACE_WHOLE, list, order, value);
+    ir_ref count = is_per_sample(e, value) ? closure_num_samples(e->shader, &value) : 0;
+    value = weighted(e, leaf, value, way);
+    add_part(e, is_per_sample(e, value) ? PLACE_SAMPLE : PLACE_WHOLE, list, order, value, count);
     return value != 0;
 }
 
@@ -344,7 +340,9 @@ static void loop_lights(struct emitter *e, struct closure_parts *lit, bool is_on
 static void loop_samples(struct emitter *e, struct closure_parts *list, ir_ref factor)
 {
     struct closure_turn turn = closure_turn_of_samples(e->shader, list);
-    emitter_effect(e, EFFECT_SAMPLES, 0, turn.first);
+    if (turn.first)
+        emitter_effect(e, EFFECT_TURN, 0, turn.first);
+    emitter_effect(e, EFFECT_SAMPLES, 0, list->parts.items[0].count);
     closure_enter_loop(&e->copies, e->shader->effects.num_sample_loops++);
     if (list->parts.len == 1)
         accumulate(e, factor, list->parts.items[0].value);

@@ -16,12 +16,8 @@ static void mark_read(struct shader *shader, uint32_t variable, enum shader_stag
 static void complete_loops(struct shader *shader, enum shader_stage_id id)
 {
     struct shader_stage *stage = &shader->stages[id];
-    for (uint32_t i = 0; i < stage->effects.len; i++) {
+    for (uint32_t i = 0; i < stage->effects.len; i++)
         stage->has_lights |= stage->effects.items[i].kind == EFFECT_LIGHTS;
-        if (stage->effects.items[i].kind == EFFECT_SAMPLES)
-            mark_read(shader,
-                      shader_private_uniform(shader, STR_u_envRadianceSamples, IR_TYPE_INT, 0), id);
-    }
     if (!stage->has_lights || shader->lights != LIGHTS_IN_SHADER)
         return;
     mark_read(shader, shader_private_uniform(shader, STR_u_numActiveLightSources, IR_TYPE_INT, 0),

@@ -434,8 +434,9 @@ static void write_loop_part(struct spell *spell, const struct effect *effect, ch
         lang_put_phrase(spell->style->phrases[lights ? PHRASE_DECREMENT : PHRASE_INCREMENT],
                         spell_word(i), spell->out);
     } else if (part == '1') {
-        SPELL(spell, i.text, lights ? " >= 0" : " < ",
-              lights ? "" : private_name(spell, STR_u_envRadianceSamples));
+        SPELL(spell, i.text, lights ? " >= 0" : " < ");
+        if (!lights)
+            spell_expression(spell, effect->value, LANG_PREC_SHIFT);
     } else {
         spell_variable(spell, PHRASE_LOCAL, IR_TYPE_INT, i);
         spell_text(spell, " = ");
@@ -448,8 +449,6 @@ static void write_loop_part(struct spell *spell, const struct effect *effect, ch
 
 static void write_loop(struct spell *spell, unsigned indent, const struct effect *effect)
 {
-    if (effect->value)
-        write_first_turn(spell, indent, effect->value);
     if (!spell->loop_index)
         spell->loop_index = names_unique(&spell->names, "i", 1).text;
     if (effect->kind == EFFECT_LIGHTS)
@@ -556,6 +555,7 @@ static void write_effect(struct spell *spell, unsigned indent, const struct effe
     case EFFECT_POSITION:
         write_assignment(spell, indent, position_name(spell), " = ", effect->value);
         break;
+    case EFFECT_TURN: write_first_turn(spell, indent, effect->value); break;
     case EFFECT_LIGHTS:
     case EFFECT_SAMPLES: write_loop(spell, indent, effect); break;
     case EFFECT_NEXT:

@@ -16,7 +16,7 @@ static bool find_option(const struct builder *b, const char *name, int *out_valu
                  {"option_albedo", options->albedo},
                  {"option_texture_modes", options->texture_modes},
                  {"option_texture_origin", options->texture_origin},
-                 {"option_sample_filter", options->sample_filter},
+                 {"option_quality", options->quality},
                  {"option_sss", options->sss},
                  {"option_path", b->shader->role->is_on_path},
                  {"option_stored", role_is_pass(b->shader->role)}};

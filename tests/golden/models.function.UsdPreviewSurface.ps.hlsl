@@ -176,6 +176,13 @@ float2 mx_map_point(float3 d)
         - mx_half_turn(d.y, square * stretch));
 }
 
+// The number of samples, from 1, that a lobe takes; roughness is that along two directions, squared.
+// Here roughness = float2(0.25, 0.25).
+int mx_sample_count()
+{
+    return max(int(ceil(0.5 * float(u_envRadianceSamples))), 1);
+}
+
 // The GGX lobe of a surface as lights see it; roughness is that along X and across, squared.
 // Here roughness = float2(0.25, 0.25), is_round = true.
 mx_GgxLobe mx_ggx_lobe(float3 N, float3 V)
@@ -187,7 +194,7 @@ mx_GgxLobe mx_ggx_lobe(float3 N, float3 V)
 
 // The GGX lobe of a surface as samples of the environment see it.
 // Here roughness = float2(0.25, 0.25), is_round = true.
-mx_GgxSamples mx_ggx_samples(float3 N, float3 V)
+mx_GgxSamples mx_ggx_samples(int count, float3 N, float3 V)
 {
     mx_GgxLobe lobe = mx_ggx_lobe(N, V);
     float3 x = normalize(V - lobe.cosine * lobe.N + 1e-6 * lobe.N.yzx);
@@ -195,11 +202,11 @@ mx_GgxSamples mx_ggx_samples(float3 N, float3 V)
     float3 stretch = float3(lobe.alpha, 1.0);
     float reach = lobe.masking;
     float area = stretch.x * stretch.y;
-    float share = 1.0 / float(max(u_envRadianceSamples, 1));
-    float weight = share * (v.z + lobe.masking);
+    float share = 1.0 / float(count);
     return make_mx_GgxSamples(mul(float3x3(x, cross(lobe.N, x), lobe.N), (float3x3)u_envMatrix), stretch, area, v,
-        lobe.masking, reach, share * (v.z + reach), area * weight * exp2(2.0 * float(u_envRadianceMips) - 2.3485),
-        u_envLightIntensity * weight);
+        lobe.masking, reach, share * (v.z + reach), area * (v.z + lobe.masking)
+        * max(2.0 / float(count), 4.4 / float(max(u_envRadianceSamples, 1)))
+        * exp2(2.0 * float(u_envRadianceMips) - 4.6485), u_envLightIntensity * (share * (v.z + lobe.masking)));
 }
 
 // Light of the environment from the unit direction d of its picture, filtered over as many texels.
@@ -276,9 +283,10 @@ Surface surface(float3 positionWorld, float3 normalWorld)
         mx_map_point(normalize(mul(N, (float3x3)u_envMatrix))), 0.0).xyz;
     color += diffuse_part * (u_envLightIntensity * (reflection_throughput * 0.18));
     // environment: reflection
-    mx_GgxSamples reflection_ggx_samples = mx_ggx_samples(shading_normal, V);
     float2 turn = float2(1.0, 0.0);
-    for (int i = 0; i < u_envRadianceSamples; ++i) {
+    int count = mx_sample_count();
+    mx_GgxSamples reflection_ggx_samples = mx_ggx_samples(count, shading_normal, V);
+    for (int i = 0; i < count; ++i) {
         mx_GgxLight light = mx_ggx_reflected(reflection_ggx_samples, i, turn);
         color += light.color * (light.weight * (scale * mx_fresnel_schlick(light.cosine)));
         turn = float2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;

@@ -293,6 +293,15 @@ vec2 mx_map_point(const vec3 d)
         - mx_half_turn(d.y, square * stretch));
 }
 
+// The number of samples, from 1, that a lobe takes; roughness is that along two directions, squared.
+int mx_sample_count(const vec2 roughness)
+{
+    float wide = max(roughness.x, roughness.y);
+    float share = 0.5 * min(4.0 * sqrt(wide), 1.0);
+    share = min(share * wide / min(roughness.x, roughness.y), 1.0);
+    return max(int(ceil(share * float(u_envRadianceSamples))), 1);
+}
+
 // The GGX lobe of a surface as lights see it; roughness is that along X and across, squared.
 // Here is_round = true.
 mx_GgxLobe mx_ggx_lobe(const vec2 roughness, const vec3 N, const vec3 V)
@@ -304,7 +313,7 @@ mx_GgxLobe mx_ggx_lobe(const vec2 roughness, const vec3 N, const vec3 V)
 
 // The GGX lobe of a surface as samples of the environment see it.
 // Here is_round = true.
-mx_GgxSamples mx_ggx_samples(const vec2 roughness, const vec3 N, const vec3 V)
+mx_GgxSamples mx_ggx_samples(const vec2 roughness, const int count, const vec3 N, const vec3 V)
 {
     mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, V);
     vec3 x = normalize(V - lobe.cosine * lobe.N + 1e-6 * lobe.N.yzx);
@@ -312,11 +321,11 @@ mx_GgxSamples mx_ggx_samples(const vec2 roughness, const vec3 N, const vec3 V)
     vec3 stretch = vec3(lobe.alpha, 1.0);
     float reach = lobe.masking;
     float area = stretch.x * stretch.y;
-    float share = 1.0 / float(max(u_envRadianceSamples, 1));
-    float weight = share * (v.z + lobe.masking);
+    float share = 1.0 / float(count);
     return mx_GgxSamples(mat3(u_envMatrix) * mat3(x, cross(lobe.N, x), lobe.N), stretch, area, v, lobe.masking, reach,
-        share * (v.z + reach), area * weight * exp2(2.0 * float(u_envRadianceMips) - 2.3485), u_envLightIntensity
-        * weight);
+        share * (v.z + reach), area * (v.z + lobe.masking)
+        * max(2.0 / float(count), 4.4 / float(max(u_envRadianceSamples, 1)))
+        * exp2(2.0 * float(u_envRadianceMips) - 4.6485), u_envLightIntensity * (share * (v.z + lobe.masking)));
 }
 
 // Light of the environment from the unit direction d of its picture, filtered over as many texels.
@@ -363,7 +372,7 @@ mx_GgxLight mx_ggx_reflected(const mx_GgxSamples s, const int i, const vec2 turn
 
 // The GGX lobe of a surface as samples of the environment see it.
 // Here is_round = false.
-mx_GgxSamples mx_ggx_samples(const vec2 roughness, const vec3 N, const vec3 X, const vec3 V)
+mx_GgxSamples mx_ggx_samples(const vec2 roughness, const int count, const vec3 N, const vec3 X, const vec3 V)
 {
     mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, X, V);
     vec3 x = lobe.x;
@@ -372,10 +381,10 @@ mx_GgxSamples mx_ggx_samples(const vec2 roughness, const vec3 N, const vec3 X, c
     vec3 stretch = vec3(lobe.alpha, 1.0);
     float reach = length(v * stretch);
     float area = stretch.x * stretch.y;
-    float share = 1.0 / float(max(u_envRadianceSamples, 1));
-    float weight = share * (v.z + lobe.masking);
+    float share = 1.0 / float(count);
     return mx_GgxSamples(mat3(u_envMatrix) * frame, stretch, area, v, lobe.masking, reach, share * (v.z + reach), area
-        * weight * exp2(2.0 * float(u_envRadianceMips) - 2.3485), u_envLightIntensity * weight);
+        * (v.z + lobe.masking) * max(2.0 / float(count), 4.4 / float(max(u_envRadianceSamples, 1)))
+        * exp2(2.0 * float(u_envRadianceMips) - 4.6485), u_envLightIntensity * (share * (v.z + lobe.masking)));
 }
 
 // Direction of the ray -v after it entered a solid sphere of index `ior` at the normal h, and left it again.
@@ -532,9 +541,10 @@ void main()
         color += SR_gltf_pbr_base_color * part * (body_weight * diffuse_weight * u_envLightIntensity);
     // environment: coating
     if (coating_weight > 0.0) {
-        mx_GgxSamples coating_ggx_samples = mx_ggx_samples(vec2(coat_lobe), N, V);
         vec2 turn = vec2(1.0, 0.0);
-        for (int i = 0; i < u_envRadianceSamples; ++i) {
+        int coating_count = mx_sample_count(vec2(coat_lobe));
+        mx_GgxSamples coating_ggx_samples = mx_ggx_samples(vec2(coat_lobe), coating_count, N, V);
+        for (int i = 0; i < coating_count; ++i) {
             mx_GgxLight light = mx_ggx_reflected(coating_ggx_samples, i, turn);
             color += light.color * (mx_fresnel_permittivity(light.cosine, 2.25)
                 * (coating_weight * coating_scale * light.weight));
@@ -542,11 +552,12 @@ void main()
         }
     }
     // environment: metal_film, metal_bare, reflection_film, reflection
-    mx_GgxSamples samples = mx_ggx_samples(specular_roughness, N, specular_tangent, V);
+    int count = mx_sample_count(alpha);
+    mx_GgxSamples samples = mx_ggx_samples(specular_roughness, count, N, specular_tangent, V);
     if (reflection_weight > 0.0 || (reflection_film_weight > 0.0 || (metal_film_visible || metal_bare_weight > 0.0))) {
         if (SR_gltf_pbr_iridescence_thickness > 0.0) {
             vec2 turn = vec2(1.0, 0.0);
-            for (int i = 0; i < u_envRadianceSamples; ++i) {
+            for (int i = 0; i < count; ++i) {
                 mx_GgxLight metal_film_ggx_reflected = mx_ggx_reflected(samples, i, turn);
                 if (metal_film_visible)
                     color += metal_film_product
@@ -574,7 +585,7 @@ void main()
             }
         } else {
             vec2 turn = vec2(1.0, 0.0);
-            for (int i = 0; i < u_envRadianceSamples; ++i) {
+            for (int i = 0; i < count; ++i) {
                 mx_GgxLight metal_film_ggx_reflected = mx_ggx_reflected(samples, i, turn);
                 vec3 metal_bare_product_2 = metal_film_ggx_reflected.color
                     * (metal_film_ggx_reflected.weight
@@ -594,11 +605,11 @@ void main()
     // environment: refraction
     float refraction_weight = clamped_transmission * (1.0 - metal_weight);
     if (refraction_weight > 0.0) {
+        vec2 turn = vec2(1.0, 0.0);
         vec3 refraction_product = fresnel_facing * (u_refractionTwoSided ? fresnel_facing : vec3(1.0))
             * (body_weight * refraction_weight);
         float scaled_ior = SR_gltf_pbr_ior * SR_gltf_pbr_ior;
-        vec2 turn = vec2(1.0, 0.0);
-        for (int i = 0; i < u_envRadianceSamples; ++i) {
+        for (int i = 0; i < count; ++i) {
             mx_GgxLight refraction_ggx_transmitted = mx_ggx_transmitted(samples, SR_gltf_pbr_ior, i, turn);
             color += refraction_product * (refraction_ggx_transmitted.color
                 * (refraction_ggx_transmitted.weight

@@ -375,9 +375,18 @@ vec2 mx_map_point(const vec3 d)
         - mx_half_turn(d.y, square * stretch));
 }
 
+// The number of samples, from 1, that a lobe takes; roughness is that along two directions, squared.
+int mx_sample_count(const vec2 roughness)
+{
+    float wide = max(roughness.x, roughness.y);
+    float share = 0.5 * min(4.0 * sqrt(wide), 1.0);
+    share = min(share * wide / min(roughness.x, roughness.y), 1.0);
+    return max(int(ceil(share * float(u_envRadianceSamples))), 1);
+}
+
 // The GGX lobe of a surface as samples of the environment see it.
 // Here is_round = false.
-mx_GgxSamples mx_ggx_samples(const vec2 roughness, const vec3 N, const vec3 X, const vec3 V)
+mx_GgxSamples mx_ggx_samples(const vec2 roughness, const int count, const vec3 N, const vec3 X, const vec3 V)
 {
     mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, X, V);
     vec3 x = lobe.x;
@@ -386,10 +395,10 @@ mx_GgxSamples mx_ggx_samples(const vec2 roughness, const vec3 N, const vec3 X, c
     vec3 stretch = vec3(lobe.alpha, 1.0);
     float reach = length(v * stretch);
     float area = stretch.x * stretch.y;
-    float share = 1.0 / float(max(u_envRadianceSamples, 1));
-    float weight = share * (v.z + lobe.masking);
+    float share = 1.0 / float(count);
     return mx_GgxSamples(mat3(u_envMatrix) * frame, stretch, area, v, lobe.masking, reach, share * (v.z + reach), area
-        * weight * exp2(2.0 * float(u_envRadianceMips) - 2.3485), u_envLightIntensity * weight);
+        * (v.z + lobe.masking) * max(2.0 / float(count), 4.4 / float(max(u_envRadianceSamples, 1)))
+        * exp2(2.0 * float(u_envRadianceMips) - 4.6485), u_envLightIntensity * (share * (v.z + lobe.masking)));
 }
 
 // Light of the environment from the unit direction d of its picture, filtered over as many texels.
@@ -605,9 +614,10 @@ void main()
             * textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * -Nf)), 0.0).xyz);
     // environment: coating
     if (coat_weight > 0.0) {
-        mx_GgxSamples coating_ggx_samples = mx_ggx_samples(coat_lobe, N, coat_tangent, V);
         vec2 turn = vec2(1.0, 0.0);
-        for (int i = 0; i < u_envRadianceSamples; ++i) {
+        int coating_count = mx_sample_count(coating_alpha);
+        mx_GgxSamples coating_ggx_samples = mx_ggx_samples(coat_lobe, coating_count, N, coat_tangent, V);
+        for (int i = 0; i < coating_count; ++i) {
             mx_GgxLight light = mx_ggx_reflected(coating_ggx_samples, i, turn);
             float fresnel_bare = mx_fresnel_permittivity(light.cosine, scaled_coat_IOR);
             color += light.color * (fresnel_bare * (coat_weight * coating_scale * light.weight));
@@ -617,10 +627,11 @@ void main()
     // environment: metal, reflection
     float scaled_specular_IOR = SR_standard_surface_specular_IOR * SR_standard_surface_specular_IOR;
     if (metal_weight > 0.0 || reflection_weight_2 > 0.0) {
-        mx_GgxSamples ggx_samples = mx_ggx_samples(roughness, N, specular_tangent, V);
+        int count = mx_sample_count(alpha);
+        mx_GgxSamples ggx_samples = mx_ggx_samples(roughness, count, N, specular_tangent, V);
         if (SR_standard_surface_thin_film_thickness > 0.0) {
             vec2 turn = vec2(1.0, 0.0);
-            for (int i = 0; i < u_envRadianceSamples; ++i) {
+            for (int i = 0; i < count; ++i) {
                 mx_GgxLight metal_ggx_reflected = mx_ggx_reflected(ggx_samples, i, turn);
                 if (metal_weight > 0.0)
                     color += metal_product
@@ -638,7 +649,7 @@ void main()
             }
         } else {
             vec2 turn = vec2(1.0, 0.0);
-            for (int i = 0; i < u_envRadianceSamples; ++i) {
+            for (int i = 0; i < count; ++i) {
                 mx_GgxLight metal_ggx_reflected = mx_ggx_reflected(ggx_samples, i, turn);
                 if (metal_weight > 0.0)
                     color += metal_product
@@ -656,14 +667,16 @@ void main()
     // environment: refraction
     float refraction_weight = clamped_transmission * (1.0 - metal_weight);
     if (refraction_weight > 0.0) {
-        vec3 tint = max(SR_standard_surface_transmission_color, 0.0);
-        vec3 refraction_product = tint * (u_refractionTwoSided ? tint : vec3(1.0)) * (body_weight * refraction_weight);
+        vec2 turn = vec2(1.0, 0.0);
         float transmission_blurred = mix(clamp(SR_standard_surface_specular_roughness
             + SR_standard_surface_transmission_extra_roughness, 0.0, 1.0), 1.0, coat_blur);
-        mx_GgxSamples samples = mx_ggx_samples(mx_roughness_anisotropy(transmission_blurred,
-            SR_standard_surface_specular_anisotropy), N, specular_tangent, V);
-        vec2 turn = vec2(1.0, 0.0);
-        for (int i = 0; i < u_envRadianceSamples; ++i) {
+        vec2 transmission_roughness = mx_roughness_anisotropy(transmission_blurred,
+            SR_standard_surface_specular_anisotropy);
+        int refraction_count = mx_sample_count(clamp(transmission_roughness, 1e-8, 1.0));
+        vec3 tint = max(SR_standard_surface_transmission_color, 0.0);
+        vec3 refraction_product = tint * (u_refractionTwoSided ? tint : vec3(1.0)) * (body_weight * refraction_weight);
+        mx_GgxSamples samples = mx_ggx_samples(transmission_roughness, refraction_count, N, specular_tangent, V);
+        for (int i = 0; i < refraction_count; ++i) {
             mx_GgxLight refraction_ggx_transmitted = mx_ggx_transmitted(samples, SR_standard_surface_specular_IOR, i,
                 turn);
             color += refraction_product * (refraction_ggx_transmitted.color

@@ -8,6 +8,11 @@ struct mx_GgxLobe {
     float2 alpha;
     float masking;
 };
+struct mx_GgxLight {
+    float3 color;
+    float weight;
+    float cosine;
+};
 struct mx_GgxSamples {
     float3x3 to_map;
     float3 stretch;
@@ -24,11 +29,6 @@ struct mx_GgxFacet {
     float cosine;
     float mirror;
     float texels;
-};
-struct mx_GgxLight {
-    float3 color;
-    float weight;
-    float cosine;
 };
 cbuffer PublicUniforms : register(b1)
 {
@@ -85,6 +85,15 @@ struct VertexData {
     float3 bitangentWorld : TEXCOORD3;
 };
 
+mx_GgxLight make_mx_GgxLight(float3 color, float weight, float cosine)
+{
+    mx_GgxLight made;
+    made.color = color;
+    made.weight = weight;
+    made.cosine = cosine;
+    return made;
+}
+
 mx_GgxLobe make_mx_GgxLobe(float3 N, float cosine, float3 x, float2 alpha, float masking)
 {
     mx_GgxLobe made;
@@ -119,15 +128,6 @@ mx_GgxFacet make_mx_GgxFacet(float3 h, float cosine, float mirror, float texels)
     made.cosine = cosine;
     made.mirror = mirror;
     made.texels = texels;
-    return made;
-}
-
-mx_GgxLight make_mx_GgxLight(float3 color, float weight, float cosine)
-{
-    mx_GgxLight made;
-    made.color = color;
-    made.weight = weight;
-    made.cosine = cosine;
     return made;
 }
 
@@ -241,6 +241,43 @@ float2 mx_map_point(float3 d)
         - mx_half_turn(d.y, square * stretch));
 }
 
+// Direction of the ray -v after it entered a solid sphere of index `ior` at the normal h, and left it again.
+float3 mx_refract_sphere(float3 v, float3 h, float ior)
+{
+    float3 inside = refract(-v, h, 1.0 / ior);
+    return refract(inside, normalize(inside * dot(inside, h) - 0.5 * h), ior);
+}
+
+// The light that comes through a smooth solid sphere of index `ior`.
+mx_GgxLight mx_transmitted(float ior, float3 N, float3 V)
+{
+    return make_mx_GgxLight(u_envRadiance.SampleLevel(u_envRadiance_sampler,
+        mx_map_point(normalize(mul(mx_refract_sphere(V, faceforward(N, -V, N), ior), (float3x3)u_envMatrix))), 0.0).xyz
+        * u_envLightIntensity, 1.0, max(abs(dot(N, V)), 1e-8));
+}
+
+// Unpolarised reflectance of an interface whose squared index is `re`, with c for the cosine in front of it:
+//     F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2
+//     s = 1 - c^2,  g^2 = c^2 + 2k,  2k = re - 1
+float mx_fresnel_permittivity(float cosine, float re)
+{
+    float k = 0.5 * (re - 1.0);
+    float c2 = max(cosine * cosine, -2.0 * k);
+    float s = 1.0 - c2;
+    float cg2 = c2 * (c2 + 2.0 * k);
+    float r = k / max((1.0 + k) * (c2 + sqrt(cg2)) + k, 1e-8);
+    return (cg2 + s * s) * (r * r);
+}
+
+// The number of samples, from 1, that a lobe takes; roughness is that along two directions, squared.
+int mx_sample_count(float2 roughness)
+{
+    float wide = max(roughness.x, roughness.y);
+    float share = 0.5 * min(4.0 * sqrt(wide), 1.0);
+    share = min(share * wide / min(roughness.x, roughness.y), 1.0);
+    return max(int(ceil(share * float(u_envRadianceSamples))), 1);
+}
+
 // cos (1 + 2 Lambda) of a direction for GGX; `area` is the product of the roughness along x and y (Heitz 2014,
 // "Understanding the Masking-Shadowing Function", equation 72).
 float mx_ggx_masking(float cosine, float area)
@@ -260,7 +297,7 @@ mx_GgxLobe mx_ggx_lobe(float2 roughness, float3 N, float3 V)
 
 // The GGX lobe of a surface as samples of the environment see it.
 // Here is_round = true.
-mx_GgxSamples mx_ggx_samples(float2 roughness, float3 N, float3 V)
+mx_GgxSamples mx_ggx_samples(float2 roughness, int count, float3 N, float3 V)
 {
     mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, V);
     float3 x = normalize(V - lobe.cosine * lobe.N + 1e-6 * lobe.N.yzx);
@@ -268,11 +305,11 @@ mx_GgxSamples mx_ggx_samples(float2 roughness, float3 N, float3 V)
     float3 stretch = float3(lobe.alpha, 1.0);
     float reach = lobe.masking;
     float area = stretch.x * stretch.y;
-    float share = 1.0 / float(max(u_envRadianceSamples, 1));
-    float weight = share * (v.z + lobe.masking);
+    float share = 1.0 / float(count);
     return make_mx_GgxSamples(mul(float3x3(x, cross(lobe.N, x), lobe.N), (float3x3)u_envMatrix), stretch, area, v,
-        lobe.masking, reach, share * (v.z + reach), area * weight * exp2(2.0 * float(u_envRadianceMips) - 2.3485),
-        u_envLightIntensity * weight);
+        lobe.masking, reach, share * (v.z + reach), area * (v.z + lobe.masking)
+        * max(2.0 / float(count), 4.4 / float(max(u_envRadianceSamples, 1)))
+        * exp2(2.0 * float(u_envRadianceMips) - 4.6485), u_envLightIntensity * (share * (v.z + lobe.masking)));
 }
 
 // Light of the environment from the unit direction d of its picture, filtered over as many texels.
@@ -316,35 +353,6 @@ mx_GgxLight mx_ggx_reflected(mx_GgxSamples s, int i, float2 turn)
     return make_mx_GgxLight(mx_filtered_light(mul(l, s.to_map), facet.texels), s.weight * cos_l
         * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l),
         sqrt(clamp(0.5 * (facet.mirror * facet.cosine), 1e-8, 1.0)));
-}
-
-// Direction of the ray -v after it entered a solid sphere of index `ior` at the normal h, and left it again.
-float3 mx_refract_sphere(float3 v, float3 h, float ior)
-{
-    float3 inside = refract(-v, h, 1.0 / ior);
-    return refract(inside, normalize(inside * dot(inside, h) - 0.5 * h), ior);
-}
-
-// The light that comes to the facet of sample i through a solid sphere of index `ior` behind it.
-mx_GgxLight mx_ggx_transmitted(mx_GgxSamples s, float ior, int i, float2 turn)
-{
-    mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
-    float3 h = normalize(facet.h);
-    return make_mx_GgxLight(mx_filtered_light(mul(mx_refract_sphere(s.v, h, ior), s.to_map), facet.texels), s.weight
-        * 0.5 / s.v.z, clamp(dot(s.v, h), 1e-8, 1.0));
-}
-
-// Unpolarised reflectance of an interface whose squared index is `re`, with c for the cosine in front of it:
-//     F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2
-//     s = 1 - c^2,  g^2 = c^2 + 2k,  2k = re - 1
-float mx_fresnel_permittivity(float cosine, float re)
-{
-    float k = 0.5 * (re - 1.0);
-    float c2 = max(cosine * cosine, -2.0 * k);
-    float s = 1.0 - c2;
-    float cg2 = c2 * (c2 + 2.0 * k);
-    float r = k / max((1.0 + k) * (c2 + sqrt(cg2)) + k, 1e-8);
-    return (cg2 + s * s) * (r * r);
 }
 
 void main(
@@ -454,22 +462,32 @@ void main(
             mx_map_point(normalize(mul(N, (float3x3)u_envMatrix))), 0.0).xyz;
         color += diffuse_product_2 * (body_weight * diffuse_weight * u_envLightIntensity);
     }
+    // environment: refraction
+    float refraction_weight = (1.0 - substrate_metal_weight) * (1.0 - clamped_opaque_weight);
+    if (refraction_weight > 0.0) {
+        mx_GgxLight refraction_light = mx_transmitted(ior, shading_normal, V);
+        color += refraction_light.color * (refraction_light.weight
+            * (1.0 - mx_fresnel_permittivity(refraction_light.cosine, ior * ior)) * (body_weight * refraction_weight));
+    }
     // environment: coating
     if (coating_weight > 0.0) {
-        mx_GgxSamples coating_ggx_samples = mx_ggx_samples((float2)coat_roughness, shading_normal, V);
         float2 turn = float2(1.0, 0.0);
-        for (int i = 0; i < u_envRadianceSamples; ++i) {
-            mx_GgxLight light = mx_ggx_reflected(coating_ggx_samples, i, turn);
-            float3 fresnel_bare = mx_fresnel_schlick(light.cosine, (float3)coating_fresnel_f0, float3(1.0, 1.0, 1.0));
-            color += light.color * (fresnel_bare * (coating_weight * coating_scale * light.weight));
+        int coating_count = mx_sample_count((float2)coat_roughness);
+        mx_GgxSamples coating_ggx_samples = mx_ggx_samples((float2)coat_roughness, coating_count, shading_normal, V);
+        for (int i = 0; i < coating_count; ++i) {
+            mx_GgxLight coating_light = mx_ggx_reflected(coating_ggx_samples, i, turn);
+            float3 fresnel_bare = mx_fresnel_schlick(coating_light.cosine, (float3)coating_fresnel_f0,
+                float3(1.0, 1.0, 1.0));
+            color += coating_light.color * (fresnel_bare * (coating_weight * coating_scale * coating_light.weight));
             turn = float2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
         }
     }
     // environment: metal, reflection
     if (substrate_metal_weight > 0.0 || reflection_visible) {
-        mx_GgxSamples ggx_samples = mx_ggx_samples((float2)specular_roughness, shading_normal, V);
         float2 turn = float2(1.0, 0.0);
-        for (int i = 0; i < u_envRadianceSamples; ++i) {
+        int count = mx_sample_count((float2)specular_roughness);
+        mx_GgxSamples ggx_samples = mx_ggx_samples((float2)specular_roughness, count, shading_normal, V);
+        for (int i = 0; i < count; ++i) {
             mx_GgxLight metal_ggx_reflected = mx_ggx_reflected(ggx_samples, i, turn);
             if (substrate_metal_weight > 0.0)
                 color += metal_product * (metal_ggx_reflected.color
@@ -479,19 +497,6 @@ void main(
                     * (metal_ggx_reflected.color
                     * (metal_ggx_reflected.weight
                     * mx_fresnel_schlick(metal_ggx_reflected.cosine, reflection_fresnel_f0, f90)));
-            turn = float2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
-        }
-    }
-    // environment: refraction
-    float refraction_weight = (1.0 - substrate_metal_weight) * (1.0 - clamped_opaque_weight);
-    if (refraction_weight > 0.0) {
-        mx_GgxSamples samples = mx_ggx_samples(float2(0.0, 0.0), shading_normal, V);
-        float2 turn = float2(1.0, 0.0);
-        for (int i = 0; i < u_envRadianceSamples; ++i) {
-            mx_GgxLight refraction_ggx_transmitted = mx_ggx_transmitted(samples, ior, i, turn);
-            float refraction_difference = 1.0 - mx_fresnel_permittivity(refraction_ggx_transmitted.cosine, ior * ior);
-            color += refraction_ggx_transmitted.color
-                * (refraction_difference * (body_weight * refraction_weight * refraction_ggx_transmitted.weight));
             turn = float2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
         }
     }

@@ -412,9 +412,18 @@ struct GlobalContext {
     VertexData vd;
     PixelOutputs out;
 
+// The number of samples, from 1, that a lobe takes; roughness is that along two directions, squared.
+int mx_sample_count(float2 roughness)
+{
+    float wide = max(roughness.x, roughness.y);
+    float share = 0.5 * min(4.0 * sqrt(wide), 1.0);
+    share = min(share * wide / min(roughness.x, roughness.y), 1.0);
+    return max(int(ceil(share * float(u_prv.u_envRadianceSamples))), 1);
+}
+
 // The GGX lobe of a surface as samples of the environment see it.
 // Here is_round = true.
-mx_GgxSamples mx_ggx_samples(float2 roughness, float3 N, float3 V)
+mx_GgxSamples mx_ggx_samples(float2 roughness, int count, float3 N, float3 V)
 {
     mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, V);
     float3 x = normalize(V - lobe.cosine * lobe.N + 1e-6 * lobe.N.yzx);
@@ -422,11 +431,12 @@ mx_GgxSamples mx_ggx_samples(float2 roughness, float3 N, float3 V)
     float3 stretch = float3(lobe.alpha, 1.0);
     float reach = lobe.masking;
     float area = stretch.x * stretch.y;
-    float share = 1.0 / float(max(u_prv.u_envRadianceSamples, 1));
-    float weight = share * (v.z + lobe.masking);
+    float share = 1.0 / float(count);
     return make_mx_GgxSamples(cut_3(u_prv.u_envMatrix) * float3x3(x, cross(lobe.N, x), lobe.N), stretch, area, v,
-        lobe.masking, reach, share * (v.z + reach), area * weight * exp2(2.0 * float(u_prv.u_envRadianceMips) - 2.3485),
-        u_prv.u_envLightIntensity * weight);
+        lobe.masking, reach, share * (v.z + reach), area * (v.z + lobe.masking)
+        * max(2.0 / float(count), 4.4 / float(max(u_prv.u_envRadianceSamples, 1)))
+        * exp2(2.0 * float(u_prv.u_envRadianceMips) - 4.6485), u_prv.u_envLightIntensity
+        * (share * (v.z + lobe.masking)));
 }
 
 // Light of the environment from the unit direction d of its picture, filtered over as many texels.
@@ -449,7 +459,7 @@ mx_GgxLight mx_ggx_reflected(mx_GgxSamples s, int i, float2 turn)
 
 // The GGX lobe of a surface as samples of the environment see it.
 // Here is_round = false.
-mx_GgxSamples mx_ggx_samples(float2 roughness, float3 N, float3 X, float3 V)
+mx_GgxSamples mx_ggx_samples(float2 roughness, int count, float3 N, float3 X, float3 V)
 {
     mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, X, V);
     float3 x = lobe.x;
@@ -458,11 +468,12 @@ mx_GgxSamples mx_ggx_samples(float2 roughness, float3 N, float3 X, float3 V)
     float3 stretch = float3(lobe.alpha, 1.0);
     float reach = length(v * stretch);
     float area = stretch.x * stretch.y;
-    float share = 1.0 / float(max(u_prv.u_envRadianceSamples, 1));
-    float weight = share * (v.z + lobe.masking);
+    float share = 1.0 / float(count);
     return make_mx_GgxSamples(cut_3(u_prv.u_envMatrix) * frame, stretch, area, v, lobe.masking, reach, share
-        * (v.z + reach), area * weight * exp2(2.0 * float(u_prv.u_envRadianceMips) - 2.3485), u_prv.u_envLightIntensity
-        * weight);
+        * (v.z + reach), area * (v.z + lobe.masking)
+        * max(2.0 / float(count), 4.4 / float(max(u_prv.u_envRadianceSamples, 1)))
+        * exp2(2.0 * float(u_prv.u_envRadianceMips) - 4.6485), u_prv.u_envLightIntensity
+        * (share * (v.z + lobe.masking)));
 }
 
 // The light that comes to the facet of sample i through a solid sphere of index `ior` behind it.
@@ -620,9 +631,10 @@ void FragmentMain()
         color += u_pub.SR_gltf_pbr_base_color * part * (body_weight * diffuse_weight * u_prv.u_envLightIntensity);
     // environment: coating
     if (coating_weight > 0.0) {
-        mx_GgxSamples coating_ggx_samples = mx_ggx_samples(float2(coat_lobe), N, V);
         float2 turn = float2(1.0, 0.0);
-        for (int i = 0; i < u_prv.u_envRadianceSamples; ++i) {
+        int coating_count = mx_sample_count(float2(coat_lobe));
+        mx_GgxSamples coating_ggx_samples = mx_ggx_samples(float2(coat_lobe), coating_count, N, V);
+        for (int i = 0; i < coating_count; ++i) {
             mx_GgxLight light = mx_ggx_reflected(coating_ggx_samples, i, turn);
             color += light.color * (mx_fresnel_permittivity(light.cosine, 2.25)
                 * (coating_weight * coating_scale * light.weight));
@@ -630,11 +642,12 @@ void FragmentMain()
         }
     }
     // environment: metal_film, metal_bare, reflection_film, reflection
-    mx_GgxSamples samples = mx_ggx_samples(specular_roughness, N, specular_tangent, V);
+    int count = mx_sample_count(alpha);
+    mx_GgxSamples samples = mx_ggx_samples(specular_roughness, count, N, specular_tangent, V);
     if (reflection_weight > 0.0 || (reflection_film_weight > 0.0 || (metal_film_visible || metal_bare_weight > 0.0))) {
         if (iridescence_thickness > 0.0) {
             float2 turn = float2(1.0, 0.0);
-            for (int i = 0; i < u_prv.u_envRadianceSamples; ++i) {
+            for (int i = 0; i < count; ++i) {
                 mx_GgxLight metal_film_ggx_reflected = mx_ggx_reflected(samples, i, turn);
                 if (metal_film_visible)
                     color += metal_film_product
@@ -662,7 +675,7 @@ void FragmentMain()
             }
         } else {
             float2 turn = float2(1.0, 0.0);
-            for (int i = 0; i < u_prv.u_envRadianceSamples; ++i) {
+            for (int i = 0; i < count; ++i) {
                 mx_GgxLight metal_film_ggx_reflected = mx_ggx_reflected(samples, i, turn);
                 float3 metal_bare_product_2 = metal_film_ggx_reflected.color
                     * (metal_film_ggx_reflected.weight
@@ -682,10 +695,10 @@ void FragmentMain()
     // environment: refraction
     float refraction_weight = clamped_transmission * (1.0 - metal_weight);
     if (refraction_weight > 0.0) {
+        float2 turn = float2(1.0, 0.0);
         float3 refraction_product = fresnel_facing * (u_prv.u_refractionTwoSided ? fresnel_facing : float3(1.0))
             * (body_weight * refraction_weight);
-        float2 turn = float2(1.0, 0.0);
-        for (int i = 0; i < u_prv.u_envRadianceSamples; ++i) {
+        for (int i = 0; i < count; ++i) {
             mx_GgxLight refraction_ggx_transmitted = mx_ggx_transmitted(samples, ior, i, turn);
             color += refraction_product * (refraction_ggx_transmitted.color
                 * (refraction_ggx_transmitted.weight

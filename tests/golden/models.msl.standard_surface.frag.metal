@@ -485,9 +485,18 @@ struct GlobalContext {
     VertexData vd;
     PixelOutputs out;
 
+// The number of samples, from 1, that a lobe takes; roughness is that along two directions, squared.
+int mx_sample_count(float2 roughness)
+{
+    float wide = max(roughness.x, roughness.y);
+    float share = 0.5 * min(4.0 * sqrt(wide), 1.0);
+    share = min(share * wide / min(roughness.x, roughness.y), 1.0);
+    return max(int(ceil(share * float(u_prv.u_envRadianceSamples))), 1);
+}
+
 // The GGX lobe of a surface as samples of the environment see it.
 // Here is_round = false.
-mx_GgxSamples mx_ggx_samples(float2 roughness, float3 N, float3 X, float3 V)
+mx_GgxSamples mx_ggx_samples(float2 roughness, int count, float3 N, float3 X, float3 V)
 {
     mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, X, V);
     float3 x = lobe.x;
@@ -496,11 +505,12 @@ mx_GgxSamples mx_ggx_samples(float2 roughness, float3 N, float3 X, float3 V)
     float3 stretch = float3(lobe.alpha, 1.0);
     float reach = length(v * stretch);
     float area = stretch.x * stretch.y;
-    float share = 1.0 / float(max(u_prv.u_envRadianceSamples, 1));
-    float weight = share * (v.z + lobe.masking);
+    float share = 1.0 / float(count);
     return make_mx_GgxSamples(cut_3(u_prv.u_envMatrix) * frame, stretch, area, v, lobe.masking, reach, share
-        * (v.z + reach), area * weight * exp2(2.0 * float(u_prv.u_envRadianceMips) - 2.3485), u_prv.u_envLightIntensity
-        * weight);
+        * (v.z + reach), area * (v.z + lobe.masking)
+        * max(2.0 / float(count), 4.4 / float(max(u_prv.u_envRadianceSamples, 1)))
+        * exp2(2.0 * float(u_prv.u_envRadianceMips) - 4.6485), u_prv.u_envLightIntensity
+        * (share * (v.z + lobe.masking)));
 }
 
 // Light of the environment from the unit direction d of its picture, filtered over as many texels.
@@ -693,9 +703,10 @@ void FragmentMain()
             mx_map_point(normalize(cut_3(u_prv.u_envMatrix) * -Nf)), level(0.0)).xyz);
     // environment: coating
     if (coat_weight > 0.0) {
-        mx_GgxSamples coating_ggx_samples = mx_ggx_samples(coat_lobe, N, coat_tangent, V);
         float2 turn = float2(1.0, 0.0);
-        for (int i = 0; i < u_prv.u_envRadianceSamples; ++i) {
+        int coating_count = mx_sample_count(coating_alpha);
+        mx_GgxSamples coating_ggx_samples = mx_ggx_samples(coat_lobe, coating_count, N, coat_tangent, V);
+        for (int i = 0; i < coating_count; ++i) {
             mx_GgxLight light = mx_ggx_reflected(coating_ggx_samples, i, turn);
             float fresnel_bare = mx_fresnel_permittivity(light.cosine, coat_IOR * coat_IOR);
             color += light.color * (fresnel_bare * (coat_weight * coating_scale * light.weight));
@@ -705,10 +716,11 @@ void FragmentMain()
     // environment: metal, reflection
     float scaled_specular_IOR = specular_IOR * specular_IOR;
     if (metal_weight > 0.0 || reflection_weight_2 > 0.0) {
-        mx_GgxSamples ggx_samples = mx_ggx_samples(roughness, N, specular_tangent, V);
+        int count = mx_sample_count(alpha);
+        mx_GgxSamples ggx_samples = mx_ggx_samples(roughness, count, N, specular_tangent, V);
         if (thin_film_thickness > 0.0) {
             float2 turn = float2(1.0, 0.0);
-            for (int i = 0; i < u_prv.u_envRadianceSamples; ++i) {
+            for (int i = 0; i < count; ++i) {
                 mx_GgxLight metal_ggx_reflected = mx_ggx_reflected(ggx_samples, i, turn);
                 if (metal_weight > 0.0)
                     color += metal_product
@@ -725,7 +737,7 @@ void FragmentMain()
             }
         } else {
             float2 turn = float2(1.0, 0.0);
-            for (int i = 0; i < u_prv.u_envRadianceSamples; ++i) {
+            for (int i = 0; i < count; ++i) {
                 mx_GgxLight metal_ggx_reflected = mx_ggx_reflected(ggx_samples, i, turn);
                 if (metal_weight > 0.0)
                     color += metal_product
@@ -743,15 +755,17 @@ void FragmentMain()
     // environment: refraction
     float refraction_weight = clamped_transmission * (1.0 - metal_weight);
     if (refraction_weight > 0.0) {
+        float2 turn = float2(1.0, 0.0);
+        float transmission_blurred = mix(clamp(u_pub.SR_standard_surface_specular_roughness
+            + u_pub.SR_standard_surface_transmission_extra_roughness, 0.0, 1.0), 1.0, coat_blur);
+        float2 transmission_roughness = mx_roughness_anisotropy(transmission_blurred,
+            u_pub.SR_standard_surface_specular_anisotropy);
+        int refraction_count = mx_sample_count(clamp(transmission_roughness, 1e-8, 1.0));
         float3 tint = max(u_pub.SR_standard_surface_transmission_color, 0.0);
         float3 refraction_product = tint * (u_prv.u_refractionTwoSided ? tint : float3(1.0))
             * (body_weight * refraction_weight);
-        float transmission_blurred = mix(clamp(u_pub.SR_standard_surface_specular_roughness
-            + u_pub.SR_standard_surface_transmission_extra_roughness, 0.0, 1.0), 1.0, coat_blur);
-        mx_GgxSamples samples = mx_ggx_samples(mx_roughness_anisotropy(transmission_blurred,
-            u_pub.SR_standard_surface_specular_anisotropy), N, specular_tangent, V);
-        float2 turn = float2(1.0, 0.0);
-        for (int i = 0; i < u_prv.u_envRadianceSamples; ++i) {
+        mx_GgxSamples samples = mx_ggx_samples(transmission_roughness, refraction_count, N, specular_tangent, V);
+        for (int i = 0; i < refraction_count; ++i) {
             mx_GgxLight refraction_ggx_transmitted = mx_ggx_transmitted(samples, specular_IOR, i, turn);
             color += refraction_product * (refraction_ggx_transmitted.color
                 * (refraction_ggx_transmitted.weight

@@ -142,6 +142,13 @@ vec2 mx_map_point(const vec3 d)
         - mx_half_turn(d.y, square * stretch));
 }
 
+// The number of samples, from 1, that a lobe takes; roughness is that along two directions, squared.
+// Here roughness = vec2(0.04).
+int mx_sample_count()
+{
+    return max(int(ceil(0.4 * float(u_envRadianceSamples))), 1);
+}
+
 // The GGX lobe of a surface as lights see it; roughness is that along X and across, squared.
 // Here roughness = vec2(0.04), is_round = true.
 mx_GgxLobe mx_ggx_lobe(const vec3 N, const vec3 V)
@@ -153,7 +160,7 @@ mx_GgxLobe mx_ggx_lobe(const vec3 N, const vec3 V)
 
 // The GGX lobe of a surface as samples of the environment see it.
 // Here roughness = vec2(0.04), is_round = true.
-mx_GgxSamples mx_ggx_samples(const vec3 N, const vec3 V)
+mx_GgxSamples mx_ggx_samples(const int count, const vec3 N, const vec3 V)
 {
     mx_GgxLobe lobe = mx_ggx_lobe(N, V);
     vec3 x = normalize(V - lobe.cosine * lobe.N + 1e-6 * lobe.N.yzx);
@@ -161,11 +168,11 @@ mx_GgxSamples mx_ggx_samples(const vec3 N, const vec3 V)
     vec3 stretch = vec3(lobe.alpha, 1.0);
     float reach = lobe.masking;
     float area = stretch.x * stretch.y;
-    float share = 1.0 / float(max(u_envRadianceSamples, 1));
-    float weight = share * (v.z + lobe.masking);
+    float share = 1.0 / float(count);
     return mx_GgxSamples(mat3(u_envMatrix) * mat3(x, cross(lobe.N, x), lobe.N), stretch, area, v, lobe.masking, reach,
-        share * (v.z + reach), area * weight * exp2(2.0 * float(u_envRadianceMips) - 2.3485), u_envLightIntensity
-        * weight);
+        share * (v.z + reach), area * (v.z + lobe.masking)
+        * max(2.0 / float(count), 4.4 / float(max(u_envRadianceSamples, 1)))
+        * exp2(2.0 * float(u_envRadianceMips) - 4.6485), u_envLightIntensity * (share * (v.z + lobe.masking)));
 }
 
 // Light of the environment from the unit direction d of its picture, filtered over as many texels.
@@ -261,10 +268,11 @@ void main()
     vec3 diffuse_part = textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * N)), 0.0).xyz;
     color += diffuse_part * (u_envLightIntensity * (reflection_throughput * 0.8));
     // environment: reflection
-    mx_GgxSamples reflection_ggx_samples = mx_ggx_samples(axis, V);
-    float scale = reflection_difference * 0.08571429 + 1.0;
     vec2 turn = vec2(1.0, 0.0);
-    for (int i = 0; i < u_envRadianceSamples; ++i) {
+    int count = mx_sample_count();
+    mx_GgxSamples reflection_ggx_samples = mx_ggx_samples(count, axis, V);
+    float scale = reflection_difference * 0.08571429 + 1.0;
+    for (int i = 0; i < count; ++i) {
         mx_GgxLight light = mx_ggx_reflected(reflection_ggx_samples, i, turn);
         color += light.color * (light.weight * (scale * mx_fresnel_permittivity(light.cosine, 2.25)));
         turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;

@@ -460,9 +460,18 @@ vec3 mx_fujii_multiple(const vec3 color, const float mean)
     return color * mean / (vec3(1.0) - color * max(1.0 - mean, 0.0));
 }
 
+// The number of samples, from 1, that a lobe takes; roughness is that along two directions, squared.
+int mx_sample_count(const vec2 roughness)
+{
+    float wide = max(roughness.x, roughness.y);
+    float share = 0.5 * min(4.0 * sqrt(wide), 1.0);
+    share = min(share * wide / min(roughness.x, roughness.y), 1.0);
+    return max(int(ceil(share * float(u_envRadianceSamples))), 1);
+}
+
 // The GGX lobe of a surface as samples of the environment see it.
 // Here is_round = false.
-mx_GgxSamples mx_ggx_samples(const vec2 roughness, const vec3 N, const vec3 X, const vec3 V)
+mx_GgxSamples mx_ggx_samples(const vec2 roughness, const int count, const vec3 N, const vec3 X, const vec3 V)
 {
     mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, X, V);
     vec3 x = lobe.x;
@@ -471,10 +480,10 @@ mx_GgxSamples mx_ggx_samples(const vec2 roughness, const vec3 N, const vec3 X, c
     vec3 stretch = vec3(lobe.alpha, 1.0);
     float reach = length(v * stretch);
     float area = stretch.x * stretch.y;
-    float share = 1.0 / float(max(u_envRadianceSamples, 1));
-    float weight = share * (v.z + lobe.masking);
+    float share = 1.0 / float(count);
     return mx_GgxSamples(mat3(u_envMatrix) * frame, stretch, area, v, lobe.masking, reach, share * (v.z + reach), area
-        * weight * exp2(2.0 * float(u_envRadianceMips) - 2.3485), u_envLightIntensity * weight);
+        * (v.z + lobe.masking) * max(2.0 / float(count), 4.4 / float(max(u_envRadianceSamples, 1)))
+        * exp2(2.0 * float(u_envRadianceMips) - 4.6485), u_envLightIntensity * (share * (v.z + lobe.masking)));
 }
 
 // Light of the environment from the unit direction d of its picture, filtered over as many texels.
@@ -742,9 +751,10 @@ void main()
             * (diffuse_product * part));
     // environment: coating
     if (coating_weight > 0.0) {
-        mx_GgxSamples coating_ggx_samples = mx_ggx_samples(coat_lobe, N, X, V);
         vec2 turn = vec2(1.0, 0.0);
-        for (int i = 0; i < u_envRadianceSamples; ++i) {
+        int coating_count = mx_sample_count(coating_alpha);
+        mx_GgxSamples coating_ggx_samples = mx_ggx_samples(coat_lobe, coating_count, N, X, V);
+        for (int i = 0; i < coating_count; ++i) {
             mx_GgxLight light = mx_ggx_reflected(coating_ggx_samples, i, turn);
             color += light.color * (mx_fresnel_permittivity(light.cosine, coat_ior * coat_ior)
                 * (coating_product * light.weight));
@@ -752,12 +762,13 @@ void main()
         }
     }
     // environment: metal_film, metal_bare, reflection_film, reflection_bare
-    mx_GgxSamples samples = mx_ggx_samples(roughness, N, X, V);
+    int count = mx_sample_count(alpha);
+    mx_GgxSamples samples = mx_ggx_samples(roughness, count, N, X, V);
     if (reflection_bare_weight > 0.0 || (reflection_film_weight > 0.0
         || (metal_film_weight > 0.0 || metal_bare_weight > 0.0))) {
         if (film_thickness > 0.0) {
             vec2 turn = vec2(1.0, 0.0);
-            for (int i = 0; i < u_envRadianceSamples; ++i) {
+            for (int i = 0; i < count; ++i) {
                 mx_GgxLight metal_film_ggx_reflected = mx_ggx_reflected(samples, i, turn);
                 if (metal_film_weight > 0.0)
                     color += metal_film_product
@@ -785,7 +796,7 @@ void main()
             }
         } else {
             vec2 turn = vec2(1.0, 0.0);
-            for (int i = 0; i < u_envRadianceSamples; ++i) {
+            for (int i = 0; i < count; ++i) {
                 mx_GgxLight metal_film_ggx_reflected = mx_ggx_reflected(samples, i, turn);
                 vec3 metal_bare_product_2 = metal_film_ggx_reflected.color
                     * (metal_film_ggx_reflected.weight
@@ -818,7 +829,7 @@ void main()
         vec3 refraction_bare_product = product_3 * (body_weight * refraction_bare_weight);
         if (film_thickness > 0.0) {
             vec2 turn = vec2(1.0, 0.0);
-            for (int i = 0; i < u_envRadianceSamples; ++i) {
+            for (int i = 0; i < count; ++i) {
                 mx_GgxLight refraction_film_ggx_transmitted = mx_ggx_transmitted(samples, ior, i, turn);
                 if (refraction_film_visible)
                     color += refraction_film_product
@@ -835,7 +846,7 @@ void main()
             }
         } else {
             vec2 turn = vec2(1.0, 0.0);
-            for (int i = 0; i < u_envRadianceSamples; ++i) {
+            for (int i = 0; i < count; ++i) {
                 mx_GgxLight refraction_film_ggx_transmitted = mx_ggx_transmitted(samples, ior, i, turn);
                 vec3 refraction_bare_product_2 = refraction_film_ggx_transmitted.color
                     * (refraction_film_ggx_transmitted.weight

@@ -7,6 +7,11 @@ struct mx_GgxLobe {
     alpha: vec2f,
     masking: f32,
 }
+struct mx_GgxLight {
+    color: vec3f,
+    weight: f32,
+    cosine: f32,
+}
 struct mx_GgxSamples {
     to_map: mat3x3f,
     stretch: vec3f,
@@ -23,11 +28,6 @@ struct mx_GgxFacet {
     cosine: f32,
     mirror: f32,
     texels: f32,
-}
-struct mx_GgxLight {
-    color: vec3f,
-    weight: f32,
-    cosine: f32,
 }
 struct PublicUniforms {
     SR_UsdPreviewSurface_diffuseColor: vec3f,
@@ -196,6 +196,44 @@ fn mx_map_point(d: vec3f) -> vec2f
         0.5 - mx_half_turn(d.y, square * stretch));
 }
 
+// Direction of the ray -v after it entered a solid sphere of index `ior` at the normal h, and left it again.
+fn mx_refract_sphere(v: vec3f, h: vec3f, ior: f32) -> vec3f
+{
+    let inside: vec3f = refract(-v, h, 1.0 / ior);
+    return refract(inside, normalize(inside * dot(inside, h) - 0.5 * h), ior);
+}
+
+// The light that comes through a smooth solid sphere of index `ior`.
+fn mx_transmitted(ior: f32, N: vec3f, V: vec3f) -> mx_GgxLight
+{
+    return mx_GgxLight(textureSampleLevel(u_envRadiance, u_envRadiance_sampler,
+        mx_map_point(normalize(wgsl_mat3x3f_of_mat4x4f(u_prv.u_envMatrix)
+        * mx_refract_sphere(V, faceForward(N, -V, N), ior))), 0.0).xyz * u_prv.u_envLightIntensity, 1.0,
+        max(abs(dot(N, V)), 1e-8));
+}
+
+// Unpolarised reflectance of an interface whose squared index is `re`, with c for the cosine in front of it:
+//     F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2
+//     s = 1 - c^2,  g^2 = c^2 + 2k,  2k = re - 1
+fn mx_fresnel_permittivity(cosine: f32, re: f32) -> f32
+{
+    let k: f32 = 0.5 * (re - 1.0);
+    let c2: f32 = max(cosine * cosine, -2.0 * k);
+    let s: f32 = 1.0 - c2;
+    let cg2: f32 = c2 * (c2 + 2.0 * k);
+    let r: f32 = k / max((1.0 + k) * (c2 + sqrt(cg2)) + k, 1e-8);
+    return (cg2 + s * s) * (r * r);
+}
+
+// The number of samples, from 1, that a lobe takes; roughness is that along two directions, squared.
+fn mx_sample_count(roughness: vec2f) -> i32
+{
+    let wide: f32 = max(roughness.x, roughness.y);
+    var share: f32 = 0.5 * min(4.0 * sqrt(wide), 1.0);
+    share = min(share * wide / min(roughness.x, roughness.y), 1.0);
+    return max(i32(ceil(share * f32(u_prv.u_envRadianceSamples))), 1);
+}
+
 // cos (1 + 2 Lambda) of a direction for GGX; `area` is the product of the roughness along x and y (Heitz 2014,
 // "Understanding the Masking-Shadowing Function", equation 72).
 fn mx_ggx_masking(cosine: f32, area: f32) -> f32
@@ -214,7 +252,7 @@ fn mx_ggx_lobe(roughness: vec2f, N: vec3f, V: vec3f) -> mx_GgxLobe
 
 // The GGX lobe of a surface as samples of the environment see it.
 // Here is_round = true.
-fn mx_ggx_samples(roughness: vec2f, N: vec3f, V: vec3f) -> mx_GgxSamples
+fn mx_ggx_samples(roughness: vec2f, count: i32, N: vec3f, V: vec3f) -> mx_GgxSamples
 {
     let lobe: mx_GgxLobe = mx_ggx_lobe(roughness, N, V);
     let x: vec3f = normalize(V - lobe.cosine * lobe.N + 1e-6 * lobe.N.yzx);
@@ -222,11 +260,12 @@ fn mx_ggx_samples(roughness: vec2f, N: vec3f, V: vec3f) -> mx_GgxSamples
     let stretch: vec3f = vec3f(lobe.alpha, 1.0);
     let reach: f32 = lobe.masking;
     let area: f32 = stretch.x * stretch.y;
-    let share: f32 = 1.0 / f32(max(u_prv.u_envRadianceSamples, 1));
-    let weight: f32 = share * (v.z + lobe.masking);
+    let share: f32 = 1.0 / f32(count);
     return mx_GgxSamples(wgsl_mat3x3f_of_mat4x4f(u_prv.u_envMatrix) * mat3x3f(x, cross(lobe.N, x), lobe.N), stretch,
-        area, v, lobe.masking, reach, share * (v.z + reach), area * weight
-        * exp2(2.0 * f32(u_prv.u_envRadianceMips) - 2.3485), u_prv.u_envLightIntensity * weight);
+        area, v, lobe.masking, reach, share * (v.z + reach), area * (v.z + lobe.masking)
+        * max(2.0 / f32(count), 4.4 / f32(max(u_prv.u_envRadianceSamples, 1)))
+        * exp2(2.0 * f32(u_prv.u_envRadianceMips) - 4.6485), u_prv.u_envLightIntensity
+        * (share * (v.z + lobe.masking)));
 }
 
 // Light of the environment from the unit direction d of its picture, filtered over as many texels.
@@ -270,35 +309,6 @@ fn mx_ggx_reflected(s: mx_GgxSamples, i: i32, turn: vec2f) -> mx_GgxLight
     return mx_GgxLight(mx_filtered_light(s.to_map * l, facet.texels), s.weight * cos_l
         * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l),
         sqrt(clamp(0.5 * (facet.mirror * facet.cosine), 1e-8, 1.0)));
-}
-
-// Direction of the ray -v after it entered a solid sphere of index `ior` at the normal h, and left it again.
-fn mx_refract_sphere(v: vec3f, h: vec3f, ior: f32) -> vec3f
-{
-    let inside: vec3f = refract(-v, h, 1.0 / ior);
-    return refract(inside, normalize(inside * dot(inside, h) - 0.5 * h), ior);
-}
-
-// The light that comes to the facet of sample i through a solid sphere of index `ior` behind it.
-fn mx_ggx_transmitted(s: mx_GgxSamples, ior: f32, i: i32, turn: vec2f) -> mx_GgxLight
-{
-    let facet: mx_GgxFacet = mx_ggx_facet(s, i, turn);
-    let h: vec3f = normalize(facet.h);
-    return mx_GgxLight(mx_filtered_light(s.to_map * mx_refract_sphere(s.v, h, ior), facet.texels), s.weight * 0.5
-        / s.v.z, clamp(dot(s.v, h), 1e-8, 1.0));
-}
-
-// Unpolarised reflectance of an interface whose squared index is `re`, with c for the cosine in front of it:
-//     F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2
-//     s = 1 - c^2,  g^2 = c^2 + 2k,  2k = re - 1
-fn mx_fresnel_permittivity(cosine: f32, re: f32) -> f32
-{
-    let k: f32 = 0.5 * (re - 1.0);
-    let c2: f32 = max(cosine * cosine, -2.0 * k);
-    let s: f32 = 1.0 - c2;
-    let cg2: f32 = c2 * (c2 + 2.0 * k);
-    let r: f32 = k / max((1.0 + k) * (c2 + sqrt(cg2)) + k, 1e-8);
-    return (cg2 + s * s) * (r * r);
 }
 
 @fragment
@@ -411,22 +421,32 @@ fn main(vd: VertexData) -> @location(0) vec4f
             mx_map_point(normalize(wgsl_mat3x3f_of_mat4x4f(u_prv.u_envMatrix) * N)), 0.0).xyz;
         color += diffuse_product_2 * (body_weight * diffuse_weight * u_prv.u_envLightIntensity);
     }
+    // environment: refraction
+    let refraction_weight: f32 = (1.0 - substrate_metal_weight) * (1.0 - clamped_opaque_weight);
+    if (refraction_weight > 0.0) {
+        let refraction_light: mx_GgxLight = mx_transmitted(ior, shading_normal, V);
+        color += refraction_light.color * (refraction_light.weight
+            * (1.0 - mx_fresnel_permittivity(refraction_light.cosine, ior * ior)) * (body_weight * refraction_weight));
+    }
     // environment: coating
     if (coating_weight > 0.0) {
-        let coating_ggx_samples: mx_GgxSamples = mx_ggx_samples(vec2f(coat_roughness), shading_normal, V);
         var turn: vec2f = vec2f(1.0, 0.0);
-        for (var i: i32 = 0; i < u_prv.u_envRadianceSamples; i++) {
-            let light: mx_GgxLight = mx_ggx_reflected(coating_ggx_samples, i, turn);
-            let fresnel_bare: vec3f = mx_fresnel_schlick(light.cosine, vec3f(coating_fresnel_f0), vec3f(1.0));
-            color += light.color * (fresnel_bare * (coating_weight * coating_scale * light.weight));
+        let coating_count: i32 = mx_sample_count(vec2f(coat_roughness));
+        let coating_ggx_samples: mx_GgxSamples = mx_ggx_samples(vec2f(coat_roughness), coating_count, shading_normal,
+            V);
+        for (var i: i32 = 0; i < coating_count; i++) {
+            let coating_light: mx_GgxLight = mx_ggx_reflected(coating_ggx_samples, i, turn);
+            let fresnel_bare: vec3f = mx_fresnel_schlick(coating_light.cosine, vec3f(coating_fresnel_f0), vec3f(1.0));
+            color += coating_light.color * (fresnel_bare * (coating_weight * coating_scale * coating_light.weight));
             turn = vec2f(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
         }
     }
     // environment: metal, reflection
     if (substrate_metal_weight > 0.0 || reflection_visible) {
-        let ggx_samples: mx_GgxSamples = mx_ggx_samples(vec2f(specular_roughness), shading_normal, V);
         var turn: vec2f = vec2f(1.0, 0.0);
-        for (var i: i32 = 0; i < u_prv.u_envRadianceSamples; i++) {
+        let count: i32 = mx_sample_count(vec2f(specular_roughness));
+        let ggx_samples: mx_GgxSamples = mx_ggx_samples(vec2f(specular_roughness), count, shading_normal, V);
+        for (var i: i32 = 0; i < count; i++) {
             let metal_ggx_reflected: mx_GgxLight = mx_ggx_reflected(ggx_samples, i, turn);
             if (substrate_metal_weight > 0.0) {
                 color += metal_product * (metal_ggx_reflected.color
@@ -438,20 +458,6 @@ fn main(vd: VertexData) -> @location(0) vec4f
                     * (metal_ggx_reflected.weight
                     * mx_fresnel_schlick(metal_ggx_reflected.cosine, reflection_fresnel_f0, f90)));
             }
-            turn = vec2f(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
-        }
-    }
-    // environment: refraction
-    let refraction_weight: f32 = (1.0 - substrate_metal_weight) * (1.0 - clamped_opaque_weight);
-    if (refraction_weight > 0.0) {
-        let samples: mx_GgxSamples = mx_ggx_samples(vec2f(0.0), shading_normal, V);
-        var turn: vec2f = vec2f(1.0, 0.0);
-        for (var i: i32 = 0; i < u_prv.u_envRadianceSamples; i++) {
-            let refraction_ggx_transmitted: mx_GgxLight = mx_ggx_transmitted(samples, ior, i, turn);
-            let refraction_difference: f32 = 1.0
-                - mx_fresnel_permittivity(refraction_ggx_transmitted.cosine, ior * ior);
-            color += refraction_ggx_transmitted.color
-                * (refraction_difference * (body_weight * refraction_weight * refraction_ggx_transmitted.weight));
             turn = vec2f(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
         }
     }

@@ -310,6 +310,15 @@ fn mx_map_point(d: vec3f) -> vec2f
         0.5 - mx_half_turn(d.y, square * stretch));
 }
 
+// The number of samples, from 1, that a lobe takes; roughness is that along two directions, squared.
+fn mx_sample_count(roughness: vec2f) -> i32
+{
+    let wide: f32 = max(roughness.x, roughness.y);
+    var share: f32 = 0.5 * min(4.0 * sqrt(wide), 1.0);
+    share = min(share * wide / min(roughness.x, roughness.y), 1.0);
+    return max(i32(ceil(share * f32(u_prv.u_envRadianceSamples))), 1);
+}
+
 // The GGX lobe of a surface as lights see it; roughness is that along X and across, squared.
 // Here is_round = true.
 fn mx_ggx_lobe_2(roughness: vec2f, N: vec3f, V: vec3f) -> mx_GgxLobe
@@ -321,7 +330,7 @@ fn mx_ggx_lobe_2(roughness: vec2f, N: vec3f, V: vec3f) -> mx_GgxLobe
 
 // The GGX lobe of a surface as samples of the environment see it.
 // Here is_round = true.
-fn mx_ggx_samples(roughness: vec2f, N: vec3f, V: vec3f) -> mx_GgxSamples
+fn mx_ggx_samples(roughness: vec2f, count: i32, N: vec3f, V: vec3f) -> mx_GgxSamples
 {
     let lobe: mx_GgxLobe = mx_ggx_lobe_2(roughness, N, V);
     let x: vec3f = normalize(V - lobe.cosine * lobe.N + 1e-6 * lobe.N.yzx);
@@ -329,11 +338,12 @@ fn mx_ggx_samples(roughness: vec2f, N: vec3f, V: vec3f) -> mx_GgxSamples
     let stretch: vec3f = vec3f(lobe.alpha, 1.0);
     let reach: f32 = lobe.masking;
     let area: f32 = stretch.x * stretch.y;
-    let share: f32 = 1.0 / f32(max(u_prv.u_envRadianceSamples, 1));
-    let weight: f32 = share * (v.z + lobe.masking);
+    let share: f32 = 1.0 / f32(count);
     return mx_GgxSamples(wgsl_mat3x3f_of_mat4x4f(u_prv.u_envMatrix) * mat3x3f(x, cross(lobe.N, x), lobe.N), stretch,
-        area, v, lobe.masking, reach, share * (v.z + reach), area * weight
-        * exp2(2.0 * f32(u_prv.u_envRadianceMips) - 2.3485), u_prv.u_envLightIntensity * weight);
+        area, v, lobe.masking, reach, share * (v.z + reach), area * (v.z + lobe.masking)
+        * max(2.0 / f32(count), 4.4 / f32(max(u_prv.u_envRadianceSamples, 1)))
+        * exp2(2.0 * f32(u_prv.u_envRadianceMips) - 4.6485), u_prv.u_envLightIntensity
+        * (share * (v.z + lobe.masking)));
 }
 
 // Light of the environment from the unit direction d of its picture, filtered over as many texels.
@@ -381,7 +391,7 @@ fn mx_ggx_reflected(s: mx_GgxSamples, i: i32, turn: vec2f) -> mx_GgxLight
 
 // The GGX lobe of a surface as samples of the environment see it.
 // Here is_round = false.
-fn mx_ggx_samples_2(roughness: vec2f, N: vec3f, X: vec3f, V: vec3f) -> mx_GgxSamples
+fn mx_ggx_samples_2(roughness: vec2f, count: i32, N: vec3f, X: vec3f, V: vec3f) -> mx_GgxSamples
 {
     let lobe: mx_GgxLobe = mx_ggx_lobe(roughness, N, X, V);
     let x: vec3f = lobe.x;
@@ -390,11 +400,12 @@ fn mx_ggx_samples_2(roughness: vec2f, N: vec3f, X: vec3f, V: vec3f) -> mx_GgxSam
     let stretch: vec3f = vec3f(lobe.alpha, 1.0);
     let reach: f32 = length(v * stretch);
     let area: f32 = stretch.x * stretch.y;
-    let share: f32 = 1.0 / f32(max(u_prv.u_envRadianceSamples, 1));
-    let weight: f32 = share * (v.z + lobe.masking);
+    let share: f32 = 1.0 / f32(count);
     return mx_GgxSamples(wgsl_mat3x3f_of_mat4x4f(u_prv.u_envMatrix) * frame, stretch, area, v, lobe.masking, reach,
-        share * (v.z + reach), area * weight * exp2(2.0 * f32(u_prv.u_envRadianceMips) - 2.3485),
-        u_prv.u_envLightIntensity * weight);
+        share * (v.z + reach), area * (v.z + lobe.masking)
+        * max(2.0 / f32(count), 4.4 / f32(max(u_prv.u_envRadianceSamples, 1)))
+        * exp2(2.0 * f32(u_prv.u_envRadianceMips) - 4.6485), u_prv.u_envLightIntensity
+        * (share * (v.z + lobe.masking)));
 }
 
 // Direction of the ray -v after it entered a solid sphere of index `ior` at the normal h, and left it again.
@@ -564,9 +575,10 @@ fn main(vd: VertexData) -> @location(0) vec4f
     }
     // environment: coating
     if (coating_weight > 0.0) {
-        let coating_ggx_samples: mx_GgxSamples = mx_ggx_samples(vec2f(coat_lobe), N, V);
         var turn: vec2f = vec2f(1.0, 0.0);
-        for (var i: i32 = 0; i < u_prv.u_envRadianceSamples; i++) {
+        let coating_count: i32 = mx_sample_count(vec2f(coat_lobe));
+        let coating_ggx_samples: mx_GgxSamples = mx_ggx_samples(vec2f(coat_lobe), coating_count, N, V);
+        for (var i: i32 = 0; i < coating_count; i++) {
             let light: mx_GgxLight = mx_ggx_reflected(coating_ggx_samples, i, turn);
             color += light.color * (mx_fresnel_permittivity(light.cosine, 2.25)
                 * (coating_weight * coating_scale * light.weight));
@@ -574,11 +586,12 @@ fn main(vd: VertexData) -> @location(0) vec4f
         }
     }
     // environment: metal_film, metal_bare, reflection_film, reflection
-    let samples: mx_GgxSamples = mx_ggx_samples_2(specular_roughness, N, specular_tangent, V);
+    let count: i32 = mx_sample_count(alpha);
+    let samples: mx_GgxSamples = mx_ggx_samples_2(specular_roughness, count, N, specular_tangent, V);
     if (reflection_weight > 0.0 || (reflection_film_weight > 0.0 || (metal_film_visible || metal_bare_weight > 0.0))) {
         if (iridescence_thickness > 0.0) {
             var turn: vec2f = vec2f(1.0, 0.0);
-            for (var i: i32 = 0; i < u_prv.u_envRadianceSamples; i++) {
+            for (var i: i32 = 0; i < count; i++) {
                 let metal_film_ggx_reflected: mx_GgxLight = mx_ggx_reflected(samples, i, turn);
                 if (metal_film_visible) {
                     color += metal_film_product
@@ -610,7 +623,7 @@ fn main(vd: VertexData) -> @location(0) vec4f
             }
         } else {
             var turn: vec2f = vec2f(1.0, 0.0);
-            for (var i: i32 = 0; i < u_prv.u_envRadianceSamples; i++) {
+            for (var i: i32 = 0; i < count; i++) {
                 let metal_film_ggx_reflected: mx_GgxLight = mx_ggx_reflected(samples, i, turn);
                 let metal_bare_product_2: vec3f = metal_film_ggx_reflected.color
                     * (metal_film_ggx_reflected.weight
@@ -632,10 +645,10 @@ fn main(vd: VertexData) -> @location(0) vec4f
     // environment: refraction
     let refraction_weight: f32 = clamped_transmission * (1.0 - metal_weight);
     if (refraction_weight > 0.0) {
+        var turn: vec2f = vec2f(1.0, 0.0);
         let refraction_product: vec3f = fresnel_facing
             * select(vec3f(1.0), fresnel_facing, u_prv.u_refractionTwoSided != 0u) * (body_weight * refraction_weight);
-        var turn: vec2f = vec2f(1.0, 0.0);
-        for (var i: i32 = 0; i < u_prv.u_envRadianceSamples; i++) {
+        for (var i: i32 = 0; i < count; i++) {
             let refraction_ggx_transmitted: mx_GgxLight = mx_ggx_transmitted(samples, ior, i, turn);
             color += refraction_product * (refraction_ggx_transmitted.color
                 * (refraction_ggx_transmitted.weight

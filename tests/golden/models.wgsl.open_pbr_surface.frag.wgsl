@@ -474,9 +474,18 @@ fn mx_fujii_multiple(color: vec3f, mean: f32) -> vec3f
     return color * mean / (1.0 - color * max(1.0 - mean, 0.0));
 }
 
+// The number of samples, from 1, that a lobe takes; roughness is that along two directions, squared.
+fn mx_sample_count(roughness: vec2f) -> i32
+{
+    let wide: f32 = max(roughness.x, roughness.y);
+    var share: f32 = 0.5 * min(4.0 * sqrt(wide), 1.0);
+    share = min(share * wide / min(roughness.x, roughness.y), 1.0);
+    return max(i32(ceil(share * f32(u_prv.u_envRadianceSamples))), 1);
+}
+
 // The GGX lobe of a surface as samples of the environment see it.
 // Here is_round = false.
-fn mx_ggx_samples(roughness: vec2f, N: vec3f, X: vec3f, V: vec3f) -> mx_GgxSamples
+fn mx_ggx_samples(roughness: vec2f, count: i32, N: vec3f, X: vec3f, V: vec3f) -> mx_GgxSamples
 {
     let lobe: mx_GgxLobe = mx_ggx_lobe(roughness, N, X, V);
     let x: vec3f = lobe.x;
@@ -485,11 +494,12 @@ fn mx_ggx_samples(roughness: vec2f, N: vec3f, X: vec3f, V: vec3f) -> mx_GgxSampl
     let stretch: vec3f = vec3f(lobe.alpha, 1.0);
     let reach: f32 = length(v * stretch);
     let area: f32 = stretch.x * stretch.y;
-    let share: f32 = 1.0 / f32(max(u_prv.u_envRadianceSamples, 1));
-    let weight: f32 = share * (v.z + lobe.masking);
+    let share: f32 = 1.0 / f32(count);
     return mx_GgxSamples(wgsl_mat3x3f_of_mat4x4f(u_prv.u_envMatrix) * frame, stretch, area, v, lobe.masking, reach,
-        share * (v.z + reach), area * weight * exp2(2.0 * f32(u_prv.u_envRadianceMips) - 2.3485),
-        u_prv.u_envLightIntensity * weight);
+        share * (v.z + reach), area * (v.z + lobe.masking)
+        * max(2.0 / f32(count), 4.4 / f32(max(u_prv.u_envRadianceSamples, 1)))
+        * exp2(2.0 * f32(u_prv.u_envRadianceMips) - 4.6485), u_prv.u_envLightIntensity
+        * (share * (v.z + lobe.masking)));
 }
 
 // Light of the environment from the unit direction d of its picture, filtered over as many texels.
@@ -779,9 +789,10 @@ fn main(vd: VertexData) -> @location(0) vec4f
     }
     // environment: coating
     if (coating_weight > 0.0) {
-        let coating_ggx_samples: mx_GgxSamples = mx_ggx_samples(coat_lobe, N, X, V);
         var turn: vec2f = vec2f(1.0, 0.0);
-        for (var i: i32 = 0; i < u_prv.u_envRadianceSamples; i++) {
+        let coating_count: i32 = mx_sample_count(coating_alpha);
+        let coating_ggx_samples: mx_GgxSamples = mx_ggx_samples(coat_lobe, coating_count, N, X, V);
+        for (var i: i32 = 0; i < coating_count; i++) {
             let light: mx_GgxLight = mx_ggx_reflected(coating_ggx_samples, i, turn);
             color += light.color * (mx_fresnel_permittivity(light.cosine, coat_ior * coat_ior)
                 * (coating_product * light.weight));
@@ -789,12 +800,13 @@ fn main(vd: VertexData) -> @location(0) vec4f
         }
     }
     // environment: metal_film, metal_bare, reflection_film, reflection_bare
-    let samples: mx_GgxSamples = mx_ggx_samples(roughness, N, X, V);
+    let count: i32 = mx_sample_count(alpha);
+    let samples: mx_GgxSamples = mx_ggx_samples(roughness, count, N, X, V);
     if (reflection_bare_weight > 0.0 || (reflection_film_weight > 0.0
         || (metal_film_weight > 0.0 || metal_bare_weight > 0.0))) {
         if (film_thickness > 0.0) {
             var turn: vec2f = vec2f(1.0, 0.0);
-            for (var i: i32 = 0; i < u_prv.u_envRadianceSamples; i++) {
+            for (var i: i32 = 0; i < count; i++) {
                 let metal_film_ggx_reflected: mx_GgxLight = mx_ggx_reflected(samples, i, turn);
                 if (metal_film_weight > 0.0) {
                     color += metal_film_product
@@ -826,7 +838,7 @@ fn main(vd: VertexData) -> @location(0) vec4f
             }
         } else {
             var turn: vec2f = vec2f(1.0, 0.0);
-            for (var i: i32 = 0; i < u_prv.u_envRadianceSamples; i++) {
+            for (var i: i32 = 0; i < count; i++) {
                 let metal_film_ggx_reflected: mx_GgxLight = mx_ggx_reflected(samples, i, turn);
                 let metal_bare_product_2: vec3f = metal_film_ggx_reflected.color
                     * (metal_film_ggx_reflected.weight
@@ -862,7 +874,7 @@ fn main(vd: VertexData) -> @location(0) vec4f
         let refraction_bare_product: vec3f = product_3 * (body_weight * refraction_bare_weight);
         if (film_thickness > 0.0) {
             var turn: vec2f = vec2f(1.0, 0.0);
-            for (var i: i32 = 0; i < u_prv.u_envRadianceSamples; i++) {
+            for (var i: i32 = 0; i < count; i++) {
                 let refraction_film_ggx_transmitted: mx_GgxLight = mx_ggx_transmitted(samples, ior, i, turn);
                 if (refraction_film_visible) {
                     color += refraction_film_product
@@ -881,7 +893,7 @@ fn main(vd: VertexData) -> @location(0) vec4f
             }
         } else {
             var turn: vec2f = vec2f(1.0, 0.0);
-            for (var i: i32 = 0; i < u_prv.u_envRadianceSamples; i++) {
+            for (var i: i32 = 0; i < count; i++) {
                 let refraction_film_ggx_transmitted: mx_GgxLight = mx_ggx_transmitted(samples, ior, i, turn);
                 let refraction_bare_product_2: vec3f = refraction_film_ggx_transmitted.color
                     * (refraction_film_ggx_transmitted.weight

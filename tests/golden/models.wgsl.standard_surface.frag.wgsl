@@ -397,9 +397,18 @@ fn mx_map_point(d: vec3f) -> vec2f
         0.5 - mx_half_turn(d.y, square * stretch));
 }
 
+// The number of samples, from 1, that a lobe takes; roughness is that along two directions, squared.
+fn mx_sample_count(roughness: vec2f) -> i32
+{
+    let wide: f32 = max(roughness.x, roughness.y);
+    var share: f32 = 0.5 * min(4.0 * sqrt(wide), 1.0);
+    share = min(share * wide / min(roughness.x, roughness.y), 1.0);
+    return max(i32(ceil(share * f32(u_prv.u_envRadianceSamples))), 1);
+}
+
 // The GGX lobe of a surface as samples of the environment see it.
 // Here is_round = false.
-fn mx_ggx_samples(roughness: vec2f, N: vec3f, X: vec3f, V: vec3f) -> mx_GgxSamples
+fn mx_ggx_samples(roughness: vec2f, count: i32, N: vec3f, X: vec3f, V: vec3f) -> mx_GgxSamples
 {
     let lobe: mx_GgxLobe = mx_ggx_lobe(roughness, N, X, V);
     let x: vec3f = lobe.x;
@@ -408,11 +417,12 @@ fn mx_ggx_samples(roughness: vec2f, N: vec3f, X: vec3f, V: vec3f) -> mx_GgxSampl
     let stretch: vec3f = vec3f(lobe.alpha, 1.0);
     let reach: f32 = length(v * stretch);
     let area: f32 = stretch.x * stretch.y;
-    let share: f32 = 1.0 / f32(max(u_prv.u_envRadianceSamples, 1));
-    let weight: f32 = share * (v.z + lobe.masking);
+    let share: f32 = 1.0 / f32(count);
     return mx_GgxSamples(wgsl_mat3x3f_of_mat4x4f(u_prv.u_envMatrix) * frame, stretch, area, v, lobe.masking, reach,
-        share * (v.z + reach), area * weight * exp2(2.0 * f32(u_prv.u_envRadianceMips) - 2.3485),
-        u_prv.u_envLightIntensity * weight);
+        share * (v.z + reach), area * (v.z + lobe.masking)
+        * max(2.0 / f32(count), 4.4 / f32(max(u_prv.u_envRadianceSamples, 1)))
+        * exp2(2.0 * f32(u_prv.u_envRadianceMips) - 4.6485), u_prv.u_envLightIntensity
+        * (share * (v.z + lobe.masking)));
 }
 
 // Light of the environment from the unit direction d of its picture, filtered over as many texels.
@@ -645,9 +655,10 @@ fn main(vd: VertexData) -> @location(0) vec4f
     }
     // environment: coating
     if (coat_weight > 0.0) {
-        let coating_ggx_samples: mx_GgxSamples = mx_ggx_samples(coat_lobe, N, coat_tangent, V);
         var turn: vec2f = vec2f(1.0, 0.0);
-        for (var i: i32 = 0; i < u_prv.u_envRadianceSamples; i++) {
+        let coating_count: i32 = mx_sample_count(coating_alpha);
+        let coating_ggx_samples: mx_GgxSamples = mx_ggx_samples(coat_lobe, coating_count, N, coat_tangent, V);
+        for (var i: i32 = 0; i < coating_count; i++) {
             let light: mx_GgxLight = mx_ggx_reflected(coating_ggx_samples, i, turn);
             let fresnel_bare: f32 = mx_fresnel_permittivity(light.cosine, coat_IOR * coat_IOR);
             color += light.color * (fresnel_bare * (coat_weight * coating_scale * light.weight));
@@ -657,10 +668,11 @@ fn main(vd: VertexData) -> @location(0) vec4f
     // environment: metal, reflection
     let scaled_specular_IOR: f32 = specular_IOR * specular_IOR;
     if (metal_weight > 0.0 || reflection_weight_2 > 0.0) {
-        let ggx_samples: mx_GgxSamples = mx_ggx_samples(roughness, N, specular_tangent, V);
+        let count: i32 = mx_sample_count(alpha);
+        let ggx_samples: mx_GgxSamples = mx_ggx_samples(roughness, count, N, specular_tangent, V);
         if (thin_film_thickness > 0.0) {
             var turn: vec2f = vec2f(1.0, 0.0);
-            for (var i: i32 = 0; i < u_prv.u_envRadianceSamples; i++) {
+            for (var i: i32 = 0; i < count; i++) {
                 let metal_ggx_reflected: mx_GgxLight = mx_ggx_reflected(ggx_samples, i, turn);
                 if (metal_weight > 0.0) {
                     color += metal_product
@@ -679,7 +691,7 @@ fn main(vd: VertexData) -> @location(0) vec4f
             }
         } else {
             var turn: vec2f = vec2f(1.0, 0.0);
-            for (var i: i32 = 0; i < u_prv.u_envRadianceSamples; i++) {
+            for (var i: i32 = 0; i < count; i++) {
                 let metal_ggx_reflected: mx_GgxLight = mx_ggx_reflected(ggx_samples, i, turn);
                 if (metal_weight > 0.0) {
                     color += metal_product
@@ -699,15 +711,17 @@ fn main(vd: VertexData) -> @location(0) vec4f
     // environment: refraction
     let refraction_weight: f32 = clamped_transmission * (1.0 - metal_weight);
     if (refraction_weight > 0.0) {
+        var turn: vec2f = vec2f(1.0, 0.0);
+        let transmission_blurred: f32 = mix(clamp(u_pub.SR_standard_surface_specular_roughness
+            + u_pub.SR_standard_surface_transmission_extra_roughness, 0.0, 1.0), 1.0, coat_blur);
+        let transmission_roughness: vec2f = mx_roughness_anisotropy(transmission_blurred,
+            u_pub.SR_standard_surface_specular_anisotropy);
+        let refraction_count: i32 = mx_sample_count(clamp(transmission_roughness, vec2f(1e-8), vec2f(1.0)));
         let tint: vec3f = max(u_pub.SR_standard_surface_transmission_color, vec3f(0.0));
         let refraction_product: vec3f = tint * select(vec3f(1.0), tint, u_prv.u_refractionTwoSided != 0u)
             * (body_weight * refraction_weight);
-        let transmission_blurred: f32 = mix(clamp(u_pub.SR_standard_surface_specular_roughness
-            + u_pub.SR_standard_surface_transmission_extra_roughness, 0.0, 1.0), 1.0, coat_blur);
-        let samples: mx_GgxSamples = mx_ggx_samples(mx_roughness_anisotropy(transmission_blurred,
-            u_pub.SR_standard_surface_specular_anisotropy), N, specular_tangent, V);
-        var turn: vec2f = vec2f(1.0, 0.0);
-        for (var i: i32 = 0; i < u_prv.u_envRadianceSamples; i++) {
+        let samples: mx_GgxSamples = mx_ggx_samples(transmission_roughness, refraction_count, N, specular_tangent, V);
+        for (var i: i32 = 0; i < refraction_count; i++) {
             let refraction_ggx_transmitted: mx_GgxLight = mx_ggx_transmitted(samples, specular_IOR, i, turn);
             color += refraction_product * (refraction_ggx_transmitted.color
                 * (refraction_ggx_transmitted.weight

@@ -602,6 +602,15 @@ float2 mx_map_point(float3 d)
         - mx_half_turn(d.y, square * stretch));
 }
 
+// The number of samples, from 1, that a lobe takes; roughness is that along two directions, squared.
+int mx_sample_count(float2 roughness)
+{
+    float wide = max(roughness.x, roughness.y);
+    float share = 0.5 * min(4.0 * sqrt(wide), 1.0);
+    share = min(share * wide / min(roughness.x, roughness.y), 1.0);
+    return max(int(ceil(share * float(u_envRadianceSamples))), 1);
+}
+
 // cos (1 + 2 Lambda) of a direction for GGX; `area` is the product of the roughness along x and y (Heitz 2014,
 // "Understanding the Masking-Shadowing Function", equation 72).
 float mx_ggx_masking(float cosine, float area)
@@ -621,7 +630,7 @@ mx_GgxLobe mx_ggx_lobe(float2 roughness, float3 N, float3 V)
 
 // The GGX lobe of a surface as samples of the environment see it.
 // Here is_round = true.
-mx_GgxSamples mx_ggx_samples(float2 roughness, float3 N, float3 V)
+mx_GgxSamples mx_ggx_samples(float2 roughness, int count, float3 N, float3 V)
 {
     mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, V);
     float3 x = normalize(V - lobe.cosine * lobe.N + 1e-6 * lobe.N.yzx);
@@ -629,11 +638,11 @@ mx_GgxSamples mx_ggx_samples(float2 roughness, float3 N, float3 V)
     float3 stretch = float3(lobe.alpha, 1.0);
     float reach = lobe.masking;
     float area = stretch.x * stretch.y;
-    float share = 1.0 / float(max(u_envRadianceSamples, 1));
-    float weight = share * (v.z + lobe.masking);
+    float share = 1.0 / float(count);
     return make_mx_GgxSamples(mul(float3x3(x, cross(lobe.N, x), lobe.N), (float3x3)u_envMatrix), stretch, area, v,
-        lobe.masking, reach, share * (v.z + reach), area * weight * exp2(2.0 * float(u_envRadianceMips) - 2.3485),
-        u_envLightIntensity * weight);
+        lobe.masking, reach, share * (v.z + reach), area * (v.z + lobe.masking)
+        * max(2.0 / float(count), 4.4 / float(max(u_envRadianceSamples, 1)))
+        * exp2(2.0 * float(u_envRadianceMips) - 4.6485), u_envLightIntensity * (share * (v.z + lobe.masking)));
 }
 
 // Light of the environment from the unit direction d of its picture, filtered over as many texels.
@@ -746,9 +755,10 @@ void surface()
     color += reflection_throughput * (medium_is_below ? float3(0.0, 0.0, 0.0) : vd.geomprop_diffuse_albedo
         * environment_irradiance);
     // environment: reflection
-    mx_GgxSamples reflection_ggx_samples = mx_ggx_samples((float2)alpha, vd.geomprop_normal, V);
     float2 turn = float2(1.0, 0.0);
-    for (int i = 0; i < u_envRadianceSamples; ++i) {
+    int count = mx_sample_count((float2)reflection_alpha);
+    mx_GgxSamples reflection_ggx_samples = mx_ggx_samples((float2)alpha, count, vd.geomprop_normal, V);
+    for (int i = 0; i < count; ++i) {
         mx_GgxLight light = mx_ggx_reflected(reflection_ggx_samples, i, turn);
         color += light.color * (light.weight * (scale * mx_fresnel_schlick(light.cosine, fresnel_f0, grazing)));
         turn = float2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;

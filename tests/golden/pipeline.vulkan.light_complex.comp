@@ -218,6 +218,15 @@ vec2 mx_map_point(const vec3 d)
         - mx_half_turn(d.y, square * stretch));
 }
 
+// The number of samples, from 1, that a lobe takes; roughness is that along two directions, squared.
+int mx_sample_count(const vec2 roughness)
+{
+    float wide = max(roughness.x, roughness.y);
+    float share = 0.5 * min(4.0 * sqrt(wide), 1.0);
+    share = min(share * wide / min(roughness.x, roughness.y), 1.0);
+    return max(int(ceil(share * float(u_envRadianceSamples))), 1);
+}
+
 // cos (1 + 2 Lambda) of a direction for GGX; `area` is the product of the roughness along x and y (Heitz 2014,
 // "Understanding the Masking-Shadowing Function", equation 72).
 float mx_ggx_masking(const float cosine, const float area)
@@ -237,7 +246,7 @@ mx_GgxLobe mx_ggx_lobe(const vec2 roughness, const vec3 N, const vec3 X, const v
 
 // The GGX lobe of a surface as samples of the environment see it.
 // Here is_round = false.
-mx_GgxSamples mx_ggx_samples(const vec2 roughness, const vec3 N, const vec3 X, const vec3 V)
+mx_GgxSamples mx_ggx_samples(const vec2 roughness, const int count, const vec3 N, const vec3 X, const vec3 V)
 {
     mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, X, V);
     vec3 x = lobe.x;
@@ -246,10 +255,10 @@ mx_GgxSamples mx_ggx_samples(const vec2 roughness, const vec3 N, const vec3 X, c
     vec3 stretch = vec3(lobe.alpha, 1.0);
     float reach = length(v * stretch);
     float area = stretch.x * stretch.y;
-    float share = 1.0 / float(max(u_envRadianceSamples, 1));
-    float weight = share * (v.z + lobe.masking);
+    float share = 1.0 / float(count);
     return mx_GgxSamples(mat3(u_envMatrix) * frame, stretch, area, v, lobe.masking, reach, share * (v.z + reach), area
-        * weight * exp2(2.0 * float(u_envRadianceMips) - 2.3485), u_envLightIntensity * weight);
+        * (v.z + lobe.masking) * max(2.0 / float(count), 4.4 / float(max(u_envRadianceSamples, 1)))
+        * exp2(2.0 * float(u_envRadianceMips) - 4.6485), u_envLightIntensity * (share * (v.z + lobe.masking)));
 }
 
 // Light of the environment from the unit direction d of its picture, filtered over as many texels.
@@ -470,11 +479,12 @@ void surface()
     vec3 blend = mix(fresnel_f0, grazing, 0.04761905);
     vec2 vector = vec2(vd.geomprop_anisotropy + 1.0, 1.0 - vd.geomprop_anisotropy);
     vec2 second_alpha = vd.geomprop_second_roughness * vd.geomprop_second_roughness * vector;
+    vec2 second_reflection_alpha = clamp(second_alpha, 1e-8, 1.0);
     mat3 frame = mx_frame(Nf, vd.geomprop_tangent);
     vec3 greater = max(V * frame, vec3(-1.0, -1.0, 1e-8));
-    vec3 second_reflection_round_lobe = mx_ggx_round_like(clamp(second_alpha, 1e-8, 1.0), greater);
-    vec2 second_reflection_alpha = clamp(second_reflection_round_lobe.xx, 1e-8, 1.0);
-    float second_reflection_a = sqrt(second_reflection_alpha.x * second_reflection_alpha.y);
+    vec3 second_reflection_round_lobe = mx_ggx_round_like(second_reflection_alpha, greater);
+    vec2 second_reflection_alpha_2 = clamp(second_reflection_round_lobe.xx, 1e-8, 1.0);
+    float second_reflection_a = sqrt(second_reflection_alpha_2.x * second_reflection_alpha_2.y);
     vec2 second_reflection_albedo = mx_ggx_facing_more(mx_ggx_albedo_fit(second_reflection_a, second_reflection_a
         / (second_reflection_round_lobe.y + second_reflection_a), second_reflection_round_lobe.y),
         second_reflection_round_lobe.z);
@@ -483,9 +493,10 @@ void surface()
     bool reflection_visible = 1.0 - second_reflection_weight > 0.0;
     float scaled_roughness = vd.geomprop_roughness * vd.geomprop_roughness;
     vec2 alpha = vector * scaled_roughness;
-    vec3 reflection_round_lobe = mx_ggx_round_like(clamp(alpha, 1e-8, 1.0), greater);
-    vec2 reflection_alpha = clamp(reflection_round_lobe.xx, 1e-8, 1.0);
-    float reflection_a = sqrt(reflection_alpha.x * reflection_alpha.y);
+    vec2 reflection_alpha = clamp(alpha, 1e-8, 1.0);
+    vec3 reflection_round_lobe = mx_ggx_round_like(reflection_alpha, greater);
+    vec2 reflection_alpha_2 = clamp(reflection_round_lobe.xx, 1e-8, 1.0);
+    float reflection_a = sqrt(reflection_alpha_2.x * reflection_alpha_2.y);
     vec2 reflection_albedo = mx_ggx_facing_more(mx_ggx_albedo_fit(reflection_a, reflection_a
         / (reflection_round_lobe.y + reflection_a), reflection_round_lobe.y), reflection_round_lobe.z);
     vec3 reflection_scale = blend * (1.0 / reflection_albedo.x - 1.0) + vec3(1.0);
@@ -546,11 +557,12 @@ void surface()
     // environment: second_reflection
     vec3 sum = vd.geomprop_steady * fuzz_throughput + fuzz_throughput * choice * power_3;
     if (second_reflection_weight > 0.0) {
-        vec3 second_reflection_product = second_reflection_scale * (second_reflection_weight * sum);
-        mx_GgxSamples second_reflection_ggx_samples = mx_ggx_samples(second_alpha, vd.geomprop_normal,
-            vd.geomprop_tangent, V);
         vec2 turn = vec2(1.0, 0.0);
-        for (int i = 0; i < u_envRadianceSamples; ++i) {
+        int second_reflection_count = mx_sample_count(second_reflection_alpha);
+        vec3 second_reflection_product = second_reflection_scale * (second_reflection_weight * sum);
+        mx_GgxSamples second_reflection_ggx_samples = mx_ggx_samples(second_alpha, second_reflection_count,
+            vd.geomprop_normal, vd.geomprop_tangent, V);
+        for (int i = 0; i < second_reflection_count; ++i) {
             mx_GgxLight second_reflection_light = mx_ggx_reflected_by_direction(second_reflection_ggx_samples, i, turn);
             color += second_reflection_product
                 * (second_reflection_light.color
@@ -561,10 +573,12 @@ void surface()
     }
     // environment: reflection
     if (reflection_visible) {
-        vec3 reflection_product = reflection_scale * ((1.0 - second_reflection_weight) * sum);
-        mx_GgxSamples reflection_ggx_samples = mx_ggx_samples(alpha, vd.geomprop_normal, vd.geomprop_tangent, V);
         vec2 turn = vec2(1.0, 0.0);
-        for (int i = 0; i < u_envRadianceSamples; ++i) {
+        int reflection_count = mx_sample_count(reflection_alpha);
+        vec3 reflection_product = reflection_scale * ((1.0 - second_reflection_weight) * sum);
+        mx_GgxSamples reflection_ggx_samples = mx_ggx_samples(alpha, reflection_count, vd.geomprop_normal,
+            vd.geomprop_tangent, V);
+        for (int i = 0; i < reflection_count; ++i) {
             mx_GgxLight reflection_ggx_reflected_by_direction = mx_ggx_reflected_by_direction(reflection_ggx_samples, i,
                 turn);
             color += reflection_product * (reflection_ggx_reflected_by_direction.color

@@ -121,6 +121,15 @@ float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
         / (e * e * (lobe.cosine * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * lobe.masking));
 }
 
+// The number of samples, from 1, that a lobe takes; roughness is that along two directions, squared.
+int mx_sample_count(const vec2 roughness)
+{
+    float wide = max(roughness.x, roughness.y);
+    float share = 0.5 * min(4.0 * sqrt(wide), 1.0);
+    share = min(share * wide / min(roughness.x, roughness.y), 1.0);
+    return max(int(ceil(share * float(u_envRadianceSamples))), 1);
+}
+
 // cos (1 + 2 Lambda) of a direction for GGX; `area` is the product of the roughness along x and y (Heitz 2014,
 // "Understanding the Masking-Shadowing Function", equation 72).
 float mx_ggx_masking(const float cosine, const float area)
@@ -139,7 +148,7 @@ mx_GgxLobe mx_ggx_lobe(const vec2 roughness, const vec3 N, const vec3 V)
 
 // The GGX lobe of a surface as samples of the environment see it.
 // Here is_round = true.
-mx_GgxSamples mx_ggx_samples(const vec2 roughness, const vec3 N, const vec3 V)
+mx_GgxSamples mx_ggx_samples(const vec2 roughness, const int count, const vec3 N, const vec3 V)
 {
     mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, V);
     vec3 x = normalize(V - lobe.cosine * lobe.N + 1e-6 * lobe.N.yzx);
@@ -147,11 +156,11 @@ mx_GgxSamples mx_ggx_samples(const vec2 roughness, const vec3 N, const vec3 V)
     vec3 stretch = vec3(lobe.alpha, 1.0);
     float reach = lobe.masking;
     float area = stretch.x * stretch.y;
-    float share = 1.0 / float(max(u_envRadianceSamples, 1));
-    float weight = share * (v.z + lobe.masking);
+    float share = 1.0 / float(count);
     return mx_GgxSamples(mat3(u_envMatrix) * mat3(x, cross(lobe.N, x), lobe.N), stretch, area, v, lobe.masking, reach,
-        share * (v.z + reach), area * weight * exp2(2.0 * float(u_envRadianceMips) - 2.3485), u_envLightIntensity
-        * weight);
+        share * (v.z + reach), area * (v.z + lobe.masking)
+        * max(2.0 / float(count), 4.4 / float(max(u_envRadianceSamples, 1)))
+        * exp2(2.0 * float(u_envRadianceMips) - 4.6485), u_envLightIntensity * (share * (v.z + lobe.masking)));
 }
 
 // The angle, over pi, with this sine and cosine; the cosine is not negative. It errs by 2.9e-5 at most.
@@ -266,9 +275,10 @@ void main()
         color += u_lightData[i].color * (intensity * (metal_bare_product * mx_ggx_light(metal_bare_vector, V, L)));
     }
     // environment: metal_bare
-    mx_GgxSamples metal_bare_ggx_samples = mx_ggx_samples(vec2(specular_roughness), bent, V);
     vec2 turn = vec2(1.0, 0.0);
-    for (int i = 0; i < u_envRadianceSamples; ++i) {
+    int count = mx_sample_count(vec2(alpha));
+    mx_GgxSamples metal_bare_ggx_samples = mx_ggx_samples(vec2(specular_roughness), count, bent, V);
+    for (int i = 0; i < count; ++i) {
         mx_GgxLight light = mx_ggx_reflected(metal_bare_ggx_samples, i, turn);
         color += light.color * (light.weight * (scale * mx_fresnel_schlick(light.cosine, fresnel_facing)));
         turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;

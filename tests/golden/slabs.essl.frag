@@ -171,6 +171,15 @@ vec2 mx_map_point(const vec3 d)
         - mx_half_turn(d.y, square * stretch));
 }
 
+// The number of samples, from 1, that a lobe takes; roughness is that along two directions, squared.
+int mx_sample_count(const vec2 roughness)
+{
+    float wide = max(roughness.x, roughness.y);
+    float share = 0.5 * min(4.0 * sqrt(wide), 1.0);
+    share = min(share * wide / min(roughness.x, roughness.y), 1.0);
+    return max(int(ceil(share * float(u_envRadianceSamples))), 1);
+}
+
 // cos (1 + 2 Lambda) of a direction for GGX; `area` is the product of the roughness along x and y (Heitz 2014,
 // "Understanding the Masking-Shadowing Function", equation 72).
 float mx_ggx_masking(const float cosine, const float area)
@@ -189,7 +198,7 @@ mx_GgxLobe mx_ggx_lobe(const vec2 roughness, const vec3 N, const vec3 V)
 
 // The GGX lobe of a surface as samples of the environment see it.
 // Here is_round = true.
-mx_GgxSamples mx_ggx_samples(const vec2 roughness, const vec3 N, const vec3 V)
+mx_GgxSamples mx_ggx_samples(const vec2 roughness, const int count, const vec3 N, const vec3 V)
 {
     mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, V);
     vec3 x = normalize(V - lobe.cosine * lobe.N + 1e-6 * lobe.N.yzx);
@@ -197,11 +206,11 @@ mx_GgxSamples mx_ggx_samples(const vec2 roughness, const vec3 N, const vec3 V)
     vec3 stretch = vec3(lobe.alpha, 1.0);
     float reach = lobe.masking;
     float area = stretch.x * stretch.y;
-    float share = 1.0 / float(max(u_envRadianceSamples, 1));
-    float weight = share * (v.z + lobe.masking);
+    float share = 1.0 / float(count);
     return mx_GgxSamples(mat3(u_envMatrix) * mat3(x, cross(lobe.N, x), lobe.N), stretch, area, v, lobe.masking, reach,
-        share * (v.z + reach), area * weight * exp2(2.0 * float(u_envRadianceMips) - 2.3485), u_envLightIntensity
-        * weight);
+        share * (v.z + reach), area * (v.z + lobe.masking)
+        * max(2.0 / float(count), 4.4 / float(max(u_envRadianceSamples, 1)))
+        * exp2(2.0 * float(u_envRadianceMips) - 4.6485), u_envLightIntensity * (share * (v.z + lobe.masking)));
 }
 
 // Light of the environment from the unit direction d of its picture, filtered over as many texels.
@@ -358,22 +367,24 @@ void main()
     color += u_envLightIntensity * ((milk_medium_steady + milk_medium_decaying * pow(milk_medium_decay, vec3(1.145898)))
         * milk_medium_product);
     // environment: metal_reflection
+    vec2 turn = vec2(1.0, 0.0);
+    int metal_reflection_count = mx_sample_count(vec2(0.29886922));
     vec3 metal_reflection_product = metal_reflection_scale
         * (metal_reflection_steady + metal_reflection_decaying * pow(metal_reflection_decay, vec3(closure_way)));
-    mx_GgxSamples metal_reflection_ggx_samples = mx_ggx_samples(vec2(0.29886922), N, V);
-    vec2 turn = vec2(1.0, 0.0);
-    for (int i = 0; i < u_envRadianceSamples; ++i) {
+    mx_GgxSamples metal_reflection_ggx_samples = mx_ggx_samples(vec2(0.29886922), metal_reflection_count, N, V);
+    for (int i = 0; i < metal_reflection_count; ++i) {
         mx_GgxLight light = mx_ggx_reflected(metal_reflection_ggx_samples, i, turn);
         color += metal_reflection_product
             * (light.color * (light.weight * mx_fresnel_schlick(light.cosine, metal_constant)));
         turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
     }
     // environment: milk_reflection
+    vec2 turn_2 = vec2(1.0, 0.0);
+    int milk_reflection_count = mx_sample_count(vec2(0.25071993));
     vec3 milk_reflection_product = milk_reflection_scale
         * (milk_reflection_steady + decaying * pow(milk_reflection_decay, vec3(closure_way)));
-    mx_GgxSamples milk_reflection_ggx_samples = mx_ggx_samples(vec2(0.25071993), N, V);
-    vec2 turn_2 = vec2(1.0, 0.0);
-    for (int i = 0; i < u_envRadianceSamples; ++i) {
+    mx_GgxSamples milk_reflection_ggx_samples = mx_ggx_samples(vec2(0.25071993), milk_reflection_count, N, V);
+    for (int i = 0; i < milk_reflection_count; ++i) {
         mx_GgxLight milk_reflection_ggx_reflected = mx_ggx_reflected(milk_reflection_ggx_samples, i, turn_2);
         color += milk_reflection_product
             * (milk_reflection_ggx_reflected.color
@@ -382,9 +393,10 @@ void main()
         turn_2 = vec2(-turn_2.y, turn_2.x) * 0.6754903 + turn_2 * -0.7373689;
     }
     // environment: coat_reflection
-    mx_GgxSamples coat_reflection_ggx_samples = mx_ggx_samples(vec2(0.01), N, V);
     vec2 turn_3 = vec2(1.0, 0.0);
-    for (int i = 0; i < u_envRadianceSamples; ++i) {
+    int coat_reflection_count = mx_sample_count(vec2(0.01));
+    mx_GgxSamples coat_reflection_ggx_samples = mx_ggx_samples(vec2(0.01), coat_reflection_count, N, V);
+    for (int i = 0; i < coat_reflection_count; ++i) {
         mx_GgxLight coat_reflection_ggx_reflected = mx_ggx_reflected(coat_reflection_ggx_samples, i, turn_3);
         color += coat_reflection_ggx_reflected.color
             * (mx_fresnel_schlick(coat_reflection_ggx_reflected.cosine, vec3(0.04))

@@ -82,6 +82,13 @@ void fogged_bsdf(ClosureData closureData, BSDF base, float fog, inout BSDF bsdf)
     bsdf.response = base.response * (1.0 - fog) + vec3(fog * 0.1);
 }
 
+// The number of samples, from 1, that a lobe takes; roughness is that along two directions, squared.
+// Here roughness = vec2(0.05).
+int mx_sample_count()
+{
+    return max(int(ceil(0.4472136 * float(u_envRadianceSamples))), 1);
+}
+
 // The GGX lobe of a surface as lights see it; roughness is that along X and across, squared.
 // Here roughness = vec2(0.05), is_round = true.
 mx_GgxLobe mx_ggx_lobe(const vec3 N, const vec3 V)
@@ -92,7 +99,7 @@ mx_GgxLobe mx_ggx_lobe(const vec3 N, const vec3 V)
 
 // The GGX lobe of a surface as samples of the environment see it.
 // Here roughness = vec2(0.05), is_round = true.
-mx_GgxSamples mx_ggx_samples(const vec3 N, const vec3 V)
+mx_GgxSamples mx_ggx_samples(const int count, const vec3 N, const vec3 V)
 {
     mx_GgxLobe lobe = mx_ggx_lobe(N, V);
     vec3 x = normalize(V - lobe.cosine * lobe.N + 1e-6 * lobe.N.yzx);
@@ -100,11 +107,11 @@ mx_GgxSamples mx_ggx_samples(const vec3 N, const vec3 V)
     vec3 stretch = vec3(lobe.alpha, 1.0);
     float reach = lobe.masking;
     float area = stretch.x * stretch.y;
-    float share = 1.0 / float(max(u_envRadianceSamples, 1));
-    float weight = share * (v.z + lobe.masking);
+    float share = 1.0 / float(count);
     return mx_GgxSamples(mat3(u_envMatrix) * mat3(x, cross(lobe.N, x), lobe.N), stretch, area, v, lobe.masking, reach,
-        share * (v.z + reach), area * weight * exp2(2.0 * float(u_envRadianceMips) - 2.3485), u_envLightIntensity
-        * weight);
+        share * (v.z + reach), area * (v.z + lobe.masking)
+        * max(2.0 / float(count), 4.4 / float(max(u_envRadianceSamples, 1)))
+        * exp2(2.0 * float(u_envRadianceMips) - 4.6485), u_envLightIntensity * (share * (v.z + lobe.masking)));
 }
 
 // The angle, over pi, with this sine and cosine; the cosine is not negative. It errs by 2.9e-5 at most.
@@ -224,14 +231,15 @@ float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
 void main()
 {
     vec3 gathered = vec3(0.0);
+    vec2 turn = vec2(1.0, 0.0);
+    int count = mx_sample_count();
     vec3 N = normalize(vd.normalWorld);
     vec3 V = normalize(u_viewPosition - vd.positionWorld);
-    mx_GgxSamples gloss_ggx_samples = mx_ggx_samples(N, V);
+    mx_GgxSamples gloss_ggx_samples = mx_ggx_samples(count, N, V);
     float cosine = max(abs(dot(N, V)), 1e-8);
     vec2 albedo = mx_ggx_albedo_fit(0.05 / (cosine + 0.05), cosine);
     float scale = (1.0 / albedo.x - 1.0) * 0.08571429 + 1.0;
-    vec2 turn = vec2(1.0, 0.0);
-    for (int i = 0; i < u_envRadianceSamples; ++i) {
+    for (int i = 0; i < count; ++i) {
         mx_GgxLight light = mx_ggx_reflected(gloss_ggx_samples, i, turn);
         gathered += light.color * (light.weight * (scale * mx_fresnel_permittivity(light.cosine)));
         turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;

@@ -8,23 +8,6 @@ struct mx_GgxLobe {
     vec2 alpha;
     float masking;
 };
-struct mx_GgxSamples {
-    mat3 to_map;
-    vec3 stretch;
-    float area;
-    vec3 v;
-    float masking;
-    float reach;
-    float step;
-    float texels;
-    float weight;
-};
-struct mx_GgxFacet {
-    vec3 h;
-    float cosine;
-    float mirror;
-    float texels;
-};
 struct mx_GgxLight {
     vec3 color;
     float weight;
@@ -33,8 +16,6 @@ struct mx_GgxLight {
 uniform vec3 u_viewPosition = vec3(0.0);
 uniform int u_numActiveLightSources = 0;
 uniform mat4 u_envMatrix = mat4(-1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0, 1.0);
-uniform int u_envRadianceMips = 1;
-uniform int u_envRadianceSamples = 16;
 uniform float u_envLightIntensity = 1.0;
 struct LightData {
     int type;
@@ -106,31 +87,6 @@ float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
         / (e * e * (lobe.cosine * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * lobe.masking));
 }
 
-// The GGX lobe of a surface as lights see it; roughness is that along X and across, squared.
-// Here roughness = vec2(0.0001), is_round = true.
-mx_GgxLobe mx_ggx_lobe(const vec3 N, const vec3 V)
-{
-    float cosine = max(abs(dot(N, V)), 1e-8);
-    return mx_GgxLobe(faceforward(N, -V, N), cosine, vec3(0.0), vec2(0.0001), sqrt(1e-8 + cosine * cosine));
-}
-
-// The GGX lobe of a surface as samples of the environment see it.
-// Here roughness = vec2(0.0001), is_round = true.
-mx_GgxSamples mx_ggx_samples(const vec3 N, const vec3 V)
-{
-    mx_GgxLobe lobe = mx_ggx_lobe(N, V);
-    vec3 x = normalize(V - lobe.cosine * lobe.N + 1e-6 * lobe.N.yzx);
-    vec3 v = vec3(sqrt(max(1.0 - lobe.cosine * lobe.cosine, 0.0)), 0.0, lobe.cosine);
-    vec3 stretch = vec3(lobe.alpha, 1.0);
-    float reach = lobe.masking;
-    float area = stretch.x * stretch.y;
-    float share = 1.0 / float(max(u_envRadianceSamples, 1));
-    float weight = share * (v.z + lobe.masking);
-    return mx_GgxSamples(mat3(u_envMatrix) * mat3(x, cross(lobe.N, x), lobe.N), stretch, area, v, lobe.masking, reach,
-        share * (v.z + reach), area * weight * exp2(2.0 * float(u_envRadianceMips) - 2.3485), u_envLightIntensity
-        * weight);
-}
-
 // The angle, over pi, with this sine and cosine; the cosine is not negative. It errs by 2.9e-5 at most.
 float mx_half_turn(const float sine, const float cosine)
 {
@@ -152,46 +108,12 @@ vec2 mx_map_point(const vec3 d)
         - mx_half_turn(d.y, square * stretch));
 }
 
-// Light of the environment from the unit direction d of its picture, filtered over as many texels.
-vec3 mx_filtered_light(const vec3 d, const float texels)
+// The light that a smooth surface mirrors.
+mx_GgxLight mx_mirrored(const vec3 N, const vec3 V)
 {
-    return textureLod(u_envRadiance, mx_map_point(d), 0.5 * log2(texels * inversesqrt(mx_map_square(d)))).xyz;
-}
-
-// Height-correlated masking and shadowing G2 over 2 cos_v cos_l (Heitz 2014, equation 99); `masking` is that of the
-// viewer.
-float mx_ggx_visibility(const float cos_v, const float masking, const float area, const float cos_l)
-{
-    return 1.0 / (cos_v * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * masking);
-}
-
-// A normal of those visible from v, at any length (Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with Spherical
-// Caps"): v is stretched by the roughness and has the length `reach`, `around` is (cos, sin) of the turn around z, and
-// `depth` how far the normal lies below the top of the cap, v.z + reach at most.
-vec3 mx_ggx_cap(const vec2 around, const float depth, const vec3 v, const float reach)
-{
-    return v + vec3(sqrt(depth * (2.0 * reach - depth)) * around, reach - depth);
-}
-
-// The facet of sample i. Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further
-// around than the one before, by its `turn`.
-mx_GgxFacet mx_ggx_facet(const mx_GgxSamples s, const int i, const vec2 turn)
-{
-    vec3 h = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.v * s.stretch, s.reach) * s.stretch;
-    float cosine = dot(s.v, h);
-    float mirror = 2.0 * cosine / dot(h, h);
-    return mx_GgxFacet(h, cosine, mirror, mirror * mirror * s.texels);
-}
-
-// The light that the facet of sample i reflects.
-mx_GgxLight mx_ggx_reflected(const mx_GgxSamples s, const int i, const vec2 turn)
-{
-    mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
-    vec3 l = facet.mirror * facet.h - s.v;
-    float cos_l = max(l.z, 1e-8);
-    return mx_GgxLight(mx_filtered_light(s.to_map * l, facet.texels), s.weight * cos_l
-        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l),
-        sqrt(clamp(0.5 * (facet.mirror * facet.cosine), 1e-8, 1.0)));
+    return mx_GgxLight(textureLod(u_envRadiance,
+        mx_map_point(normalize(mat3(u_envMatrix) * reflect(-V, faceforward(N, -V, N)))), 0.0).xyz * u_envLightIntensity,
+        1.0, max(abs(dot(N, V)), 1e-8));
 }
 
 // Direction of the ray -v after it entered a solid sphere of index `ior` at the normal h, and left it again.
@@ -202,14 +124,13 @@ vec3 mx_refract_sphere(const vec3 v, const vec3 h)
     return refract(inside, normalize(inside * dot(inside, h) - 0.5 * h), 1.52);
 }
 
-// The light that comes to the facet of sample i through a solid sphere of index `ior` behind it.
+// The light that comes through a smooth solid sphere of index `ior`.
 // Here ior = 1.52.
-mx_GgxLight mx_ggx_transmitted(const mx_GgxSamples s, const int i, const vec2 turn)
+mx_GgxLight mx_transmitted(const vec3 N, const vec3 V)
 {
-    mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
-    vec3 h = normalize(facet.h);
-    return mx_GgxLight(mx_filtered_light(s.to_map * mx_refract_sphere(s.v, h), facet.texels), s.weight * 0.5 / s.v.z,
-        clamp(dot(s.v, h), 1e-8, 1.0));
+    return mx_GgxLight(textureLod(u_envRadiance,
+        mx_map_point(normalize(mat3(u_envMatrix) * mx_refract_sphere(V, faceforward(N, -V, N)))), 0.0).xyz
+        * u_envLightIntensity, 1.0, max(abs(dot(N, V)), 1e-8));
 }
 
 void main()
@@ -250,23 +171,13 @@ void main()
         float reflection_product = scale * mx_fresnel_permittivity(sqrt(clamp(dot(V, L) * 0.5 + 0.500001, 0.0, 1.0)));
         color += u_lightData[i].color * (intensity * (reflection_product * mx_ggx_light(reflection_vector, V, L)));
     }
-    // environment: reflection
-    mx_GgxSamples samples = mx_ggx_samples(axis, V);
-    vec2 turn = vec2(1.0, 0.0);
-    for (int i = 0; i < u_envRadianceSamples; ++i) {
-        mx_GgxLight light = mx_ggx_reflected(samples, i, turn);
-        color += light.color * (light.weight * (scale * mx_fresnel_permittivity(light.cosine)));
-        turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
-    }
-    // environment: refraction
-    float reflection_throughput = 1.0 - mix(0.04257999, 1.0, albedo.y) * albedo.x * scale;
-    vec2 turn_2 = vec2(1.0, 0.0);
-    for (int i = 0; i < u_envRadianceSamples; ++i) {
-        mx_GgxLight refraction_ggx_transmitted = mx_ggx_transmitted(samples, i, turn_2);
-        color += refraction_ggx_transmitted.color
-            * ((1.0 - mx_fresnel_permittivity(refraction_ggx_transmitted.cosine))
-            * (reflection_throughput * refraction_ggx_transmitted.weight));
-        turn_2 = vec2(-turn_2.y, turn_2.x) * 0.6754903 + turn_2 * -0.7373689;
-    }
+    // environment: reflection, refraction
+    mx_GgxLight reflection_light = mx_mirrored(axis, V);
+    vec3 reflection_response = reflection_light.color
+        * (reflection_light.weight * (scale * mx_fresnel_permittivity(reflection_light.cosine)));
+    mx_GgxLight refraction_light = mx_transmitted(axis, V);
+    float refraction_product = (1.0 - mix(0.04257999, 1.0, albedo.y) * albedo.x * scale) * refraction_light.weight;
+    color += reflection_response + refraction_light.color
+        * ((1.0 - mx_fresnel_permittivity(refraction_light.cosine)) * refraction_product);
     out1 = vec4(color, 1.0);
 }

@@ -69,7 +69,7 @@ static const struct setting {
     {"host_shadows", "host-shadows", {"false", "true"}},
     {"host_occlusion", "host-occlusion", {"false", "true"}},
     {"host_environment", "host-environment", {"false", "true"}},
-    {"sample_filter", "sample-filter", {"wide", "narrow"}},
+    {"quality", "quality", {"good", "reference"}},
     {"lights", "lights", {"", "point_light=2"}},
     {"max_lights", "max-lights", {"3", "8"}},
 };
@@ -221,7 +221,7 @@ static void test_depth(const struct run *run)
         const char *key, *value;
     } without[] = {
         {"lights", "point_light=2"},  {"max-lights", "8"},         {"shadow-map", "true"},
-        {"sample-filter", "narrow"},  {"encode", "srgb"},          {"storage", "float"},
+        {"quality", "reference"},     {"encode", "srgb"},          {"storage", "float"},
         {"sss", "diffusion"},         {"layering", "two-sided"},   {"layering", "occluding"},
         {"rough-refraction", "blur"}, {"transmission", "opacity"}, {"host-lights", "true"},
         {"host-shadows", "true"},     {"host-occlusion", "true"},  {"host-environment", "true"}};

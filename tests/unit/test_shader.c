@@ -150,9 +150,9 @@ static void test_light_layout(void)
 /* Statements in short: "var a lights{ b acc } out", where a and b are the names of LETs. */
 static const char *describe(struct fixture *f, const struct effect_list *statements)
 {
-    static const char *const kinds[] = {"var", "acc",     "assign",   "out",  "position",
-                                        "if{", "lights{", "samples{", "next", "}else{",
-                                        "}",   "comment", "discard",  "let",  "result"};
+    static const char *const kinds[] = {
+        "var",      "acc",  "assign", "out", "position", "if{",     "lights{", "turn",
+        "samples{", "next", "}else{", "}",   "comment",  "discard", "let",     "result"};
     struct text out;
     text_init(&out, &f->arena);
     for (uint32_t i = 0; i < statements->len; i++) {

@@ -97,7 +97,7 @@ vec3 mx_oren_nayar_diffuse_bsdf_environment(vec3 color, float roughness, vec3 N,
     if (option_path == 0 || option_environment != 2)
         return even;
     if (roughness <= 0.0) // the mean is exact: a single sample brings it
-        return sample_index == 0 ? even : vec3(0.0);
+        return sample_index < 1 ? even : vec3(0.0);
     vec3 L, weight;
     float pdf;
     mx_oren_nayar_diffuse_bsdf_sample(color, roughness, N, energy_compensation, V, mx_lobe_random(sample_index), L, weight, pdf);

@@ -5,9 +5,8 @@
 
 const int option_environment = 2; // 0 none, 1 prefiltered, 2 importance sampling
 
-// Over how much of the map a sample is a mean: a power of two of its texels, 2^-7.3 of them being the solid angle that the sample stands for.
-// Filters overlap, so that few samples leave no pattern: wide ones (0) have five times the angle, nearly as MaterialX's, narrow ones (1) twice.
-const int option_sample_filter = 0;
+// How many of `u_envRadianceSamples` a lobe takes: a quarter (0), half (1), or all (2), and fewer if it is sharp, except for (2).
+const int option_quality = 1;
 
 const int option_host_environment = 0; // with option_environment 1: functions of the host (docs/hosts.md) have the light
 vec3 mxg_irradiance(vec3 P, vec3 N);
@@ -78,7 +77,35 @@ vec3 mx_environment_irradiance(vec3 N)
 // GPU Gems 3, section 20.4, equation 13).
 float mx_map_texels(float spread)
 {
-    return spread * exp2(2.0 * float(u_envRadianceMips) - 2.3485 - 1.3 * float(option_sample_filter));
+    return spread * exp2(2.0 * float(u_envRadianceMips) - 4.6485);
+}
+
+// Roughness, squared, up to which a lobe is a mirror for a map.
+const float MX_SMOOTH = 2e-4;
+
+// The number of samples, from 1, that a lobe takes; roughness is that along two directions, squared.
+//
+// With half of them a lobe errs as much as MaterialX's with all. A sharp one does with fewer (docs/benchmarks.md); an
+// oval one needs more, because a sample is a mean over a round part of the map.
+int mx_sample_count(vec2 roughness)
+{
+    float wide = max(roughness.x, roughness.y);
+    if (mx_known(wide <= MX_SMOOTH))
+        return 1;
+    if (option_quality == 2)
+        return max(u_envRadianceSamples, 1);
+    float share = (option_quality == 1 ? 0.5 : 0.25) * min(4.0 * sqrt(wide), 1.0);
+    if (!mx_known(roughness.x == roughness.y))
+        share = min(share * wide / min(roughness.x, roughness.y), 1.0);
+    return max(int(ceil(share * float(u_envRadianceSamples))), 1);
+}
+
+// The part of a lobe over which one of `count` samples is a mean: twice what the sample stands for, so that the means leave
+// no pattern, and, unless the quality is better, nearly as much as of a sample of MaterialX, whose pictures have that blur.
+float mx_sample_part(int count)
+{
+    float part = 2.0 / float(count);
+    return option_quality == 2 ? part : max(part, 4.4 / float(max(u_envRadianceSamples, 1)));
 }
 
 // Light of the environment from the unit direction d of its picture, filtered over as many texels.
@@ -104,7 +131,6 @@ vec3 mx_lobe_random(int i)
 // over its density `pdf`.
 vec3 mx_lobe_light(vec3 L, vec3 weight, float pdf)
 {
-    float count = float(u_envRadianceSamples);
-    float spread = 0.5 / (MX_PI * max(pdf * count, MX_EPSILON));
-    return weight * (u_envLightIntensity / count) * mx_filtered_light(normalize(mat3(u_envMatrix) * L), mx_map_texels(spread));
+    float spread = 0.5 * mx_sample_part(u_envRadianceSamples) / (MX_PI * max(pdf, MX_EPSILON));
+    return weight * (u_envLightIntensity / float(u_envRadianceSamples)) * mx_filtered_light(normalize(mat3(u_envMatrix) * L), mx_map_texels(spread));
 }

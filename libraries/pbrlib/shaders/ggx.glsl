@@ -46,6 +46,12 @@ bool mx_ggx_oval(vec2 roughness)
     return !mx_known(roughness.x == roughness.y);
 }
 
+// True if the compiler knows that the lobe is a mirror.
+bool mx_ggx_smooth(vec2 roughness)
+{
+    return mx_known(max(roughness.x, roughness.y) <= MX_SMOOTH);
+}
+
 // True if masking and albedo follow the direction.
 //
 // A raster does without for closures of MaterialX, as MaterialX does: the mean masks too little where an
@@ -359,7 +365,7 @@ struct mx_GgxSamples {
 // The GGX lobe of a surface as samples of the environment see it.
 //
 // The frame of a round lobe has V above its x. Where V is N, another tiny vector chooses x.
-mx_GgxSamples mx_ggx_samples(vec2 roughness, bool is_round, vec3 N, vec3 X, vec3 V)
+mx_GgxSamples mx_ggx_samples(vec2 roughness, bool is_round, int count, vec3 N, vec3 X, vec3 V)
 {
     mx_GgxLobe lobe = mx_ggx_lobe(roughness, is_round, N, X, V);
     vec3 x = is_round ? normalize(V - lobe.cosine * lobe.N + 1e-6 * lobe.N.yzx) : lobe.x;
@@ -369,24 +375,24 @@ mx_GgxSamples mx_ggx_samples(vec2 roughness, bool is_round, vec3 N, vec3 X, vec3
     vec3 stretch = vec3(lobe.alpha, 1.0);
     float reach = is_round ? lobe.masking : length(v * stretch);
     float area = stretch.x * stretch.y;
-    float share = 1.0 / float(max(u_envRadianceSamples, 1));
+    float share = 1.0 / float(count);
     float weight = share * (v.z + lobe.masking);
-    return mx_GgxSamples(mx_map_frame(frame), stretch, area, v, lobe.masking, reach, share * (v.z + reach), mx_map_texels(area * weight),
+    return mx_GgxSamples(mx_map_frame(frame), stretch, area, v, lobe.masking, reach, share * (v.z + reach), mx_map_texels(area * (v.z + lobe.masking) * mx_sample_part(count)),
                          u_envLightIntensity * weight);
 }
 
 // The lobe of Beckmann's facets as samples of the environment see it.
 //
 // Its `reach` is the masking of v, and `step` the area that v sees of the facets, by sample.
-mx_GgxSamples mx_beckmann_samples(vec2 roughness, vec3 N, vec3 X, vec3 V)
+mx_GgxSamples mx_beckmann_samples(vec2 roughness, int count, vec3 N, vec3 X, vec3 V)
 {
     mat3 frame = mx_ggx_oval(roughness) ? mx_frame(mx_facing(N, V), X) : mx_any_frame(mx_facing(N, V));
     vec2 alpha = mx_ggx_alpha(roughness);
     vec3 v = mx_ggx_local(frame, V);
     float masking = mx_beckmann_smith(v, alpha);
     float area = alpha.x * alpha.y;
-    float weight = (v.z + masking) / float(max(u_envRadianceSamples, 1));
-    return mx_GgxSamples(mx_map_frame(frame), vec3(alpha, 1.0), area, v, masking, masking, weight, mx_map_texels(area * weight),
+    float weight = (v.z + masking) / float(count);
+    return mx_GgxSamples(mx_map_frame(frame), vec3(alpha, 1.0), area, v, masking, masking, weight, mx_map_texels(area * (v.z + masking) * mx_sample_part(count)),
                          u_envLightIntensity * weight);
 }
 
@@ -416,7 +422,7 @@ mx_GgxFacet mx_ggx_facet(mx_GgxSamples s, int i, vec2 turn)
 mx_GgxFacet mx_beckmann_facet(mx_GgxSamples s, int i, vec2 turn)
 {
     float around = fract(atan(turn.y, turn.x) / (2.0 * MX_PI) + 1.0);
-    vec3 h = mx_beckmann_visible(s.stretch.xy, s.v, vec2((float(i) + 0.5) / float(max(u_envRadianceSamples, 1)), around));
+    vec3 h = mx_beckmann_visible(s.stretch.xy, s.v, vec2((float(i) + 0.5) * s.step / (s.v.z + s.masking), around));
     vec2 slope = h.xy / s.stretch.xy;
     float square = dot(h, h);
     float cosine = dot(s.v, h);
@@ -454,6 +460,18 @@ mx_GgxLight mx_ggx_reflected_by_direction(mx_GgxSamples s, string distribution, 
     return mx_GgxLight(mx_filtered_light(s.to_map * l, facet.texels),
                        u_envLightIntensity * s.step * cos_l / (s.v.z * mx_ggx_smith(distribution, l, s.stretch.xy) + cos_l * s.reach),
                        sqrt(clamp(0.5 * (facet.mirror * facet.cosine), MX_EPSILON, 1.0)));
+}
+
+// The light that a smooth surface mirrors.
+mx_GgxLight mx_mirrored(vec3 N, vec3 V)
+{
+    return mx_GgxLight(mx_environment_radiance(reflect(-V, mx_facing(N, V)), 0.0), 1.0, mx_view_cosine(N, V));
+}
+
+// The light that comes through a smooth solid sphere of index `ior`.
+mx_GgxLight mx_transmitted(float ior, vec3 N, vec3 V)
+{
+    return mx_GgxLight(mx_environment_radiance(mx_refract_sphere(V, mx_facing(N, V), ior), 0.0), 1.0, mx_view_cosine(N, V));
 }
 
 // The light that comes to the facet of sample i through a solid sphere of index `ior` behind it.
@@ -497,12 +515,15 @@ vec3 mx_ggx_environment(vec2 roughness, string distribution, bool by_direction, 
     vec3 scale = mx_ggx_compensation(mx_ggx_albedo_of(roughness, distribution, by_direction, N, X, V), model, n, k, f90, film, film_ior);
     if (option_environment == 1)
         return scale * mx_ggx_prefiltered(roughness, distribution, by_direction, N, X, V, 0.0, model, n, k, f90, exponent, film, film_ior);
-    mx_GgxLight light = distribution != "ggx" ? mx_ggx_reflected_by_direction(mx_beckmann_samples(roughness, N, X, V), distribution, i, turn)
-                      : by_direction ? mx_ggx_reflected_by_direction(mx_ggx_samples(roughness, false, N, X, V), distribution, i, turn)
-                                     : mx_ggx_reflected(mx_ggx_samples(roughness, mx_ggx_round(roughness), N, X, V), i, turn);
-    return scale * (film > 0.0 ? mx_fresnel_film(light.cosine, model, n, k, f90, exponent, film, film_ior)
-                               : mx_fresnel_bare(light.cosine, model, n, k, f90, exponent))
-         * light.weight * light.color;
+    int count = mx_sample_count(mx_ggx_alpha(roughness));
+    mx_GgxLight light = mx_ggx_smooth(roughness) ? mx_mirrored(N, V)
+                      : distribution != "ggx" ? mx_ggx_reflected_by_direction(mx_beckmann_samples(roughness, count, N, X, V), distribution, i, turn)
+                      : by_direction ? mx_ggx_reflected_by_direction(mx_ggx_samples(roughness, false, count, N, X, V), distribution, i, turn)
+                                     : mx_ggx_reflected(mx_ggx_samples(roughness, mx_ggx_round(roughness), count, N, X, V), i, turn);
+    return i < count ? scale * (film > 0.0 ? mx_fresnel_film(light.cosine, model, n, k, f90, exponent, film, film_ior)
+                                           : mx_fresnel_bare(light.cosine, model, n, k, f90, exponent))
+                           * light.weight * light.color
+                     : vec3(0.0);
 }
 
 // Sample i of the light of the environment that the lobe refracts.
@@ -513,11 +534,14 @@ vec3 mx_ggx_refraction(vec2 roughness, string distribution, vec3 N, vec3 X, vec3
         return vec3(0.0);
     if (option_environment == 1)
         return mx_ggx_prefiltered(roughness, distribution, mx_ggx_by_direction(roughness), N, X, V, ior, model, n, k, f90, exponent, film, film_ior);
-    mx_GgxSamples samples = distribution == "ggx" ? mx_ggx_samples(roughness, mx_ggx_round(roughness), N, X, V) : mx_beckmann_samples(roughness, N, X, V);
+    int count = mx_sample_count(mx_ggx_alpha(roughness));
+    mx_GgxSamples samples = distribution == "ggx" ? mx_ggx_samples(roughness, mx_ggx_round(roughness), count, N, X, V)
+                                                  : mx_beckmann_samples(roughness, count, N, X, V);
     if (option_path == 1)
-        return mx_ggx_solid(samples, distribution, ior, mode, i, turn, model, n, k, f90, exponent, film, film_ior);
-    mx_GgxLight light = mx_ggx_transmitted(samples, distribution, ior, i, turn);
-    return (1.0 - (film > 0.0 ? mx_fresnel_film(light.cosine, model, n, k, f90, exponent, film, film_ior)
-                              : mx_fresnel_bare(light.cosine, model, n, k, f90, exponent)))
-         * light.weight * light.color;
+        return i < count ? mx_ggx_solid(samples, distribution, ior, mode, i, turn, model, n, k, f90, exponent, film, film_ior) : vec3(0.0);
+    mx_GgxLight light = mx_ggx_smooth(roughness) ? mx_transmitted(ior, N, V) : mx_ggx_transmitted(samples, distribution, ior, i, turn);
+    return i < count ? (1.0 - (film > 0.0 ? mx_fresnel_film(light.cosine, model, n, k, f90, exponent, film, film_ior)
+                                          : mx_fresnel_bare(light.cosine, model, n, k, f90, exponent)))
+                           * light.weight * light.color
+                     : vec3(0.0);
 }

@@ -1,0 +1,50 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""The error and the cost of light from an environment by 16 samples. With `--quality good` each material keeps to a bound, to the error of
+MaterialX's shader of it, and to half of the texture reads of `reference`, which comes nearer; `draft` is cheaper than both.
+
+Arguments: the build folder, the root of the project. With mxgenpeer on the PATH it draws MaterialX's shaders, too."""
+import pathlib
+import sys
+import tempfile
+
+BUILD, ROOT = (pathlib.Path(path).resolve() for path in sys.argv[1:3])
+sys.path[:0] = [str(ROOT / "tests"), str(ROOT / "bench")]
+import checks  # pylint: disable=wrong-import-position
+import error  # pylint: disable=wrong-import-position
+
+# the mean CIEDE2000 that a material may have under soft boxes in a dark room
+BOUNDS = {"bench/standard_surface_default.mtlx": 0.4, "bench/open_pbr_default.mtlx": 0.6, "examples/gold.mtlx": 2.5, "examples/car_paint.mtlx": 4.5,
+          "examples/old_copper.mtlx": 6.0,
+          "examples/marble.mtlx": 0.5, "examples/frosted.mtlx": 2.0}
+TRUTH = "--samples", "512", "--size", "32"
+
+
+def main():
+    documents = [ROOT / name for name in BOUNDS]
+    with tempfile.TemporaryDirectory() as temporary:
+        folder = pathlib.Path(temporary)
+        has_theirs = error.prepare_theirs(BUILD, folder, documents)
+        rows = error.draw(BUILD, folder, documents, "studio", TRUTH, width=128)
+    if rows is None:
+        checks.skip("no Vulkan device")
+        checks.finish("light-error")
+    if not has_theirs:
+        checks.skip(f"{error.GENERATOR} is not on the PATH: no shader of MaterialX is drawn")
+    for document, bound in zip(documents, BOUNDS.values()):
+        name = document.stem
+        by_way = {row.way: row for row in rows if row.material == name and row.samples == 16}
+        draft, good, reference, theirs = (by_way.get(way) for way in (*error.OURS, error.THEIRS))
+        print(name, *(f"{way} {row.mean:.2f} ({row.reads:.1f} reads)" for way, row in by_way.items()))
+        checks.check(good.mean <= bound, f"{name}: the error is {good.mean:.2f}, and may be {bound}")
+        checks.check(reference.mean <= good.mean, f"{name}: `reference` errs by {reference.mean:.2f}, `good` by {good.mean:.2f}")
+        checks.check(2 * (good.reads - 1) <= reference.reads, f"{name}: `good` reads {good.reads:.1f} texels, `reference` {reference.reads:.1f}")
+        checks.check(draft.reads <= good.reads, f"{name}: `draft` reads {draft.reads:.1f} texels, `good` {good.reads:.1f}")
+        if theirs:
+            checks.check(good.mean <= 1.1 * theirs.mean + 0.05, f"{name}: `good` errs by {good.mean:.2f}, MaterialX's shader by {theirs.mean:.2f}")
+            checks.check(2 * good.reads <= theirs.reads, f"{name}: `good` reads {good.reads:.1f} texels, MaterialX's shader {theirs.reads:.1f}")
+    checks.finish("light-error")
+
+
+if __name__ == "__main__":
+    main()
