@@ -4,7 +4,7 @@ import collections
 import math
 import statistics
 
-WIDTH, HEIGHT, LEFT, TOP, SIDE = 640, 400, 60, 40, 130
+WIDTH, HEIGHT, LEFT, TOP, SIDE = 660, 400, 60, 40, 150
 COLORS = {"MaterialX": "#777777", "draft": "#d08020", "good": "#2060c0", "reference": "#208040", "prefiltered": "#2060c0",
           "MaterialX, prefiltered": "#777777"}
 
