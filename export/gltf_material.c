@@ -139,6 +139,40 @@ static bool is_zero(struct state *state, const char *name)
     return is_zero;
 }
 
+/* ---- KHR_materials_unlit ---- */
+
+static bool only_emits(struct state *state)
+{
+    static const char *const others[] = {"base_color",  "metallic",  "specular",
+                                         "sheen_color", "clearcoat", "transmission"};
+    bool others_are_zero = true;
+    for (size_t i = 0; i < sizeof others / sizeof *others; ++i)
+        others_are_zero = others_are_zero && is_zero(state, others[i]);
+    return others_are_zero && !is_zero(state, "emissive")
+           && find(state, "emissive_strength")->factor[0] == 1;
+}
+
+/* The emission is the base colour; what extensions have says nothing any more. */
+static void make_unlit(struct state *state)
+{
+    const char *extension = "KHR_materials_unlit";
+    struct cell *base = find(state, "base_color"), *emissive = find(state, "emissive");
+    const struct gltf_input *row = base->row;
+    *base = *emissive;
+    base->row = row;
+    for (size_t i = 0; i < gltf_num_inputs; ++i) {
+        struct cell *cell = &state->cells[i];
+        bool is_extension = cell->row->object && strncmp(cell->row->object, "KHR_", 4) == 0;
+        if (!is_extension && cell != emissive)
+            continue;
+        *cell = (struct cell){.row = cell->row};
+        for (unsigned k = 0; k < cell->row->count; ++k)
+            cell->factor[k] = cell->row->omitted;
+    }
+    gltf_add(gltf_array(state->gltf->root, "extensionsUsed"), json_string(extension));
+    gltf_object(gltf_object(state->json, "extensions"), extension);
+}
+
 static bool does_something(struct state *state, const struct cell *cell)
 {
     for (size_t i = 0; i < 2 && cell->row->needs[i]; ++i)
@@ -392,6 +426,8 @@ bool gltf_add_material(struct gltf *gltf, const struct flat_material *material, 
     if (!read_cells(&state))
         return false;
     move_strength(&state);
+    if (only_emits(&state))
+        make_unlit(&state);
     tell_others(&state);
     for (size_t i = 0; good && i < gltf_num_inputs; ++i) {
         const struct cell *cell = &state.cells[i];

@@ -129,8 +129,8 @@ ir_ref closure_num_samples(struct shader *shader, ir_ref *value)
 
 ir_ref closure_first_turn(struct ir_graph *g)
 {
-    return ir_construct(g, IR_TYPE_VEC2,
-                        (ir_ref[]){ir_const_float(g, 1.0f), ir_const_float(g, 0.0f)}, 2);
+    ir_ref one = ir_const_float(g, 1.0f), zero = ir_const_float(g, 0.0f);
+    return ir_construct(g, IR_TYPE_VEC2, (ir_ref[]){one, zero}, 2);
 }
 
 struct closure_turn closure_turn_of_samples(struct shader *shader, const struct closure_parts *list)

@@ -276,6 +276,8 @@ bool build_matter(struct builder *b, const struct closure_host *closures, struct
     *out = (struct matter){.had_slabs = slabs_has(b->shader, parts.bsdf)};
     out->is_thin = thin ? thin : ir_const_bool(g, false);
     out->opacity = parts.alpha ? parts.alpha : ir_const_float(g, 1.0f);
+    if (parts.premultiplied) /* the definition multiplies again */
+        parts = closure_picked(g, parts);
     out->transmits = sum_of_leaves(&t, parts.bsdf, light_through);
     out->emits = sum_of_leaves(&t, parts.edf, emitted_light);
     if (parts.unlit)

@@ -150,6 +150,26 @@ cat >image.mtlx <<'EOF'
 EOF
 check 'an image without changes is the same file' eval 'exits 0 "$mxgen" export image.mtlx -o image.gltf && cmp flat/S_base_color.png image_M_baseColor.png && member image.gltf samplers "[{\"wrapS\": 33648}]"'
 
+cat >unlit.mtlx <<'EOF'
+<?xml version="1.0"?>
+<materialx version="1.39">
+  <image name="tone" type="color3"><input name="file" type="filename" value="flat/S_base_color.png" colorspace="srgb_texture"/></image>
+  <surface_unlit name="S" type="surfaceshader">
+    <input name="emission_color" type="color3" nodename="tone"/>
+    <input name="opacity" type="float" value="0.5"/>
+  </surface_unlit>
+  <surfacematerial name="Sign" type="material"><input name="surfaceshader" type="surfaceshader" nodename="S"/></surfacematerial>
+  <surface_unlit name="L" type="surfaceshader">
+    <input name="emission" type="float" value="0.5"/>
+    <input name="emission_color" type="color3" value="1, 0.5, 0.25"/>
+  </surface_unlit>
+  <surfacematerial name="Lamp" type="material"><input name="surfaceshader" type="surfaceshader" nodename="L"/></surfacematerial>
+</materialx>
+EOF
+check 'what only emits is unlit' eval 'exits 0 "$mxgen" export unlit.mtlx -o unlit.gltf -Werror && member unlit.gltf materials/Lamp/extensions "{\"KHR_materials_unlit\": {}}" && member unlit.gltf materials/Lamp/pbrMetallicRoughness/baseColorFactor "[0.5, 0.25, 0.125, 1.0]" && lacks unlit.gltf materials/Lamp/emissiveFactor'
+check 'with its opacity once' eval 'member unlit.gltf materials/Sign/pbrMetallicRoughness/baseColorFactor "[1.0, 1.0, 1.0, 0.5]" && cmp flat/S_base_color.png unlit_Sign_baseColor.png'
+check 'and comes back' eval 'exits 0 "$mxgen" import unlit.gltf -o unlit_back.mtlx -Werror && test "$(grep -c "<surface_unlit" unlit_back.mtlx)" = 2 && grep -q "0.5, 0.25, 0.125" unlit_back.mtlx'
+
 sed 's/srgb_texture/acescg/' image.mtlx >aces.mtlx # 0.647, 0.808, 0.537 by the matrix of ACES (S-2014-004) and Rec. 709
 check 'an image in another space is drawn in sRGB' eval 'exits 0 "$mxgen" export aces.mtlx -o aces.glb && texel aces.glb materials/M/pbrMetallicRoughness/baseColorTexture 0.25 0.25 197 235 187'
 cat >tall.usda <<'EOF'
@@ -289,7 +309,7 @@ check 'nothing of failures is left' test "$(ls -A "$TMPDIR" | wc -l)" = 0
 check 'endings' exits 2 "$mxgen" export all.mtlx -o none.fbx
 check 'usage' exits 2 "$mxgen" export all.mtlx
 if [ -d "$root/tests/npm/node_modules/gltf-validator" ] && command -v node >valid.log; then
-    check "Khronos' validator has no objection" valid 'out1/all of it.gltf' all.glb marble.glb image.gltf aces.glb tall.glb loss.gltf placed.gltf
+    check "Khronos' validator has no objection" valid 'out1/all of it.gltf' all.glb marble.glb image.gltf aces.glb tall.glb loss.gltf placed.gltf unlit.gltf
 else
     skip 'no gltf-validator (npm ci --prefix tests/npm) or no node'
 fi
