@@ -53,8 +53,8 @@ static bool names(const char *text, const char *end, const char *name)
 static size_t ends_line(const char *text, size_t len)
 {
     unsigned char byte = (unsigned char)*text;
-    if (byte < 0x20 || byte == 0x7f || byte == '\\')
-        return 1;
+    if (byte < 0x80)
+        return byte < 0x20 || byte == 0x7f || byte == '\\';
     if (len > 1 && memcmp(text, "\xc2\x85", 2) == 0)
         return 2;
     bool is_separator =
