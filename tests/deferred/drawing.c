@@ -88,7 +88,12 @@ bool drawing_generate(struct bench *b, const char *element, const char *role_nam
     desc.options = b->options;
     mxg_options_set(b->options, "role", role_name);
     mxg_options_set(b->options, "storage", storage);
+    bool is_payload = strcmp(role_name, "payload") == 0; /* its pass has the environment */
+    if (is_payload)
+        mxg_options_set(b->options, "quality", "good");
     mxg_status status = mxg_generate(b->context, b->document, &desc, out);
+    if (is_payload)
+        mxg_options_set(b->options, "quality", "reference");
     mxg_diagnostic first = {sizeof first};
     if (*out && mxg_diagnostics_item(mxg_result_diagnostics(*out), 0, &first) == MXG_OK
         && first.severity <= MXG_SEVERITY_WARNING)

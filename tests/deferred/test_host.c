@@ -219,6 +219,7 @@ int main(int argc, char **argv)
         return EXIT_FAILURE;
     if (!bench_open_ball(&b))
         return 77;
+    mxg_options_set(b.options, "quality", "good"); /* an environment of the host has no samples */
     if (bench_load(&b, argv[1], "examples/deferred.mtlx")) {
         mxg_options_set(b.options, "environment", "none");
         test_lights(&b);
