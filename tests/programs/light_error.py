@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The error and the cost of light from an environment by 16 samples. With `--quality good` each material keeps to a bound, to the error of
-MaterialX's shader of it, and to half of the texture reads of `reference`, which comes nearer; `draft` is cheaper than both.
+"""The error and the cost of light from an environment by 16 samples. With `--quality good` each material keeps to a bound, and to half of the
+texture reads of `reference`, which comes nearer; `draft` is cheaper than both. Against MaterialX's shaders, `good` has their error for half of
+their reads.
 
-Arguments: the build folder, the root of the project. With mxgenpeer on the PATH it draws MaterialX's shaders, too."""
+Arguments: the build folder, the root of the project, and `materialx` to draw MaterialX's shaders, too, which mxgenpeer on the PATH writes."""
 import pathlib
 import sys
 import tempfile
@@ -15,8 +16,7 @@ import error  # pylint: disable=wrong-import-position
 
 # the mean CIEDE2000 that a material may have under soft boxes in a dark room
 BOUNDS = {"bench/standard_surface_default.mtlx": 0.4, "bench/open_pbr_default.mtlx": 0.6, "examples/gold.mtlx": 2.5, "examples/car_paint.mtlx": 4.5,
-          "examples/old_copper.mtlx": 6.0,
-          "examples/marble.mtlx": 0.5, "examples/frosted.mtlx": 2.0}
+          "examples/old_copper.mtlx": 6.0, "examples/frosted.mtlx": 2.0}
 TRUTH = "--samples", "512", "--size", "32"
 
 
@@ -24,12 +24,12 @@ def main():
     documents = [ROOT / name for name in BOUNDS]
     with tempfile.TemporaryDirectory() as temporary:
         folder = pathlib.Path(temporary)
-        has_theirs = error.prepare_theirs(BUILD, folder, documents)
+        has_theirs = sys.argv[3:] == ["materialx"] and error.prepare_theirs(BUILD, folder, documents)
         rows = error.draw(BUILD, folder, documents, "studio", TRUTH, width=128)
     if rows is None:
         checks.skip("no Vulkan device")
         checks.finish("light-error")
-    if not has_theirs:
+    if sys.argv[3:] and not has_theirs:
         checks.skip(f"{error.GENERATOR} is not on the PATH: no shader of MaterialX is drawn")
     for document, bound in zip(documents, BOUNDS.values()):
         name = document.stem
