@@ -25,8 +25,7 @@ static void close_fixture(struct fixture *f)
 }
 
 #define DOCUMENT(attributes, text) \
-    "<?xml version=\"1.0\"?><materialx version=\"1.39\"" attributes ">" text "</materialx>"
-#define INPUT(name, type, rest) "<input name=\"" name "\" type=\"" type "\" " rest "/>"
+    "<?xml version='1.0'?><materialx version='1.39'" attributes ">" text "</materialx>"
 
 static mxg_document *parse(const struct fixture *f, const char *text)
 {
@@ -93,83 +92,46 @@ static void expect_attribute(const mxg_document *document, const char *path, con
 /* ---- Values ---- */
 
 #define PATTERN \
-    "<nodedef name=\"ND_p\" node=\"pattern\">" INPUT( \
-        "hue", "color3", "value=\"0.25, 0.5, 0.75\"") INPUT("scale", "float", "value=\"4\"") \
-        INPUT("st", "vector2", "defaultgeomprop=\"UV0\"") INPUT( \
-            "at", "vector3", \
-            "defaultgeomprop=\"Pobject\"") "<output name=\"out\" type=\"color3\"/></nodedef>" \
-                                           "<nodegraph name=\"NG_p\" nodedef=\"ND_p\">" \
-                                           "<multiply name=\"wide\" type=\"vector2\">" INPUT( \
-                                               "in1", "vector2", "interfacename=\"st\"") \
-                                               INPUT( \
-                                                   "in2", "float", \
-                                                   "interfacename=\"scale\"") "</multiply>" \
-                                                                              "<noise2d " \
-                                                                              "name=\"spots\" " \
-                                                                              "type=" \
-                                                                              "\"float\">" INPUT("texcoord", "vector2", "nodename=\"wide\"") "</noise2d><noise2d name=\"plain\" type=\"float\">" INPUT( \
-                                                                                  "texcoord", \
-                                                                                  "vector2", \
-                                                                                  "interfacename=" \
-                                                                                  "\"st\"") "</" \
-                                                                                            "nois" \
-                                                                                            "e2d>" \
-                                                                                            "<ext" \
-                                                                                            "ract" \
-                                                                                            " nam" \
-                                                                                            "e=" \
-                                                                                            "\"x" \
-                                                                                            "\" " \
-                                                                                            "type" \
-                                                                                            "=\"f" \
-                                                                                            "loat" \
-                                                                                            "\"" \
-                                                                                            ">" INPUT("in", "vector3", "interfacename=\"at\"") "</extract><add name=\"sum\" type=\"float\">" INPUT( \
-                                                                                                "in1", \
-                                                                                                "float", \
-                                                                                                "nodename=\"spots\"") \
-                                                                                                INPUT( \
-                                                                                                    "in2", \
-                                                                                                    "float", \
-                                                                                                    "nodename=\"plain\"") "</add>" \
-                                                                                                                          "<add name=\"more\" type=\"float\">" INPUT( \
-                                                                                                                              "in1", \
-                                                                                                                              "float", \
-                                                                                                                              "nodename=\"sum\"") \
-                                                                                                                              INPUT( \
-                                                                                                                                  "in2", \
-                                                                                                                                  "float", \
-                                                                                                                                  "nodename=\"x\"") "</add>" \
-                                                                                                                                                    "<multiply name=\"end\" type=\"color3\">" INPUT( \
-                                                                                                                                                        "in1", \
-                                                                                                                                                        "color3", \
-                                                                                                                                                        "interfacename=\"hue\"") \
-                                                                                                                                                        INPUT( \
-                                                                                                                                                            "in2", \
-                                                                                                                                                            "float", \
-                                                                                                                                                            "nodename=\"more\"") "</multiply>" \
-                                                                                                                                                                                 "<output name=\"out\" type=\"color3\" nodename=\"end\"/></nodegraph>"
-#define SURFACE(input) \
-    "<standard_surface name=\"S\" type=\"surfaceshader\">" input "</standard_surface>"
+    "<nodedef name='ND_p' node='pattern'>" \
+    "<input name='hue' type='color3' value='0.25, 0.5, 0.75'/>" \
+    "<input name='scale' type='float' value='4'/>" \
+    "<input name='st' type='vector2' defaultgeomprop='UV0'/>" \
+    "<input name='at' type='vector3' defaultgeomprop='Pobject'/>" \
+    "<output name='out' type='color3'/></nodedef>" \
+    "<nodegraph name='NG_p' nodedef='ND_p'>" \
+    "<multiply name='wide' type='vector2'><input name='in1' type='vector2' interfacename='st'/>" \
+    "<input name='in2' type='float' interfacename='scale'/></multiply>" \
+    "<noise2d name='spots' type='float'>" \
+    "<input name='texcoord' type='vector2' nodename='wide'/></noise2d>" \
+    "<noise2d name='plain' type='float'>" \
+    "<input name='texcoord' type='vector2' interfacename='st'/></noise2d>" \
+    "<extract name='x' type='float'><input name='in' type='vector3' " \
+    "interfacename='at'/></extract>" \
+    "<add name='sum' type='float'><input name='in1' type='float' nodename='spots'/>" \
+    "<input name='in2' type='float' nodename='plain'/></add>" \
+    "<add name='more' type='float'><input name='in1' type='float' nodename='sum'/>" \
+    "<input name='in2' type='float' nodename='x'/></add>" \
+    "<multiply name='end' type='color3'><input name='in1' type='color3' interfacename='hue'/>" \
+    "<input name='in2' type='float' nodename='more'/></multiply>" \
+    "<output name='out' type='color3' nodename='end'/></nodegraph>"
+#define SURFACE(inputs) \
+    "<standard_surface name='S' type='surfaceshader'>" inputs "</standard_surface>"
 
 static void test_values(void)
 {
     struct fixture f;
     open_fixture(&f, 0);
     mxg_document *before = parse(
-        &f,
-        DOCUMENT(
-            " colorspace=\"srgb_texture\"",
-            PATTERN "<constant name=\"size\" type=\"float\">" INPUT(
-                "value", "float",
-                "value=\"2\"") "</constant>"
-                               "<constant name=\"P_sum\" type=\"float\"/>"
-                               "<pattern name=\"P\" type=\"color3\">" INPUT("scale", "float",
-                                                                            "nodename=\"size\"")
-                                   INPUT("hue", "color3", "value=\"0.5, 0.1, 0.1\" colorspace=\"none\"") "</pattern>" SURFACE(
-                                       INPUT("base_color", "color3",
-                                             "nodename=\"P\" output=\"out\"")
-                                           INPUT("emission_color", "color3", "nodename=\"P\""))));
+        &f, DOCUMENT(
+                " colorspace='srgb_texture'", PATTERN
+                "<constant name='size' type='float'><input name='value' type='float' "
+                "value='2'/></constant>"
+                "<constant name='P_sum' type='float'/>"
+                "<pattern name='P' type='color3'><input name='scale' type='float' nodename='size'/>"
+                "<input name='hue' type='color3' value='0.5, 0.1, 0.1' "
+                "colorspace='none'/></pattern>" SURFACE(
+                    "<input name='base_color' type='color3' nodename='P' output='out'/>"
+                    "<input name='emission_color' type='color3' nodename='P'/>")));
     mxg_document *after = flatten(&f, before, (const char *const[]){"P", NULL});
     expect_attribute(after, "S/base_color", "nodename", "P");
     expect_attribute(after, "S/base_color", "output", "");
@@ -194,11 +156,10 @@ static void test_defaults(void)
     struct fixture f;
     open_fixture(&f, 0);
     mxg_document *before = parse(
-        &f, DOCUMENT(" colorspace=\"srgb_texture\"", PATTERN
-                     "<nodegraph name=\"G\" colorspace=\"lin_rec709\">"
-                     "<pattern name=\"P\" type=\"color3\"/>"
-                     "<output name=\"out\" type=\"color3\" nodename=\"P\"/></nodegraph>" SURFACE(
-                         INPUT("base_color", "color3", "nodegraph=\"G\""))));
+        &f, DOCUMENT(" colorspace='srgb_texture'", PATTERN
+                     "<nodegraph name='G' colorspace='lin_rec709'><pattern name='P' type='color3'/>"
+                     "<output name='out' type='color3' nodename='P'/></nodegraph>" SURFACE(
+                         "<input name='base_color' type='color3' nodegraph='G'/>")));
     mxg_document *after = flatten(&f, before, (const char *const[]){"G/P", NULL});
     expect_attribute(after, "G/P/in1", "value", "0.25, 0.5, 0.75");
     expect_attribute(after, "G/P/in1", "colorspace", "srgb_texture");
@@ -212,124 +173,38 @@ static void test_defaults(void)
 /* ---- Outputs, units, files ---- */
 
 #define SPLIT \
-    "<nodedef name=\"ND_s\" node=\"split\">" INPUT("depth", "float", "value=\"1\" unit=\"meter\" unittype=\"distance\"") INPUT( \
-        "file", "filename", \
-        "value=\"none.png\"") "<token name=\"kind\" type=\"string\" value=\"color\"/>" \
-                              "<output name=\"a\" type=\"color3\"/><output name=\"b\" " \
-                              "type=\"float\"/>" \
-                              "<output name=\"c\" type=\"float\"/></nodedef>" \
-                              "<nodegraph name=\"NG_s\" nodedef=\"ND_s\" " \
-                              "fileprefix=\"there/\">" \
-                              "<image name=\"i\" type=\"color3\">" INPUT("file", "filename", "interfacename=\"file\"") "</image><image name=\"own\" type=\"color3\">" INPUT( \
-                                  "file", "filename", \
-                                  "value=\"[kind].png\"") "</image>" \
-                                                          "<add name=\"both\" " \
-                                                          "type=\"color3\">" INPUT("in1", "color3", "nodename=\"i\"") INPUT( \
-                                                              "in2", "color3", \
-                                                              "nodename=\"own\"") "</add>" \
-                                                                                  "<separ" \
-                                                                                  "ate3 " \
-                                                                                  "name=" \
-                                                                                  "\"part" \
-                                                                                  "s\" " \
-                                                                                  "type=" \
-                                                                                  "\"mult" \
-                                                                                  "ioutpu" \
-                                                                                  "t\"" \
-                                                                                  ">" INPUT( \
-                                                                                      "i" \
-                                                                                      "n", \
-                                                                                      "co" \
-                                                                                      "lo" \
-                                                                                      "r" \
-                                                                                      "3", \
-                                                                                      "no" \
-                                                                                      "de" \
-                                                                                      "na" \
-                                                                                      "me" \
-                                                                                      "=" \
-                                                                                      "\"" \
-                                                                                      "bo" \
-                                                                                      "th" \
-                                                                                      "\"") "</" \
-                                                                                            "sepa" \
-                                                                                            "rate" \
-                                                                                            "3><" \
-                                                                                            "outp" \
-                                                                                            "ut " \
-                                                                                            "name" \
-                                                                                            "=\"a" \
-                                                                                            "\" " \
-                                                                                            "type" \
-                                                                                            "=\"c" \
-                                                                                            "olor" \
-                                                                                            "3\" " \
-                                                                                            "node" \
-                                                                                            "name" \
-                                                                                            "=\"b" \
-                                                                                            "oth" \
-                                                                                            "\"/>" \
-                                                                                            "<out" \
-                                                                                            "put " \
-                                                                                            "name" \
-                                                                                            "=\"b" \
-                                                                                            "\" " \
-                                                                                            "type" \
-                                                                                            "=\"f" \
-                                                                                            "loat" \
-                                                                                            "\" " \
-                                                                                            "node" \
-                                                                                            "name" \
-                                                                                            "=\"p" \
-                                                                                            "arts" \
-                                                                                            "\" " \
-                                                                                            "outp" \
-                                                                                            "ut=" \
-                                                                                            "\"ou" \
-                                                                                            "tg\"" \
-                                                                                            "/>" \
-                                                                                            "<out" \
-                                                                                            "put " \
-                                                                                            "name" \
-                                                                                            "=\"c" \
-                                                                                            "\" " \
-                                                                                            "type" \
-                                                                                            "=\"f" \
-                                                                                            "loat" \
-                                                                                            "\" " \
-                                                                                            "inte" \
-                                                                                            "rfac" \
-                                                                                            "enam" \
-                                                                                            "e=" \
-                                                                                            "\"de" \
-                                                                                            "pth" \
-                                                                                            "\"/" \
-                                                                                            "></" \
-                                                                                            "node" \
-                                                                                            "grap" \
-                                                                                            "h>"
+    "<nodedef name='ND_s' node='split'>" \
+    "<input name='depth' type='float' value='1' unit='meter' unittype='distance'/>" \
+    "<input name='file' type='filename' value='none.png'/>" \
+    "<token name='kind' type='string' value='color'/>" \
+    "<output name='a' type='color3'/><output name='b' type='float'/>" \
+    "<output name='c' type='float'/></nodedef>" \
+    "<nodegraph name='NG_s' nodedef='ND_s' fileprefix='there/'>" \
+    "<image name='i' type='color3'>" \
+    "<input name='file' type='filename' interfacename='file'/></image>" \
+    "<image name='own' type='color3'><input name='file' type='filename' " \
+    "value='[kind].png'/></image>" \
+    "<add name='both' type='color3'><input name='in1' type='color3' nodename='i'/>" \
+    "<input name='in2' type='color3' nodename='own'/></add>" \
+    "<separate3 name='parts' type='multioutput'>" \
+    "<input name='in' type='color3' nodename='both'/></separate3>" \
+    "<output name='a' type='color3' nodename='both'/>" \
+    "<output name='b' type='float' nodename='parts' output='outg'/>" \
+    "<output name='c' type='float' interfacename='depth'/></nodegraph>"
 
 static void test_outputs(void)
 {
     struct fixture f;
     open_fixture(&f, 0);
-    mxg_document *before = parse(
-        &f,
-        DOCUMENT(" fileprefix=\"here/\"", SPLIT
-                 "<split name=\"P\" type=\"multioutput\">" INPUT("depth", "float",
-                                                                 "value=\"0.5\" unit=\"kilometer\"")
-                     INPUT("file", "filename",
-                           "value=\"wood.png\"") "<token name=\"kind\" "
-                                                 "type=\"string\" "
-                                                 "value=\"rust\"/></split>" SURFACE(
-                                                     INPUT("base_color", "color3",
-                                                           "nodename=\"P\" "
-                                                           "output=\"a\"") INPUT("base", "float",
-                                                                                 "nodename=\"P\" "
-                                                                                 "output=\"b\"")
-                                                         INPUT("coat", "float",
-                                                               "nodename=\"P\" "
-                                                               "output=\"c\""))));
+    mxg_document *before =
+        parse(&f, DOCUMENT(" fileprefix='here/'", SPLIT
+                           "<split name='P' type='multioutput'>"
+                           "<input name='depth' type='float' value='0.5' unit='kilometer'/>"
+                           "<input name='file' type='filename' value='wood.png'/>"
+                           "<token name='kind' type='string' value='rust'/></split>" SURFACE(
+                               "<input name='base_color' type='color3' nodename='P' output='a'/>"
+                               "<input name='base' type='float' nodename='P' output='b'/>"
+                               "<input name='coat' type='float' nodename='P' output='c'/>")));
     mxg_document *after = flatten(&f, before, (const char *const[]){"P", NULL});
     expect_attribute(after, "S/base_color", "nodename", "P_both");
     expect_attribute(after, "S/base_color", "output", "");
@@ -355,53 +230,17 @@ static void test_levels(void)
     struct fixture f;
     open_fixture(&f, 0);
     mxg_document *before = parse(
-        &f,
-        DOCUMENT(
-            "",
-            PATTERN "<nodedef name=\"ND_o\" node=\"outer\">" INPUT(
-                "tint", "color3",
-                "value=\"1, 0.5, 0.5\"") "<output name=\"out\" type=\"surfaceshader\"/></nodedef>"
-                                         "<nodegraph name=\"NG_o\" nodedef=\"ND_o\">"
-                                         "<pattern name=\"p\" type=\"color3\">" INPUT(
-                                             "hue", "color3",
-                                             "interfacename=\"tint\"") "</pattern>"
-                                                                       "<standard_surface "
-                                                                       "name=\"s\" "
-                                                                       "type="
-                                                                       "\"surfaceshader\">" INPUT(
-                                                                           "base_color", "color3",
-                                                                           "nodename=\"p\"") "</"
-                                                                                             "stand"
-                                                                                             "ard_"
-                                                                                             "surfa"
-                                                                                             "ce>"
-                                                                                             "<outp"
-                                                                                             "ut "
-                                                                                             "name="
-                                                                                             "\"out"
-                                                                                             "\" "
-                                                                                             "type="
-                                                                                             "\"sur"
-                                                                                             "faces"
-                                                                                             "hader"
-                                                                                             "\" "
-                                                                                             "noden"
-                                                                                             "ame="
-                                                                                             "\"s\""
-                                                                                             "/>"
-                                                                                             "</"
-                                                                                             "nodeg"
-                                                                                             "raph>"
-                                                                                             "<oute"
-                                                                                             "r "
-                                                                                             "name="
-                                                                                             "\"S\""
-                                                                                             " type"
-                                                                                             "=\"su"
-                                                                                             "rface"
-                                                                                             "shade"
-                                                                                             "r\"/"
-                                                                                             ">"));
+        &f, DOCUMENT("", PATTERN
+                     "<nodedef name='ND_o' node='outer'><input name='tint' type='color3' value='1, "
+                     "0.5, 0.5'/>"
+                     "<output name='out' type='surfaceshader'/></nodedef><nodegraph name='NG_o' "
+                     "nodedef='ND_o'>"
+                     "<pattern name='p' type='color3'>"
+                     "<input name='hue' type='color3' interfacename='tint'/></pattern>"
+                     "<standard_surface name='s' type='surfaceshader'>"
+                     "<input name='base_color' type='color3' nodename='p'/></standard_surface>"
+                     "<output name='out' type='surfaceshader' nodename='s'/></nodegraph>"
+                     "<outer name='S' type='surfaceshader'/>"));
     mxg_document *one = flatten(&f, before, (const char *const[]){"S", NULL}),
                  *all = flatten(&f, before, (const char *const[]){"S", "S_p", "S", NULL});
     expect_attribute(one, "S/base_color", "nodename", "S_p");
@@ -421,11 +260,10 @@ static void test_library(void)
     struct fixture f;
     open_fixture(&f, 0);
     mxg_document *before = parse(
-                     &f,
-                     DOCUMENT("", SURFACE(INPUT("base_color", "color3", "value=\"0.5, 0.1, 0.2\"")
-                                              INPUT("coat", "float", "value=\"0.5\"")
-                                                  INPUT("metalness", "float", "value=\"0.25\"")))),
-                 *after = flatten(&f, before, (const char *const[]){"S", NULL});
+        &f, DOCUMENT("", SURFACE("<input name='base_color' type='color3' value='0.5, 0.1, 0.2'/>"
+                                 "<input name='coat' type='float' value='0.5'/>"
+                                 "<input name='metalness' type='float' value='0.25'/>")));
+    mxg_document *after = flatten(&f, before, (const char *const[]){"S", NULL});
     REQUIRE(draws_the_same(&f, before, after, "S"));
     mxg_document_destroy(before);
     mxg_document_destroy(after);
@@ -456,12 +294,12 @@ static void test_failures(void)
     struct fixture f;
     open_fixture(&f, 100);
     mxg_document *document = parse(
-        &f, DOCUMENT("", "<nodedef name=\"ND_r\" node=\"round\"><output name=\"out\" "
-                         "type=\"float\"/></nodedef><nodegraph name=\"NG_r\" nodedef=\"ND_r\">"
-                         "<round name=\"r\" type=\"float\"/>"
-                         "<output name=\"out\" type=\"float\" nodename=\"r\"/></nodegraph>"
-                         "<add name=\"a\" type=\"float\"/>"
-                         "<standard_surface name=\"S\" type=\"surfaceshader\"/>"));
+        &f,
+        DOCUMENT("",
+                 "<nodedef name='ND_r' node='round'><output name='out' type='float'/></nodedef>"
+                 "<nodegraph name='NG_r' nodedef='ND_r'><round name='r' type='float'/>"
+                 "<output name='out' type='float' nodename='r'/></nodegraph>"
+                 "<add name='a' type='float'/><standard_surface name='S' type='surfaceshader'/>"));
     expect_failure(&f, document, "a", "no nodegraph implements the definition of 'a'");
     expect_failure(&f, document, "NG_r", "no nodegraph implements the definition of 'NG_r'");
     expect_failure(&f, document, "NG_r/r", "'r' is a part of its own definition");
