@@ -255,21 +255,17 @@ struct closure_sample_loops {
 void closure_find_sample_loops(struct shader *shader, const struct closure_parts *list,
                                struct closure_sample_loops *out);
 /*
- * The number of samples that a value per sample is to be added up for. Where the value is
- * `index < count ? x : 0`, it becomes x, and the value of the first sample where that is the only
- * one: a value without samples. Other values are added up for all samples.
+ * The number of samples that a value is to be added up for; 0: it is no value per sample, and
+ * whole. Where the value is `index < count ? x : 0`, it becomes x, and where the count is 1, x of
+ * the first sample, which is whole. Other values per sample are added up for all samples.
  */
 ir_ref closure_num_samples(struct shader *shader, ir_ref *value);
 /*
- * The turn of samples, a unit vector: the golden angle further around from sample to sample. 0: the
- * parts do not read it. `first` is of the first sample.
+ * The turn of samples, a unit vector: the golden angle further around from sample to sample. That
+ * of the first sample, and that of the next one; 0: the parts do not read it.
  */
-struct closure_turn {
-    ir_ref first, next;
-};
 ir_ref closure_first_turn(struct ir_graph *graph);
-struct closure_turn closure_turn_of_samples(struct shader *shader,
-                                            const struct closure_parts *list);
+ir_ref closure_next_turn(struct shader *shader, const struct closure_parts *list);
 /* The sum of a value over all samples, for code that does more than add it up: adds effects. */
 ir_ref closure_gathered(struct shader *shader, ir_ref value);
 

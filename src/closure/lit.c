@@ -65,7 +65,7 @@ void emitter_declare_color(struct emitter *e)
                                : ir_const_splat(e->graph, IR_TYPE_VEC3, 0.0f));
 }
 
-/* count: of a value per sample. */
+/* count: of closure_num_samples. */
 static void add_part(struct emitter *e, enum closure_place place, const struct closure_list *list,
                      uint32_t order, ir_ref value, ir_ref count)
 {
@@ -241,19 +241,14 @@ static void find_lit_parts(struct emitter *e, ir_ref bsdf, const struct closure_
     }
 }
 
-static bool is_per_sample(const struct emitter *e, ir_ref value)
-{
-    return value && ir_get(e->graph, value)->flags & IR_NODE_LOOP;
-}
-
 static bool add_surrounding_part(struct emitter *e, const struct closure_list *list, uint32_t order,
                                  ir_ref value)
 {
     const struct closure_leaf *leaf = &list->leaves.items[order];
     ir_ref way = value && leaf->decay ? closure_environment_way(e->shader, e->host, leaf->leaf) : 0;
-    ir_ref count = is_per_sample(e, value) ? closure_num_samples(e->shader, &value) : 0;
+    ir_ref count = closure_num_samples(e->shader, &value);
     value = weighted(e, leaf, value, way);
-    add_part(e, is_per_sample(e, value) ? PLACE_SAMPLE : PLACE_WHOLE, list, order, value, count);
+    add_part(e, count ? PLACE_SAMPLE : PLACE_WHOLE, list, order, value, count);
     return value != 0;
 }
 
@@ -339,17 +334,17 @@ static void loop_lights(struct emitter *e, struct closure_parts *lit, bool is_on
 
 static void loop_samples(struct emitter *e, struct closure_parts *list, ir_ref factor)
 {
-    struct closure_turn turn = closure_turn_of_samples(e->shader, list);
-    if (turn.first)
-        emitter_effect(e, EFFECT_TURN, 0, turn.first);
+    ir_ref next = closure_next_turn(e->shader, list);
+    if (next)
+        emitter_effect(e, EFFECT_TURN, 0, closure_first_turn(e->graph));
     emitter_effect(e, EFFECT_SAMPLES, 0, list->parts.items[0].count);
     closure_enter_loop(&e->copies, e->shader->effects.num_sample_loops++);
     if (list->parts.len == 1)
         accumulate(e, factor, list->parts.items[0].value);
     else
         accumulate_all(e, NULL, list, true, factor);
-    if (turn.next)
-        emitter_effect(e, EFFECT_NEXT, 0, turn.next);
+    if (next)
+        emitter_effect(e, EFFECT_NEXT, 0, next);
     emitter_effect(e, EFFECT_END, 0, 0);
 }
 

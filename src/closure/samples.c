@@ -108,9 +108,16 @@ void closure_find_sample_loops(struct shader *shader, const struct closure_parts
 
 /* ---- The number of samples ---- */
 
+static bool is_per_sample(const struct ir_graph *g, ir_ref value)
+{
+    return value && ir_get(g, value)->flags & IR_NODE_LOOP;
+}
+
 ir_ref closure_num_samples(struct shader *shader, ir_ref *value)
 {
     struct ir_graph *g = shader->graph;
+    if (!is_per_sample(g, *value))
+        return 0;
     struct closure_copies seen = {.shader = shader}, later = seen, sooner = seen;
     ir_ref is_sooner = closure_last_sample(&seen, *value);
     if (!is_sooner || !ir_const_is(g, closure_chosen(&later, *value, is_sooner, false), 0.0f))
@@ -118,11 +125,11 @@ ir_ref closure_num_samples(struct shader *shader, ir_ref *value)
             shader, shader_private_uniform(shader, STR_u_envRadianceSamples, IR_TYPE_INT, 0));
     ir_ref count = ir_arg(g, is_sooner, 1);
     *value = closure_chosen(&sooner, *value, is_sooner, true);
-    if (count == ir_const_int(g, 1)) {
-        struct closure_copies first = {.shader = shader};
-        *value = closure_at_first_sample(&first, *value);
-    }
-    return count;
+    if (count != ir_const_int(g, 1))
+        return count;
+    struct closure_copies first = {.shader = shader};
+    *value = closure_at_first_sample(&first, *value);
+    return 0;
 }
 
 /* ---- The turn of samples ---- */
@@ -133,7 +140,7 @@ ir_ref closure_first_turn(struct ir_graph *g)
     return ir_construct(g, IR_TYPE_VEC2, (ir_ref[]){one, zero}, 2);
 }
 
-struct closure_turn closure_turn_of_samples(struct shader *shader, const struct closure_parts *list)
+ir_ref closure_next_turn(struct shader *shader, const struct closure_parts *list)
 {
     enum { COS, SIN };
     static const float golden[] = {-0.73736888f, 0.67549029f}; /* of the golden angle */
@@ -143,42 +150,39 @@ struct closure_turn closure_turn_of_samples(struct shader *shader, const struct 
     for (uint32_t i = 0; i < list->parts.len && !any; i++)
         any = closure_reads_turn(&seen, list->parts.items[i].value);
     if (!any)
-        return (struct closure_turn){0};
+        return 0;
     ir_ref turn = ir_build(g, IR_SAMPLE, IR_TYPE_VEC2, IR_SAMPLE_TURN, NULL, 0);
     ir_ref y = ir_component(g, turn, 1), x = ir_component(g, turn, 0);
     ir_ref left = ir_construct(g, IR_TYPE_VEC2, (ir_ref[]){ir_op1(g, IR_NEG, y), x}, 2);
     /* in this order: a GPU changes `turn` in its place, and needs no copy */
     ir_ref across = ir_op2(g, IR_MUL, left, ir_const_float(g, golden[SIN]));
     ir_ref along = ir_op2(g, IR_MUL, turn, ir_const_float(g, golden[COS]));
-    ir_ref next = ir_op2(g, IR_ADD, across, along);
-    return (struct closure_turn){closure_first_turn(g), next};
+    return ir_op2(g, IR_ADD, across, along);
 }
 
 ir_ref closure_gathered(struct shader *shader, ir_ref value)
 {
     struct ir_graph *g = shader->graph;
     assert(ir_type_of(g, value) == IR_TYPE_VEC3);
-    if (!(ir_get(g, value)->flags & IR_NODE_LOOP))
-        return value;
     ir_ref count = closure_num_samples(shader, &value);
-    if (!(ir_get(g, value)->flags & IR_NODE_LOOP))
+    if (!count)
         return value;
     uint32_t sum = shader_add_local(shader, STR_gathered, IR_TYPE_VEC3);
     ir_ref nothing = ir_const_splat(g, IR_TYPE_VEC3, 0.0f);
     struct closure_parts parts = {0};
     vec_push(shader->arena, &parts.parts, (struct closure_part){.value = value});
-    struct closure_turn turn = closure_turn_of_samples(shader, &parts);
+    ir_ref turn = closure_next_turn(shader, &parts);
     struct closure_copies copies = {.shader = shader, .loop = shader->effects.num_sample_loops++};
     value = closure_in_loop(&copies, value);
-    turn.next = closure_in_loop(&copies, turn.next);
+    turn = closure_in_loop(&copies, turn);
     struct effect effects[] = {{.kind = EFFECT_VAR, .index = sum, .value = nothing},
-                               {.kind = EFFECT_TURN, .value = turn.first},
+                               {.kind = EFFECT_TURN, .value = closure_first_turn(g)},
                                {.kind = EFFECT_SAMPLES, .value = count},
                                {.kind = EFFECT_ACCUMULATE, .index = sum, .value = value},
-                               {.kind = EFFECT_NEXT, .value = turn.next},
+                               {.kind = EFFECT_NEXT, .value = turn},
                                {.kind = EFFECT_END}};
     for (unsigned i = 0; i < sizeof effects / sizeof *effects; i++)
-        if (turn.next || (effects[i].kind != EFFECT_TURN && effects[i].kind != EFFECT_NEXT))
+        if (turn || (effects[i].kind != EFFECT_TURN && effects[i].kind != EFFECT_NEXT))
             shader_effect(shader, STAGE_PIXEL, effects[i]);
     return ir_build(g, IR_LOCAL, IR_TYPE_VEC3, sum, NULL, 0);
 }
