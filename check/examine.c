@@ -336,7 +336,5 @@ void examiner_finish(struct examiner *examiner)
     names_finish(&examiner->messages);
     if (examiner->is_compiler_ready)
         compile_end();
-    if (examiner->folder)
-        rmdir(examiner->folder);
-    free(examiner->folder);
+    scratch_remove(&examiner->scratch);
 }

@@ -6,6 +6,7 @@
 #include "check/protocol.h"
 #include "program/cli.h"
 #include "program/name_table.h"
+#include "program/scratch.h"
 
 struct examiner {
     struct cli *cli;
@@ -24,7 +25,7 @@ struct examiner {
     size_t num_errors;          /* number of reported errors */
     uint32_t last_error;        /* message index of the last one */
     bool is_compiler_ready;
-    char *folder; /* folder for pictures; NULL: not needed yet */
+    struct scratch scratch; /* for pictures; empty: not needed yet */
 };
 
 /* The record lives until the next call. */

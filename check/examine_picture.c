@@ -3,7 +3,6 @@
 #define _POSIX_C_SOURCE 200809L
 #include "check/signature.h"
 #include "program/drawn.h"
-#include "program/folder.h"
 #include "check/examine.h"
 
 #include <stdio.h>
@@ -28,9 +27,9 @@ void examine_fault(struct examiner *examiner, const char *element, enum check_st
 
 const char *examine_folder(struct examiner *examiner)
 {
-    if (!examiner->folder)
-        examiner->folder = folder_temporary("mxgen-check");
-    return examiner->folder;
+    if (!examiner->scratch.path)
+        scratch_make(&examiner->scratch);
+    return examiner->scratch.path;
 }
 
 static void fail(struct examiner *examiner, const struct check_element *element, const char *why)
@@ -135,7 +134,7 @@ void examine_picture(struct examiner *examiner, const mxg_document *document,
                                           .folder = examine_folder(examiner),
                                           .begin = begin_picture,
                                           .user_data = &step};
-    if (examiner->folder)
+    if (subject.folder)
         add_pictures(examiner, document, element, &subject, &comparison);
     else
         fail(examiner, element, "there is no folder for pictures");

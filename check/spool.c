@@ -2,21 +2,15 @@
 #define _POSIX_C_SOURCE 200809L
 #include "check/spool.h"
 
-#include "program/cli.h"
+#include "program/files.h"
+#include "program/scratch.h"
 
 #include <errno.h>
-#include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 FILE *spool_begin(void)
 {
-    const char *folder = getenv("TMPDIR");
-    char *path = cli_format("%s/mxgen-report-XXXXXX", folder && *folder ? folder : "/tmp");
-    int fd = mkstemp(path);
-    if (fd >= 0)
-        unlink(path);
-    free(path);
+    int fd = files_open_unnamed(scratch_root());
     return fd >= 0 ? fdopen(fd, "w+") : NULL;
 }
 

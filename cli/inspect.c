@@ -4,7 +4,7 @@
 #include "cli/commands.h"
 #include "program/cli.h"
 #include "program/drawn.h"
-#include "program/folder.h"
+#include "program/scratch.h"
 #include "program/slab_view.h"
 #include "program/scene_file.h"
 
@@ -145,26 +145,25 @@ static void add_drawn(struct cli *cli, const mxg_document *document, const char 
     size_t num_steps = json_array_size(json_object_get(view, "steps"));
     bool is_asked = json_is_true(json_object_get(view, "toBudget"));
     json_decref(view);
-    char *folder = num_steps ? folder_temporary("mxgen-drawn") : NULL;
-    const char *fault = folder ? NULL : strerror(errno);
-    if (folder) {
+    struct scratch scratch = {0};
+    const char *fault = num_steps && !scratch_make(&scratch) ? strerror(errno) : NULL;
+    if (scratch.path) {
         const struct drawn_subject subject = {.cli = cli,
                                               .file = file,
                                               .element = inspect->element,
                                               .look = look,
-                                              .folder = folder,
+                                              .folder = scratch.path,
                                               .is_to_one_slab = !is_asked};
         if (drawn_begin(&subject, &inspect->drawn))
             drawn_compare(&subject, num_steps, &inspect->drawn);
         fault = inspect->drawn.fault;
-        rmdir(folder);
     }
-    if (num_steps && fault) {
+    if (fault) {
         report_error(&cli->report, "no-picture", "there are no drawn errors of '%s': %s",
                      inspect->element ? inspect->element : file, fault);
         drawn_finish(&inspect->drawn);
     }
-    free(folder);
+    scratch_remove(&scratch);
 }
 
 /* False after a message: pictures are of a document, for its slabs. */

@@ -3,9 +3,9 @@
 #define _POSIX_C_SOURCE 200809L
 #include "cli/commands.h"
 #include "program/files.h"
-#include "program/folder.h"
 #include "program/outputs.h"
 #include "program/relocate.h"
+#include "program/scratch.h"
 #include "program/translated.h"
 
 #include <errno.h>
@@ -25,13 +25,14 @@ struct translate_args {
 static void tell_drawn(struct cli *cli, const struct translate_args *args, const char *path,
                        const mxg_document *document)
 {
-    char *folder = folder_temporary("mxgen-drawn");
-    for (uint32_t i = 0; folder && i < mxg_document_num_renderables(document); ++i) {
+    struct scratch scratch;
+    bool good = scratch_make(&scratch);
+    for (uint32_t i = 0; good && i < mxg_document_num_renderables(document); ++i) {
         mxg_renderable renderable = {.size = sizeof renderable};
         mxg_document_renderable(document, i, &renderable);
         char *fault = NULL;
         double error =
-            translated_difference(cli, path, renderable.path, args->model, folder, &fault);
+            translated_difference(cli, path, renderable.path, args->model, scratch.path, &fault);
         if (error < 0)
             report_error(&cli->report, "no-picture", "there is no drawn error of '%s': %s",
                          renderable.path, fault);
@@ -44,11 +45,9 @@ static void tell_drawn(struct cli *cli, const struct translate_args *args, const
             fprintf(stderr, "%s: drawn error %.3g\n", renderable.path, error);
         free(fault);
     }
-    if (!folder)
+    if (!good)
         report_error(&cli->report, "no-picture", "there are no drawn errors: %s", strerror(errno));
-    else
-        rmdir(folder);
-    free(folder);
+    scratch_remove(&scratch);
 }
 
 /* ---- The document ---- */

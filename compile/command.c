@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #define _POSIX_C_SOURCE 200809L
 #include "compile/command.h"
+#include "program/files.h"
+#include "program/scratch.h"
 
 #include <fcntl.h>
 #include <spawn.h>
@@ -30,20 +32,6 @@ static const struct command {
       "225=off", "-W", "230=off", "-W", "350=off", "-p", "$FOLDER", "::shader"}},
 };
 
-static bool is_installed(const char *program)
-{
-    const char *folder = getenv("PATH");
-    while (folder && *folder) {
-        size_t len = strcspn(folder, ":");
-        char path[PATH_CAPACITY];
-        int written = snprintf(path, sizeof path, "%.*s/%s", (int)len, folder, program);
-        if (written > 0 && (size_t)written < sizeof path && access(path, X_OK) == 0)
-            return true;
-        folder += len + (folder[len] == ':');
-    }
-    return false;
-}
-
 static const struct command *find_command(const char *target)
 {
     for (size_t i = 0; i < sizeof commands / sizeof *commands; ++i)
@@ -55,26 +43,23 @@ static const struct command *find_command(const char *target)
 bool command_knows_target(const char *target)
 {
     const struct command *command = find_command(target);
-    return command && is_installed(command->argv[0]);
+    return command && files_find_program(command->argv[0]);
 }
 
 /* ---- Files: a compiler reads one and may write one ---- */
 
 struct work { /* in a folder of its own */
-    char folder[PATH_CAPACITY];
-    char source[PATH_CAPACITY + 16], object[PATH_CAPACITY + 16], log[PATH_CAPACITY + 16];
+    struct scratch folder;
+    char source[PATH_CAPACITY], object[PATH_CAPACITY], log[PATH_CAPACITY];
 };
 
 static bool make_work(struct work *work, const char *ending, const char *source)
 {
-    const char *place = getenv("TMPDIR");
-    int written = snprintf(work->folder, sizeof work->folder, "%s/mxgen-XXXXXX",
-                           place && *place ? place : "/tmp");
-    if (written < 0 || (size_t)written >= sizeof work->folder || !mkdtemp(work->folder))
+    if (!scratch_make(&work->folder))
         return false;
-    snprintf(work->source, sizeof work->source, "%s/shader.%s", work->folder, ending);
-    snprintf(work->object, sizeof work->object, "%s/shader.object", work->folder);
-    snprintf(work->log, sizeof work->log, "%s/log", work->folder);
+    snprintf(work->source, sizeof work->source, "%s/shader.%s", work->folder.path, ending);
+    snprintf(work->object, sizeof work->object, "%s/shader.object", work->folder.path);
+    snprintf(work->log, sizeof work->log, "%s/log", work->folder.path);
     FILE *file = fopen(work->source, "w");
     if (!file)
         return false;
@@ -82,19 +67,11 @@ static bool make_work(struct work *work, const char *ending, const char *source)
     return fclose(file) == 0 && whole;
 }
 
-static void remove_work(const struct work *work)
-{
-    remove(work->source);
-    remove(work->object);
-    remove(work->log);
-    rmdir(work->folder);
-}
-
 static const char *argument(const char *text, const struct work *work)
 {
     return strcmp(text, "$SOURCE") == 0   ? work->source
            : strcmp(text, "$OBJECT") == 0 ? work->object
-           : strcmp(text, "$FOLDER") == 0 ? work->folder
+           : strcmp(text, "$FOLDER") == 0 ? work->folder.path
                                           : text;
 }
 
@@ -202,6 +179,7 @@ static void compile(const struct command *command, struct compiled *out, mxg_sta
     struct work work;
     if (!make_work(&work, command->ending, source)) {
         add_fault(out, stage, "no temporary file can be written");
+        scratch_remove(&work.folder);
         return;
     }
     uint32_t before = out->errors;
@@ -210,7 +188,7 @@ static void compile(const struct command *command, struct compiled *out, mxg_sta
     if (status != 0 && out->errors == before)
         explain_failure(out, stage, command->argv[0], status);
     out->stages[stage].body_instructions = count_instructions(work.object);
-    remove_work(&work);
+    scratch_remove(&work.folder);
 }
 
 bool command_compile_program(const char *target, const char *const sources[MXG_NUM_STAGES],

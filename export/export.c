@@ -5,8 +5,8 @@
 #include "export/write.h"
 #include "program/export_options.h"
 #include "program/files.h"
-#include "program/folder.h"
 #include "program/json.h"
+#include "program/scratch.h"
 #include "program/translated.h"
 #include "render/bake.h"
 
@@ -14,7 +14,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-#include <unistd.h>
 
 /* A format, by the ending of its files. */
 struct format {
@@ -54,15 +53,13 @@ char *write_stem(const struct writing *writing)
 
 bool write_beside(struct writing *writing, const char *name, const void *data, size_t size)
 {
-    char *folder = write_folder(writing->path), *path = cli_beside(writing->path, name);
+    char *path = cli_beside(writing->path, name);
     bool is_free =
         strcmp(path, writing->path) == 0
         || outputs_write(writing->outputs, &writing->cli->report, path, "a file beside it");
-    const char *reason =
-        is_free ? files_write(batch_begin(&writing->files, folder, name), data, size) : NULL;
+    const char *reason = is_free ? batch_write(&writing->files, path, data, size) : NULL;
     if (reason)
         report_error(&writing->cli->report, "output-failed", "cannot write '%s': %s", path, reason);
-    free(folder);
     free(path);
     return is_free && !reason;
 }
@@ -83,7 +80,7 @@ struct exporting {
     struct baking baking;
     struct export_options options;
     const struct format *format;
-    char *folder; /* of the flat document */
+    struct scratch scratch; /* of the flat document */
     const mxg_document *source;
 };
 
@@ -101,7 +98,7 @@ static void write_files(struct exporting *exporting, const mxg_document *documen
     struct bake_surface surface;
     struct writing writing = {.cli = cli,
                               .path = exporting->options.output,
-                              .scratch = exporting->folder,
+                              .scratch = exporting->scratch.path,
                               .surface = &surface,
                               .source = exporting->source,
                               .source_path = cli->parser.inputs.items[0],
@@ -117,7 +114,6 @@ static void write_files(struct exporting *exporting, const mxg_document *documen
     if (good && !cli->quiet)
         fprintf(stderr, "note: '%s' has %zu material%s\n", writing.path, flat.num_materials,
                 flat.num_materials == 1 ? "" : "s");
-    batch_finish(&writing.files);
     flat_finish(&flat);
     bake_surface_close(&surface);
 }
@@ -126,8 +122,7 @@ static void write_files(struct exporting *exporting, const mxg_document *documen
 static void bake_and_write(struct exporting *exporting, const mxg_document *translated)
 {
     struct baking *baking = &exporting->baking;
-    exporting->folder = folder_temporary("mxgen-export");
-    if (!exporting->folder) {
+    if (!scratch_make(&exporting->scratch)) {
         report_error(&baking->cli.report, "output-failed", "there is no folder for images: %s",
                      strerror(errno));
         return;
@@ -137,7 +132,7 @@ static void bake_and_write(struct exporting *exporting, const mxg_document *tran
     baking->keeps_places = true;
     baking->draws_missing = baking->painter.checker;
     baking->options = exporting->options.bake;
-    baking->options.output = exporting->folder;
+    baking->options.output = exporting->scratch.path;
     baking->options.format = "exr"; /* the writer rounds, and once is enough */
     baking->options.depth = 32;
     char *path = bake_document_name(baking);
@@ -145,9 +140,7 @@ static void bake_and_write(struct exporting *exporting, const mxg_document *tran
     if (flat)
         write_files(exporting, flat, path);
     mxg_document_destroy(flat);
-    batch_remove(&baking->written);
-    rmdir(exporting->folder);
-    free(exporting->folder);
+    scratch_remove(&exporting->scratch);
     free(path);
 }
 

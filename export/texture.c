@@ -3,7 +3,6 @@
 
 #include "program/files.h"
 #include "program/memory.h"
-#include "program/temporary.h"
 #include "render/image.h"
 #include "render/image_rows.h"
 
@@ -197,9 +196,8 @@ static bool write_rows(struct image_rows *rows, const struct texture *texture,
     return good;
 }
 
-/* Writes the image to a file. */
-static bool write_image(const struct texture *texture, const struct parts *parts, const char *path,
-                        char *reason, size_t capacity)
+static bool write_image(const struct texture *texture, const struct parts *parts,
+                        const struct files_stream *file, char *reason, size_t capacity)
 {
     const struct image_format format = {.width = parts->width,
                                         .height = parts->height,
@@ -207,9 +205,25 @@ static bool write_image(const struct texture *texture, const struct parts *parts
                                         .depth = 8,
                                         .is_srgb = texture->is_srgb};
     char later[256];
-    struct image_rows *rows = image_rows_begin(path, &format, reason, capacity);
+    struct image_rows *rows = image_rows_begin(file, &format, reason, capacity);
     bool good = rows && write_rows(rows, texture, parts, reason, capacity);
     return image_rows_end(rows, good ? reason : later, good ? capacity : sizeof later) && good;
+}
+
+/* Makes the bytes of an image with a file, which does not stay; false with the reason. */
+static bool encode(const struct texture *texture, const struct parts *parts, const char *path,
+                   struct texture_file *out, char *reason, size_t capacity)
+{
+    struct files_stream file;
+    const char *fault = files_begin(&file, path);
+    if (!fault && write_image(texture, parts, &file, reason, capacity)) {
+        out->data = files_read(files_name(&file), &out->size);
+        fault = out->data ? NULL : strerror(errno);
+    }
+    if (fault)
+        snprintf(reason, capacity, "%s", fault);
+    files_end(&file, false);
+    return out->data;
 }
 
 bool texture_make(struct report *report, const struct texture *texture, const char *folder,
@@ -218,26 +232,17 @@ bool texture_make(struct report *report, const struct texture *texture, const ch
     if (copy(texture, out))
         return true;
     struct parts parts = {0};
-    char reason[256] = "", *stem = cli_format("%s/texture", folder),
-         *path = temporary_name(stem, ".png");
-    free(stem);
-    if (!path)
-        memory_fail();
-    temporary_note(path);
+    char reason[256] = "", *path = cli_format("%s/texture.png", folder);
     bool good = read_parts(report, texture, &parts);
     if (good) {
         out->ending = "png";
-        good = write_image(texture, &parts, path, reason, sizeof reason);
-        out->data = good ? files_read(path, &out->size) : NULL;
-        if (!out->data)
-            report_error(report, "output-failed", "cannot write '%s': %s", path,
-                         good ? strerror(errno) : reason);
+        good = encode(texture, &parts, path, out, reason, sizeof reason);
+        if (!good)
+            report_error(report, "output-failed", "cannot write '%s': %s", path, reason);
     }
-    remove(path);
-    temporary_forget(path);
     free(path);
     finish_parts(&parts);
-    return good && out->data;
+    return good;
 }
 
 char *texture_key(const struct texture *texture)

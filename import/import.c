@@ -42,9 +42,7 @@ bool import_write_file(struct importing *importing, const char *name, const void
     struct report *report = &importing->source.cli->report;
     char *path = cli_format("%s%s", importing->folder, name);
     bool is_free = outputs_write(&importing->outputs, report, path, "a file beside the document");
-    const char *reason =
-        is_free ? files_write(batch_begin(&importing->files, importing->folder, name), data, size)
-                : NULL;
+    const char *reason = is_free ? batch_write(&importing->files, path, data, size) : NULL;
     if (reason)
         report_error(report, "output-failed", "cannot write '%s': %s", path, reason);
     free(path);
@@ -121,7 +119,6 @@ void import_document(struct cli *cli, const char *path, const char *output)
         run(&importing);
     mxg_edit_destroy(importing.edit);
     gltf_source_close(&importing.source);
-    batch_finish(&importing.files);
     outputs_finish(&importing.outputs);
     for (size_t i = 0; i < importing.num_images; ++i)
         free(importing.images[i].name);

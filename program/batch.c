@@ -1,61 +1,59 @@
 // SPDX-License-Identifier: Apache-2.0
+#define _XOPEN_SOURCE 700
 #include "program/batch.h"
 
 #include "program/cli.h"
 #include "program/memory.h"
-#include "program/temporary.h"
 
-#include <stdio.h>
 #include <stdlib.h>
+#include <sys/resource.h>
 
-const char *batch_begin(struct batch *batch, const char *folder, const char *name)
+/* Files stay open until the end: a set of tiles is more than the usual limit of a shell. */
+static void allow_many_files(void)
 {
-    char *stem = cli_format("%s/.tmp", folder), *after = cli_format("-%s", name);
-    struct batch_file file = {temporary_name(stem, after), cli_format("%s/%s", folder, name)};
-    free(stem);
-    free(after);
-    if (!file.temporary)
-        memory_fail();
-    temporary_note(file.temporary);
+    struct rlimit limit;
+    if (getrlimit(RLIMIT_NOFILE, &limit) == 0 && limit.rlim_cur < limit.rlim_max) {
+        limit.rlim_cur = limit.rlim_max;
+        setrlimit(RLIMIT_NOFILE, &limit);
+    }
+}
+
+const char *batch_begin(struct batch *batch, const char *path, const struct files_stream **out)
+{
+    struct batch_file file = {.path = NULL};
+    if (!batch->num)
+        allow_many_files();
+    const char *reason = files_begin(&file.stream, path);
+    if (reason)
+        return reason;
+    file.path = cli_format("%s", path);
     batch->items = memory_resize(batch->items, (batch->num + 1) * sizeof *batch->items);
-    batch->items[batch->num++] = file;
-    return file.temporary;
+    batch->items[batch->num] = file;
+    *out = &batch->items[batch->num++].stream;
+    return NULL;
+}
+
+const char *batch_write(struct batch *batch, const char *path, const void *data, size_t size)
+{
+    const struct files_stream *stream;
+    const char *reason = batch_begin(batch, path, &stream);
+    if (!reason)
+        fwrite(data, 1, size, stream->out); /* batch_end tells of a fault */
+    return reason;
 }
 
 bool batch_end(struct batch *batch, struct report *report, bool keep)
 {
     for (size_t i = 0; i < batch->num; ++i) {
         struct batch_file *file = &batch->items[i];
-        if (keep && rename(file->temporary, file->path) != 0) {
-            report_error(report, "output-failed", "cannot write '%s'", file->path);
+        const char *reason = files_end(&file->stream, keep);
+        if (reason) {
+            report_error(report, "output-failed", "cannot write '%s': %s", file->path, reason);
             keep = false;
         }
-        if (!keep)
-            remove(file->temporary);
-        temporary_forget(file->temporary);
-        free(file->temporary);
-        file->temporary = NULL;
-    }
-    return keep;
-}
-
-void batch_remove(struct batch *batch)
-{
-    for (size_t i = 0; i < batch->num; ++i) {
-        const struct batch_file *file = &batch->items[i];
-        remove(file->temporary ? file->temporary : file->path);
-        if (file->temporary)
-            temporary_forget(file->temporary);
-    }
-    batch_finish(batch);
-}
-
-void batch_finish(struct batch *batch)
-{
-    for (size_t i = 0; i < batch->num; ++i) {
-        free(batch->items[i].temporary);
-        free(batch->items[i].path);
+        free(file->path);
     }
     free(batch->items);
     *batch = (struct batch){0};
+    return keep;
 }

@@ -85,30 +85,31 @@ static char *folder_of(const char *path)
  * A file beside `path` without a name, which disappears with the process (open(2), O_TMPFILE); -1
  * where the file system or the lack of /proc does not allow it.
  */
-static int open_unnamed(const char *path)
+static int open_nameless(const char *path)
 {
     char *folder = access("/proc/self/fd", X_OK) == 0 ? folder_of(path) : NULL;
-    int fd = folder ? open(folder, O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666) : -1;
+    int fd = folder ? open(folder, O_TMPFILE | O_RDWR | O_CLOEXEC, 0666) : -1;
     free(folder);
     return fd;
 }
 
-/* A new file beside `path`; -1 with errno. The stream keeps its name. */
-static int open_named(struct files_stream *stream, const char *path)
+/* A new file beside `path`; -1 with errno. *out_name is its noted name. */
+static int open_named(const char *path, char **out_name)
 {
     enum { MAX_TRIES = 100 };
     for (int i = 0; i < MAX_TRIES; ++i) {
-        stream->temporary = temporary_name(path, ".tmp");
-        if (!stream->temporary)
+        char *name = temporary_name(path, ".tmp");
+        if (!name)
             return -1;
-        temporary_note(stream->temporary);
-        int fd = open(stream->temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        temporary_note(name);
+        int fd = open(name, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        *out_name = name;
         if (fd >= 0)
             return fd;
         int reason = errno;
-        temporary_forget(stream->temporary);
-        free(stream->temporary);
-        stream->temporary = NULL;
+        temporary_forget(name);
+        free(name);
+        *out_name = NULL;
         errno = reason;
         if (reason != EEXIST)
             break;
@@ -124,11 +125,17 @@ static int open_stream(struct files_stream *stream, const char *path)
     stream->path = strdup(path);
     if (!stream->path)
         return ENOMEM;
-    int fd = stream->is_direct ? open(path, O_WRONLY | O_CLOEXEC) : open_unnamed(path);
+    int fd = stream->is_direct ? open(path, O_WRONLY | O_CLOEXEC) : open_nameless(path);
     if (fd < 0 && !stream->is_direct)
-        fd = open_named(stream, path);
+        fd = open_named(path, &stream->temporary);
     stream->out = fd < 0 ? NULL : fdopen(fd, "w");
+    snprintf(stream->link, sizeof stream->link, "/proc/self/fd/%d", fd);
     return stream->out ? 0 : errno;
+}
+
+const char *files_name(const struct files_stream *stream)
+{
+    return stream->is_direct ? stream->path : stream->temporary ? stream->temporary : stream->link;
 }
 
 /* Forgets all but the reason, which it returns. */
@@ -155,21 +162,27 @@ const char *files_begin(struct files_stream *stream, const char *path)
     return reason ? strerror(finish_stream(stream, reason)) : NULL;
 }
 
-/* Gives a file without a name the temporary one; 0 or errno. */
+/* Gives a file without a name another one; 0 or errno. */
+static int link_file(const struct files_stream *stream, const char *name)
+{
+    return linkat(AT_FDCWD, stream->link, AT_FDCWD, name, AT_SYMLINK_FOLLOW) == 0 ? 0 : errno;
+}
+
+/*
+ * Gives a file without a name its own; 0 or errno. Over another file it has a temporary one
+ * first, because only a rename replaces a file.
+ */
 static int name_file(struct files_stream *stream)
 {
     enum { MAX_TRIES = 100 };
-    char link[64];
-    int reason = EEXIST;
-    snprintf(link, sizeof link, "/proc/self/fd/%d", fileno(stream->out));
+    int reason = link_file(stream, stream->path);
     for (int i = 0; i < MAX_TRIES && reason == EEXIST; ++i) {
         free(stream->temporary);
         stream->temporary = temporary_name(stream->path, ".tmp");
         if (!stream->temporary)
             return ENOMEM;
         temporary_note(stream->temporary);
-        reason =
-            linkat(AT_FDCWD, link, AT_FDCWD, stream->temporary, AT_SYMLINK_FOLLOW) == 0 ? 0 : errno;
+        reason = link_file(stream, stream->temporary);
         if (reason)
             temporary_forget(stream->temporary);
     }
@@ -201,7 +214,7 @@ const char *files_end(struct files_stream *stream, bool keep)
         reason = name_file(stream);
     if (stream->out != stdout && fclose(stream->out) != 0 && !reason)
         reason = errno;
-    if (is_kept && !reason && rename(stream->temporary, stream->path) != 0)
+    if (is_kept && !reason && stream->temporary && rename(stream->temporary, stream->path) != 0)
         reason = errno;
     if (stream->temporary && (!is_kept || reason))
         unlink(stream->temporary);
@@ -268,6 +281,26 @@ const char *files_replace(const char *path, const void *data, size_t size)
     }
     free(real);
     return reason;
+}
+
+int files_open_unnamed(const char *folder)
+{
+    int fd = open(folder, O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
+    if (fd >= 0)
+        return fd;
+    size_t size = strlen(folder) + sizeof "/mxgen";
+    char *path = malloc(size), *name = NULL;
+    if (path) {
+        snprintf(path, size, "%s/mxgen", folder);
+        fd = open_named(path, &name);
+    }
+    if (fd >= 0)
+        unlink(name);
+    if (name)
+        temporary_forget(name);
+    free(name);
+    free(path);
+    return fd;
 }
 
 /* ---- Folders ---- */

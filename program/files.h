@@ -9,6 +9,10 @@
 #include <stddef.h>
 #include <stdio.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* The bytes of a file with a NUL after them, which the caller frees; NULL with errno. */
 char *files_read(const char *path, size_t *out_size);
 
@@ -30,6 +34,7 @@ struct files_stream {
     FILE *out;
     char *path, *temporary; /* temporary NULL: the new file has no name yet, so a kill removes it */
     bool is_direct;         /* a pipe, a device or standard output: there is no new file */
+    char link[32];
 };
 
 /*
@@ -37,11 +42,19 @@ struct files_stream {
  * then empty.
  */
 const char *files_begin(struct files_stream *stream, const char *path);
+/* The name by which a library opens the file of a stream, and writes it in place of `out`. */
+const char *files_name(const struct files_stream *stream);
 /*
  * Gives the file its name; removes it if `keep` is false. Returns NULL, or the reason for a
  * failure.
  */
 const char *files_end(struct files_stream *stream, bool keep);
+
+/*
+ * A file in a folder that has no name, so nothing of it stays; for reading and writing. -1 with
+ * errno.
+ */
+int files_open_unnamed(const char *folder);
 
 /* Makes a folder and its parents. Returns NULL, or the reason for a failure. */
 const char *files_make_folder(const char *path);
@@ -58,5 +71,9 @@ bool files_is_folder(const char *path);
 
 /* The part of a path after its last '/'. */
 const char *files_base_name(const char *path);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

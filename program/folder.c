@@ -85,13 +85,3 @@ const char *folder_documents(const struct arg_list *paths, struct arg_list *out,
     }
     return NULL;
 }
-
-char *folder_temporary(const char *stem)
-{
-    const char *root = getenv("TMPDIR");
-    char *folder = cli_format("%s/%s-XXXXXX", root && *root ? root : "/tmp", stem);
-    if (mkdtemp(folder))
-        return folder;
-    free(folder);
-    return NULL;
-}

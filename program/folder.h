@@ -19,10 +19,4 @@ const char *folder_find(const char *folder, const char *ending, struct arg_list 
 const char *folder_documents(const struct arg_list *paths, struct arg_list *out,
                              const char **out_reason);
 
-/*
- * Makes a folder "STEM-..." where temporary files are; the caller removes it, and frees its path.
- * NULL: errno has the reason.
- */
-char *folder_temporary(const char *stem);
-
 #endif

@@ -120,15 +120,17 @@ static void flatten(struct cli *cli, const char *path, const char *purpose, mxg_
                     mxg_status *out_status)
 {
     bool is_missing;
+    struct scratch folder;
     if (cli->sandbox || !*scene || !usdcat_may_help(mxg_scene_diagnostics(*scene)))
         return;
-    char *text = usdcat_flatten(cli, path, &is_missing);
-    if (is_missing)
-        return;
-    mxg_scene_destroy(*scene);
-    *scene = NULL;
-    *out_status = text ? mxg_scene_load(cli->context, text, purpose, scene) : MXG_OK;
-    usdcat_end(text);
+    char *text = usdcat_flatten(cli, path, &folder, &is_missing);
+    if (!is_missing) {
+        mxg_scene_destroy(*scene);
+        *scene = NULL;
+        *out_status = text ? mxg_scene_load(cli->context, text, purpose, scene) : MXG_OK;
+    }
+    free(text);
+    scratch_remove(&folder);
 }
 
 mxg_scene *scene_file_load(struct cli *cli, const char *path, const char *purpose)

@@ -6,10 +6,6 @@
 #ifndef MXG_PROGRAM_TEMPORARY_H
 #define MXG_PROGRAM_TEMPORARY_H
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 /*
  * "BEFORE.", eight random digits, "AFTER": the name of a file that no other process makes, whatever
  * its number. The caller frees it. NULL: out of memory.
@@ -21,7 +17,4 @@ void temporary_note(const char *path);
 /* After the file got its name, or was removed. */
 void temporary_forget(const char *path);
 
-#ifdef __cplusplus
-}
-#endif
 #endif

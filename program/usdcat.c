@@ -2,9 +2,6 @@
 #define _POSIX_C_SOURCE 200809L
 #include "program/usdcat.h"
 
-#include "program/memory.h"
-#include "program/temporary.h"
-
 #include <errno.h>
 #include <signal.h>
 #include <stdio.h>
@@ -25,27 +22,6 @@ bool usdcat_may_help(const mxg_diagnostics *list)
             return true;
     }
     return false;
-}
-
-static char *new_file(const char *after)
-{
-    const char *folder = getenv("TMPDIR");
-    char *before = cli_format("%s/mxgen-stage", folder && *folder ? folder : "/tmp");
-    char *name = temporary_name(before, after);
-    free(before);
-    if (!name)
-        memory_fail();
-    temporary_note(name);
-    return name;
-}
-
-void usdcat_end(char *name)
-{
-    if (!name)
-        return;
-    unlink(name);
-    temporary_forget(name);
-    free(name);
 }
 
 /* Returns 0 or a reason of errno. */
@@ -109,11 +85,20 @@ static void report_fault(struct cli *cli, const char *path, const char *fault, c
     free(said);
 }
 
-char *usdcat_flatten(struct cli *cli, const char *path, bool *out_is_missing)
+char *usdcat_flatten(struct cli *cli, const char *path, struct scratch *out_folder,
+                     bool *out_is_missing)
 {
-    char *out = new_file(".usda"), *log = new_file(".log");
     pid_t child;
-    int status = 0, reason = start(path, out, log, &child);
+    int status = 0;
+    *out_is_missing = false;
+    if (!scratch_make(out_folder)) {
+        report_error(&cli->report, "usd-flatten", "there is no folder for files of usdcat: %s",
+                     strerror(errno));
+        return NULL;
+    }
+    char *out = cli_format("%s/stage.usda", out_folder->path),
+         *log = cli_format("%s/log", out_folder->path);
+    int reason = start(path, out, log, &child);
     const char *fault =
         reason ? strerror(reason) : wait_for(child, out, cli_max_file_size(cli), &status);
     *out_is_missing = reason == ENOENT;
@@ -121,9 +106,9 @@ char *usdcat_flatten(struct cli *cli, const char *path, bool *out_is_missing)
                 && access(out, R_OK) == 0;
     if (!good && !*out_is_missing)
         report_fault(cli, path, fault, log);
-    usdcat_end(log);
+    free(log);
     if (good)
         return out;
-    usdcat_end(out);
+    free(out);
     return NULL;
 }

@@ -4,6 +4,7 @@
 #define MXG_PROGRAM_USDCAT_H
 
 #include "program/cli.h"
+#include "program/scratch.h"
 
 /*
  * True if the messages about a stage say that it has arcs, or is no text, so that another program
@@ -13,12 +14,12 @@ bool usdcat_may_help(const mxg_diagnostics *list);
 
 /*
  * Starts 'usdcat --flatten' of the search path, for at most USDCAT_SECONDS, and while its output
- * stays below --max-file-size. The name of the text, which the caller ends with usdcat_end. NULL:
- * there is no usdcat, with *out_is_missing, or after an error with what the program said.
+ * stays below --max-file-size. The name of the text in a scratch folder, which the caller removes;
+ * the caller frees the name. NULL: there is no usdcat, with *out_is_missing, or after an error with
+ * what the program said.
  */
 enum { USDCAT_SECONDS = 300 };
-char *usdcat_flatten(struct cli *cli, const char *path, bool *out_is_missing);
-/* Removes the file, and frees its name. */
-void usdcat_end(char *name);
+char *usdcat_flatten(struct cli *cli, const char *path, struct scratch *out_folder,
+                     bool *out_is_missing);
 
 #endif

@@ -118,9 +118,7 @@ static bool write_document(struct baking *baking, const char *path)
 {
     size_t size = 0;
     char *text = bake_write_document(baking, &size);
-    const char *temporary =
-        text ? batch_begin(&baking->written, baking->options.output, files_base_name(path)) : NULL;
-    const char *reason = text ? files_write(temporary, text, size) : NULL;
+    const char *reason = text ? batch_write(&baking->written, path, text, size) : NULL;
     if (reason)
         report_error(&baking->cli.report, "output-failed", "cannot write '%s': %s", path, reason);
     free(text);
@@ -206,7 +204,6 @@ void bake_finish(struct baking *baking)
     names_finish(&baking->painter.told_textures);
     aovs_finish(&baking->painter.aovs);
     outputs_finish(&baking->files);
-    batch_finish(&baking->written);
 }
 
 static void bake_one(struct baking *baking, const char *path)

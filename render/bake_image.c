@@ -117,24 +117,34 @@ static bool write_rows(struct image_rows *rows, const struct image_format *forma
     return good;
 }
 
+/* Writes a file of the batch. */
+static void write_image(struct baking *baking, const struct image_format *format, const char *path,
+                        const struct spool *spool, char *reason, size_t capacity)
+{
+    char later[256];
+    struct dilation dilation;
+    const struct files_stream *stream;
+    const char *fault = batch_begin(&baking->written, path, &stream);
+    if (fault) {
+        snprintf(reason, capacity, "%s", fault);
+        return;
+    }
+    dilation_begin(&dilation, spool, (uint32_t)baking->options.padding);
+    struct image_rows *rows = image_rows_begin(stream, format, reason, capacity);
+    if (rows && write_rows(rows, format, &dilation, reason, capacity))
+        image_rows_end(rows, reason, capacity);
+    else
+        image_rows_end(rows, later, sizeof later);
+    dilation_end(&dilation);
+}
+
 static bool write_file(struct baking *baking, const struct image_format *format, const char *name,
                        const struct spool *spool)
 {
-    char reason[256] = "", later[256];
-    char *path = cli_format("%s/%s", baking->options.output, name);
+    char reason[256] = "", *path = cli_format("%s/%s", baking->options.output, name);
     bool is_free = outputs_write(&baking->files, &baking->cli.report, path, "an image");
-    if (is_free) {
-        struct dilation dilation;
-        dilation_begin(&dilation, spool, (uint32_t)baking->options.padding);
-        struct image_rows *rows =
-            image_rows_begin(batch_begin(&baking->written, baking->options.output, name), format,
-                             reason, sizeof reason);
-        if (rows && write_rows(rows, format, &dilation, reason, sizeof reason))
-            image_rows_end(rows, reason, sizeof reason);
-        else
-            image_rows_end(rows, later, sizeof later);
-        dilation_end(&dilation);
-    }
+    if (is_free)
+        write_image(baking, format, path, spool, reason, sizeof reason);
     if (*reason)
         report_error(&baking->cli.report, "output-failed", "cannot write '%s': %s", path, reason);
     baking->num_images += is_free && !*reason;

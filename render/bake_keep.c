@@ -32,11 +32,11 @@ static bool tell_missing(struct baking *baking, mxg_element origin, const char *
 }
 
 /* Returns NULL, or the reason for a failure. */
-static const char *copy(const char *from, const char *to)
+static const char *copy(struct batch *batch, const char *from, const char *to)
 {
     size_t size = 0;
     char *data = files_read(from, &size);
-    const char *reason = data ? files_write(to, data, size) : strerror(errno);
+    const char *reason = data ? batch_write(batch, to, data, size) : strerror(errno);
     free(data);
     return reason;
 }
@@ -96,8 +96,7 @@ static bool copy_to(struct baking *baking, const char *from, const char *name)
     char *to = cli_format("%s/%s", baking->options.output, name);
     bool is_free = outputs_read(&baking->files, &baking->cli.report, from)
                    && outputs_write(&baking->files, &baking->cli.report, to, "a copy");
-    const char *reason =
-        is_free ? copy(from, batch_begin(&baking->written, baking->options.output, name)) : NULL;
+    const char *reason = is_free ? copy(&baking->written, from, to) : NULL;
     if (reason)
         report_error(&baking->cli.report, "output-failed", "cannot copy '%s' to '%s': %s", from, to,
                      reason);

@@ -2,7 +2,7 @@
 #include "render/image.h"
 #include "render/image_guard.h"
 
-#include "program/temporary.h"
+#include "program/files.h"
 
 #include <OpenImageIO/imageio.h>
 
@@ -252,7 +252,7 @@ OIIO::ImageSpec describe(const struct image &image, const OIIO::ImageOutput &out
 }
 
 /* The picture and its planes, channel by channel. */
-bool write_planes(OIIO::ImageOutput &output, const std::string &path, const struct image &image)
+bool write_planes(OIIO::ImageOutput &output, const char *path, const struct image &image)
 {
     OIIO::ImageSpec spec = describe(image, output);
     size_t pixels = static_cast<size_t>(image.width) * image.height,
@@ -272,7 +272,7 @@ bool write_planes(OIIO::ImageOutput &output, const std::string &path, const stru
            && output.close();
 }
 
-bool write_pixels(OIIO::ImageOutput &output, const std::string &path, const struct image &image)
+bool write_pixels(OIIO::ImageOutput &output, const char *path, const struct image &image)
 {
     OIIO::ImageSpec spec = describe(image, output);
     size_t texel = 4 * (image.is_float ? sizeof(float) : 1);
@@ -303,9 +303,11 @@ bool can_write(const std::string &name, char *reason, size_t capacity)
            || fail(reason, capacity, std::strerror(errno));
 }
 
-bool write_file(const std::string &path, const struct image &image, char *reason, size_t capacity)
+bool write_file(const files_stream &stream, const struct image &image, char *reason,
+                size_t capacity)
 {
-    auto output = OIIO::ImageOutput::create(path);
+    const char *path = files_name(&stream);
+    auto output = OIIO::ImageOutput::create(stream.path);
     if (!output)
         return fail(reason, capacity, OIIO::geterror());
     bool has_planes = image.num_planes && output->supports("nchannels");
@@ -323,25 +325,12 @@ bool image_can_write(const char *path, char *reason, size_t capacity)
 
 bool image_write(const char *path, const struct image *image, char *reason, size_t capacity)
 {
-    return guard(reason, capacity, [&] {
-        /* The ending selects the format, so the temporary name keeps it. */
-        std::string name(path);
-        size_t base = name.rfind('/') + 1;
-        std::unique_ptr<char, decltype(&std::free)> made(
-            temporary_name((name.substr(0, base) + ".tmp").c_str(),
-                           ("-" + name.substr(base)).c_str()),
-            &std::free);
-        if (!made)
-            throw std::bad_alloc();
-        const std::string temporary = made.get();
-        temporary_note(temporary.c_str());
-        bool good = guard(reason, capacity,
-                          [&] { return write_file(temporary, *image, reason, capacity); });
-        if (good && std::rename(temporary.c_str(), path) != 0)
-            good = fail(reason, capacity, std::strerror(errno));
-        if (!good)
-            std::remove(temporary.c_str());
-        temporary_forget(temporary.c_str());
-        return good;
-    });
+    struct files_stream stream;
+    const char *fault = files_begin(&stream, path);
+    if (fault)
+        return fail(reason, capacity, fault);
+    bool good =
+        guard(reason, capacity, [&] { return write_file(stream, *image, reason, capacity); });
+    fault = files_end(&stream, good);
+    return fault ? fail(reason, capacity, fault) : good;
 }

@@ -22,10 +22,10 @@ OIIO::TypeDesc type_of(const image_format &format)
     return format.depth == 16 ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8;
 }
 
-bool begin(const char *path, const image_format &format, image_rows &rows, char *reason,
+bool begin(const files_stream &stream, const image_format &format, image_rows &rows, char *reason,
            size_t capacity)
 {
-    rows.output = OIIO::ImageOutput::create(path);
+    rows.output = OIIO::ImageOutput::create(stream.path);
     if (!rows.output)
         return fail(reason, capacity, OIIO::geterror());
     OIIO::ImageSpec spec(static_cast<int>(format.width), static_cast<int>(format.height),
@@ -33,18 +33,20 @@ bool begin(const char *path, const image_format &format, image_rows &rows, char 
     spec.attribute("oiio:ColorSpace", format.is_srgb ? "sRGB" : "Linear");
     spec.attribute("oiio:UnassociatedAlpha", 1);
     spec.attribute("CompressionQuality", 95);
-    return rows.output->open(path, spec) || fail(reason, capacity, rows.output->geterror());
+    return rows.output->open(files_name(&stream), spec)
+           || fail(reason, capacity, rows.output->geterror());
 }
 
 } // namespace
 
-struct image_rows *image_rows_begin(const char *path, const struct image_format *format,
-                                    char *reason, size_t capacity)
+struct image_rows *image_rows_begin(const struct files_stream *stream,
+                                    const struct image_format *format, char *reason,
+                                    size_t capacity)
 {
     std::unique_ptr<image_rows> rows;
     bool good = guard(reason, capacity, [&] {
         rows = std::make_unique<image_rows>();
-        return begin(path, *format, *rows, reason, capacity);
+        return begin(*stream, *format, *rows, reason, capacity);
     });
     return good ? rows.release() : nullptr;
 }

@@ -2,14 +2,10 @@
 #define _POSIX_C_SOURCE 200809L
 #include "render/spool.h"
 
-#include "program/cli.h"
-#include "program/memory.h"
-#include "program/temporary.h"
+#include "program/files.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -17,20 +13,12 @@ const char *spool_open(struct spool *spool, const char *folder, uint32_t width, 
                        uint32_t channels)
 {
     *spool = (struct spool){.width = width, .height = height, .channels = channels};
-    char *stem = cli_format("%s/.mxgen-bake", folder), *name = temporary_name(stem, "");
-    free(stem);
     for (size_t c = 0; c < 4; ++c) {
         spool->low[c] = INFINITY;
         spool->high[c] = -INFINITY;
     }
-    if (!name)
-        memory_fail();
-    temporary_note(name);
-    spool->file = open(name, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
-    const char *reason = spool->file < 0 || unlink(name) != 0 ? strerror(errno) : NULL;
-    temporary_forget(name);
-    free(name);
-    return reason;
+    spool->file = files_open_unnamed(folder);
+    return spool->file < 0 ? strerror(errno) : NULL;
 }
 
 void spool_close(struct spool *spool)

@@ -4,7 +4,6 @@
 
 #include "lines.h"
 #include "program/files.h"
-#include "program/folder.h"
 #include "program/json.h"
 #include "rows.h"
 
@@ -15,8 +14,9 @@
 bool draws_open(struct draws *draws)
 {
     *draws = (struct draws){0};
-    draws->folder = folder_temporary("mxgen-draws");
-    draws->path = draws->folder ? lines_path(draws->folder, ".", "draws", ".jsonl") : NULL;
+    draws->path = scratch_make(&draws->scratch)
+                      ? lines_path(draws->scratch.path, ".", "draws", ".jsonl")
+                      : NULL;
     draws->file = draws->path ? fopen(draws->path, "w") : NULL;
     if (!draws->file)
         puts("there is no room for temporary files");
@@ -27,7 +27,7 @@ static char *image_path(const struct draws *draws, size_t number)
 {
     char name[32];
     snprintf(name, sizeof name, "%zu", number);
-    return lines_path(draws->folder, ".", name, ".image");
+    return lines_path(draws->scratch.path, ".", name, ".image");
 }
 
 void draws_close(struct draws *draws)
@@ -36,16 +36,7 @@ void draws_close(struct draws *draws)
         pclose(draws->file);
     else if (draws->file)
         fclose(draws->file);
-    for (size_t i = 0; i < draws->num_files; ++i) {
-        char *path = image_path(draws, i);
-        unlink(path);
-        free(path);
-    }
-    if (draws->path)
-        unlink(draws->path);
-    if (draws->folder)
-        rmdir(draws->folder);
-    free(draws->folder);
+    scratch_remove(&draws->scratch);
     free(draws->path);
     free(draws->line);
 }

@@ -20,6 +20,7 @@
 #ifndef MXG_TESTS_CONFORMANCE_DRAWS_H
 #define MXG_TESTS_CONFORMANCE_DRAWS_H
 
+#include "program/scratch.h"
 #include "render/bind.h"
 
 #include <stdio.h>
@@ -34,9 +35,10 @@ struct draws_image {
 };
 
 struct draws {
-    char *folder, *path; /* temporary, and its file of lines */
-    FILE *file;          /* the lines; then the answers */
-    bool is_running;     /* the command */
+    struct scratch scratch;
+    char *path;      /* the file of lines, in the scratch folder */
+    FILE *file;      /* the lines; then the answers */
+    bool is_running; /* the command */
     struct draws_image images[DRAWS_MAX_IMAGES];
     size_t num_images, num_files;
     char *line; /* an answer */

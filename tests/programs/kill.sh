@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Killed at any moment, mxgen leaves complete files or none: each file with its final name equals the file of an undisturbed run.
-# Argument: the program.
+# Nothing else stays, of programs that give files to libraries, too. Argument: the program.
 mxgen=$(realpath "$1")
 here=$(cd "$(dirname "$0")" && pwd)
 . "$here/common.sh"
@@ -44,5 +44,42 @@ done
 check 'some runs were killed' test "$killed" -ge 5
 check 'a run after a killed one is not disturbed' exits 0 "$mxgen" many.mtlx --reflect -o made
 check 'a run after a killed one writes everything' eval 'for file in whole/*; do cmp "$file" "made/${file#whole/}" || exit 1; done'
+check 'no other file stays in a folder that files were new in' eval '[ -z "$(find . -name "*tmp*")" ]'
+
+# ---- Files that libraries write, which have no names until they are complete ----
+
+# Kills a command as soon as it has an open file without a name in the folder `drawn`. A shell of its own, so that nobody tells of it.
+kill_writing() {
+    bash -c 'exec "$@"' - "$@" >/dev/null 2>&1 &
+    local victim=$! writes=false process
+    while [ -e /proc/$victim/fd ] && ! $writes; do
+        for process in $victim $(pgrep -P $victim); do ls -l /proc/$process/fd; done 2>/dev/null | grep -q "$PWD/drawn/.*(deleted)" && writes=true
+        sleep 0.01
+    done
+    kill -9 $victim 2>/dev/null
+    wait $victim 2>/dev/null
+    $writes
+}
+
+if [ -x "$(dirname "$mxgen")/mxgen-render" ] && mkdir -p drawn; then
+    cat >varied.mtlx <<'XML'
+<materialx version="1.39"><fractal2d name="noise" type="color3"/>
+<standard_surface name="S" type="surfaceshader"><input name="base_color" type="color3" nodename="noise"/></standard_surface>
+<surfacematerial name="M" type="material"><input name="surfaceshader" type="surfaceshader" nodename="S"/></surfacematerial></materialx>
+XML
+    check 'a bake is killed while it writes' kill_writing "$mxgen" bake varied.mtlx -o drawn --size 1024
+    check 'nothing of it stays' test -z "$(ls -A drawn)"
+    check 'a picture is killed while it is written' kill_writing "$mxgen" render varied.mtlx --mesh plane --size 1024 -o drawn/picture.png
+    check 'nothing of it stays' test -z "$(ls -A drawn)"
+
+    # A killed command leaves its folder of temporary files, which the next one removes, but no folder that is in use.
+    mkdir -p temporary temporary/mxgen-scratch-killed/deep && touch temporary/mxgen-scratch-killed/deep/file
+    mkdir temporary/mxgen-scratch-in-use temporary/other
+    exec 9<temporary/mxgen-scratch-in-use && flock -x 9
+    check 'an export makes a folder for temporary files' exits 0 env TMPDIR=temporary "$mxgen" export varied.mtlx -o drawn/varied.glb --size 16
+    check 'it removes those of killed runs alone' test "$(ls temporary | paste -sd' ')" = 'mxgen-scratch-in-use other'
+else
+    skip 'mxgen-render is not built'
+fi
 
 finish kill
