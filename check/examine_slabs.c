@@ -2,8 +2,6 @@
 /* The slabs of an element, and the steps of their budget, as `mxgen inspect --slabs` has them. */
 #include "check/examine.h"
 #include "program/json.h"
-#include "check/signature.h"
-#include "program/slab_view.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -29,11 +27,29 @@ static void read_step(struct store *store, const json_t *from, struct check_step
                                .drawn = ""};
 }
 
+/* A view of the slabs; "": there is none. It lasts as long as the result, which the caller ends. */
+static const char *inspect(struct examiner *examiner, const mxg_document *document,
+                           const struct check_element *element, mxg_view view,
+                           const mxg_options *options, mxg_result **out_result)
+{
+    mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
+    desc.target = element->shaders[0].target;
+    desc.element = element->path;
+    desc.options = options;
+    mxg_inspect(examiner->cli->context, document, view, &desc, out_result);
+    const char *text = mxg_result_text(*out_result, NULL);
+    return text ? text : "";
+}
+
+/* The slabs as data, which the caller drops. NULL: there are none. */
 static json_t *read_sheet(struct examiner *examiner, const mxg_document *document,
                           const struct check_element *element, const mxg_options *options)
 {
-    return slab_view_read(examiner->cli, document, element->path, element->shaders[0].target,
-                          options);
+    mxg_result *result = NULL;
+    json_t *sheet = json_loads(
+        inspect(examiner, document, element, MXG_VIEW_SLABS_JSON, options, &result), 0, NULL);
+    mxg_result_destroy(result);
+    return sheet;
 }
 
 static bool has_trees(const json_t *sheet)
@@ -75,16 +91,10 @@ static bool read_steps(struct examiner *examiner, const mxg_document *document,
 static void add_tree(struct examiner *examiner, const mxg_document *document,
                      struct check_element *element)
 {
-    mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
     mxg_result *result = NULL;
-    size_t size = 0;
-    desc.target = element->shaders[0].target;
-    desc.element = element->path;
-    desc.options = examiner->cli->options;
-    mxg_inspect(examiner->cli->context, document, MXG_VIEW_SLABS_SVG, &desc, &result);
-    const char *svg = result ? mxg_result_text(result, &size) : NULL;
-    if (svg)
-        element->slabs = picture_base64(&examiner->store, svg, size);
+    const char *text =
+        inspect(examiner, document, element, MXG_VIEW_SLABS, examiner->cli->options, &result);
+    element->slabs = store_text(&examiner->store, text, strlen(text));
     mxg_result_destroy(result);
 }
 

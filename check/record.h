@@ -114,7 +114,7 @@ struct check_element {
     struct check_setting *values, *textures;
     size_t num_values, num_textures;
     const char *picture;   /* a PNG in base64; "": none */
-    const char *slabs;     /* their tree, an SVG in base64; "": none */
+    const char *slabs;     /* their tree, as `mxgen inspect --slabs` shows it; "": none */
     const char *signature; /* signature of the picture, see picture.h */
     /* where options make slabs cheaper: a PNG without them, and the mean CIEDE2000 between both */
     const char *full, *drawn_error; /* "": none */

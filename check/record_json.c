@@ -121,7 +121,7 @@ static const struct field element_fields[] = {
     ARRAY(SETTINGS, check_element, "textures", textures, false, NULL),
     FIELD(TEXT, check_element, "signature", signature),
     FIELD(TEXT, check_element, "picture", picture),
-    FIELD(TEXT, check_element, "slabsPicture", slabs),
+    FIELD(TEXT, check_element, "slabs", slabs),
     FIELD(TEXT, check_element, "fullPicture", full),
     FIELD(TEXT, check_element, "drawnError", drawn_error),
     ARRAY(LIST, check_element, "steps", steps, false, &step_type),

@@ -83,8 +83,6 @@ static bool run(const struct drawn_subject *subject, const char *log, int steps)
         cli_forward_full(subject->cli, &args);
     else
         cli_forward(subject->cli, &args);
-    if (steps != NO_STEPS && subject->is_to_one_slab)
-        args_append(&args, cli_format("--max-slabs=1"));
     if (steps != ALL_STEPS)
         args_append(&args, cli_format("--max-steps=%d", steps));
     args_append(&args, NULL);

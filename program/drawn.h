@@ -13,7 +13,6 @@ struct drawn_subject {
     const char *file, *element;     /* element NULL: the first one */
     const char *const *look;        /* options of the renderer, which NULL ends */
     const char *folder;             /* for files that do not outlive a picture */
-    bool is_to_one_slab;            /* the budget, in place of that of the options */
     void (*begin)(void *user_data); /* before each picture; NULL: nothing is to do */
     void *user_data;
 };

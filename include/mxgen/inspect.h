@@ -23,7 +23,6 @@ typedef enum mxg_view {
     /* the tree of slabs, what they cost, and steps to one slab (docs/slabs.md) */
     MXG_VIEW_SLABS,
     MXG_VIEW_SLABS_JSON, /* the same as JSON */
-    MXG_VIEW_SLABS_SVG,  /* the same as a picture */
     MXG_VIEW_MAX_ENUM = 0x7fffffff
 } mxg_view;
 /*

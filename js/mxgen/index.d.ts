@@ -25,7 +25,7 @@ export type Stage = "vertex" | "pixel";
 export type Block = "publicUniforms" | "privateUniforms" | "lightData" | "textures" | "appData" | "vertexData" | "outputs" | "own1" | "own2" | "own3" | "own4";
 /** opaque: without blending; mask: with the depth test alone; blend: back to front. Colours are premultiplied. */
 export type Alpha = "opaque" | "mask" | "blend";
-export type View = "elements" | "graph" | "dot" | "ir" | "closures" | "statistics" | "slabs" | "slabsJson" | "slabsSvg";
+export type View = "elements" | "graph" | "dot" | "ir" | "closures" | "statistics" | "slabs" | "slabsJson";
 /** The effect of a new value of an input on a shader. */
 export type InputState = "unknown" | "unused" | "uniform" | "compiled" | "connected";
 export type ChangeKind = "nothing" | "values" | "shader";

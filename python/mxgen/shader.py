@@ -69,7 +69,6 @@ class View(enum.IntEnum):
     STATISTICS = lib.MXG_VIEW_STATISTICS
     SLABS = lib.MXG_VIEW_SLABS
     SLABS_JSON = lib.MXG_VIEW_SLABS_JSON
-    SLABS_SVG = lib.MXG_VIEW_SLABS_SVG
 
 
 @dataclass(frozen=True)

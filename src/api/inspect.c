@@ -94,11 +94,6 @@ static void view_slabs_json(struct generation *g, struct text *out)
     view_sheet(g, out, slabs_write_json);
 }
 
-static void view_slabs_svg(struct generation *g, struct text *out)
-{
-    view_sheet(g, out, slabs_write_svg);
-}
-
 static void write_counts(struct text *out, const char *name, uint32_t count)
 {
     text_fmt(out, "%-24s %u\n", name, (unsigned)count);
@@ -140,7 +135,6 @@ static const struct view {
     [MXG_VIEW_CLOSURES] = {view_closures, true},
     [MXG_VIEW_STATISTICS] = {view_statistics, true},
     [MXG_VIEW_SLABS_JSON] = {view_slabs_json, true},
-    [MXG_VIEW_SLABS_SVG] = {view_slabs_svg, true},
 };
 
 static void inspect(struct generation *g)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * `mxgen inspect --slabs` shows this sheet, as data: sheet.c fills it in, and three files write it,
- * as text, as JSON and as a picture.
+ * `mxgen inspect --slabs` shows this sheet, as data: sheet.c fills it in, and two files write it,
+ * as text and as JSON.
  */
 #ifndef MXG_SLABS_SHEET_H
 #define MXG_SLABS_SHEET_H
@@ -59,7 +59,7 @@ struct slab_sheet {
 void slabs_fill_sheet(struct shader *shader, const struct slabs_host *host,
                       const struct slab_budget *budget, ir_ref root, struct slab_sheet *out);
 
-/* The inputs of a slab that all three show. */
+/* The inputs of a slab that both show. */
 struct slab_shown {
     enum slab_operand input;
     const char *name; /* "mean free path" */
@@ -77,6 +77,5 @@ ir_ref slab_operator_value(const struct slab_sheet *sheet, const struct slab_row
 
 void slabs_write_text(const struct slab_sheet *sheet, struct text *out);
 void slabs_write_json(const struct slab_sheet *sheet, struct text *out);
-void slabs_write_svg(const struct slab_sheet *sheet, struct text *out);
 
 #endif

@@ -19,7 +19,7 @@ DOCUMENT = """<materialx version="1.39"><standard_surface name="S" type="surface
 <surfacematerial name="M" type="material"><input name="surfaceshader" type="surfaceshader" nodename="S"/></surfacematerial></materialx>
 """
 # what a run with a device, a budget and a baseline adds to an element
-DRAWN = {"picture": "", "fullPicture": "", "slabsPicture": "", "drawnError": "", "signature": "", "steps": [{
+DRAWN = {"picture": "", "fullPicture": "", "slabs": "", "drawnError": "", "signature": "", "steps": [{
     "text": "", "closuresBefore": 1, "closuresAfter": 1, "bytesBefore": 1, "bytesAfter": 1, "estimated": "", "drawn": "",
     "estimatedError": "", "drawnError": ""}]}
 CHANGE = {"kind": "new-errors", "element": "M", "target": "glsl", "text": "", "from": "", "to": ""}

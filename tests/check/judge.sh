@@ -152,10 +152,7 @@ else
     check 'the steps of a budget are drawn' exits 0 "${steps[@]}" --html steps.html --json steps.json
     check 'the text has cost and errors of each step' grep -Eq "^  'CarPaint': one slab for the layer 'coated': slabs 2 to 1, bytes 28 to 16, error estimated [01]\.[0-9]+, drawn [01]\.[0-9]+" out
     check 'the page has cost and errors of each step' grep -q "<td>one slab for the layer &#39;coated&#39;</td><td>2 to 1</td><td>28 to 16</td><td>" steps.html
-    check 'the page has the tree of slabs' python3 -c 'import base64, re, xml.etree.ElementTree as e
-svgs = [base64.b64decode(text) for text in re.findall("<summary>slabs</summary>.*?image/svg.xml;base64,([^\"]+)", open("steps.html").read())]
-trees = [[t.text or "" for t in e.fromstring(svg).findall("{*}text")] for svg in svgs]
-assert len(trees) == 5 and any("one slab for the layer" in t for texts in trees for t in texts), trees'
+    check 'the page has the tree of slabs' eval '[ "$(grep -c "<summary>slabs</summary><pre>[A-Za-z_]*, a [bs]" steps.html)" = 5 ] && grep -q "^  one slab for the layer &#39;" steps.html'
     check 'the page of other materials has no tree of slabs' eval '! grep -q "<summary>slabs" red.html'
     check 'the report has a drawn error for each step' says steps.json '[all(float(s["drawnError"]) >= 0 for s in e["steps"]) and e["steps"][-1]["drawnError"] == e["drawnError"] for e in d[0]["elements"] if e["path"] == "CarPaint"]' '[True]'
     check 'steps have drawn errors of their own' says steps.json '[len({s["drawnError"] for s in e["steps"]}) > 1 for e in d[0]["elements"] if e["path"] == "CarPaint"]' '[True]'

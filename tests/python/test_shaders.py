@@ -192,8 +192,7 @@ class Shaders(unittest.TestCase):
         document = self.context.load(common.EXAMPLES / "marble.mtlx")
         for view, text in ((mxgen.View.ELEMENTS, "NG_marble"), (mxgen.View.GRAPH, "noise"), (mxgen.View.DOT, "digraph"),
                            (mxgen.View.CLOSURES, "bsdf"), (mxgen.View.IR, "="), (mxgen.View.STATISTICS, "closures  "),
-                           (mxgen.View.SLABS, "a body, as slabs"), (mxgen.View.SLABS_JSON, '"recognised": true'),
-                           (mxgen.View.SLABS_SVG, "</svg>")):
+                           (mxgen.View.SLABS, "a body, as slabs"), (mxgen.View.SLABS_JSON, '"recognised": true')):
             self.assertIn(text, document.inspect(view, "Marble", target="glsl"), view)
         with self.assertRaises(mxgen.DocumentError):
             document.inspect(mxgen.View.IR, "none")

@@ -4,9 +4,9 @@
 errors of their budgets as they are drawn, and what the examples show is in the pictures.
 
 Arguments: mxgen, mxgen-render ('' to draw nothing), the root of the project; --update rewrites the reports and prints the table."""
+import json
 import pathlib
 import re
-import shutil
 import subprocess
 import sys
 import tempfile
@@ -107,33 +107,24 @@ def check_row(row):
     check(len(drawn) == len(listed) and all(abs(a - b) <= NEAR for a, b in zip(drawn, listed)), f"docs/slabs.md has not the row {row}")
 
 
-def check_drawn(folder):
-    """`inspect --slabs --drawn` shows the errors of pictures beside the estimates, as text and as JSON; without a renderer it says so."""
-    document, material = document_of("WrappedSilk"), "WrappedSilk"
-    listed = [float(cell.split(", ")[1]) for cell in kept_row(material).split(" | ")[1:3] for cell in [cell.rstrip(" |")]]
-    patterns = {"text": r", drawn ([\d.]+)", "json": r'"drawnError": ([\d.]+)'}
-    for form, pattern in patterns.items():
-        result = run(MXGEN, "inspect", "--slabs", "--drawn", "--format", form, document, "-e", material)
-        drawn = [float(number) for number in re.findall(pattern, result.stdout)]
-        check(len(drawn) == 2 and all(abs(a - b) <= NEAR for a, b in zip(drawn, listed)), f"drawn as {form}: {drawn}, listed {listed}")
-    result = run(MXGEN, "inspect", "--slabs", "--drawn", "--max-bytes", 12, document_of("CarPaint"), "-e", "CarPaint")
-    drawn = [float(number) for number in re.findall(patterns["text"], result.stdout)]
-    check(len(drawn) == 3 and len(set(drawn)) == 3, f"the step without a second lobe has the error of another step: {result.stdout}")
-    result = run(MXGEN, "inspect", "--slabs", "--drawn", document_of("CoatedMetal"), document_of("Opal"))
-    drawn = [float(number) for number in re.findall(patterns["text"], result.stdout)]
-    check(len(set(drawn)) == 3, f"a document has the errors of the one before: {result.stdout}")
-    asked = folder / "asked.mtlx"
+def drawn_steps(folder, text, profile):
+    """The errors of pictures after each step of a budget, as `mxgen check --render` lists them, of the only material of a document."""
+    (folder / "budget.toml").write_text(profile)
+    (folder / "paint.mtlx").write_text(text)
+    result = run(MXGEN, "check", folder / "paint.mtlx", "--render", "--no-compile", "--profile", folder / "budget.toml", "--json", folder / "drawn.json")
+    check(result.returncode == 0, f"check --render: {result.stdout}{result.stderr}")
+    element, = json.loads((folder / "drawn.json").read_text())["documents"][0]["elements"]
+    return [float(step["drawnError"]) for step in element["steps"]]
+
+
+def check_steps(folder):
+    """Each step has a picture of its own; the picture without a budget has no step of the document either."""
+    paint = re.sub(r'<surfacematerial name="(?!CarPaint").*?</surfacematerial>', "", document_of("CarPaint").read_text(), flags=re.DOTALL)
+    drawn = drawn_steps(folder, paint, "max-bytes = 12\n")
+    check(len(drawn) == 3 and len(set(drawn)) == 3, f"the step without a second lobe has the error of another step: {drawn}")
     share = '<input name="mix" type="float" value="0.6"/>'
-    asked.write_text(document_of("CarPaint").read_text().replace(share, share + '<input name="blend_parameters" type="boolean" value="true"/>'))
-    result = run(MXGEN, "inspect", "--slabs", "--drawn", asked, "-e", "CarPaint")
-    drawn = [float(number) for number in re.findall(patterns["text"], result.stdout)]
-    check(len(drawn) == 2 and min(drawn) > 0.2, f"the picture without steps has the step of the document: {result.stdout}")
-    alone = folder / "mxgen"
-    shutil.copy(MXGEN, alone)
-    result = subprocess.run([alone, "inspect", "--slabs", "--drawn", document, "-e", material], env={"PATH": ""}, cwd=folder,
-                            capture_output=True, text=True, check=False)
-    check(result.returncode == 1 and "estimated error" in result.stdout and "drawn" not in result.stdout and "mxgen-render" in result.stderr,
-          f"without a renderer: {result.stdout}{result.stderr}")
+    drawn = drawn_steps(folder, paint.replace(share, share + '<input name="blend_parameters" type="boolean" value="true"/>'), "max-slabs = 1\n")
+    check(len(drawn) == 2 and min(drawn) > 0.2, f"the picture without steps has the step of the document: {drawn}")
 
 
 # ---- What pictures show ----
@@ -198,7 +189,7 @@ def main():
             if UPDATE:
                 print(row)
             check_row(row)
-        check_drawn(folder)
+        check_steps(folder)
         check_halo(folder)
         check_sweeps(folder)
     finish("slab-examples")

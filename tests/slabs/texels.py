@@ -59,8 +59,6 @@ with tempfile.TemporaryDirectory() as folder:
     document.write_text(DOCUMENT)
     unread = report(document)
     check(unread["notRead"] == ["mask"], f"a file that is missing is not named: {unread['notRead']}")
-    picture = run(MXGEN, "inspect", document, "--slabs", "--format", "svg", "--max-bytes", 12).stdout
-    check(">To the budget<" in picture and ">the estimate does not read mask<" in picture, f"the picture has no budget and no mask: {picture}")
     document.write_text(DOCUMENT.replace("<image", '<time name="now" type="float"/><image').replace('name="roughness" type="float" value="0.8"',
         'name="roughness" type="float" nodename="now"').replace('<input name="file" type="filename" value="mask.ppm"/></image>',
         '<input name="geomprop" type="string" value="wear"/></geompropvalue>').replace("<image", "<geompropvalue"))
