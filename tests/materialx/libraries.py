@@ -117,7 +117,8 @@ def main():
     resources = MATERIALS / "resources" if is_part else own
     if resources.is_dir():
         check_documents(libraries, resources, is_part, exceptions)
-        check(not exceptions, f"exceptions.tsv has rows without a document: {', '.join(exceptions)}")
+        left = [name for name in exceptions if not (is_part and name.endswith(".mtlx"))]  # shared/materials lacks some documents
+        check(not left, f"exceptions.tsv has rows without a document: {', '.join(left)}")
     else:
         skip("there are no documents of MaterialX")
     finish("materialx")
