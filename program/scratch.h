@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Folders of files that do not stay. A process locks its folders, so the next process that makes one
- * removes those of processes that were killed.
+ * Folders of files that do not stay. A process locks its folders, so the next process that makes
+ * one removes those of processes that were killed.
  */
 #ifndef MXG_PROGRAM_SCRATCH_H
 #define MXG_PROGRAM_SCRATCH_H
