@@ -10,8 +10,8 @@
 #include "tree/eval.h"
 #include "tree/reach.h"
 
+#include "cases.h"
 #include "one_file.h"
-#include "test.h"
 
 #include <math.h>
 
@@ -73,62 +73,14 @@ static const char *print_function(struct fixture *f, const struct lang_syntax *s
 
 /* Printing */
 
-/* What is read is printed as it stands here. */
-static void prints_as(const char *source)
+/* What is read is printed as it stands there. */
+static void prints(struct fixture *f, const struct test_case *c)
 {
-    struct fixture f;
-    setup(&f, source);
     struct text text;
-    text_init(&text, &f.arena);
-    for (uint32_t i = 0; i < f.library.functions.len; i++)
-        text_str(&text, print_function(&f, &lang_syntax_portable, NULL, i));
-    REQUIRE_STR(text_cstr(&text), source);
-    teardown(&f);
-}
-
-static void test_print_expressions(void)
-{
-    prints_as("float f(float a, float b, float c)\n{\n"
-              "    return a - (b - c) + a * (b + c) / (a * b) - -c;\n}\n");
-    prints_as("float f(vec3 v, mat3 m, int i)\n{\n    return -(v.x + v.y) * m[i][2] + (-v).z + (v "
-              "* m).xyz[i];\n}\n");
-    prints_as(
-        "bool f(int a, int b, bool c)\n{\n"
-        "    return (a & 255) == b && !(c || a << 2 >= (b ^ ~a) % 7) ^^ (c ? a > b : a < b);\n}\n");
-    prints_as("float f(float a, bool c)\n{\n    return (c ? a : 2.0) + (a < 1.0 ? 0.5 : c ? 1.0 : "
-              "-1.0);\n}\n");
-    prints_as("vec4 f(float a, uint u)\n{\n"
-              "    return vec4(1.0, a, float(u + 5u), -1e-20) + mix(vec4(0.5), vec4(0.0, 1.0, 2.0, "
-              "3.0), clamp(a, 0.0, 1.0));\n}\n");
-    prints_as("mat3 f(mat4 m)\n{\n    return mat3(2.0) * mat3(m) + mat3(vec3(1.0, 2.0, 3.0), "
-              "m[0].xyz, m[1].xyz);\n}\n");
-    prints_as("bool f(string s)\n{\n    return s == \"a b\" || s != \"\";\n}\n");
-    prints_as("float f(float x)\n{\n    return atan(x, 2.0) + atan(x) + pow(2.0, -x) * "
-              "inversesqrt(abs(x));\n}\n");
-}
-
-static void test_print_statements(void)
-{
-    prints_as("float f(float a, out vec3 b, inout int n)\n{\n"
-              "    if (a < 0.0)\n        return 1.0;\n    else if (a > 1.0)\n        return 2.0;\n "
-              "   else\n        b = vec3(a);\n"
-              "    if (n == 0) {\n        b.xy = b.yx;\n        ++n;\n    } else {\n        b[1] "
-              "*= 2.0;\n    }\n"
-              "    return a;\n}\n");
-    prints_as("int f(int n)\n{\n    int sum = 0;\n"
-              "    for (int i = 0; i < n; ++i)\n        sum += i;\n"
-              "    for (int i = n; i > 0; i -= 2) {\n        if (i == 7)\n            continue;\n  "
-              "      --sum;\n    }\n"
-              "    while (sum > 100) {\n        sum >>= 1;\n        if (sum == 150)\n            "
-              "break;\n    }\n"
-              "    do {\n        ++sum;\n    } while (sum < 10);\n"
-              "    for (;;) {\n        for (int j = 0; j < 2; ++j)\n            sum <<= 1;\n       "
-              " if (sum > 0)\n            break;\n    }\n"
-              "    return sum;\n}\n");
-    prints_as("void f(out float x)\n{\n    x = 1.0;\n}\nfloat g()\n{\n    float y;\n    f(y);\n    "
-              "return y;\n}\n");
-    prints_as("float f(bool a, bool b)\n{\n    if (a) {\n        if (b)\n            return 1.0;\n "
-              "   } else {\n        return 2.0;\n    }\n    return 3.0;\n}\n");
+    text_init(&text, &f->arena);
+    for (uint32_t i = 0; i < f->library.functions.len; i++)
+        text_str(&text, print_function(f, &lang_syntax_portable, NULL, i));
+    REQUIRE_STR(text_cstr(&text), c->in);
 }
 
 static void test_print_types(void)
@@ -469,172 +421,12 @@ static const char *text_with_callees(struct fixture *f, uint32_t id)
     return text_cstr(&text);
 }
 
-static void specialises(const char *source, const char *name, const char *bindings,
-                        const char *expected)
+/* "specialise NAME BINDINGS" */
+static void specialises(struct fixture *f, const struct test_case *c)
 {
-    struct fixture f;
-    setup(&f, source);
-    f.option = 1;
-    REQUIRE_STR(text_with_callees(&f, specialise(&f, find(&f, name), bindings)), expected);
-    teardown(&f);
-}
-
-static void test_specialise_values(void)
-{
-    specialises("const float K = 3.0; float f(float x, float y) { const float two = 2.0; float z = "
-                "y * two + K; return x * z; }",
-                "f", "y=1", "float f0(float x)\n{\n    return x * 5.0;\n}\n");
-    specialises("vec3 f(vec3 v, float w) { return mix(v * w + (1.0 - w), vec3(0.25), 1.0 - w) * "
-                "vec3(2.0); }",
-                "f", "w=1", "vec3 f0(vec3 v)\n{\n    return v * 2.0;\n}\n");
-    specialises("vec3 f(vec3 v, float w) { return v * w + vec3(1.0, 2.0, 3.0).zyx; }", "f", "w=0",
-                "vec3 f0()\n{\n    return vec3(3.0, 2.0, 1.0);\n}\n");
-    specialises("float f(float a, float b) { a += b; a *= 2.0; return a; }", "f", "a=1;b=2",
-                "float f0()\n{\n    return 6.0;\n}\n");
-    specialises("float f(float a, float b) { a += b; return a; }", "f", "a=1",
-                "float f0(float b)\n{\n    float a = 1.0;\n    a += b;\n    return a;\n}\n");
-    specialises("const float table[3] = float[3](1.0, 4.0, 9.0); float f(float x, int i) { float "
-                "own[2] = float[2](5.0, 6.0);\n"
-                "    return x * table[i] + own[i - 1]; }",
-                "f", "i=2", "float f0(float x)\n{\n    return x * 9.0 + 6.0;\n}\n");
-    specialises(
-        "float f(float x, bool a, bool b) { return a && x > 0.0 || b && x < -1.0 ? x : 0.0; }", "f",
-        "a=1;b=0", "float f0(float x)\n{\n    return x > 0.0 ? x : 0.0;\n}\n");
-    specialises("float f(float x, float y) { return vec3(x + 1.0).y * vec3(y, 0.0, 0.0).z; }", "f",
-                "",
-                "float f0(float x, float y)\n{\n    return (x + 1.0) * vec3(y, 0.0, 0.0).z;\n}\n");
-}
-
-static void test_specialise_branches(void)
-{
-    const char *modes = "float f(float x, string mode) { float y = x;\n"
-                        "    if (mode == \"clamp\") y = clamp(x, 0.0, 1.0); else if (mode == "
-                        "\"mirror\") { float t = mod(x, 2.0); y = t > 1.0 ? 2.0 - t : t; }\n"
-                        "    else return 0.0; return y * 2.0; }";
-    specialises(
-        modes, "f", "mode=clamp",
-        "float f0(float x)\n{\n    float y = clamp(x, 0.0, 1.0);\n    return y * 2.0;\n}\n");
-    specialises(modes, "f", "mode=mirror",
-                "float f0(float x)\n{\n    float t = mod(x, 2.0);\n    float y = t > 1.0 ? 2.0 - t "
-                ": t;\n    return y * 2.0;\n}\n");
-    specialises(modes, "f", "mode=other", "float f0()\n{\n    return 0.0;\n}\n");
-    specialises("float f(float x, bool early) { if (early) { x += 1.0; return x; } float y = x * "
-                "2.0; return y; }",
-                "f", "early=1", "float f0(float x)\n{\n    x += 1.0;\n    return x;\n}\n");
-    specialises(
-        "const int option_a = 0; float f(float x) { if (option_a == 1) return x; return x * 2.0; }",
-        "f", "", "float f0(float x)\n{\n    return x;\n}\n");
-    specialises("float f(float x, bool a) { float r; if (x > 0.0) { if (a) r = 1.0; else r = x; } "
-                "else r = 1.0; return r; }",
-                "f", "a=1", "float f0()\n{\n    return 1.0;\n}\n");
-    specialises("float f(float x, bool a) { float r = 0.0; if (x > 0.0) { if (a) r = 1.0; } else { "
-                "r = 2.0; } return r; }",
-                "f", "a=0",
-                "float f0(float x)\n{\n    float r = 0.0;\n    if (!(x > 0.0))\n        r = 2.0;\n "
-                "   return r;\n}\n");
-    specialises("float f(float x, bool a) { float x2 = x; if (a) { float t = x * x; x2 = t * t; } "
-                "float t = x2 + x2; return t * t; }",
-                "f", "a=1",
-                "float f0(float x)\n{\n    float t = x * x;\n    float x2 = t * t;\n    float t_ = "
-                "x2 + x2;\n    return t_ * t_;\n}\n");
-}
-
-/* The same condition holds where it is known, and does not where it may only turn out to hold. */
-static void test_specialise_known(void)
-{
-    const char *round = "float f(vec2 a, float x) { return mx_known(a.x == a.y) ? x : x * a.y; }";
-    specialises(round, "f", "a=2", "float f0(float x)\n{\n    return x;\n}\n");
-    specialises(round, "f", "x=3", "float f0(vec2 a)\n{\n    return 3.0 * a.y;\n}\n");
-}
-
-static void test_specialise_loops(void)
-{
-    specialises(
-        "float f(float x, int n, float w) { float sum = 0.0; float idle = 0.0; int count = 0;\n"
-        "    for (int i = 0; i < n; ++i) { sum += x * w; idle += w; ++count; } if (count == 0) "
-        "return 1.0; return sum; }",
-        "f", "n=4;w=1",
-        "float f0(float x)\n{\n    float sum = 0.0;\n    int count = 0;\n    for (int i = 0; i < "
-        "4; ++i) {\n        sum += x;\n        ++count;\n    }\n"
-        "    if (count == 0)\n        return 1.0;\n    return sum;\n}\n");
-    specialises("float f(float x, int n) { for (int i = 0; i < n; ++i) x += 1.0; while (false) x = "
-                "0.0; return x; }",
-                "f", "n=0",
-                "float f0(float x)\n{\n    for (int i = 0; i < 0; ++i)\n        x += 1.0;\n    "
-                "return x;\n}\n");
-    specialises("float f(float x) { float y = 2.0; float dead = 0.0; for (int i = 0; i < 3; ++i) { "
-                "dead = x; } x *= y; return x; }",
-                "f", "", "float f0(float x)\n{\n    x *= 2.0;\n    return x;\n}\n");
-    specialises("float f(float x) { int i = 0; for (int k = 0; k < 3; ++k) { x += float(i); "
-                "for (i = 5; x < 0.0;) x += 1.0; } return x; }",
-                "f", "",
-                "float f(float x)\n{\n    int i = 0;\n    for (int k = 0; k < 3; ++k) {\n"
-                "        x += float(i);\n        for (i = 5; x < 0.0;)\n            x += 1.0;\n"
-                "    }\n    return x;\n}\n");
-    specialises("float f(float x, float w) { float k = 1.0; for (int i = 0; i < 3; ++i) { x *= k; "
-                "if (x > w) { k = 2.0; continue; } x += 1.0; } return x; }",
-                "f", "w=5",
-                "float f0(float x)\n{\n    float k = 1.0;\n    for (int i = 0; i < 3; ++i) {\n     "
-                "   x *= k;\n        if (x > 5.0) {\n            k = 2.0;\n"
-                "            continue;\n        }\n        x += 1.0;\n    }\n    return x;\n}\n");
-}
-
-static void test_specialise_calls(void)
-{
-    specialises(
-        "float film(float c, float d) { return cos(c * d); } float plain(float c) { float s = c * "
-        "c; return s + s; }\n"
-        "float fresnel(float c, float d) { if (d > 0.0) return film(c, d); return plain(c); }\n"
-        "float f(float c, float d) { return fresnel(c, d) + fresnel(1.0, d) * fresnel(c, 0.0); }",
-        "f", "d=0",
-        "float plain(float c)\n{\n    float s = c * c;\n    return s + s;\n}\n"
-        "float f1(float c)\n{\n    return plain(c) + 2.0 * plain(c);\n}\n");
-    specialises("float g(float x, out float y) { y = x * 2.0; return x + 1.0; }\n"
-                "float f(float x, float w) { float a; float b = g(x, a); float c; float d = g(b, "
-                "c); return a * w + d; }",
-                "f", "w=0",
-                "float g(float x, out float y)\n{\n    y = x * 2.0;\n    return x + 1.0;\n}\n"
-                "float f0(float x)\n{\n    float a;\n    float b = g(x, a);\n    float c;\n    "
-                "float d = g(b, c);\n    return d;\n}\n");
-    specialises("float g(float x, out float y) { y = x * 2.0; return x + 1.0; }\n"
-                "float f(float x, float w) { float a; float b = g(x, a); return a + w * b; }",
-                "f", "w=0",
-                "float g(float x, out float y)\n{\n    y = x * 2.0;\n    return x + 1.0;\n}\n"
-                "float f0(float x)\n{\n    float a;\n    g(x, a);\n    return a;\n}\n");
-    specialises("vec3 g(vec3 c, vec3 x) { return c * x + c; } vec3 f(vec3 x) { return g(vec3(1.0, "
-                "2.0, 3.0), x); }",
-                "f", "",
-                "vec3 g0(vec3 x)\n{\n    vec3 c = vec3(1.0, 2.0, 3.0);\n    return c * x + "
-                "c;\n}\nvec3 f1(vec3 x)\n{\n    return g0(x);\n}\n");
-    specialises("float g(float a, float unused) { float s = a * a; return s + s; } float f(float "
-                "x, float y) { return g(x, y * y); }",
-                "f", "",
-                "float g0(float a)\n{\n    float s = a * a;\n    return s + s;\n}\nfloat f1(float "
-                "x)\n{\n    return g0(x);\n}\n");
-}
-
-/*
- * A parameter is bound where all calls agree, through callers as well; a flag makes a version of
- * its own.
- */
-static void test_plan(void)
-{
-    specialises(
-        "float g(float x, float k, float c) { float s = sin(x * k); return s * s + c; }\n"
-        "float h(float x, float c) { float t = g(x, 4.0, c); return t * t; }\n"
-        "float f(float x, float c) { return g(x, 2.0, 0.0) + g(x + 1.0, 3.0, c) + h(x, c); }",
-        "f", "c=0",
-        "float g0(float x, float k)\n{\n    float s = sin(x * k);\n    return s * s;\n}\n"
-        "float h1(float x)\n{\n    float t = g0(x, 4.0);\n    return t * t;\n}\n"
-        "float f2(float x)\n{\n    return g0(x, 2.0) + g0(x + 1.0, 3.0) + h1(x);\n}\n");
-    specialises(
-        "float g(float x, bool twice) { float s = x * x; if (twice) s *= 2.0; return s + sin(s); "
-        "}\n"
-        "float f(float x) { return g(x, true) + g(x, false) + g(x + 1.0, true); }",
-        "f", "",
-        "float g0(float x)\n{\n    float s = x * x;\n    s *= 2.0;\n    return s + sin(s);\n}\n"
-        "float g1(float x)\n{\n    float s = x * x;\n    return s + sin(s);\n}\n"
-        "float f2(float x)\n{\n    return g0(x) + g1(x) + g0(x + 1.0);\n}\n");
+    char name[32] = "", bindings[64] = "";
+    sscanf(c->words, "%*s %31s %63s", name, bindings);
+    REQUIRE_STR(text_with_callees(f, specialise(f, find(f, name), bindings)), c->out);
 }
 
 static void test_dropped_params(void)
@@ -653,13 +445,13 @@ static void test_dropped_params(void)
 /* Lowering */
 
 /*
- * An argument: a number fills the type's components, "" is absent, anything else is a uniform with
+ * An argument: a number fills the type's components, "_" is absent, anything else is a uniform with
  * that number.
  */
 static ir_ref argument(struct fixture *f, ir_type_id type, const char *text, uint32_t number)
 {
     float value;
-    if (!*text)
+    if (strcmp(text, "_") == 0)
         return 0;
     if (type == IR_TYPE_STRING)
         return ir_const_string(&f->graph, str_intern_z(&f->strings, text));
@@ -696,168 +488,15 @@ static const char *lower(struct fixture *f, uint32_t id, uint32_t max_inline,
     return text_cstr(&text);
 }
 
-static void lowers(const char *source, const char *name, uint32_t max_inline,
-                   const char *const *args, const char *expected)
+/* "lower NAME LIMIT ARGUMENTS" */
+static void lowers(struct fixture *f, const struct test_case *c)
 {
-    struct fixture f;
-    setup(&f, source);
-    f.option = 1;
-    REQUIRE_STR(lower(&f, find(&f, name), max_inline, args), expected);
-    teardown(&f);
-}
-
-#define ARGS(...) \
-    (const char *const[]) \
-    { \
-        __VA_ARGS__, NULL \
-    }
-
-static void test_lower_straight(void)
-{
-    lowers("float f(float x, float y) { float z = x * 2.0; z += y; return z * z; }", "f", 24,
-           ARGS("x", "y"),
-           "%1 = uniform float\n"
-           "%2 = uniform float @1\n"
-           "%3 = mul float %1, 2.0\n"
-           "%4 = add float %2, %3\n"
-           "%5 = mul float %4, %4\n"
-           "return %5\n");
-    lowers("vec3 f(vec3 v, float s) { v.xz = v.zx * s; v[1] = 0.0; return v; }", "f", 24,
-           ARGS("v", "2"),
-           "%1 = uniform vec3\n"
-           "%2 = swizzle vec2 .zx %1\n"
-           "%3 = mul vec2 %2, 2.0\n"
-           "%4 = swizzle float .x %3\n"
-           "%5 = swizzle float .y %3\n"
-           "%6 = construct vec3 %4, 0.0, %5\n"
-           "return %6\n");
-    lowers("vec2 f(float s, out float twice, inout int n) { twice = s + s; ++n; return vec2(s, "
-           "twice); }",
-           "f", 24, ARGS("s", "n"),
-           "%1 = uniform float\n"
-           "%2 = uniform int @1\n"
-           "%3 = add float %1, %1\n"
-           "%4 = add int %2, 1\n"
-           "%5 = construct vec2 %1, %3\n"
-           "return %5, %3, %4\n");
-    lowers("struct P { vec2 a; float b; }; P make(float x) { P p; p.a = vec2(x, 1.0); p.b = x; "
-           "p.a.y = p.b; return p; }\n"
-           "float f(float x) { P p = make(x); P q = p; q.b += p.a.y; return q.b; }",
-           "f", 40, ARGS("x"),
-           "%1 = uniform float\n"
-           "%2 = add float %1, %1\n"
-           "return %2\n");
-    lowers("const float t[3] = float[3](1.0, 2.0, 4.0); float f(float x, int i) { float a[2]; a[0] "
-           "= x; a[1] = t[i]; return a[0] * a[i - 1]; }",
-           "f", 40, ARGS("x", "2"),
-           "%1 = uniform float\n"
-           "%2 = mul float %1, 4.0\n"
-           "return %2\n");
-}
-
-static void test_lower_branches(void)
-{
-    lowers("float f(float x, string mode) { if (mode == \"a\") return x + 1.0; if (mode == \"b\") "
-           "{ return x * 2.0; } return x; }",
-           "f", 40, ARGS("x", "b"),
-           "%1 = uniform float\n"
-           "%2 = mul float %1, 2.0\n"
-           "return %2\n");
-    lowers("float f(float x, float y) { if (y == 0.0) return x; return x / y; }", "f", 24,
-           ARGS("x", "y"),
-           "%1 = uniform float\n"
-           "%2 = uniform float @1\n"
-           "%3 = eq bool %2, 0.0\n"
-           "%4 = div float %1, %2\n"
-           "%5 = select float %3, %1, %4\n"
-           "return %5\n");
-    lowers("float f(float x, float y) { float r = x; if (y > 0.0) { r = x * y; } else if (y < "
-           "-1.0) r = 2.0; return r + 1.0; }",
-           "f", 40, ARGS("x", "y"),
-           "%1 = uniform float\n"
-           "%2 = uniform float @1\n"
-           "%3 = gt bool %2, 0.0\n"
-           "%4 = mul float %1, %2\n"
-           "%5 = lt bool %2, -1.0\n"
-           "%6 = select float %5, 2.0, %1\n"
-           "%7 = select float %3, %4, %6\n"
-           "%8 = add float %7, 1.0\n"
-           "return %8\n");
-    lowers("float f(float x, bool c) { return c ? x : 3.0; }", "f", 24, ARGS("", "0"),
-           "return 3.0\n");
-    lowers("const int option_a = 0; uniform float u_k; float f(float x) { if (option_a == 1) "
-           "return u_k * x; return x; }",
-           "f", 24, ARGS("x"),
-           "%1 = uniform float\n"
-           "%2 = uniform float @101\n"
-           "%3 = mul float %1, %2\n"
-           "return %3\n");
-    lowers("void f(float x, out float y) { y = 1.0; if (x > 0.0) return; y = x; }", "f", 24,
-           ARGS("x"),
-           "%1 = uniform float\n"
-           "%2 = gt bool %1, 0.0\n"
-           "%3 = select float %2, 1.0, %1\n"
-           "return %3\n");
-}
-
-/* A call in a branch stays in its function, though there be an equal one already. */
-static void test_lower_call_in_branch(void)
-{
-    lowers("float sum(float x) { float s = 0.0; for (int i = 0; i < 3; ++i) s += x; return s; }\n"
-           "float h(float x) { if (x > 0.0) return sum(x); return x; }\n"
-           "float f(float x) { return sum(x) + h(x); }",
-           "f", 24, ARGS("x"),
-           "callee \"sum\" function 0 pure\n"
-           "callee \"h\" function 1 pure\n"
-           "%1 = uniform float\n"
-           "%2 = call float %1\n"
-           "%3 = call float @1 %1\n"
-           "%4 = add float %2, %3\n"
-           "return %4\n");
-}
-
-static void test_lower_calls(void)
-{
-    const char *texture_source = "vec4 f(sampler2D map, vec2 uv, bool on) { if (on) return "
-                                 "texture(map, uv); return vec4(0.0); }";
-    lowers(texture_source, "f", 24, ARGS("map", "uv", "1"),
-           "%1 = texture_input sampler2D\n"
-           "%2 = uniform vec2 @1\n"
-           "%3 = texture vec4 %1, %2\n"
-           "return %3\n");
-    lowers(texture_source, "f", 24, ARGS("map", "uv", "on"),
-           "callee \"f\" function 0 derivative\n"
-           "%1 = texture_input sampler2D\n"
-           "%2 = uniform vec2 @1\n"
-           "%3 = uniform bool @2\n"
-           "%4 = call vec4 %1, %2, %3\n"
-           "return %4\n");
-    lowers("float sum(float x, int n) { float s = 0.0; for (int i = 0; i < n; ++i) s += x; return "
-           "s; }\n"
-           "float f(float x) { return sum(x, 3) + sum(2.0, 3); }",
-           "f", 24, ARGS("x"),
-           "callee \"sum\" function 0 pure\n"
-           "%1 = uniform float\n"
-           "%2 = call float %1, 3\n"
-           "%3 = add float %2, 6.0\n"
-           "return %3\n");
-    lowers("vec2 big(vec2 x, float k, out float y, bool b) { y = k; for (int i = 0; i < 3; ++i) x "
-           "+= k; return b ? x.yx : x; }",
-           "big", 0, ARGS("x", "k", "1"),
-           "callee \"big\" function 0 pure\n"
-           "%1 = uniform vec2\n"
-           "%2 = uniform float @1\n"
-           "%3 = call vec2 %1, %2, true\n"
-           "%4 = result vec2 %3\n"
-           "%5 = result float @1 %3\n"
-           "return %4, %5\n");
-    lowers("float f(float x, float y) { return sin(x) * cos(y) + sin(y) * cos(x) + sqrt(x); }", "f",
-           4, ARGS("x", "y"),
-           "callee \"f\" function 0 pure\n"
-           "%1 = uniform float\n"
-           "%2 = uniform float @1\n"
-           "%3 = call float %1, %2\n"
-           "return %3\n");
+    char name[32] = "", words[4][16] = {""};
+    unsigned max_inline = 0;
+    sscanf(c->words, "%*s %31s %u %15s %15s %15s %15s", name, &max_inline, words[0], words[1],
+           words[2], words[3]);
+    const char *const args[] = {words[0], words[1], words[2], words[3]};
+    REQUIRE_STR(lower(f, find(f, name), max_inline, args), c->out);
 }
 
 static void test_lower_expression(void)
@@ -870,37 +509,58 @@ static void test_lower_expression(void)
     uint32_t id = lang_parse_expression(&f.generated, text, strlen(text), inputs, 2, IR_TYPE_VEC3,
                                         f.file, (struct diag_place){0}, &f.diags);
     if (REQUIRE(id != LANG_NONE))
-        REQUIRE_STR(lower(&f, id, 24, ARGS("a", "in")), "%1 = uniform float\n"
-                                                        "%2 = uniform vec3 @1\n"
-                                                        "%3 = mul float %1, 2.0\n"
-                                                        "%4 = mul vec3 %2, %3\n"
-                                                        "%5 = add vec3 %4, vec3(1.0, 1.0, 1.0)\n"
-                                                        "return %5\n");
+        REQUIRE_STR(lower(&f, id, 24, (const char *const[]){"a", "in"}),
+                    "%1 = uniform float\n"
+                    "%2 = uniform vec3 @1\n"
+                    "%3 = mul float %1, 2.0\n"
+                    "%4 = mul vec3 %2, %3\n"
+                    "%5 = add vec3 %4, vec3(1.0, 1.0, 1.0)\n"
+                    "return %5\n");
     if (id != LANG_NONE)
-        REQUIRE_STR(lower(&f, id, 24, ARGS("3", "2")), "return vec3(13.0, 13.0, 13.0)\n");
+        REQUIRE_STR(lower(&f, id, 24, (const char *const[]){"3", "2"}),
+                    "return vec3(13.0, 13.0, 13.0)\n");
     teardown(&f);
 }
 
-int main(void)
+/* ---- Cases that stand in a file ---- */
+
+static void run_case(const struct test_case *c)
 {
-    test_print_expressions();
-    test_print_statements();
+    static const struct {
+        const char *word;
+        void (*run)(struct fixture *f, const struct test_case *c);
+    } kinds[] = {{"print", prints}, {"specialise ", specialises}, {"lower ", lowers}};
+    struct fixture f;
+    unsigned num_failed = test_num_failed, num_runs = 0;
+    setup(&f, c->in);
+    f.option = 1;
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
+        if (strncmp(c->words, kinds[i].word, strlen(kinds[i].word)) == 0) {
+            kinds[i].run(&f, c);
+            num_runs++;
+        }
+    REQUIRE_EQ(num_runs, 1);
+    teardown(&f);
+    if (test_num_failed > num_failed)
+        printf("    case '%s' of\n%s", c->words, c->in);
+}
+
+/* The argument is the path of lang.txt. */
+int main(int argc, char **argv)
+{
+    struct test_case c;
+    FILE *file = argc > 1 ? fopen(argv[1], "r") : NULL;
+    if (!REQUIRE(file))
+        return test_report("lang");
+    while (test_case_next(file, &c))
+        run_case(&c);
+    fclose(file);
     test_print_types();
     test_print_target();
     test_print_from_image();
     test_reach();
     test_eval();
-    test_specialise_values();
-    test_specialise_branches();
-    test_specialise_known();
-    test_specialise_loops();
-    test_specialise_calls();
-    test_plan();
     test_dropped_params();
-    test_lower_straight();
-    test_lower_branches();
-    test_lower_call_in_branch();
-    test_lower_calls();
     test_lower_expression();
     return test_report("lang");
 }
