@@ -42,4 +42,22 @@ static inline bool test_case_next(FILE *file, struct test_case *out)
     return to != NULL;
 }
 
+/* Runs all cases of a file, and prints those that fail. */
+static inline void test_cases(const char *path, void run(const struct test_case *c))
+{
+    static struct test_case c;
+    FILE *file = path ? fopen(path, "r") : NULL;
+    bool has_cases = false;
+    while (file && test_case_next(file, &c)) {
+        unsigned num_failed = test_num_failed;
+        run(&c);
+        if (test_num_failed > num_failed)
+            printf("    case '%s'\n%s", c.words, c.in);
+        has_cases = true;
+    }
+    REQUIRE(has_cases);
+    if (file)
+        fclose(file);
+}
+
 #endif

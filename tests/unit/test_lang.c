@@ -531,7 +531,7 @@ static void run_case(const struct test_case *c)
         void (*run)(struct fixture *f, const struct test_case *c);
     } kinds[] = {{"print", prints}, {"specialise ", specialises}, {"lower ", lowers}};
     struct fixture f;
-    unsigned num_failed = test_num_failed, num_runs = 0;
+    unsigned num_runs = 0;
     setup(&f, c->in);
     f.option = 1;
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
@@ -541,20 +541,12 @@ static void run_case(const struct test_case *c)
         }
     REQUIRE_EQ(num_runs, 1);
     teardown(&f);
-    if (test_num_failed > num_failed)
-        printf("    case '%s' of\n%s", c->words, c->in);
 }
 
 /* The argument is the path of lang.txt. */
 int main(int argc, char **argv)
 {
-    struct test_case c;
-    FILE *file = argc > 1 ? fopen(argv[1], "r") : NULL;
-    if (!REQUIRE(file))
-        return test_report("lang");
-    while (test_case_next(file, &c))
-        run_case(&c);
-    fclose(file);
+    test_cases(argc > 1 ? argv[1] : NULL, run_case);
     test_print_types();
     test_print_target();
     test_print_from_image();
