@@ -3,7 +3,8 @@
  * The language's front half: what parses, what is refused and with which words, what a tree holds;
  * and mutated sources, which may not parse but must not crash, hang or leave anything behind.
  *
- *     test_lang_parse [ROUNDS [FILE...]]    more rounds of mutation, and files to mutate
+ *     test_lang_parse lang_parse.txt [ROUNDS [FILE...]]    more rounds of mutation, and files to
+ * mutate
  */
 #include "lower/lower.h"
 #include "parse/parse.h"
@@ -12,7 +13,7 @@
 #include "tree/eval.h"
 #include "tree/reach.h"
 
-#include "test.h"
+#include "cases.h"
 
 #include <stdlib.h>
 
@@ -86,8 +87,8 @@ static const char *messages(struct fixture *f)
     text_init(&text, &f->arena);
     for (uint32_t i = 0; i < f->diags.items.len; i++) {
         const struct diag *diag = &f->diags.items.items[i];
-        text_fmt(&text, "%s%u:%u: %s", i ? "\n" : "", (unsigned)diag->place.line,
-                 (unsigned)diag->place.column, diag->message);
+        text_fmt(&text, "%u:%u: %s\n", (unsigned)diag->place.line, (unsigned)diag->place.column,
+                 diag->message);
     }
     return text_cstr(&text);
 }
@@ -305,131 +306,23 @@ static void test_include_errors(void)
     struct fixture f;
     setup(&f);
     REQUIRE_EQ(parse_sources(&f, &f.unit, cycle, 2), LANG_NONE);
-    REQUIRE_STR(messages(&f), "2:10: 'a.glsl' includes itself: b.glsl\n1:10: included from here");
+    REQUIRE_STR(messages(&f), "2:10: 'a.glsl' includes itself: b.glsl\n1:10: included from here\n");
     REQUIRE_EQ(f.unit.files.len, 0);
     diag_list_init(&f.diags, &f.arena);
     REQUIRE_EQ(parse_text(&f, "#include \"none.glsl\"\n#include x\nfloat f() { return 1.0; }\n"),
                LANG_NONE);
     REQUIRE_STR(messages(&f), "1:10: cannot read the source file 'none.glsl' of 'a.glsl': no such "
-                              "file\n2:1: #include needs the name of a file in quotes");
+                              "file\n2:1: #include needs the name of a file in quotes\n");
     teardown(&f);
 }
 
-/* What is refused, and how. */
-
-static const struct {
-    const char *text, *messages;
-} refused[] = {
-    {"float f(float x) { return x + y; }", "1:31: unknown name 'y'"},
-    {"float f(float width) { return widht; }",
-     "1:31: unknown name 'widht' (did you mean 'width'?)"},
-    {"vec3 f(vec3 v) { return normalise(v); }",
-     "1:25: unknown function 'normalise' (did you mean 'normalize'?)"},
-    {"float f() { vce3 v; return v.x + 1; }", "1:13: unknown type 'vce3' (did you mean 'vec3'?)"},
-    {"float f() {\n    float a = 1.0\n    return a;\n}", "2:18: expected ';' before 'return'"},
-    {"float f() { return 1.0 }", "1:24: expected ';' before '}'"},
-    {"float f() { return (1.0; }", "1:24: expected ')' before ';'"},
-    {"float f() { return 1.0;", "1:24: expected '}' before 'end of file'"},
-    {"float f(float x) { if (x > 0.0) return 1.0; }",
-     "1:7: 'f' does not return a value on every path"},
-    {"float f(float x) { if (x) return 1.0; return 2.0; }",
-     "1:24: the condition is float; bool was expected"},
-    {"int f(float x) { return x; }", "1:25: the returned value is float; int was expected"},
-    {"void f() { return 1; }", "1:19: the function is void; it returns no value"},
-    {"float f(vec3 v) { return v.q; }", "1:28: vec3 has no '.q'"},
-    {"float f(vec2 v) { return v[2]; }", "1:28: index 2 is outside of vec2"},
-    {"vec3 f(vec3 a, vec2 b) { return a * b; }", "1:35: '*' cannot be applied to vec3 and vec2"},
-    {"vec3 f(vec3 a) { return vec3(a, 1.0, 1.0); }",
-     "1:33: vec3 cannot be built from this: the arguments before this one fill it"},
-    {"vec3 f(vec2 a) { return vec3(a); }",
-     "1:25: vec3 cannot be built from this: vec2 has 2 of 3 components"},
-    {"void f(const float x) { x = 1.0; }", "1:25: cannot assign: 'x' is const"},
-    {"uniform float u; void f() { u += 1.0; }", "1:29: cannot assign: it is a uniform"},
-    {"in vec2 texcoord_0; void f() { texcoord_0.x = 1.0; }",
-     "1:43: cannot assign: it is an input of the stage"},
-    {"const float K = 1.0; void f() { K++; }", "1:33: cannot assign: it is a constant"},
-    {"void f(vec2 v) { v.xx = v; }", "1:20: cannot assign: a component stands in it twice"},
-    {"void f(float a) { a + 1.0 = a; }", "1:21: cannot assign: it is the result of an operation"},
-    {"void g(out float x) { x = 1.0; } void f() { g(1.0); }",
-     "1:47: cannot pass this as an out argument: it is a constant"},
-    {"void g(out float x) { x = 1.0; } void f(int i) { g(i); }",
-     "1:50: no function 'g' takes (int)\n1:6: candidate: void g(out float)"},
-    {"float g(vec2 x) { return 1.0; }\nfloat f() { return g(1.0, 2.0); }",
-     "2:20: no function 'g' takes (float, float)\n1:7: candidate: float g(vec2)"},
-    {"float g(int a, float b) { return 1.0; }\nfloat g(float a, int b) { return 1.0; }\nfloat f() "
-     "{ return g(1, 1); }",
-     "3:20: several functions 'g' take (int, int) equally well\n1:7: candidate: float g(int, "
-     "float)\n2:7: candidate: float g(float, int)"},
-    {"float f(float x) { return f(x - 1.0); }", "1:7: recursion is refused: 'f' calls 'f'"},
-    {"float g(float x); float f(float x) { return g(x); } float g(float x) { return f(x); }",
-     "1:59: recursion is refused: 'g' calls 'f' calls 'g'"},
-    {"float f(float x);", "1:7: 'f' is declared here but nowhere defined"},
-    {"float f() { return 1.0; }\nfloat f() { return 2.0; }",
-     "2:7: 'f' is defined already\n1:7: 'f' is defined here"},
-    {"float sin(float x) { return x; }", "1:7: 'sin' is the name of a built-in function or type"},
-    {"float g = 1.0;",
-     "1:7: 'g' must be const, uniform or in: there are no other global variables"},
-    {"in mat3 texcoord_0;", "1:9: 'texcoord_0' cannot have type mat3"},
-    {"uniform float u; const float K = u * 2.0;",
-     "1:36: the value of 'K' is not a constant expression"},
-    {"void f() { break; }", "1:12: 'break' outside of a loop"},
-    {"void f(int i) { switch (i) { case 1: break; } }",
-     "1:17: the portable shading language has no 'switch'"},
-    {"void f(int i) { int j = i++; }", "1:26: the portable shading language has no '++' inside of "
-                                       "an expression; make it a statement of its own"},
-    {"void f(float i, vec2 v) { i = v.x = 1; }",
-     "1:35: the portable shading language has no '=' inside "
-     "of an expression; make it a statement of its own"},
-    {"void f() { int i; int k; for (i = 0; i < 3; k = i = 3) {} }",
-     "1:45: the step of a loop has one assignment"},
-    {"bvec3 f(vec3 a, vec2 b) { return lessThan(a, b); }",
-     "1:34: no function 'lessThan' takes (vec3, vec2)"},
-    {"bool f(vec2 a, vec2 b) { return lessThan(a, b); }",
-     "1:33: the returned value is bvec2; bool was expected"},
-    {"bvec2 f(bvec2 a) { return greaterThan(a, a); }",
-     "1:27: no function 'greaterThan' takes (bvec2, bvec2)"},
-    {"bvec2 f(bvec2 a) { return !a; }", "1:27: '!' cannot be applied to bvec2"},
-    {"bvec2 f(bvec2 a) { return a && a; }", "1:29: '&&' cannot be applied to bvec2 and bvec2"},
-    {"bool f(float a) { return any(a > 1.0); }", "1:26: no function 'any' takes (bool)"},
-    {"vec3 f(vec3 a, bvec2 b) { return mix(a, a, b); }",
-     "1:34: no function 'mix' takes (vec3, vec3, bvec2)"},
-    {"uvec3 f(uvec3 a, ivec2 b) { return a << b; }",
-     "1:38: '<<' cannot be applied to uvec3 and ivec2"},
-    {"bvec3 f(bvec3 a) { return a.wx; }", "1:29: bvec3 has no '.wx'"},
-    {"uvec2 f(uvec2 a) { a[2] = 1u; return a; }", "1:22: index 2 is outside of uvec2"},
-    {"void f(int i) { i + 1; }",
-     "1:17: the statement has no effect: a call or an assignment was expected"},
-    {"#ifdef X\nfloat f() { return 1.0; }", "1:2: the portable shading language has no '#ifdef'"},
-    {"#define SQUARE(x) (x * x)",
-     "1:9: the portable shading language has no '#define' with parameters; write a function"},
-    {"float f() { return 1e99; }", "1:20: '1e99' is beyond the range of float"},
-    {"float f() { return 5000000000; }", "1:20: '5000000000' does not fit in 32 bits"},
-    {"float f() { return 1.0; } /* open", "1:27: '/*' begins a comment that does not end"},
-    {"void f(string s) { string t = s; }", "1:27: a variable cannot have type string"},
-    {"bool f(string s) { return s < \"a\"; }", "1:29: '<' cannot be applied to string and string"},
-    {"float f() { float a[2][2]; return 1.0; }", "1:20: there are no arrays of arrays"},
-    {"float f() { float a[0]; return 1.0; }",
-     "1:21: the length of an array must be a constant int from 1 to 65535"},
-    {"struct S { float a; float a; };", "1:27: the name 'a' is declared twice in this scope"},
-    {"float f(float a) { float a = 1.0; return a; }",
-     "1:26: the name 'a' is declared twice in this scope\n1:15: the first one is here"},
-    {"float f() { float a; return a; }\nfloat g() { return a + ; }\nint h() { return 1.0; }",
-     "2:20: unknown name 'a'\n2:24: expected an expression before ';'\n3:18: the returned value is "
-     "float; int was expected"},
-};
-
-static void test_refused(void)
+/* "refused": the messages of a text, of which nothing stays. */
+static void is_refused(struct fixture *f, const struct test_case *c)
 {
-    for (size_t i = 0; i < sizeof refused / sizeof refused[0]; i++) {
-        struct fixture f;
-        setup(&f);
-        REQUIRE_EQ(parse_text(&f, refused[i].text), LANG_NONE);
-        if (!REQUIRE_STR(messages(&f), refused[i].messages))
-            printf("in: %s\n", refused[i].text);
-        REQUIRE(f.unit.nodes.len == 1 && f.unit.functions.len == 0 && f.unit.files.len == 0
-                && f.unit.slots.len == 0);
-        teardown(&f);
-    }
+    REQUIRE_EQ(parse_text(f, c->in), LANG_NONE);
+    REQUIRE_STR(messages(f), c->out);
+    REQUIRE(f->unit.nodes.len == 1 && f->unit.functions.len == 0 && f->unit.files.len == 0
+            && f->unit.slots.len == 0);
 }
 
 /* At most 20 errors, then a note. */
@@ -473,11 +366,11 @@ static void test_expressions(void)
         {"texture({{file}},\n {{a}}.xy).rgb", IR_TYPE_VEC3, ""},
         {"mix({{b}}, 2, {{b}} > 1)", IR_TYPE_FLOAT, ""},
         {"twice({{b}}) * SCALE", IR_TYPE_FLOAT, ""},
-        {"{{a}}", IR_TYPE_FLOAT, "10:5: the expression is vec3; float was expected"},
-        {"{{a}} +\n {{c}}", IR_TYPE_VEC3, "11:2: unknown input 'c'"},
+        {"{{a}}", IR_TYPE_FLOAT, "10:5: the expression is vec3; float was expected\n"},
+        {"{{a}} +\n {{c}}", IR_TYPE_VEC3, "11:2: unknown input 'c'\n"},
         {"{{a}} {{b}}", IR_TYPE_VEC3,
-         "10:11: expected an operator or the end of the expression before 'b'"},
-        {"", IR_TYPE_VEC3, "10:5: expected an expression before 'the end'"},
+         "10:11: expected an operator or the end of the expression before 'b'\n"},
+        {"", IR_TYPE_VEC3, "10:5: expected an expression before 'the end'\n"},
     };
     struct fixture f;
     setup(&f);
@@ -499,69 +392,18 @@ static void test_expressions(void)
     teardown(&f);
 }
 
-/* What trees mean: the value of f() as the evaluator sees it. */
-static void test_values(void)
+/* "value NUMBER": what f() gives, as the evaluator sees it. */
+static void has_value(struct fixture *f, const struct test_case *c)
 {
-    static const struct {
-        const char *text;
-        float value;
-    } cases[] = {
-        {"float f() { return 1 + 2 * 3 - 8 / 4; }", 5.0f},
-        {"float f() { return 7 / 2; }", 3.0f},
-        {"float f() { return 7 / 2.0; }", 3.5f},
-        {"float f() { return float(7 % 3 + (1 << 4 >> 2 | 1 & ~0 ^ 2)); }", 8.0f},
-        {"float f() { return true || false && false ? 1.0 : 2.0; }", 1.0f},
-        {"float f() { return false ? 1 : true ? 2 : 3; }", 2.0f},
-        {"float f() { return 10 - 4 - 3; }", 3.0f},
-        {"float f() { vec4 v = vec4(1, vec2(2, 3), 4); v.wx = v.xy; return dot(v, vec4(1, 10, 100, "
-         "1000)); }",
-         1322.0f},
-        {"float f() { mat2 m = mat2(1, 2, 3, 4); m[1].x = 5; return (m * vec2(1, 10)).x; }", 51.0f},
-        {"float f() { mat3 m = mat3(2); return (m * vec3(1, 2, 3)).z + m[0][1]; }", 6.0f},
-        {"float f() { vec3 v = vec3(vec4(1, 2, 3, 4)); v.y++; --v.z; v *= 2; return v.x + v.y * "
-         "v.z; }",
-         26.0f},
-        {"float f() { float s = 0; for (int i = 0, n = 4; i < n; i++) { if (i == 1) continue; s += "
-         "i; } return s; }",
-         5.0f},
-        {"float f() { int i = 0; do i += 2; while (i < 5); while (true) { if (i > 8) break; i++; } "
-         "return i; }",
-         9.0f},
-        {"void g(inout float x, out vec2 y) { x += 1; y = vec2(x); } float f() { float x = 1; vec3 "
-         "y = vec3(5); g(x, y.zy); return x + y.y; }",
-         4.0f},
-        {"struct S { float a[2]; vec2 b; }; float f() { S s = S(float[](1, 2), vec2(3)); s.a[1] = "
-         "7; s.b.y = 1; return s.a[1] * s.b.x + s.b.y; }",
-         22.0f},
-        {"const float T[3] = { 1, 2, 4 }; float f() { float s = 0; for (int i = 0; i < T.length(); "
-         "++i) s += T[i]; return s; }",
-         7.0f},
-        {"float f() { float x = 1; { float x = 2; x += 1; } return x; }", 1.0f},
-        {"float g(int a) { return 1; } float g(float a) { return 2; } float f() { return g(1) * "
-         "100 + g(1.0) * 10 + g(1u); }",
-         122.0f},
-        {"float f() { return atan(1, 1) > 0.78 && min(2, 3u) == 2u && mix(1.0, 2.0, true) == 2.0 ? "
-         "1 : 0; }",
-         1.0f},
-        {"const int N = 3; const int M = N * 2 - 1; float f() { const int K = M + 1; float a[K]; "
-         "return a.length(); }",
-         6.0f},
-        {"float f() { vec2 v = vec2(1, 2).yx; return v.x * 10 + v.yyx.z; }", 22.0f},
-    };
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        struct fixture f;
-        setup(&f);
-        uint32_t file = parse_text(&f, cases[i].text);
-        REQUIRE_STR(messages(&f), "");
-        uint32_t id = file == LANG_NONE ? LANG_NONE : find(&f, file, "f");
-        struct ir_value value = {0};
-        bool good = id != LANG_NONE
-                    && lang_eval_call(&f.unit, id, NULL, &value, &(uint32_t){10000}, &f.arena);
-        if (!REQUIRE(good && value.type == IR_TYPE_FLOAT && value.w[0].f == cases[i].value))
-            printf("    %g, not %g: %s\n", (double)value.w[0].f, (double)cases[i].value,
-                   cases[i].text);
-        teardown(&f);
-    }
+    uint32_t file = parse_text(f, c->in);
+    REQUIRE_STR(messages(f), "");
+    uint32_t id = file == LANG_NONE ? LANG_NONE : find(f, file, "f");
+    struct ir_value value = {0};
+    float expected = strtof(c->words + strlen("value "), NULL);
+    bool good = id != LANG_NONE
+                && lang_eval_call(&f->unit, id, NULL, &value, &(uint32_t){10000}, &f->arena);
+    if (!REQUIRE(good && value.type == IR_TYPE_FLOAT && value.w[0].f == expected))
+        printf("    %g, not %g\n", (double)value.w[0].f, (double)expected);
 }
 
 /* Nesting ends in a message, not on the stack. */
@@ -743,45 +585,19 @@ static const char *print_last(struct fixture *f)
     return text_cstr(&text);
 }
 
-/* Steps and choices with effects come before their statement, in their order. */
-static void test_program(void)
+/* "program": what the last function becomes. */
+static void becomes(struct fixture *f, const struct test_case *c)
+{
+    REQUIRE_EQ(parse_program(f, c->in), 0);
+    REQUIRE_STR(messages(f), "");
+    REQUIRE_STR(print_last(f), c->out);
+}
+
+static void test_program_variables(void)
 {
     struct fixture f;
     setup(&f);
-    uint32_t file = parse_program(&f, "struct R { uint at, next; };\n"
-                                      "in uint level;\n"
-                                      "uint count = 2u, words[2];\n"
-                                      "uint load(uint at);\n"
-                                      "uint take(inout R r) { return load(r.at++); }\n"
-                                      "void run(inout R r, bool b)\n"
-                                      "{\n"
-                                      "    bool top = r.next == 0u, last = ++r.next == count;\n"
-                                      "    if (count++ == level)\n"
-                                      "        words[1] = b ? 0u : take(r);\n"
-                                      "    level = b ? 0u : load(1u);\n"
-                                      "    words[0] = top || last ? 1u : 0u;\n"
-                                      "}\n");
-    REQUIRE_STR(messages(&f), "");
-    REQUIRE_EQ(file, 0);
-    REQUIRE_STR(print_last(&f), "void run(inout R r, bool b)\n"
-                                "{\n"
-                                "    bool top = r.next == 0u;\n"
-                                "    r.next += 1u;\n"
-                                "    uint kept = r.next;\n"
-                                "    bool last = kept == count;\n"
-                                "    uint kept_ = count;\n"
-                                "    count += 1u;\n"
-                                "    if (kept_ == level) {\n"
-                                "        uint kept_2;\n"
-                                "        if (b)\n"
-                                "            kept_2 = 0u;\n"
-                                "        else\n"
-                                "            kept_2 = take(r);\n"
-                                "        words[1] = kept_2;\n"
-                                "    }\n"
-                                "    level = b ? 0u : load(1u);\n"
-                                "    words[0] = top || last ? 1u : 0u;\n"
-                                "}\n");
+    REQUIRE_EQ(parse_program(&f, "in uint level;\nuint count = 2u, words[2];\n"), 0);
     const struct lang_global *count = &f.unit.globals.items[1], *words = &f.unit.globals.items[2];
     REQUIRE(count->kind == LANG_GLOBAL_VARIABLE && count->num_words == 1);
     REQUIRE(f.unit.words.items[count->words].u == 2);
@@ -816,26 +632,38 @@ static void test_program_refused(void)
     teardown(&f);
 }
 
+static void run_case(const struct test_case *c)
+{
+    struct fixture f;
+    setup(&f);
+    if (strncmp(c->words, "value ", 6) == 0)
+        has_value(&f, c);
+    else if (strcmp(c->words, "program") == 0)
+        becomes(&f, c);
+    else
+        is_refused(&f, c);
+    teardown(&f);
+}
+
 int main(int argc, char **argv)
 {
-    uint32_t rounds = argc > 1 ? (uint32_t)strtoul(argv[1], NULL, 10) : 2000;
+    uint32_t rounds = argc > 2 ? (uint32_t)strtoul(argv[2], NULL, 10) : 2000;
+    test_cases(argc > 1 ? argv[1] : NULL, run_case);
     test_everything();
     test_host_functions();
     test_globals();
     test_includes();
     test_include_errors();
-    test_refused();
     test_error_limit();
     test_expressions();
-    test_values();
     test_depth();
-    test_program();
+    test_program_variables();
     test_program_refused();
     fuzz(everything, rounds);
     fuzz(
         "mix({{a}}.xyz, vec3({{b}}, 1.0, -2.0), clamp({{b}} * 2.0, 0, 1)) + ({{a}} * mat3(1.0))[1]",
         rounds);
-    for (int i = 2; i < argc; i++)
+    for (int i = 3; i < argc; i++)
         fuzz_file(argv[i], rounds);
     return test_report("lang_parse");
 }
