@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What tests of the public interface share: an allocator that counts and fails, files in memory, a
- * document with a bit of everything.
+ * What tests of the public interface share: an allocator that counts and fails, edits, files in
+ * memory, messages.
  */
 #ifndef MXG_TESTS_API_FIXTURE_H
 #define MXG_TESTS_API_FIXTURE_H
@@ -110,69 +110,7 @@ static inline mxg_resolver memory_resolver(struct memory_files *files)
     return (mxg_resolver){files, memory_open, memory_release, NULL};
 }
 
-/* ---- A document: textures, a graph, a definition with source of its own, an include ---- */
-
-static const struct memory_file fixture_files[] = {
-    {"main.mtlx",
-     "<?xml version=\"1.0\"?>\n"
-     "<materialx version=\"1.39\" xmlns:xi=\"http://www.w3.org/2001/XInclude\">\n"
-     "  <xi:include href=\"tint.mtlx\"/>\n"
-     "  <nodegraph name=\"G\">\n"
-     "    <input name=\"scale\" type=\"float\" value=\"2\" uiname=\"Scale\"/>\n"
-     "    <image name=\"i\" type=\"color3\"><input name=\"file\" type=\"filename\" "
-     "value=\"wood.png\"/></image>\n"
-     "    <noise2d name=\"n\" type=\"float\"><input name=\"amplitude\" type=\"float\" "
-     "interfacename=\"scale\"/></noise2d>\n"
-     "    <tint name=\"t\" type=\"color3\"><input name=\"in\" type=\"color3\" nodename=\"i\"/>"
-     "<input name=\"by\" type=\"float\" nodename=\"n\"/></tint>\n"
-     "    <output name=\"out\" type=\"color3\" nodename=\"t\"/>\n"
-     "  </nodegraph>\n"
-     "  <standard_surface name=\"S\" type=\"surfaceshader\">\n"
-     "    <input name=\"base_color\" type=\"color3\" nodegraph=\"G\" output=\"out\"/>\n"
-     "    <input name=\"coat\" type=\"float\" value=\"0.5\"/>\n"
-     "  </standard_surface>\n"
-     "  <surfacematerial name=\"M\" type=\"material\">"
-     "<input name=\"surfaceshader\" type=\"surfaceshader\" nodename=\"S\"/></surfacematerial>\n"
-     "</materialx>\n"},
-    {"tint.mtlx", "<materialx version=\"1.39\">\n"
-                  "  <nodedef name=\"ND_tint\" node=\"tint\"><input name=\"in\" type=\"color3\" "
-                  "value=\"1, 1, 1\"/>"
-                  "<input name=\"by\" type=\"float\" value=\"1\"/><output name=\"out\" "
-                  "type=\"color3\"/></nodedef>\n"
-                  "  <implementation name=\"IM_tint\" nodedef=\"ND_tint\" file=\"tint.glsl\" "
-                  "function=\"tint\"/>\n"
-                  "</materialx>\n"},
-    {"tint.glsl", "#include \"curve.glsl\"\nvoid tint(vec3 color, float by, out vec3 result) { "
-                  "result = curve(color * by); }\n"},
-    {"curve.glsl", "vec3 curve(vec3 x) { return x * x * (3.0 - 2.0 * x); }\n"},
-    {"model.mtlx", /* a library that stands alone, with a shading model */
-     "<materialx version=\"1.39\">\n"
-     "  <nodedef name=\"ND_lobe\" node=\"lobe\"><input name=\"weight\" type=\"float\" value=\"1\"/>"
-     "<input name=\"color\" type=\"color3\" value=\"0.5, 0.5, 0.5\"/><output name=\"out\" "
-     "type=\"BSDF\"/></nodedef>\n"
-     "  <implementation name=\"IM_lobe\" nodedef=\"ND_lobe\" file=\"lobe.glsl\" "
-     "function=\"lobe\"/>\n"
-     "  <nodedef name=\"ND_surface\" node=\"surface\"><input name=\"bsdf\" type=\"BSDF\" "
-     "value=\"\"/>"
-     "<input name=\"edf\" type=\"EDF\" value=\"\"/><input name=\"opacity\" type=\"float\" "
-     "value=\"1\"/>"
-     "<input name=\"thin_walled\" type=\"boolean\" value=\"false\"/><output name=\"out\" "
-     "type=\"surfaceshader\"/></nodedef>\n"
-     "  <implementation name=\"IM_surface\" nodedef=\"ND_surface\"/>\n"
-     "  <nodedef name=\"ND_model\" node=\"model\"><input name=\"color\" type=\"color3\" value=\"1, "
-     "0, 0\"/>"
-     "<output name=\"out\" type=\"surfaceshader\"/></nodedef>\n"
-     "  <nodegraph name=\"NG_model\" nodedef=\"ND_model\">"
-     "<lobe name=\"l\" type=\"BSDF\"><input name=\"color\" type=\"color3\" "
-     "interfacename=\"color\"/></lobe>"
-     "<surface name=\"s\" type=\"surfaceshader\"><input name=\"bsdf\" type=\"BSDF\" "
-     "nodename=\"l\"/></surface>"
-     "<output name=\"out\" type=\"surfaceshader\" nodename=\"s\"/></nodegraph>\n"
-     "</materialx>\n"},
-    {"lobe.glsl",
-     "vec3 lobe_environment(vec3 color, vec3 V) { return color * (V * 0.5 + 0.5); }\n"},
-    {NULL, NULL},
-};
+/* ---- Messages ---- */
 
 static inline bool has_diagnostic(const mxg_diagnostics *list, const char *id)
 {

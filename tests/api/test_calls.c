@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /* Every public function: what it gives, and what it says to arguments that are wrong. */
-#include "tests/api/fixture.h"
+#include "documents.h"
 
-static struct memory_files files = {.files = fixture_files};
+static struct memory_files files = {.files = documents};
 
 struct objects {
     mxg_context *context;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /* Documents as objects: reading, building, editing, writing. */
-#include "fixture.h"
+#include "documents.h"
 
 #include <math.h>
 
@@ -27,7 +27,7 @@ struct fixture {
 static void open_fixture(struct fixture *f)
 {
     memset(f, 0, sizeof *f);
-    f->files.files = fixture_files;
+    f->files.files = documents;
     f->context = open_context(&f->heap, &f->files);
     f->library = mxg_library_builtin(f->context);
     REQUIRE_EQ(mxg_document_load(f->context, f->library, "main.mtlx", &f->document), MXG_OK);
@@ -223,28 +223,6 @@ static void test_links(void)
 
 /* ---- Building ---- */
 
-static const char gold[] =
-    "<materialx version=\"1.39\">\n"
-    "  <standard_surface name=\"SR\" type=\"surfaceshader\">\n"
-    "    <input name=\"base_color\" type=\"color3\" value=\"0.9, 0.6, 0.2\"/>\n"
-    "    <input name=\"metalness\" type=\"float\" nodegraph=\"NG\" output=\"wear\"/>\n"
-    "  </standard_surface>\n"
-    "  <surfacematerial name=\"Gold\" type=\"material\">\n"
-    "    <input name=\"surfaceshader\" type=\"surfaceshader\" nodename=\"SR\"/>\n"
-    "  </surfacematerial>\n"
-    "  <nodegraph name=\"NG\">\n"
-    "    <input name=\"amount\" type=\"float\" value=\"0.75\"/>\n"
-    "    <noise2d name=\"spots\" type=\"float\">\n"
-    "      <input name=\"amplitude\" type=\"float\" interfacename=\"amount\"/>\n"
-    "    </noise2d>\n"
-    "    <separate2 name=\"split\" type=\"multioutput\">\n"
-    "      <input name=\"in\" type=\"vector2\" value=\"1.0, 2.0\"/>\n"
-    "    </separate2>\n"
-    "    <output name=\"wear\" type=\"float\" nodename=\"spots\"/>\n"
-    "    <output name=\"x\" type=\"float\" nodename=\"split\" output=\"outx\"/>\n"
-    "  </nodegraph>\n"
-    "</materialx>\n";
-
 static void build_gold(mxg_edit *e)
 {
     mxg_element shader = mxg_edit_add_element(e, 0, "standard_surface", "SR", "surfaceshader"),
@@ -284,10 +262,10 @@ static void test_build(void)
     mxg_edit *edit = begin(&f, NULL);
     build_gold(edit);
     REQUIRE_EQ(mxg_edit_error(edit, NULL, 0), 0);
-    mxg_document *built = NULL, *parsed = parse(&f, gold);
+    mxg_document *built = NULL, *parsed = parse(&f, document_text("gold.mtlx"));
     REQUIRE_EQ(commit(edit, &built), MXG_OK);
-    REQUIRE_STR(xml_below(built), gold);
-    REQUIRE_STR(xml_below(parsed), gold);
+    REQUIRE_STR(xml_below(built), document_text("gold.mtlx"));
+    REQUIRE_STR(xml_below(parsed), document_text("gold.mtlx"));
     REQUIRE_EQ(mxg_document_num_renderables(built), 1);
     mxg_result *a = NULL, *b = NULL;
     const char *from_built = generate(&f, built, NULL, &a);
@@ -410,7 +388,7 @@ static void test_rename(void)
 {
     struct fixture f;
     open_fixture(&f);
-    mxg_document *d = parse(&f, gold), *next = NULL;
+    mxg_document *d = parse(&f, document_text("gold.mtlx")), *next = NULL;
     mxg_edit *edit = begin(&f, d);
     REQUIRE_EQ(mxg_edit_rename_element(edit, mxg_edit_find_element(edit, 0, "SR"), "Shader"),
                MXG_OK);
@@ -451,7 +429,7 @@ static void test_move_and_copy(void)
 {
     struct fixture f;
     open_fixture(&f);
-    mxg_document *d = parse(&f, gold), *next = NULL;
+    mxg_document *d = parse(&f, document_text("gold.mtlx")), *next = NULL;
     mxg_edit *edit = begin(&f, d);
     mxg_element graph = mxg_edit_find_element(edit, 0, "NG"),
                 shader = mxg_edit_find_element(edit, 0, "SR");
@@ -484,7 +462,7 @@ static void test_refused(void)
 {
     struct fixture f;
     open_fixture(&f);
-    mxg_document *d = parse(&f, gold);
+    mxg_document *d = parse(&f, document_text("gold.mtlx"));
     mxg_edit *e = begin(&f, d);
     mxg_element shader = mxg_edit_find_element(e, 0, "SR"),
                 graph = mxg_edit_find_element(e, 0, "NG"),
@@ -651,7 +629,7 @@ static void test_removed(void)
 {
     struct fixture f;
     open_fixture(&f);
-    mxg_document *d = parse(&f, gold);
+    mxg_document *d = parse(&f, document_text("gold.mtlx"));
     static const struct {
         const char *path;
         unsigned num;

@@ -3,7 +3,7 @@
  * What a generation gives: source with places, reflection, views; and what a path of an element
  * means.
  */
-#include "tests/api/fixture.h"
+#include "documents.h"
 
 struct bench {
     struct memory_files files;
@@ -13,18 +13,15 @@ struct bench {
     mxg_options *options;
 };
 
-static void bench_open(struct bench *b, const char *text)
+static void bench_open(struct bench *b, const char *name)
 {
-    *b = (struct bench){.files = {.files = fixture_files}};
+    *b = (struct bench){.files = {.files = documents}};
     mxg_resolver resolver = memory_resolver(&b->files);
     mxg_context_desc desc = MXG_CONTEXT_DESC_INIT;
     desc.resolver = &resolver;
     REQUIRE_EQ(mxg_context_create(&desc, &b->context), MXG_OK);
     b->library = mxg_library_builtin(b->context);
-    REQUIRE_EQ(text ? mxg_document_parse(b->context, b->library, "test.mtlx", text, strlen(text),
-                                         &b->document)
-                    : mxg_document_load(b->context, b->library, "main.mtlx", &b->document),
-               MXG_OK);
+    REQUIRE_EQ(mxg_document_load(b->context, b->library, name, &b->document), MXG_OK);
     REQUIRE_EQ(mxg_options_create(b->context, &b->options), MXG_OK);
 }
 
@@ -155,33 +152,11 @@ static void test_variables(const struct bench *b)
     mxg_result_destroy(result);
 }
 
-static const char knobs[] =
-    "<materialx version=\"1.39\">\n"
-    "  <nodegraph name=\"G\">\n"
-    "    <input name=\"mode\" type=\"integer\" value=\"1\" uiname=\"Mode\" uifolder=\"Look\" "
-    "uimin=\"0\" uimax=\"2\" uisoftmin=\"0\""
-    " uisoftmax=\"1\" uistep=\"1\" enum=\"low,middle,high\" enumvalues=\"0,1,2\" "
-    "uiadvanced=\"true\" doc=\"How much.\"/>\n"
-    "    <input name=\"width\" type=\"float\" value=\"2\" unit=\"meter\" unittype=\"distance\"/>\n"
-    "    <convert name=\"m\" type=\"float\"><input name=\"in\" type=\"integer\" "
-    "interfacename=\"mode\"/></convert>\n"
-    "    <multiply name=\"s\" type=\"float\"><input name=\"in1\" type=\"float\" nodename=\"m\"/>"
-    "<input name=\"in2\" type=\"float\" interfacename=\"width\"/></multiply>\n"
-    "    <geompropvalue name=\"id\" type=\"integer\"><input name=\"geomprop\" type=\"string\" "
-    "value=\"id\"/>"
-    "<input name=\"default\" type=\"integer\" value=\"3\"/></geompropvalue>\n"
-    "    <convert name=\"i\" type=\"float\"><input name=\"in\" type=\"integer\" "
-    "nodename=\"id\"/></convert>\n"
-    "    <add name=\"t\" type=\"float\"><input name=\"in1\" type=\"float\" nodename=\"s\"/>"
-    "<input name=\"in2\" type=\"float\" nodename=\"i\"/></add>\n"
-    "    <output name=\"out\" type=\"float\" nodename=\"t\"/></nodegraph>\n"
-    "</materialx>\n";
-
 /* What a host makes a user interface of: all that the JSON says. */
 static void test_user_interface(void)
 {
     struct bench b;
-    bench_open(&b, knobs);
+    bench_open(&b, "knobs.mtlx");
     mxg_result *result = generate(&b, "glsl", "G", MXG_OK);
     uint32_t index = 0;
     mxg_variable mode = MXG_INIT(mxg_variable), width = MXG_INIT(mxg_variable);
@@ -227,62 +202,6 @@ static void test_user_interface(void)
     bench_close(&b);
 }
 
-/* Readers of a property: each default that differs has a variable of its own. */
-static const char properties[] =
-    "<materialx version=\"1.39\">\n"
-    "  <geompropdef name=\"bare\" type=\"vector2\"/>\n"
-    "  <nodegraph name=\"G\">\n"
-    "    <input name=\"b\" type=\"vector2\" defaultgeomprop=\"bare\"/>\n"
-    "    <UsdPrimvarReader name=\"a\" type=\"float\"><input name=\"varname\" type=\"string\" "
-    "value=\"fade\"/><input name=\"fallback\" type=\"float\" value=\"0.25\"/></UsdPrimvarReader>\n"
-#define READER(name, type, prop, value) \
-    "    <geompropvalue name=\"" name "\" type=\"" type "\"><input name=\"geomprop\" " \
-    "type=\"string\" value=\"" prop "\"/><input name=\"default\" type=\"" type "\" " \
-    "value=\"" value "\"/></geompropvalue>\n"
-    READER("c", "float", "fade", "0.75") READER("d", "float", "fade", "0.25") READER(
-        "e", "vector2", "fade",
-        "0.5, 1") READER("f", "integer", "fade",
-                         "7") READER("g", "boolean", "on",
-                                     "true") READER("h", "boolean", "on",
-                                                    "false") READER("i", "float", "a b",
-                                                                    "0.5") READER("j", "vector2",
-                                                                                  "bare", "0, 0")
-#undef READER
-        "    <geompropvalueuniform name=\"k\" type=\"filename\"><input name=\"geomprop\" "
-        "type=\"string\" "
-        "value=\"picture\"/><input name=\"default\" type=\"filename\" value=\"wood.png\"/>"
-        "</geompropvalueuniform>\n"
-        "    <convert name=\"fi\" type=\"float\"><input name=\"in\" type=\"integer\" "
-        "nodename=\"f\"/></convert>\n"
-        "    <convert name=\"gf\" type=\"float\"><input name=\"in\" type=\"boolean\" "
-        "nodename=\"g\"/></convert>\n"
-        "    <convert name=\"hf\" type=\"float\"><input name=\"in\" type=\"boolean\" "
-        "nodename=\"h\"/></convert>\n"
-        "    <image name=\"kf\" type=\"float\"><input name=\"file\" type=\"filename\" "
-        "nodename=\"k\"/></image>\n"
-        "    <dotproduct name=\"ef\" type=\"float\"><input name=\"in1\" type=\"vector2\" "
-        "nodename=\"e\"/><input name=\"in2\" type=\"vector2\" interfacename=\"b\"/></dotproduct>\n"
-        "    <magnitude name=\"jf\" type=\"float\"><input name=\"in\" type=\"vector2\" "
-        "nodename=\"j\"/></magnitude>\n"
-        "    <combine4 name=\"x\" type=\"vector4\"><input name=\"in1\" type=\"float\" "
-        "nodename=\"a\"/><input name=\"in2\" type=\"float\" nodename=\"c\"/><input name=\"in3\" "
-        "type=\"float\" nodename=\"d\"/><input name=\"in4\" type=\"float\" "
-        "nodename=\"ef\"/></combine4>\n"
-        "    <combine4 name=\"y\" type=\"vector4\"><input name=\"in1\" type=\"float\" "
-        "nodename=\"fi\"/><input name=\"in2\" type=\"float\" nodename=\"gf\"/><input name=\"in3\" "
-        "type=\"float\" nodename=\"hf\"/><input name=\"in4\" type=\"float\" "
-        "nodename=\"i\"/></combine4>\n"
-        "    <combine2 name=\"z2\" type=\"vector2\"><input name=\"in1\" type=\"float\" "
-        "nodename=\"jf\"/><input name=\"in2\" type=\"float\" nodename=\"kf\"/></combine2>\n"
-        "    <convert name=\"z\" type=\"vector4\"><input name=\"in\" type=\"vector2\" "
-        "nodename=\"z2\"/></convert>\n"
-        "    <add name=\"xy\" type=\"vector4\"><input name=\"in1\" type=\"vector4\" "
-        "nodename=\"x\"/><input name=\"in2\" type=\"vector4\" nodename=\"y\"/></add>\n"
-        "    <add name=\"xyz\" type=\"vector4\"><input name=\"in1\" type=\"vector4\" "
-        "nodename=\"xy\"/><input name=\"in2\" type=\"vector4\" nodename=\"z\"/></add>\n"
-        "    <output name=\"out\" type=\"vector4\" nodename=\"xyz\"/></nodegraph>\n"
-        "</materialx>\n";
-
 /* How many variables of the host have the semantic, the type and the default. */
 static unsigned num_properties(const mxg_result *result, const char *semantic, const char *type,
                                float value)
@@ -297,6 +216,7 @@ static unsigned num_properties(const mxg_result *result, const char *semantic, c
     return num;
 }
 
+/* Readers of a property: each default that differs has a variable of its own. */
 static void test_properties(void)
 {
     static const struct {
@@ -315,7 +235,7 @@ static void test_properties(void)
         "    float fade_3[2] = {0.5, 1};\n    getattribute(\"fade\", fade_3);\n",
         "    float a_b = 0.5;\n    getattribute(\"a b\", a_b);\n"};
     struct bench b;
-    bench_open(&b, properties);
+    bench_open(&b, "properties.mtlx");
     mxg_result *result = generate(&b, "glsl", "G", MXG_OK);
     for (size_t i = 0; i < sizeof wanted / sizeof *wanted; i++)
         REQUIRE_EQ(num_properties(result, wanted[i].semantic, wanted[i].type, wanted[i].value), 1);
@@ -449,36 +369,6 @@ static void test_views(const struct bench *b)
 
 /* ---- Elements ---- */
 
-static const char elements[] =
-    "<materialx version=\"1.39\">\n"
-    "  <nodedef name=\"ND_a\" node=\"a\"><input name=\"x\" type=\"float\" value=\"1\"/><output "
-    "name=\"out\" type=\"float\"/></nodedef>\n"
-    "  <nodegraph name=\"NG_a\" nodedef=\"ND_a\">\n"
-    "    <add name=\"sum\" type=\"float\"><input name=\"in1\" type=\"float\" "
-    "interfacename=\"x\"/></add>\n"
-    "    <output name=\"out\" type=\"float\" nodename=\"sum\"/></nodegraph>\n"
-    "  <nodedef name=\"ND_b\" node=\"b\"><output name=\"out\" type=\"float\"/></nodedef>\n"
-    "  <nodegraph name=\"NG_b\"><constant name=\"c\" type=\"float\"/><output name=\"out\" "
-    "type=\"float\" nodename=\"c\"/></nodegraph>\n"
-    "  <implementation name=\"IM_b\" nodedef=\"ND_b\" nodegraph=\"NG_b\"/>\n"
-    "  <nodegraph name=\"one\"><a name=\"use\" type=\"float\"/><output name=\"out\" type=\"float\" "
-    "nodename=\"use\"/></nodegraph>\n"
-    "  <nodegraph name=\"two\">\n"
-    "    <separate3 name=\"parts\" type=\"multioutput\"><input name=\"in\" type=\"color3\" "
-    "value=\"0.1, 0.2, 0.3\"/></separate3>\n"
-    "    <output name=\"x\" type=\"float\" nodename=\"parts\" output=\"outr\"/>\n"
-    "    <output name=\"y\" type=\"float\" nodename=\"parts\" output=\"outb\"/></nodegraph>\n"
-    "  <separate3 name=\"said\" type=\"multioutput\"><output name=\"outg\" "
-    "type=\"float\"/></separate3>\n"
-    "  <surface_unlit name=\"S\" type=\"surfaceshader\"/>\n"
-    "  <surfacematerial name=\"M\" type=\"material\">"
-    "<input name=\"surfaceshader\" type=\"surfaceshader\" nodename=\"S\"/></surfacematerial>\n"
-    "  <look name=\"L\"><materialassign name=\"MA\" material=\"M\" geom=\"/\"/></look>\n"
-    "  <look name=\"L0\"/><lookgroup name=\"night\" looks=\"night, L0\"/>\n"
-    "  <lookgroup name=\"day\" looks=\"L0, L\"/><lookgroup name=\"all\" looks=\"night,day\" "
-    "default=\"L\"/>\n"
-    "</materialx>\n";
-
 static void test_elements(void)
 {
     static const struct {
@@ -514,7 +404,7 @@ static void test_elements(void)
         {"/", "unknown-element", NULL},
     };
     struct bench b;
-    bench_open(&b, elements);
+    bench_open(&b, "elements.mtlx");
     REQUIRE_EQ(mxg_document_num_renderables(b.document), 1); /* M */
     REQUIRE(mxg_document_has_assignment(b.document, "L", 0));
     REQUIRE(mxg_document_has_assignment(b.document, "all", 0));
@@ -533,7 +423,7 @@ static void test_elements(void)
         mxg_result_destroy(result);
     }
     bench_close(&b);
-    bench_open(&b, "<materialx version=\"1.39\"/>");
+    bench_open(&b, "empty.mtlx");
     mxg_result *result = generate(&b, "glsl", NULL, MXG_ERROR_DOCUMENT);
     REQUIRE(has_diagnostic(mxg_result_diagnostics(result), "nothing-to-render"));
     mxg_result_destroy(result);
@@ -541,41 +431,6 @@ static void test_elements(void)
 }
 
 /* ---- Tokens in names of files ---- */
-
-static const char tokens[] =
-    "<materialx version=\"1.39\" fileprefix=\"[folder]/\">\n"
-    "  <token name=\"folder\" type=\"string\" value=\"maps\"/>\n"
-    "  <nodedef name=\"ND_outer\" node=\"outer\"><input name=\"x\" type=\"float\" "
-    "value=\"1\"/><output name=\"out\" type=\"color3\"/>"
-    "<token name=\"part\" type=\"string\" value=\"default\"/><token name=\"n\" type=\"integer\" "
-    "value=\"7\"/></nodedef>\n"
-    "  <nodegraph name=\"NG_outer\" nodedef=\"ND_outer\">\n"
-    "    <inner name=\"a\" type=\"color3\"><token name=\"p\" type=\"string\" "
-    "interfacename=\"part\"/></inner>\n"
-    "    <image name=\"b\" type=\"color3\"><input name=\"file\" type=\"filename\" "
-    "value=\"[part]_[n]_&lt;UDIM&gt;.png\"/></image>\n"
-    "    <add name=\"c\" type=\"color3\"><input name=\"in1\" type=\"color3\" nodename=\"a\"/>"
-    "<input name=\"in2\" type=\"color3\" nodename=\"b\"/></add>\n"
-    "    <output name=\"out\" type=\"color3\" nodename=\"c\"/></nodegraph>\n"
-    "  <nodedef name=\"ND_inner\" node=\"inner\"><token name=\"p\" type=\"string\" "
-    "value=\"unset\"/>"
-    "<output name=\"out\" type=\"color3\"/></nodedef>\n"
-    "  <nodegraph name=\"NG_inner\" nodedef=\"ND_inner\">"
-    "<image name=\"i\" type=\"color3\"><input name=\"file\" type=\"filename\" "
-    "value=\"inner_[p].png\"/></image>"
-    "<output name=\"out\" type=\"color3\" nodename=\"i\"/></nodegraph>\n"
-    "  <nodegraph name=\"G\"><token name=\"wood\" type=\"string\" value=\"oak\"/>\n"
-    "    <outer name=\"u1\" type=\"color3\"/>\n"
-    "    <outer name=\"u2\" type=\"color3\"><token name=\"part\" type=\"string\" "
-    "value=\"set\"/></outer>\n"
-    "    <outer name=\"u3\" type=\"color3\"><token name=\"part\" type=\"string\" "
-    "interfacename=\"wood\"/></outer>\n"
-    "    <add name=\"s\" type=\"color3\"><input name=\"in1\" type=\"color3\" nodename=\"u1\"/>"
-    "<input name=\"in2\" type=\"color3\" nodename=\"u2\"/></add>\n"
-    "    <add name=\"t\" type=\"color3\"><input name=\"in1\" type=\"color3\" nodename=\"s\"/>"
-    "<input name=\"in2\" type=\"color3\" nodename=\"u3\"/></add>\n"
-    "    <output name=\"out\" type=\"color3\" nodename=\"t\"/></nodegraph>\n"
-    "</materialx>\n";
 
 static bool has_file(const mxg_result *result, const char *name)
 {
@@ -594,7 +449,7 @@ static void test_tokens(void)
                                         "maps/inner_set.png",     "maps/set_7_<UDIM>.png",
                                         "maps/inner_oak.png",     "maps/oak_7_<UDIM>.png"};
     struct bench b;
-    bench_open(&b, tokens);
+    bench_open(&b, "tokens.mtlx");
     mxg_result *result = generate(&b, "glsl", "G", MXG_OK);
     REQUIRE_EQ(mxg_diagnostics_num_items(mxg_result_diagnostics(result)), 0);
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
@@ -610,7 +465,7 @@ static void test_tokens(void)
 static void test_lifetimes(void)
 {
     struct bench b;
-    bench_open(&b, NULL);
+    bench_open(&b, "main.mtlx");
     mxg_result *result = generate(&b, "glsl", NULL, MXG_OK);
     mxg_options_destroy(b.options);
     mxg_document_destroy(b.document);
@@ -622,20 +477,6 @@ static void test_lifetimes(void)
 }
 
 /* ---- Networks ---- */
-
-static const char network[] =
-    "<materialx version=\"1.39\">"
-    "<noise2d name=\"n\" type=\"float\"><input name=\"amplitude\" type=\"float\" "
-    "value=\"0.25\"/></noise2d>"
-    "<multiply name=\"m\" type=\"float\"><input name=\"in1\" type=\"float\" nodename=\"n\"/><input "
-    "name=\"in2\" type=\"float\" value=\"1\"/></multiply>"
-    "<oren_nayar_diffuse_bsdf name=\"b\" type=\"BSDF\"><input name=\"roughness\" type=\"float\" "
-    "nodename=\"m\"/></oren_nayar_diffuse_bsdf>"
-    "<surface name=\"S\" type=\"surfaceshader\"><input name=\"bsdf\" type=\"BSDF\" "
-    "nodename=\"b\"/></surface>"
-    "<surfacematerial name=\"M\" type=\"material\"><input name=\"surfaceshader\" "
-    "type=\"surfaceshader\" nodename=\"S\"/></surfacematerial>"
-    "</materialx>";
 
 static bool has_part(const mxg_result *result, const char *name, const char *nodedef)
 {
@@ -653,7 +494,7 @@ static bool has_part(const mxg_result *result, const char *name, const char *nod
 static void test_network(void)
 {
     struct bench b;
-    bench_open(&b, network);
+    bench_open(&b, "network.mtlx");
     mxg_result *whole = generate(&b, "osl", "M", MXG_OK);
     REQUIRE_EQ(mxg_result_num_parts(whole), 0);
     REQUIRE_EQ(mxg_options_set(b.options, "osl-network", "true"), MXG_OK);
@@ -757,7 +598,7 @@ static void test_passes(const struct bench *b)
 int main(void)
 {
     struct bench b;
-    bench_open(&b, NULL);
+    bench_open(&b, "main.mtlx");
     test_targets(&b);
     test_places(&b);
     test_variables(&b);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /* Limits at their boundary, cancelling at every question, and the host's files. */
-#include "tests/api/fixture.h"
+#include "documents.h"
 
 static mxg_document *parse(mxg_context *context, const char *text, mxg_status expected)
 {
@@ -200,7 +200,7 @@ static bool count_down(void *user_data)
 static void test_cancel(void)
 {
     unsigned left = 0, questions = 0;
-    struct memory_files files = {.files = fixture_files};
+    struct memory_files files = {.files = documents};
     mxg_resolver resolver = memory_resolver(&files);
     mxg_context_desc limits = MXG_CONTEXT_DESC_INIT;
     limits.resolver = &resolver;
@@ -262,7 +262,7 @@ static void test_files(void)
 {
     static const char *const faults[] = {"file-missing", "include-missing", "missing-source-file",
                                          "missing-source-file", NULL};
-    struct memory_files files = {.files = fixture_files};
+    struct memory_files files = {.files = documents};
     for (unsigned i = 0; i < 5; i++) { /* main.mtlx, tint.mtlx, tint.glsl, curve.glsl, none */
         files.fail_at = i + 1;
         load(&files, "main.mtlx", faults[i]);
@@ -304,7 +304,7 @@ static void test_endless_files(void)
 {
     static const char *const names[] = {"main.mtlx", "tint.mtlx", "tint.glsl", "curve.glsl"};
     for (unsigned i = 0; i < 2 * sizeof names / sizeof *names; i++) {
-        struct endless_files files = {{.files = fixture_files}, names[i / 2]};
+        struct endless_files files = {{.files = documents}, names[i / 2]};
         mxg_resolver resolver = {&files, endless_open, endless_release, NULL};
         bool is_library = i % 2, is_source = i / 2 >= 2; /* which breaks its implementation alone */
         const char *fault = !is_source   ? "file-too-large"

@@ -3,7 +3,7 @@
  * Every allocation of a cycle fails once, and memory is limited: a status says so, nothing leaks,
  * and the next cycle works.
  */
-#include "tests/api/fixture.h"
+#include "documents.h"
 
 static mxg_status use_result(const mxg_result *result)
 {
@@ -59,7 +59,7 @@ static mxg_status cycle(const mxg_context_desc *desc)
     return status;
 }
 
-static struct memory_files files = {.files = fixture_files};
+static struct memory_files files = {.files = documents};
 static mxg_resolver resolver;
 
 static mxg_context_desc counted(struct heap *heap)
