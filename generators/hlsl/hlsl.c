@@ -93,7 +93,7 @@ const struct target_function hlsl_functions[] = {
 };
 
 const struct target_image hlsl_images[] = {
-#define IMAGE(kind, format, access, type, load, store) {kind, format, access, type, load, store},
+#define IMAGE(kind, format, access, type, ...) {kind, format, access, type, {__VA_ARGS__}},
 #include "generators/hlsl/images.def"
 #undef IMAGE
     {.kind = NULL},

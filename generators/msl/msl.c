@@ -100,7 +100,7 @@ static const struct target_function functions[] = {
 };
 
 static const struct target_image images[] = {
-#define IMAGE(kind, format, access, type, load, store) {kind, format, access, type, load, store},
+#define IMAGE(kind, format, access, type, ...) {kind, format, access, type, {__VA_ARGS__}},
 #include "generators/msl/images.def"
 #undef IMAGE
     {.kind = NULL},

@@ -7,8 +7,6 @@
 #include "tree/ast.h"
 #include "tree/reach.h"
 
-#include <assert.h>
-
 /* ---- Names ---- */
 
 static const char *function_name(void *user_data, uint32_t id)
@@ -94,6 +92,16 @@ static void name_functions(struct spell *spell, struct spell_program *program)
     }
 }
 
+/* Adds a function, or all that have a body, and what they call. */
+static void reach(struct spell_program *program, str_id name, bool all)
+{
+    for (uint32_t i = 0; i < program->unit->functions.len; i++) {
+        const struct lang_function *fn = &program->unit->functions.items[i];
+        if (fn->body && (all || fn->name == name))
+            lang_reach_add(&program->reach, program->unit, i);
+    }
+}
+
 /* Of a pass, the stage calls the function that runs it, or its host may call all. */
 static void find_pass(struct spell *spell)
 {
@@ -103,9 +111,7 @@ static void find_pass(struct spell *spell)
     struct spell_program *program =
         program_of(spell, &spell->shader->sources.all.items[pass->program - 1]);
     const str_id run = str_find(spell->shader->strings, "mx_run", strlen("mx_run"));
-    for (uint32_t k = 0; k < program->unit->functions.len; k++)
-        if (!pass->runs || program->unit->functions.items[k].name == run)
-            lang_reach_add(&program->reach, program->unit, k);
+    reach(program, run, !pass->runs);
 }
 
 void spell_find_programs(struct spell *spell)
@@ -115,40 +121,13 @@ void spell_find_programs(struct spell *spell)
         const struct shader_verbatim *call = &sources->calls.items[spell->stage->verbatim.items[i]];
         const struct shader_source *source =
             call->num_sources ? &sources->all.items[sources->refs.items[call->first_source]] : NULL;
-        const struct lang_unit *unit = source ? source->program : NULL;
-        struct spell_program *program = unit ? program_of(spell, source) : NULL;
         /* several shaders of one file share a program, which has all functions then */
-        for (uint32_t k = 0; unit && k < unit->functions.len; k++)
-            if (unit->functions.items[k].name == call->function
-                || spell->shader->role->is_in_host_file)
-                lang_reach_add(&program->reach, unit, k);
+        if (source && source->program)
+            reach(program_of(spell, source), call->function, spell->shader->role->is_in_host_file);
     }
     find_pass(spell);
     for (uint32_t i = 0; i < spell->programs.len; i++)
         name_functions(spell, &spell->programs.items[i]);
-}
-
-/* ---- Images ---- */
-
-/* Writes a text with the name of a resource. */
-static void write_of_image(struct spell *spell, const char *text, const char *name)
-{
-    while (lang_next(&text, spell->out))
-        SPELL(spell, "mx_", name);
-}
-
-/* Writes the functions of the stage's images. */
-static void write_images(struct spell *spell)
-{
-    SPELL_EACH_RESOURCE(r, spell)
-    {
-        const struct target_image *image = spell_image(spell, &r);
-        if (image->load)
-            write_of_image(spell, image->load, r.resource->name);
-        if (image->store)
-            write_of_image(spell, image->store, r.resource->name);
-        spell_text(spell, "\n");
-    }
 }
 
 /* ---- Texts ---- */
@@ -197,7 +176,9 @@ static void write_variable(struct spell *spell, const struct lang_names *names, 
     spell_text(spell, ";\n");
 }
 
-/* The text of a function that has no body in the program; NULL: it belongs to an image. */
+/* ---- Functions without a body in the program ---- */
+
+/* The text of a function of the language; NULL: it is none. */
 static const char *text_of(const struct target *target, const char *name)
 {
     while (!target->functions && target->base)
@@ -206,6 +187,35 @@ static const char *text_of(const struct target *target, const char *name)
     while (function->name && strcmp(function->name, name) != 0)
         function++;
     return function->text;
+}
+
+/* True if the text is that of the function: "… $N_load(…) …" of mx_words_load for "words". */
+static bool is_text_of(const struct spell *spell, const char *text, const char *image,
+                       const char *name)
+{
+    struct text own;
+    const char *suffix = strstr(text, "$N") + strlen("$N");
+    text_init(&own, spell->scratch);
+    text_fmt(&own, "mx_%s%.*s", image, (int)strcspn(suffix, "("), suffix);
+    return strcmp(text_cstr(&own), name) == 0;
+}
+
+/* Writes a function of an image. False: it is none, and the stage writes it. */
+static bool write_of_image(struct spell *spell, const char *name)
+{
+    SPELL_EACH_RESOURCE(r, spell)
+    {
+        const struct target_image *image = spell_image(spell, &r);
+        for (size_t i = 0; i < sizeof image->functions / sizeof *image->functions; i++) {
+            const char *text = image->functions[i];
+            if (!text || !is_text_of(spell, text, r.resource->name, name))
+                continue;
+            while (lang_next(&text, spell->out))
+                SPELL(spell, "mx_", r.resource->name);
+            return true;
+        }
+    }
+    return false;
 }
 
 static void write_function(struct spell *spell, const struct lang_names *names, uint32_t id)
@@ -217,17 +227,18 @@ static void write_function(struct spell *spell, const struct lang_names *names, 
             spell_doc(spell, fn->doc);
         lang_print_function(spell->style, names, unit, id, spell->out);
     } else {
-        const char *text = text_of(spell->target, str_text(unit->strings, fn->name));
-        if (!text)
+        const char *name = str_text(unit->strings, fn->name);
+        const char *text = text_of(spell->target, name);
+        if (text)
+            spell_text(spell, text);
+        else if (!write_of_image(spell, name))
             return;
-        spell_text(spell, text);
     }
     spell_text(spell, "\n");
 }
 
 void spell_programs(struct spell *spell)
 {
-    write_images(spell);
     for (uint32_t i = 0; i < spell->programs.len; i++) {
         const struct spell_program *program = spell->program = &spell->programs.items[i];
         const struct lang_names names = names_of(spell);

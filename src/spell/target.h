@@ -92,8 +92,7 @@ struct target_image {
     const char *kind, *format; /* of struct deferred_resource */
     unsigned access;           /* 1 reads, 2 writes, 3 both */
     const char *type;          /* its type in the language */
-    /* the functions of programs that read and write it; NULL: none */
-    const char *load, *store;
+    const char *functions[4];  /* of programs that read and write it, each "T $N_load(…) …" */
 };
 
 /* Capabilities that the first versions of a language lack; caps 0: there are none. */

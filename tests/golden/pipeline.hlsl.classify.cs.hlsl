@@ -12,27 +12,6 @@ cbuffer MxFrame : register(b8, space1)
     uint mx_show;
 };
 
-uint4 mx_word0_load(int2 at)
-{
-    return uint4(mx_word0[at], 0u, 0u, 1u);
-}
-
-uint mx_tiles_load(uint at)
-{
-    return mx_tiles.Load(4 * at);
-}
-void mx_tiles_store(uint at, uint value)
-{
-    mx_tiles.Store(4 * at, value);
-}
-uint mx_tiles_add(uint at, uint value)
-{
-    uint before;
-    mx_tiles.InterlockedAdd(4 * at, value, before);
-    return before;
-}
-
-
 // The pixel of an invocation, in a pass over all tiles.
 int2 mx_pixel_in(uint2 group, uint2 place)
 {
@@ -59,6 +38,23 @@ uint mx_or_in_group(uint bits, uint index)
 uint mx_class(uint first)
 {
     return (first >> 20u & 1024u) != 0u ? 4u : first >> 28u;
+}
+
+uint4 mx_word0_load(int2 at)
+{
+    return uint4(mx_word0[at], 0u, 0u, 1u);
+}
+
+uint mx_tiles_add(uint at, uint value)
+{
+    uint before;
+    mx_tiles.InterlockedAdd(4 * at, value, before);
+    return before;
+}
+
+void mx_tiles_store(uint at, uint value)
+{
+    mx_tiles.Store(4 * at, value);
 }
 
 // Adds a tile to the list of a class, whose number of tiles is the first word of its command.

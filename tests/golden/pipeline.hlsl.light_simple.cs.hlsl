@@ -222,46 +222,10 @@ mx_GgxLight make_mx_GgxLight(float3 color, float weight, float cosine)
     return made;
 }
 
-uint4 mx_words_load(int3 at)
-{
-    return uint4(mx_words[at], 0u, 0u, 1u);
-}
-
-uint4 mx_word0_load(int2 at)
-{
-    return uint4(mx_word0[at], 0u, 0u, 1u);
-}
-
-uint4 mx_word1_load(int2 at)
-{
-    return uint4(mx_word1[at], 0u, 0u, 1u);
-}
-
-uint4 mx_word2_load(int2 at)
-{
-    return uint4(mx_word2[at], 0u, 0u, 1u);
-}
-
-float4 mx_depth_fetch(int2 at, int level)
-{
-    return mx_depth.Load(int3(at, level));
-}
-
-float4 mx_color_fetch(int2 at, int level)
-{
-    return mx_color.Load(int3(at, level));
-}
-
-void mx_lit_store(int2 at, float4 value)
-{
-    mx_lit[at] = value;
-}
-
 uint mx_tiles_load(uint at)
 {
     return mx_tiles.Load(4 * at);
 }
-
 
 uint mx_tile_at(uint i)
 {
@@ -278,6 +242,21 @@ int2 mx_pixel_of(uint class_, uint group, uint2 place)
 bool mx_is_outside(int2 pixel)
 {
     return any(pixel >= int2(mx_size));
+}
+
+uint4 mx_word0_load(int2 at)
+{
+    return uint4(mx_word0[at], 0u, 0u, 1u);
+}
+
+uint4 mx_word1_load(int2 at)
+{
+    return uint4(mx_word1[at], 0u, 0u, 1u);
+}
+
+uint4 mx_word2_load(int2 at)
+{
+    return uint4(mx_word2[at], 0u, 0u, 1u);
 }
 
 uint mx_class(uint first)
@@ -323,6 +302,21 @@ MxReader mx_open(int2 pixel)
     { float3 made[3] = {mx_top_normal(reader.top), float3(0.0, 0.0, 0.0),
         float3(0.0, 0.0, 0.0)}; reader.normals = made; }
     return reader;
+}
+
+float4 mx_depth_fetch(int2 at, int level)
+{
+    return mx_depth.Load(int3(at, level));
+}
+
+float4 mx_color_fetch(int2 at, int level)
+{
+    return mx_color.Load(int3(at, level));
+}
+
+uint4 mx_words_load(int3 at)
+{
+    return uint4(mx_words[at], 0u, 0u, 1u);
 }
 
 uint mx_get(inout MxReader reader)
@@ -481,6 +475,11 @@ void mx_fill(MxClosure closure, float3 point_, float3 top)
 }
 
 void surface();
+
+void mx_lit_store(int2 at, float4 value)
+{
+    mx_lit[at] = value;
+}
 
 void mx_run(uint2 group, uint2 place)
 {

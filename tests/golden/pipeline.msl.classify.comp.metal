@@ -16,25 +16,6 @@ struct GlobalContext {
     device atomic_uint* mx_tiles;
     constant MxFrame& mx_uniforms;
 
-uint4 mx_word0_load(int2 at)
-{
-    return mx_word0.read(uint2(at));
-}
-
-uint mx_tiles_load(uint at)
-{
-    return atomic_load_explicit(mx_tiles + at, memory_order_relaxed);
-}
-void mx_tiles_store(uint at, uint value)
-{
-    atomic_store_explicit(mx_tiles + at, value, memory_order_relaxed);
-}
-uint mx_tiles_add(uint at, uint value)
-{
-    return atomic_fetch_add_explicit(mx_tiles + at, value, memory_order_relaxed);
-}
-
-
 // The pixel of an invocation, in a pass over all tiles.
 int2 mx_pixel_in(uint2 group, uint2 place)
 {
@@ -61,6 +42,21 @@ uint mx_or_in_group(uint bits, uint index)
 uint mx_class(uint first)
 {
     return (first >> 20u & 1024u) != 0u ? 4u : first >> 28u;
+}
+
+uint4 mx_word0_load(int2 at)
+{
+    return mx_word0.read(uint2(at));
+}
+
+uint mx_tiles_add(uint at, uint value)
+{
+    return atomic_fetch_add_explicit(mx_tiles + at, value, memory_order_relaxed);
+}
+
+void mx_tiles_store(uint at, uint value)
+{
+    atomic_store_explicit(mx_tiles + at, value, memory_order_relaxed);
 }
 
 // Adds a tile to the list of a class, whose number of tiles is the first word of its command.

@@ -79,11 +79,6 @@ uint_4 choose(bool condition, uint_4 yes, uint_4 no)
 }
 
 
-void mx_words_store(int3 at, uint4 value)
-{
-    mx_words[at] = value.x;
-}
-
 static uint mx_noise = 4u;
 static uint mx_num_words = 0u;
 static uint mx_num_closures = 0u;
@@ -146,6 +141,11 @@ uint mx_cut(float value, uint bits, uint channel)
 uint mx_top(float3 normal, float roughness)
 {
     return mx_cut_normal(normal, 12u) | mx_cut(roughness, 8u, 3u) << 24u;
+}
+
+void mx_words_store(int3 at, uint4 value)
+{
+    mx_words[at] = value.x;
 }
 
 void mx_put(uint word)

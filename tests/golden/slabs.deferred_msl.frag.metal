@@ -112,11 +112,6 @@ struct GlobalContext {
     VertexData vd;
     PixelOutputs out;
 
-void mx_words_store(int3 at, uint4 value)
-{
-    mx_words.write(value, uint2(at.xy), uint(at.z));
-}
-
 uint mx_noise = 4u;
 uint mx_num_words = 0u;
 uint mx_num_closures = 0u;
@@ -179,6 +174,11 @@ uint mx_cut(float value, uint bits, uint channel)
 uint mx_top(float3 normal, float roughness)
 {
     return mx_cut_normal(normal, 12u) | mx_cut(roughness, 8u, 3u) << 24u;
+}
+
+void mx_words_store(int3 at, uint4 value)
+{
+    mx_words.write(value, uint2(at.xy), uint(at.z));
 }
 
 void mx_put(uint word)

@@ -98,20 +98,10 @@ uint_4 choose(bool condition, uint_4 yes, uint_4 no)
 #endif
 
 
-#ifndef MXG_d794cfc5da15ab0e
-#define MXG_d794cfc5da15ab0e
+#ifndef MXG_c638c05851846b3d
+#define MXG_c638c05851846b3d
 static uint mx_noise = 4u;
 static uint mx_payload_words[16];
-
-uint packHalf2x16(float2 v)
-{
-    return f32tof16(v.x) | f32tof16(v.y) << 16;
-}
-
-float2 unpackHalf2x16(uint v)
-{
-    return float2(f16tof32(v & 0xffffu), f16tof32(v >> 16));
-}
 
 uint mx_class(uint first)
 {
@@ -422,6 +412,11 @@ void mx_keep(MxClosure c)
     MxRecord r = mx_pack(c, mx_uncut_normal(word, 16u));
     { uint made[16] = {r.core | mx_class_of(r.core >> 20u) << 28u, r.body, r.weights[0], r.weights[1], r.medium,
         r.lobes, r.fuzz, r.anisotropy, word, 0u, 0u, 0u, 0u, 0u, 0u, 0u}; mx_payload_words = made; }
+}
+
+uint packHalf2x16(float2 v)
+{
+    return f32tof16(v.x) | f32tof16(v.y) << 16;
 }
 
 int mx_finish_payload(int stored, float3 emission, float alpha)

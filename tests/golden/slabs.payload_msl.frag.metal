@@ -84,16 +84,6 @@ struct GlobalContext {
 uint mx_noise = 4u;
 array<uint, 16> mx_payload_words;
 
-uint packHalf2x16(float2 v)
-{
-    return as_type<uint>(half2(v));
-}
-
-float2 unpackHalf2x16(uint v)
-{
-    return float2(as_type<half2>(v));
-}
-
 uint mx_class(uint first)
 {
     return (first >> 20u & 1024u) != 0u ? 4u : first >> 28u;
@@ -401,6 +391,11 @@ void mx_keep(MxClosure c)
     MxRecord r = mx_pack(c, mx_uncut_normal(word, 16u));
     mx_payload_words = array<uint, 16>{r.core | mx_class_of(r.core >> 20u) << 28u, r.body, r.weights[0], r.weights[1],
         r.medium, r.lobes, r.fuzz, r.anisotropy, word, 0u, 0u, 0u, 0u, 0u, 0u, 0u};
+}
+
+uint packHalf2x16(float2 v)
+{
+    return as_type<uint>(half2(v));
 }
 
 int mx_finish_payload(int stored, float3 emission, float alpha)
