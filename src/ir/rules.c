@@ -52,9 +52,9 @@ static float token_value(unsigned token)
 
 struct match {
     const struct ir_graph *graph;
-    bool exact;                   /* the rule is exact */
-    bool linear;                  /* the root is a product of linear algebra */
-    ir_ref bound[RULE_VARIABLES]; /* nodes bound to A B C D E; 0 = not bound yet */
+    bool exact;                       /* the rule is exact */
+    bool linear;                      /* the root is a product of linear algebra */
+    ir_ref bound[RULE_VARIABLES + 1]; /* nodes bound to A B C D E K; 0 = not bound yet */
 };
 
 static bool has_word(const struct match *m, unsigned token, ir_type_id scalar, union ir_word w)
@@ -90,15 +90,16 @@ static bool match_constant(const struct match *m, unsigned token, const struct i
 
 static bool match_leaf(struct match *m, unsigned token, ir_ref ref)
 {
-    if (token < RULE_K) {
-        assert(token >= RULE_A);
-        ir_ref *bound = &m->bound[token - RULE_A];
-        if (!*bound)
-            *bound = ref;
-        return *bound == ref;
-    }
     const struct ir_node *node = ir_get(m->graph, ref);
-    return node->op == IR_CONST && (token == RULE_K || match_constant(m, token, node));
+    if (token >= RULE_K && node->op != IR_CONST)
+        return false;
+    if (token > RULE_K)
+        return match_constant(m, token, node);
+    assert(token >= RULE_A);
+    ir_ref *bound = &m->bound[token - RULE_A];
+    if (!*bound)
+        *bound = ref;
+    return *bound == ref;
 }
 
 struct operands { /* of an op of the pattern: those not compared yet */

@@ -258,7 +258,7 @@ Surface surface(float3 positionWorld, float3 normalWorld)
     float3 V = normalize(u_viewPosition - positionWorld);
     // SR_gltf_pbr
     float cosine = max(abs(dot(axis, V)), 1e-8);
-    float scale = 1.0 / mx_ggx_albedo_fit(1.0 / (cosine + 1.0), cosine).x - 1.0 + 1.0;
+    float scale = 1.0 / mx_ggx_albedo_fit(1.0 / (cosine + 1.0), cosine).x;
     mx_GgxLobe metal_bare_vector = make_mx_GgxLobe(faceforward(axis, -V, axis), cosine, float3(0.0, 0.0, 0.0),
         float2(1.0, 1.0), 1.0);
     // from the last light, so that drivers do not unroll the loop

@@ -217,7 +217,7 @@ void main()
     vec3 V = normalize(u_viewPosition - vd.positionWorld);
     // SR_gltf_pbr
     float cosine = max(abs(dot(axis, V)), 1e-8);
-    float scale = 1.0 / mx_ggx_albedo_fit(1.0 / (cosine + 1.0), cosine).x - 1.0 + 1.0;
+    float scale = 1.0 / mx_ggx_albedo_fit(1.0 / (cosine + 1.0), cosine).x;
     mat3 metal_bare_frame = mx_frame(faceforward(axis, -V, axis), normalize(vd.tangentWorld));
     // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {

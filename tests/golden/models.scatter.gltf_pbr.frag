@@ -163,7 +163,7 @@ void scatter()
     float c = max(abs(axis_dot_lobe_view), 1e-8);
     vec2 albedo = mx_ggx_albedo_fit(1.0 / (c + 1.0), c);
     vec3 f = mx_fresnel_schlick(max(1.0 - pow(albedo.y, 0.2), 1e-8));
-    float ggx_compensation = 1.0 / albedo.x - 1.0 + 1.0;
+    float ggx_compensation = 1.0 / albedo.x;
     float metal_bare_share = max(dot(f * (albedo.x * ggx_compensation * 0.9) + vec3(0.1), vec3(0.33333334)), 0.0);
     float pick = metal_bare_share * vd.random.w;
     vec3 L = vec3(0.0);

@@ -114,6 +114,8 @@ static const struct {
      "%r = mul mat3 %f, mat3(1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0)\nreturn %r"},
     {"%r = sub vec3 0.0, %v", "%r = neg vec3 %v\nreturn %r"},
     {"%r = sub vec3 %v, %v", "return vec3(0.0, 0.0, 0.0)"},
+    {"%r = sub vec2 %k, vec2(-0.0, 0.0)", "return %k"},
+    {"%a = sub vec2 %k, vec2(0.0, 1.0)\n%r = add vec2 %a, vec2(0.0, 1.0)", "return %k"},
     {"%r = mul int %i, 1", "return %i"},
     {"%r = add uint %u, 0u", "return %u"},
     {"%r = div float %f, -1.0", "%r = neg float %f\nreturn %r"},
