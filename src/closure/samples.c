@@ -142,8 +142,7 @@ ir_ref closure_first_turn(struct ir_graph *g)
 
 ir_ref closure_next_turn(struct shader *shader, const struct closure_parts *list)
 {
-    enum { COS, SIN };
-    static const float golden[] = {-0.73736888f, 0.67549029f}; /* of the golden angle */
+    const float minus_cosine = 0.73736888f, sine = 0.67549029f; /* of the golden angle */
     struct ir_graph *g = shader->graph;
     struct closure_copies seen = {.shader = shader};
     bool any = false;
@@ -155,9 +154,9 @@ ir_ref closure_next_turn(struct shader *shader, const struct closure_parts *list
     ir_ref y = ir_component(g, turn, 1), x = ir_component(g, turn, 0);
     ir_ref left = ir_construct(g, IR_TYPE_VEC2, (ir_ref[]){ir_op1(g, IR_NEG, y), x}, 2);
     /* in this order: a GPU changes `turn` in its place, and needs no copy */
-    ir_ref across = ir_op2(g, IR_MUL, left, ir_const_float(g, golden[SIN]));
-    ir_ref along = ir_op2(g, IR_MUL, turn, ir_const_float(g, golden[COS]));
-    return ir_op2(g, IR_ADD, across, along);
+    ir_ref across = ir_op2(g, IR_MUL, left, ir_const_float(g, sine));
+    ir_ref back = ir_op2(g, IR_MUL, turn, ir_const_float(g, minus_cosine));
+    return ir_op2(g, IR_SUB, across, back);
 }
 
 ir_ref closure_gathered(struct shader *shader, ir_ref value)

@@ -266,7 +266,7 @@ void main()
     for (int i = 0; i < count; ++i) {
         mx_GgxLight light = mx_ggx_reflected(coat_ggx_samples, i, turn);
         color += light.color * (light.weight * (scale * mx_fresnel_permittivity(light.cosine)));
-        turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+        turn = vec2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
     }
     // opacity
     float opacity = clamp(SR_varnish_opacity, 0.0, 1.0);

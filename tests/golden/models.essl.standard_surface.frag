@@ -622,7 +622,7 @@ void main()
             mx_GgxLight light = mx_ggx_reflected(coating_ggx_samples, i, turn);
             float fresnel_bare = mx_fresnel_permittivity(light.cosine, scaled_coat_IOR);
             color += light.color * (fresnel_bare * (coat_weight * coating_scale * light.weight));
-            turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+            turn = vec2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
         }
     }
     // environment: metal, reflection
@@ -646,7 +646,7 @@ void main()
                         * (metal_ggx_reflected.weight
                         * mx_film_index(metal_ggx_reflected.cosine, vec3(scaled_specular_IOR), vec3(0.0),
                         SR_standard_surface_thin_film_thickness, SR_standard_surface_thin_film_IOR)));
-                turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+                turn = vec2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
             }
         } else {
             vec2 turn = vec2(1.0, 0.0);
@@ -661,7 +661,7 @@ void main()
                         * (metal_ggx_reflected.color
                         * (metal_ggx_reflected.weight
                         * mx_fresnel_permittivity(metal_ggx_reflected.cosine, scaled_specular_IOR)));
-                turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+                turn = vec2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
             }
         }
     }
@@ -683,7 +683,7 @@ void main()
             color += refraction_product * (refraction_ggx_transmitted.color
                 * (refraction_ggx_transmitted.weight
                 * (1.0 - mx_fresnel_permittivity(refraction_ggx_transmitted.cosine, scaled_specular_IOR))));
-            turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+            turn = vec2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
         }
     }
     // opacity

@@ -759,7 +759,7 @@ void main()
             mx_GgxLight light = mx_ggx_reflected(coating_ggx_samples, i, turn);
             color += light.color * (mx_fresnel_permittivity(light.cosine, coat_ior * coat_ior)
                 * (coating_product * light.weight));
-            turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+            turn = vec2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
         }
     }
     // environment: metal_film, metal_bare, reflection_film, reflection_bare
@@ -793,7 +793,7 @@ void main()
                         * (metal_film_ggx_reflected.color
                         * (metal_film_ggx_reflected.weight
                         * mx_fresnel_permittivity(metal_film_ggx_reflected.cosine, scaled_ior)));
-                turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+                turn = vec2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
             }
         } else {
             vec2 turn = vec2(1.0, 0.0);
@@ -810,7 +810,7 @@ void main()
                     color += reflection_film_product * reflection_bare_product_2;
                 if (reflection_bare_weight > 0.0)
                     color += reflection_bare_product * reflection_bare_product_2;
-                turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+                turn = vec2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
             }
         }
     }
@@ -843,7 +843,7 @@ void main()
                         * (refraction_film_ggx_transmitted.color
                         * (refraction_film_ggx_transmitted.weight
                         * (1.0 - mx_fresnel_permittivity(refraction_film_ggx_transmitted.cosine, scaled_ior))));
-                turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+                turn = vec2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
             }
         } else {
             vec2 turn = vec2(1.0, 0.0);
@@ -856,7 +856,7 @@ void main()
                     color += refraction_film_product * refraction_bare_product_2;
                 if (refraction_bare_weight > 0.0)
                     color += refraction_bare_product * refraction_bare_product_2;
-                turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+                turn = vec2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
             }
         }
     }

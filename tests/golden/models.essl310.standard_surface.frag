@@ -629,7 +629,7 @@ void main()
             mx_GgxLight light = mx_ggx_reflected(coating_ggx_samples, i, turn);
             float fresnel_bare = mx_fresnel_permittivity(light.cosine, coat_IOR * coat_IOR);
             color += light.color * (fresnel_bare * (coat_weight * coating_scale * light.weight));
-            turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+            turn = vec2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
         }
     }
     // environment: metal, reflection
@@ -652,7 +652,7 @@ void main()
                         * (metal_ggx_reflected.weight
                         * mx_film_index(metal_ggx_reflected.cosine, vec3(scaled_specular_IOR), vec3(0.0),
                         thin_film_thickness, thin_film_IOR)));
-                turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+                turn = vec2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
             }
         } else {
             vec2 turn = vec2(1.0, 0.0);
@@ -667,7 +667,7 @@ void main()
                         * (metal_ggx_reflected.color
                         * (metal_ggx_reflected.weight
                         * mx_fresnel_permittivity(metal_ggx_reflected.cosine, scaled_specular_IOR)));
-                turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+                turn = vec2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
             }
         }
     }
@@ -688,7 +688,7 @@ void main()
             color += refraction_product * (refraction_ggx_transmitted.color
                 * (refraction_ggx_transmitted.weight
                 * (1.0 - mx_fresnel_permittivity(refraction_ggx_transmitted.cosine, scaled_specular_IOR))));
-            turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+            turn = vec2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
         }
     }
     // opacity

@@ -295,7 +295,7 @@ Surface surface(float3 positionWorld, float3 normalWorld)
     for (int i = 0; i < count; ++i) {
         mx_GgxLight light = mx_ggx_reflected(reflection_bare_ggx_samples, i, turn);
         color += light.color * (light.weight * (scale * mx_fresnel_permittivity(light.cosine)));
-        turn = float2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+        turn = float2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
     }
     result.color = color;
     result.alpha = 1.0;

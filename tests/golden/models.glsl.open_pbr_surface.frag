@@ -753,7 +753,7 @@ void main()
             mx_GgxLight light = mx_ggx_reflected(coating_ggx_samples, i, turn);
             color += light.color * (mx_fresnel_permittivity(light.cosine, scaled_coat_ior)
                 * (coating_product * light.weight));
-            turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+            turn = vec2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
         }
     }
     // environment: metal_film, metal_bare, reflection_film, reflection_bare
@@ -787,7 +787,7 @@ void main()
                         * (metal_film_ggx_reflected.color
                         * (metal_film_ggx_reflected.weight
                         * mx_fresnel_permittivity(metal_film_ggx_reflected.cosine, scaled_ior)));
-                turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+                turn = vec2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
             }
         } else {
             vec2 turn = vec2(1.0, 0.0);
@@ -804,7 +804,7 @@ void main()
                     color += reflection_film_product * reflection_bare_product_2;
                 if (reflection_bare_weight > 0.0)
                     color += reflection_bare_product * reflection_bare_product_2;
-                turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+                turn = vec2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
             }
         }
     }
@@ -837,7 +837,7 @@ void main()
                         * (refraction_film_ggx_transmitted.color
                         * (refraction_film_ggx_transmitted.weight
                         * (1.0 - mx_fresnel_permittivity(refraction_film_ggx_transmitted.cosine, scaled_ior))));
-                turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+                turn = vec2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
             }
         } else {
             vec2 turn = vec2(1.0, 0.0);
@@ -850,7 +850,7 @@ void main()
                     color += refraction_film_product * refraction_bare_product_2;
                 if (refraction_bare_weight > 0.0)
                     color += refraction_bare_product * refraction_bare_product_2;
-                turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+                turn = vec2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
             }
         }
     }

@@ -620,7 +620,7 @@ void main(
             mx_GgxLight light = mx_ggx_reflected(coating_ggx_samples, i, turn);
             color += light.color * (mx_fresnel_permittivity(light.cosine, 2.25)
                 * (coating_weight * coating_scale * light.weight));
-            turn = float2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+            turn = float2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
         }
     }
     // environment: metal_film, metal_bare, reflection_film, reflection
@@ -653,7 +653,7 @@ void main(
                         * (metal_film_ggx_reflected.color
                         * (metal_film_ggx_reflected.weight
                         * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_f0, f90)));
-                turn = float2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+                turn = float2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
             }
         } else {
             float2 turn = float2(1.0, 0.0);
@@ -670,7 +670,7 @@ void main(
                     color += reflection_film_product * reflection_product_2;
                 if (reflection_weight > 0.0)
                     color += reflection_product * reflection_product_2;
-                turn = float2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+                turn = float2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
             }
         }
     }
@@ -685,7 +685,7 @@ void main(
             color += refraction_product * (refraction_ggx_transmitted.color
                 * (refraction_ggx_transmitted.weight
                 * (1.0 - mx_fresnel_permittivity(refraction_ggx_transmitted.cosine, ior * ior))));
-            turn = float2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+            turn = float2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
         }
     }
     // opacity

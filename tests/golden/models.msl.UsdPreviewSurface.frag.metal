@@ -495,7 +495,7 @@ void FragmentMain()
             mx_GgxLight coating_light = mx_ggx_reflected(coating_ggx_samples, i, turn);
             float3 fresnel_bare = mx_fresnel_schlick(coating_light.cosine, float3(coating_fresnel_f0), float3(1.0));
             color += coating_light.color * (fresnel_bare * (coating_weight * coating_scale * coating_light.weight));
-            turn = float2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+            turn = float2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
         }
     }
     // environment: metal, reflection
@@ -513,7 +513,7 @@ void FragmentMain()
                     * (metal_ggx_reflected.color
                     * (metal_ggx_reflected.weight
                     * mx_fresnel_schlick(metal_ggx_reflected.cosine, reflection_fresnel_f0, f90)));
-            turn = float2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+            turn = float2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
         }
     }
     // opacity

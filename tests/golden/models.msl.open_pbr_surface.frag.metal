@@ -842,7 +842,7 @@ void FragmentMain()
             mx_GgxLight light = mx_ggx_reflected(coating_ggx_samples, i, turn);
             color += light.color * (mx_fresnel_permittivity(light.cosine, coat_ior * coat_ior)
                 * (coating_product * light.weight));
-            turn = float2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+            turn = float2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
         }
     }
     // environment: metal_film, metal_bare, reflection_film, reflection_bare
@@ -876,7 +876,7 @@ void FragmentMain()
                         * (metal_film_ggx_reflected.color
                         * (metal_film_ggx_reflected.weight
                         * mx_fresnel_permittivity(metal_film_ggx_reflected.cosine, scaled_ior)));
-                turn = float2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+                turn = float2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
             }
         } else {
             float2 turn = float2(1.0, 0.0);
@@ -893,7 +893,7 @@ void FragmentMain()
                     color += reflection_film_product * reflection_bare_product_2;
                 if (reflection_bare_weight > 0.0)
                     color += reflection_bare_product * reflection_bare_product_2;
-                turn = float2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+                turn = float2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
             }
         }
     }
@@ -926,7 +926,7 @@ void FragmentMain()
                         * (refraction_film_ggx_transmitted.color
                         * (refraction_film_ggx_transmitted.weight
                         * (1.0 - mx_fresnel_permittivity(refraction_film_ggx_transmitted.cosine, scaled_ior))));
-                turn = float2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+                turn = float2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
             }
         } else {
             float2 turn = float2(1.0, 0.0);
@@ -939,7 +939,7 @@ void FragmentMain()
                     color += refraction_film_product * refraction_bare_product_2;
                 if (refraction_bare_weight > 0.0)
                     color += refraction_bare_product * refraction_bare_product_2;
-                turn = float2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+                turn = float2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
             }
         }
     }

@@ -710,7 +710,7 @@ void FragmentMain()
             mx_GgxLight light = mx_ggx_reflected(coating_ggx_samples, i, turn);
             float fresnel_bare = mx_fresnel_permittivity(light.cosine, coat_IOR * coat_IOR);
             color += light.color * (fresnel_bare * (coat_weight * coating_scale * light.weight));
-            turn = float2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+            turn = float2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
         }
     }
     // environment: metal, reflection
@@ -733,7 +733,7 @@ void FragmentMain()
                         * (metal_ggx_reflected.weight
                         * mx_film_index(metal_ggx_reflected.cosine, float3(scaled_specular_IOR), float3(0.0),
                         thin_film_thickness, thin_film_IOR)));
-                turn = float2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+                turn = float2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
             }
         } else {
             float2 turn = float2(1.0, 0.0);
@@ -748,7 +748,7 @@ void FragmentMain()
                         * (metal_ggx_reflected.color
                         * (metal_ggx_reflected.weight
                         * mx_fresnel_permittivity(metal_ggx_reflected.cosine, scaled_specular_IOR)));
-                turn = float2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+                turn = float2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
             }
         }
     }
@@ -770,7 +770,7 @@ void FragmentMain()
             color += refraction_product * (refraction_ggx_transmitted.color
                 * (refraction_ggx_transmitted.weight
                 * (1.0 - mx_fresnel_permittivity(refraction_ggx_transmitted.cosine, scaled_specular_IOR))));
-            turn = float2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+            turn = float2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
         }
     }
     // opacity

@@ -263,7 +263,7 @@ void main()
     for (int i = 0; i < count; ++i) {
         mx_GgxLight light = mx_ggx_reflected(reflection_ggx_samples, i, turn);
         color += light.color * (light.weight * (scale * mx_fresnel_schlick(light.cosine)));
-        turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+        turn = vec2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
     }
     out1 = vec4(color, 1.0);
 }

@@ -417,7 +417,7 @@ void main()
             mx_GgxLight coating_light = mx_ggx_reflected(coating_ggx_samples, i, turn);
             vec3 fresnel_bare = mx_fresnel_schlick(coating_light.cosine, vec3(coating_fresnel_f0), vec3(1.0));
             color += coating_light.color * (fresnel_bare * (coating_weight * coating_scale * coating_light.weight));
-            turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+            turn = vec2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
         }
     }
     // environment: metal, reflection
@@ -435,7 +435,7 @@ void main()
                     * (metal_ggx_reflected.color
                     * (metal_ggx_reflected.weight
                     * mx_fresnel_schlick(metal_ggx_reflected.cosine, reflection_fresnel_f0, f90)));
-            turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+            turn = vec2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
         }
     }
     // opacity

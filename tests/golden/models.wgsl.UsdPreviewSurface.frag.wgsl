@@ -438,7 +438,7 @@ fn main(vd: VertexData) -> @location(0) vec4f
             let coating_light: mx_GgxLight = mx_ggx_reflected(coating_ggx_samples, i, turn);
             let fresnel_bare: vec3f = mx_fresnel_schlick(coating_light.cosine, vec3f(coating_fresnel_f0), vec3f(1.0));
             color += coating_light.color * (fresnel_bare * (coating_weight * coating_scale * coating_light.weight));
-            turn = vec2f(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+            turn = vec2f(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
         }
     }
     // environment: metal, reflection
@@ -458,7 +458,7 @@ fn main(vd: VertexData) -> @location(0) vec4f
                     * (metal_ggx_reflected.weight
                     * mx_fresnel_schlick(metal_ggx_reflected.cosine, reflection_fresnel_f0, f90)));
             }
-            turn = vec2f(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+            turn = vec2f(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
         }
     }
     // opacity

@@ -582,7 +582,7 @@ fn main(vd: VertexData) -> @location(0) vec4f
             let light: mx_GgxLight = mx_ggx_reflected(coating_ggx_samples, i, turn);
             color += light.color * (mx_fresnel_permittivity(light.cosine, 2.25)
                 * (coating_weight * coating_scale * light.weight));
-            turn = vec2f(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+            turn = vec2f(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
         }
     }
     // environment: metal_film, metal_bare, reflection_film, reflection
@@ -619,7 +619,7 @@ fn main(vd: VertexData) -> @location(0) vec4f
                         * (metal_film_ggx_reflected.weight
                         * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_f0, f90)));
                 }
-                turn = vec2f(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+                turn = vec2f(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
             }
         } else {
             var turn: vec2f = vec2f(1.0, 0.0);
@@ -638,7 +638,7 @@ fn main(vd: VertexData) -> @location(0) vec4f
                 if (reflection_weight > 0.0) {
                     color += reflection_product * reflection_product_2;
                 }
-                turn = vec2f(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+                turn = vec2f(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
             }
         }
     }
@@ -653,7 +653,7 @@ fn main(vd: VertexData) -> @location(0) vec4f
             color += refraction_product * (refraction_ggx_transmitted.color
                 * (refraction_ggx_transmitted.weight
                 * (1.0 - mx_fresnel_permittivity(refraction_ggx_transmitted.cosine, ior * ior))));
-            turn = vec2f(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+            turn = vec2f(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
         }
     }
     // opacity

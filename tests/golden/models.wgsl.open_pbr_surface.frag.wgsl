@@ -796,7 +796,7 @@ fn main(vd: VertexData) -> @location(0) vec4f
             let light: mx_GgxLight = mx_ggx_reflected(coating_ggx_samples, i, turn);
             color += light.color * (mx_fresnel_permittivity(light.cosine, coat_ior * coat_ior)
                 * (coating_product * light.weight));
-            turn = vec2f(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+            turn = vec2f(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
         }
     }
     // environment: metal_film, metal_bare, reflection_film, reflection_bare
@@ -834,7 +834,7 @@ fn main(vd: VertexData) -> @location(0) vec4f
                         * (metal_film_ggx_reflected.weight
                         * mx_fresnel_permittivity(metal_film_ggx_reflected.cosine, scaled_ior)));
                 }
-                turn = vec2f(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+                turn = vec2f(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
             }
         } else {
             var turn: vec2f = vec2f(1.0, 0.0);
@@ -853,7 +853,7 @@ fn main(vd: VertexData) -> @location(0) vec4f
                 if (reflection_bare_weight > 0.0) {
                     color += reflection_bare_product * reflection_bare_product_2;
                 }
-                turn = vec2f(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+                turn = vec2f(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
             }
         }
     }
@@ -889,7 +889,7 @@ fn main(vd: VertexData) -> @location(0) vec4f
                         * (refraction_film_ggx_transmitted.weight
                         * (1.0 - mx_fresnel_permittivity(refraction_film_ggx_transmitted.cosine, scaled_ior))));
                 }
-                turn = vec2f(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+                turn = vec2f(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
             }
         } else {
             var turn: vec2f = vec2f(1.0, 0.0);
@@ -904,7 +904,7 @@ fn main(vd: VertexData) -> @location(0) vec4f
                 if (refraction_bare_weight > 0.0) {
                     color += refraction_bare_product * refraction_bare_product_2;
                 }
-                turn = vec2f(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+                turn = vec2f(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
             }
         }
     }

@@ -662,7 +662,7 @@ fn main(vd: VertexData) -> @location(0) vec4f
             let light: mx_GgxLight = mx_ggx_reflected(coating_ggx_samples, i, turn);
             let fresnel_bare: f32 = mx_fresnel_permittivity(light.cosine, coat_IOR * coat_IOR);
             color += light.color * (fresnel_bare * (coat_weight * coating_scale * light.weight));
-            turn = vec2f(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+            turn = vec2f(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
         }
     }
     // environment: metal, reflection
@@ -687,7 +687,7 @@ fn main(vd: VertexData) -> @location(0) vec4f
                         * mx_film_index(metal_ggx_reflected.cosine, vec3f(scaled_specular_IOR), vec3f(0.0),
                         thin_film_thickness, thin_film_IOR)));
                 }
-                turn = vec2f(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+                turn = vec2f(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
             }
         } else {
             var turn: vec2f = vec2f(1.0, 0.0);
@@ -704,7 +704,7 @@ fn main(vd: VertexData) -> @location(0) vec4f
                         * (metal_ggx_reflected.weight
                         * mx_fresnel_permittivity(metal_ggx_reflected.cosine, scaled_specular_IOR)));
                 }
-                turn = vec2f(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+                turn = vec2f(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
             }
         }
     }
@@ -726,7 +726,7 @@ fn main(vd: VertexData) -> @location(0) vec4f
             color += refraction_product * (refraction_ggx_transmitted.color
                 * (refraction_ggx_transmitted.weight
                 * (1.0 - mx_fresnel_permittivity(refraction_ggx_transmitted.cosine, scaled_specular_IOR))));
-            turn = vec2f(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+            turn = vec2f(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
         }
     }
     // opacity

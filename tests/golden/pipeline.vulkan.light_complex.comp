@@ -568,7 +568,7 @@ void surface()
                 * (second_reflection_light.color
                 * (second_reflection_light.weight
                 * mx_fresnel_schlick(second_reflection_light.cosine, fresnel_f0, grazing)));
-            turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+            turn = vec2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
         }
     }
     // environment: reflection
@@ -584,7 +584,7 @@ void surface()
             color += reflection_product * (reflection_ggx_reflected_by_direction.color
                 * (reflection_ggx_reflected_by_direction.weight
                 * mx_fresnel_schlick(reflection_ggx_reflected_by_direction.cosine, fresnel_f0, grazing)));
-            turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+            turn = vec2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
         }
     }
     // lights: subsurface, medium

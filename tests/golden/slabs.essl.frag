@@ -376,7 +376,7 @@ void main()
         mx_GgxLight light = mx_ggx_reflected(metal_reflection_ggx_samples, i, turn);
         color += metal_reflection_product
             * (light.color * (light.weight * mx_fresnel_schlick(light.cosine, metal_constant)));
-        turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+        turn = vec2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
     }
     // environment: milk_reflection
     vec2 turn_2 = vec2(1.0, 0.0);
@@ -390,7 +390,7 @@ void main()
             * (milk_reflection_ggx_reflected.color
             * (milk_reflection_ggx_reflected.weight
             * mx_fresnel_schlick(milk_reflection_ggx_reflected.cosine, vec3(0.04))));
-        turn_2 = vec2(-turn_2.y, turn_2.x) * 0.6754903 + turn_2 * -0.7373689;
+        turn_2 = vec2(-turn_2.y, turn_2.x) * 0.6754903 - turn_2 * 0.7373689;
     }
     // environment: coat_reflection
     vec2 turn_3 = vec2(1.0, 0.0);
@@ -401,7 +401,7 @@ void main()
         color += coat_reflection_ggx_reflected.color
             * (mx_fresnel_schlick(coat_reflection_ggx_reflected.cosine, vec3(0.04))
             * (coat_reflection_scale * 0.5 * coat_reflection_ggx_reflected.weight));
-        turn_3 = vec2(-turn_3.y, turn_3.x) * 0.6754903 + turn_3 * -0.7373689;
+        turn_3 = vec2(-turn_3.y, turn_3.x) * 0.6754903 - turn_3 * 0.7373689;
     }
     out1 = vec4(color, 1.0);
 }

@@ -440,7 +440,7 @@ void main(
         mx_GgxLight light = mx_ggx_reflected(metal_reflection_ggx_samples, i, turn);
         color += metal_reflection_product
             * (light.color * (light.weight * mx_fresnel_schlick(light.cosine, metal_constant)));
-        turn = float2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+        turn = float2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
     }
     // environment: milk_reflection
     float2 turn_2 = float2(1.0, 0.0);
@@ -455,7 +455,7 @@ void main(
             * (milk_reflection_ggx_reflected.color
             * (milk_reflection_ggx_reflected.weight
             * mx_fresnel_schlick(milk_reflection_ggx_reflected.cosine, float3(0.04, 0.04, 0.04))));
-        turn_2 = float2(-turn_2.y, turn_2.x) * 0.6754903 + turn_2 * -0.7373689;
+        turn_2 = float2(-turn_2.y, turn_2.x) * 0.6754903 - turn_2 * 0.7373689;
     }
     // environment: coat_reflection
     float2 turn_3 = float2(1.0, 0.0);
@@ -466,7 +466,7 @@ void main(
         color += coat_reflection_ggx_reflected.color
             * (mx_fresnel_schlick(coat_reflection_ggx_reflected.cosine, float3(0.04, 0.04, 0.04))
             * (coat_reflection_scale * 0.5 * coat_reflection_ggx_reflected.weight));
-        turn_3 = float2(-turn_3.y, turn_3.x) * 0.6754903 + turn_3 * -0.7373689;
+        turn_3 = float2(-turn_3.y, turn_3.x) * 0.6754903 - turn_3 * 0.7373689;
     }
     out1 = float4(color, 1.0);
 }

@@ -242,7 +242,7 @@ void main()
     for (int i = 0; i < count; ++i) {
         mx_GgxLight light = mx_ggx_reflected(gloss_ggx_samples, i, turn);
         gathered += light.color * (light.weight * (scale * mx_fresnel_permittivity(light.cosine)));
-        turn = vec2(-turn.y, turn.x) * 0.6754903 + turn * -0.7373689;
+        turn = vec2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
     }
     vec3 color = vec3(0.0);
     // lights
