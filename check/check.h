@@ -31,7 +31,10 @@ const char *reports_misuse(const struct check_reports *reports);
 bool reports_claim(const struct check_reports *reports, struct outputs *outputs,
                    struct report *report);
 
-/* Opens the files. False after a message about a file that cannot be written. */
+/*
+ * Opens the files. False after a message about a file that cannot be written; then nothing is left
+ * to end.
+ */
 bool reports_begin(struct check_reports *reports, struct report *report);
 
 /* Passes a document to all reports. Documents come in order. */

@@ -69,6 +69,8 @@ bool reports_begin(struct check_reports *reports, struct report *report)
         }
     }
     begin_sink(&reports->text, &sink_text, &reports->run, is_stdout_taken ? stderr : stdout);
+    if (!good)
+        reports_end(reports, report, false);
     return good;
 }
 
@@ -185,7 +187,8 @@ bool reports_end(struct check_reports *reports, struct report *report, bool keep
                          reason);
         good = good && !reason;
     }
-    if (keep)
-        reports->text.kind->end(&reports->text, &reports->totals);
+    if (!keep)
+        reports->text.fault = "the run failed";
+    reports->text.kind->end(&reports->text, &reports->totals);
     return good;
 }

@@ -58,14 +58,18 @@ static void rank(struct top *top, double value, const char *file, const char *el
     ++top->len;
 }
 
-static void print_top(FILE *out, struct top *top, const char *title, const char *unit)
+static void print_top(FILE *out, const struct top *top, const char *title, const char *unit)
 {
     if (top->len)
         fprintf(out, "%s\n", title);
-    for (size_t i = 0; i < top->len; ++i) {
+    for (size_t i = 0; i < top->len; ++i)
         fprintf(out, "%12.1f %s  %s\n", top->rows[i].value, unit, top->rows[i].name);
+}
+
+static void free_top(struct top *top)
+{
+    for (size_t i = 0; i < top->len; ++i)
         free(top->rows[i].name);
-    }
 }
 
 /*
@@ -345,17 +349,30 @@ static void print_times(FILE *out, const struct check_totals *totals)
     fputc('\n', out);
 }
 
-static void end(struct sink *sink, const struct check_totals *totals)
+/* What the run collected for its end, which it frees. */
+static void print_state(const struct sink *sink, struct text_state *state,
+                        const struct check_totals *totals)
 {
-    struct text_state *state = sink->state;
-    if (state && spool_end(state->others, sink->out))
+    if (sink->fault && state->others)
+        fclose(state->others);
+    else if (!sink->fault && spool_end(state->others, sink->out))
         fputs("note: the other changes are lost: no temporary file could be written\n", sink->out);
-    if (state && sink->run->with_times) {
+    if (!sink->fault && sink->run->with_times) {
         print_top(sink->out, &state->slowest, "slowest documents:", "ms");
         print_top(sink->out, &state->largest, "largest shaders:", "kB");
         print_times(sink->out, totals);
     }
+    free_top(&state->slowest);
+    free_top(&state->largest);
     free(state);
+}
+
+static void end(struct sink *sink, const struct check_totals *totals)
+{
+    if (sink->state)
+        print_state(sink, sink->state, totals);
+    if (sink->fault)
+        return;
     for (size_t i = 0; i < totals->num_uncompiled; ++i)
         fprintf(sink->out,
                 "note: shaders for '%s' were not compiled: no compiler for it is installed\n",

@@ -3,12 +3,12 @@
  * A file of glTF as `mxgen import` reads it: what it writes is a document without errors, and
  * nothing stays where it fails.
  */
-#define _DEFAULT_SOURCE /* mkstemps, mkdtemp */
 #include "fuzz.h"
 
 #include "cli/commands.h"
+#include "program/files.h"
+#include "program/scratch.h"
 
-#include <string.h>
 #include <unistd.h>
 
 static void require_document(const char *path)
@@ -27,13 +27,12 @@ static void require_document(const char *path)
 void fuzz_run(const char *data, size_t size, struct fuzz_heap *heap)
 {
     static const struct command command = {"import", "FILE", "", command_import, NULL};
-    char folder[] = P_tmpdir "/mxgen-fuzz-XXXXXX", input[64], output[64];
+    struct scratch scratch;
     (void)heap; /* programs end where memory is exhausted */
-    FUZZ_REQUIRE(mkdtemp(folder));
-    snprintf(input, sizeof input, "%s/in.gltf", folder);
-    snprintf(output, sizeof output, "%s/out.mtlx", folder);
-    FILE *file = fopen(input, "wb");
-    FUZZ_REQUIRE(file && fwrite(data, 1, size, file) == size && fclose(file) == 0);
+    FUZZ_REQUIRE(scratch_make(&scratch));
+    char *input = cli_format("%s/in.gltf", scratch.path),
+         *output = cli_format("%s/out.mtlx", scratch.path);
+    FUZZ_REQUIRE(!files_write(input, data, size));
     char *arguments[] = {"import", input, "-o", output, "-q", "--sandbox", NULL};
     int code = command_import(&command, 6, arguments);
     FUZZ_REQUIRE(code == EXIT_DONE || code == EXIT_FAULT);
@@ -41,7 +40,7 @@ void fuzz_run(const char *data, size_t size, struct fuzz_heap *heap)
         require_document(output);
     else
         FUZZ_REQUIRE(access(output, F_OK) != 0);
-    char remove[96];
-    snprintf(remove, sizeof remove, "rm -rf %s", folder);
-    FUZZ_REQUIRE(system(remove) == 0);
+    free(input);
+    free(output);
+    scratch_remove(&scratch);
 }
