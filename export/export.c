@@ -192,7 +192,7 @@ int export_main(int argc, char **argv)
     int code;
     json_use_memory();
     if (cli_start(&exporting.baking.cli, &command, args, export_args(&exporting.options, args),
-                  CLI_GENERATES, argc, argv, &code)) {
+                  CLI_GENERATES | CLI_KEEPS_INPUTS, argc, argv, &code)) {
         bool is_possible = parse(&exporting);
         if (is_possible)
             run(&exporting);

@@ -194,6 +194,8 @@ bool cli_start(struct cli *cli, const struct command *command, const struct arg 
                size_t num_args, unsigned wants, int argc, char **argv, int *out_exit)
 {
     *cli = (struct cli){.max_errors = MAX_ERRORS};
+    if (wants & CLI_KEEPS_INPUTS)
+        args_append(&cli->warnings, "no-unread-input");
     struct arg table[MAX_OWN_ARGS + MAX_COMMON_ARGS];
     assert(num_args <= MAX_OWN_ARGS);
     for (size_t i = 0; i < num_args; ++i)

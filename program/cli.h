@@ -56,7 +56,8 @@ struct cli {
 enum cli_wants {
     CLI_GENERATES = 1,
     CLI_NEEDS_INPUT = 2,
-    CLI_LIBRARY_IS_INPUT = 4 /* the command loads no library */
+    CLI_LIBRARY_IS_INPUT = 4, /* the command loads no library */
+    CLI_KEEPS_INPUTS = 8      /* it writes, and tells of, inputs that no shader reads */
 };
 
 /*

@@ -225,8 +225,8 @@ int bake_main(int argc, char **argv)
     struct baking baking = {.options = BAKE_OPTIONS_DEFAULTS};
     struct arg args[MAX_BAKE_ARGS];
     int code;
-    if (cli_start(&baking.cli, &command, args, bake_args(&baking.options, args), CLI_GENERATES,
-                  argc, argv, &code)) {
+    if (cli_start(&baking.cli, &command, args, bake_args(&baking.options, args),
+                  CLI_GENERATES | CLI_KEEPS_INPUTS, argc, argv, &code)) {
         code = EXIT_USAGE;
         if (parse(&baking)) {
             const char *path = baking.cli.parser.inputs.items[0];

@@ -56,17 +56,22 @@ static void mark_sources(struct translation *t, ir_ref root, bool *marks)
 }
 
 /*
- * True if the surface depends on an input as it is: the document sets it, and the shader reads it.
- * One that the geometry fills has no uniform, so a connection counts.
+ * Why an input that the document sets matters: the shader of the surface reads it, or programs that
+ * know more of the model. NULL: it does nothing. One that the geometry fills has no uniform, so a
+ * connection counts.
  */
-static bool matters(struct translation *t, uint32_t index)
+static const char *use_of(struct translation *t, uint32_t index)
 {
     const struct source_input *source = &t->sources.items[index];
     if (!translate_is_authored(t, source))
-        return false;
+        return NULL;
     bool is_geometry = source->is_connected && *source->port.defaultgeomprop;
-    return is_geometry
-           || translate_surface_reads(t, 0, source->port.name, translate_uniforms(t, index));
+    if (is_geometry
+        || translate_surface_reads(t, 0, source->port.name, translate_uniforms(t, index)))
+        return "changes this surface";
+    uint32_t definition = mxg_document_find_nodedef(t->document, t->surface);
+    return translate_is_for_others(t, definition, source->port.name) ? "is for other programs"
+                                                                     : NULL;
 }
 
 /* Warns about inputs that change the old surface and not the new one. */
@@ -83,10 +88,11 @@ static void report_losses(struct translation *t)
                          stays);
     for (uint32_t i = 0; i < t->sources.len; i++) {
         const struct source_input *source = &t->sources.items[i];
-        if (!stays[i] && !source->is_used && matters(t, i))
+        const char *use = stays[i] || source->is_used ? NULL : use_of(t, i);
+        if (use)
             diag_add(t->diags, DIAG_ID_translation_loss, doc_name_place(doc, source->element),
                      source->port.name,
-                     str_text(doc->strings, doc_element(doc, t->surface)->category), t->model);
+                     str_text(doc->strings, doc_element(doc, t->surface)->category), use, t->model);
     }
 }
 
@@ -100,6 +106,7 @@ static void translate_surface(struct translation *t, elem_id surface)
         translate_make_draft(t, mxg_document_find_nodedef(t->document, surface));
         find_values(t);
         translate_geometry(t);
+        translate_keep_for_others(t);
         translate_drop_idle(t);
         report_losses(t);
         translate_write(t);

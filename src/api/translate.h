@@ -179,8 +179,12 @@ void translate_geometry(struct translation *t);
 
 /*
  * translate_idle.c: leaves out inputs on which the new surface does not depend: the roughness of a
- * coat that it does not have.
+ * coat that it does not have. Keeps what no shader of either model reads, and both have: an
+ * occlusion.
  */
+/* True if a nodegraph implements the model, and does not read the input at all. */
+bool translate_is_for_others(const struct translation *t, uint32_t definition, const char *input);
+void translate_keep_for_others(struct translation *t);
 void translate_drop_idle(struct translation *t);
 
 /*

@@ -308,7 +308,8 @@ static void report_blends(struct translation *t, const struct slab_report *repor
 static void report_loss(const struct translation *t, const char *input, const char *category)
 {
     diag_add(t->diags, DIAG_ID_translation_loss,
-             doc_name_place(&t->document->layer.doc, t->surface), input, category, t->wanted);
+             doc_name_place(&t->document->layer.doc, t->surface), input, category,
+             "changes this surface", t->wanted);
 }
 
 /* Features of slabs that no model has, by the value at which they are not there. */

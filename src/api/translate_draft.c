@@ -70,17 +70,8 @@ static void read_sources(struct translation *t, uint32_t definition)
 
 bool translate_is_default(const mxg_port *port, const struct strpool *strings, const char *text)
 {
-    struct ir_value a, b;
     doc_type type = doc_type_of(str_find(strings, port->type, strlen(port->type)));
-    bool is_same = strcmp(text, port->value) == 0;
-    if (is_same || !doc_type_components(type)
-        || !doc_parse_value(type, text, strlen(text), NULL, &a)
-        || !doc_parse_value(type, port->value, strlen(port->value), NULL, &b))
-        return is_same;
-    is_same = true;
-    for (unsigned i = 0; i < ir_type_components(a.type) && is_same; i++)
-        is_same = ir_type_is_float(a.type) ? a.w[i].f == b.w[i].f : a.w[i].u == b.w[i].u;
-    return is_same;
+    return doc_is_same_value(type, text, port->value);
 }
 
 bool translate_is_authored(const struct translation *t, const struct source_input *source)

@@ -74,16 +74,34 @@ static bool says_nothing(const struct translated_input *input)
            && ir_value_equal(&input->value.value, &zero.value);
 }
 
-/* True if a nodegraph implements the model, and does not read the input at all. */
-static bool is_for_others(const struct translation *t, const struct translated_input *input)
+bool translate_is_for_others(const struct translation *t, uint32_t definition, const char *input)
 {
     const struct library *lib = &t->document->layer;
-    elem_id graph = says_nothing(input) ? 0 : edit_find_graph(lib, t->definition);
-    str_id name = str_find(lib->doc.strings, input->port.name, strlen(input->port.name));
-    bool is_read = !graph;
-    for (elem_id e = graph; e && !is_read; e = doc_next_in_tree(&lib->doc, graph, e))
-        is_read = doc_attr_value(&lib->doc, e, STR_interfacename) == name;
-    return !is_read;
+    elem_id graph = edit_find_graph(lib, definition);
+    return graph
+           && !library_graph_reads(lib, graph, str_find(lib->doc.strings, input, strlen(input)));
+}
+
+void translate_keep_for_others(struct translation *t)
+{
+    uint32_t from = mxg_document_find_nodedef(t->document, t->surface);
+    for (uint32_t i = 0; i < t->inputs.len; i++) {
+        struct translated_input *input = &t->inputs.items[i];
+        const char *name = input->port.name;
+        if (input->is_set || !translate_is_for_others(t, t->definition, name))
+            continue;
+        for (uint32_t k = 0; k < t->sources.len; k++) {
+            struct source_input *source = &t->sources.items[k];
+            bool fits = translate_is_authored(t, source) && strcmp(source->port.name, name) == 0
+                        && strcmp(source->port.type, input->port.type) == 0
+                        && (!source->is_connected || !input->port.uniform)
+                        && translate_is_for_others(t, from, name);
+            if (!fits)
+                continue;
+            input->value = (struct operand){.kind = OPERAND_LEAF, .type = source->type, .index = k};
+            input->is_set = source->is_used = true;
+        }
+    }
 }
 
 static void drop(struct translation *t, struct translated_input *input)
@@ -101,8 +119,9 @@ void translate_drop_idle(struct translation *t)
     add_surface(t);
     for (uint32_t i = 0; i < t->inputs.len; i++) {
         struct translated_input *input = &t->inputs.items[i];
-        if (input->is_set && !*input->port.defaultgeomprop && !is_for_others(t, input)
-            && !reads(t, i))
+        bool is_for_others =
+            !says_nothing(input) && translate_is_for_others(t, t->definition, input->port.name);
+        if (input->is_set && !*input->port.defaultgeomprop && !is_for_others && !reads(t, i))
             drop(t, input);
     }
 }

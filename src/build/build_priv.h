@@ -189,6 +189,10 @@ static inline void build_apply(struct builder *b, uint32_t nodedef, elem_id wher
  */
 struct memo *build_memo(struct builder *b, uint32_t impl, const ir_ref *args, uint32_t n);
 
+/* unread.c: warns of inputs that a surface has, and the nodegraph of its definition does not read.
+ */
+void build_report_unread(struct builder *b, const struct graph_node *node, elem_id graph);
+
 /* outline.c: the memo of the function for a nodegraph, or LIBRARY_NONE to inline it. */
 uint32_t build_outlined(struct builder *b, const struct frame *frame);
 /* Replaces the arguments of frame->inner by parameters. */

@@ -45,6 +45,9 @@ unsigned doc_type_components(doc_type type);
 bool doc_parse_value(doc_type type, const char *text, size_t len, struct strpool *strings,
                      struct ir_value *out);
 
+/* True if two texts are one value of the type, however it is spelt. */
+bool doc_is_same_value(doc_type type, const char *one, const char *other);
+
 /*
  * True if the text is a value of the type; also for arrays. Always true for types without a syntax
  * (strings, filenames, shaders).

@@ -122,6 +122,19 @@ bool doc_parse_value(doc_type type, const char *text, size_t len, struct strpool
            && parse_numbers(type == DOC_TYPE_integer, text, len, out->w, 16) == (int64_t)components;
 }
 
+bool doc_is_same_value(doc_type type, const char *one, const char *other)
+{
+    struct ir_value a, b;
+    bool is_same = strcmp(one, other) == 0;
+    if (is_same || !doc_type_components(type) || !doc_parse_value(type, one, strlen(one), NULL, &a)
+        || !doc_parse_value(type, other, strlen(other), NULL, &b))
+        return is_same;
+    is_same = true;
+    for (unsigned i = 0; i < ir_type_components(a.type) && is_same; i++)
+        is_same = ir_type_is_float(a.type) ? a.w[i].f == b.w[i].f : a.w[i].u == b.w[i].u;
+    return is_same;
+}
+
 static unsigned read_loosely(doc_type type, struct number_text *t, struct ir_value *out)
 {
     unsigned components = doc_type_components(type);

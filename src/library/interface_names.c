@@ -16,6 +16,15 @@ elem_id library_graph_around(const struct library *lib, elem_id element)
     return element;
 }
 
+bool library_graph_reads(const struct library *lib, elem_id graph, str_id input)
+{
+    for (elem_id at = doc_element(&lib->doc, graph)->first_child; at;
+         at = doc_next_in_tree(&lib->doc, graph, at))
+        if (doc_attr_value(&lib->doc, at, STR_interfacename) == input)
+            return true;
+    return false;
+}
+
 uint32_t library_implemented_nodedef(const struct library *lib, elem_id graph)
 {
     str_id name = graph ? doc_attr_value(&lib->doc, graph, STR_nodedef) : 0;

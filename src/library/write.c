@@ -17,16 +17,6 @@ static bool is_graph(const struct implementation *impl)
     return impl->kind == IMPL_GRAPH && impl->ref == impl->element;
 }
 
-/* True if a node of the graph reads the input. */
-static bool is_read(const struct document *doc, elem_id graph, str_id input)
-{
-    for (elem_id at = doc_element(doc, graph)->first_child; at;
-         at = doc_next_in_tree(doc, graph, at))
-        if (doc_attr_value(doc, at, STR_interfacename) == input)
-            return true;
-    return false;
-}
-
 /* The next input of the definition, from `input` on, that the graph does not read; the number of
  * inputs: there is none. */
 static uint32_t next_loss(const struct library *lib, const struct implementation *graph,
@@ -34,7 +24,7 @@ static uint32_t next_loss(const struct library *lib, const struct implementation
 {
     const struct port *ports = library_ports(lib, graph->nodedef, NULL);
     uint32_t num = library_nodedef(lib, graph->nodedef)->num_inputs;
-    while (input < num && is_read(&lib->doc, graph->element, ports[input].name))
+    while (input < num && library_graph_reads(lib, graph->element, ports[input].name))
         input++;
     return input;
 }

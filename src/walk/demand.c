@@ -211,6 +211,17 @@ static void finish_call(struct builder *b, struct frame *frame, uint32_t functio
     ir_pop_origin(b->graph);
 }
 
+static bool gives_surface(const struct builder *b, const struct nodedef *def,
+                          const struct port *outputs)
+{
+    for (uint32_t i = 0; i < def->num_outputs; i++) {
+        ir_type_id type = library_type_ir(b->lib, outputs[i].type);
+        if (type == IR_TYPE_SURFACE || type == IR_TYPE_MATERIAL)
+            return true;
+    }
+    return false;
+}
+
 static void enter_graph(struct builder *b, struct frame *frame)
 {
     assert(frame->impl->kind == IMPL_GRAPH && frame->phase == PHASE_INPUTS);
@@ -226,6 +237,8 @@ static void enter_graph(struct builder *b, struct frame *frame)
         b->frames.len--;
         return;
     }
+    if (gives_surface(b, def, library_ports(b->lib, frame->node.nodedef, NULL) + def->num_inputs))
+        build_report_unread(b, &frame->node, graph);
     struct memo *memo = build_memo(b, frame->impl->ref, frame->args, def->num_inputs);
     frame->has_tokens = build_has_tokens(b, frame->node.element);
     if (memo->first_result && !frame->has_tokens) {
@@ -320,17 +333,6 @@ static void leave_graph(struct builder *b)
     ir_set_results(b->graph, frame->function, results, def->num_outputs);
     b->memos.items[frame->outline].function = frame->function + 1;
     finish_call(b, frame, frame->function);
-}
-
-static bool gives_surface(const struct builder *b, const struct nodedef *def,
-                          const struct port *outputs)
-{
-    for (uint32_t i = 0; i < def->num_outputs; i++) {
-        ir_type_id type = library_type_ir(b->lib, outputs[i].type);
-        if (type == IR_TYPE_SURFACE || type == IR_TYPE_MATERIAL)
-            return true;
-    }
-    return false;
 }
 
 /* True if it began to build an <aov> of the inner graph, which nothing needs to read. */

@@ -231,7 +231,7 @@ check 'has both networks' has marble.usda 'info:id = "UsdPreviewSurface"' 'asset
     'outputs:surface.connect = </marble/Materials/Marble/preview.outputs:surface>' 'info:id = "ND_fractal3d_float"' \
     'outputs:mtlx:surface.connect = </marble/Materials/Marble/SR_marble.outputs:out>' 'rel material:binding = </marble/Materials/Marble>'
 # draws FILE PICTURE. A distance counts in the size of a mesh, which is the radius here, or that of a stage: half the diagonal of its box.
-draws() { exits 0 "$render" --stage "$1" -s 64 --camera 25,16,1.7320508 -o "$2" && ! grep warning err; }
+draws() { exits 0 "$render" --stage "$1" -Wno-unread-input -s 64 --camera 25,16,1.7320508 -o "$2" && ! grep warning err; }
 sed 's/outputs:surface.connect/outputs:none.connect/' marble.usda >network.usda
 sed '/outputs:mtlx:surface.connect/d' marble.usda >preview.usda
 check 'mxgen draws the graph of the stage' draws network.usda network.exr

@@ -203,6 +203,21 @@ def test_losses():
     check("in.mtlx:1:" in said and "[no-translation]" in said, "no way leads from slabs to a model with another source alone")
 
 
+def test_inputs_of_others():
+    """What no shader reads stays where the other model has it, and is told as lost elsewhere."""
+    for occlusion in ('value="0.5"', 'nodename="T"'):
+        text = '<image name="T" type="float"/><gltf_pbr name="S" type="surfaceshader">' \
+            f'<input name="occlusion" type="float" {occlusion}/><input name="thickness" type="float" value="0.1"/></gltf_pbr>'
+        root, said, _ = translate(text, "UsdPreviewSurface", "an occlusion")
+        kept = surface(root).find("input[@name='occlusion']")
+        check(kept is not None and f'{kept.get("value")}{kept.get("nodename")}' in ("0.5None", "NoneT"), f"an occlusion stays: {occlusion}")
+        check("'thickness' of <gltf_pbr> is for other programs" in said and "'occlusion'" not in said, f"a volume is lost, an occlusion is not: {said[:300]}")
+        _, said, _ = translate(text, "standard_surface", "an occlusion")
+        check("in.mtlx:1:" in said and "'occlusion' of <gltf_pbr> is for other programs" in said and "[translation-loss]" in said, f"a lost occlusion is told: {said[:300]}")
+    _, said, _ = translate('<UsdPreviewSurface name="S" type="surfaceshader"><input name="occlusion" type="float" value="1.0"/></UsdPreviewSurface>', "standard_surface", "no occlusion")
+    check("occlusion" not in said, "a default is no loss")
+
+
 def test_spaces():
     inputs = {"base_color": ("color3", "0.5, 0.5, 0.5"), "metalness": ("float", "0.5")}
     text = f'<?xml version="1.0"?><materialx version="1.39" colorspace="srgb_texture">{flat("standard_surface", inputs)}</materialx>'
@@ -269,6 +284,7 @@ test_exact()
 test_graphs()
 test_choices()
 test_losses()
+test_inputs_of_others()
 test_spaces()
 test_studio()
 test_files()
