@@ -3,6 +3,7 @@
  * The element tree: types and values, building, names in layers, templates, namespaces, validation.
  * Upgrades: test_upgrade.c.
  */
+#include "cases.h"
 #include "document_fixture.h"
 
 #define ROOT "<materialx version=\"1.39\">"
@@ -142,61 +143,6 @@ static void test_layers(void)
     fixture_close(&f);
 }
 
-static void test_duplicates(void)
-{
-    REQUIRE_MESSAGES(ROOT "\n<a name=\"n\"/>\n<b name=\"n\"/>\n" END, NULL,
-                     "3:10 duplicate-name, 2:10 previous-definition");
-    REQUIRE_MESSAGES(ROOT "\n<a name=\"n\"/>\n<a name=\"n\" type=\"x\"/>\n" END, NULL,
-                     "3:10 duplicate-name, 2:10 previous-definition");
-    REQUIRE_MESSAGES(ROOT "\n<a name=\"n\"><b/></a>\n<a name=\"n\"><b/><b/></a>\n" END, NULL,
-                     "3:10 duplicate-name, 2:10 previous-definition");
-    REQUIRE_MESSAGES(
-        ROOT
-        "\n<a name=\"n\" x=\"1\" y=\"2\"><b/></a>\n<a y=\"2\" x=\"1\" name=\"n\"><b/></a>\n" END,
-        NULL, "3:22 repeated-element, 2:10 previous-definition");
-    REQUIRE_TREE(ROOT "<a name=\"n\"/><a name=\"n\"/><a/><a/>" END, NULL,
-                 "<a name=\"n\"/>\n<a/>\n<a/>\n");
-}
-
-static void test_templates(void)
-{
-    REQUIRE_TREE(ROOT "<first/><template vars=\"type n\" rows=\"float 1; color3 2;\">"
-                      "<a name=\"x_@type@_@n@\" t=\"@type@\" z=\"@type.zero@\" o=\"@type.one@\" "
-                      "h=\"@type.half@\" g=\"@type.glsl@\" "
-                      "s=\"@type.size@\"/><b mail=\"a@b.c\"/></template><last/>" END,
-                 NULL,
-                 "<first/>\n"
-                 "<a name=\"x_float_1\" t=\"float\" z=\"0.0\" o=\"1.0\" h=\"0.5\" g=\"float\" "
-                 "s=\"1\"/>\n<b mail=\"a@b.c\"/>\n"
-                 "<a name=\"x_color3_2\" t=\"color3\" z=\"0.0, 0.0, 0.0\" o=\"1.0, 1.0, 1.0\" "
-                 "h=\"0.5, 0.5, 0.5\" g=\"vec3\" s=\"3\"/>\n"
-                 "<b mail=\"a@b.c\"/>\n<last/>\n");
-    REQUIRE_TREE(ROOT "<template vars=\"t\" rows=\"matrix33; boolean; integer; filename\"><a "
-                      "one=\"@t.one@\" g=\"@t.glsl@\"/></template>" END,
-                 NULL,
-                 "<a one=\"1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0\" g=\"mat3\"/>\n<a "
-                 "one=\"true\" g=\"bool\"/>\n"
-                 "<a one=\"1\" g=\"int\"/>\n<a one=\"\" g=\"sampler2D\"/>\n");
-    REQUIRE_TREE(ROOT "<nodedef><template vars=\"a\" rows=\"1; 2\"><template vars=\"b\" "
-                      "rows=\"@a@x; y\"><in v=\"@a@@b@\"><in/></in>"
-                      "</template><in v=\"@a@\"/></template></nodedef>" END,
-                 NULL,
-                 "<nodedef>\n  <in v=\"11x\">\n    <in/>\n  </in>\n  <in v=\"1y\">\n    <in/>\n  "
-                 "</in>\n  <in v=\"1\"/>\n"
-                 "  <in v=\"22x\">\n    <in/>\n  </in>\n  <in v=\"2y\">\n    <in/>\n  </in>\n  <in "
-                 "v=\"2\"/>\n</nodedef>\n");
-    REQUIRE_MESSAGES(ROOT "<template rows=\"x\"><a/></template>" END, NULL, "1:27 template-bad");
-    REQUIRE_MESSAGES(ROOT "<template vars=\"a b\" rows=\"1 2; 3\"><a/></template>" END, NULL,
-                     "1:54 template-bad");
-    REQUIRE_MESSAGES(ROOT "<template vars=\"a\" rows=\"1\"><a b=\"@c@\"/></template>" END, NULL,
-                     "1:43 template-bad");
-    REQUIRE_MESSAGES(ROOT "<template vars=\"a\" rows=\"1\"><a b=\"@a.zero@\"/></template>" END,
-                     NULL, "1:52 template-bad");
-    REQUIRE_MESSAGES(ROOT "<template vars=\"a\" rows=\"1\"><template vars=\"a\" "
-                          "rows=\"2\"><x/></template></template>" END,
-                     NULL, "1:43 template-bad");
-}
-
 static void test_namespaces(void)
 {
     static const struct fixture_file files[] = {
@@ -231,75 +177,21 @@ static void test_namespaces(void)
     fixture_close(&f);
 }
 
-static void require_valid(const char *content, const char *expected)
+/* "tree", "messages" or "validated": what a document with this content is, or gives. */
+static void run_case(const struct test_case *c)
 {
     struct fixture f;
+    struct text text, said;
     fixture_init(&f);
-    struct text text;
     text_init(&text, &f.arena);
-    text_fmt(&text, ROOT "\n%s" END, content);
+    text_fmt(&text, ROOT "\n%s" END, c->in);
     fixture_read_bytes(&f, text.data, text.len, NULL);
-    doc_validate(&f.doc, &f.diags);
-    if (!REQUIRE_STR(fixture_messages(&f), expected))
-        printf("    in %s\n", content);
+    if (strcmp(c->words, "validated") == 0)
+        doc_validate(&f.doc, &f.diags);
+    text_init(&said, &f.arena);
+    text_fmt(&said, f.diags.items.len ? "%s\n" : "%s", fixture_messages(&f));
+    REQUIRE_STR(strcmp(c->words, "tree") == 0 ? fixture_tree(&f) : text_cstr(&said), c->out);
     fixture_close(&f);
-}
-
-static void test_validation(void)
-{
-    require_valid("", "");
-    require_valid("<nodedef name=\"ND_a\" node=\"a\"><input name=\"in\" type=\"float\" "
-                  "value=\"1\"/><output name=\"out\" type=\"float\"/></nodedef>"
-                  "<nodegraph name=\"NG_a\" nodedef=\"ND_a\"><add name=\"b\" type=\"float\"><input "
-                  "name=\"in1\" type=\"float\" interfacename=\"in\"/>"
-                  "</add><output name=\"out\" type=\"float\" nodename=\"b\"/></nodegraph>"
-                  "<add name=\"c\" type=\"float\"><input name=\"in1\" type=\"float\" "
-                  "nodegraph=\"NG_a\"/></add>",
-                  "");
-    require_valid("<add name=\"1a\" type=\"float\"/>", "2:12 bad-name");
-    require_valid("<add name=\"a b\" type=\"float\"/>", "2:12 bad-name");
-    require_valid("<add type=\"float\"/>", "2:1 name-missing");
-    require_valid("<add name=\"a\"/>", "2:1 missing-attribute");
-    require_valid("<add name=\"a\" type=\"flaot\"/>", "2:21 unknown-type");
-    require_valid("<typedef name=\"t\"><member name=\"m\" type=\"float\" "
-                  "value=\"x\"/></typedef><add name=\"a\" type=\"t\"/>",
-                  "2:56 bad-value");
-    require_valid(
-        "<add name=\"a\" type=\"float\"><input name=\"in1\" type=\"float\" value=\"abc\"/></add>",
-        "2:66 bad-value");
-    require_valid("<nodedef name=\"N\" node=\"n\"><input name=\"i\" type=\"color3\" "
-                  "uimax=\"1\"/><output name=\"o\" type=\"float\"/></nodedef>",
-                  "2:65 bad-value");
-    require_valid("<nodedef name=\"N\" node=\"n\"/>", "2:1 no-output");
-    require_valid("<input name=\"i\" type=\"float\"/>", ""); /* of the document */
-    require_valid("<look name=\"L\"><input name=\"i\" type=\"float\"/></look>",
-                  "2:16 misplaced-element");
-    require_valid("<nodedef name=\"N\" node=\"n\"><add name=\"a\" type=\"float\"/><output "
-                  "name=\"o\" type=\"float\"/></nodedef>",
-                  "2:28 misplaced-element");
-    require_valid("<add name=\"b\" type=\"float\"/><add name=\"a\" type=\"float\"><input "
-                  "name=\"in1\" type=\"float\" nodename=\"b\" value=\"1\"/></add>",
-                  "2:107 value-and-connection");
-    require_valid("<add name=\"b\" type=\"float\"/><nodegraph name=\"c\"><output name=\"o\" "
-                  "type=\"float\"/></nodegraph>"
-                  "<add name=\"a\" type=\"float\"><input name=\"in1\" type=\"float\" "
-                  "nodename=\"b\" nodegraph=\"c\"/></add>",
-                  "2:119 several-connections");
-    require_valid(
-        "<add name=\"a\" type=\"float\"><input name=\"in1\" type=\"float\" nodename=\"b\"/></add>"
-        "<add name=\"b\" type=\"float\"><input name=\"in1\" type=\"float\" nodename=\"a\"/></add>",
-        "2:12 cycle, 2:147 reads, 2:69 reads");
-    require_valid(
-        "<add name=\"a\" type=\"float\"><input name=\"in1\" type=\"float\" nodename=\"a\"/></add>",
-        "2:12 cycle, 2:69 reads");
-    require_valid("<nodedef name=\"N\" node=\"n\" inherit=\"M\"/>", "2:37 inherit-missing");
-    require_valid("<nodedef name=\"N\" node=\"n\" inherit=\"M\"/><nodedef name=\"M\" node=\"n\" "
-                  "inherit=\"N\"/>",
-                  "2:37 inherit-cycle");
-    require_valid(
-        "<look name=\"l\"><materialassign name=\"m\" material=\"x\" collection=\"c\"/></look>",
-        "2:66 dangling-reference, 2:51 dangling-reference");
-    require_valid("<implementation name=\"i\"/>", "2:1 missing-attribute");
 }
 
 static void test_writing(void)
@@ -314,17 +206,16 @@ static void test_writing(void)
     fixture_close(&f);
 }
 
-int main(void)
+/* The argument is the path of document.txt. */
+int main(int argc, char **argv)
 {
     xml_startup();
+    test_cases(argc > 1 ? argv[1] : NULL, run_case);
     test_types();
     test_values();
     test_building();
     test_layers();
-    test_duplicates();
-    test_templates();
     test_namespaces();
-    test_validation();
     test_writing();
     return test_report("document");
 }
