@@ -9,7 +9,7 @@
 #include "test.h"
 
 struct test_case {
-    char words[128], in[4096], out[4096]; /* words without "== "; out is empty without a "--" */
+    char words[128], in[8192], out[8192]; /* words without "== "; out is empty without a "--" */
 };
 
 static inline void test_case_add(char *text, size_t capacity, const char *line)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /* The library room: definitions, what nodes match, what ports are connected to, the image. */
+#include "cases.h"
 #include "layers_fixture.h"
 #include "specialise/specialise.h"
 #include "tree/eval.h"
@@ -22,62 +23,7 @@ static const struct layer_file files[] = {
 #define OUTPUT(name, type) "<output name='" name "' type='" type "'/>"
 #define IMPL(name, nodedef, more) "<implementation name='" name "' nodedef='" nodedef "' " more "/>"
 
-static const char standard[] =
-    "<typedef name='span'><member name='low' type='float'/><member name='high' type='vector3'/>"
-    "</typedef>"
-    "<typedef name='handle' semantic='opaque'/>"
-    "<unitdef name='UD_distance' unittype='distance'><unit name='foot' scale='0.25'/>"
-    "<unit name='meter' scale='1'/></unitdef>"
-    "<unitdef name='UD_angle' unittype='angle'><unit name='degree' scale='1'/></unitdef>"
-    "<unittypedef name='shoe'/><unitdef name='UD_shoe' unittype='shoe'><unit name='foot' "
-    "scale='3'/></unitdef>"
-    "<geompropdef name='UV1' type='vector2' geomprop='texcoord' index='1'/>"
-    "<geompropdef name='Nworld' type='vector3' geomprop='normal' space='world'/>"
-    "<geompropdef name='wear' type='float'/>"
-    /* one node of two types */
-    NODEDEF("ND_gain_float", "gain", "",
-            INPUT("in", "float", "value='0.5'") INPUT("amount", "float", "value='1'")
-                INPUT("mode", "string", "value='linear' uniform='true' enum='linear, cubic'")
-                    OUTPUT("out", "float"))
-        NODEDEF("ND_gain_color3", "gain", "",
-                INPUT("in", "color3", "") INPUT("amount", "float", "value='2'")
-                    OUTPUT("out", "color3"))
-            NODEDEF("ND_texcoord_vector2", "texcoord", "", OUTPUT("out", "vector2"))
-                NODEDEF("ND_split_color3", "split", "",
-                        INPUT("in", "vector3", "defaultgeomprop='Nworld'") OUTPUT("low", "float")
-                            OUTPUT("high", "float"))
-    /* versions */
-    NODEDEF("ND_tone_1", "tone", "version='1.0'",
-            INPUT("in", "float", "value='1'") OUTPUT("out", "float"))
-        NODEDEF("ND_tone_2", "tone", "version='2.0' isdefaultversion='true' inherit='ND_tone_1'",
-                INPUT("curve", "float", "value='3'"))
-            NODEDEF("ND_tone_3", "tone", "version='3.0' inherit='ND_tone_2'",
-                    INPUT("in", "float", "value='7'") INPUT("last", "integer", "value='5'"))
-    /* a node without a default version */
-    NODEDEF("ND_beta_1", "beta", "version='0.1'", OUTPUT("out", "float")) NODEDEF(
-        "ND_matte", "matte", "", INPUT("color", "color3", "value='1, 1, 1'") OUTPUT("out", "BSDF"))
-        NODEDEF("ND_acescg_to_lin_rec709_color3", "acescg_to_lin_rec709", "",
-                INPUT("in", "color3", "") OUTPUT("out", "color3"))
-            IMPL("IM_gain_float", "ND_gain_float", "sourcecode='{{in}} * {{amount}}'") IMPL(
-                "IM_gain_float_old", "ND_gain_float", "target='genold' file='old.c' function='old'")
-                IMPL("IM_texcoord", "ND_texcoord_vector2",
-                     "") IMPL("IM_split", "ND_split_color3", "file='wave.glsl' function='split'")
-                    IMPL("IM_tone_1", "ND_tone_1", "sourcecode='{{in}} +'") IMPL(
-                        "IM_matte", "ND_matte",
-                        "file='matte.glsl' function='matte'") "<nodegraph name='NG_tone_2' "
-                                                              "nodedef='ND_tone_2'>"
-                                                              "<gain name='first' "
-                                                              "type='float'><input name='in' "
-                                                              "type='float' interfacename='in'/>"
-                                                              "<input name='amount' type='float' "
-                                                              "value='4'/></gain>"
-                                                              "<gain name='second' "
-                                                              "type='float'><input name='in' "
-                                                              "type='float' nodename='first'/>"
-                                                              "<input name='amount' type='float' "
-                                                              "interfacename='curve'/></gain>"
-                                                              "<output name='out' type='float' "
-                                                              "nodename='second'/></nodegraph>";
+static char standard[8192]; /* the library below the documents, from library.txt */
 
 static uint32_t def(struct layers *l, const char *name)
 {
@@ -271,71 +217,24 @@ static void test_trust(void)
 
 /* ---- What nodes match ---- */
 
-/* The definition that the node n of a document matches, then what is reported. */
-static void require_match(const char *document, const char *expected, const char *messages,
-                          const char *file, int line)
+/* "match": the definition that the node n matches, and on lines of their own what is reported. */
+static void run_case(const struct test_case *c)
 {
+    if (strcmp(c->words, "base") == 0) {
+        snprintf(standard, sizeof standard, "%s", c->in);
+        return;
+    }
     struct layers l;
-    layers_open(&l, files, standard, document);
+    struct text found;
+    layers_open(&l, files, standard, c->in);
     uint32_t id = library_match(&l.lib, layers_element(&l, "n"), &l.diags);
-    const char *found =
-        id == LIBRARY_NONE ? "-" : layers_text(&l, library_nodedef(&l.lib, id)->name);
-    test_same_text(found, expected, file, line, document);
-    test_same_text(layers_messages(&l), messages, file, line, document);
+    const char *messages = layers_messages(&l);
+    text_init(&found, &l.arena);
+    text_fmt(&found, "%s\n%s%s",
+             id == LIBRARY_NONE ? "-" : layers_text(&l, library_nodedef(&l.lib, id)->name),
+             messages, *messages ? "\n" : "");
+    REQUIRE_STR(text_cstr(&found), c->out);
     layers_close(&l);
-}
-#define REQUIRE_MATCH(document, expected, messages) \
-    require_match(document, expected, messages, __FILE__, __LINE__)
-
-static void test_match_by_types(void)
-{
-    REQUIRE_MATCH("<gain name='n' type='float'/>", "ND_gain_float", "");
-    REQUIRE_MATCH("<gain name='n' type='color3'/>", "ND_gain_color3", "");
-    REQUIRE_MATCH("<gain name='n' type='vector2'/>", "-", "no-matching-nodedef");
-    /* by the types of inputs, where the node has no type */
-    REQUIRE_MATCH("<gain name='n'><input name='in' type='color3' value='1, 1, 1'/></gain>",
-                  "ND_gain_color3", "");
-    REQUIRE_MATCH("<gain name='n' type='float'><input name='in' type='color3'/></gain>",
-                  "ND_gain_float", "input-type");
-    /* an input that only another definition has counts against it */
-    REQUIRE_MATCH("<gain name='n'><input name='mode' type='string'/></gain>", "ND_gain_float", "");
-    REQUIRE_MATCH("<gain name='n' type='color3'><input name='mode' type='string'/></gain>",
-                  "ND_gain_color3", "unknown-input");
-    REQUIRE_MATCH("<split name='n' type='multioutput'/>", "ND_split_color3", "");
-    REQUIRE_MATCH("<split name='n' type='float'/>", "-", "no-matching-nodedef");
-    REQUIRE_MATCH("<gian name='n' type='float'/>", "-", "unknown-node");
-}
-
-static void test_match_by_version(void)
-{
-    REQUIRE_MATCH("<tone name='n' type='float'/>", "ND_tone_2", "");
-    REQUIRE_MATCH("<tone name='n' type='float' version='1.0'/>", "ND_tone_1", "");
-    REQUIRE_MATCH("<tone name='n' type='float' version='3.0'/>", "ND_tone_3", "");
-    REQUIRE_MATCH("<tone name='n' type='float' version='9.0'/>", "ND_tone_2",
-                  "unknown-nodedef-version");
-    REQUIRE_MATCH("<beta name='n' type='float'/>", "ND_beta_1", "unknown-nodedef-version");
-    REQUIRE_MATCH("<beta name='n' type='float' version='0.1'/>", "ND_beta_1", "");
-    /* an input that only an older version has does not choose it */
-    REQUIRE_MATCH("<tone name='n' type='float'><input name='last' type='integer'/></tone>",
-                  "ND_tone_2", "unknown-input");
-}
-
-static void test_match_by_name(void)
-{
-    REQUIRE_MATCH("<tone name='n' type='float' nodedef='ND_tone_1'/>", "ND_tone_1", "");
-    REQUIRE_MATCH("<gain name='n' type='color3' nodedef='ND_gain_color3'/>", "ND_gain_color3", "");
-    REQUIRE_MATCH("<gain name='n' type='float' nodedef='ND_gian'/>", "-", "unknown-nodedef");
-    REQUIRE_MATCH("<gain name='n' type='float' nodedef='ND_tone_1'/>", "ND_tone_1",
-                  "nodedef-of-other-node");
-    REQUIRE_MATCH("<gain name='n' type='vector2' nodedef='ND_gain_float'/>", "-",
-                  "no-matching-nodedef");
-    /* definitions of the document come before those of the library */
-    REQUIRE_MATCH("<gain name='n' type='float'/>" NODEDEF(
-                      "ND_mine", "gain", "", INPUT("in", "float", "") OUTPUT("out", "float")),
-                  "ND_mine", "");
-    REQUIRE_MATCH("<gain name='n' type='float'><input name='amount' type='float'/></gain>" NODEDEF(
-                      "ND_mine", "gain", "", INPUT("in", "float", "") OUTPUT("out", "float")),
-                  "ND_gain_float", "");
 }
 
 /* ---- What ports are connected to ---- */
@@ -692,16 +591,15 @@ static void test_damage(void)
     free(image.data);
 }
 
-int main(void)
+/* The argument is the path of library.txt. */
+int main(int argc, char **argv)
 {
+    test_cases(argc > 1 ? argv[1] : NULL, run_case);
     test_lookup();
     test_types();
     test_inheritance();
     test_implementations();
     test_trust();
-    test_match_by_types();
-    test_match_by_version();
-    test_match_by_name();
     test_connections();
     test_interfaces();
     test_cycles();
