@@ -17,7 +17,7 @@ typedef enum mxg_view {
     MXG_VIEW_ELEMENTS, /* the element tree and the renderables */
     MXG_VIEW_GRAPH,    /* nodes and connections as text */
     MXG_VIEW_DOT,      /* the same for Graphviz */
-    MXG_VIEW_IR,       /* the optimised IR, parseable (docs/ir.md) */
+    MXG_VIEW_IR,       /* the optimised IR (docs/ir.md) */
     MXG_VIEW_CLOSURES, /* leaves with weights */
     MXG_VIEW_STATISTICS,
     /* the tree of slabs, what they cost, and steps to one slab (docs/slabs.md) */

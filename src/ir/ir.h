@@ -492,16 +492,9 @@ struct ir_pass {
 const ir_ref *ir_rebuild(struct ir_graph *graph, const uint8_t *needed, const struct ir_pass *pass,
                          struct arena *arena);
 
-/*
- * print.c, parse.c: the text form (docs/ir.md). ir_parse reads the output of ir_print back to an
- * equal graph.
- */
-
+/* print.c: the text form (docs/ir.md). */
 void ir_print(const struct ir_graph *graph, const ir_ref *roots, uint32_t num_roots,
               struct text *out);
-/* NULL, or the syntax error, with *out_line from 1. "return" lines list the roots. */
-const char *ir_parse(struct ir_graph *graph, const char *text, size_t len, ir_ref **out_roots,
-                     uint32_t *out_num_roots, uint32_t *out_line);
 
 /*
  * check.c: NULL, or the first broken invariant of a graph. *out_node receives the node that breaks

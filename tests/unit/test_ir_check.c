@@ -6,6 +6,7 @@
  */
 #include "ir/ir.h"
 
+#include "ir_text.h"
 #include "test.h"
 
 #include <signal.h>
@@ -169,9 +170,8 @@ static void setup(struct fixture *f, const char *text)
     ir_add_origin(&f->graph, 0, 0, 0);
     f->graph.no_fold = true;
     ir_ref *roots, node;
-    uint32_t num_roots, line;
-    REQUIRE_STR(ir_parse(&f->graph, text, strlen(text), &roots, &num_roots, &line) ? "bad" : "good",
-                "good");
+    uint32_t num_roots;
+    REQUIRE_EQ(ir_text_read(&f->graph, text, &roots, &num_roots), 0);
     REQUIRE(!ir_check(&f->graph, &node));
 }
 

@@ -7,6 +7,7 @@
  */
 #include "ir/ir_priv.h"
 
+#include "ir_text.h"
 #include "test.h"
 
 #include <stdlib.h>
@@ -160,7 +161,7 @@ static void test_example(const char *example, size_t len)
     struct ir_graph graph;
     struct text plain, printed;
     ir_ref *roots;
-    uint32_t num_roots, line;
+    uint32_t num_roots;
     strpool_init(&strings, &arena, NULL);
     ir_graph_init(&graph, &arena, &strings);
     text_init(&plain, &arena);
@@ -171,7 +172,7 @@ static void test_example(const char *example, size_t len)
                 i++;
         text_char(&plain, example[i]);
     }
-    REQUIRE(!ir_parse(&graph, example, len, &roots, &num_roots, &line));
+    REQUIRE_EQ(ir_text_read(&graph, arena_strndup(&arena, example, len), &roots, &num_roots), 0);
     ir_print(&graph, roots, num_roots, &printed);
     REQUIRE_STR(text_cstr(&printed), text_cstr(&plain));
 }

@@ -5,6 +5,7 @@
  */
 #include "ir/ir.h"
 
+#include "ir_text.h"
 #include "test.h"
 
 static const struct {
@@ -297,12 +298,11 @@ static const char *evaluate(struct ir_graph *graph, const char *node)
 {
     struct text text;
     ir_ref *roots;
-    uint32_t num_roots, line;
+    uint32_t num_roots;
     text_init(&text, graph->arena);
     text_fmt(&text, "%%r = %s\nreturn %%r\n", node);
-    const char *problem = ir_parse(graph, text.data, text.len, &roots, &num_roots, &line);
-    if (problem)
-        return problem;
+    if (ir_text_read(graph, text_cstr(&text), &roots, &num_roots))
+        return "no IR";
     seen[ir_get(graph, roots[0])->op] = true;
     struct ir_value value;
     if (!ir_eval(graph, roots[0], NULL, graph->arena, &value))

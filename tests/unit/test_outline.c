@@ -5,6 +5,7 @@
  */
 #include "base/text.h"
 #include "ir/ir.h"
+#include "unit/ir_text.h"
 #include "unit/test.h"
 
 #include <mxgen/mxgen.h>
@@ -79,7 +80,7 @@ static bool is_time(void *user_data, const struct ir_graph *graph, ir_ref ref, s
     return ir_get(graph, ref)->op == IR_UNIFORM;
 }
 
-static void check_ir(const char *text, size_t size, unsigned depth, struct mem *mem)
+static void check_ir(const char *text, unsigned depth, struct mem *mem)
 {
     struct arena arena;
     struct strpool strings;
@@ -88,10 +89,10 @@ static void check_ir(const char *text, size_t size, unsigned depth, struct mem *
     strpool_init(&strings, &arena, NULL);
     ir_graph_init(&graph, &arena, &strings);
     ir_ref *roots;
-    uint32_t num_roots, line;
+    uint32_t num_roots;
     struct ir_value value;
     struct ir_eval_env env = {.source = is_time};
-    if (REQUIRE(!ir_parse(&graph, text, size, &roots, &num_roots, &line)) && REQUIRE(num_roots == 1)
+    if (REQUIRE(!ir_text_read(&graph, text, &roots, &num_roots)) && REQUIRE(num_roots == 1)
         && REQUIRE(ir_eval(&graph, roots[0], &env, &arena, &value))) {
         float expected = expanded(depth, test_time, 1.5f);
         REQUIRE(fabsf(value.w[0].f - expected) <= 1e-5f * (1.0f + fabsf(expected)));
@@ -126,11 +127,8 @@ int main(void)
         REQUIRE_EQ(
             mxg_document_parse(context, library, "nested.mtlx", source.data, source.len, &document),
             MXG_OK);
-        if (REQUIRE_EQ(mxg_inspect(context, document, MXG_VIEW_IR, &desc, &result), MXG_OK)) {
-            size_t size;
-            const char *text = mxg_result_text(result, &size);
-            check_ir(text, size, depth, &mem);
-        }
+        if (REQUIRE_EQ(mxg_inspect(context, document, MXG_VIEW_IR, &desc, &result), MXG_OK))
+            check_ir(mxg_result_text(result, NULL), depth, &mem);
         mxg_result_destroy(result);
         mxg_document_destroy(document);
         arena_finish(&arena);

@@ -4,6 +4,7 @@
 #include "base/mem.h"
 #include "translate/nodes.h"
 
+#include "ir_text.h"
 #include "test.h"
 
 #include <stdio.h>
@@ -56,16 +57,13 @@ static void expect(const char *ir, enum value_type type, const char *wanted)
     struct strpool strings;
     struct value_nodes nodes = {.arena = &arena, .leaf = leaf};
     ir_ref *roots;
-    uint32_t count, line;
+    uint32_t count;
     struct operand value;
     struct text text;
     strpool_init(&strings, &arena, NULL);
     ir_graph_init(&graph, &arena, &strings);
-    const char *fault = ir_parse(&graph, ir, strlen(ir), &roots, &count, &line);
-    if (!REQUIRE(!fault && count == 1)) {
-        printf("    line %u: %s\n", (unsigned)line, fault ? fault : "roots");
+    if (!REQUIRE_EQ(ir_text_read(&graph, ir, &roots, &count), 0) || !REQUIRE_EQ(count, 1))
         return;
-    }
     text_init(&text, &arena);
     const char *lacks = value_nodes_add(&nodes, &graph, roots[0], type, &value);
     if (lacks)

@@ -1,30 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-/*
- * parse: the text form of a graph (docs/ir.md). One statement per line. The builder makes the
- * nodes, so it folds the text like any other input, unless graph->no_fold is set.
- */
-#include "ir/ir_priv.h"
+#include "ir_text.h"
 
 #include "base/num.h"
+#include "ir/ir_priv.h"
 
 #include <math.h>
 
 struct parser {
     struct ir_graph *graph;
     const char *at, *end;
-    const char *problem; /* the first problem; all later reads fail */
     struct strpool labels;
     VEC(ir_ref) label_refs; /* node by label id; 0 = not defined */
     VEC(ir_ref) roots;
     VEC(ir_ref) operands; /* operands of the current statement */
 };
-
-static bool fail(struct parser *p, const char *problem)
-{
-    if (!p->problem)
-        p->problem = problem;
-    return false;
-}
 
 static void skip_blanks(struct parser *p)
 {
@@ -38,17 +27,13 @@ static char peek(struct parser *p)
     return p->at < p->end ? *p->at : '\n';
 }
 
+/* This function and those below return false if something else stands there. */
 static bool accept(struct parser *p, char c)
 {
     if (peek(p) != c || p->at == p->end)
         return false;
     p->at++;
     return true;
-}
-
-static bool expect(struct parser *p, char c, const char *problem)
-{
-    return accept(p, c) || fail(p, problem);
 }
 
 static bool at_line_end(struct parser *p)
@@ -97,7 +82,7 @@ static bool read_u32(struct parser *p, uint32_t *out)
     skip_blanks(p);
     size_t n = num_parse_int(p->at, (size_t)(p->end - p->at), &value);
     if (n == 0 || value < 0 || value > UINT32_MAX)
-        return fail(p, "a number from 0 to 4294967295 was expected");
+        return false;
     p->at += n;
     *out = (uint32_t)value;
     return true;
@@ -129,22 +114,20 @@ static char read_escape(struct parser *p)
 
 static bool read_string(struct parser *p, str_id *out)
 {
-    if (!p->graph->strings)
-        return fail(p, "the graph has no strings");
-    if (!expect(p, '"', "a string was expected"))
+    if (!p->graph->strings || !accept(p, '"'))
         return false;
     struct text text;
     text_init(&text, p->graph->arena);
     for (;;) {
         if (p->at == p->end || *p->at == '\n')
-            return fail(p, "the string does not end on its line");
+            return false;
         char c = *p->at++;
         if (c == '"')
             break;
         if (c == '\\')
             c = read_escape(p);
         if (c == '\0')
-            return fail(p, "the string has a character that may not stand there");
+            return false;
         text_char(&text, c);
     }
     *out = str_intern(p->graph->strings, text.data, text.len);
@@ -156,7 +139,7 @@ static bool read_type(struct parser *p, ir_type_id *out)
     if (accept(p, '$')) {
         uint32_t index;
         if (!read_u32(p, &index) || index >= p->graph->user_types.len)
-            return fail(p, "there is no such struct or array");
+            return false;
         *out = (ir_type_id)(IR_TYPE_FIRST_USER + index);
         return true;
     }
@@ -167,7 +150,7 @@ static bool read_type(struct parser *p, ir_type_id *out)
             return true;
         }
     }
-    return fail(p, "a type was expected");
+    return false;
 }
 
 /* ---- Constants ---- */
@@ -176,8 +159,7 @@ static bool read_float(struct parser *p, union ir_word *out)
 {
     skip_blanks(p);
     if (accept_word(p, "nan"))
-        return expect(p, '#', "'#' and the bits were expected after nan") && read_u32(p, &out->u)
-               && (isnan(out->f) || fail(p, "these are not the bits of a NaN"));
+        return accept(p, '#') && read_u32(p, &out->u) && isnan(out->f);
     const char *start = p->at;
     bool negative = accept(p, '-');
     if (accept_word(p, "inf")) {
@@ -187,7 +169,7 @@ static bool read_float(struct parser *p, union ir_word *out)
     p->at = start;
     size_t n = num_parse_float(p->at, (size_t)(p->end - p->at), &out->f);
     p->at += n;
-    return n > 0 || fail(p, "a number was expected");
+    return n > 0;
 }
 
 static bool read_integer(struct parser *p, ir_type_id scalar, union ir_word *out)
@@ -197,16 +179,16 @@ static bool read_integer(struct parser *p, ir_type_id scalar, union ir_word *out
     skip_blanks(p);
     size_t n = num_parse_int(p->at, (size_t)(p->end - p->at), &value);
     if (n == 0 || value < least || value > most)
-        return fail(p, "an integer of 32 bits was expected");
+        return false;
     p->at += n;
     out->u = (uint32_t)value;
-    return scalar == IR_TYPE_INT || expect(p, 'u', "'u' was expected after the number");
+    return scalar == IR_TYPE_INT || accept(p, 'u');
 }
 
 static bool read_bool(struct parser *p, union ir_word *out)
 {
     out->u = accept_word(p, "true");
-    return out->u || accept_word(p, "false") || fail(p, "'true' or 'false' was expected");
+    return out->u || accept_word(p, "false");
 }
 
 static bool read_scalar(struct parser *p, ir_type_id scalar, union ir_word *out)
@@ -217,7 +199,7 @@ static bool read_scalar(struct parser *p, ir_type_id scalar, union ir_word *out)
     case IR_TYPE_UINT: return read_integer(p, scalar, out);
     case IR_TYPE_STRING: return read_string(p, &out->u);
     case IR_TYPE_FLOAT: return read_float(p, out);
-    default: return fail(p, "a type without values has no constants");
+    default: return false;
     }
 }
 
@@ -250,7 +232,7 @@ static bool read_const(struct parser *p, ir_ref *out)
     union ir_word words[16];
     if (has_parts) {
         if (!read_type(p, &type) || type >= IR_TYPE_FIRST_USER || !accept(p, '('))
-            return fail(p, "a constant was expected");
+            return false;
     } else if (is_word(word, "true") || is_word(word, "false")) {
         type = IR_TYPE_BOOL;
     } else if (c != '"') {
@@ -258,13 +240,10 @@ static bool read_const(struct parser *p, ir_ref *out)
     }
     const struct ir_type_info *info = ir_type_info(type);
     for (unsigned i = 0; i < info->components; i++)
-        if ((i && !expect(p, ',', "the constant has too few components"))
-            || !read_scalar(p, info->scalar, &words[i]))
+        if ((i && !accept(p, ',')) || !read_scalar(p, info->scalar, &words[i]))
             return false;
-    if (has_parts && !expect(p, ')', "the constant has too many components"))
+    if (info->components == 0 || (has_parts && !accept(p, ')')))
         return false;
-    if (info->components == 0)
-        return fail(p, "a type without values has no constants");
     *out = ir_intern_const(p->graph, type, words);
     return true;
 }
@@ -274,10 +253,8 @@ static bool read_const(struct parser *p, ir_ref *out)
 static ir_ref *label_place(struct parser *p)
 {
     struct word word = read_word(p);
-    if (word.len == 0) {
-        fail(p, "a node's name was expected after '%'");
+    if (word.len == 0)
         return NULL;
-    }
     str_id id = str_intern(&p->labels, word.text, word.len);
     while (p->label_refs.len <= id)
         vec_push(p->graph->arena, &p->label_refs, 0);
@@ -289,7 +266,7 @@ static bool read_operand(struct parser *p, ir_ref *out)
     if (accept(p, '%')) {
         const ir_ref *place = label_place(p);
         *out = place ? *place : 0;
-        return *out != 0 || fail(p, "there is no node of this name before");
+        return *out != 0;
     }
     *out = 0;
     return accept_word(p, "_") || read_const(p, out);
@@ -316,8 +293,8 @@ static bool read_refs(struct parser *p)
         return false;
     for (uint32_t i = 0; i < p->operands.len; i++)
         if (p->operands.items[i] == 0)
-            return fail(p, "'_' stands for an absent operand only");
-    return p->operands.len > 0 || fail(p, "a node or constant was expected");
+            return false;
+    return p->operands.len > 0;
 }
 
 /* ---- Statements ---- */
@@ -326,12 +303,12 @@ static bool read_swizzle(struct parser *p, uint32_t *out)
 {
     struct word word = read_word(p);
     if (word.len < 1 || word.len > 4)
-        return fail(p, "one to four of xyzw were expected");
+        return false;
     *out = (uint32_t)word.len << 8;
     for (size_t i = 0; i < word.len; i++) {
         const char *letter = memchr("xyzw", word.text[i], 4);
         if (!letter)
-            return fail(p, "one to four of xyzw were expected");
+            return false;
         *out |= (uint32_t)(letter - "xyzw") << (2 * i);
     }
     return true;
@@ -341,18 +318,14 @@ static bool read_attr(struct parser *p, enum ir_op op, uint32_t *out)
 {
     *out = 0;
     if (op == IR_SWIZZLE)
-        return expect(p, '.', "'.' and components were expected") && read_swizzle(p, out);
+        return accept(p, '.') && read_swizzle(p, out);
     if (!accept(p, '@'))
         return true;
-    if (!read_u32(p, out))
-        return false;
-    if (op != IR_PARAM)
-        return true;
+    if (!read_u32(p, out) || op != IR_PARAM)
+        return op != IR_PARAM;
     uint32_t index;
-    if (!expect(p, ':', "':' and the parameter's index were expected") || !read_u32(p, &index))
+    if (!accept(p, ':') || !read_u32(p, &index) || *out > 0xffff || index > 0xffff)
         return false;
-    if (*out > 0xffff || index > 0xffff)
-        return fail(p, "there is no such parameter");
     *out = *out << 16 | index;
     return true;
 }
@@ -366,7 +339,7 @@ static bool read_op(struct parser *p, enum ir_op *out)
             return true;
         }
     }
-    return fail(p, "there is no such op");
+    return false;
 }
 
 static bool parse_node(struct parser *p)
@@ -375,17 +348,12 @@ static bool parse_node(struct parser *p)
     enum ir_op op;
     ir_type_id type;
     uint32_t attr;
-    if (!label || !expect(p, '=', "'=' was expected"))
+    if (!label || *label || !accept(p, '='))
         return false;
     size_t index = (size_t)(label - p->label_refs.items); /* reading operands may move the array */
-    if (*label)
-        return fail(p, "a node of this name stands before");
-    if (!read_op(p, &op) || !read_type(p, &type) || !read_attr(p, op, &attr) || !read_operands(p))
+    if (!read_op(p, &op) || !read_type(p, &type) || !read_attr(p, op, &attr) || !read_operands(p)
+        || ir_node_problem(p->graph, op, type, attr, p->operands.items, p->operands.len))
         return false;
-    const char *problem =
-        ir_node_problem(p->graph, op, type, attr, p->operands.items, p->operands.len);
-    if (problem)
-        return fail(p, problem);
     p->label_refs.items[index] =
         ir_build(p->graph, op, type, attr, p->operands.items, p->operands.len);
     return true;
@@ -395,12 +363,8 @@ static bool parse_array(struct parser *p)
 {
     ir_type_id element;
     uint32_t length, num_types = p->graph->user_types.len;
-    if (!read_type(p, &element) || !read_u32(p, &length))
-        return false;
-    if (length == 0)
-        return fail(p, "an array has elements");
-    return ir_add_array(p->graph, element, length) == IR_TYPE_FIRST_USER + num_types
-           || fail(p, "the type stands twice");
+    return read_type(p, &element) && read_u32(p, &length) && length
+           && ir_add_array(p->graph, element, length) == IR_TYPE_FIRST_USER + num_types;
 }
 
 static bool parse_struct(struct parser *p)
@@ -416,11 +380,9 @@ static bool parse_struct(struct parser *p)
             return false;
         vec_push(p->graph->arena, &members, member);
     } while (accept(p, ','));
-    if (members.len > UINT16_MAX)
-        return fail(p, "the struct has too many members");
-    return ir_add_struct(p->graph, name, members.items, members.len)
-               == IR_TYPE_FIRST_USER + num_types
-           || fail(p, "the type stands twice");
+    return members.len <= UINT16_MAX
+           && ir_add_struct(p->graph, name, members.items, members.len)
+                  == IR_TYPE_FIRST_USER + num_types;
 }
 
 static bool parse_callee(struct parser *p)
@@ -432,13 +394,11 @@ static bool parse_callee(struct parser *p)
     struct word kind = read_word(p);
     while (callee.kind < IR_NUM_CALLEE_KINDS && !is_word(kind, ir_callee_kinds[callee.kind]))
         callee.kind++;
-    if (callee.kind == IR_NUM_CALLEE_KINDS)
-        return fail(p, "a kind of callee was expected");
-    if (!read_u32(p, &callee.index))
+    if (callee.kind == IR_NUM_CALLEE_KINDS || !read_u32(p, &callee.index))
         return false;
     callee.derivative = accept_word(p, "derivative");
     callee.pure = accept_word(p, "pure");
-    return ir_add_callee(p->graph, callee) == num_callees || fail(p, "the callee stands twice");
+    return ir_add_callee(p->graph, callee) == num_callees;
 }
 
 static bool parse_function(struct parser *p)
@@ -454,7 +414,7 @@ static bool parse_function(struct parser *p)
         vec_push(p->graph->arena, &types, type);
     }
     if (types.len > 0xffff || p->graph->functions.len > 0xffff)
-        return fail(p, "there are too many functions or parameters");
+        return false;
     ir_add_function(p->graph, name, types.items, types.len);
     return true;
 }
@@ -462,11 +422,8 @@ static bool parse_function(struct parser *p)
 static bool parse_results(struct parser *p)
 {
     uint32_t function;
-    if (!read_u32(p, &function) || function >= p->graph->functions.len)
-        return fail(p, "there is no such function");
-    if (p->graph->functions.items[function].num_results)
-        return fail(p, "the function has its results already");
-    if (!expect(p, '=', "'=' was expected") || !read_refs(p))
+    if (!read_u32(p, &function) || function >= p->graph->functions.len
+        || p->graph->functions.items[function].num_results || !accept(p, '=') || !read_refs(p))
         return false;
     ir_set_results(p->graph, function, p->operands.items, p->operands.len);
     return true;
@@ -496,7 +453,7 @@ static bool parse_statement(struct parser *p)
     for (size_t i = 0; i < sizeof statements / sizeof *statements; i++)
         if (is_word(word, statements[i].word))
             return statements[i].parse(p);
-    return fail(p, "a statement was expected");
+    return false;
 }
 
 static void skip_comment(struct parser *p)
@@ -506,21 +463,19 @@ static void skip_comment(struct parser *p)
             p->at++;
 }
 
-const char *ir_parse(struct ir_graph *graph, const char *text, size_t len, ir_ref **out_roots,
-                     uint32_t *out_num_roots, uint32_t *out_line)
+uint32_t ir_text_read(struct ir_graph *graph, const char *text, ir_ref **out_roots,
+                      uint32_t *out_num_roots)
 {
-    struct parser p = {.graph = graph, .at = text, .end = text + len};
+    struct parser p = {.graph = graph, .at = text, .end = text + strlen(text)};
     strpool_init(&p.labels, graph->arena, NULL);
-    *out_line = 0;
-    while (p.at < p.end && !p.problem) {
-        ++*out_line;
-        if (!at_line_end(&p))
-            parse_statement(&p);
+    for (uint32_t line = 1; p.at < p.end; line++) {
+        if (!at_line_end(&p) && !parse_statement(&p))
+            return line;
         skip_comment(&p);
-        if (!p.problem && p.at < p.end && *p.at++ != '\n')
-            fail(&p, "the end of the line was expected");
+        if (p.at < p.end && *p.at++ != '\n')
+            return line;
     }
     *out_roots = p.roots.items;
     *out_num_roots = p.roots.len;
-    return p.problem;
+    return 0;
 }
