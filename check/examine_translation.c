@@ -7,17 +7,12 @@
 
 mxg_document *examine_translated(struct examiner *examiner, mxg_document *document)
 {
-    struct cli *cli = examiner->cli;
     mxg_result *result = NULL;
-    mxg_document *translated = NULL;
-    size_t size = 0;
+    mxg_status status;
     channel_mark(&examiner->channel, CHECK_TRANSLATE, "", "");
-    mxg_status status = mxg_translate(cli->context, document, examiner->translate, &result);
+    mxg_document *translated = translated_parse(examiner->cli, document, examiner->document->file,
+                                                examiner->translate, &result, &status);
     examine_diagnostics(examiner, mxg_result_diagnostics(result), NULL, NULL);
-    const char *text = mxg_result_text(result, &size);
-    if (status == MXG_OK && text)
-        status = mxg_document_parse(cli->context, cli->library, examiner->document->file, text,
-                                    size, &translated);
     examine_status(examiner, status, NULL, NULL);
     if (status != MXG_OK)
         check_fail(&examiner->document->failed, CHECK_TRANSLATE);

@@ -82,17 +82,6 @@ static bool check_args(const struct format_args *args, const struct arg_list *in
     return !fault;
 }
 
-/* False after an error: the output is an input, for which --in-place exists. */
-static bool claim_output(struct cli *cli, const char *output)
-{
-    struct outputs outputs = {0};
-    for (size_t i = 0; i < cli->parser.inputs.len; ++i)
-        outputs_read(&outputs, &cli->report, cli->parser.inputs.items[i]);
-    bool good = !output || outputs_write(&outputs, &cli->report, output, "--output");
-    outputs_finish(&outputs);
-    return good;
-}
-
 static int run(const struct command *command, mxg_rewriting rewriting, int argc, char **argv)
 {
     struct format_args values = {.rewriting = rewriting};
@@ -108,7 +97,7 @@ static int run(const struct command *command, mxg_rewriting rewriting, int argc,
     if (cli_start(&cli, command, args, sizeof args / sizeof *args,
                   CLI_NEEDS_INPUT | CLI_LIBRARY_IS_INPUT, argc, argv, &code)) {
         bool is_possible = check_args(&values, &cli.parser.inputs);
-        bool is_free = claim_output(&cli, values.output);
+        bool is_free = outputs_claim(&cli.parser.inputs, &cli.report, values.output);
         for (size_t i = 0; i < cli.parser.inputs.len && is_possible && is_free; ++i)
             rewrite(&cli, &values, cli.parser.inputs.items[i]);
         code = !is_possible ? EXIT_USAGE : cli.report.errors ? EXIT_FAULT : EXIT_DONE;

@@ -115,16 +115,6 @@ static bool check_args(struct cli *cli, struct translate_args *args)
     return !fault;
 }
 
-/* False after an error: the output is the input. */
-static bool claim_output(struct cli *cli, const char *output)
-{
-    struct outputs outputs = {0};
-    outputs_read(&outputs, &cli->report, cli->parser.inputs.items[0]);
-    bool good = !output || outputs_write(&outputs, &cli->report, output, "--output");
-    outputs_finish(&outputs);
-    return good;
-}
-
 int command_translate(const struct command *command, int argc, char **argv)
 {
     struct translate_args values = {0};
@@ -147,7 +137,7 @@ int command_translate(const struct command *command, int argc, char **argv)
     if (cli_start(&cli, command, args, sizeof args / sizeof *args, CLI_NEEDS_INPUT, argc, argv,
                   &code)) {
         bool is_possible = check_args(&cli, &values);
-        if (is_possible && claim_output(&cli, values.output))
+        if (is_possible && outputs_claim(&cli.parser.inputs, &cli.report, values.output))
             translate(&cli, &values, cli.parser.inputs.items[0]);
         code = !is_possible ? EXIT_USAGE : cli.report.errors ? EXIT_FAULT : EXIT_DONE;
     }

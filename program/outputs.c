@@ -112,3 +112,13 @@ void outputs_finish(struct outputs *outputs)
     names_finish(&outputs->paths);
     *outputs = (struct outputs){0};
 }
+
+bool outputs_claim(const struct arg_list *inputs, struct report *report, const char *output)
+{
+    struct outputs outputs = {0};
+    for (size_t i = 0; i < inputs->len; ++i)
+        outputs_read(&outputs, report, inputs->items[i]);
+    bool good = !output || outputs_write(&outputs, report, output, "--output");
+    outputs_finish(&outputs);
+    return good;
+}

@@ -35,4 +35,7 @@ bool outputs_has(const struct outputs *outputs, const char *path);
 
 void outputs_finish(struct outputs *outputs);
 
+/* For a command with one output, or NULL: false after an error, because it is an input. */
+bool outputs_claim(const struct arg_list *inputs, struct report *report, const char *output);
+
 #endif

@@ -1,20 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "program/translated.h"
 
+mxg_document *translated_parse(struct cli *cli, const mxg_document *from, const char *path,
+                               const char *model, mxg_result **out_result, mxg_status *out_status)
+{
+    mxg_document *document = NULL;
+    size_t size = 0;
+    *out_status = mxg_translate(cli->context, from, model, out_result);
+    const char *text = mxg_result_text(*out_result, &size);
+    if (*out_status == MXG_OK && text)
+        *out_status = mxg_document_parse(cli->context, cli->library, path, text, size, &document);
+    return document;
+}
+
 mxg_document *translated_make(struct cli *cli, const mxg_document *from, const char *path,
                               const char *model)
 {
-    mxg_document *document = NULL;
     mxg_result *result = NULL;
-    mxg_status status = mxg_translate(cli->context, from, model, &result);
-    if (result)
-        report_list(&cli->report, mxg_result_diagnostics(result));
-    size_t size = 0;
-    const char *text = mxg_result_text(result, &size);
-    if (report_status(&cli->report, status) && text) {
-        status = mxg_document_parse(cli->context, cli->library, path, text, size, &document);
-        report_status(&cli->report, status);
-    }
+    mxg_status status;
+    mxg_document *document = translated_parse(cli, from, path, model, &result, &status);
+    report_list(&cli->report, mxg_result_diagnostics(result));
+    report_status(&cli->report, status);
     mxg_result_destroy(result);
     return document;
 }

@@ -9,7 +9,13 @@
 /* cli_load, then with the surfaces as `model`; model NULL: cli_load alone. NULL after a message. */
 mxg_document *translated_load(struct cli *cli, const char *path, const char *model);
 
-/* A loaded document with its surfaces as `model`; `path` is its name. NULL after a message. */
+/*
+ * A loaded document with its surfaces as `model`; `path` is its name. NULL: *out_status is the
+ * fault. *out_result has the messages.
+ */
+mxg_document *translated_parse(struct cli *cli, const mxg_document *from, const char *path,
+                               const char *model, mxg_result **out_result, mxg_status *out_status);
+/* The same with its messages reported. NULL after one. */
 mxg_document *translated_make(struct cli *cli, const mxg_document *from, const char *path,
                               const char *model);
 

@@ -4,6 +4,7 @@
 #include "render/bake.h"
 
 #include "program/files.h"
+#include "program/memory.h"
 
 #include <errno.h>
 #include <glob.h>
@@ -78,16 +79,20 @@ static size_t read_token(const char *name, const char **out_pattern)
 static char *pattern_of(const char *path)
 {
     static const char special[] = "*?[]\\";
-    char *out = cli_format("%s", "");
-    while (*path) {
+    char *out = NULL;
+    size_t size;
+    FILE *text = open_memstream(&out, &size);
+    while (text && *path) {
         const char *pattern = NULL;
         size_t len = read_token(path, &pattern);
-        char *more = len ? cli_format("%s%s", out, pattern)
-                         : cli_format("%s%s%c", out, strchr(special, *path) ? "\\" : "", *path);
-        free(out);
-        out = more;
+        if (len)
+            fputs(pattern, text);
+        else
+            fprintf(text, "%s%c", strchr(special, *path) ? "\\" : "", *path);
         path += len ? len : 1;
     }
+    if (!text || fclose(text) != 0)
+        memory_fail();
     return out;
 }
 

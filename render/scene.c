@@ -350,21 +350,22 @@ void scene_backdrop(const struct scene *scene, double x, double y, double out[3]
     environment_lookup(&scene->radiance, d, out);
 }
 
-/* Maps begin behind the viewer, as in MaterialX. */
-static struct matrix half_turn(void)
+static struct scene start(unsigned num_lights)
 {
-    return matrix_scale(-1, 1, -1);
+    return (struct scene){.num_lights = num_lights,
+                          .environment_samples = 64,
+                          .frame = SCENE_FRAME,
+                          .layer_sample = -1,
+                          .object.world = matrix_identity(),
+                          .studio = matrix_identity(),
+                          .near = SCENE_NEAR,
+                          /* maps begin behind the viewer, as in MaterialX */
+                          .environment = matrix_scale(-1, 1, -1)};
 }
 
 bool scene_init_sphere(struct scene *scene, double aspect)
 {
-    *scene = (struct scene){.num_lights = SCENE_NUM_LIGHTS,
-                            .environment_samples = 64,
-                            .frame = SCENE_FRAME,
-                            .layer_sample = -1,
-                            .studio = matrix_identity(),
-                            .near = SCENE_NEAR,
-                            .environment = half_turn()};
+    *scene = start(SCENE_NUM_LIGHTS);
     scene_set_camera(scene, (const double[3]){0.5, 0.7, 3.4}, (const double[3]){0.05, -0.03, 0.1});
     scene->projection = matrix_perspective(40.0, aspect, 0.1, 20.0);
     scene->object.world = matrix_multiply(matrix_translation(0.05, -0.03, 0.1),
@@ -442,6 +443,15 @@ static struct matrix quad_projection(const struct scene *scene, const double pos
     return matrix_multiply(to_clip, matrix_inverse(from_plane));
 }
 
+/* The quad fills the picture of the camera. */
+static bool show_quad(struct scene *scene, const struct quad *quad)
+{
+    scene->projection = quad_projection(scene, quad->position);
+    return environment_make(&scene->radiance, &scene->irradiance)
+           && environment_make_test_texture(&scene->texture)
+           && make_quad(quad, &scene->object.mesh);
+}
+
 bool scene_init_grid(struct scene *scene)
 {
     static const struct quad grid = {
@@ -449,21 +459,13 @@ bool scene_init_grid(struct scene *scene)
         .normal = {{-0.25, 0.61, 0.07}, {0.35, -0.11, -0.53}, {0.91, 0.08, -0.05}},
         .texcoord = {{0.0313, 0.9371, 0.0129}, {0.0217, 0.0171, 0.9331}},
     };
-    *scene = (struct scene){.environment_samples = 64,
-                            .frame = SCENE_FRAME,
-                            .layer_sample = -1,
-                            .studio = matrix_identity(),
-                            .near = SCENE_NEAR,
-                            .environment = half_turn()};
+    *scene = start(0);
     const double axis[3] = {1, 2, 3}, target[3] = {0.4, -0.3, 0.7};
     scene->object.world =
         matrix_multiply(matrix_translation(target[0], target[1], target[2]),
                         matrix_multiply(matrix_rotation(axis, 40.0), matrix_scale(1.3, 0.8, 1.6)));
     scene_set_camera(scene, (const double[3]){1.1, 0.9, 4.3}, target);
-    scene->projection = quad_projection(scene, grid.position);
-    return environment_make(&scene->radiance, &scene->irradiance)
-           && environment_make_test_texture(&scene->texture)
-           && make_quad(&grid, &scene->object.mesh);
+    return show_quad(scene, &grid);
 }
 
 bool scene_init_plane(struct scene *scene)
@@ -474,19 +476,9 @@ bool scene_init_plane(struct scene *scene)
         .normal = {{0, 0, 0}, {0, 0, 0}, {1, 0, 0}},
         .texcoord = {{0, 1, 0}, {0, 0, 1}},
     };
-    *scene = (struct scene){.num_lights = SCENE_NUM_LIGHTS,
-                            .environment_samples = 64,
-                            .frame = SCENE_FRAME,
-                            .layer_sample = -1,
-                            .object.world = matrix_identity(),
-                            .studio = matrix_identity(),
-                            .near = SCENE_NEAR,
-                            .environment = half_turn()};
+    *scene = start(SCENE_NUM_LIGHTS);
     scene_set_camera(scene, (const double[3]){0, 0, 3.4}, (const double[3]){0, 0, 0});
-    scene->projection = quad_projection(scene, plane.position);
-    return environment_make(&scene->radiance, &scene->irradiance)
-           && environment_make_test_texture(&scene->texture)
-           && make_quad(&plane, &scene->object.mesh);
+    return show_quad(scene, &plane);
 }
 
 void scene_finish(struct scene *scene)
