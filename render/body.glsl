@@ -6,14 +6,19 @@
 
 const float FROM_BELOW = 1000.0; // a level below all others
 
-// Weighs paths so that long ones end and no light is lost on average. False: it ends.
+// Weighs light so that long ways end and none is lost on average; is_due: whatever the light. False: it ends.
+bool survives(inout vec3 through, bool is_due)
+{
+    vec3 light = abs(through);
+    if (max(light.x, max(light.y, light.z)) < 0.05 || is_due)
+        through *= next_random().x < 0.5 ? 2.0 : 0.0;
+    return is_light(through);
+}
+
 bool goes_on(inout Path path, uint collisions)
 {
     const uint OFTEN = 1024u;
-    float most = max(path.through.x, max(path.through.y, path.through.z));
-    if (most < 0.05 || collisions % OFTEN == 0u)
-        path.through *= next_random().x < 0.5 ? 2.0 : 0.0;
-    return is_light(path.through);
+    return survives(path.through, collisions % OFTEN == 0u);
 }
 
 // A direction after a collision; `from`: before (Henyey and Greenstein 1941).
@@ -68,15 +73,22 @@ void turn_inside(inout Path path, vec3 direction)
 }
 
 // Stops the path until the kernel runs once more: lavapipe ends all loops of an invocation after 65,536 rounds together, and other devices
-// do not like to be busy for long, either.
-bool rests(inout Path path)
+// do not like to be busy for long, either; or until that of a body runs that varies.
+bool rests(inout Path path, uint body)
 {
     const uint MOST = 3000u;
-    if (path.waits != 0u || work < MOST)
+    uint shader = majorant_of(body) > 0.0 ? objects[body / 4u - 1u].shader : this_shader();
+    if (path.waits != 0u || (work < MOST && shader == this_shader()))
         return false;
-    path.waits_for = this_shader();
+    path.waits_for = shader;
     path.waits = AT_REST;
     return true;
+}
+
+// A way to the next collision with the majorant; 0: there is none.
+float draw_tentative(float majorant)
+{
+    return majorant > 0.0 ? -log(1.0 - next_random().x) / majorant : FAR;
 }
 
 // Follows the path to the next surface, through what it is in.
@@ -86,11 +98,12 @@ int fly(inout Path path, out Hit hit)
         vec4 xi = vec4(0.0);
         vec3 chance = chance_of_channels(path), extinction = path.medium.extinction;
         bool may_collide = scatters(path.medium);
-        if (rests(path))
+        float majorant = majorant_of(path.medium.body);
+        if (rests(path, path.medium.body))
             return RESTS;
         if (may_collide)
             xi = next_random();
-        float limit = may_collide ? min(draw_way(chance, extinction, xi.xy), FAR) : FAR;
+        float limit = min(may_collide ? draw_way(chance, extinction, xi.xy) : draw_tentative(majorant), FAR);
         left_out = path.medium.triangle;
         int what = meet(path, path.origin, path.direction, limit, hit);
         left_out = ~0u;
@@ -101,6 +114,11 @@ int fly(inout Path path, out Hit hit)
         float way = what == OURS ? hit.distance : limit;
         if (is_light(path.medium.emission) && way < FAR)
             path.light += path.through * light_of_way(path, chance, way, may_collide);
+        if (collides && majorant > 0.0) {
+            path.origin += path.direction * way;
+            path.phase = COLLIDED;
+            return COLLIDES;
+        }
         vec3 scattering = path.medium.is_volume != 0u ? vec3(1.0) : path.medium.scattering; // a volume's shader has its own
         path.through *= may_collide ? weight_of_way(chance, extinction, scattering, way, collides) : exp(-extinction * way);
         if (!collides)

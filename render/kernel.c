@@ -274,13 +274,13 @@ static bool has_output(const mxg_result *result, const char *name)
     return false;
 }
 
-static bool compile(struct kernel *kernel, const struct trace_options *options, bool displaces,
+/* macro: of the program that prepares; "": the paths. */
+static bool compile(struct kernel *kernel, const struct trace_options *options, const char *macro,
                     struct compiled *out)
 {
     struct source source = {0};
     char line[160];
     const mxg_result *result = kernel->bind->result;
-    bool is_pile = bind_has_semantic(result, "matter"); /* volumes have no levels of matter */
     append(&source, mxg_result_source(result, MXG_STAGE_PIXEL, NULL));
     append_fill(&source, kernel->bind->result);
     snprintf(line, sizeof line,
@@ -295,13 +295,14 @@ static bool compile(struct kernel *kernel, const struct trace_options *options, 
            options->as_drawn ? "const bool AS_DRAWN = true;\n" : "const bool AS_DRAWN = false;\n");
     append(&source, kernel->info.transparent ? "#define TRANSPARENT\n" : "");
     append(&source, kernel->info.num_lights ? "#define LIGHTS\n" : "");
-    append(&source, is_pile ? "#define MATTER\n" : "");
-    append(&source, !is_pile && has_output(result, "out10") ? "#define VOLUME\n" : "");
+    append(&source, bind_has_semantic(result, "matter") ? "#define MATTER\n" : "");
+    append(&source, kernel->is_volume ? "#define VOLUME\n" : "");
     append(&source, has_output(result, "out13") ? "#define INTERIOR\n" : "");
     snprintf(line, sizeof line, "const uint PARTS = %zuu;\n",
              1 + aovs_num_scattered(options->aovs));
     append(&source, line);
-    append(&source, displaces ? "#define DISPLACES\n" : "");
+    snprintf(line, sizeof line, *macro ? "#define %s\n" : "%s", macro);
+    append(&source, line);
     for (const char *const *piece = trace_source; *piece; ++piece)
         append(&source, *piece);
     bool good = source.text && compile_compute("vulkan", source.text, out);
@@ -350,6 +351,12 @@ bool kernel_open(struct gpu *gpu, struct bind *bind, uint32_t first_shader, stru
 {
     *out = (struct kernel){.bind = bind, .info = {sizeof out->info}, .first_shader = first_shader};
     mxg_result_info(bind->result, &out->info);
+    /* levels of matter have a tenth output, too, and volumes have none */
+    out->is_volume =
+        has_output(bind->result, "out10") && !bind_has_semantic(bind->result, "matter");
+    out->prepared = out->info.displaced                         ? "DISPLACES"
+                    : bind_has_semantic(bind->result, "varies") ? "MEASURES"
+                                                                : "";
     if (!bind_shader(bind))
         return false;
     out->num_shaders = differs_by_object(bind) ? bind->num_objects : 1;
@@ -359,11 +366,11 @@ bool kernel_open(struct gpu *gpu, struct bind *bind, uint32_t first_shader, stru
 bool kernel_compile(struct gpu *gpu, struct kernel *kernel, VkDescriptorSetLayout set_layout,
                     uint32_t push_size, const struct trace_options *options)
 {
-    return compile(kernel, options, false, &kernel->paths.compiled)
+    return compile(kernel, options, "", &kernel->paths.compiled)
            && create_pipeline(gpu, kernel, set_layout, push_size, &kernel->paths)
-           && (!kernel->info.displaced
-               || (compile(kernel, options, true, &kernel->displaces.compiled)
-                   && create_pipeline(gpu, kernel, set_layout, push_size, &kernel->displaces)));
+           && (!*kernel->prepared
+               || (compile(kernel, options, kernel->prepared, &kernel->prepares.compiled)
+                   && create_pipeline(gpu, kernel, set_layout, push_size, &kernel->prepares)));
 }
 
 static void close_program(struct gpu *gpu, struct kernel_program *program)
@@ -376,6 +383,6 @@ static void close_program(struct gpu *gpu, struct kernel_program *program)
 void kernel_close(struct gpu *gpu, struct kernel *kernel)
 {
     close_program(gpu, &kernel->paths);
-    close_program(gpu, &kernel->displaces);
+    close_program(gpu, &kernel->prepares);
     inputs_destroy(gpu, &kernel->bind->draw, &kernel->inputs);
 }

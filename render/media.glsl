@@ -25,6 +25,11 @@ bool is_same_object(uint body, uint other)
     return body / 4u == other / 4u;
 }
 
+float majorant_of(uint body)
+{
+    return body == 0u ? 0.0 : objects[body / 4u - 1u].majorant;
+}
+
 uint place_around(uint ray, uint i)
 {
     return (i * NUM_RAYS + ray) * camera.frame.x * camera.frame.y + pixel_number();

@@ -4,7 +4,12 @@
 #define NUM_RAYS (1u + NUM_SHADOWS) // that media are around: the path and its shadows
 struct Node { vec3 low; uint first; vec3 high; uint count; };
 struct Corner { vec4 position_s, normal_t; vec3 tangent; uint object; vec3 rest; uint triangle; vec4 moved; }; // at rest: before displacement
-struct Object { mat4 to_object; uint shader, blocks_light, first_value, num_triangles; }; // its corners' values: of each attribute in a row
+struct Object {
+    mat4 to_object;
+    uint shader, blocks_light, first_value, num_triangles; // its corners' values: of each attribute in a row
+    float majorant;                  // of a medium that varies: about the most of its extinction; 0: it does not vary
+    uint around_eye;                 // in number i: side_of() the i-th medium that the eye is in, from the outermost; 0: there is no more
+};
 struct Hit { float distance; uint triangle; vec2 weights; };
 // The medium that a path is in: nothing, a solid, or the body of an object (see media.glsl). Coefficients are over a unit of the world.
 struct Medium {

@@ -3,6 +3,7 @@
 
 #include "render/bvh.h"
 #include "render/importance.h"
+#include "render/inside.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -25,6 +26,9 @@ enum {
     NUM_BINDINGS = NUM_BUFFERS + 1,
     MOST_AROUND = 4, /* media around one */
     GROUP = 8,
+    ROW = 1024,         /* invocations of programs that prepare, side by side */
+    MEASURED_SIDE = 32, /* cells along each edge of a volume's box */
+    MEASURED = MEASURED_SIDE * MEASURED_SIDE * MEASURED_SIDE,
     SAMPLES_AT_ONCE = 16
 };
 
@@ -135,12 +139,25 @@ static bool create_objects(struct tracer *tracer)
 
 /* ---- Device ---- */
 
-static bool is_displaced(const struct tracer *tracer)
+/* True if a kernel has the program with this macro. */
+static bool prepares(const struct tracer *tracer, const char *macro)
 {
-    bool displaced = false;
+    bool any = false;
     for (size_t k = 0; k < tracer->num_kernels; ++k)
-        displaced = displaced || tracer->kernels[k].info.displaced;
-    return displaced;
+        any = any || strcmp(tracer->kernels[k].prepared, macro) == 0;
+    return any;
+}
+
+/* The rows that the film needs: for two pictures, and for what programs write that prepare. */
+static size_t count_rows(const struct tracer *tracer)
+{
+    size_t pixels = (size_t)tracer->width * tracer->height, rows = 2 * pixels,
+           corners = 3 * (size_t)tracer->bvh.num_triangles;
+    if (prepares(tracer, "DISPLACES") && rows < corners)
+        rows = corners;
+    if (prepares(tracer, "MEASURES") && rows < MEASURED)
+        rows = MEASURED;
+    return rows;
 }
 
 /* The most media that are kept around the one where a path is: an object may have parts inside each
@@ -157,8 +174,7 @@ static bool create_buffers(struct tracer *tracer)
     const struct bvh *bvh = &tracer->bvh;
     size_t pixels = (size_t)tracer->width * tracer->height,
            corners = 3 * (size_t)bvh->num_triangles;
-    size_t rows = is_displaced(tracer) && corners > 2 * pixels ? corners : 2 * pixels,
-           film = rows * 4 * sizeof(float);
+    size_t film = count_rows(tracer) * 4 * sizeof(float);
     size_t num_sums;
     float *sums = importance_of_map(&scene_of(tracer)->radiance, &num_sums);
     const struct {
@@ -280,12 +296,12 @@ static const struct kernel *kernel_of(const struct tracer *tracer, uint32_t shad
     return &tracer->kernels[k];
 }
 
-/* Runs one invocation of a shader, which traces or displaces, per element of an area. */
-static bool run(struct tracer *tracer, uint32_t shader, bool displaces, struct camera *camera,
+/* Runs one invocation of a shader, which traces or prepares, per element of an area. */
+static bool run(struct tracer *tracer, uint32_t shader, bool is_first, struct camera *camera,
                 uint32_t width, uint32_t height)
 {
     const struct kernel *kernel = kernel_of(tracer, shader);
-    const struct kernel_program *program = displaces ? &kernel->displaces : &kernel->paths;
+    const struct kernel_program *program = is_first ? &kernel->prepares : &kernel->paths;
     VkCommandBuffer commands = gpu_begin(tracer->gpu);
     if (!commands)
         return false;
@@ -357,7 +373,6 @@ static void place_corners(const struct tracer *tracer, const struct vertices *ve
 /* Evaluates the displacement of the vertices in the shaders, and moves the corners. */
 static bool displace_vertices(struct tracer *tracer, struct vertices *vertices)
 {
-    enum { ROW = 1024 };
     if (!list_vertices(tracer, vertices))
         return fail_for_memory(tracer);
     uint32_t count = vertices->num_rows;
@@ -389,6 +404,76 @@ static bool displace(struct tracer *tracer)
     free(vertices.rows);
     return good;
 }
+
+/* ---- Media ---- */
+
+/* About the most extinction of a medium that varies, with something to spare. */
+static bool measure_medium(struct tracer *tracer, uint32_t object, const struct inside_box *box)
+{
+    const float ROOM = 1.25f, FEWEST = 4; /* FEWEST: collisions along the diagonal of the box */
+    struct Object *to = (struct Object *)tracer->buffers[OBJECTS].mapped + object;
+    struct camera camera = {.frame = {ROW, MEASURED / ROW, MEASURED_SIDE, object}};
+    float most = 0, diagonal = 0;
+    for (size_t i = 0; i < 3; ++i) {
+        camera.eye[i] = box->low[i];
+        camera.right[i] = box->high[i];
+        diagonal = hypotf(diagonal, box->high[i] - box->low[i]);
+    }
+    if (!run(tracer, to->shader, true, &camera, ROW, MEASURED / ROW))
+        return false;
+    float(*film)[4] = tracer->buffers[FILM].mapped;
+    for (size_t p = 0; p < MEASURED; ++p)
+        for (size_t c = 0; c < 3; ++c)
+            if (isfinite(film[p][c]))
+                most = fmaxf(most, film[p][c]);
+    memset(film, 0, MEASURED * sizeof *film);
+    to->majorant = fmaxf(ROOM * most, FEWEST / fmaxf(diagonal, 1e-30f));
+    return true;
+}
+
+static bool measure_media(struct tracer *tracer)
+{
+    struct inside_box *boxes = malloc((tracer->num_objects + 1) * sizeof *boxes);
+    if (!boxes)
+        return fail_for_memory(tracer);
+    inside_boxes(&tracer->bvh, boxes, tracer->num_objects);
+    const struct Object *objects = tracer->buffers[OBJECTS].mapped;
+    bool good = true;
+    for (uint32_t o = 0; good && o < tracer->num_objects; ++o)
+        if (strcmp(kernel_of(tracer, objects[o].shader)->prepared, "MEASURES") == 0)
+            good = measure_medium(tracer, o, &boxes[o]);
+    free(boxes);
+    return good;
+}
+
+/* Finds the volumes around the eye. */
+static bool surround_eye(struct tracer *tracer)
+{
+    enum { IS_BODY = 2 }; /* as in path.glsl: the side of a mesh where light comes in */
+    struct Object *objects = tracer->buffers[OBJECTS].mapped;
+    uint32_t around[MOST_AROUND + 1];
+    bool *is_volume = calloc(tracer->num_objects + 1, sizeof *is_volume);
+    for (uint32_t o = 0; is_volume && o < tracer->num_objects; ++o)
+        is_volume[o] = kernel_of(tracer, objects[o].shader)->is_volume;
+    size_t num = is_volume ? inside_find(&tracer->bvh, is_volume, tracer->num_objects,
+                                         scene_of(tracer)->eye, around, most_around(tracer) + 1)
+                           : SIZE_MAX;
+    free(is_volume);
+    if (num == SIZE_MAX)
+        return fail_for_memory(tracer);
+    for (size_t i = 0; i < num; ++i)
+        objects[i].around_eye = (around[i] + 1) * 4 + IS_BODY;
+    return true;
+}
+
+/* What is found before paths are traced. */
+static bool prepare(struct tracer *tracer)
+{
+    return (!prepares(tracer, "DISPLACES") || displace(tracer))
+           && (!prepares(tracer, "MEASURES") || measure_media(tracer)) && surround_eye(tracer);
+}
+
+/* ---- Paths ---- */
 
 /* The shader for which most paths wait; false: none does. */
 static bool find_waiting(const struct tracer *tracer, uint32_t *out_shader)
@@ -501,8 +586,8 @@ bool trace_picture(struct gpu *gpu, struct bind *const *binds, size_t count,
                             .height = out->height};
     uint32_t samples = options->paths * options->picks;
     *out_failed = 0;
-    bool good = tracer.kernels && open_kernels(&tracer, binds, count, out_failed)
-                && (!is_displaced(&tracer) || displace(&tracer));
+    bool good =
+        tracer.kernels && open_kernels(&tracer, binds, count, out_failed) && prepare(&tracer);
     struct camera camera = {0};
     if (good)
         camera = make_camera(&tracer);

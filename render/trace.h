@@ -8,8 +8,8 @@
 #include "render/descriptors.h"
 #include "compile/compile.h"
 
-/* path_structs.glsl, path.glsl, media.glsl, body.glsl, matter.glsl and volume.glsl, as lines in
- * pieces; ends with NULL. */
+/* path_structs.glsl, scene.glsl, path.glsl, media.glsl, body.glsl, matter.glsl and volume.glsl, as
+ * lines in pieces; ends with NULL. */
 extern const char *const trace_source[];
 
 struct trace_options {
@@ -47,10 +47,12 @@ struct kernel {
     mxg_shader_info info;
     struct inputs inputs;
     /*
-     * displaces: moves the corners, where the shader displaces. It is a program of its own, because
-     * drivers leave out of it what displacement does not need.
+     * prepares: runs before `paths`, where there is something to find first. It is a program of its
+     * own, because drivers leave out of it what that does not need.
      */
-    struct kernel_program paths, displaces;
+    struct kernel_program paths, prepares;
+    const char *prepared; /* the macro of `prepares`, "DISPLACES" or "MEASURES"; "": it has none */
+    bool is_volume;
     uint32_t first_shader, num_shaders; /* numbers: one, or one for each object */
 };
 /* Binds the shader and finds its numbers: from `first_shader` on. false: see bind->reason. */

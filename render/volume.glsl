@@ -7,16 +7,50 @@
 
 #ifdef VOLUME
 
-// The medium where scatter() has run.
+// The medium where scatter() has run. One that varies has no coefficients of its own: each collision asks for those of its place.
 Medium medium_here(uint side)
 {
     Medium medium = no_medium();
     medium.body = side;
+    medium.is_volume = 1u;
+    if (majorant_of(side) > 0.0)
+        return medium;
     medium.extinction = out10.rgb;
     medium.scattering = out9.rgb;
     medium.emission = out1.rgb;
-    medium.is_volume = 1u;
     return medium;
+}
+
+// The eye is inside of the volume.
+void begin_in_volume(inout Path path, uint body)
+{
+    shade_inside(body / 4u - 1u, path.origin, path.direction, vec4(0.0));
+    path.weight = vec3(1.0); // of what the medium sends to the eye
+    enter_medium(path, medium_here(body));
+}
+
+// A collision with the majorant is one with the medium, or with nothing, which fills the medium up to the majorant: both have weights, so that the
+// mean is right where the extinction is above the majorant, too (Kutz, Habel, Li, Novak 2017, "Spectral and Decomposition Tracking for Rendering
+// Heterogeneous Volumes"). scatter() has run at the place, and out3 and out5 have the scattering.
+bool is_real(inout Path path, float majorant)
+{
+    path.light += path.through * out1.rgb / majorant;
+    vec3 part = max(out10.rgb, 0.0) / majorant, rest = 1.0 - part;
+    bool scatters = out9.r + out9.g + out9.b > 0.0;
+    float real = scatters ? dot(abs(path.through), part) : 0.0, none = dot(abs(path.through), abs(rest));
+    float chance = real / max(real + none, 1e-30);
+    bool collides = next_random().x < chance;
+    path.through *= collides ? vec3(1.0 / (majorant * chance)) : rest / max(1.0 - chance, 1e-30);
+    return collides;
+}
+
+// What a tentative collision takes from a ray to a light (Novak, Selle, Jarosz 2014, "Residual Ratio Tracking").
+void pass_collision(inout Shadow ray)
+{
+    uint object = ray.body / 4u - 1u;
+    shade_inside(object, ray.origin, ray.direction, vec4(0.0));
+    ray.through *= 1.0 - max(out10.rgb, 0.0) / objects[object].majorant;
+    survives(ray.through, false);
 }
 
 // Through the mesh. A path that leaves a medium in which it is not began inside of it.
@@ -39,7 +73,12 @@ void scatter_in_volume(inout Path path)
 {
     vec4 towards = draw_environment(next_random());
     at_level = vec2(-1.0, next_random().x);
-    Point point = shade_inside(path.origin, path.direction, towards);
+    Point point = shade_inside(path.medium.body / 4u - 1u, path.origin, path.direction, towards);
+    float majorant = majorant_of(path.medium.body);
+    if (majorant > 0.0 && !is_real(path, majorant)) {
+        path.phase = survives(path.through, false) ? GOING : ENDED;
+        return;
+    }
     if (path.turns == 0u)
         keep_light(pixel_number(), vec3(0.0)); // no AOV has this light
     if (path.medium.collisions++ == 0u)
@@ -61,7 +100,7 @@ bool pass_surface(inout Shadow ray, uint number, Hit hit)
     ray.origin = point.position + ray.direction * NEAR;
     ray.limit -= hit.distance;
     if (dot(point.facet, ray.direction) < 0.0)
-        enter_medium(ray, number, side, out10.rgb);
+        enter_medium(ray, number, side, medium_here(side).extinction);
     else if (is_same_object(ray.body, side))
         leave_medium(ray, number);
     else if (at < ray.around)

@@ -103,8 +103,9 @@ void closure_scatter_layer(struct closure_scatter *s, const struct closure_scatt
 /* alpha 0: 1 */
 void closure_scatter_end(struct closure_scatter *s, ir_ref alpha);
 struct closure_medium;
-/* The outputs of a volume, behind those of a point of it. */
-void closure_scatter_medium(struct closure_scatter *s, const struct closure_medium *medium);
+/* The outputs of a volume, behind those of a point of it; varies: from place to place. */
+void closure_scatter_medium(struct closure_scatter *s, const struct closure_medium *medium,
+                            bool varies);
 /* A random number from 0 to below alpha. */
 ir_ref closure_scatter_number(struct shader *shader, ir_ref alpha);
 
@@ -163,8 +164,15 @@ struct closure_medium {
 };
 void closure_medium(struct shader *shader, const struct closure_host *host, ir_ref root,
                     struct closure_medium *out);
-/* True if a value differs from place to place, or by the direction of the viewer. */
-bool closure_varies(struct shader *shader, const ir_ref *values, uint32_t num_values);
+
+/* What values differ by; of several, the last one of these. */
+enum closure_variation {
+    VARIES_NOT,
+    VARIES_BY_PLACE,  /* they read positions alone */
+    VARIES_BY_SURFACE /* they read what a surface has: its texture coordinates, the viewer */
+};
+enum closure_variation closure_variation_of(struct shader *shader, const ir_ref *values,
+                                            uint32_t num_values);
 
 /* lights.c: the current light, for effects inside EFFECT_LIGHTS. */
 struct closure_light {

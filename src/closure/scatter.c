@@ -623,9 +623,14 @@ static void write_interior(struct closure_scatter *s)
     scatter_write_output(s, STR_out14, extinction, nothing);
 }
 
-void closure_scatter_medium(struct closure_scatter *s, const struct closure_medium *medium)
+void closure_scatter_medium(struct closure_scatter *s, const struct closure_medium *medium,
+                            bool varies)
 {
     ir_ref nothing = scatter_number(s, 0.0f);
+    const struct shader_variable extinction = {
+        .name = STR_out10, .block = BLOCK_OUTPUTS, .type = IR_TYPE_VEC4, .semantic = STR_varies};
+    if (varies)
+        shader_add_variable(s->shader, &extinction);
     scatter_write_output(s, STR_out9, medium->scattering, nothing);
     scatter_write_output(s, STR_out10, medium->extinction, nothing);
 }

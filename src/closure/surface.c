@@ -341,8 +341,8 @@ static void emit_volume(struct emitter *e, ir_ref root)
     write_surface(e, emitter_color(e), volume.alpha, 0);
 }
 
-/* True if the medium is the same everywhere; false: the reflection has why it is not traced. */
-static bool is_homogeneous(struct emitter *e, const struct closure_medium *medium, ir_ref emission)
+static enum closure_variation variation_of(struct emitter *e, const struct closure_medium *medium,
+                                           ir_ref emission)
 {
     ir_ref *values = ARENA_ARRAY(e->shader->arena, ir_ref, 3 + 3 * medium->list.leaves.len);
     uint32_t num = 0;
@@ -356,10 +356,7 @@ static bool is_homogeneous(struct emitter *e, const struct closure_medium *mediu
         if (leaf->color)
             values[num++] = leaf->color;
     }
-    if (!closure_varies(e->shader, values, num))
-        return true;
-    e->shader->reflection.not_traced = "a path tracer draws volumes that are the same everywhere";
-    return false;
+    return closure_variation_of(e->shader, values, num);
 }
 
 /*
@@ -371,13 +368,17 @@ static bool emit_traced_volume(struct emitter *e, ir_ref root)
     struct closure_medium medium;
     closure_medium(e->shader, e->host, root, &medium);
     ir_ref emission = emitter_emission(e, medium.edf);
-    if (!is_homogeneous(e, &medium, emission))
+    enum closure_variation varies = variation_of(e, &medium, emission);
+    if (varies == VARIES_BY_SURFACE) {
+        e->shader->reflection.not_traced = "inside the mesh of a volume there are positions alone, "
+                                           "no texture coordinates, normals or properties";
         return false;
+    }
     struct closure_scatter_layer layer = {.list = medium.list, .emission = emission};
     struct closure_scatter *scatter = closure_scatter_begin(e->shader, e->host, e->lighting);
     closure_scatter_layer(scatter, &layer);
     closure_scatter_end(scatter, 0);
-    closure_scatter_medium(scatter, &medium);
+    closure_scatter_medium(scatter, &medium, varies == VARIES_BY_PLACE);
     e->shader->reflection.transparent = true;
     return true;
 }

@@ -101,14 +101,22 @@ void closure_medium(struct shader *shader, const struct closure_host *host, ir_r
     out->anisotropy = mean_anisotropy(shader, host, &out->list);
 }
 
-bool closure_varies(struct shader *shader, const ir_ref *values, uint32_t num_values)
+enum closure_variation closure_variation_of(struct shader *shader, const ir_ref *values,
+                                            uint32_t num_values)
 {
     const struct ir_graph *g = shader->graph;
+    enum closure_variation varies = VARIES_NOT;
     uint8_t *needed = ir_mark(g, values, num_values, shader->arena);
-    for (ir_ref ref = 1; ref < g->nodes.len; ref++)
-        if (needed[ref] && ir_get(g, ref)->op == IR_STREAM)
-            return true;
-    return false;
+    for (ir_ref ref = 1; ref < g->nodes.len; ref++) {
+        const struct ir_node *node = ir_get(g, ref);
+        if (!needed[ref] || node->op != IR_STREAM)
+            continue;
+        str_id name = shader->interface.variables.items[node->attr].name;
+        if (name != STR_positionObject && name != STR_positionWorld)
+            return VARIES_BY_SURFACE;
+        varies = VARIES_BY_PLACE;
+    }
+    return varies;
 }
 
 void closure_volume(struct shader *shader, const struct closure_host *host, ir_ref root,

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Volumes, path traced: what Beer and Lambert say, emission along the way, light that is scattered once by an integral, white media that lose no
-# light, media in media, shadows, and media inside surfaces. Arguments: mxgen-render, the root of the source tree, and "all" for what takes longer.
+# light, media that vary, media in media, the eye in media, shadows, and media inside surfaces. Arguments: mxgen-render, the root of the source tree,
+# and "all" for what takes longer.
 render=$(realpath "$1") root=$(realpath "$2") extent=${3:-}
 . "$root/tests/programs/light.sh"
 
@@ -20,6 +21,17 @@ medium() {
 volume() {
     echo "<volume name='V$1' type='volumeshader'><input name='vdf' type='VDF' nodename='$2'/>${3:-}</volume>
       <volumematerial name='$1' type='material'><input name='volumeshader' type='volumeshader' nodename='V$1'/></volumematerial>"
+}
+# rising NAME VALUE: a vector3 that is VALUE times z + 1
+rising() {
+    echo "<multiply name='$1' type='vector3'><input name='in1' type='vector3' value='$2'/><input name='in2' type='float' nodename='height'/></multiply>"
+}
+# varying NAME ABSORPTION SCATTERING ANISOTROPY: a medium whose coefficients rise.
+varying() {
+    rising "a$1" "$2"
+    rising "s$1" "$3"
+    echo "<anisotropic_vdf name='$1' type='VDF'><input name='absorption' type='vector3' nodename='a$1'/><input name='scattering' type='vector3' nodename='s$1'/>
+      <input name='anisotropy' type='float' value='$4'/></anisotropic_vdf>"
 }
 # filled NAME VDF IOR: a solid with a medium inside.
 filled() {
@@ -46,6 +58,21 @@ assign() { echo "<materialassign material='$1' geom='//$2'/>"; } # MATERIAL PRIM
     medium gas '0.5, 1, 0.2' '1, 0.5, 1.5' 0.3
     echo "<mix name='both' type='VDF'><input name='fg' type='VDF' nodename='milk'/><input name='bg' type='VDF' nodename='smoke'/>
       <input name='mix' type='float' value='0.5'/></mix>"
+    echo "<position name='p' type='vector3'><input name='space' type='string' value='world'/></position>
+      <separate3 name='xyz' type='multioutput'><input name='in' type='vector3' nodename='p'/></separate3>
+      <add name='height' type='float'><input name='in1' type='float' nodename='xyz' output='outz'/><input name='in2' type='float' value='1'/></add>"
+    varying fog '0.5, 1, 2' '0, 0, 0' 0
+    varying cloud '0, 0, 0' '2, 3, 4' 0.4
+    varying haze '0.498, 0.996, 1.992' '0.002, 0.004, 0.008' 0.5
+    rising hot '0.2, 0.5, 1'
+    echo "<convert name='color' type='color3'><input name='in' type='vector3' nodename='hot'/></convert>
+      <uniform_edf name='embers' type='EDF'><input name='color' type='color3' nodename='color'/></uniform_edf>"
+    volume Fog fog
+    volume Cloud cloud
+    volume Haze haze
+    volume Fire fog "<input name='edf' type='EDF' nodename='embers'/>"
+    volume Embers nothing "<input name='edf' type='EDF' nodename='embers'/>"
+    echo "<absorption_vdf name='nothing' type='VDF'><input name='absorption' type='vector3' value='0, 0, 0'/></absorption_vdf>"
     volume Ink ink
     volume Tea tea
     volume Both both
@@ -57,6 +84,8 @@ assign() { echo "<materialassign material='$1' geom='//$2'/>"; } # MATERIAL PRIM
     filled Soup soup 1.00001
     echo "<look name='inside'>$(assign Ink outer)$(assign Tea inner)</look><look name='paper'>$(assign Both outer)$(assign Paper inner)</look>
       <look name='bulb'>$(assign Lamp ball)</look><look name='beam'>$(assign Faint ball)</look>
+      <look name='foggy'>$(assign Fog ball)</look><look name='burning'>$(assign Fire ball)</look><look name='glowing'>$(assign Embers ball)</look>
+      <look name='hazy'>$(assign Haze ball)</look><look name='over'>$(assign Fog cube)$(assign Paper floor)</look>
       <look name='shadow'>$(assign Tea cube)$(assign Paper floor)</look></materialx>"
 } >volumes.mtlx
 
@@ -117,6 +146,51 @@ for row in 'R 0.002 0.5' 'G 0.004 1' 'B 0.008 2'; do
     check "light from the side is scattered once: $name" near "$(of "$(channel side.exr "$name") / $(once "$scattering" "$extinction")")" 1 0.03
 done
 
+# Media that vary: their extinction is that of above times z + 1, so from front to back through the middle of the ball it is as above times 2.
+# shellcheck disable=SC2086
+check 'a medium that varies is traced' stage fog.exr ball.usda foggy $even --size 4 --paths 1024
+check 'a medium that varies is as opaque as its integral' near "$(channel fog.exr A)" "$(of '1 - (exp(-1) + exp(-2) + exp(-4)) / 3')" 0.01
+# shellcheck disable=SC2086
+check 'a medium that varies and shines is traced' stage fire.exr ball.usda burning $even --size 4 --paths 1024
+check 'a medium that varies shines as much as it absorbs' near "$(channel fire.exr G)" "$(of '0.5 * (1 - exp(-2))')" 0.015
+# shellcheck disable=SC2086
+check 'nothing that shines is traced' stage embers.exr ball.usda glowing $even --size 4 --paths 1024
+check 'nothing shines by the integral' near "$(channel embers.exr B)" 2 0.06
+check 'nothing is not opaque' near "$(channel embers.exr A)" 0 1e-6
+check 'light from the side is traced in a medium that varies' stage haze.exr side.usda hazy --size 16 --paths 256
+# by an integral over the way of the view, from z = 1 down; the light comes along x, where the medium is the same
+rising_once() { # SCATTERING EXTINCTION
+    python3 -c 'import math, sys
+scattering, extinction, steps, g = float(sys.argv[1]), float(sys.argv[2]), 4000, 0.5
+phase = (1 - g * g) / (4 * math.pi * (1 + g * g) ** 1.5)
+total = 0
+for i in range(steps):
+    z = 1 - 2 * (i + 0.5) / steps
+    seen = 1.5 - z - z * z / 2  # the integral of z + 1 from there to the eye
+    total += (z + 1) * math.exp(-extinction * (seen + (z + 1) * math.sqrt(1 - z * z))) * 2 / steps
+print(100 * scattering * phase * total)' "$1" "$2"
+}
+for row in 'R 0.002 0.5' 'G 0.004 1' 'B 0.008 2'; do
+    read -r name scattering extinction <<<"$row"
+    check "light is scattered once in a medium that varies: $name" near \
+        "$(of "$(channel haze.exr "$name") / $(rising_once "$scattering" "$extinction")")" 1 0.04
+done
+
+# The eye inside: 1 to the front of the ball through one medium; through two, half of the way in each.
+usd 0.0004 0 "$(sphere ball 1)" >eye.usda
+usd 0.0004 0 "$(sphere outer 1)" "$(sphere inner 0.5)" >eyes.usda
+# shellcheck disable=SC2086
+check 'the eye in a medium is traced' stage eye.exr eye.usda bulb $even --size 4 --paths 16
+check 'the eye in a medium sees its light' near "$(channel eye.exr G)" "$(of '0.5 * (1 - exp(-0.5)) / 0.5')" 0.002
+check 'the eye in a medium sees through it' near "$(channel eye.exr A)" "$(of '1 - exp(-0.5)')" 0.002
+# shellcheck disable=SC2086
+check 'the eye in two media is traced' stage eyes.exr eyes.usda inside $even --size 4 --paths 16
+check 'the eye in two media sees through both' near "$(channel eyes.exr A)" \
+    "$(of '1 - exp(-0.25) * (exp(-0.25) + exp(-0.5) + exp(-1)) / 3')" 0.005
+# shellcheck disable=SC2086
+check 'the eye in a medium that varies is traced' stage fogged.exr eye.usda foggy $even --size 4 --paths 1024
+check 'the eye in a medium that varies sees through it' near "$(channel fogged.exr A)" "$(of '1 - (exp(-0.25) + exp(-0.5) + exp(-1)) / 3')" 0.01
+
 # Media in media, and what they hold. By order of entry: inside the inner one the outer one is not.
 usd 0.0004 60 "$(sphere outer 1)" "$(sphere inner 0.5)" >inside.usda
 # shellcheck disable=SC2086
@@ -138,6 +212,10 @@ def Mesh "floor"
 check 'a floor below a medium is traced' stage shadow.exr shadow.usda shadow --size 4 --paths 16
 check 'light comes through the medium' near "$(channel shadow.exr R)" "$(of '100 / 3.14159265 * exp(-0.5)')" 0.1
 
+# The cube reaches from 2.5 to 3.5 above the floor; the integral of z + 1 is 4.
+check 'a floor below a medium that varies is traced' stage over.exr shadow.usda over --size 4 --paths 512
+check 'light comes through a medium that varies' near "$(channel over.exr R)" "$(of '100 / 3.14159265 * exp(-2)')" 0.2
+
 # As drawn: once scattered, and nothing takes from light that comes.
 check 'smoke is drawn' exits 0 "$render" "$root/examples/fog.mtlx" -q -o drawn.exr -m sphere --lights none --environment white.hdr --size 32 --samples 64
 check 'smoke is traced as drawn' exits 0 "$render" "$root/examples/fog.mtlx" -q -o traced.exr -m sphere --lights none --environment white.hdr --size 32 \
@@ -146,6 +224,8 @@ for name in R G B A; do
     check "smoke is traced as it is drawn: $name" near "$(of "$(channel drawn.exr $name) / $(channel traced.exr $name)")" 1 0.02
 done
 if [ "$extent" = all ]; then
+    check 'a white medium that varies is traced in even light' trace cloud.exr VCloud --size 16 --paths 512
+    check 'a white medium that varies loses no light' near "$(all cloud.exr)" 1 0.01
     check 'a medium that sends what it absorbs is traced in even light' trace flame.exr VFlame --size 16 --paths 128
     check 'a medium that sends what it absorbs is not to be seen' near "$(all flame.exr)" 1 0.01
     # The same medium as a volume, and inside a surface that does not bend light.
