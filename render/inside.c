@@ -8,8 +8,8 @@
 void inside_boxes(const struct bvh *bvh, struct inside_box *out, uint32_t num_objects)
 {
     for (uint32_t o = 0; o < num_objects; ++o)
-        out[o] = (struct inside_box){{INFINITY, INFINITY, INFINITY},
-                                     {-INFINITY, -INFINITY, -INFINITY}};
+        out[o] =
+            (struct inside_box){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
     for (size_t c = 0; c < 3 * (size_t)bvh->num_triangles; ++c) {
         struct inside_box *box = &out[bvh->corners[c].object];
         for (size_t i = 0; i < 3; ++i) {

@@ -163,9 +163,23 @@ static void any_tangent(const float normal[3], float out[3])
     store_unit(across, (const float[3]){1, 0, 0}, out);
 }
 
-/* A vertex with what makes it the same point of a smooth surface as another one. */
+/* The tangent of the vertex becomes this direction in the plane of its normal. */
+static void flatten_tangent(struct vertex *vertex, const double direction[3])
+{
+    const double n[3] = {vertex->normal[0], vertex->normal[1], vertex->normal[2]};
+    double along = dot(direction, n);
+    const double flat[3] = {direction[0] - along * n[0], direction[1] - along * n[1],
+                            direction[2] - along * n[2]};
+    float otherwise[3];
+    any_tangent(vertex->normal, otherwise);
+    store_unit(flat, otherwise, vertex->tangent);
+}
+
+/* ---- Equal vertices ---- */
+
+/* A vertex with what makes it the same point as another one. */
 struct twin {
-    float at[8]; /* position, normal, texcoord */
+    float at[8]; /* position; of points of a smooth surface also normal and texcoord, or else 0 */
     uint32_t vertex;
 };
 
@@ -183,31 +197,80 @@ static int compare_twins(const void *a, const void *b)
     return 0;
 }
 
+/* All vertices, equal ones beside each other; malloc. NULL: out of memory. */
+static struct twin *sort_twins(const struct mesh *mesh, bool is_smooth)
+{
+    struct twin *twins = calloc(mesh->num_vertices + 1, sizeof *twins);
+    for (uint32_t i = 0; twins && i < mesh->num_vertices; ++i) {
+        const struct vertex *v = &mesh->vertices[i];
+        memcpy(twins[i].at, v->position, sizeof v->position);
+        if (is_smooth) {
+            memcpy(twins[i].at + 3, v->normal, sizeof v->normal);
+            memcpy(twins[i].at + 6, v->texcoord, sizeof v->texcoord);
+        }
+        twins[i].vertex = i;
+    }
+    if (twins)
+        qsort(twins, mesh->num_vertices, sizeof *twins, compare_twins);
+    return twins;
+}
+
+/* Behind the last vertex that is equal to number `first`. */
+static uint32_t end_of_twins(const struct mesh *mesh, const struct twin *twins, uint32_t first)
+{
+    uint32_t end = first + 1;
+    while (end < mesh->num_vertices && !compare_twins(twins + first, twins + end))
+        ++end;
+    return end;
+}
+
 /* Vertices that differ in nothing get the sum of their tangents: triangles need not share them. */
 static bool share_tangents(const struct mesh *mesh, double (*sums)[3])
 {
-    struct twin *twins = malloc(mesh->num_vertices * sizeof *twins + 1);
-    if (!twins)
-        return false;
-    for (uint32_t i = 0; i < mesh->num_vertices; ++i) {
-        const struct vertex *v = &mesh->vertices[i];
-        memcpy(twins[i].at, v->position, sizeof v->position);
-        memcpy(twins[i].at + 3, v->normal, sizeof v->normal);
-        memcpy(twins[i].at + 6, v->texcoord, sizeof v->texcoord);
-        twins[i].vertex = i;
-    }
-    qsort(twins, mesh->num_vertices, sizeof *twins, compare_twins);
-    for (uint32_t first = 0, end; first < mesh->num_vertices; first = end) {
+    struct twin *twins = sort_twins(mesh, true);
+    for (uint32_t first = 0, end; twins && first < mesh->num_vertices; first = end) {
         double sum[3] = {0};
-        for (end = first; end < mesh->num_vertices && !compare_twins(twins + first, twins + end);
-             ++end)
+        end = end_of_twins(mesh, twins, first);
+        for (uint32_t k = first; k < end; ++k)
             for (size_t i = 0; i < 3; ++i)
-                sum[i] += sums[twins[end].vertex][i];
+                sum[i] += sums[twins[k].vertex][i];
         for (uint32_t k = first; k < end; ++k)
             memcpy(sums[twins[k].vertex], sum, sizeof sum);
     }
     free(twins);
-    return true;
+    return twins != NULL;
+}
+
+/* Gives all of these vertices the mean normal, unless that is none, and the tangent of the first.
+ */
+static void weld(const struct mesh *mesh, const struct twin *twins, uint32_t num)
+{
+    double sum[3] = {0};
+    for (uint32_t k = 0; k < num; ++k)
+        for (size_t i = 0; i < 3; ++i)
+            sum[i] += (double)mesh->vertices[twins[k].vertex].normal[i];
+    if (dot(sum, sum) < 1e-4)
+        return;
+    struct vertex *first = &mesh->vertices[twins[0].vertex];
+    store_unit(sum, first->normal, first->normal);
+    flatten_tangent(first,
+                    (const double[3]){first->tangent[0], first->tangent[1], first->tangent[2]});
+    for (uint32_t k = 1; k < num; ++k) {
+        struct vertex *vertex = &mesh->vertices[twins[k].vertex];
+        memcpy(vertex->normal, first->normal, sizeof first->normal);
+        memcpy(vertex->tangent, first->tangent, sizeof first->tangent);
+    }
+}
+
+bool mesh_weld(struct mesh *mesh)
+{
+    struct twin *twins = sort_twins(mesh, false);
+    for (uint32_t first = 0, end; twins && first < mesh->num_vertices; first = end) {
+        end = end_of_twins(mesh, twins, first);
+        weld(mesh, twins + first, end - first);
+    }
+    free(twins);
+    return twins != NULL;
 }
 
 static bool make_tangents(struct mesh *mesh)
@@ -224,16 +287,8 @@ static bool make_tangents(struct mesh *mesh)
         free(sums);
         return false;
     }
-    for (uint32_t i = 0; i < mesh->num_vertices; ++i) {
-        struct vertex *vertex = &mesh->vertices[i];
-        const double n[3] = {vertex->normal[0], vertex->normal[1], vertex->normal[2]};
-        double along = dot(sums[i], n);
-        const double flat[3] = {sums[i][0] - along * n[0], sums[i][1] - along * n[1],
-                                sums[i][2] - along * n[2]};
-        float otherwise[3];
-        any_tangent(vertex->normal, otherwise);
-        store_unit(flat, otherwise, vertex->tangent);
-    }
+    for (uint32_t i = 0; i < mesh->num_vertices; ++i)
+        flatten_tangent(&mesh->vertices[i], sums[i]);
     free(sums);
     return true;
 }

@@ -56,6 +56,13 @@ float (*mesh_quarter_values(const struct mesh *mesh, float (*values)[4]))[4];
 bool mesh_subdivide(struct mesh *mesh, uint32_t wanted);
 
 /*
+ * Gives vertices of one position one normal and tangent, so that displacement tears no edge: the
+ * mean of their normals, unless they cancel out as those of a sheet's two sides. false: out of
+ * memory.
+ */
+bool mesh_weld(struct mesh *mesh);
+
+/*
  * The triangles sorted from far to near, seen from `eye` in the space of the mesh; malloc. NULL:
  * out of memory.
  */

@@ -78,5 +78,5 @@ bool object_refine(const struct scene_object *object, uint32_t wanted, struct sc
     bool good = copy_object(object, out);
     while (good && out->mesh.num_indices / 3 < wanted)
         good = quarter(out);
-    return good;
+    return good && mesh_weld(&out->mesh);
 }

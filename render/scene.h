@@ -94,7 +94,8 @@ void scene_finish(struct scene *scene);
 void object_finish(struct scene_object *object);
 /* Frees the last primvars of an object, and the list if there are any. */
 void object_finish_primvars(struct scene_object *object, uint32_t num);
-/* A copy of an object with at least so many triangles. false: out of memory; object_finish(out). */
+/* A copy of an object for displacement: with at least so many triangles, welded. false: out of
+ * memory; object_finish(out). */
 bool object_refine(const struct scene_object *object, uint32_t wanted, struct scene_object *out);
 
 /* Moves the camera, and points it at the target. */

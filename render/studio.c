@@ -156,10 +156,10 @@ void studio_aim(const struct studio *studio, double aspect, double turn, struct 
 bool studio_refine(const struct studio *studio, const struct mesh *mesh, struct mesh *out)
 {
     if (args_is_one_of(studio->mesh, shape_names()))
-        return shape_make(studio->mesh, FINE_DETAIL, out);
+        return shape_make(studio->mesh, FINE_DETAIL, out) && mesh_weld(out);
     if (!mesh_allocate(out, mesh->num_vertices, mesh->num_indices))
         return false;
     memcpy(out->vertices, mesh->vertices, mesh->num_vertices * sizeof *mesh->vertices);
     memcpy(out->indices, mesh->indices, mesh->num_indices * sizeof *mesh->indices);
-    return mesh_subdivide(out, FINE_TRIANGLES);
+    return mesh_subdivide(out, FINE_TRIANGLES) && mesh_weld(out);
 }

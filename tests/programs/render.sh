@@ -304,6 +304,12 @@ check 'a displaced plane is drawn' exits 0 "$render" ramp.mtlx -m plane --lights
 check 'a tilted plane is drawn' exits 0 "$render" metal.mtlx -m tilted.obj --lights none --size 48 --camera 10,10,4 -o tilted.ppm
 check 'a plane that rises agrees with a tilted one' agree ramp.ppm tilted.ppm
 check 'a plane that rises differs from a flat one' eval 'metal -m plane --camera 10,10,4.8 -o flat.ppm && ! agree ramp.ppm flat.ppm'
+# A cube that grows has no gap at its edges, through which one would see what is behind it: from one edge to the opposite one.
+for trace in '' '--path-trace --paths 4'; do
+    # shellcheck disable=SC2086 # arguments, divided by spaces
+    check "a displaced cube is drawn ${trace:-in a raster}" exits 0 "$render" grown.mtlx -m cube --lights none --size 8 --camera 45,0,20,1 $trace -o cube.exr
+    check "a displaced cube has no gaps ${trace:-in a raster}" test "$(python3 "$exr" cube.exr A mean)" = 1.0000
+done
 
 # Volumes. In a white room one that scatters only is not to be seen: what it takes it gives back.
 printf 'PF\n2 1\n-1.0\n\0\0\200\077\0\0\200\077\0\0\200\077\0\0\200\077\0\0\200\077\0\0\200\077' >white.pfm
