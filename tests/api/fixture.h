@@ -57,6 +57,18 @@ static inline mxg_status commit(mxg_edit *edit, mxg_document **out_document)
     return status;
 }
 
+/* ---- Elements by their paths; 0: there is none ---- */
+
+static inline mxg_element element_at(const mxg_document *document, const char *path)
+{
+    return mxg_document_find_element(document, 0, path);
+}
+
+static inline mxg_element edited_at(const mxg_edit *edit, const char *path)
+{
+    return mxg_edit_find_element(edit, 0, path);
+}
+
 /* ---- Files in memory ---- */
 
 struct memory_file {

@@ -84,14 +84,11 @@ static bool failed_for(const mxg_edit *edit, const char *text)
 
 /* ---- Reading ---- */
 
-static void test_elements(void)
+static void test_elements(struct fixture *f)
 {
-    struct fixture f;
-    open_fixture(&f);
-    const mxg_document *d = f.document;
-    mxg_element root = mxg_document_find_element(d, 0, ""),
-                graph = mxg_document_find_element(d, 0, "G"),
-                coat = mxg_document_find_element(d, 0, "S/coat");
+    const mxg_document *d = f->document;
+    mxg_element root = element_at(d, ""), graph = element_at(d, "G"),
+                coat = element_at(d, "S/coat");
     mxg_element_info info = MXG_INIT(mxg_element_info);
     REQUIRE_EQ(mxg_document_element(d, coat, &info), MXG_OK);
     REQUIRE_STR(info.category, "input");
@@ -100,7 +97,7 @@ static void test_elements(void)
     REQUIRE_STR(info.file, "main.mtlx");
     REQUIRE_EQ(info.line, 13);
     REQUIRE_EQ(info.column, 5);
-    REQUIRE_EQ(info.parent, mxg_document_find_element(d, 0, "S"));
+    REQUIRE_EQ(info.parent, element_at(d, "S"));
     REQUIRE_EQ(info.num_attributes, 2);
     REQUIRE_EQ(mxg_document_find_element(d, info.parent, "coat"), coat);
     REQUIRE_STR(attribute_of(d, coat, "value"), "0.5");
@@ -119,9 +116,7 @@ static void test_elements(void)
         REQUIRE_EQ(mxg_document_element(d, e, &info), MXG_OK);
     REQUIRE_EQ(children, 5);
     char path[64];
-    REQUIRE_EQ(
-        mxg_document_element_path(d, mxg_document_find_element(d, 0, "/G/n"), path, sizeof path),
-        3);
+    REQUIRE_EQ(mxg_document_element_path(d, element_at(d, "/G/n"), path, sizeof path), 3);
     REQUIRE_STR(path, "G/n");
     REQUIRE_EQ(mxg_document_element_path(d, coat, path, 3), 6);
     REQUIRE_STR(path, "S/");
@@ -131,78 +126,65 @@ static void test_elements(void)
     REQUIRE_EQ(mxg_document_element(d, 0, &info), MXG_ERROR_ARGUMENT);
     REQUIRE_EQ(mxg_document_element(d, 1, &info), MXG_ERROR_ARGUMENT);
     REQUIRE_EQ(mxg_document_element(d, UINT32_MAX, &info), MXG_ERROR_ARGUMENT);
-    REQUIRE_EQ(mxg_document_find_element(d, 0, "ND_mix_float"), 0);
-    REQUIRE_EQ(mxg_document_find_element(d, 0, "G/none"), 0);
+    REQUIRE_EQ(element_at(d, "ND_mix_float"), 0);
+    REQUIRE_EQ(element_at(d, "G/none"), 0);
     REQUIRE_EQ(mxg_document_find_element(NULL, graph, "n"), 0);
-    close_fixture(&f);
 }
 
-static void test_values(void)
+static void test_values(struct fixture *f)
 {
-    struct fixture f;
-    open_fixture(&f);
-    mxg_document *d = parse(&f, "<materialx version='1.39'><standard_surface name='S' "
-                                "type='surfaceshader'>"
-                                "<input name='a' type='color3' value='1, 0.5, 0'/>"
-                                "<input name='b' type='integer' value='16777217'/>"
-                                "<input name='c' type='boolean' value='true'/>"
-                                "<input name='d' type='string' value='oren'/>"
-                                "<input name='e' type='float' value='wide'/>"
-                                "<input name='f' type='float' nodename='N'/>"
-                                "</standard_surface></materialx>");
+    mxg_document *d = parse(f, "<materialx version='1.39'><standard_surface name='S' "
+                               "type='surfaceshader'>"
+                               "<input name='a' type='color3' value='1, 0.5, 0'/>"
+                               "<input name='b' type='integer' value='16777217'/>"
+                               "<input name='c' type='boolean' value='true'/>"
+                               "<input name='d' type='string' value='oren'/>"
+                               "<input name='e' type='float' value='wide'/>"
+                               "<input name='f' type='float' nodename='N'/>"
+                               "</standard_surface></materialx>");
     mxg_value value = MXG_INIT(mxg_value);
-    REQUIRE_EQ(mxg_document_value(d, mxg_document_find_element(d, 0, "S/a"), &value), MXG_OK);
+    REQUIRE_EQ(mxg_document_value(d, element_at(d, "S/a"), &value), MXG_OK);
     REQUIRE_EQ(value.num_values, 3);
     REQUIRE(value.values[0] == 1 && value.values[1] == 0.5f && value.values[2] == 0);
     REQUIRE_STR(value.type, "color3");
-    REQUIRE_EQ(mxg_document_value(d, mxg_document_find_element(d, 0, "S/b"), &value), MXG_OK);
+    REQUIRE_EQ(mxg_document_value(d, element_at(d, "S/b"), &value), MXG_OK);
     REQUIRE_EQ(value.integer, 16777217);
     REQUIRE_EQ(value.num_values, 1);
-    REQUIRE_EQ(mxg_document_value(d, mxg_document_find_element(d, 0, "S/c"), &value), MXG_OK);
+    REQUIRE_EQ(mxg_document_value(d, element_at(d, "S/c"), &value), MXG_OK);
     REQUIRE(value.num_values == 1 && value.values[0] == 1);
-    REQUIRE_EQ(mxg_document_value(d, mxg_document_find_element(d, 0, "S/d"), &value), MXG_OK);
+    REQUIRE_EQ(mxg_document_value(d, element_at(d, "S/d"), &value), MXG_OK);
     REQUIRE_EQ(value.num_values, 0);
     REQUIRE_STR(value.text, "oren");
-    REQUIRE_EQ(mxg_document_value(d, mxg_document_find_element(d, 0, "S/e"), &value), MXG_OK);
+    REQUIRE_EQ(mxg_document_value(d, element_at(d, "S/e"), &value), MXG_OK);
     REQUIRE_EQ(value.num_values, 0);
-    REQUIRE_EQ(mxg_document_value(d, mxg_document_find_element(d, 0, "S/f"), &value),
-               MXG_ERROR_ARGUMENT);
+    REQUIRE_EQ(mxg_document_value(d, element_at(d, "S/f"), &value), MXG_ERROR_ARGUMENT);
     mxg_document_destroy(d);
-    close_fixture(&f);
 }
 
-static void test_links(void)
+static void test_links(struct fixture *f)
 {
-    struct fixture f;
-    open_fixture(&f);
-    const mxg_document *d = f.document;
+    const mxg_document *d = f->document;
     mxg_connection link = MXG_INIT(mxg_connection);
-    REQUIRE_EQ(mxg_document_connection(d, mxg_document_find_element(d, 0, "S/base_color"), &link),
-               MXG_OK);
-    REQUIRE_EQ(link.source, mxg_document_find_element(d, 0, "G"));
+    REQUIRE_EQ(mxg_document_connection(d, element_at(d, "S/base_color"), &link), MXG_OK);
+    REQUIRE_EQ(link.source, element_at(d, "G"));
     REQUIRE_STR(link.output, "out");
-    REQUIRE_EQ(mxg_document_connection(d, mxg_document_find_element(d, 0, "G/n/amplitude"), &link),
-               MXG_OK);
-    REQUIRE_EQ(link.source, mxg_document_find_element(d, 0, "G/scale"));
+    REQUIRE_EQ(mxg_document_connection(d, element_at(d, "G/n/amplitude"), &link), MXG_OK);
+    REQUIRE_EQ(link.source, element_at(d, "G/scale"));
     REQUIRE_STR(link.interfacename, "scale");
-    REQUIRE_EQ(mxg_document_connection(d, mxg_document_find_element(d, 0, "G/out"), &link), MXG_OK);
-    REQUIRE_EQ(link.source, mxg_document_find_element(d, 0, "G/t"));
-    REQUIRE_EQ(mxg_document_connection(d, mxg_document_find_element(d, 0, "S/coat"), &link),
-               MXG_ERROR_ARGUMENT);
-    mxg_document *broken = parse(&f, "<materialx version='1.39'><output name='o' type='float' "
-                                     "nodename='none'/></materialx>");
-    REQUIRE_EQ(mxg_document_connection(broken, mxg_document_find_element(broken, 0, "o"), &link),
-               MXG_ERROR_DOCUMENT);
+    REQUIRE_EQ(mxg_document_connection(d, element_at(d, "G/out"), &link), MXG_OK);
+    REQUIRE_EQ(link.source, element_at(d, "G/t"));
+    REQUIRE_EQ(mxg_document_connection(d, element_at(d, "S/coat"), &link), MXG_ERROR_ARGUMENT);
+    mxg_document *broken = parse(f, "<materialx version='1.39'><output name='o' type='float' "
+                                    "nodename='none'/></materialx>");
+    REQUIRE_EQ(mxg_document_connection(broken, element_at(broken, "o"), &link), MXG_ERROR_DOCUMENT);
     mxg_document_destroy(broken);
     /* definitions of the library and of the document */
     uint32_t nodedef;
     mxg_nodedef definition = MXG_INIT(mxg_nodedef);
-    REQUIRE((nodedef = mxg_document_find_nodedef(d, mxg_document_find_element(d, 0, "S")))
-            != MXG_NONE);
+    REQUIRE((nodedef = mxg_document_find_nodedef(d, element_at(d, "S"))) != MXG_NONE);
     REQUIRE_EQ(mxg_document_nodedef(d, nodedef, &definition), MXG_OK);
     REQUIRE_STR(definition.name, "ND_standard_surface_surfaceshader");
-    REQUIRE((nodedef = mxg_document_find_nodedef(d, mxg_document_find_element(d, 0, "G/t")))
-            != MXG_NONE);
+    REQUIRE((nodedef = mxg_document_find_nodedef(d, element_at(d, "G/t"))) != MXG_NONE);
     REQUIRE_EQ(mxg_document_nodedef(d, nodedef, &definition), MXG_OK);
     REQUIRE_STR(definition.name, "ND_tint");
     REQUIRE_EQ(nodedef + 1, mxg_document_num_nodedefs(d));
@@ -217,8 +199,7 @@ static void test_links(void)
     REQUIRE_STR(implementation.nodegraph, "");
     REQUIRE_EQ(mxg_document_implementation(d, nodedef, 1, &implementation), MXG_ERROR_ARGUMENT);
     REQUIRE_EQ(mxg_document_num_implementations(d, nodedef + 1), 0);
-    REQUIRE_EQ(mxg_document_find_nodedef(d, mxg_document_find_element(d, 0, "G")), MXG_NONE);
-    close_fixture(&f);
+    REQUIRE_EQ(mxg_document_find_nodedef(d, element_at(d, "G")), MXG_NONE);
 }
 
 /* ---- Building ---- */
@@ -255,40 +236,34 @@ static const char *generate(struct fixture *f, const mxg_document *document, con
     return source ? source : "";
 }
 
-static void test_build(void)
+static void test_build(struct fixture *f)
 {
-    struct fixture f;
-    open_fixture(&f);
-    mxg_edit *edit = begin(&f, NULL);
+    mxg_edit *edit = begin(f, NULL);
     build_gold(edit);
     REQUIRE_EQ(mxg_edit_error(edit, NULL, 0), 0);
-    mxg_document *built = NULL, *parsed = parse(&f, document_text("gold.mtlx"));
+    mxg_document *built = NULL, *parsed = parse(f, document_text("gold.mtlx"));
     REQUIRE_EQ(commit(edit, &built), MXG_OK);
     REQUIRE_STR(xml_below(built), document_text("gold.mtlx"));
     REQUIRE_STR(xml_below(parsed), document_text("gold.mtlx"));
     REQUIRE_EQ(mxg_document_num_renderables(built), 1);
     mxg_result *a = NULL, *b = NULL;
-    const char *from_built = generate(&f, built, NULL, &a);
+    const char *from_built = generate(f, built, NULL, &a);
     REQUIRE(strlen(from_built) > 1000);
-    REQUIRE_STR(from_built, generate(&f, parsed, NULL, &b));
+    REQUIRE_STR(from_built, generate(f, parsed, NULL, &b));
     mxg_result_destroy(a);
     mxg_result_destroy(b);
     mxg_document_destroy(built);
     mxg_document_destroy(parsed);
-    close_fixture(&f);
 }
 
 /* ---- Editing ---- */
 
-static void test_edit_of_a_document(void)
+static void test_edit_of_a_document(struct fixture *f)
 {
-    struct fixture f;
-    open_fixture(&f);
-    mxg_element shader = mxg_document_find_element(f.document, 0, "S"),
-                texture = mxg_document_find_element(f.document, 0, "G/i");
+    mxg_element shader = element_at(f->document, "S"), texture = element_at(f->document, "G/i");
     char before[4096];
-    snprintf(before, sizeof before, "%s", xml_below(f.document));
-    mxg_edit *edit = begin(&f, f.document);
+    snprintf(before, sizeof before, "%s", xml_below(f->document));
+    mxg_edit *edit = begin(f, f->document);
     const float half[] = {0.5f}, quarter[] = {0.25f};
     REQUIRE_EQ(mxg_edit_set_numbers(edit, shader, "metalness", "float", half, 1), MXG_OK);
     REQUIRE_EQ(mxg_edit_set_value(edit, shader, "coat", NULL, "0.5"), MXG_OK);
@@ -298,36 +273,33 @@ static void test_edit_of_a_document(void)
     mxg_document *next = NULL;
     REQUIRE_EQ(commit(edit, &next), MXG_OK);
     /* numbers of elements stay, the old document does, too, and places lead to the old file */
-    REQUIRE_EQ(mxg_document_find_element(next, 0, "S"), shader);
-    REQUIRE_STR(attribute_of(next, mxg_document_find_element(next, 0, "S/coat"), "value"), "0.25");
-    REQUIRE_STR(xml_below(f.document), before);
-    REQUIRE_EQ(mxg_document_num_files(next), mxg_document_num_files(f.document));
+    REQUIRE_EQ(element_at(next, "S"), shader);
+    REQUIRE_STR(attribute_of(next, element_at(next, "S/coat"), "value"), "0.25");
+    REQUIRE_STR(xml_below(f->document), before);
+    REQUIRE_EQ(mxg_document_num_files(next), mxg_document_num_files(f->document));
     mxg_element_info info = MXG_INIT(mxg_element_info);
     REQUIRE_EQ(mxg_document_element(next, shader, &info), MXG_OK);
     REQUIRE_EQ(info.line, 11);
-    REQUIRE_EQ(mxg_document_element(next, mxg_document_find_element(next, 0, "S/metalness"), &info),
-               MXG_OK);
+    REQUIRE_EQ(mxg_document_element(next, element_at(next, "S/metalness"), &info), MXG_OK);
     REQUIRE(info.line == 0 && !info.file);
     /* the edited document is what its text says */
     mxg_result *a = NULL, *b = NULL;
-    mxg_document *again = parse(&f, mxg_document_xml(next, NULL));
+    mxg_document *again = parse(f, mxg_document_xml(next, NULL));
     REQUIRE_STR(xml_below(again), xml_below(next));
-    REQUIRE_STR(generate(&f, next, "M", &a), generate(&f, again, "M", &b));
+    REQUIRE_STR(generate(f, next, "M", &a), generate(f, again, "M", &b));
     mxg_result_destroy(a);
     mxg_result_destroy(b);
     /* an edit of an edit, after the first document is gone */
-    mxg_document_destroy(f.document);
-    f.document = NULL;
-    edit = begin(&f, next);
-    REQUIRE_EQ(mxg_edit_remove_element(edit, mxg_edit_find_element(edit, 0, "S/metalness")),
-               MXG_OK);
+    mxg_document_destroy(f->document);
+    f->document = NULL;
+    edit = begin(f, next);
+    REQUIRE_EQ(mxg_edit_remove_element(edit, edited_at(edit, "S/metalness")), MXG_OK);
     REQUIRE_EQ(mxg_edit_set_value(edit, shader, "coat", "float", "0.5"), MXG_OK);
     mxg_document_destroy(next);
     REQUIRE_EQ(commit(edit, &next), MXG_OK);
     REQUIRE_STR(xml_below(next), before);
     mxg_document_destroy(again);
     mxg_document_destroy(next);
-    close_fixture(&f);
 }
 
 /* Only what names the element itself changes, whatever else has the name. */
@@ -346,13 +318,10 @@ static void test_rename_in_scope(struct fixture *f)
                                "<sin name='t' type='float'><input name='in' type='float' "
                                "nodegraph='A' output='x2'/></sin></materialx>");
     mxg_edit *edit = begin(f, d);
-    REQUIRE_EQ(mxg_edit_rename_element(edit, mxg_edit_find_element(edit, 0, "A/x"), "inner"),
-               MXG_OK);
-    REQUIRE_EQ(mxg_edit_rename_element(edit, mxg_edit_find_element(edit, 0, "A"), "G"), MXG_OK);
-    REQUIRE_EQ(mxg_edit_rename_element(edit, mxg_edit_find_element(edit, 0, "G/x2"), "out"),
-               MXG_OK);
-    REQUIRE_EQ(mxg_edit_rename_element(edit, mxg_edit_find_element(edit, 0, "B/in"), "number"),
-               MXG_OK);
+    REQUIRE_EQ(mxg_edit_rename_element(edit, edited_at(edit, "A/x"), "inner"), MXG_OK);
+    REQUIRE_EQ(mxg_edit_rename_element(edit, edited_at(edit, "A"), "G"), MXG_OK);
+    REQUIRE_EQ(mxg_edit_rename_element(edit, edited_at(edit, "G/x2"), "out"), MXG_OK);
+    REQUIRE_EQ(mxg_edit_rename_element(edit, edited_at(edit, "B/in"), "number"), MXG_OK);
     REQUIRE_EQ(commit(edit, &next), MXG_OK);
     static const char *const expected[][3] = {{"G/in", "nodename", "x"},
                                               {"G/s/in", "nodename", "inner"},
@@ -362,45 +331,34 @@ static void test_rename_in_scope(struct fixture *f)
                                               {"t/in", "nodegraph", "G"},
                                               {"t/in", "output", "out"}};
     for (size_t i = 0; i < sizeof expected / sizeof *expected; ++i)
-        REQUIRE_STR(
-            attribute_of(next, mxg_document_find_element(next, 0, expected[i][0]), expected[i][1]),
-            expected[i][2]);
+        REQUIRE_STR(attribute_of(next, element_at(next, expected[i][0]), expected[i][1]),
+                    expected[i][2]);
     mxg_document_destroy(d);
     /* a node that an edit moves has the names of its new place */
     edit = begin(f, next);
-    mxg_element moved = mxg_edit_find_element(edit, 0, "G/s");
+    mxg_element moved = edited_at(edit, "G/s");
     REQUIRE_EQ(mxg_edit_move_element(edit, moved, 0, 0), MXG_OK);
-    REQUIRE_EQ(mxg_edit_connect_input(edit, moved, "in", mxg_edit_find_element(edit, 0, "x"), NULL),
+    REQUIRE_EQ(mxg_edit_connect_input(edit, moved, "in", edited_at(edit, "x"), NULL), MXG_OK);
+    REQUIRE_EQ(mxg_edit_move_element(edit, moved, edited_at(edit, "B"), 0), MXG_OK);
+    REQUIRE_EQ(mxg_edit_move_element(edit, edited_at(edit, "x"), edited_at(edit, "B"), moved),
                MXG_OK);
-    REQUIRE_EQ(mxg_edit_move_element(edit, moved, mxg_edit_find_element(edit, 0, "B"), 0), MXG_OK);
-    REQUIRE_EQ(mxg_edit_move_element(edit, mxg_edit_find_element(edit, 0, "x"),
-                                     mxg_edit_find_element(edit, 0, "B"), moved),
-               MXG_OK);
-    REQUIRE_EQ(mxg_edit_rename_element(edit, mxg_edit_find_element(edit, 0, "B/x"), "y"), MXG_OK);
+    REQUIRE_EQ(mxg_edit_rename_element(edit, edited_at(edit, "B/x"), "y"), MXG_OK);
     mxg_document *last = NULL;
     REQUIRE_EQ(commit(edit, &last), MXG_OK);
-    REQUIRE_STR(attribute_of(last, mxg_document_find_element(last, 0, "B/s/in"), "nodename"), "y");
+    REQUIRE_STR(attribute_of(last, element_at(last, "B/s/in"), "nodename"), "y");
     mxg_document_destroy(next);
     mxg_document_destroy(last);
 }
 
-static void test_rename(void)
+static void test_rename(struct fixture *f)
 {
-    struct fixture f;
-    open_fixture(&f);
-    mxg_document *d = parse(&f, document_text("gold.mtlx")), *next = NULL;
-    mxg_edit *edit = begin(&f, d);
-    REQUIRE_EQ(mxg_edit_rename_element(edit, mxg_edit_find_element(edit, 0, "SR"), "Shader"),
-               MXG_OK);
-    REQUIRE_EQ(mxg_edit_set_attribute(edit, mxg_edit_find_element(edit, 0, "NG"), "name", "Graph"),
-               MXG_OK);
-    REQUIRE_EQ(mxg_edit_rename_element(edit, mxg_edit_find_element(edit, 0, "Graph/wear"), "worn"),
-               MXG_OK);
-    REQUIRE_EQ(
-        mxg_edit_rename_element(edit, mxg_edit_find_element(edit, 0, "Graph/amount"), "much"),
-        MXG_OK);
-    REQUIRE_EQ(mxg_edit_rename_element(edit, mxg_edit_find_element(edit, 0, "Graph/spots"), "dots"),
-               MXG_OK);
+    mxg_document *d = parse(f, document_text("gold.mtlx")), *next = NULL;
+    mxg_edit *edit = begin(f, d);
+    REQUIRE_EQ(mxg_edit_rename_element(edit, edited_at(edit, "SR"), "Shader"), MXG_OK);
+    REQUIRE_EQ(mxg_edit_set_attribute(edit, edited_at(edit, "NG"), "name", "Graph"), MXG_OK);
+    REQUIRE_EQ(mxg_edit_rename_element(edit, edited_at(edit, "Graph/wear"), "worn"), MXG_OK);
+    REQUIRE_EQ(mxg_edit_rename_element(edit, edited_at(edit, "Graph/amount"), "much"), MXG_OK);
+    REQUIRE_EQ(mxg_edit_rename_element(edit, edited_at(edit, "Graph/spots"), "dots"), MXG_OK);
     REQUIRE_EQ(commit(edit, &next), MXG_OK);
     const char *xml = xml_below(next);
     REQUIRE(strstr(xml, "nodename=\"Shader\"") && !strstr(xml, "\"SR\""));
@@ -409,66 +367,52 @@ static void test_rename(void)
     REQUIRE(strstr(xml, "nodename=\"dots\"") && !strstr(xml, "\"spots\""));
     mxg_document_destroy(next);
     mxg_document_destroy(d);
-    test_rename_in_scope(&f);
-    d = parse(&f, "<materialx version='1.39'><look name='day'/><look name='night' inherit='day'/>"
-                  "<lookgroup name='all' looks='day, night' active='day'/>"
-                  "<nodedef name='day2' node='x'><output name='out' type='float'/></nodedef>"
-                  "</materialx>");
-    edit = begin(&f, d);
-    REQUIRE_EQ(mxg_edit_rename_element(edit, mxg_edit_find_element(edit, 0, "day"), "noon"),
-               MXG_OK);
+    test_rename_in_scope(f);
+    d = parse(f, "<materialx version='1.39'><look name='day'/><look name='night' inherit='day'/>"
+                 "<lookgroup name='all' looks='day, night' active='day'/>"
+                 "<nodedef name='day2' node='x'><output name='out' type='float'/></nodedef>"
+                 "</materialx>");
+    edit = begin(f, d);
+    REQUIRE_EQ(mxg_edit_rename_element(edit, edited_at(edit, "day"), "noon"), MXG_OK);
     commit(edit, &next);
     xml = xml_below(next);
     REQUIRE(strstr(xml, "inherit=\"noon\"") && strstr(xml, "looks=\"noon, night\""));
     mxg_document_destroy(next);
     mxg_document_destroy(d);
-    close_fixture(&f);
 }
 
-static void test_move_and_copy(void)
+static void test_move_and_copy(struct fixture *f)
 {
-    struct fixture f;
-    open_fixture(&f);
-    mxg_document *d = parse(&f, document_text("gold.mtlx")), *next = NULL;
-    mxg_edit *edit = begin(&f, d);
-    mxg_element graph = mxg_edit_find_element(edit, 0, "NG"),
-                shader = mxg_edit_find_element(edit, 0, "SR");
+    mxg_document *d = parse(f, document_text("gold.mtlx")), *next = NULL;
+    mxg_edit *edit = begin(f, d);
+    mxg_element graph = edited_at(edit, "NG"), shader = edited_at(edit, "SR");
     REQUIRE_EQ(mxg_edit_move_element(edit, graph, 0, shader), MXG_OK);
     mxg_element copy = mxg_edit_copy_element(edit, 0, d, shader, "SR2");
     REQUIRE(copy != 0);
     /* from another document, and below itself */
-    REQUIRE(mxg_edit_copy_element(edit, graph, f.document,
-                                  mxg_document_find_element(f.document, 0, "G/i"), NULL));
-    REQUIRE(mxg_edit_copy_element(edit, 0, f.document,
-                                  mxg_document_find_element(f.document, 0, "G"), NULL));
+    REQUIRE(mxg_edit_copy_element(edit, graph, f->document, element_at(f->document, "G/i"), NULL));
+    REQUIRE(mxg_edit_copy_element(edit, 0, f->document, element_at(f->document, "G"), NULL));
     REQUIRE_EQ(commit(edit, &next), MXG_OK);
     mxg_element_info info = MXG_INIT(mxg_element_info);
-    REQUIRE_EQ(mxg_document_element(next, mxg_document_find_element(next, 0, ""), &info), MXG_OK);
+    REQUIRE_EQ(mxg_document_element(next, element_at(next, ""), &info), MXG_OK);
     REQUIRE_EQ(info.first_child, graph);
-    REQUIRE_EQ(mxg_document_find_element(next, 0, "SR2"), copy);
-    REQUIRE_STR(attribute_of(next, mxg_document_find_element(next, 0, "SR2/base_color"), "value"),
-                "0.9, 0.6, 0.2");
-    REQUIRE_STR(attribute_of(next, mxg_document_find_element(next, 0, "G/i/file"), "value"),
-                "wood.png");
-    REQUIRE(mxg_document_find_element(next, 0, "NG/i/file") != 0);
+    REQUIRE_EQ(element_at(next, "SR2"), copy);
+    REQUIRE_STR(attribute_of(next, element_at(next, "SR2/base_color"), "value"), "0.9, 0.6, 0.2");
+    REQUIRE_STR(attribute_of(next, element_at(next, "G/i/file"), "value"), "wood.png");
+    REQUIRE(element_at(next, "NG/i/file") != 0);
     mxg_document_destroy(next);
     mxg_document_destroy(d);
-    close_fixture(&f);
 }
 
 /* ---- Bad input ---- */
 
-static void test_refused(void)
+static void test_refused(struct fixture *f)
 {
-    struct fixture f;
-    open_fixture(&f);
-    mxg_document *d = parse(&f, document_text("gold.mtlx"));
-    mxg_edit *e = begin(&f, d);
-    mxg_element shader = mxg_edit_find_element(e, 0, "SR"),
-                graph = mxg_edit_find_element(e, 0, "NG"),
-                spots = mxg_edit_find_element(e, 0, "NG/spots"),
-                wear = mxg_edit_find_element(e, 0, "NG/wear"),
-                material = mxg_edit_find_element(e, 0, "Gold");
+    mxg_document *d = parse(f, document_text("gold.mtlx"));
+    mxg_edit *e = begin(f, d);
+    mxg_element shader = edited_at(e, "SR"), graph = edited_at(e, "NG"),
+                spots = edited_at(e, "NG/spots"), wear = edited_at(e, "NG/wear"),
+                material = edited_at(e, "Gold");
     const float numbers[] = {1, NAN, 3};
 #define REFUSED(call, text) \
     do { \
@@ -515,8 +459,7 @@ static void test_refused(void)
     REFUSED(mxg_edit_connect_input(e, spots, NULL, graph, NULL), "is an <output>");
     REFUSED(mxg_edit_connect_input(e, shader, "coat", graph, "none"),
             "output 'none' of 'NG' is unknown");
-    REFUSED(mxg_edit_connect_input(e, wear, NULL, mxg_edit_find_element(e, 0, "NG/split"), "outq"),
-            "is unknown");
+    REFUSED(mxg_edit_connect_input(e, wear, NULL, edited_at(e, "NG/split"), "outq"), "is unknown");
     REFUSED(mxg_edit_connect_input(e, material, "surfaceshader", 0, NULL), "no such element");
     REFUSED(mxg_edit_move_element(e, graph, spots, 0), "below or before itself");
     REFUSED(mxg_edit_move_element(e, graph, 0, graph), "below or before itself");
@@ -526,9 +469,8 @@ static void test_refused(void)
     REFUSED(mxg_edit_move_element(e, look, look, 0), "'look' cannot move below");
     NO_ELEMENT(mxg_edit_copy_element(e, 0, NULL, shader, NULL), "document to copy from is missing");
     REQUIRE_EQ(mxg_edit_remove_element(e, look), MXG_OK);
-    REFUSED(mxg_edit_remove_element(e, mxg_document_find_element(d, 0, "")), "no such element");
-    NO_ELEMENT(mxg_edit_copy_element(e, graph, d, mxg_document_find_element(d, 0, ""), NULL),
-               "no such element");
+    REFUSED(mxg_edit_remove_element(e, element_at(d, "")), "no such element");
+    NO_ELEMENT(mxg_edit_copy_element(e, graph, d, element_at(d, ""), NULL), "no such element");
     NO_ELEMENT(mxg_edit_copy_element(e, 0, d, shader, NULL), "'SR' already");
     REQUIRE_EQ(mxg_edit_remove_element(e, graph), MXG_OK);
     REFUSED(mxg_edit_set_attribute(e, spots, "doc", "of a removed graph"), "no such element");
@@ -540,63 +482,55 @@ static void test_refused(void)
     /* it ends the edit */
     REFUSED(mxg_edit_set_value(e, shader, "coat", "float", "1"), "has made its document");
     NO_ELEMENT(mxg_edit_add_element(e, 0, "add", "x", "float"), "has made its document");
-    REQUIRE_EQ(mxg_edit_find_element(e, 0, "SR"), 0);
+    REQUIRE_EQ(edited_at(e, "SR"), 0);
     mxg_document *again = NULL;
     REQUIRE_EQ(mxg_edit_commit(e, &again), MXG_ERROR_ARGUMENT);
     REQUIRE(!again);
     mxg_edit_destroy(e);
-    REQUIRE_STR(attribute_of(next, mxg_document_find_element(next, 0, "SR/base_color"), "value"),
-                "0.9, 0.6, 0.2");
-    REQUIRE_EQ(mxg_document_find_element(next, 0, "SR/coat"), 0);
+    REQUIRE_STR(attribute_of(next, element_at(next, "SR/base_color"), "value"), "0.9, 0.6, 0.2");
+    REQUIRE_EQ(element_at(next, "SR/coat"), 0);
     mxg_document_destroy(next);
     /* handles */
     mxg_library *other = NULL;
     const char *paths[] = {"model.mtlx"};
-    REQUIRE_EQ(mxg_library_load(f.context, f.library, paths, 1, &other), MXG_OK);
-    REQUIRE_EQ(mxg_edit_create(f.context, other, d, NULL, &e), MXG_ERROR_ARGUMENT);
+    REQUIRE_EQ(mxg_library_load(f->context, f->library, paths, 1, &other), MXG_OK);
+    REQUIRE_EQ(mxg_edit_create(f->context, other, d, NULL, &e), MXG_ERROR_ARGUMENT);
     REQUIRE(!e);
-    REQUIRE_EQ(mxg_edit_create(NULL, f.library, d, NULL, &e), MXG_ERROR_ARGUMENT);
+    REQUIRE_EQ(mxg_edit_create(NULL, f->library, d, NULL, &e), MXG_ERROR_ARGUMENT);
     REQUIRE_EQ(mxg_edit_commit(NULL, &next), MXG_ERROR_ARGUMENT);
-    e = begin(&f, d);
+    e = begin(f, d);
     REQUIRE_EQ(mxg_edit_commit(e, NULL), MXG_ERROR_ARGUMENT);
     REQUIRE_EQ(commit(e, &next), MXG_OK); /* the call before has changed nothing */
     mxg_document_destroy(next);
     mxg_edit_destroy(NULL);
-    mxg_edit_destroy(begin(&f, d));
+    mxg_edit_destroy(begin(f, d));
     mxg_library_unref(other);
     mxg_document_destroy(d);
-    close_fixture(&f);
 }
 
 /* The tree of an edit takes the same steps as the tree of a file. */
-static void test_completed(void)
+static void test_completed(struct fixture *f)
 {
-    struct fixture f;
-    open_fixture(&f);
-    mxg_edit *edit = begin(&f, NULL);
+    mxg_edit *edit = begin(f, NULL);
     mxg_element image = mxg_edit_add_element(edit, 0, "image", "I", "color3");
     mxg_edit_set_value(edit, image, "file", "filename", "maps\\oak.png");
     mxg_document *d = NULL;
     REQUIRE_EQ(commit(edit, &d), MXG_OK);
     REQUIRE(has_diagnostic(mxg_document_diagnostics(d), "backslash"));
-    REQUIRE_STR(attribute_of(d, mxg_document_find_element(d, 0, "I/file"), "value"),
-                "maps/oak.png");
+    REQUIRE_STR(attribute_of(d, element_at(d, "I/file"), "value"), "maps/oak.png");
     mxg_document_destroy(d);
-    close_fixture(&f);
 }
 
 /* The type of a new input comes from the definition, also from one of the document. */
-static void test_types(void)
+static void test_types(struct fixture *f)
 {
-    struct fixture f;
-    open_fixture(&f);
     mxg_document *d =
-        parse(&f, "<materialx version='1.39'><nodedef name='ND_own' node='own'>"
-                  "<input name='size' type='vector2'/><output name='out' type='float'/>"
-                  "</nodedef><own name='O' type='float'/>"
-                  "<mix name='M' type='color3'/></materialx>");
-    mxg_edit *e = begin(&f, d);
-    mxg_element own = mxg_edit_find_element(e, 0, "O"), mix = mxg_edit_find_element(e, 0, "M");
+        parse(f, "<materialx version='1.39'><nodedef name='ND_own' node='own'>"
+                 "<input name='size' type='vector2'/><output name='out' type='float'/>"
+                 "</nodedef><own name='O' type='float'/>"
+                 "<mix name='M' type='color3'/></materialx>");
+    mxg_edit *e = begin(f, d);
+    mxg_element own = edited_at(e, "O"), mix = edited_at(e, "M");
     const float numbers[] = {1, 2, 3};
     REQUIRE_EQ(mxg_edit_set_numbers(e, own, "size", NULL, numbers, 2), MXG_OK);
     REQUIRE_EQ(mxg_edit_set_value(e, mix, "fg", NULL, "1, 0, 0"), MXG_OK);
@@ -607,11 +541,9 @@ static void test_types(void)
     static const char *const types[][2] = {
         {"O/size", "vector2"}, {"M/fg", "color3"}, {"M/mix", "color3"}};
     for (size_t i = 0; i < sizeof types / sizeof *types; i++)
-        REQUIRE_STR(attribute_of(next, mxg_document_find_element(next, 0, types[i][0]), "type"),
-                    types[i][1]);
+        REQUIRE_STR(attribute_of(next, element_at(next, types[i][0]), "type"), types[i][1]);
     mxg_document_destroy(next);
     mxg_document_destroy(d);
-    close_fixture(&f);
 }
 
 /* Commits the edit, and returns the number of references to removed elements. */
@@ -625,45 +557,40 @@ static unsigned count_lost(mxg_edit *edit)
     return num;
 }
 
-static void test_removed(void)
+static void test_removed(struct fixture *f)
 {
-    struct fixture f;
-    open_fixture(&f);
-    mxg_document *d = parse(&f, document_text("gold.mtlx"));
+    mxg_document *d = parse(f, document_text("gold.mtlx"));
     static const struct {
         const char *path;
         unsigned num;
     } removed[] = {{"SR", 1},        {"NG", 1},   {"NG/wear", 1},      {"NG/spots", 1},
                    {"NG/amount", 1}, {"Gold", 0}, {"SR/base_color", 0}};
     for (size_t i = 0; i < sizeof removed / sizeof *removed; i++) {
-        mxg_edit *e = begin(&f, d);
-        mxg_edit_remove_element(e, mxg_edit_find_element(e, 0, removed[i].path));
+        mxg_edit *e = begin(f, d);
+        mxg_edit_remove_element(e, edited_at(e, removed[i].path));
         REQUIRE_EQ(count_lost(e), removed[i].num);
     }
     /* the user is gone, has a value, or the name stands for another element */
-    mxg_edit *e = begin(&f, d);
-    mxg_edit_remove_element(e, mxg_edit_find_element(e, 0, "NG/spots"));
-    mxg_edit_remove_element(e, mxg_edit_find_element(e, 0, "NG"));
-    mxg_edit_set_value(e, mxg_edit_find_element(e, 0, "SR"), "metalness", NULL, "1");
-    mxg_edit_remove_element(e, mxg_edit_find_element(e, 0, "SR"));
+    mxg_edit *e = begin(f, d);
+    mxg_edit_remove_element(e, edited_at(e, "NG/spots"));
+    mxg_edit_remove_element(e, edited_at(e, "NG"));
+    mxg_edit_set_value(e, edited_at(e, "SR"), "metalness", NULL, "1");
+    mxg_edit_remove_element(e, edited_at(e, "SR"));
     mxg_edit_add_element(e, 0, "disney_principled", "SR", "surfaceshader");
     REQUIRE_EQ(count_lost(e), 0);
     mxg_document_destroy(d);
-    close_fixture(&f);
 }
 
 /* An element without a line is named by its path. */
-static void test_diagnostics(void)
+static void test_diagnostics(struct fixture *f)
 {
-    struct fixture f;
-    open_fixture(&f);
-    mxg_edit *edit = begin(&f, NULL);
+    mxg_edit *edit = begin(f, NULL);
     mxg_element shader = mxg_edit_add_element(edit, 0, "standard_surface", "SR", "surfaceshader");
     mxg_edit_set_value(edit, shader, "coat", "color3", "1, 1, 1");
     mxg_document *d = NULL;
     commit(edit, &d);
     mxg_result *result = NULL;
-    REQUIRE_EQ(mxg_validate(f.context, d, &result), MXG_ERROR_DOCUMENT);
+    REQUIRE_EQ(mxg_validate(f->context, d, &result), MXG_ERROR_DOCUMENT);
     const mxg_diagnostics *list = mxg_result_diagnostics(result);
     mxg_diagnostic first = MXG_INIT(mxg_diagnostic);
     REQUIRE_EQ(mxg_diagnostics_item(list, 0, &first), MXG_OK);
@@ -673,7 +600,6 @@ static void test_diagnostics(void)
     REQUIRE(strstr(text, "<edit>: SR") == text);
     mxg_result_destroy(result);
     mxg_document_destroy(d);
-    close_fixture(&f);
 }
 
 /* Each allocation fails once; nothing leaks, and the calls say so. */
@@ -852,9 +778,9 @@ static void test_equal_names(void)
                 continue;
             mxg_edit *edit = begin(&f, document);
             mxg_document *edited = NULL;
-            change(edit, mxg_edit_find_element(edit, 0, paths[i]), (enum operation)operation);
+            change(edit, edited_at(edit, paths[i]), (enum operation)operation);
             /* the next of the name takes its place, also in the same edit */
-            REQUIRE((mxg_edit_find_element(edit, 0, paths[i]) != 0)
+            REQUIRE((edited_at(edit, paths[i]) != 0)
                     == (i < 2 || operation == NOTHING || operation == VALUE));
             mxg_edit_commit(edit, &edited);
             mxg_edit_destroy(edit);
@@ -865,21 +791,20 @@ static void test_equal_names(void)
     close_fixture(&f);
 }
 
+static void (*const tests[])(struct fixture *f) = {
+    test_elements,           test_values, test_links,         test_build,
+    test_edit_of_a_document, test_rename, test_move_and_copy, test_refused,
+    test_completed,          test_types,  test_removed,       test_diagnostics};
+
 int main(void)
 {
     test_equal_names();
-    test_elements();
-    test_values();
-    test_links();
-    test_build();
-    test_edit_of_a_document();
-    test_rename();
-    test_move_and_copy();
-    test_refused();
-    test_completed();
-    test_types();
-    test_removed();
-    test_diagnostics();
+    for (size_t i = 0; i < sizeof tests / sizeof *tests; i++) {
+        struct fixture f;
+        open_fixture(&f);
+        tests[i](&f);
+        close_fixture(&f);
+    }
     test_memory();
     test_rewrite();
     return test_report("api-edit");

@@ -3,18 +3,7 @@
  * Edited documents share what they do not change: memory and work of an edit do not grow with the
  * document, and after any sequence of edits a document is what reading its text gives.
  */
-#include "tests/unit/test.h"
-
-#include <mxgen/mxgen.h>
-
-#include <stdlib.h>
-
-static mxg_status commit(mxg_edit *edit, mxg_document **out_document)
-{
-    mxg_status status = mxg_edit_commit(edit, out_document);
-    mxg_edit_destroy(edit);
-    return status;
-}
+#include "fixture.h"
 
 static size_t used, allocated;
 
@@ -113,8 +102,7 @@ enum edit_kind {
 static void make_edit(mxg_edit *edit, const mxg_document *from, enum edit_kind kind)
 {
     const float value = 0.25f;
-    mxg_element shader = mxg_edit_find_element(edit, 0, "S1"),
-                material = mxg_edit_find_element(edit, 0, "M1"), node;
+    mxg_element shader = edited_at(edit, "S1"), material = edited_at(edit, "M1"), node;
     switch (kind) {
     case VALUE: mxg_edit_set_numbers(edit, shader, "base", NULL, &value, 1); break;
     case NEW_INPUT: mxg_edit_set_numbers(edit, shader, "coat", "float", &value, 1); break;
@@ -125,15 +113,11 @@ static void make_edit(mxg_edit *edit, const mxg_document *from, enum edit_kind k
         break;
     case NAME_OF_NODE: mxg_edit_rename_element(edit, shader, "Shader"); break;
     case NAME_OF_MATERIAL: mxg_edit_rename_element(edit, material, "Material"); break;
-    case NAME_OF_GRAPH:
-        mxg_edit_rename_element(edit, mxg_edit_find_element(edit, 0, "G1"), "Graph");
-        break;
-    case REMOVAL: mxg_edit_remove_element(edit, mxg_edit_find_element(edit, 0, "S1/base")); break;
+    case NAME_OF_GRAPH: mxg_edit_rename_element(edit, edited_at(edit, "G1"), "Graph"); break;
+    case REMOVAL: mxg_edit_remove_element(edit, edited_at(edit, "S1/base")); break;
     case REMOVED_MATERIAL: mxg_edit_remove_element(edit, material); break;
     case MOVE: mxg_edit_move_element(edit, material, 0, shader); break;
-    case COPY:
-        mxg_edit_copy_element(edit, 0, from, mxg_document_find_element(from, 0, "S2"), "Copy");
-        break;
+    case COPY: mxg_edit_copy_element(edit, 0, from, element_at(from, "S2"), "Copy"); break;
     default:
         node = mxg_edit_add_element(edit, 0, "constant", "Grey", "float");
         mxg_edit_connect_input(edit, shader, "base", node, NULL);
@@ -194,7 +178,7 @@ static void test_series(void)
         const float value = 0.001f * (float)i;
         snprintf(name, sizeof name, "S%u", i);
         mxg_edit_create(w.context, w.library, document, NULL, &edit);
-        mxg_edit_set_numbers(edit, mxg_edit_find_element(edit, 0, name), "base", NULL, &value, 1);
+        mxg_edit_set_numbers(edit, edited_at(edit, name), "base", NULL, &value, 1);
         REQUIRE(commit(edit, &next) == MXG_OK);
         if (document != first)
             mxg_document_destroy(document);
@@ -219,7 +203,7 @@ static void test_slider(void)
         mxg_document *next;
         const float value = 0.001f * (float)(i % 100);
         mxg_edit_create(w.context, w.library, document, NULL, &edit);
-        mxg_edit_set_numbers(edit, mxg_edit_find_element(edit, 0, "S7"), "base", NULL, &value, 1);
+        mxg_edit_set_numbers(edit, edited_at(edit, "S7"), "base", NULL, &value, 1);
         REQUIRE(commit(edit, &next) == MXG_OK);
         mxg_document_destroy(document); /* its elements live on */
         document = next;
@@ -245,10 +229,9 @@ static void make_change(mxg_edit *edit, const mxg_document *from, unsigned *rand
     const float value = 0.001f * (float)(next_random(random) % 1000);
     snprintf(name, sizeof name, "S%u", next_random(random) % 20);
     snprintf(other, sizeof other, "N%u", next_random(random) % 30);
-    mxg_element shader = mxg_edit_find_element(edit, 0, name),
-                node = mxg_edit_find_element(edit, 0, other), graph, two;
+    mxg_element shader = edited_at(edit, name), node = edited_at(edit, other), graph, two;
     snprintf(name, sizeof name, "G%u", next_random(random) % 20);
-    graph = mxg_edit_find_element(edit, 0, name);
+    graph = edited_at(edit, name);
     snprintf(name, sizeof name, "S%u", next_random(random) % 20);
     switch (next_random(random) % 22) {
     case 0:
@@ -262,9 +245,7 @@ static void make_change(mxg_edit *edit, const mxg_document *from, unsigned *rand
     case 8: mxg_edit_set_attribute(edit, shader, "doc", NULL); break;
     case 9: mxg_edit_move_element(edit, node, 0, shader); break;
     case 10: mxg_edit_rename_element(edit, node, "N99"); break;
-    case 11:
-        mxg_edit_copy_element(edit, 0, from, mxg_document_find_element(from, 0, name), other);
-        break;
+    case 11: mxg_edit_copy_element(edit, 0, from, element_at(from, name), other); break;
     case 12: mxg_edit_remove_element(edit, shader); break;
     case 13: mxg_edit_rename_element(edit, graph, other); break;
     case 14: mxg_edit_rename_element(edit, shader, other); break;
@@ -304,7 +285,7 @@ static void compare_renderables(const mxg_document *a, const mxg_document *b)
 
 static void compare_elements(const mxg_document *a, const mxg_document *b)
 {
-    mxg_element x = mxg_document_find_element(a, 0, ""), y = mxg_document_find_element(b, 0, "");
+    mxg_element x = element_at(a, ""), y = element_at(b, "");
     mxg_element_info p = MXG_INIT(mxg_element_info), q = MXG_INIT(mxg_element_info);
     mxg_document_element(a, x, &p);
     mxg_document_element(b, y, &q);
@@ -313,7 +294,7 @@ static void compare_elements(const mxg_document *a, const mxg_document *b)
         mxg_document_element(b, y, &q);
         REQUIRE_STR(p.name, q.name);
         REQUIRE_EQ(p.num_attributes, q.num_attributes);
-        REQUIRE_EQ(mxg_document_find_element(a, 0, p.name), x);
+        REQUIRE_EQ(element_at(a, p.name), x);
     }
     REQUIRE(!x && !y);
 }
@@ -381,9 +362,9 @@ static mxg_document *edited(struct world *w, const mxg_document *from, const cha
     mxg_document *next = NULL;
     mxg_edit_create(w->context, w->library, from, NULL, &edit);
     if (value)
-        mxg_edit_set_value(edit, mxg_edit_find_element(edit, 0, "S1"), input, type, value);
+        mxg_edit_set_value(edit, edited_at(edit, "S1"), input, type, value);
     else
-        mxg_edit_connect_input(edit, mxg_edit_find_element(edit, 0, "S1"), input,
+        mxg_edit_connect_input(edit, edited_at(edit, "S1"), input,
                                mxg_edit_add_element(edit, 0, "constant", "Grey", type), NULL);
     REQUIRE_EQ(mxg_edit_error(edit, NULL, 0), 0);
     commit(edit, &next);
@@ -465,7 +446,7 @@ static void test_outputs(void)
     mxg_document *document = parse(&w, text, sizeof text - 1), *next = NULL;
     mxg_edit *edit = NULL;
     REQUIRE_EQ(mxg_edit_create(w.context, w.library, document, NULL, &edit), MXG_OK);
-    REQUIRE_EQ(mxg_edit_remove_element(edit, mxg_edit_find_element(edit, 0, "G/one")), MXG_OK);
+    REQUIRE_EQ(mxg_edit_remove_element(edit, edited_at(edit, "G/one")), MXG_OK);
     REQUIRE_EQ(commit(edit, &next), MXG_OK);
     compare_with_text(&w, next);
     REQUIRE_EQ(mxg_document_num_renderables(next), 2);

@@ -85,8 +85,7 @@ static void *work(void *arg)
         float value = (float)(worker->number * worker->num_edits + i);
         bool is_good = mxg_edit_create(context, worker->library, from, NULL, &edit) == MXG_OK;
         is_good &=
-            mxg_edit_set_numbers(edit, mxg_edit_find_element(edit, 0, "S"), "base", NULL, &value, 1)
-            == MXG_OK;
+            mxg_edit_set_numbers(edit, edited_at(edit, "S"), "base", NULL, &value, 1) == MXG_OK;
         is_good &= commit(edit, &next) == MXG_OK;
         is_good &= base_of(context, next) == value;
         worker->num_wrong += !is_good;

@@ -212,8 +212,7 @@ static mxg_change change_of(struct host *h, const char *node, const char *input,
     mxg_edit *edit = NULL;
     mxg_document *next = NULL;
     REQUIRE_EQ(mxg_edit_create(h->context, h->library, h->document, NULL, &edit), MXG_OK);
-    REQUIRE_EQ(mxg_edit_set_value(edit, mxg_edit_find_element(edit, 0, node), input, type, value),
-               MXG_OK);
+    REQUIRE_EQ(mxg_edit_set_value(edit, edited_at(edit, node), input, type, value), MXG_OK);
     REQUIRE_EQ(commit(edit, &next), MXG_OK);
     mxg_result *before = generate(h, h->document, "glsl", false),
                *after = generate(h, next, "glsl", true);

@@ -44,8 +44,7 @@ static mxg_document *flatten(const struct fixture *f, const mxg_document *from,
     mxg_document *document = NULL;
     REQUIRE_EQ(mxg_edit_create(f->context, f->library, from, NULL, &edit), MXG_OK);
     for (; *paths; paths++)
-        if (!REQUIRE_EQ(mxg_edit_flatten_node(edit, mxg_edit_find_element(edit, 0, *paths)),
-                        MXG_OK))
+        if (!REQUIRE_EQ(mxg_edit_flatten_node(edit, edited_at(edit, *paths)), MXG_OK))
             printf("    %s\n", *paths);
     REQUIRE_EQ(commit(edit, &document), MXG_OK);
     return document;
@@ -81,7 +80,7 @@ static bool draws_the_same(const struct fixture *f, const mxg_document *a, const
 static void expect_attribute(const mxg_document *document, const char *path, const char *name,
                              const char *wanted)
 {
-    mxg_element element = mxg_document_find_element(document, 0, path);
+    mxg_element element = element_at(document, path);
     mxg_attribute attribute = MXG_INIT(mxg_attribute);
     uint32_t index = mxg_document_find_attribute(document, element, name);
     bool has = mxg_document_attribute(document, element, index, &attribute) == MXG_OK;
@@ -117,57 +116,51 @@ static void expect_attribute(const mxg_document *document, const char *path, con
 #define SURFACE(inputs) \
     "<standard_surface name='S' type='surfaceshader'>" inputs "</standard_surface>"
 
-static void test_values(void)
+static void test_values(struct fixture *f)
 {
-    struct fixture f;
-    open_fixture(&f, 0);
     mxg_document *before = parse(
-        &f, DOCUMENT(
-                " colorspace='srgb_texture'", PATTERN
-                "<constant name='size' type='float'><input name='value' type='float' "
-                "value='2'/></constant>"
-                "<constant name='P_sum' type='float'/>"
-                "<pattern name='P' type='color3'><input name='scale' type='float' nodename='size'/>"
-                "<input name='hue' type='color3' value='0.5, 0.1, 0.1' "
-                "colorspace='none'/></pattern>" SURFACE(
-                    "<input name='base_color' type='color3' nodename='P' output='out'/>"
-                    "<input name='emission_color' type='color3' nodename='P'/>")));
-    mxg_document *after = flatten(&f, before, (const char *const[]){"P", NULL});
+        f, DOCUMENT(
+               " colorspace='srgb_texture'", PATTERN
+               "<constant name='size' type='float'><input name='value' type='float' "
+               "value='2'/></constant>"
+               "<constant name='P_sum' type='float'/>"
+               "<pattern name='P' type='color3'><input name='scale' type='float' nodename='size'/>"
+               "<input name='hue' type='color3' value='0.5, 0.1, 0.1' "
+               "colorspace='none'/></pattern>" SURFACE(
+                   "<input name='base_color' type='color3' nodename='P' output='out'/>"
+                   "<input name='emission_color' type='color3' nodename='P'/>")));
+    mxg_document *after = flatten(f, before, (const char *const[]){"P", NULL});
     expect_attribute(after, "S/base_color", "nodename", "P");
     expect_attribute(after, "S/base_color", "output", "");
     expect_attribute(after, "P/in1", "value", "0.5, 0.1, 0.1");
     expect_attribute(after, "P/in1", "colorspace", "none");
     expect_attribute(after, "P_wide/in2", "nodename", "size");
     /* what an input has by itself is left out; otherwise a node gives it */
-    REQUIRE(!mxg_document_find_element(after, 0, "P_plain/texcoord"));
+    REQUIRE(!element_at(after, "P_plain/texcoord"));
     expect_attribute(after, "P_wide/in1", "nodename", "P_UV0");
     expect_attribute(after, "P_Pobject/space", "value", "object");
     /* the document has the name already */
     expect_attribute(after, "P_more/in1", "nodename", "P_sum2");
-    REQUIRE(draws_the_same(&f, before, after, "S"));
+    REQUIRE(draws_the_same(f, before, after, "S"));
     mxg_document_destroy(before);
     mxg_document_destroy(after);
-    close_fixture(&f);
 }
 
 /* Defaults of a definition mean what they mean in its own file. */
-static void test_defaults(void)
+static void test_defaults(struct fixture *f)
 {
-    struct fixture f;
-    open_fixture(&f, 0);
     mxg_document *before = parse(
-        &f, DOCUMENT(" colorspace='srgb_texture'", PATTERN
-                     "<nodegraph name='G' colorspace='lin_rec709'><pattern name='P' type='color3'/>"
-                     "<output name='out' type='color3' nodename='P'/></nodegraph>" SURFACE(
-                         "<input name='base_color' type='color3' nodegraph='G'/>")));
-    mxg_document *after = flatten(&f, before, (const char *const[]){"G/P", NULL});
+        f, DOCUMENT(" colorspace='srgb_texture'", PATTERN
+                    "<nodegraph name='G' colorspace='lin_rec709'><pattern name='P' type='color3'/>"
+                    "<output name='out' type='color3' nodename='P'/></nodegraph>" SURFACE(
+                        "<input name='base_color' type='color3' nodegraph='G'/>")));
+    mxg_document *after = flatten(f, before, (const char *const[]){"G/P", NULL});
     expect_attribute(after, "G/P/in1", "value", "0.25, 0.5, 0.75");
     expect_attribute(after, "G/P/in1", "colorspace", "srgb_texture");
     expect_attribute(after, "G/out", "nodename", "P");
-    REQUIRE(draws_the_same(&f, before, after, "S"));
+    REQUIRE(draws_the_same(f, before, after, "S"));
     mxg_document_destroy(before);
     mxg_document_destroy(after);
-    close_fixture(&f);
 }
 
 /* ---- Outputs, units, files ---- */
@@ -192,20 +185,18 @@ static void test_defaults(void)
     "<output name='b' type='float' nodename='parts' output='outg'/>" \
     "<output name='c' type='float' interfacename='depth'/></nodegraph>"
 
-static void test_outputs(void)
+static void test_outputs(struct fixture *f)
 {
-    struct fixture f;
-    open_fixture(&f, 0);
     mxg_document *before =
-        parse(&f, DOCUMENT(" fileprefix='here/'", SPLIT
-                           "<split name='P' type='multioutput'>"
-                           "<input name='depth' type='float' value='0.5' unit='kilometer'/>"
-                           "<input name='file' type='filename' value='wood.png'/>"
-                           "<token name='kind' type='string' value='rust'/></split>" SURFACE(
-                               "<input name='base_color' type='color3' nodename='P' output='a'/>"
-                               "<input name='base' type='float' nodename='P' output='b'/>"
-                               "<input name='coat' type='float' nodename='P' output='c'/>")));
-    mxg_document *after = flatten(&f, before, (const char *const[]){"P", NULL});
+        parse(f, DOCUMENT(" fileprefix='here/'", SPLIT
+                          "<split name='P' type='multioutput'>"
+                          "<input name='depth' type='float' value='0.5' unit='kilometer'/>"
+                          "<input name='file' type='filename' value='wood.png'/>"
+                          "<token name='kind' type='string' value='rust'/></split>" SURFACE(
+                              "<input name='base_color' type='color3' nodename='P' output='a'/>"
+                              "<input name='base' type='float' nodename='P' output='b'/>"
+                              "<input name='coat' type='float' nodename='P' output='c'/>")));
+    mxg_document *after = flatten(f, before, (const char *const[]){"P", NULL});
     expect_attribute(after, "S/base_color", "nodename", "P_both");
     expect_attribute(after, "S/base_color", "output", "");
     expect_attribute(after, "S/base", "nodename", "P_parts");
@@ -216,58 +207,51 @@ static void test_outputs(void)
     expect_attribute(after, "P_own/file", "fileprefix", "there/");
     expect_attribute(after, "P_own/kind", "value", "rust");
     expect_attribute(after, "P_i/file", "value", "wood.png");
-    REQUIRE(!mxg_document_find_element(after, 0, "P"));
-    REQUIRE(draws_the_same(&f, before, after, "S"));
+    REQUIRE(!element_at(after, "P"));
+    REQUIRE(draws_the_same(f, before, after, "S"));
     mxg_document_destroy(before);
     mxg_document_destroy(after);
-    close_fixture(&f);
 }
 
 /* ---- Definitions inside of others, and those of the library ---- */
 
-static void test_levels(void)
+static void test_levels(struct fixture *f)
 {
-    struct fixture f;
-    open_fixture(&f, 0);
     mxg_document *before = parse(
-        &f, DOCUMENT("", PATTERN
-                     "<nodedef name='ND_o' node='outer'><input name='tint' type='color3' value='1, "
-                     "0.5, 0.5'/>"
-                     "<output name='out' type='surfaceshader'/></nodedef><nodegraph name='NG_o' "
-                     "nodedef='ND_o'>"
-                     "<pattern name='p' type='color3'>"
-                     "<input name='hue' type='color3' interfacename='tint'/></pattern>"
-                     "<standard_surface name='s' type='surfaceshader'>"
-                     "<input name='base_color' type='color3' nodename='p'/></standard_surface>"
-                     "<output name='out' type='surfaceshader' nodename='s'/></nodegraph>"
-                     "<outer name='S' type='surfaceshader'/>"));
-    mxg_document *one = flatten(&f, before, (const char *const[]){"S", NULL}),
-                 *all = flatten(&f, before, (const char *const[]){"S", "S_p", "S", NULL});
+        f, DOCUMENT("", PATTERN
+                    "<nodedef name='ND_o' node='outer'><input name='tint' type='color3' value='1, "
+                    "0.5, 0.5'/>"
+                    "<output name='out' type='surfaceshader'/></nodedef><nodegraph name='NG_o' "
+                    "nodedef='ND_o'>"
+                    "<pattern name='p' type='color3'>"
+                    "<input name='hue' type='color3' interfacename='tint'/></pattern>"
+                    "<standard_surface name='s' type='surfaceshader'>"
+                    "<input name='base_color' type='color3' nodename='p'/></standard_surface>"
+                    "<output name='out' type='surfaceshader' nodename='s'/></nodegraph>"
+                    "<outer name='S' type='surfaceshader'/>"));
+    mxg_document *one = flatten(f, before, (const char *const[]){"S", NULL}),
+                 *all = flatten(f, before, (const char *const[]){"S", "S_p", "S", NULL});
     expect_attribute(one, "S/base_color", "nodename", "S_p");
     expect_attribute(all, "S_p/in1", "value", "1, 0.5, 0.5");
     mxg_element_info info = MXG_INIT(mxg_element_info);
-    mxg_document_element(all, mxg_document_find_element(all, 0, "S"), &info);
+    mxg_document_element(all, element_at(all, "S"), &info);
     REQUIRE_STR(info.category, "surface"); /* the standard_surface of the library is a graph, too */
-    REQUIRE(draws_the_same(&f, before, one, "S"));
+    REQUIRE(draws_the_same(f, before, one, "S"));
     mxg_document_destroy(before);
     mxg_document_destroy(one);
     mxg_document_destroy(all);
-    close_fixture(&f);
 }
 
-static void test_library(void)
+static void test_library(struct fixture *f)
 {
-    struct fixture f;
-    open_fixture(&f, 0);
     mxg_document *before = parse(
-        &f, DOCUMENT("", SURFACE("<input name='base_color' type='color3' value='0.5, 0.1, 0.2'/>"
-                                 "<input name='coat' type='float' value='0.5'/>"
-                                 "<input name='metalness' type='float' value='0.25'/>")));
-    mxg_document *after = flatten(&f, before, (const char *const[]){"S", NULL});
-    REQUIRE(draws_the_same(&f, before, after, "S"));
+        f, DOCUMENT("", SURFACE("<input name='base_color' type='color3' value='0.5, 0.1, 0.2'/>"
+                                "<input name='coat' type='float' value='0.5'/>"
+                                "<input name='metalness' type='float' value='0.25'/>")));
+    mxg_document *after = flatten(f, before, (const char *const[]){"S", NULL});
+    REQUIRE(draws_the_same(f, before, after, "S"));
     mxg_document_destroy(before);
     mxg_document_destroy(after);
-    close_fixture(&f);
 }
 
 /* ---- What is no such node ---- */
@@ -279,8 +263,7 @@ static void expect_failure(const struct fixture *f, const mxg_document *from, co
     mxg_edit *edit = NULL;
     mxg_document *after = NULL;
     mxg_edit_create(f->context, f->library, from, NULL, &edit);
-    REQUIRE_EQ(mxg_edit_flatten_node(edit, mxg_edit_find_element(edit, 0, path)),
-               MXG_ERROR_ARGUMENT);
+    REQUIRE_EQ(mxg_edit_flatten_node(edit, edited_at(edit, path)), MXG_ERROR_ARGUMENT);
     mxg_edit_error(edit, said, sizeof said);
     if (!REQUIRE(strstr(said, reason)))
         printf("    %s: %s\n", path, said);
@@ -310,13 +293,17 @@ static void test_failures(void)
     close_fixture(&f);
 }
 
+static void (*const tests[])(struct fixture *f) = {test_values, test_defaults, test_outputs,
+                                                   test_levels, test_library};
+
 int main(void)
 {
-    test_values();
-    test_defaults();
-    test_outputs();
-    test_levels();
-    test_library();
+    for (size_t i = 0; i < sizeof tests / sizeof *tests; i++) {
+        struct fixture f;
+        open_fixture(&f, 0);
+        tests[i](&f);
+        close_fixture(&f);
+    }
     test_failures();
     return test_report("api-flatten");
 }
