@@ -69,6 +69,33 @@ static inline mxg_element edited_at(const mxg_edit *edit, const char *path)
     return mxg_edit_find_element(edit, 0, path);
 }
 
+/* ---- Texts ---- */
+
+/* A `write` of the interface. user_data: a char *, NULL at first, which is to be freed. */
+static inline bool append(void *user_data, const char *data, size_t size)
+{
+    char **text = user_data;
+    size_t len = *text ? strlen(*text) : 0;
+    char *grown = realloc(*text, len + size + 1);
+    if (!grown)
+        return false;
+    memcpy(grown + len, data, size);
+    grown[len + size] = '\0';
+    *text = grown;
+    return true;
+}
+
+/* A document on the built-in library; it must have no error. */
+static inline mxg_document *parse_builtin(mxg_context *context, const char *text)
+{
+    mxg_document *document = NULL;
+    mxg_library *library = mxg_library_builtin(context);
+    REQUIRE_EQ(mxg_document_parse(context, library, "test.mtlx", text, strlen(text), &document),
+               MXG_OK);
+    mxg_library_unref(library);
+    return document;
+}
+
 /* ---- Files in memory ---- */
 
 struct memory_file {

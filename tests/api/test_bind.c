@@ -51,29 +51,12 @@ static const struct rule {
 #include "rules.def"
 };
 
-static bool append(void *user_data, const char *data, size_t size)
-{
-    char **text = user_data;
-    size_t len = *text ? strlen(*text) : 0;
-    char *grown = realloc(*text, len + size + 1);
-    if (!grown)
-        return false;
-    memcpy(grown + len, data, size);
-    grown[len + size] = '\0';
-    *text = grown;
-    return true;
-}
-
 static mxg_document *parse_rule(mxg_context *context, const struct rule *rule)
 {
     size_t size = strlen(prelude) + strlen(rule->looks) + 32;
     char *text = malloc(size);
-    mxg_document *document = NULL;
-    mxg_library *library = mxg_library_builtin(context);
     snprintf(text, size, "%s%s</materialx>", prelude, rule->looks);
-    REQUIRE(mxg_document_parse(context, library, "rule.mtlx", text, strlen(text), &document)
-            == MXG_OK);
-    mxg_library_unref(library);
+    mxg_document *document = parse_builtin(context, text);
     free(text);
     return document;
 }

@@ -10,19 +10,6 @@
 
 enum { MAX_LINES = 12, MAX_LINE = 160, NUM_COLLECTIONS = 3, TEXT_SIZE = 16384 };
 
-static bool append(void *user_data, const char *data, size_t size)
-{
-    char **text = user_data;
-    size_t len = *text ? strlen(*text) : 0;
-    char *grown = realloc(*text, len + size + 1);
-    if (!grown)
-        return false;
-    memcpy(grown + len, data, size);
-    grown[len + size] = '\0';
-    *text = grown;
-    return true;
-}
-
 /* ---- A look that changes line by line ---- */
 
 struct look {
@@ -49,12 +36,7 @@ static mxg_document *parse_look(mxg_context *context, const struct look *look)
     for (unsigned i = 0; i < MAX_LINES; i++)
         len += snprintf(text + len, sizeof text - (size_t)len, "%s", look->lines[i]);
     snprintf(text + len, sizeof text - (size_t)len, "</look></materialx>");
-    mxg_document *document = NULL;
-    mxg_library *library = mxg_library_builtin(context);
-    REQUIRE(mxg_document_parse(context, library, "look.mtlx", text, strlen(text), &document)
-            == MXG_OK);
-    mxg_library_unref(library);
-    return document;
+    return parse_builtin(context, text);
 }
 
 /* ---- Comparison ---- */

@@ -9,7 +9,7 @@
 #include <mxgen/scene.h>
 #include <pthread.h>
 
-enum { NUM_THREADS = 8, MAX_TEXT = 1 << 18 };
+enum { NUM_THREADS = 8 };
 
 static const char text[] =
     "<materialx version='1.39'><standard_surface name='s' type='surfaceshader'/>"
@@ -30,31 +30,16 @@ struct worker {
     unsigned num_rounds, num_wrong;
 };
 
-struct sink {
-    char *text;
-    size_t len;
-};
-
-static bool append(void *user_data, const char *data, size_t size)
-{
-    struct sink *sink = user_data;
-    if (sink->len + size >= MAX_TEXT)
-        return false;
-    memcpy(sink->text + sink->len, data, size);
-    sink->len += size;
-    return true;
-}
-
 /* The bindings as JSON and the shader of each stack, as one text; to be freed. */
 static char *bind(mxg_context *context, const mxg_document *document)
 {
-    struct sink sink = {calloc(1, MAX_TEXT), 0};
+    char *all = NULL;
     mxg_scene *scene = NULL;
     mxg_bindings *bindings = NULL;
     mxg_scene_create(context, &scene);
     mxg_scene_add_paths(scene, paths, sizeof paths / sizeof *paths);
     mxg_bindings_create(context, document, scene, NULL, &bindings);
-    mxg_bindings_write(bindings, MXG_BINDINGS_JSON, append, &sink);
+    mxg_bindings_write(bindings, MXG_BINDINGS_JSON, append, &all);
     for (uint32_t i = 0; i < mxg_bindings_num_stacks(bindings); i++) {
         mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
         mxg_result *result = NULL;
@@ -65,12 +50,12 @@ static char *bind(mxg_context *context, const mxg_document *document)
         mxg_generate(context, document, &desc, &result);
         const char *source = mxg_result_source(result, MXG_STAGE_PIXEL, &len);
         if (source)
-            append(&sink, source, len);
+            append(&all, source, len);
         mxg_result_destroy(result);
     }
     mxg_bindings_destroy(bindings);
     mxg_scene_destroy(scene);
-    return sink.text;
+    return all;
 }
 
 static void *work(void *arg)
@@ -91,12 +76,9 @@ int main(int argc, char **argv)
 {
     unsigned num_rounds = argc > 1 ? (unsigned)strtoul(argv[1], NULL, 10) : 0;
     mxg_context *context = NULL;
-    mxg_document *document = NULL;
     struct worker workers[NUM_THREADS] = {{0}};
     mxg_context_create(NULL, &context);
-    mxg_library *library = mxg_library_builtin(context);
-    REQUIRE(mxg_document_parse(context, library, "look.mtlx", text, sizeof text - 1, &document)
-            == MXG_OK);
+    mxg_document *document = parse_builtin(context, text);
     char *expected = bind(context, document);
     REQUIRE(num_rounds && strstr(expected, "000::x") && strstr(expected, "void main()"));
     for (unsigned i = 0; i < NUM_THREADS; i++) {
@@ -110,7 +92,6 @@ int main(int argc, char **argv)
     }
     free(expected);
     mxg_document_destroy(document);
-    mxg_library_unref(library);
     mxg_context_destroy(context);
     return test_report("api-scene_threads");
 }
