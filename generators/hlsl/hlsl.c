@@ -2,21 +2,14 @@
 /* The tables of HLSL: words, types, forms (Microsoft's reference for shader model 5.1 and 6). */
 #include "generators/hlsl/hlsl.h"
 
+#include "generators/rows.h"
+
 static const char *const reserved[] = {
 #include "generators/hlsl/reserved.def"
 };
 
-#define CALL(op, text) [IR_##op] = {text, LANG_PREC_POSTFIX, false}
-
 static const struct lang_form forms[IR_NUM_OPS] = {
-    [IR_LXOR] = {"$0 != $1", LANG_PREC_EQUAL, true},
-    [IR_LESS] = {"$0 < $1", LANG_PREC_COMPARE, true},
-    [IR_LESS_EQUAL] = {"$0 <= $1", LANG_PREC_COMPARE, true},
-    [IR_GREATER] = {"$0 > $1", LANG_PREC_COMPARE, true},
-    [IR_GREATER_EQUAL] = {"$0 >= $1", LANG_PREC_COMPARE, true},
-    [IR_EQUAL] = {"$0 == $1", LANG_PREC_EQUAL, true},
-    [IR_NOT_EQUAL] = {"$0 != $1", LANG_PREC_EQUAL, true},
-    [IR_NOT_EACH] = {"!$0", LANG_PREC_UNARY, false},
+    OPERATORS_OF_VECTORS,
     [IR_MATCOMPMULT] = {"$0 * $1", LANG_PREC_PRODUCT, true},
     CALL(ATAN2, "atan2($0, $1)"),
     CALL(RSQRT, "rsqrt($0)"),
@@ -43,21 +36,7 @@ static const struct lang_form forms_alone[IR_NUM_OPS] = {
 };
 
 static const char *const type_names[IR_NUM_TYPES] = {
-    [IR_TYPE_BVEC2] = "bool2",
-    [IR_TYPE_BVEC3] = "bool3",
-    [IR_TYPE_BVEC4] = "bool4",
-    [IR_TYPE_IVEC2] = "int2",
-    [IR_TYPE_IVEC3] = "int3",
-    [IR_TYPE_IVEC4] = "int4",
-    [IR_TYPE_UVEC2] = "uint2",
-    [IR_TYPE_UVEC3] = "uint3",
-    [IR_TYPE_UVEC4] = "uint4",
-    [IR_TYPE_VEC2] = "float2",
-    [IR_TYPE_VEC3] = "float3",
-    [IR_TYPE_VEC4] = "float4",
-    [IR_TYPE_MAT2] = "float2x2",
-    [IR_TYPE_MAT3] = "float3x3",
-    [IR_TYPE_MAT4] = "float4x4",
+    FLOAT3_TYPES,
     [IR_TYPE_SAMPLER] = "Texture2D",
     [IR_TYPE_SAMPLER_ARRAY] = "Texture2DArray",
 };

@@ -5,6 +5,8 @@
  */
 #include "generators/mdl/mdl.h"
 
+#include "generators/rows.h"
+
 static const char *const reserved[] = {
 #include "generators/mdl/reserved.def"
 };
@@ -21,7 +23,6 @@ static const char *const type_names[IR_NUM_TYPES] = {
     [IR_TYPE_BSDF] = "bsdf", [IR_TYPE_EDF] = "edf", [IR_TYPE_VDF] = "vdf",
 };
 
-#define CALL(op, text) [IR_##op] = {text, LANG_PREC_POSTFIX, false}
 #define MATH1(op, name) CALL(op, "math::" name "($0)")
 #define MATH2(op, name) CALL(op, "math::" name "($0, $1)")
 #define MATH3(op, name) CALL(op, "math::" name "($0, $1, $2)")

@@ -2,13 +2,13 @@
 /* The syntax of OSL by tables, and its types. */
 #include "generators/osl/osl.h"
 
+#include "generators/rows.h"
+
 #include <assert.h>
 
 static const char *const reserved[] = {
 #include "generators/osl/reserved.def"
 };
-
-#define CALL(op, text) [IR_##op] = {text, LANG_PREC_POSTFIX, false}
 
 static const struct lang_form forms[IR_NUM_OPS] = {
     [IR_LXOR] = {"$0 != $1", LANG_PREC_EQUAL, true},

@@ -2,11 +2,11 @@
 /* The tables of Slang, where it differs from HLSL (User's Guide of Slang, shader-slang.org). */
 #include "generators/slang/slang.h"
 
+#include "generators/rows.h"
+
 static const char *const reserved[] = {
 #include "generators/slang/reserved.def"
 };
-
-#define CALL(op, text) [IR_##op] = {text, LANG_PREC_POSTFIX, false}
 
 static const struct lang_form forms[IR_NUM_OPS] = {
     CALL(TEX, "$0.tex.Sample($0.sampler, $1)"),

@@ -2,6 +2,8 @@
 /* The tables of WGSL: words, types, forms, phrases. */
 #include "generators/wgsl/wgsl.h"
 
+#include "generators/rows.h"
+
 static const char *const reserved[] = {
 #include "generators/wgsl/reserved.def"
 };
@@ -17,18 +19,10 @@ static const char *const type_names[IR_NUM_TYPES] = {
     [IR_TYPE_SAMPLER] = "texture_2d<f32>", [IR_TYPE_SAMPLER_ARRAY] = "texture_2d_array<f32>",
 };
 
-#define CALL(op, text) [IR_##op] = {text, LANG_PREC_POSTFIX, false}
 #define TEXTURE "$0, $0" LANG_SAMPLER_SUFFIX ", $1"
 
 static const struct lang_form forms[IR_NUM_OPS] = {
-    [IR_LXOR] = {"$0 != $1", LANG_PREC_EQUAL, true},
-    [IR_LESS] = {"$0 < $1", LANG_PREC_COMPARE, true},
-    [IR_LESS_EQUAL] = {"$0 <= $1", LANG_PREC_COMPARE, true},
-    [IR_GREATER] = {"$0 > $1", LANG_PREC_COMPARE, true},
-    [IR_GREATER_EQUAL] = {"$0 >= $1", LANG_PREC_COMPARE, true},
-    [IR_EQUAL] = {"$0 == $1", LANG_PREC_EQUAL, true},
-    [IR_NOT_EQUAL] = {"$0 != $1", LANG_PREC_EQUAL, true},
-    [IR_NOT_EACH] = {"!$0", LANG_PREC_UNARY, false},
+    OPERATORS_OF_VECTORS,
     CALL(SELECT, "select($2, $1, $0)"),
     CALL(CHOOSE, "select($0, $1, $2)"),
     CALL(ATAN2, "atan2($0, $1)"), CALL(RSQRT, "inverseSqrt($0)"),
