@@ -5,15 +5,11 @@
  */
 #include "build/build_priv.h"
 
+#include "cases.h"
 #include "layers_fixture.h"
 #include "spell/target.h"
 
 #include <stdlib.h>
-
-#define NODEDEF(name, node, ports) "<nodedef name='" name "' node='" node "'>" ports "</nodedef>"
-#define INPUT(name, type, more) "<input name='" name "' type='" type "' " more "/>"
-#define OUTPUT "<output name='out' type='float'/>"
-#define IMPL(nodedef, more) "<implementation name='IM_" nodedef "' nodedef='" nodedef "' " more "/>"
 
 static const struct layer_file files[] = {
     {"matte.glsl", "vec3 matte_eval(vec3 color, float shade, vec3 L) { return color * shade; }\n"},
@@ -22,52 +18,7 @@ static const struct layer_file files[] = {
     {NULL, NULL},
 };
 
-/*
- * gain: in · amount, plus: a + b; twice: a graph of gain; which: differs by target. One definition
- * per line.
- */
-// clang-format off
-static const char standard[] =
-    "<unittypedef name='distance'/><unitdef name='UD' unittype='distance'>"
-    "<unit name='meter' scale='1'/><unit name='foot' scale='0.25'/></unitdef>"
-    "<geompropdef name='wear' type='float'/>"
-    NODEDEF("ND_gain", "gain",
-            INPUT("in", "float", "value='3'") INPUT("amount", "float", "value='2'") OUTPUT)
-    IMPL("ND_gain", "sourcecode='{{in}} * {{amount}}'")
-    NODEDEF("ND_plus", "plus", INPUT("a", "float", "") INPUT("b", "float", "value='1'") OUTPUT)
-    IMPL("ND_plus", "sourcecode='{{a}} + {{b}}'")
-    NODEDEF("ND_twice", "twice", INPUT("x", "float", "value='5'") OUTPUT)
-    "<nodegraph name='NG_twice' nodedef='ND_twice'><gain name='g' type='float'>"
-    "<input name='in' type='float' interfacename='x'/></gain>"
-    "<output name='out' type='float' nodename='g'/></nodegraph>"
-    NODEDEF("ND_worn", "worn", INPUT("in", "float", "defaultgeomprop='wear'") OUTPUT)
-    IMPL("ND_worn", "sourcecode='{{in}}'")
-    NODEDEF("ND_pick", "pick",
-            INPUT("which", "integer", "value='low' enum='low, middle, high' enumvalues='1, 5, 9'")
-            OUTPUT)
-    IMPL("ND_pick", "sourcecode='float({{which}})'")
-    NODEDEF("ND_which", "which", OUTPUT)
-    IMPL("ND_which", "sourcecode='1.0'")
-    "<implementation name='I2' nodedef='ND_which' target='gen' sourcecode='2.0'/>"
-    "<implementation name='I3' nodedef='ND_which' target='sub' sourcecode='3.0'/>"
-    NODEDEF("ND_only", "only", OUTPUT)
-    "<implementation name='I4' nodedef='ND_only' target='gen' sourcecode='4.0'/>"
-    NODEDEF("ND_shade", "shade", INPUT("color", "color3", "value='1, 1, 1'") OUTPUT)
-    IMPL("ND_shade", "sourcecode='{{color}}.x + {{color}}.y'")
-    "<nodedef name='ND_acescg_to_lin_rec709_color3' node='acescg_to_lin_rec709'>"
-    "<input name='in' type='color3'/><output name='out' type='color3'/></nodedef>"
-    IMPL("ND_acescg_to_lin_rec709_color3", "sourcecode='{{in}} * 0.5'")
-    "<nodedef name='ND_matte' node='matte'><input name='shade' type='float' value='0.5'/>"
-    "<input name='weight' type='float' value='1'/><input name='color' type='color3'/>"
-    "<output name='out' type='BSDF'/></nodedef>"
-    IMPL("ND_matte", "file='matte.glsl' function='matte'")
-    NODEDEF("ND_self", "self", INPUT("x", "float", "") OUTPUT)
-    "<nodegraph name='NG_self' nodedef='ND_self'><self name='s' type='float'/>"
-    "<output name='out' type='float' nodename='s'/></nodegraph>"
-    "<nodedef name='ND_lamp' node='lamp'><input name='power' type='float' value='3'/>"
-    "<output name='light' type='lightshader'/></nodedef>"
-    "<implementation name='IM_lamp' nodedef='ND_lamp' file='lamp.glsl' function='lamp'/>";
-// clang-format on
+static char standard[8192]; /* the library below the documents, from build.txt */
 
 struct work {
     struct layers layers;
@@ -154,15 +105,22 @@ static const char *uniforms(struct work *w)
     return text_cstr(&text);
 }
 
-/* Requires the value of element n of a document and what is reported. */
-#define REQUIRE_VALUE(document, expected, messages) \
-    do { \
-        struct work w_; \
-        work_open(&w_, (document)); \
-        REQUIRE_STR(value_text(&w_, work_build(&w_, "n")), (expected)); \
-        REQUIRE_STR(layers_messages(&w_.layers), (messages)); \
-        work_close(&w_); \
-    } while (0)
+/* "value": that of element n of a document, and on a line of its own what is reported. */
+static void run_case(const struct test_case *c)
+{
+    if (strcmp(c->words, "base") == 0) {
+        snprintf(standard, sizeof standard, "%s", c->in);
+        return;
+    }
+    struct work w;
+    struct text is;
+    work_open(&w, c->in);
+    const char *value = value_text(&w, work_build(&w, "n")), *messages = layers_messages(&w.layers);
+    text_init(&is, &w.layers.arena);
+    text_fmt(&is, "%s\n%s%s", value, messages, *messages ? "\n" : "");
+    REQUIRE_STR(text_cstr(&is), c->out);
+    work_close(&w);
+}
 
 /* ---- The interface ---- */
 
@@ -258,53 +216,7 @@ static void test_globs(void)
             printf("    '%s' and '%s'\n", cases[i].glob, cases[i].path);
 }
 
-/* ---- Values ---- */
-
-static void test_nodes(void)
-{
-    REQUIRE_VALUE("<gain name='n' type='float'/>", "6", "");
-    REQUIRE_VALUE("<gain name='n' type='float'><input name='in' type='float' value='x'/></gain>",
-                  "poison", "bad-value");
-    REQUIRE_VALUE("<plus name='n' type='float'/>", "1", ""); /* without a default: 0 */
-    REQUIRE_VALUE("<pick name='n' type='float'/>", "1", "");
-    REQUIRE_VALUE("<pick name='n' type='float'><input name='which' type='integer' value='high'/>"
-                  "</pick>",
-                  "9", "");
-    REQUIRE_VALUE("<pick name='n' type='float'><input name='which' type='integer' value='6'/>"
-                  "</pick>",
-                  "6", "");
-}
-
-static void test_graphs(void)
-{
-    REQUIRE_VALUE("<twice name='n' type='float'/>", "10", "");
-    REQUIRE_VALUE("<twice name='n' type='float'><input name='x' type='float' value='0.5'/></twice>",
-                  "1", "");
-    /* graphs of graphs: 2 (2 · 5) + 2 · 1 */
-    REQUIRE_VALUE("<twice name='a' type='float'/>"
-                  "<twice name='b' type='float'><input name='x' type='float' nodename='a'/></twice>"
-                  "<twice name='c' type='float'><input name='x' type='float' value='1'/></twice>"
-                  "<plus name='n' type='float'><input name='a' type='float' nodename='b'/>"
-                  "<input name='b' type='float' nodename='c'/></plus>",
-                  "22", "");
-    REQUIRE_VALUE("<self name='n' type='float'/>", "poison", "recursive-definition, used-by");
-}
-
-static void test_units_and_spaces(void)
-{
-    REQUIRE_VALUE("<gain name='n' type='float'><input name='in' type='float' value='2' "
-                  "unittype='distance' unit='foot'/></gain>",
-                  "1", ""); /* 2 · 0.25 · 2 */
-    REQUIRE_VALUE("<shade name='n' type='float'><input name='color' type='color3' "
-                  "value='0.5, 0.25, 0'/></shade>",
-                  "0.75", "");
-    REQUIRE_VALUE("<shade name='n' type='float'><input name='color' type='color3' "
-                  "value='0.5, 0.25, 0' colorspace='acescg'/></shade>",
-                  "0.375", "");
-    REQUIRE_VALUE("<shade name='n' type='float'><input name='color' type='color3' "
-                  "value='0.5, 0.25, 0' colorspace='mine'/></shade>",
-                  "poison", "unknown-colorspace");
-}
+/* ---- Properties ---- */
 
 static void test_properties(void)
 {
@@ -331,7 +243,6 @@ static void test_need(void)
         "<gain name='c1' type='float'><input name='in' type='float' nodename='c2'/></gain>"
         "<gain name='c2' type='float'><input name='in' type='float' nodename='c1'/></gain>"
         "<gain name='late' type='float'><input name='in' type='float' value='4'/></gain>";
-    REQUIRE_VALUE(document, "9", "");
     struct work w;
     work_open(&w, document);
     REQUIRE_STR(value_text(&w, work_build(&w, "c1")), "nothing");
@@ -545,14 +456,13 @@ static void test_lights(void)
     }
 }
 
-int main(void)
+/* The argument is the path of build.txt. */
+int main(int argc, char **argv)
 {
+    test_cases(argc > 1 ? argv[1] : NULL, run_case);
     test_interface();
     test_variables();
     test_globs();
-    test_nodes();
-    test_graphs();
-    test_units_and_spaces();
     test_properties();
     test_need();
     test_poison();
