@@ -23,6 +23,14 @@ metal="base_metalness=float:1" matte="specular_weight=float:0"
     material Core 1.2 $metal specular_roughness=float:0.3
     material Rough 1.2 $metal specular_roughness=float:0.65
     material Haze 1.2 $metal specular_roughness=float:0.3 specular_haze=float:0.4 specular_haze_spread=float:0.5
+    material Retro 1.2 $metal specular_roughness=float:0.3 specular_retroreflectivity=float:1
+    echo '<generalized_schlick_bsdf name="back" type="BSDF"><input name="color0" type="color3" value="0.8,0.8,0.8"/>
+      <input name="roughness" type="vector2" value="0.09,0.09"/><input name="retroreflective" type="boolean" value="true"/></generalized_schlick_bsdf>
+      <surface name="sheet" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="back"/></surface>
+      <surfacematerial name="Sheet" type="material"><input name="surfaceshader" type="surfaceshader" nodename="sheet"/></surfacematerial>'
+    for share in 0 0.25 1; do
+        material Gloss$share 1.2 base_color=color3:0,0,0 specular_haze=float:0.2 specular_retroreflectivity=float:$share
+    done
     material Dark 1.2 $matte
     material Glow 1.2 $matte emission_weight=float:0.25 emission_luminance=float:2 emission_color=color3:4,1,1
     material GlowBefore 1.1.1 $matte emission_luminance=float:0.5 emission_color=color3:4,1,1
@@ -46,13 +54,18 @@ mean() { python3 "$root/tests/programs/exr.py" "$1.exr" R mean; }
 # near A B TOLERANCE: two numbers.
 near() { awk -v a="$1" -v b="$2" -v t="$3" 'BEGIN { print a, b; exit !(a - b < t && b - a < t && a > 0.01) }'; }
 far() { ! near "$@"; }
-for name in Core Rough Haze Dark Glow GlowBefore White Whiter; do
+for name in Retro Sheet Gloss0 Gloss0.25 Gloss1 Core Rough Haze Dark Glow GlowBefore White Whiter; do
     check "$name is drawn" exits 0 "$render" surfaces.mtlx -e "$name" -s 24 -o "$name.exr"
 done
 
 mixed=$(awk -v a="$(mean Core)" -v b="$(mean Rough)" 'BEGIN { print 0.6 * a + 0.4 * b }')
 check 'haze is a second lobe' near "$(mean Haze)" "$mixed" 0.001
 check 'haze is seen' far "$(mean Haze)" "$(mean Core)" 0.002
+check 'metal is retroreflective as the closure is' near "$(mean Retro)" "$(mean Sheet)" 0.0001
+check 'that is seen' far "$(mean Retro)" "$(mean Core)" 0.01
+mixed=$(awk -v a="$(mean Gloss0)" -v b="$(mean Gloss1)" 'BEGIN { print 0.75 * a + 0.25 * b }')
+check 'gloss goes back in part' near "$(mean Gloss0.25)" "$mixed" 0.0005
+check 'and differs' far "$(mean Gloss0)" "$(mean Gloss1)" 0.002
 check 'the weight scales the luminance' near "$(mean Glow)" "$(mean GlowBefore)" 0.0001
 check 'weight 0, the default, is dark' far "$(mean Glow)" "$(mean Dark)" 0.1
 check 'colours end at 1' near "$(mean Whiter)" "$(mean White)" 0.0001
