@@ -8,8 +8,9 @@
  * These streams are positionWorld + dx_positionWorld, texcoord_0 + dx_texcoord_0, …
  *
  * The host gives the change of each stream over a pixel (Igehy 1999, "Tracing Ray Differentials").
- * Derivatives inside of e stay unchanged. In called functions and IR functions, screen derivatives
- * are 0.
+ * Derivatives inside of e stay unchanged. Functions with derivatives become nodes
+ * (inlines_derivatives of lang_host); in those that cannot, because they have loops, screen
+ * derivatives are 0.
  */
 #include "closure/closure_priv.h"
 

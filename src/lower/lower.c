@@ -252,7 +252,8 @@ static bool is_worth_trying(struct lower *lo, const struct lang_unit *layer,
     *out_budget = UINT32_MAX;
     if (fn->num_nodes <= limit)
         return true;
-    if (has_special_texture(lo, layer, fn, in)) {
+    if (has_special_texture(lo, layer, fn, in)
+        || (lo->host->inlines_derivatives && (fn->flags & LANG_FN_DERIVATIVE))) {
         lo->max_graph_nodes = UINT32_MAX;
         return true;
     }

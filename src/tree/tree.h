@@ -170,6 +170,9 @@ struct lang_host { /* how globals become IR nodes */
      * constants
      */
     uint32_t max_inline_nodes;
+    /* calls with derivatives become nodes whatever their size: what has no neighbours derives these
+     */
+    bool inlines_derivatives;
 };
 
 /*

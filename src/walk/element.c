@@ -112,7 +112,8 @@ struct builder *build_start(const struct library *lib, const struct build_option
         .texture = build_read_tiles,
         .bad_index = build_report_index,
         .too_large = build_report_large,
-        .max_inline_nodes = options->max_inline_nodes ? options->max_inline_nodes : INLINE_NODES};
+        .max_inline_nodes = options->max_inline_nodes ? options->max_inline_nodes : INLINE_NODES,
+        .inlines_derivatives = shader->role->derivatives == DERIVATIVES_OF_RAYS};
     b->document = ARENA_NEW(b->arena, struct instance);
     b->document->nodedef = LIBRARY_NONE;
     b->document->first = lib->doc.first_element;
