@@ -32,14 +32,6 @@ size_t utf8_length(const char *bytes)
     return len;
 }
 
-bool utf8_is_valid(const char *text)
-{
-    size_t len = 1;
-    for (; *text && len; text += len)
-        len = (unsigned char)*text < 0x80 ? 1 : utf8_length(text);
-    return len > 0;
-}
-
 char *utf8_repair(const char *text)
 {
     static const char replacement[] = "\xef\xbf\xbd";

@@ -11,8 +11,6 @@
  */
 size_t utf8_length(const char *bytes);
 
-bool utf8_is_valid(const char *text);
-
 /*
  * The text with U+FFFD for each invalid byte, which the caller frees; ends the program if memory is
  * exhausted.

@@ -59,13 +59,3 @@ void table_reserve(struct table *table, struct arena *arena, uint32_t num)
     if (!table->slots || num_slots > table->mask + 1)
         resize(table, arena, num_slots);
 }
-
-void table_copy(struct table *table, struct arena *arena, const struct table *from)
-{
-    assert(!table->slots && !from->narrow);
-    if (!from->slots)
-        return;
-    *table = *from;
-    size_t size = ((size_t)from->mask + 1) * sizeof *from->slots;
-    table->slots = memcpy(arena_alloc(arena, size), from->slots, size);
-}

@@ -42,9 +42,6 @@ static inline uint32_t table_next(const struct table *table, uint32_t hash, uint
 /* Adds a number, which is not 0. Growing takes memory from the arena, always the same one. */
 void table_add(struct table *table, struct arena *arena, uint32_t hash, uint32_t number);
 
-/* Fills an empty table with the numbers of another one, which is not part of an image. */
-void table_copy(struct table *table, struct arena *arena, const struct table *from);
-
 /* Another number for the key that table_next has just found. */
 void table_replace(struct table *table, uint32_t at, uint32_t number);
 

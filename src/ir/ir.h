@@ -462,12 +462,6 @@ uint8_t *ir_mark(const struct ir_graph *graph, const ir_ref *roots, uint32_t num
  */
 ir_ref ir_find_poison(const struct ir_graph *graph, const ir_ref *roots, uint32_t num_roots,
                       struct arena *arena);
-/*
- * Counts the uses of each marked node as an operand of marked nodes and as a root; saturates at
- * 255.
- */
-uint8_t *ir_count_uses(const struct ir_graph *graph, const uint8_t *marked, const ir_ref *roots,
-                       uint32_t num_roots, struct arena *arena);
 
 /*
  * replace.c: rebuilds `root` with `to` in place of `from`, also in IR functions. Unchanged nodes

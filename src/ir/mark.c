@@ -72,32 +72,3 @@ ir_ref ir_find_poison(const struct ir_graph *graph, const ir_ref *roots, uint32_
             found = used_poison(graph, ref);
     return found;
 }
-
-static void count_all(uint8_t *uses, const ir_ref *refs, uint32_t num_refs)
-{
-    for (uint32_t i = 0; i < num_refs; i++)
-        uses[refs[i]] = (uint8_t)(uses[refs[i]] + (uses[refs[i]] < UINT8_MAX));
-}
-
-uint8_t *ir_count_uses(const struct ir_graph *graph, const uint8_t *marked, const ir_ref *roots,
-                       uint32_t num_roots, struct arena *arena)
-{
-    uint8_t *uses = ARENA_ARRAY(arena, uint8_t, graph->nodes.len);
-    uint8_t *called = ARENA_ARRAY(arena, uint8_t, graph->functions.len);
-    count_all(uses, roots, num_roots);
-    for (ir_ref ref = 1; ref < graph->nodes.len; ref++) {
-        const struct ir_node *node = ir_get(graph, ref);
-        if (!marked[ref])
-            continue;
-        count_all(uses, ir_args(graph, ref), node->num_args);
-        if (node->op == IR_GRAPH_CALL && !called[node->attr]) {
-            const struct ir_function *function = &graph->functions.items[node->attr];
-            assert(marked[graph->function_results.items[function->first_result]]);
-            count_all(uses, graph->function_results.items + function->first_result,
-                      function->num_results);
-            called[node->attr] = 1;
-        }
-    }
-    uses[0] = 0;
-    return uses;
-}
