@@ -140,19 +140,30 @@ static void warn(struct resolver *r)
 
 /* ---- The whole ---- */
 
-/* The stacks of all primitives that are drawn make those that there are; groups may share them. */
-static void make_stacks(struct resolver *r, bool of_drawn)
+static void add_to_stack(struct resolver *r, prim_id prim, bool is_drawn)
 {
     struct bindings *b = r->b;
-    for (prim_id prim = 1; prim < b->num_prims; prim++) {
-        uint32_t number = b->state_of[prim];
-        if (!scene_has(b->scene, prim) || scene_is_group(b->scene, prim) == of_drawn)
+    struct bind_state *state = &b->states.items[b->state_of[prim]];
+    if (state->stack == STACK_NONE)
+        bind_stack(b, b->state_of[prim], is_drawn, r->scratch);
+    if (state->stack != STACK_NONE)
+        b->stacks.items[state->stack].num_prims++;
+}
+
+/* The stacks of all primitives that are drawn make those that there are; groups may share them. */
+static void make_stacks(struct resolver *r)
+{
+    VEC(prim_id) groups = {0};
+    for (prim_id prim = 1; prim < r->b->num_prims; prim++) {
+        if (!scene_has(r->b->scene, prim))
             continue;
-        if (b->states.items[number].stack == STACK_NONE)
-            bind_stack(b, number, of_drawn, r->scratch);
-        if (b->states.items[number].stack != STACK_NONE)
-            b->stacks.items[b->states.items[number].stack].num_prims++;
+        if (scene_is_group(r->b->scene, prim))
+            vec_push(r->scratch, &groups, prim);
+        else
+            add_to_stack(r, prim, true);
     }
+    for (uint32_t i = 0; i < groups.len; i++)
+        add_to_stack(r, groups.items[i], false);
 }
 
 /*
@@ -174,8 +185,7 @@ static void make_layers(struct resolver *r)
             bind_layers(b, number, &stands, &r->notes);
         }
     }
-    make_stacks(r, true);
-    make_stacks(r, false);
+    make_stacks(r);
 }
 
 void bind_resolve(struct bindings *b, const struct document *doc, elem_id look,

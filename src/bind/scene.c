@@ -138,17 +138,20 @@ struct text_word scene_type(const struct scene *scene, prim_id prim)
 
 bool scene_is_group(const struct scene *scene, prim_id prim)
 {
-    static const char *const groups[] = {"Xform",    "Scope",         "PointInstancer", "Camera",
-                                         "SkelRoot", "SkelAnimation", "Skeleton"};
-    static const char light[] = "Light";
-    enum { LIGHT = sizeof light - 1 };
+#define WORD(text) {text, sizeof(text) - 1} /* lengths differ mostly: few bytes are compared */
+    static const struct text_word groups[] = {
+        WORD("Xform"),    WORD("Scope"),         WORD("PointInstancer"), WORD("Camera"),
+        WORD("SkelRoot"), WORD("SkelAnimation"), WORD("Skeleton")};
+    static const struct text_word light = WORD("Light");
+#undef WORD
     struct text_word type = scene_type(scene, prim);
     if (!type.len) /* USD has types, lists of paths have none */
         return scene_source(scene, prim) != 0;
     for (size_t i = 0; i < sizeof groups / sizeof *groups; i++)
-        if (usda_is(type, groups[i]))
+        if (type.len == groups[i].len && memcmp(type.bytes, groups[i].bytes, type.len) == 0)
             return true;
-    return type.len >= LIGHT && memcmp(type.bytes + type.len - LIGHT, light, LIGHT) == 0;
+    return type.len >= light.len
+           && memcmp(type.bytes + type.len - light.len, light.bytes, light.len) == 0;
 }
 
 /* ---- Removal ---- */

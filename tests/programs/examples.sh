@@ -95,6 +95,17 @@ check 'the program embedding reports a misspelt input' grep -qx 'there is no SR/
 check 'the program embedding reports the place of an error' grep -q '^broken.mtlx:1:[0-9]*: dangling-nodename$' out
 check 'the program host_resolver runs' exits 0 "${program[host_resolver]}"
 check 'the program host_resolver reads three assets' grep -q 'fract' out
+# Each change finds only the primitives that it touches: an item, none where a name is known there, a shelf with its hundred items.
+cat >tree.txt <<'X'
+the scene [000 Paint] [050 Dust], 20202 primitives
+a layer on an item [000 Paint] [050 Dust] [100 Paint], 1 primitives
+no paint below it [050 Dust] [100 Paint], 0 primitives
+a layer on a shelf [050 Dust] [070 Dust] [100 Paint], 101 primitives
+another material there [050 Dust] [070 Paint] [100 Paint], 0 primitives
+the paint again [000 Paint] [050 Dust] [070 Paint] [100 Paint], 0 primitives
+X
+check 'the program assign runs' exits 0 "${program[assign]}" 20000
+check 'the program assign has the layers of a primitive after each change' eval 'sed "s| */hall_0/shelf_12/item_17||" out | diff tree.txt -'
 [ -z "${program[c_minimal]:-}" ] || check 'c_minimal' exits 0 "${program[c_minimal]}" "$examples/gold.mtlx"
 
 finish examples
