@@ -88,9 +88,8 @@ static void show(const struct shop *shop, const char *change, const char *path)
 static bool assign(struct shop *shop, const char *path, const char *slot, const char *material)
 {
     uint32_t primitive = mxg_scene_find_primitive(shop->scene, path);
-    mxg_status status = material
-                            ? mxg_scene_set_binding(shop->scene, primitive, slot, material)
-                            : mxg_scene_remove_binding(shop->scene, primitive, slot);
+    mxg_status status = material ? mxg_scene_set_binding(shop->scene, primitive, slot, material)
+                                 : mxg_scene_remove_binding(shop->scene, primitive, slot);
     return status == MXG_OK && find_layers(shop);
 }
 

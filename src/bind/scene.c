@@ -138,7 +138,10 @@ struct text_word scene_type(const struct scene *scene, prim_id prim)
 
 bool scene_is_group(const struct scene *scene, prim_id prim)
 {
-#define WORD(text) {text, sizeof(text) - 1} /* lengths differ mostly: few bytes are compared */
+#define WORD(text) \
+    { \
+        text, sizeof(text) - 1 \
+    } /* lengths differ mostly: few bytes are compared */
     static const struct text_word groups[] = {
         WORD("Xform"),    WORD("Scope"),         WORD("PointInstancer"), WORD("Camera"),
         WORD("SkelRoot"), WORD("SkelAnimation"), WORD("Skeleton")};
