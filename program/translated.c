@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "program/translated.h"
 
+#include <stdlib.h>
+
 mxg_document *translated_parse(struct cli *cli, const mxg_document *from, const char *path,
                                const char *model, mxg_result **out_result, mxg_status *out_status)
 {
@@ -18,7 +20,10 @@ mxg_document *translated_make(struct cli *cli, const mxg_document *from, const c
 {
     mxg_result *result = NULL;
     mxg_status status;
-    mxg_document *document = translated_parse(cli, from, path, model, &result, &status);
+    /* lines of the new text are none of the file; its textures are beside the file */
+    char *name = cli_format("%s as %s", path, model);
+    mxg_document *document = translated_parse(cli, from, name, model, &result, &status);
+    free(name);
     report_list(&cli->report, mxg_result_diagnostics(result));
     report_status(&cli->report, status);
     mxg_result_destroy(result);

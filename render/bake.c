@@ -128,9 +128,10 @@ static bool write_document(struct baking *baking, const char *path)
 static bool claim(struct baking *baking, const char *output)
 {
     struct report *report = &baking->cli.report;
+    const mxg_document *from = baking->source ? baking->source : baking->document;
     bool good = true;
-    for (uint32_t i = 0; i < mxg_document_num_files(baking->document); ++i)
-        good = outputs_read(&baking->files, report, mxg_document_file(baking->document, i)) && good;
+    for (uint32_t i = 0; i < mxg_document_num_files(from); ++i)
+        good = outputs_read(&baking->files, report, mxg_document_file(from, i)) && good;
     for (uint32_t i = 0; i < mxg_library_num_files(baking->cli.library); ++i)
         good =
             outputs_read(&baking->files, report, mxg_library_file(baking->cli.library, i)) && good;

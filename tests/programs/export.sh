@@ -313,4 +313,11 @@ if [ -d "$root/tests/npm/node_modules/gltf-validator" ] && command -v node >vali
 else
     skip 'no gltf-validator (npm ci --prefix tests/npm) or no node'
 fi
+cat >told.mtlx <<'XML'
+<materialx version="1.39">
+<image name="i" type="color3"><input name="texcoord" type="vector2" value="0.5, 0.5"/></image>
+<standard_surface name="S" type="surfaceshader"><input name="base_color" type="color3" nodename="i"/></standard_surface>
+<surfacematerial name="M" type="material"><input name="surfaceshader" type="surfaceshader" nodename="S"/></surfacematerial></materialx>
+XML
+check 'a line of the translated document is none of the file' eval '"$mxgen" export told.mtlx -o told.gltf --size 4 2>err; grep -q "^told.mtlx as gltf_pbr:[0-9]*:[0-9]*: warning: .*\[geomprop-literal\]" err && ! grep -q "^told.mtlx:" err'
 finish export
