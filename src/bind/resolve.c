@@ -150,30 +150,16 @@ static void add_to_stack(struct resolver *r, prim_id prim, bool is_drawn)
         b->stacks.items[state->stack].num_prims++;
 }
 
-/* The stacks of all primitives that are drawn make those that there are; groups may share them. */
-static void make_stacks(struct resolver *r)
-{
-    VEC(prim_id) groups = {0};
-    for (prim_id prim = 1; prim < r->b->num_prims; prim++) {
-        if (!scene_has(r->b->scene, prim))
-            continue;
-        if (scene_is_group(r->b->scene, prim))
-            vec_push(r->scratch, &groups, prim);
-        else
-            add_to_stack(r, prim, true);
-    }
-    for (uint32_t i = 0; i < groups.len; i++)
-        add_to_stack(r, groups.items[i], false);
-}
-
 /*
- * The layers of each state that a primitive has. The order of the primitives decides that of the
- * stacks, whatever the order of the states is.
+ * The layers of each state that a primitive has, and the stacks. The order of the primitives
+ * decides that of the stacks, whatever the order of the states is. The primitives that are drawn
+ * make the stacks that there are; groups may share them.
  */
 static void make_layers(struct resolver *r)
 {
     struct bindings *b = r->b;
     struct stands stands = {.scratch = r->scratch};
+    VEC(prim_id) groups = {0};
     r->notes.sleeps_at = ARENA_ARRAY(r->scratch, uint32_t, b->look.names.len);
     r->notes.has_layer = ARENA_ARRAY(r->scratch, bool, b->look.names.len);
     for (prim_id prim = 1; prim < b->num_prims; prim++) {
@@ -184,8 +170,13 @@ static void make_layers(struct resolver *r)
             b->states.items[number].first_prim = prim;
             bind_layers(b, number, &stands, &r->notes);
         }
+        if (scene_is_group(b->scene, prim))
+            vec_push(r->scratch, &groups, prim);
+        else
+            add_to_stack(r, prim, true);
     }
-    make_stacks(r);
+    for (uint32_t i = 0; i < groups.len; i++)
+        add_to_stack(r, groups.items[i], false);
 }
 
 void bind_resolve(struct bindings *b, const struct document *doc, elem_id look,

@@ -118,18 +118,62 @@ const char *scene_keep_word(struct scene *scene, struct text_word word)
     return kept;
 }
 
+/* True if primitives of the type are not drawn. */
+static bool is_group_type(struct text_word type)
+{
+#define WORD(text) \
+    { \
+        text, sizeof(text) - 1 \
+    }
+    static const struct text_word groups[] = {
+        WORD("Xform"),    WORD("Scope"),         WORD("PointInstancer"), WORD("Camera"),
+        WORD("SkelRoot"), WORD("SkelAnimation"), WORD("Skeleton")};
+    static const struct text_word light = WORD("Light");
+#undef WORD
+    for (size_t i = 0; i < sizeof groups / sizeof *groups; i++)
+        if (type.len == groups[i].len && memcmp(type.bytes, groups[i].bytes, type.len) == 0)
+            return true;
+    return type.len >= light.len
+           && memcmp(type.bytes + type.len - light.len, light.bytes, light.len) == 0;
+}
+
+/* 1 + the number of a type that a host gives; 0: it gives none. */
+static uint32_t number_of_type(struct scene *scene, struct text_word type)
+{
+    uint32_t hash = hash_bytes(type.bytes, type.len);
+    if (!type.len)
+        return 0;
+    for (uint32_t at = hash, found; (found = table_next(&scene->host_types_table, hash, &at));) {
+        struct text_word known = scene->host_types.items[found - 1].name;
+        if (known.len == type.len && memcmp(known.bytes, type.bytes, type.len) == 0)
+            return found;
+    }
+    struct host_type added = {{arena_strndup(scene->arena, type.bytes, type.len), type.len},
+                              is_group_type(type)};
+    vec_push(scene->arena, &scene->host_types, added);
+    table_add(&scene->host_types_table, scene->arena, hash, scene->host_types.len);
+    return scene->host_types.len;
+}
+
 void scene_set_type(struct scene *scene, prim_id prim, struct text_word type)
 {
-    const char *kept = scene_keep_word(scene, type);
+    uint32_t number = number_of_type(scene, type);
     while (scene->types.len <= prim)
-        vec_push(scene->arena, &scene->types, NULL);
-    scene->types.items[prim] = kept;
+        vec_push(scene->arena, &scene->types, 0);
+    scene->types.items[prim] = number;
+}
+
+/* NULL: the host gives none. */
+static const struct host_type *host_type_of(const struct scene *scene, prim_id prim)
+{
+    uint32_t number = prim < scene->types.len ? scene->types.items[prim] : 0;
+    return number ? &scene->host_types.items[number - 1] : NULL;
 }
 
 struct text_word scene_type(const struct scene *scene, prim_id prim)
 {
-    const char *given = prim < scene->types.len ? scene->types.items[prim] : NULL;
-    struct text_word type = {given, given ? strlen(given) : 0};
+    const struct host_type *given = host_type_of(scene, prim);
+    struct text_word type = given ? given->name : (struct text_word){0};
     for (uint32_t i = scene_source(scene, prim); i && !type.len;
          i = scene->sources.items[i - 1].next)
         type = scene->layer.prims.items[scene->sources.items[i - 1].prim].type;
@@ -138,23 +182,12 @@ struct text_word scene_type(const struct scene *scene, prim_id prim)
 
 bool scene_is_group(const struct scene *scene, prim_id prim)
 {
-#define WORD(text) \
-    { \
-        text, sizeof(text) - 1 \
-    } /* lengths differ mostly: few bytes are compared */
-    static const struct text_word groups[] = {
-        WORD("Xform"),    WORD("Scope"),         WORD("PointInstancer"), WORD("Camera"),
-        WORD("SkelRoot"), WORD("SkelAnimation"), WORD("Skeleton")};
-    static const struct text_word light = WORD("Light");
-#undef WORD
+    const struct host_type *given = host_type_of(scene, prim);
+    if (given)
+        return given->is_group;
     struct text_word type = scene_type(scene, prim);
-    if (!type.len) /* USD has types, lists of paths have none */
-        return scene_source(scene, prim) != 0;
-    for (size_t i = 0; i < sizeof groups / sizeof *groups; i++)
-        if (type.len == groups[i].len && memcmp(type.bytes, groups[i].bytes, type.len) == 0)
-            return true;
-    return type.len >= light.len
-           && memcmp(type.bytes + type.len - light.len, light.bytes, light.len) == 0;
+    /* USD has types, lists of paths have none */
+    return type.len ? is_group_type(type) : scene_source(scene, prim) != 0;
 }
 
 /* ---- Removal ---- */
@@ -190,7 +223,7 @@ static void forget(struct scene *scene, prim_id prim)
     if (prim < scene->first_source.len)
         scene->first_source.items[prim] = 0;
     if (prim < scene->types.len)
-        scene->types.items[prim] = NULL;
+        scene->types.items[prim] = 0;
 }
 
 void scene_remove(struct scene *scene, const prim_id *prims, size_t num)

@@ -21,6 +21,12 @@ struct scene_prim {
 enum { SCENE_MAX_DEPTH = 1000 };
 #define PRIM_REMOVED UINT32_MAX /* as a parent: the primitive is gone; its number stays unused */
 
+/* A type that a host gives to primitives. */
+struct host_type {
+    struct text_word name;
+    bool is_group;
+};
+
 /* A binding that the scene brings itself; it is weaker than those of a look at the same path. */
 struct scene_binding {
     prim_id prim;
@@ -112,9 +118,11 @@ struct scene {
     struct table instance_table;          /* (instancer, id) → 1 + index of the first */
     VEC(const char *) words;              /* those that a host gives again and again */
     struct table words_table;
-    struct text written;     /* a name at hand */
-    VEC(const char *) types; /* that a host gives, by primitive, like first_source; or NULL */
-    char *names;             /* free part of the block of names */
+    struct text written; /* a name at hand */
+    VEC(struct host_type) host_types;
+    struct table host_types_table;
+    VEC(uint32_t) types; /* that a host gives, by primitive, like first_source */
+    char *names;         /* free part of the block of names */
     size_t names_left;
 };
 
