@@ -19,6 +19,7 @@ static const struct preview_shader shaders[] = {
 /* A texture is an image, whose colours are decoded before the scale and bias of usd_shaders.c. */
 static const struct preview_input inputs[] = {
     {"UsdPreviewSurface", "opacityMode", "opacityMode", NULL, true},
+    {"UsdPreviewSurface", "displacement", NULL, NULL, false}, /* a node of its own */
     {"UsdUVTexture", "st", "texcoord", NULL, false},
     {"UsdUVTexture", "wrapS", "uaddressmode", "constant", true},
     {"UsdUVTexture", "wrapT", "vaddressmode", "constant", true},

@@ -231,6 +231,8 @@ check 'scale and bias count' grep -qF '+ vec4(5.0, 6.0, 7.0, 0.0)' main.txt
 check 'a primvar has the name that a token gives' grep -qF 'vd.geomprop_st' main.txt
 check 'coordinates are scaled, turned and moved' eval 'grep -qF "scaled = vd.geomprop_st * vec2(8.0, 9.0)" main.txt && grep -qF "vec2(-scaled.y, scaled.x) + vec2(10.0, 11.0)" main.txt'
 check 'a vector of three numbers is a colour' grep -qF 'vd.geomprop_glow' main.txt
+check 'occlusion, which no shader shows, is told' tells unread-input preview.usda:29:15 occlusion
+check 'displacement is not' eval '! grep -qF "displacement" err'
 check 'displacement moves vertices' eval 'grep -qF "* 0.75)" preview.usda.m/*.vert'
 check 'it does not without its terminal' eval 'sed "/outputs:displacement.connect/d" preview.usda >flat.usda; main flat.usda && ! grep -qF "0.75" flat.usda.m/*.vert'
 check 'an input of the material is a colour and a vector' eval 'sed "s|normal3f inputs:normal.connect = </m/n.outputs:rgb>|normal3f inputs:normal.connect = </m.inputs:tint>|" preview.usda >both.usda; main both.usda'
