@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
  * Inputs of a surface that the nodegraph of its model does not read: they are for other programs,
- * as the occlusion and the volume of glTF are, and no shader can show them. Stages make a
- * <displacement> of the displacement that USD's surface has.
+ * as the occlusion and the volume of glTF are, and no shader can show them.
  */
 #include "build/build_priv.h"
 
@@ -37,7 +36,7 @@ void build_report_unread(struct builder *b, const struct graph_node *node, elem_
         int index = doc_element(doc, e)->kind == KIND_INPUT
                         ? library_find_input(b->lib, node->nodedef, name)
                         : -1;
-        if (index >= 0 && name != STR_displacement && is_authored(b, e, &ports[index])
+        if (index >= 0 && is_authored(b, e, &ports[index])
             && !library_graph_reads(b->lib, graph, name))
             diag_add(b->diags, DIAG_ID_unread_input, doc_name_place(doc, e), build_text(b, name),
                      build_text(b, def->node));
