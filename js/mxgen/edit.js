@@ -187,6 +187,16 @@ export class Edit extends Owner {
         return this.root.copy(element, name);
     }
 
+    /**
+     * Moves nodes of the root into a new nodegraph, in this order. What they read from outside becomes its inputs, and what others read of
+     * them its outputs.
+     */
+    group(nodes, name) {
+        const numbers = Array.from(nodes, node => this._own(node));
+        return this._made((lib, native, pointer) => lib.mxg_edit_group_nodes(pointer, native.newNumbers(numbers), numbers.length,
+                                                                         native.newText(name, "name")));
+    }
+
     // ---- End ----
 
     /** Makes the document. The edit is over, also after an error. Throws DocumentError. */

@@ -388,6 +388,8 @@ export class Edit extends Owner {
     find(path: string | Element): Draft | null;
     add(category: string, name?: string | null, type?: string | null): Draft;
     copy(element: Element, name?: string | null): Draft;
+    /** Moves nodes of the root into a new nodegraph, in this order. */
+    group(nodes: Iterable<Draft | Element>, name: string): Draft;
     /** Makes the document. The edit is over, also after an error. Throws DocumentError. */
     end(): Document;
     cancel(): void;

@@ -33,6 +33,8 @@ struct edit_change {
     const mxg_document *source;
     const float *numbers;
     uint32_t num_numbers;
+    const elem_id *nodes;
+    uint32_t num_nodes;
     elem_id result;
     bool failed;
 };
@@ -50,6 +52,8 @@ void edit_fail(struct edit_change *change, const char *format, ...);
 /* A text that goes into the document; NULL counts as empty. */
 bool edit_check_text(struct edit_change *change, const char *what, const char *text);
 bool edit_check_name(struct edit_change *change, const char *what, const char *name);
+/* A name that no element below the parent has. */
+bool edit_check_new_name(struct edit_change *change, elem_id parent, const char *name);
 /* The document may have another element. */
 bool edit_check_room(struct edit_change *change);
 /* The number is that of an element; 0 becomes the root, if that is allowed. */
@@ -71,6 +75,11 @@ str_id edit_word(const struct edit_change *change, const char *text);
 void edit_view(const mxg_edit *edit, struct library *out);
 /* The definition of a node, and the view. LIBRARY_NONE: there is none. */
 uint32_t edit_find_definition(const struct edit_change *change, elem_id node, struct library *view);
+
+/*
+ * The type of what `other` gives by its output `text`, NULL: the only one. "": it is unknown.
+ */
+const char *edit_source_type(const struct edit_change *change);
 
 /* The nodegraph that implements a definition for every target; 0: there is none. */
 elem_id edit_find_graph(const struct library *lib, uint32_t nodedef);

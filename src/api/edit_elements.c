@@ -106,8 +106,7 @@ bool edit_check_name(struct edit_change *change, const char *what, const char *n
     return !change->failed;
 }
 
-/* A new name below a parent. */
-static bool check_new_name(struct edit_change *change, elem_id parent, const char *name)
+bool edit_check_new_name(struct edit_change *change, elem_id parent, const char *name)
 {
     if (edit_check_name(change, "name", name) && edit_child(change->edit, parent, name))
         edit_fail(change, "there is an element '%s' already", name);
@@ -156,7 +155,7 @@ static void add(void *arg)
     struct edit_change *c = arg;
     bool is_named = c->name && *c->name;
     if (edit_check_element(c, &c->element, true) && edit_check_name(c, "category", c->category)
-        && (!is_named || check_new_name(c, c->element, c->name))
+        && (!is_named || edit_check_new_name(c, c->element, c->name))
         && edit_check_text(c, "type", c->type) && edit_check_room(c))
         c->result = edit_add(c, c->element, c->category, c->name, c->type);
 }
@@ -178,7 +177,7 @@ static void rename_element(void *arg)
     const struct element *e = doc_element(doc, c->element);
     if (c->text && strcmp(str_text(doc->strings, e->name), c->text) == 0)
         return;
-    if (check_new_name(c, e->parent, c->text))
+    if (edit_check_new_name(c, e->parent, c->text))
         doc_rename(edit_tree(c->edit), c->element, edit_word(c, c->text));
 }
 
@@ -283,7 +282,7 @@ static void copy(void *arg)
     }
     const char *name =
         c->name ? c->name : str_text(from->strings, doc_element(from, c->other)->name);
-    if (*name && !check_new_name(c, c->element, name))
+    if (*name && !edit_check_new_name(c, c->element, name))
         return;
     c->result =
         doc_copy_element(edit_tree(c->edit), c->element, from, c->other, edit_word(c, name));

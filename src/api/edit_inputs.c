@@ -201,8 +201,7 @@ static const char *output_type(const struct edit_change *c)
                : port_type(&view, nodedef, library_nodedef(&view, nodedef)->num_inputs + output);
 }
 
-/* The type of the value that `from` gives; "" if it is unknown. */
-static const char *source_type(const struct edit_change *c)
+const char *edit_source_type(const struct edit_change *c)
 {
     const struct document *doc = edit_tree(c->edit);
     elem_id typed = c->other;
@@ -230,7 +229,7 @@ static void connect(void *arg)
         return;
     }
     str_id attr = connecting_attr(c, doc_element(doc, c->element)->parent);
-    const char *type = attr ? source_type(c) : "";
+    const char *type = attr ? edit_source_type(c) : "";
     if (!attr)
         return;
     if (!*type) {

@@ -9,6 +9,7 @@
 #include "tests/unit/test.h"
 
 #include <mxgen/mxgen.h>
+#include <mxgen/reflection.h>
 
 #include <stdlib.h>
 
@@ -55,6 +56,36 @@ static inline mxg_status commit(mxg_edit *edit, mxg_document **out_document)
     mxg_status status = mxg_edit_commit(edit, out_document);
     mxg_edit_destroy(edit);
     return status;
+}
+
+/* ---- Shaders ---- */
+
+static inline mxg_result *generate_reduced(mxg_context *context, const mxg_document *document,
+                                           const char *element)
+{
+    mxg_options *options = NULL;
+    mxg_result *result = NULL;
+    mxg_options_create(context, &options);
+    mxg_options_set(options, "interface", "reduced");
+    mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
+    desc.target = "glsl";
+    desc.element = element;
+    desc.options = options;
+    REQUIRE_EQ(mxg_generate(context, document, &desc, &result), MXG_OK);
+    mxg_options_destroy(options);
+    return result;
+}
+
+/* True if the pixels of an element have the same program, with the same values. */
+static inline bool draws_the_same(mxg_context *context, const mxg_document *a,
+                                  const mxg_document *b, const char *element)
+{
+    mxg_result *before = generate_reduced(context, a, element),
+               *after = generate_reduced(context, b, element);
+    mxg_change change = mxg_result_change(before, after, NULL, 0, NULL);
+    mxg_result_destroy(before);
+    mxg_result_destroy(after);
+    return change == MXG_CHANGE_NOTHING;
 }
 
 /* ---- Elements by their paths; 0: there is none ---- */

@@ -50,33 +50,6 @@ static mxg_document *flatten(const struct fixture *f, const mxg_document *from,
     return document;
 }
 
-static mxg_result *generate(const struct fixture *f, const mxg_document *document,
-                            const char *element)
-{
-    mxg_options *options = NULL;
-    mxg_result *result = NULL;
-    mxg_options_create(f->context, &options);
-    mxg_options_set(options, "interface", "reduced");
-    mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
-    desc.target = "glsl";
-    desc.element = element;
-    desc.options = options;
-    REQUIRE_EQ(mxg_generate(f->context, document, &desc, &result), MXG_OK);
-    mxg_options_destroy(options);
-    return result;
-}
-
-/* True if the pixels of an element have the same program, with the same values. */
-static bool draws_the_same(const struct fixture *f, const mxg_document *a, const mxg_document *b,
-                           const char *element)
-{
-    mxg_result *before = generate(f, a, element), *after = generate(f, b, element);
-    mxg_change change = mxg_result_change(before, after, NULL, 0, NULL);
-    mxg_result_destroy(before);
-    mxg_result_destroy(after);
-    return change == MXG_CHANGE_NOTHING;
-}
-
 static void expect_attribute(const mxg_document *document, const char *path, const char *name,
                              const char *wanted)
 {
@@ -141,7 +114,7 @@ static void test_values(struct fixture *f)
     expect_attribute(after, "P_Pobject/space", "value", "object");
     /* the document has the name already */
     expect_attribute(after, "P_more/in1", "nodename", "P_sum2");
-    REQUIRE(draws_the_same(f, before, after, "S"));
+    REQUIRE(draws_the_same(f->context, before, after, "S"));
     mxg_document_destroy(before);
     mxg_document_destroy(after);
 }
@@ -158,7 +131,7 @@ static void test_defaults(struct fixture *f)
     expect_attribute(after, "G/P/in1", "value", "0.25, 0.5, 0.75");
     expect_attribute(after, "G/P/in1", "colorspace", "srgb_texture");
     expect_attribute(after, "G/out", "nodename", "P");
-    REQUIRE(draws_the_same(f, before, after, "S"));
+    REQUIRE(draws_the_same(f->context, before, after, "S"));
     mxg_document_destroy(before);
     mxg_document_destroy(after);
 }
@@ -208,7 +181,7 @@ static void test_outputs(struct fixture *f)
     expect_attribute(after, "P_own/kind", "value", "rust");
     expect_attribute(after, "P_i/file", "value", "wood.png");
     REQUIRE(!element_at(after, "P"));
-    REQUIRE(draws_the_same(f, before, after, "S"));
+    REQUIRE(draws_the_same(f->context, before, after, "S"));
     mxg_document_destroy(before);
     mxg_document_destroy(after);
 }
@@ -236,7 +209,7 @@ static void test_levels(struct fixture *f)
     mxg_element_info info = MXG_INIT(mxg_element_info);
     mxg_document_element(all, element_at(all, "S"), &info);
     REQUIRE_STR(info.category, "surface"); /* the standard_surface of the library is a graph, too */
-    REQUIRE(draws_the_same(f, before, one, "S"));
+    REQUIRE(draws_the_same(f->context, before, one, "S"));
     mxg_document_destroy(before);
     mxg_document_destroy(one);
     mxg_document_destroy(all);
@@ -249,7 +222,7 @@ static void test_library(struct fixture *f)
                                 "<input name='coat' type='float' value='0.5'/>"
                                 "<input name='metalness' type='float' value='0.25'/>")));
     mxg_document *after = flatten(f, before, (const char *const[]){"S", NULL});
-    REQUIRE(draws_the_same(f, before, after, "S"));
+    REQUIRE(draws_the_same(f->context, before, after, "S"));
     mxg_document_destroy(before);
     mxg_document_destroy(after);
 }

@@ -226,6 +226,10 @@ static void change_edit(struct machine *m, unsigned slot, unsigned argument)
                               argument & 2 ? "copy" : NULL);
         break;
     case 5: mxg_edit_flatten_node(edit, argument & 1 ? element : other); break;
+    case 6:
+        mxg_edit_group_nodes(edit, (const mxg_element[]){element, other}, 1 + argument % 2,
+                             "group");
+        break;
     default: change_names(edit, element, other, argument);
     }
     char reason[40];

@@ -202,6 +202,9 @@ test("edits", () => {
     const flattened = after.edit();
     flattened.find("Surface").flatten();
     assert.equal(flattened.end().find("Surface").category, "surface");
+    const grouped = copper.edit();
+    assert.equal(grouped.group([grouped.add("constant", "C", "float")], "Graph").number, grouped.find("Graph").number);
+    assert.deepEqual(grouped.end().find("Graph").children.map(({ name }) => name), ["C"]);
     const lossy = after.edit();
     lossy.find("Surface").remove();
     assert.throws(() => lossy.end(), error => error instanceof DocumentError && error.diagnostics.items[0].id === "removed-reference");

@@ -189,6 +189,12 @@ class Edits(unittest.TestCase):
             edit["SR"].flatten()
         self.assertEqual(edit.document["SR"].category, "surface")
         self.assertEqual(edit.document["Gold/surfaceshader"].connection.source.name, "SR")
+        with built.edit() as edit:
+            graph = edit.group([edit["Spots"]], "Pattern")
+            with self.assertRaisesRegex(mxgen.EditError, "no node of the root"):
+                edit.group([graph], "Outer")
+        self.assertEqual([element.name for element in edit.document["Pattern"].children], ["Spots", "Spots_out"])
+        self.assertEqual(edit.document["SR/specular_roughness"].connection.output, "Spots_out")
         self.assertEqual(repr(mxgen.Draft(edit, 7)), "<Draft 7>")
 
     def test_failures(self):
