@@ -19,8 +19,9 @@ static void open_fixture(struct fixture *f, uint32_t max_elements)
     desc.max_elements = max_elements;
     REQUIRE_EQ(mxg_context_create(&desc, &f->context), MXG_OK);
     f->library = mxg_library_builtin(f->context);
-    REQUIRE_EQ(mxg_document_parse(f->context, f->library, "loose.mtlx", text, strlen(text), &f->loose),
-               MXG_OK);
+    REQUIRE_EQ(
+        mxg_document_parse(f->context, f->library, "loose.mtlx", text, strlen(text), &f->loose),
+        MXG_OK);
 }
 
 static void close_fixture(struct fixture *f)
@@ -85,9 +86,12 @@ static void test_failures(void)
     expect_failure(&f, (const char *const[]){"wide", NULL}, "two words", "is no name");
     expect_failure(&f, (const char *const[]){"wide", NULL}, NULL, "the name is missing");
     expect_failure(&f, (const char *const[]){"wide", "wide", NULL}, "G", "'wide' stands twice");
-    expect_failure(&f, (const char *const[]){"others", NULL}, "G", "'others' is no node of the root");
-    expect_failure(&f, (const char *const[]){"others/one", NULL}, "G", "'one' is no node of the root");
-    expect_failure(&f, (const char *const[]){"S", "M", NULL}, "G", "'all' refers to 'M' by 'material'");
+    expect_failure(&f, (const char *const[]){"others", NULL}, "G",
+                   "'others' is no node of the root");
+    expect_failure(&f, (const char *const[]){"others/one", NULL}, "G",
+                   "'one' is no node of the root");
+    expect_failure(&f, (const char *const[]){"S", "M", NULL}, "G",
+                   "'all' refers to 'M' by 'material'");
     expect_failure(&f, (const char *const[]){"wide", "spots", "in1", "parts", NULL}, "G",
                    "more elements than the context allows");
     REQUIRE_EQ(mxg_edit_group_nodes(NULL, NULL, 0, "G"), 0);
