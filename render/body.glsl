@@ -76,7 +76,7 @@ void turn_inside(inout Path path, vec3 direction)
 // do not like to be busy for long, either; or until that of a body runs that varies.
 bool rests(inout Path path, uint body)
 {
-    const uint MOST = 8000u;
+    const uint MOST = 3000u; // a round of `work` is several of the driver's: with 8,000 long walks lose light
     uint shader = majorant_of(body) > 0.0 ? objects[body / 4u - 1u].shader : this_shader();
     if (path.waits != 0u || (work < MOST && shader == this_shader()))
         return false;
