@@ -217,11 +217,10 @@ static bool has_source(const struct document *doc, elem_id port)
 /* What an input of the node has: the port has the same. */
 static void take_input(struct flattening *f, elem_id port, elem_id from, const struct port *input)
 {
-    static const str_id sources[] = {STR_nodename, STR_nodegraph, STR_output, STR_interfacename};
     static const str_id values[] = {STR_value, STR_unit, STR_unittype};
     struct document *doc = tree_of(f);
     if (has_source(doc, from)) {
-        copy_attrs(f, port, from, sources, sizeof sources / sizeof *sources);
+        copy_attrs(f, port, from, doc_connections, DOC_NUM_CONNECTIONS);
         return;
     }
     if (!scale_value(f, port, from, input->element))
@@ -327,14 +326,6 @@ static void take(struct flattening *f, elem_id port, str_id name)
 
 /* ---- Copies ---- */
 
-static void remove_sources(struct flattening *f, elem_id port)
-{
-    static const str_id attrs[] = {STR_nodename, STR_nodegraph, STR_output, STR_interfacename,
-                                   STR_value};
-    for (size_t i = 0; i < sizeof attrs / sizeof *attrs; i++)
-        doc_remove_attr(tree_of(f), port, attrs[i]);
-}
-
 /* A port takes what another one, in the graph, has. */
 static void connect(struct flattening *f, elem_id port, elem_id original)
 {
@@ -343,7 +334,8 @@ static void connect(struct flattening *f, elem_id port, elem_id original)
     str_id interface = doc_attr_value(doc, original, STR_interfacename);
     elem_id node = copy_of(f, doc_attr_value(doc, original, STR_nodename)),
             graph = copy_of(f, doc_attr_value(doc, original, STR_nodegraph));
-    remove_sources(f, port);
+    doc_disconnect(doc, port);
+    doc_remove_attr(doc, port, STR_value);
     if (interface)
         take(f, port, interface);
     else

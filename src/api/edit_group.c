@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * A nodegraph of nodes of the root. What they read from outside becomes inputs of the nodegraph,
- * and what others read of them becomes its outputs. All is found before the first change, so a
- * group that cannot be leaves the document as it is.
+ * A nodegraph of nodes of the root. Each source outside that they read becomes an input of the
+ * nodegraph, and each result that others read becomes an output. All is found before the first
+ * change, so a group that cannot be leaves the document as it is.
  */
 #include "api/edit.h"
 
@@ -27,9 +27,6 @@ struct grouping {
     struct table inputs, outputs; /* of what they give, to `ports` + 1 */
 };
 
-static const str_id sources[] = {STR_nodename, STR_nodegraph, STR_output, STR_interfacename};
-enum { NUM_SOURCES = sizeof sources / sizeof *sources };
-
 static struct document *tree_of(struct grouping *g)
 {
     return edit_tree(g->c->edit);
@@ -51,7 +48,7 @@ static bool is_in_group(const struct grouping *g, elem_id element)
     return element && bsearch(&element, g->sorted, g->num, sizeof element, compare_elements);
 }
 
-/* ---- What there is ---- */
+/* ---- Checks ---- */
 
 static void check_nodes(struct grouping *g)
 {
@@ -104,9 +101,7 @@ static void note_readers(struct grouping *g, elem_id node)
 {
     const struct document *doc = tree_of(g);
     for (elem_id e = doc_element(doc, node)->first_child; e; e = doc_element(doc, e)->next) {
-        bool reads = false;
-        for (size_t i = 0; i < NUM_SOURCES && doc_element(doc, e)->kind == KIND_INPUT; i++)
-            reads |= doc_attr_value(doc, e, sources[i]) != 0;
+        bool reads = doc_element(doc, e)->kind == KIND_INPUT && doc_is_connected(doc, e);
         if (reads && !is_in_group(g, doc_named_node(doc, e)))
             vec_push(arena_of(g), &g->readers, e);
     }
@@ -166,29 +161,20 @@ static elem_id add_port(struct grouping *g, const char *category, const char *na
     return port;
 }
 
-static void move_sources(struct document *doc, elem_id from, elem_id to)
-{
-    for (size_t i = 0; i < NUM_SOURCES; i++) {
-        str_id value = doc_attr_value(doc, from, sources[i]);
-        if (value && to)
-            doc_set_attr(doc, to, sources[i], value);
-        doc_remove_attr(doc, from, sources[i]);
-    }
-}
-
 static uint32_t hash_source(const struct document *doc, elem_id port)
 {
     uint32_t hash = doc_attr_value(doc, port, STR_type);
-    for (size_t i = 0; i < NUM_SOURCES; i++)
-        hash = hash_pair(hash, doc_attr_value(doc, port, sources[i]));
+    for (size_t i = 0; i < DOC_NUM_CONNECTIONS; i++)
+        hash = hash_pair(hash, doc_attr_value(doc, port, doc_connections[i]));
     return hash;
 }
 
 static bool have_same_source(const struct document *doc, elem_id a, elem_id b)
 {
     bool are_same = doc_attr_value(doc, a, STR_type) == doc_attr_value(doc, b, STR_type);
-    for (size_t i = 0; i < NUM_SOURCES; i++)
-        are_same &= doc_attr_value(doc, a, sources[i]) == doc_attr_value(doc, b, sources[i]);
+    for (size_t i = 0; i < DOC_NUM_CONNECTIONS; i++)
+        are_same &= doc_attr_value(doc, a, doc_connections[i])
+                    == doc_attr_value(doc, b, doc_connections[i]);
     return are_same;
 }
 
@@ -203,7 +189,11 @@ static elem_id input_for(struct grouping *g, elem_id reader)
     elem_id input = add_port(g, "input", str_text(doc->strings, doc_element(doc, reader)->name),
                              str_text(doc->strings, doc_attr_value(doc, reader, STR_type)));
     table_add(&g->inputs, arena_of(g), hash, g->ports.len);
-    move_sources(doc, reader, input);
+    for (size_t i = 0; i < DOC_NUM_CONNECTIONS; i++) {
+        str_id value = doc_attr_value(doc, reader, doc_connections[i]);
+        if (value)
+            doc_set_attr(doc, input, doc_connections[i], value);
+    }
     doc_index_change(doc, input);
     doc_move_before(doc, input, g->c->nodes[0]);
     return input;
@@ -214,7 +204,7 @@ static void connect_readers(struct grouping *g)
     struct document *doc = tree_of(g);
     for (uint32_t i = 0; i < g->readers.len; i++) {
         elem_id reader = g->readers.items[i], input = input_for(g, reader);
-        move_sources(doc, reader, 0);
+        doc_disconnect(doc, reader);
         doc_set_attr(doc, reader, STR_interfacename, doc_element(doc, input)->name);
         doc_index_change(doc, reader);
     }
@@ -250,7 +240,7 @@ static void connect_users(struct grouping *g)
     struct document *doc = tree_of(g);
     for (uint32_t i = 0; i < g->users.len; i++) {
         elem_id port = g->users.items[i].port, output = output_for(g, &g->users.items[i]);
-        move_sources(doc, port, 0);
+        doc_disconnect(doc, port);
         doc_set_attr(doc, port, STR_nodegraph, doc_element(doc, g->graph)->name);
         doc_set_attr(doc, port, STR_output, doc_element(doc, output)->name);
         doc_index_change(doc, port);

@@ -31,16 +31,6 @@ static elem_id make_input(struct edit_change *c, const char *type)
     return input;
 }
 
-static void remove_attrs(struct document *doc, elem_id element, const str_id *attrs, size_t num)
-{
-    for (size_t i = 0; i < num; i++)
-        doc_remove_attr(doc, element, attrs[i]);
-}
-
-/* The attributes that say where a port takes its value from. */
-static const str_id sources[] = {STR_nodename, STR_nodegraph, STR_interfacename, STR_output,
-                                 STR_value};
-
 void edit_view(const mxg_edit *edit, struct library *out)
 {
     const mxg_document *document = edit->document;
@@ -106,7 +96,7 @@ static void set_value(void *arg)
     if (c->failed)
         return;
     elem_id input = make_input(c, c->type);
-    remove_attrs(doc, input, sources, sizeof sources / sizeof *sources - 1);
+    doc_disconnect(doc, input);
     doc_set_attr(doc, input, STR_value, edit_word(c, c->text));
 }
 
@@ -242,7 +232,8 @@ static void connect(void *arg)
         return;
     }
     elem_id port = c->name ? make_input(c, type) : c->element;
-    remove_attrs(doc, port, sources, sizeof sources / sizeof *sources);
+    doc_disconnect(doc, port);
+    doc_remove_attr(doc, port, STR_value);
     doc_set_attr(doc, port, attr, doc_element(doc, c->other)->name);
     if (c->text)
         doc_set_attr(doc, port, STR_output, edit_word(c, c->text));

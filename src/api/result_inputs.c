@@ -147,11 +147,9 @@ static bool is_compiled(const mxg_result *result, const struct found_input *inpu
 
 static bool is_connected(const mxg_result *result, const struct found_input *input)
 {
-    static const str_id links[] = {STR_nodename, STR_nodegraph, STR_interfacename, STR_output};
     const struct document *doc = tree_of(result);
-    for (size_t i = 0; input->element && i < sizeof links / sizeof *links; i++)
-        if (doc_attr_value(doc, input->element, links[i]))
-            return true;
+    if (input->element && doc_is_connected(doc, input->element))
+        return true;
     bool has_value = input->element && doc_attr(doc, input->element, STR_value);
     return !has_value && input->port && input->port->geomprop;
 }

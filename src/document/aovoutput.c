@@ -9,9 +9,6 @@
  */
 #include "document/document.h"
 
-static const str_id connection_attrs[] = {STR_nodename, STR_nodegraph, STR_output,
-                                          STR_interfacename};
-
 static elem_id add_input(struct document *doc, elem_id node, str_id name, str_id type)
 {
     elem_id input = doc_add_like(doc, node, STR_input, name, node);
@@ -28,8 +25,8 @@ static void add_text(struct document *doc, elem_id node, str_id name, str_id val
 /* Moves the connection of the element to an input. */
 static void connect(struct document *doc, elem_id node, elem_id input)
 {
-    for (size_t i = 0; i < sizeof connection_attrs / sizeof *connection_attrs; i++) {
-        const struct attribute *found = doc_attr(doc, node, connection_attrs[i]);
+    for (size_t i = 0; i < DOC_NUM_CONNECTIONS; i++) {
+        const struct attribute *found = doc_attr(doc, node, doc_connections[i]);
         if (!found)
             continue;
         struct attribute attr = *found; /* attributes move when one is added */

@@ -13,10 +13,9 @@ static const char *name_of(const struct document *doc, elem_id element)
 
 static struct diag_place link_place(const struct document *doc, elem_id port)
 {
-    static const str_id attrs[] = {STR_nodename, STR_nodegraph, STR_interfacename, STR_output};
-    for (size_t i = 0; i < sizeof attrs / sizeof *attrs; i++)
-        if (doc_attr(doc, port, attrs[i]))
-            return doc_attr_place(doc, port, attrs[i]);
+    for (size_t i = 0; i < DOC_NUM_CONNECTIONS; i++)
+        if (doc_attr(doc, port, doc_connections[i]))
+            return doc_attr_place(doc, port, doc_connections[i]);
     return doc_place(doc, port);
 }
 

@@ -320,6 +320,11 @@ void doc_visit_users(struct document *doc, elem_id element,
                      void (*visit)(void *arg, elem_id user, str_id attr), void *arg);
 /* True if an attribute has the name, alone or in a list. */
 bool doc_has_name(const struct document *doc, elem_id user, str_id attr, str_id name);
+/* The attributes that connect a port, and whether it has one of them. */
+enum { DOC_NUM_CONNECTIONS = 4 };
+extern const str_id doc_connections[DOC_NUM_CONNECTIONS];
+bool doc_is_connected(const struct document *doc, elem_id port);
+void doc_disconnect(struct document *doc, elem_id port);
 /* The node that a port names; 0: none. */
 elem_id doc_named_node(const struct document *doc, elem_id port);
 /* Indexes the name and the references of an element that an edit has changed. */

@@ -178,6 +178,23 @@ bool doc_is_used(const struct document *doc, elem_id node)
     return false;
 }
 
+const str_id doc_connections[DOC_NUM_CONNECTIONS] = {STR_nodename, STR_nodegraph, STR_interfacename,
+                                                     STR_output};
+
+bool doc_is_connected(const struct document *doc, elem_id port)
+{
+    for (size_t i = 0; i < DOC_NUM_CONNECTIONS; i++)
+        if (doc_attr_value(doc, port, doc_connections[i]))
+            return true;
+    return false;
+}
+
+void doc_disconnect(struct document *doc, elem_id port)
+{
+    for (size_t i = 0; i < DOC_NUM_CONNECTIONS; i++)
+        doc_remove_attr(doc, port, doc_connections[i]);
+}
+
 elem_id doc_named_node(const struct document *doc, elem_id port)
 {
     const struct element *e = doc_element(doc, port);

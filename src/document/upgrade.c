@@ -390,7 +390,7 @@ static void remove_overridden_values(struct upgrade *u)
         const struct element *element = doc_element(u->doc, e);
         if (element->kind != KIND_INPUT || !element->parent
             || doc_element(u->doc, element->parent)->kind != KIND_NODE
-            || !doc_attr(u->doc, e, STR_value) || !upgrade_is_connected(u, e))
+            || !doc_attr(u->doc, e, STR_value) || !doc_is_connected(u->doc, e))
             continue;
         doc_remove_attr(u->doc, e, STR_value);
         upgrade_note(u, e, "the value of the connected input '%s' is gone",
@@ -405,7 +405,7 @@ static void upgrade_subsurface(struct upgrade *u, elem_id node)
     if (!radius || doc_attr_value(u->doc, radius, STR_type) != STR_vector3)
         return;
     upgrade_note(u, radius, "the input 'radius' of <subsurface_bsdf> is now a color3");
-    if (upgrade_is_connected(u, radius)) {
+    if (doc_is_connected(u->doc, radius)) {
         elem_id convert = upgrade_add_node(u, node, "convert", "convert", STR_color3);
         upgrade_copy_input(u, radius, convert, "in", NULL);
         upgrade_connect(u, radius, convert, NULL);

@@ -156,7 +156,7 @@ static void build_selection(struct upgrade *u, elem_id node, const struct select
 {
     struct document *doc = u->doc;
     assert(!doc_element(doc, node)->first_child);
-    bool connected = in && upgrade_is_connected(u, in);
+    bool connected = in && doc_is_connected(u->doc, in);
     char combine[] = "combine0";
     combine[7] = (char)('0' + s->num_to);
     if (!connected || is_constant(s)) {
@@ -213,7 +213,7 @@ static void upgrade_port_channels(struct upgrade *u, elem_id port, str_id channe
     bool is_output = doc_element(doc, port)->kind == KIND_OUTPUT;
     struct diag_place place = doc_attr_place(doc, port, STR_channels);
     doc_remove_attr(doc, port, STR_channels);
-    if (!upgrade_is_connected(u, port) || !read_selection(u, from, to, channels, place, &s))
+    if (!doc_is_connected(u->doc, port) || !read_selection(u, from, to, channels, place, &s))
         return;
     upgrade_note(u, port, "channels=\"%s\" is now a node", str_text(doc->strings, channels));
     if (s.num_from == 1 && s.num_to == 1)
@@ -247,7 +247,7 @@ void upgrade_swizzles(struct upgrade *u)
         struct diag_place place =
             channels ? doc_attr_place(doc, channels, STR_value) : doc_place(doc, e);
         struct selection s;
-        if ((channels && upgrade_is_connected(u, channels))
+        if ((channels && doc_is_connected(u->doc, channels))
             || !read_selection(u, from, to, letters, place, &s))
             continue; /* 1.39 has no equivalent node: it is reported as unknown */
         while (doc_element(doc, e)->first_child)

@@ -12,7 +12,7 @@ static void split_layer(struct upgrade *u, elem_id top)
     elem_id base = upgrade_child(u, top, "base");
     if (!base)
         return;
-    if (!upgrade_is_connected(u, base)) {
+    if (!doc_is_connected(u->doc, base)) {
         doc_remove_element(doc, base);
         return;
     }
@@ -148,7 +148,7 @@ static void read_complex(struct upgrade *u, elem_id port, elem_id complex)
     if (!source)
         source = upgrade_add_input(u, complex, complex_inputs[row].name, STR_vector3,
                                    upgrade_word(u, complex_inputs[row].value));
-    if (upgrade_is_connected(u, source) && type == STR_color3) {
+    if (doc_is_connected(u->doc, source) && type == STR_color3) {
         elem_id convert = upgrade_add_node(u, node, "convert", "convert", STR_color3);
         upgrade_copy_input(u, source, convert, "in", NULL);
         upgrade_connect(u, port, convert, NULL);

@@ -203,22 +203,10 @@ str_id upgrade_upstream_type(const struct upgrade *u, elem_id port)
     return source ? doc_attr_value(doc, source, STR_type) : STR_EMPTY;
 }
 
-static const str_id connection_attrs[] = {STR_nodename, STR_nodegraph, STR_output,
-                                          STR_interfacename};
-
-bool upgrade_is_connected(const struct upgrade *u, elem_id port)
-{
-    for (size_t i = 0; i < sizeof connection_attrs / sizeof *connection_attrs; i++)
-        if (doc_attr_value(u->doc, port, connection_attrs[i]))
-            return true;
-    return false;
-}
-
 void upgrade_connect(struct upgrade *u, elem_id port, elem_id node, const char *output)
 {
     doc_remove_attr(u->doc, port, STR_value);
-    for (size_t i = 0; i < sizeof connection_attrs / sizeof *connection_attrs; i++)
-        doc_remove_attr(u->doc, port, connection_attrs[i]);
+    doc_disconnect(u->doc, port);
     doc_set_attr(u->doc, port, STR_nodename, doc_element(u->doc, node)->name);
     if (output)
         doc_set_attr(u->doc, port, STR_output, upgrade_word(u, output));

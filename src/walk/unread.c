@@ -5,21 +5,12 @@
  */
 #include "build/build_priv.h"
 
-static bool is_connected(const struct document *doc, elem_id input)
-{
-    static const str_id sources[] = {STR_nodename, STR_nodegraph, STR_output, STR_interfacename};
-    for (size_t i = 0; i < sizeof sources / sizeof *sources; i++)
-        if (doc_attr_value(doc, input, sources[i]))
-            return true;
-    return false;
-}
-
 /* True if the document connects the input, or gives it another value than its default. */
 static bool is_authored(const struct builder *b, elem_id input, const struct port *port)
 {
     const struct document *doc = build_doc(b);
     str_id value = doc_attr_value(doc, input, STR_value);
-    return is_connected(doc, input)
+    return doc_is_connected(doc, input)
            || (value
                && !doc_is_same_value(port->type, build_text(b, value),
                                      port->value ? build_text(b, port->value) : ""));
