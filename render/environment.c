@@ -16,14 +16,9 @@ static const double above[3] = {0.35, 0.55, 0.95}, below[3] = {0.22, 0.17, 0.12}
                     sun[3] = {1.0, 0.86, 0.62};
 static const double sun_direction[3] = {0.36, 0.80, 0.48};
 
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 void environment_radiance(const double d[3], float out[3])
 {
-    double c = dot(d, sun_direction), height = 1.0 / (1.0 + exp(-6.0 * d[1]));
+    double c = vector_dot(d, sun_direction), height = 1.0 / (1.0 + exp(-6.0 * d[1]));
     for (size_t i = 0; i < 3; ++i)
         out[i] = (float)(below[i] + (above[i] - below[i]) * height
                          + sun[i] * 12.0 * exp(24.0 * (c - 1.0)) + 0.05 * (1.0 + d[i]));
@@ -32,7 +27,7 @@ void environment_radiance(const double d[3], float out[3])
 /* A smooth stand-in for the cosine-weighted average, not the exact one. */
 static void irradiance_of(const double d[3], float out[3])
 {
-    double c = (1.0 + dot(d, sun_direction)) / 2.0;
+    double c = (1.0 + vector_dot(d, sun_direction)) / 2.0;
     for (size_t i = 0; i < 3; ++i)
         out[i] = (float)(below[i] + (above[i] - below[i]) * (0.5 + 0.35 * d[1])
                          + sun[i] * 0.9 * c * c + 0.025 * (1.0 + d[i]));

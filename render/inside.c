@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/inside.h"
 
+#include "render/matrix.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -26,19 +28,6 @@ struct crossing {
     uint32_t object;
 };
 
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void cross(const double a[3], const double b[3], double out[3])
-{
-    for (size_t i = 0; i < 3; ++i) {
-        size_t j = (i + 1) % 3, k = (i + 2) % 3;
-        out[i] = a[j] * b[k] - a[k] * b[j];
-    }
-}
-
 /* Möller and Trumbore 1997; false: the ray misses the triangle. */
 static bool cross_triangle(const struct bvh_corner *corners, const double point[3],
                            const double direction[3], struct crossing *out)
@@ -49,11 +38,11 @@ static bool cross_triangle(const struct bvh_corner *corners, const double point[
         v[i] = (double)corners[2].position[i] - (double)corners[0].position[i];
         t[i] = point[i] - (double)corners[0].position[i];
     }
-    cross(direction, v, p);
-    cross(t, u, q);
-    double determinant = dot(u, p), a = dot(t, p) / determinant,
-           b = dot(direction, q) / determinant;
-    *out = (struct crossing){dot(v, q) / determinant, determinant < 0, corners->object};
+    vector_cross(direction, v, p);
+    vector_cross(t, u, q);
+    double determinant = vector_dot(u, p), a = vector_dot(t, p) / determinant,
+           b = vector_dot(direction, q) / determinant;
+    *out = (struct crossing){vector_dot(v, q) / determinant, determinant < 0, corners->object};
     return a >= 0 && b >= 0 && a + b <= 1 && out->distance > 0;
 }
 

@@ -120,6 +120,11 @@ void vector_normalize(double v[3])
         v[i] /= length;
 }
 
+double vector_dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
 void vector_cross(const double a[3], const double b[3], double out[3])
 {
     out[0] = a[1] * b[2] - a[2] * b[1];

@@ -29,6 +29,7 @@ void matrix_point(struct matrix m, const double point[3], double out[3]);
 void matrix_direction(struct matrix m, const double direction[3], double out[3]);
 
 void vector_normalize(double v[3]);
+double vector_dot(const double a[3], const double b[3]);
 void vector_cross(const double a[3], const double b[3], double out[3]);
 
 #endif

@@ -43,18 +43,13 @@ static void face_normal(const struct mesh *mesh, uint32_t first, double out[3])
     vector_cross(a, b, out);
 }
 
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 double mesh_area(const struct mesh *mesh)
 {
     double area = 0;
     for (uint32_t i = 0; i + 2 < mesh->num_indices; i += 3) {
         double normal[3];
         face_normal(mesh, i, normal);
-        area += sqrt(dot(normal, normal)) / 2;
+        area += sqrt(vector_dot(normal, normal)) / 2;
     }
     return area;
 }
@@ -64,7 +59,7 @@ double mesh_area(const struct mesh *mesh)
 /* Stores a unit direction as floats; `otherwise` for a zero vector. */
 static void store_unit(const double v[3], const float otherwise[3], float out[3])
 {
-    double length = sqrt(dot(v, v));
+    double length = sqrt(vector_dot(v, v));
     for (size_t i = 0; i < 3; ++i)
         out[i] = length > 1e-20 ? (float)(v[i] / length) : otherwise[i];
 }
@@ -167,7 +162,7 @@ static void any_tangent(const float normal[3], float out[3])
 static void flatten_tangent(struct vertex *vertex, const double direction[3])
 {
     const double n[3] = {vertex->normal[0], vertex->normal[1], vertex->normal[2]};
-    double along = dot(direction, n);
+    double along = vector_dot(direction, n);
     const double flat[3] = {direction[0] - along * n[0], direction[1] - along * n[1],
                             direction[2] - along * n[2]};
     float otherwise[3];
@@ -249,7 +244,7 @@ static void weld(const struct mesh *mesh, const struct twin *twins, uint32_t num
     for (uint32_t k = 0; k < num; ++k)
         for (size_t i = 0; i < 3; ++i)
             sum[i] += (double)mesh->vertices[twins[k].vertex].normal[i];
-    if (dot(sum, sum) < 1e-4)
+    if (vector_dot(sum, sum) < 1e-4)
         return;
     struct vertex *first = &mesh->vertices[twins[0].vertex];
     store_unit(sum, first->normal, first->normal);
