@@ -181,13 +181,19 @@ void enter_matter(inout Path path, Hit hit, Point point, vec4 towards); // matte
 void go_on_in_matter(inout Path path);
 #endif
 
+// True where the kernel of the object runs; until then the path waits.
+bool has_kernel_of(inout Path path, uint object)
+{
+    path.waits_for = objects[object].shader;
+    path.waits = path.waits_for == this_shader() ? 0u : AT_REST;
+    return path.waits == 0u;
+}
+
 // The next level of a pile; false where the path has to wait.
 bool follow_matter(inout Path path)
 {
-    path.waits_for = objects[corners[path.place.triangle * 3u].object].shader;
-    if (path.waits_for != this_shader())
-        return wait(path, path.place);
-    path.waits = 0u;
+    if (!has_kernel_of(path, corners[path.place.triangle * 3u].object))
+        return false;
 #ifdef MATTER
     go_on_in_matter(path);
 #endif
@@ -197,10 +203,8 @@ bool follow_matter(inout Path path)
 // A collision in a volume; false where the path has to wait for the shader of that.
 bool follow_collision(inout Path path)
 {
-    path.waits_for = objects[path.medium.body / 4u - 1u].shader;
-    if (path.waits_for != this_shader())
-        return wait(path, path.hit);
-    path.waits = 0u;
+    if (!has_kernel_of(path, path.medium.body / 4u - 1u))
+        return false;
 #ifdef VOLUME
     scatter_in_volume(path);
 #endif
@@ -215,11 +219,8 @@ bool follow_begin(inout Path path)
     path.phase = body == 0u ? GOING : BEGINS;
     if (body == 0u)
         return true;
-    path.waits_for = objects[body / 4u - 1u].shader;
-    if (path.waits_for != this_shader()) {
-        path.waits = AT_REST;
+    if (!has_kernel_of(path, body / 4u - 1u))
         return false;
-    }
 #ifdef VOLUME
     begin_in_volume(path, body);
 #endif
