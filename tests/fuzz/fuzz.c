@@ -3,6 +3,8 @@
 
 #include "base/hash.h"
 
+#include <mxgen/mxgen.h>
+
 void *fuzz_realloc(void *user_data, void *block, size_t old_size, size_t new_size)
 {
     struct fuzz_heap *heap = user_data;
@@ -56,4 +58,17 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     fuzz_run((const char *)data, size, &failing);
     FUZZ_REQUIRE(failing.held == 0);
     return 0;
+}
+
+void fuzz_require_document(const char *path)
+{
+    mxg_context *context = NULL;
+    mxg_document *document = NULL;
+    FUZZ_REQUIRE(mxg_context_create(NULL, &context) == MXG_OK);
+    mxg_library *library = mxg_library_builtin(context);
+    mxg_document_load(context, library, path, &document);
+    FUZZ_REQUIRE(document && mxg_diagnostics_num_errors(mxg_document_diagnostics(document)) == 0);
+    mxg_document_destroy(document);
+    mxg_library_unref(library);
+    mxg_context_destroy(context);
 }

@@ -36,6 +36,9 @@ struct fuzz_job {
 void fuzz_run_job(const char *data, size_t size, struct fuzz_heap *heap, size_t limit,
                   void (*work)(struct fuzz_job *job));
 
+/* The file holds a document without errors. */
+void fuzz_require_document(const char *path);
+
 /* A number made of all bytes of the input: for choices. */
 unsigned fuzz_choice(const char *data, size_t size, unsigned below);
 

@@ -77,24 +77,11 @@ bool bake_draw(struct baking *baking)
 
 /* ---- Commands ---- */
 
-static void require_document(const char *path)
-{
-    mxg_context *context = NULL;
-    mxg_document *document = NULL;
-    FUZZ_REQUIRE(mxg_context_create(NULL, &context) == MXG_OK);
-    mxg_library *library = mxg_library_builtin(context);
-    mxg_document_load(context, library, path, &document);
-    FUZZ_REQUIRE(document && mxg_diagnostics_num_errors(mxg_document_diagnostics(document)) == 0);
-    mxg_document_destroy(document);
-    mxg_library_unref(library);
-    mxg_context_destroy(context);
-}
-
 static const struct {
     int (*run)(int argc, char **argv);
     const char *output, *file;
     void (*require)(const char *path);
-} commands[] = {{bake_main, "flat", "flat/in.mtlx", require_document},
+} commands[] = {{bake_main, "flat", "flat/in.mtlx", fuzz_require_document},
                 {export_main, "out.gltf", "out.gltf", NULL},
                 {export_main, "out.glb", "out.glb", NULL},
                 {export_main, "out.usda", "out.usda", NULL},

@@ -11,19 +11,6 @@
 
 #include <unistd.h>
 
-static void require_document(const char *path)
-{
-    mxg_context *context = NULL;
-    mxg_document *document = NULL;
-    FUZZ_REQUIRE(mxg_context_create(NULL, &context) == MXG_OK);
-    mxg_library *library = mxg_library_builtin(context);
-    mxg_document_load(context, library, path, &document);
-    FUZZ_REQUIRE(document && mxg_diagnostics_num_errors(mxg_document_diagnostics(document)) == 0);
-    mxg_document_destroy(document);
-    mxg_library_unref(library);
-    mxg_context_destroy(context);
-}
-
 void fuzz_run(const char *data, size_t size, struct fuzz_heap *heap)
 {
     static const struct command command = {"import", "FILE", "", command_import, NULL};
@@ -37,7 +24,7 @@ void fuzz_run(const char *data, size_t size, struct fuzz_heap *heap)
     int code = command_import(&command, 6, arguments);
     FUZZ_REQUIRE(code == EXIT_DONE || code == EXIT_FAULT);
     if (code == EXIT_DONE)
-        require_document(output);
+        fuzz_require_document(output);
     else
         FUZZ_REQUIRE(access(output, F_OK) != 0);
     free(input);
