@@ -349,7 +349,7 @@ static void print_times(FILE *out, const struct check_totals *totals)
     fputc('\n', out);
 }
 
-/* What the run collected for its end, which it frees. */
+/* Prints the collected state, and frees it. */
 static void print_state(const struct sink *sink, struct text_state *state,
                         const struct check_totals *totals)
 {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What a tree of primitives in an application calls while an artist assigns materials: the layers
- * of a scene are found once, and after each change only what it touches. Argument: the number of
- * primitives (100000).
+ * A tree of primitives in an application calls these functions while an artist assigns materials:
+ * the layers of a scene are found once, and after each change only those that it touches. Argument:
+ * the number of primitives (100000).
  */
 #include <mxgen/mxgen.h>
 #include <mxgen/document.h>
@@ -84,7 +84,7 @@ static void show(const struct shop *shop, const char *change, const char *path)
     fprintf(stderr, "%-28s %.2f ms\n", change, shop->milliseconds);
 }
 
-/* What a drop of a material on a line of the tree does; NULL: takes the artist's binding away. */
+/* For a material that is dropped on a line of the tree; NULL: takes the artist's binding away. */
 static bool assign(struct shop *shop, const char *path, const char *slot, const char *material)
 {
     uint32_t primitive = mxg_scene_find_primitive(shop->scene, path);

@@ -15,7 +15,7 @@ mxg_document *translated_load(struct cli *cli, const char *path, const char *mod
  */
 mxg_document *translated_parse(struct cli *cli, const mxg_document *from, const char *path,
                                const char *model, mxg_result **out_result, mxg_status *out_status);
-/* The same with its messages reported. NULL after one. */
+/* As above, and reports the messages. NULL after one. */
 mxg_document *translated_make(struct cli *cli, const mxg_document *from, const char *path,
                               const char *model);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* What the meshes of objects hold, by their triangles in the world. */
+/* Points inside of meshes, and boxes around them, by triangles in the world. */
 #ifndef MXG_RENDER_INSIDE_H
 #define MXG_RENDER_INSIDE_H
 

@@ -466,7 +466,7 @@ static bool surround_eye(struct tracer *tracer)
     return true;
 }
 
-/* What is found before paths are traced. */
+/* Finds all that paths need before they are traced. */
 static bool prepare(struct tracer *tracer)
 {
     return (!prepares(tracer, "DISPLACES") || displace(tracer))

@@ -50,7 +50,7 @@ bool is_real(inout Path path, float majorant)
     return collides;
 }
 
-// What a tentative collision takes from a ray to a light (Novak, Selle, Jarosz 2014, "Residual Ratio Tracking").
+// A tentative collision takes light from a ray to a light (Novak, Selle, Jarosz 2014, "Residual Ratio Tracking").
 void pass_collision(inout Shadow ray)
 {
     uint object = ray.body / 4u - 1u;

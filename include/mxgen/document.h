@@ -205,9 +205,9 @@ MXG_API mxg_element mxg_edit_copy_element(mxg_edit *edit, mxg_element parent,
 MXG_API mxg_status mxg_edit_flatten_node(mxg_edit *edit, mxg_element node);
 
 /*
- * Moves nodes of the root into a new nodegraph, in this order, and returns it. What they read from
- * outside becomes an input of the nodegraph, one for each source, with the name of the input that
- * reads it first; what others read of them becomes an output, "NODE_out" or "NODE_OUTPUT". Names
+ * Moves nodes of the root into a new nodegraph, in this order, and returns it. Each source outside
+ * that they read becomes an input of the nodegraph, with the name of the input that reads it first;
+ * each result that others read becomes an output, "NODE_out" or "NODE_OUTPUT". Names
  * that the nodegraph has already get a number. An element that refers to a node otherwise, as the
  * assignment of a material does, is an error.
  */

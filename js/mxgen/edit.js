@@ -188,8 +188,8 @@ export class Edit extends Owner {
     }
 
     /**
-     * Moves nodes of the root into a new nodegraph, in this order. What they read from outside becomes its inputs, and what others read of
-     * them its outputs.
+     * Moves nodes of the root into a new nodegraph, in this order. Sources outside that they read become its inputs, and results that
+     * others read its outputs.
      */
     group(nodes, name) {
         const numbers = Array.from(nodes, node => this._own(node));

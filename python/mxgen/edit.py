@@ -207,8 +207,8 @@ class Edit(Native):
         return self.root.copy(element, name)
 
     def group(self, nodes: Iterable[Draft | Element], name: str) -> Draft:
-        """Moves nodes of the root into a new nodegraph, in this order. What they read from outside becomes its inputs, and what others
-        read of them its outputs."""
+        """Moves nodes of the root into a new nodegraph, in this order. Sources outside that they read become its inputs, and
+        results that others read its outputs."""
         numbers = [self._own(node) for node in nodes]
         return self._made(lib.mxg_edit_group_nodes, (ctypes.c_uint32 * len(numbers))(*numbers), len(numbers), c_text(name, "name"))
 

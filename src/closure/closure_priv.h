@@ -165,7 +165,7 @@ struct closure_medium {
 void closure_medium(struct shader *shader, const struct closure_host *host, ir_ref root,
                     struct closure_medium *out);
 
-/* What values differ by; of several, the last one of these. */
+/* How values differ: of several, the last one of these. */
 enum closure_variation {
     VARIES_NOT,
     VARIES_BY_PLACE,  /* they read positions alone */
