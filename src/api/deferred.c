@@ -36,6 +36,7 @@ struct deferred_layout generation_storage(const struct generation *g)
         .is_function = g->role->returns == RETURNS_WORDS,
         .diffuses = options[OPTION_sss].number != 0,
         .blurs = !is_payload && options[OPTION_rough_refraction].number,
+        .has_occlusion = !is_payload && options[OPTION_occlusion_map].number,
     };
 }
 

@@ -333,6 +333,16 @@ static enum closure_darkening darkening_of(const struct generation *g, enum opti
                                        : DARKENED_BY_NOTHING;
 }
 
+/* A pass has no texture coordinates for the map: the material pass read it; a payload has none. */
+static enum closure_darkening occlusion_of(const struct generation *g)
+{
+    enum closure_darkening by = darkening_of(g, OPTION_occlusion_map, OPTION_host_occlusion);
+    bool reads_map = by != DARKENED_BY_MAP || g->role->reads == READS_DOCUMENT;
+    return reads_map                        ? by
+           : g->role->reads == READS_PIXELS ? DARKENED_AS_STORED
+                                            : DARKENED_BY_NOTHING;
+}
+
 void generation_start_closures(struct generation *g)
 {
     const struct option_value *lights = &g->options[OPTION_lights];
@@ -348,7 +358,7 @@ void generation_start_closures(struct generation *g)
         .transmits_alpha = g->options[OPTION_transmission].number != 0,
         .transparency = (uint8_t)g->options[OPTION_transparency].number,
         .shadow = darkening_of(g, OPTION_shadow_map, OPTION_host_shadows),
-        .occlusion = darkening_of(g, OPTION_occlusion_map, OPTION_host_occlusion),
+        .occlusion = occlusion_of(g),
         .flips_v = g->options[OPTION_texture_origin].number != 0,
         .encodes = g->options[OPTION_encode].number != 0,
     };

@@ -54,6 +54,7 @@ struct closure_stored {
     ir_ref emission;                 /* vec3; 0: black */
     ir_ref alpha;                    /* 0: 1 */
     bool premultiplied;              /* the weights have the alpha */
+    ir_ref open; /* the part of the environment that a map lets through; 0: all of it */
 };
 
 struct closure_host {
@@ -137,9 +138,18 @@ enum closure_transparency {
 /* The option `layering`. */
 enum closure_layering { LAYERING_VIEW, LAYERING_TWO_SIDED, LAYERING_OCCLUDING };
 
+/*
+ * Sources of darkness for light that arrives: occlusion_maps.c. STORED: the material pass of the
+ * pixel read the map.
+ */
+enum closure_darkening {
+    DARKENED_BY_NOTHING,
+    DARKENED_BY_MAP,
+    DARKENED_BY_HOST,
+    DARKENED_AS_STORED
+};
+
 /* The lighting of the shaded point, from the options of the caller. */
-/* Sources of darkness for light that arrives: occlusion_maps.c. */
-enum closure_darkening { DARKENED_BY_NOTHING, DARKENED_BY_MAP, DARKENED_BY_HOST };
 
 struct closure_lighting {
     bool lights;      /* light shaders are bound */

@@ -21,6 +21,8 @@ ir_ref closure_shadow(struct shader *shader, const struct closure_host *host);
 /* The part of the current light, and of the environment, that arrives by functions of the host. */
 ir_ref closure_host_shadow(struct shader *shader, const struct closure_host *host, ir_ref light);
 ir_ref closure_host_occlusion(struct shader *shader, const struct closure_host *host);
+/* By what the material pass stored: the stream geomprop_open, which a lighting pass fills. */
+ir_ref closure_stored_occlusion(struct shader *shader);
 
 /* weight_text.c: writes the weight of a leaf as an expression, with the names of inputs and nodes.
  */

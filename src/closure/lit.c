@@ -427,6 +427,7 @@ static ir_ref open_part(struct emitter *e)
     switch (e->lighting->occlusion) {
     case DARKENED_BY_MAP: return closure_occlusion(e->shader, e->lighting->flips_v);
     case DARKENED_BY_HOST: return closure_host_occlusion(e->shader, e->host);
+    case DARKENED_AS_STORED: return closure_stored_occlusion(e->shader);
     default: return 0;
     }
 }

@@ -62,3 +62,8 @@ ir_ref closure_host_occlusion(struct shader *shader, const struct closure_host *
     ir_ref point = closure_position(shader, host), normal = closure_normal(shader, host);
     return FORMULA(shader, "mxg_ambient_occlusion", point, normal);
 }
+
+ir_ref closure_stored_occlusion(struct shader *shader)
+{
+    return shader_stream(shader, str_intern_z(shader->strings, "geomprop_open"), IR_TYPE_FLOAT);
+}

@@ -270,7 +270,15 @@ static void store_surface(struct emitter *e, const struct closure_surface *s,
     e->shader->reflection.alpha = draws_all(e, s->alpha) ? ALPHA_OPAQUE
                                   : is_whole             ? ALPHA_MASK
                                                          : ALPHA_BLEND;
-    const struct closure_stored stored = {s->bsdf, list, e->lit.base, s->alpha, s->premultiplied};
+    bool has_map = e->lighting->occlusion == DARKENED_BY_MAP;
+    const struct closure_stored stored = {
+        .bsdf = s->bsdf,
+        .list = list,
+        .emission = e->lit.base,
+        .alpha = s->alpha,
+        .premultiplied = s->premultiplied,
+        .open = has_map ? closure_occlusion(e->shader, e->lighting->flips_v) : 0,
+    };
     e->host->store(e->shader, e->host, &stored);
 }
 

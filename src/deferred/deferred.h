@@ -38,6 +38,7 @@ struct deferred_layout {
     bool is_function;   /* the words of a pixel are results, not outputs and layers of an image */
     bool diffuses;      /* the option `sss`: the pass "diffuse" spreads the light of bodies */
     bool blurs;         /* the option `rough-refraction`: the pass "blur" */
+    bool has_occlusion; /* the option `occlusion-map`: the alpha of target 0 */
 };
 
 /* A hash of the storage: materials and passes with equal ones fit together. */

@@ -226,7 +226,8 @@ uint32_t deferred_layout_number(const struct deferred_layout *layout)
 {
     uint64_t h = deferred_hash_values(HASH_STABLE_SEED);
     uint32_t storage = (uint32_t)layout->storage | (uint32_t)layout->is_payload << 8
-                       | (uint32_t)layout->diffuses << 9 | (uint32_t)layout->blurs << 10;
+                       | (uint32_t)layout->diffuses << 9 | (uint32_t)layout->blurs << 10
+                       | (uint32_t)layout->has_occlusion << 11;
     for (const char *const *line = deferred_record; *line; line++)
         h = hash_stable(h, *line, strlen(*line));
     for (uint32_t i = 0; i < NUM_CLASSES; i++)
@@ -240,7 +241,10 @@ static const char *stream_value(const char *name)
 {
     static const struct {
         const char *name, *value;
-    } values[] = {{"positionWorld", "point"}, {"normalWorld", "top"}, {"viewWorld", "mx_view"}};
+    } values[] = {{"positionWorld", "point"},
+                  {"normalWorld", "top"},
+                  {"viewWorld", "mx_view"},
+                  {"geomprop_open", "open"}};
     for (size_t i = 0; i < sizeof values / sizeof *values; i++)
         if (strcmp(values[i].name, name) == 0)
             return values[i].value;
@@ -256,7 +260,7 @@ static const char *stream_value(const char *name)
 static void write_fill(const struct shader *surface, const char *instance, struct text *out)
 {
     static const char prefix[] = "geomprop_";
-    text_str(out, "void mx_fill(MxClosure closure, vec3 point, vec3 top)\n{\n");
+    text_str(out, "void mx_fill(MxClosure closure, vec3 point, vec3 top, float open)\n{\n");
     for (EACH_STREAM(i, surface)) {
         const struct shader_variable *v = shader_interface_variable(surface, i);
         const char *name = str_text(surface->strings, v->name), *value = stream_value(name);

@@ -109,7 +109,8 @@ static const struct deferred_resource resources[NUM_RESOURCES] = {
     [RESOURCE_COLOR] = {.name = "color",
                         .kind = "sampler2D",
                         .format = "",
-                        .doc = "target 0 of material passes: light of surfaces"},
+                        .doc = "target 0 of material passes: light of surfaces; with the option "
+                               "'occlusion-map' alpha is the part of the environment that arrives"},
     [RESOURCE_LIT] = {.name = "lit",
                       .kind = "image2D",
                       .format = DEFERRED_ANY_FORMAT,

@@ -5,7 +5,7 @@
  *     stored = 0
  *     for each slab, from the top down: stored = mx_store_closure(stored, values, weights)
  *     stored = mx_finish_closures(stored)
- *     out1 = vec4(emission, 1)
+ *     out1 = vec4(emission, occlusion)
  *
  * The functions stand in passes/write.glsl, passes/store.glsl and closure.c, which go into the
  * shader as its own source. A payload has those of passes/pack.glsl instead of the former, and its
@@ -344,12 +344,13 @@ static uint32_t add_source(struct shader *shader, const struct deferred_layout *
     return source;
 }
 
-static void write_color(struct shader *shader, ir_ref emission)
+/* open: the part of the environment that arrives; 0: all. */
+static void write_color(struct shader *shader, ir_ref emission, ir_ref open)
 {
     struct ir_graph *g = shader->graph;
     ir_ref parts[2] = {emission ? ir_convert(g, IR_TYPE_VEC3, emission)
                                 : ir_const_splat(g, IR_TYPE_VEC3, 0.0f),
-                       ir_const_float(g, 1.0f)};
+                       open ? open : ir_const_float(g, 1.0f)};
     uint32_t out = shader_add_variable(
         shader,
         &(struct shader_variable){.name = STR_out1, .block = BLOCK_OUTPUTS, .type = IR_TYPE_VEC4});
@@ -373,12 +374,12 @@ static void write_words(struct shader *shader, const char *function, const char 
 
 /* The end of a material pass. */
 static void finish_pass(struct shader *shader, const struct deferred_layout *layout,
-                        uint32_t source, uint32_t local, ir_ref emission)
+                        uint32_t source, uint32_t local, const struct closure_stored *surface)
 {
     ir_ref stored = ir_build(shader->graph, IR_LOCAL, IR_TYPE_INT, local, NULL, 0);
     assign(shader, EFFECT_ASSIGN, local,
            call(shader, "mx_finish_closures", IR_TYPE_INT, source, &stored, 1));
-    write_color(shader, emission);
+    write_color(shader, surface->emission, surface->open);
     if (layout->parse)
         write_words(shader, "mx_stored_word", "word%d", source, stored, DEFERRED_TARGET_WORDS);
 }
@@ -404,9 +405,10 @@ static ir_ref begin(struct shader *shader, const struct deferred_layout *layout,
 }
 
 /* The end of a function of a pixel: the light of the surface, its opacity, an output per word. */
-static void finish_words(struct shader *shader, uint32_t source, uint32_t local, ir_ref emission,
-                         ir_ref alpha)
+static void finish_words(struct shader *shader, uint32_t source, uint32_t local,
+                         const struct closure_stored *surface)
 {
+    ir_ref emission = surface->emission, alpha = surface->alpha;
     struct ir_graph *g = shader->graph;
     ir_ref stored = ir_build(g, IR_LOCAL, IR_TYPE_INT, local, NULL, 0);
     uint32_t num = shader->reflection.stored_words;
@@ -416,6 +418,9 @@ static void finish_words(struct shader *shader, uint32_t source, uint32_t local,
            emission ? ir_convert(g, IR_TYPE_VEC3, emission) : ir_black(g));
     assign(shader, EFFECT_OUTPUT, shader_output(shader, STR_alpha, IR_TYPE_FLOAT),
            alpha ? alpha : ir_const_float(g, 1.0f));
+    if (surface->open)
+        assign(shader, EFFECT_OUTPUT, shader_output(shader, STR_occlusion, IR_TYPE_FLOAT),
+               surface->open);
     write_words(shader, "mx_packed_word", "word_%d", source, stored, (int)num);
 }
 
@@ -489,7 +494,7 @@ void deferred_store(struct shader *shader, const struct closure_host *host,
     if (layout->is_payload)
         finish_payload(shader, source, local, emission, surface->alpha);
     else if (layout->is_function)
-        finish_words(shader, source, local, emission, surface->alpha);
+        finish_words(shader, source, local, surface);
     else
-        finish_pass(shader, layout, source, local, emission);
+        finish_pass(shader, layout, source, local, surface);
 }

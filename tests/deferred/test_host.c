@@ -110,6 +110,34 @@ static void test_darkening(struct bench *b, const char *option, const char *host
     }
 }
 
+/*
+ * A map by texture coordinates, which the passes do not have: the material pass reads it. Forward
+ * shaders draw the same picture, and another one without the map.
+ */
+static void test_map(struct bench *b)
+{
+    REQUIRE(environment_make_test_texture(&b->scene.texture));
+    for (size_t i = 0; i < NUM_MATERIALS; ++i) {
+        struct drawing bright, forward, stored;
+        bool good = draw(b, materials[i], NULL, &bright);
+        mxg_options_set(b->options, "occlusion-map", "true");
+        good &= drawing_open(b, materials[i], NULL, UINT32_MAX, &forward);
+        if (draw(b, materials[i], NULL, &stored) && good) {
+            double db = picture_psnr(forward.pixels, stored.pixels),
+                   of_map = picture_psnr(bright.pixels, stored.pixels);
+            printf("%s, map: %.0f dB, of the map %.0f dB\n", materials[i], db, of_map);
+            REQUIRE(db > LIMIT_FLOAT && of_map < 30);
+            REQUIRE(stored.pixels[4 * CENTER + 3] == 1);
+        }
+        mxg_options_set(b->options, "occlusion-map", "false");
+        drawing_close(&stored);
+        drawing_close(&forward);
+        drawing_close(&bright);
+    }
+    image_finish(&b->scene.texture);
+    b->scene.texture = (struct image){0};
+}
+
 /* ---- Environment ---- */
 
 /* Draws in an environment of functions, and copies the colour of the middle of the ball. */
@@ -233,6 +261,7 @@ int main(int argc, char **argv)
                        "float mxg_ambient_occlusion(vec3 P, vec3 N)\n"
                        "{\n    return mxg_pixel.x % 2 == 0 ? 0.25 : 1.0;\n}\n",
                        0.25f);
+        test_map(&b);
         test_environment(&b);
         mxg_options_set(b.options, "host-environment", "true");
         test_arguments(&b);

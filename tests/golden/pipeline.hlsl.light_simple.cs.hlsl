@@ -465,7 +465,7 @@ MxClosure mx_next(inout MxReader reader)
     return mx_unpack(r, normal, is_top ? mx_top_roughness(reader.top) : mx_uncut(r.body, 20u, 8u));
 }
 
-void mx_fill(MxClosure closure, float3 point_, float3 top)
+void mx_fill(MxClosure closure, float3 point_, float3 top, float open)
 {
     vd.positionWorld = point_;
     vd.geomprop_diffuse_albedo = closure.diffuse_albedo;
@@ -490,10 +490,11 @@ void mx_run(uint2 group, uint2 place)
     if (reader.class_ != 1u)
         return;
     float4 point_ = mul(float4(float2(pixel) + 0.5, mx_depth_fetch(pixel, 0).x, 1.0), mx_to_world);
-    float4 lit_ = mx_color_fetch(pixel, 0);
+    float4 stored = mx_color_fetch(pixel, 0);
+    float4 lit_ = float4(stored.xyz, 1.0);
     while (reader.next < reader.num_closures) {
         MxClosure closure = mx_next(reader);
-        mx_fill(closure, point_.xyz / point_.w, reader.normals[0]);
+        mx_fill(closure, point_.xyz / point_.w, reader.normals[0], stored.w);
         surface();
         lit_.xyz += out1.xyz;
         break;

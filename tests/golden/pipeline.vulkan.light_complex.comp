@@ -1172,7 +1172,7 @@ ivec2 mx_pixel_of(uint class_, uint group, uvec2 place)
     return MX_TILE * ivec2(tile % mx_tiles_per_row, tile / mx_tiles_per_row) + ivec2(place);
 }
 
-void mx_fill(MxClosure closure, vec3 point, vec3 top)
+void mx_fill(MxClosure closure, vec3 point, vec3 top, float open)
 {
     vd.positionWorld = point;
     vd.normalWorld = top;
@@ -1201,11 +1201,11 @@ void mx_fill(MxClosure closure, vec3 point, vec3 top)
 
 #if MX_SCATTERED == 1
 // The part of out1 that is light from below the surface: what the same closure without a body does not send.
-vec3 mx_split(MxClosure closure, vec3 point, vec3 top)
+vec3 mx_split(MxClosure closure, vec3 point, vec3 top, float open)
 {
     vec3 all = out1.xyz;
     closure.diffuse_albedo = vec3(0.0);
-    mx_fill(closure, point, top);
+    mx_fill(closure, point, top, open);
     surface();
     return max(all - out1.xyz, 0.0);
 }
@@ -1220,7 +1220,8 @@ void mx_run(uvec2 group, uvec2 place)
     if (reader.class_ != MX_CLASS)
         return;
     vec4 point = mx_to_world * vec4(vec2(pixel) + 0.5, texelFetch(mx_depth, pixel, 0).x, 1.0);
-    vec4 lit = texelFetch(mx_color, pixel, 0); // what the surface emits
+    vec4 stored = texelFetch(mx_color, pixel, 0); // what the surface emits, and the part of the environment that arrives
+    vec4 lit = vec4(stored.xyz, 1.0);
 #if MX_SCATTERED == 1
     vec3 inside = vec3(0.0), albedo = vec3(0.0);
 #endif
@@ -1230,11 +1231,11 @@ void mx_run(uvec2 group, uvec2 place)
 #endif
     while (reader.next < reader.num_closures) {
         MxClosure closure = mx_next(reader);
-        mx_fill(closure, point.xyz / point.w, reader.normals[0]);
+        mx_fill(closure, point.xyz / point.w, reader.normals[0], stored.w);
         surface();
 #if MX_SCATTERED == 1
         if (closure.is_thick > 0.0) {
-            inside += mx_split(closure, point.xyz / point.w, reader.normals[0]);
+            inside += mx_split(closure, point.xyz / point.w, reader.normals[0], stored.w);
             albedo = closure.diffuse_albedo;
         }
 #endif

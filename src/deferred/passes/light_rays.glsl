@@ -8,7 +8,7 @@ vec4 mx_light_payload(MxPayload payload, MxRay ray)
         return lit;
     MxClosure closure = mx_open_payload(payload);
     mx_view = ray.view.xyz;
-    mx_fill(closure, ray.point.xyz, closure.normal);
+    mx_fill(closure, ray.point.xyz, closure.normal, 1.0);
     surface();
     return vec4(lit.xyz + out1.xyz, lit.w);
 }
