@@ -83,6 +83,34 @@ static void write_textures(struct spell *spell)
     }
 }
 
+/* ---- Images and buffers of programs ---- */
+
+static void write_frame_struct(struct spell *spell, const struct deferred_resource *frame)
+{
+    spell_text(spell, "struct MxFrame {\n");
+    for (uint32_t i = 0; i < frame->num_members; i++)
+        SPELL(spell, "    ", frame->members[i].name, ": ",
+              lang_syntax_type(spell->style->syntax, spell_member_type(&frame->members[i])), ",\n");
+    spell_text(spell, "}\n");
+}
+
+static void write_resources(struct spell *spell)
+{
+    SPELL_EACH_RESOURCE(r, spell)
+    {
+        bool is_frame = strcmp(r.resource->kind, "uniform") == 0;
+        const char *space = is_frame                   ? "var<uniform> " SPELL_FRAME_INSTANCE
+                            : !r.resource->num_members ? "var mx_"
+                            : r.access & SPELL_WRITES  ? "var<storage, read_write> mx_"
+                                                       : "var<storage, read> mx_";
+        if (is_frame)
+            write_frame_struct(spell, r.resource);
+        write_binding(spell, r.set, r.binding);
+        SPELL(spell, space, is_frame ? "" : r.resource->name, ": ", spell_image(spell, &r)->type,
+              ";\n");
+    }
+}
+
 /* ---- Stage inputs and outputs ---- */
 
 static void write_located(struct spell *spell, const struct shader_variable *variable)
@@ -115,7 +143,8 @@ static bool is_called(const struct spell *spell)
 
 static bool reads_vertex_data(const struct spell *spell)
 {
-    return spell->stage_id == STAGE_VERTEX || spell_uses_block(spell, BLOCK_VERTEX_DATA);
+    return spell->stage_id == STAGE_VERTEX || spell_uses_block(spell, BLOCK_VERTEX_DATA)
+           || spell_reads_position(spell);
 }
 
 /* True if the vertex data is a variable of the module, because functions read it. */
@@ -172,6 +201,7 @@ static void declare(struct spell *spell)
     write_buffers(spell);
     write_lights(spell);
     write_textures(spell);
+    write_resources(spell);
     if (reads_vertex_data(spell))
         write_vertex_data(spell);
     if (shares_vertex_data(spell))
@@ -205,6 +235,16 @@ static void open_vertex(struct spell *spell)
         SPELL(spell, "    var ", vd, ": ", type, ";\n");
 }
 
+/* Hidden fragments must not write images: WGSL cannot ask for the depth test before the shader. */
+static void test_depth(struct spell *spell)
+{
+    SPELL_EACH_RESOURCE(r, spell)
+    if (r.binding == RESOURCE_DEPTH)
+        SPELL(spell, "    if (textureLoad(mx_depth, vec2i(", spell_frame_name(spell, "vd"),
+              ".position.xy), 0).x != ", spell_frame_name(spell, "vd"),
+              ".position.z) {\n        discard;\n    }\n");
+}
+
 static void open_pixel(struct spell *spell)
 {
     bool shares = shares_vertex_data(spell);
@@ -222,6 +262,7 @@ static void open_pixel(struct spell *spell)
     spell_text(spell, "\n{\n");
     if (shares)
         SPELL(spell, "    ", vd, " = vd_in;\n");
+    test_depth(spell);
     write_results(spell, PHRASE_LOCAL, 1);
 }
 
@@ -256,8 +297,20 @@ static void close_main(struct spell *spell)
     spell_text(spell, "}\n");
 }
 
+static void close_context(struct spell *spell)
+{
+    if (spell->shader->sources.pass.runs)
+        text_fmt(spell->out,
+                 "\n@compute @workgroup_size(%d, %d)\n"
+                 "fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) "
+                 "place: vec3u)\n"
+                 "{\n    mx_run(group.xy, place.xy);\n}\n",
+                 DEFERRED_TILE, DEFERRED_TILE);
+    wgsl_add_numbers(spell);
+}
+
 const struct target_frame wgsl_frame = {.declare = declare,
                                         .open = open_main,
                                         .close = close_main,
-                                        .close_context = wgsl_add_numbers,
+                                        .close_context = close_context,
                                         .declare_for_function = declare_for_function};

@@ -103,6 +103,20 @@ static const struct lang_syntax syntax = {
 static const char *const instances[NUM_BLOCKS] = {
     [BLOCK_PRIVATE_UNIFORMS] = "u_prv", [BLOCK_PUBLIC_UNIFORMS] = "u_pub"};
 
+static const struct target_function functions[] = {
+#define FUNCTION(name, text) {name, text},
+#include "generators/wgsl/functions.def"
+#undef FUNCTION
+    {NULL, NULL},
+};
+
+static const struct target_image images[] = {
+#define IMAGE(kind, format, access, type, ...) {kind, format, access, type, {__VA_ARGS__}},
+#include "generators/wgsl/images.def"
+#undef IMAGE
+    {.kind = NULL},
+};
+
 static const char *const versions[] = {"1", NULL};
 
 const struct target target_wgsl = {
@@ -111,13 +125,18 @@ const struct target target_wgsl = {
     .brief = "WGSL for WebGPU",
     .caps = CAP_VERTEX_STAGE | CAP_BITWISE | CAP_IMPLICIT_LOD | CAP_TEXTURE_ARRAYS
             | CAP_UNIFORM_BLOCKS | CAP_BINDINGS | CAP_SETS | CAP_BLOCK_STAGE_IO | CAP_SAMPLERS
-            | CAP_SAMPLER_BINDINGS | CAP_HOST_FILES | CAP_HOST_FUNCTIONS,
+            | CAP_SAMPLER_BINDINGS | CAP_HOST_FILES | CAP_HOST_FUNCTIONS | CAP_STORES | CAP_PASSES,
     .max_textures = 16, /* WebGPU, default of maxSampledTexturesPerShaderStage */
     .versions = versions,
     .syntax = &syntax,
     .frame = &wgsl_frame,
     .form = wgsl_form,
+    .functions = functions,
+    .images = images,
+    .tests_late = true,
+    .any_format = "rgba16f",
     .instances = instances,
     .position = ".position",
     .stage_suffix = {"vert.wgsl", "frag.wgsl"},
+    .pass_suffix = {"comp.wgsl", "wgsl"},
 };

@@ -30,6 +30,8 @@ struct deferred_layout generation_storage(const struct generation *g)
         .sets = g->result->target->caps & CAP_SETS,
         .has_bindings =
             g->result->target->syntax->in_images || g->result->target->caps & CAP_BINDINGS,
+        .tests_late = g->result->target->tests_late,
+        .any_format = g->result->target->any_format,
         .first = g->result->target->first_resource,
         .parse = g->result->target->syntax->in_images ? NULL : parse_program,
         .is_payload = is_payload,

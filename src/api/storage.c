@@ -128,7 +128,8 @@ static void put_storage(const struct deferred_layout *layout, enum deferred_bind
     const struct deferred_resource *r = deferred_resource(binding);
     json_put_text(json, "name", r->name);
     json_put_text(json, "kind", r->kind);
-    json_put_text(json, "format", r->format);
+    bool is_any = strcmp(r->format, DEFERRED_ANY_FORMAT) == 0;
+    json_put_text(json, "format", is_any && layout->any_format ? layout->any_format : r->format);
     if (layout->sets)
         json_put_number(json, "set", layout->set);
     if (layout->has_bindings)
@@ -179,12 +180,10 @@ static void put_classes(uint32_t classes, struct json *json)
 static void put_resources(const mxg_result *result, struct json *json)
 {
     const struct deferred_layout *layout = &result->storage;
-    bool has_layers = !layout->is_payload && !layout->is_function
-                      && result->shader.reflection.stored_words > DEFERRED_TARGET_WORDS;
-    uint32_t reads = is_pass(result) ? deferred_reads(result->pass, layout) : 0,
-             writes = is_pass(result) ? deferred_writes(result->pass, layout)
-                      : has_layers    ? 1u << RESOURCE_WORDS
-                                      : 0;
+    const struct source_resources material =
+        deferred_of_material(layout, result->shader.reflection.stored_words);
+    uint32_t reads = is_pass(result) ? deferred_reads(result->pass, layout) : material.reads,
+             writes = is_pass(result) ? deferred_writes(result->pass, layout) : material.writes;
     json_key(json, "resources");
     json_open(json, '[');
     for (uint32_t i = 0; i < NUM_RESOURCES; i++)

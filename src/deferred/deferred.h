@@ -27,7 +27,9 @@ struct deferred_layout {
     uint32_t set;      /* of the resources below */
     bool sets;         /* the target has descriptor sets */
     bool has_bindings; /* the target says where resources are bound; otherwise its compiler does */
-    uint32_t first;    /* the binding of the first resource */
+    bool tests_late;   /* a material pass that writes an image reads the depth of its pixel */
+    const char *any_format; /* of images of any format of floats; NULL: the host chooses */
+    uint32_t first;         /* the binding of the first resource */
     /*
      * Parses a program (parse/parse.h) without faults, in the shader's arena; NULL: the target's
      * language is that of the texts
@@ -158,6 +160,9 @@ void deferred_write_pass(enum deferred_pass pass, const struct deferred_layout *
  */
 void deferred_add_pass(enum deferred_pass pass, const struct deferred_layout *layout,
                        struct shader *shader);
+
+/* The resources of a material that takes so many words per pixel. */
+struct source_resources deferred_of_material(const struct deferred_layout *layout, uint32_t words);
 
 /* The document with the surfaces of the lighting passes. */
 size_t deferred_closures_size(void);

@@ -72,7 +72,7 @@ static const struct {
                       CLASS_EMPTY,
                       false,
                       false,
-                      CLOSURES | BIT(DEPTH) | BIT(FRAME) | BIT(SCATTERED) | BIT(BELOW),
+                      CLOSURES | BIT(DEPTH) | BIT(FRAME) | BIT(SCATTERED),
                       BIT(LIT) | BIT(BELOW),
                       {deferred_read, deferred_frame, deferred_plane, deferred_diffuse}},
     [PASS_BLUR] = {"blur",

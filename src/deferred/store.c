@@ -311,17 +311,25 @@ static void write_keeper(const struct deferred_layout *layout, struct text *out)
         deferred_write_lines(deferred_words_end, false, out);
 }
 
+struct source_resources deferred_of_material(const struct deferred_layout *layout, uint32_t words)
+{
+    bool has_layers = !layout->is_payload && !layout->is_function && words > DEFERRED_TARGET_WORDS;
+    return (struct source_resources){
+        .reads = has_layers && layout->tests_late ? 1u << RESOURCE_DEPTH : 0,
+        .writes = has_layers ? 1u << RESOURCE_WORDS : 0,
+        .set = layout->set};
+}
+
 static uint32_t add_source(struct shader *shader, const struct deferred_layout *layout)
 {
     bool is_pixel = !layout->is_payload && !layout->is_function,
-         has_more = !layout->is_payload && shader->reflection.stored_words > DEFERRED_TARGET_WORDS,
-         has_layers = is_pixel && has_more;
+         has_more = !layout->is_payload && shader->reflection.stored_words > DEFERRED_TARGET_WORDS;
     struct text text;
     struct source_fault fault;
     text_init(&text, shader->arena);
     deferred_write_storage(layout, &text);
     text_fmt(&text, "#define MX_WORDS %u\n", (unsigned)shader->reflection.stored_words);
-    if (has_layers && !layout->parse)
+    if (is_pixel && has_more && !layout->parse)
         deferred_declare(RESOURCE_WORDS, layout, false, true, &text);
     write_keeper(layout, &text);
     if (has_more && layout->storage == STORAGE_FLOAT)
@@ -329,8 +337,8 @@ static uint32_t add_source(struct shader *shader, const struct deferred_layout *
     deferred_write_lines(deferred_store_closure, false, &text);
     deferred_write_store(&text);
     if (layout->parse) {
-        struct source_resources resources = {.writes = has_layers ? 1u << RESOURCE_WORDS : 0,
-                                             .set = layout->set};
+        struct source_resources resources =
+            deferred_of_material(layout, shader->reflection.stored_words);
         struct text program;
         text_init(&program, shader->arena);
         text_str(&text, is_pixel ? stored_word : "");

@@ -31,11 +31,16 @@ const char *spell_use_type(struct spell *spell, const struct lang_use *use, ir_t
     return text_cstr(text);
 }
 
-/* "vec3_bool" of "vec3<bool>" */
+/* "array_vec3_bool_4" of "array<vec3<bool>, 4>" */
 static void put_in_name(const char *type, struct text *out)
 {
-    for (; *type && *type != '>'; type++)
-        text_char(out, *type == '<' ? '_' : *type);
+    static const char marks[] = "<>, ";
+    for (size_t len; *type; type += len) {
+        len = strcspn(type, marks);
+        text_mem(out, type, len);
+        len += strspn(type + len, marks);
+        text_str(out, type[len] ? "_" : "");
+    }
 }
 
 void spell_expand(struct spell *spell, const struct lang_use *use, const char *from,

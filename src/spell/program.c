@@ -86,9 +86,11 @@ static void name_functions(struct spell *spell, struct spell_program *program)
         for (uint32_t k = 0; k < i; k++)
             is_first &= unit->functions.items[k].name != name;
         const char *text = str_text(unit->strings, name);
-        program->functions[i] = is_first || spell_can(spell, CAP_OVERLOADS)
-                                    ? text
-                                    : names_unique(&spell->names, text, strlen(text)).text;
+        bool is_kept = is_first || spell_can(spell, CAP_OVERLOADS);
+        if (is_kept)
+            names_take(&spell->names, text, strlen(text));
+        program->functions[i] =
+            is_kept ? text : names_unique(&spell->names, text, strlen(text)).text;
     }
 }
 

@@ -138,7 +138,9 @@ struct target {
     const char *array_type;
     /* functions of programs, NULL-terminated; NULL: from base */
     const struct target_function *functions;
-    uint32_t first_resource;           /* the number of the first resource of programs */
+    uint32_t first_resource; /* the number of the first resource of programs */
+    bool tests_late; /* pixel stages that write images run before the depth test: they read depth */
+    const char *any_format; /* of images of any format of floats; NULL: the host chooses */
     const struct target_image *images; /* ends with kind NULL; NULL: from base */
     enum shader_packing packing;       /* of blocks of uniforms */
     /*

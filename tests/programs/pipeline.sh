@@ -341,12 +341,10 @@ check "a sum of equal slabs is drawn forward" too_heavy sum a b whole
 check "so is one that is too heavy in places" too_heavy sum mixed rest whole
 check "halves of equal slabs are stored" exits 1 too_heavy sum half rest whole
 check "mixes of equal slabs are stored" exits 1 too_heavy sum a b again
-for target in essl essl310 wgsl osl; do
+for target in essl essl310 osl; do
     check "material passes for $target are an error" reports options-clash "$mxgen" "$examples/deferred.mtlx" -e Plain --target "$target" --role deferred -o no
 done
-for target in essl wgsl; do
-    check "passes for $target are an error" reports options-clash "$mxgen" pipeline no --target "$target"
-done
+check "passes for ESSL are an error" reports options-clash "$mxgen" pipeline no --target essl
 check "passes for OpenGL 3.3 are an error" reports options-clash "$mxgen" pipeline no --target glsl --target-version 330
 check "passes do not light paths" reports options-clash "$mxgen" pipeline no --role scatter
 check "passes light payloads" exits 0 "$mxgen" pipeline rays_lit --role payload

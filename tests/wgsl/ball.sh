@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# The example in WebGPU draws a lit ball. Arguments: mxgen, the folder examples. MXGEN_DAWN and MXGEN_SWIFTSHADER: see draw.mjs.
+# The examples in WebGPU draw a lit ball, forward and deferred. Arguments: mxgen, the folder examples. MXGEN_DAWN and MXGEN_SWIFTSHADER: see draw.mjs.
 mxgen=$(realpath "$1") examples=$(realpath "$2")
 . "$(dirname "$0")/../programs/common.sh"
 export VK_ICD_FILENAMES=${MXGEN_SWIFTSHADER:-/usr/lib/chromium/vk_swiftshader_icd.json}
@@ -20,4 +20,21 @@ check 'it has 256 pixels on a side' test "$(head -c 15 ball.ppm | tr -d '\n')" =
 check 'the ball has a colour' brighter "$(pixel 128 128)" '0 0 0'
 check 'the corner has none' test "$(pixel 2 2 | tr -d ' ')" = 000
 check 'light comes from the upper right' brighter "$(pixel 170 80)" "$(pixel 86 176)"
+
+# like A B: two pictures differ by the rounding of what is stored alone, 45 dB.
+like() {
+    python3 -c 'import math, sys
+a, b = (open(path, "rb").read()[15:] for path in sys.argv[1:])
+error = sum((x - y) ** 2 for x, y in zip(a, b)) / len(a)
+sys.exit(not 10 * math.log10(255 ** 2 / error) > 45)' "$1" "$2"
+}
+# Plain takes the targets alone; Lacquered writes the image, also from its hidden back, and has two closures.
+check 'materials are stored' exits 0 "$mxgen" "$examples/deferred.mtlx" -e Plain -e Lacquered --role deferred --target wgsl --reflect -q -o stored
+check 'they are lit' exits 0 "$mxgen" pipeline passes --target wgsl
+for name in Plain Lacquered; do
+    check "$name is written" exits 0 "$mxgen" "$examples/deferred.mtlx" -e "$name" --target wgsl --reflect -q -o forward
+    check "$name is drawn forward" exits 0 node "$examples/webgpu.mjs" "forward/$name" "$name.ppm"
+    check "$name is drawn deferred" exits 0 node "$examples/webgpu_deferred.mjs" "stored/$name" passes "$name.deferred.ppm"
+    check "$name looks alike" like "$name.ppm" "$name.deferred.ppm"
+done
 finish wgsl-ball

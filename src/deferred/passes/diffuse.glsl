@@ -59,9 +59,9 @@ void mx_run(uvec2 group, uvec2 place)
     vec3 own = imageLoad(mx_scattered, ivec3(pixel, 0)).xyz;
     vec3 spread = vec3(weights.x > 0.0 ? light.x / weights.x : own.x, weights.y > 0.0 ? light.y / weights.y : own.y,
                        weights.z > 0.0 ? light.z / weights.z : own.z);
-    vec4 lit = vec4(rest.xyz + body.diffuse_albedo * spread, rest.w);
+    vec4 lit = vec4(rest.xyz + body.diffuse_albedo * spread, 1.0);
 #if MX_BELOW == 1
-    if (imageLoad(mx_below, ivec3(pixel, 0)).w > 0.0) { // the pass "blur" finishes the pixel
+    if (rest.w == 0.0) { // the pass "blur" finishes the pixel
         imageStore(mx_below, ivec3(pixel, 1), lit);
         return;
     }

@@ -58,6 +58,9 @@ void mx_run(uvec2 group, uvec2 place)
 #if MX_SCATTERED == 1
     if (max(albedo.x, max(albedo.y, albedo.z)) > 0.0) {
         imageStore(mx_scattered, ivec3(pixel, 0), vec4(inside / max(albedo, 1e-3), 1.0));
+#if MX_BELOW == 1
+        lit.w = below.w > 0.0 ? 0.0 : 1.0; // the pass "diffuse" does not read that image
+#endif
         imageStore(mx_scattered, ivec3(pixel, 1), lit);
         return;
     }
