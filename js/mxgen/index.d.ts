@@ -715,6 +715,8 @@ export class Shader extends Owner {
     sourcePath(stage: Stage, line: number): string | null;
     readonly closurePaths: string[];
     readonly files: string[];
+    /** The functions that the source calls and the host writes: "mxg_light" (docs/hosts.md). */
+    readonly hostFunctions: string[];
     readonly diagnostics: Diagnostics;
     readonly info: ShaderInfo;
     readonly storage: Storage | null;

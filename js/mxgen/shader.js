@@ -69,6 +69,13 @@ export class Shader extends Owner {
                           (_, index) => this._native.text(lib.mxg_result_file(this._pointer, index)));
     }
 
+    /** The functions that the source calls and the host writes (docs/hosts.md). */
+    get hostFunctions() {
+        const { lib } = this._native;
+        return Array.from({ length: lib.mxg_result_num_host_functions(this._pointer) },
+                          (_, index) => this._native.text(lib.mxg_result_host_function(this._pointer, index)));
+    }
+
     /** The diagnostics of the call: warnings, if it succeeded. */
     get diagnostics() {
         return new Diagnostics(this, this._native.lib.mxg_result_diagnostics(this._pointer));

@@ -467,13 +467,20 @@ test("a scene that changes", () => {
     assert.throws(() => document.bind(scene, null, { previous: 5 }), TypeError);
 });
 
+test("functions of the host", () => {
+    const document = mxgen.createContext().parse(GOLD);
+    assert.deepEqual(document.generate("essl").hostFunctions, []);
+    const { hostFunctions } = document.generate("essl", { options: { role: "function", "host-environment": true } });
+    assert.deepEqual(hostFunctions.sort(), ["mxg_irradiance", "mxg_light", "mxg_light_count", "mxg_radiance"]);
+});
+
 test("passes of the deferred pipeline", () => {
     const context = mxgen.createContext(), passes = context.passes("vulkan");
     inFolder(folder => {
         const { status, stderr } = spawnSync(program, ["pipeline", folder, "--target", "vulkan"], { encoding: "utf8" });
         assert.equal(status, 0, stderr);
         for (const { name, shader } of passes) {
-            const file = fs.readdirSync(folder).find(file => file.startsWith(`${name}.`) && file.endsWith(".comp"));
+            const file = fs.readdirSync(folder).find(file => file.startsWith(`${name}.`) && !file.endsWith(".json"));
             assert.equal(shader.pixel, fs.readFileSync(path.join(folder, file), "utf8"), name);
         }
     });
