@@ -9,7 +9,7 @@ export npm_config_cache=$work/cache npm_config_offline=true npm_config_update_no
 
 check "npm packs the package" exits 0 npm pack "$package"
 tar -tzf mxgen-*.tgz | sort >files
-(cd "$package" && ls | sed 's|^|package/|' | sort) >expected
+(cd "$package" && find . -type f | sed 's|^\.|package|' | sort) >expected
 check "the package has its files and no other" diff expected files
 check "the package has at most 1.25 MB" test "$(stat -c %s mxgen-*.tgz)" -le 1250000
 mkdir app && cd app || exit 1
