@@ -6,6 +6,7 @@
 #include "program/export_options.h"
 #include "program/files.h"
 #include "program/json.h"
+#include "program/scene_file.h"
 #include "program/scratch.h"
 #include "program/translated.h"
 #include "render/bake.h"
@@ -18,14 +19,15 @@
 /* A format, by the ending of its files. */
 struct format {
     const char *ending, *model;
+    bool has_variants; /* of looks */
     bool (*write)(struct writing *writing, const struct flat *flat);
 };
 
 static const struct format formats[] = {
-    {".gltf", "gltf_pbr", gltf_write},
-    {".glb", "gltf_pbr", gltf_write_binary},
-    {".usda", "UsdPreviewSurface", usd_write},
-    {".usdz", "UsdPreviewSurface", usd_write_package},
+    {".gltf", "gltf_pbr", true, gltf_write},
+    {".glb", "gltf_pbr", true, gltf_write_binary},
+    {".usda", "UsdPreviewSurface", false, usd_write},
+    {".usdz", "UsdPreviewSurface", false, usd_write_package},
 };
 
 static const struct format *find_format(const char *path)
@@ -64,11 +66,22 @@ bool write_beside(struct writing *writing, const char *name, const void *data, s
     return is_free && !reason;
 }
 
+uint32_t write_num_objects(const struct writing *writing)
+{
+    return writing->stage ? writing->stage->site.num_objects : writing->surface->num_objects;
+}
+
+const struct scene_object *write_object(const struct writing *writing, uint32_t index)
+{
+    return writing->stage ? &writing->stage->site.objects[index].object
+                          : &writing->surface->objects[index];
+}
+
 struct matrix write_world(const struct writing *writing, const struct scene_object *object)
 {
     static const struct matrix upright = {
         {{1, 0, 0, 0}, {0, 0, -1, 0}, {0, 1, 0, 0}, {0, 0, 0, 1}}};
-    const struct site *site = &writing->surface->site;
+    const struct site *site = writing->stage ? &writing->stage->site : &writing->surface->site;
     const double unit = site->meters_per_unit > 0 ? site->meters_per_unit : 1;
     struct matrix world = matrix_multiply(matrix_scale(unit, unit, unit), object->world);
     return site->is_z_up ? matrix_multiply(upright, world) : world;
@@ -82,6 +95,8 @@ struct exporting {
     const struct format *format;
     struct scratch scratch; /* of the flat document */
     const mxg_document *source;
+    const char *path; /* of the source */
+    struct stage stage;
 };
 
 /* Formats lack objects to look at without a mesh. */
@@ -95,19 +110,21 @@ static bool open_surface(struct exporting *exporting, struct bake_surface *surfa
 static void write_files(struct exporting *exporting, const mxg_document *document, const char *path)
 {
     struct cli *cli = &exporting->baking.cli;
-    struct bake_surface surface;
+    struct bake_surface surface = {0};
+    bool has_stage = exporting->options.stage != NULL;
     struct writing writing = {.cli = cli,
                               .path = exporting->options.output,
                               .scratch = exporting->scratch.path,
-                              .surface = &surface,
+                              .surface = has_stage ? NULL : &surface,
+                              .stage = has_stage ? &exporting->stage : NULL,
                               .source = exporting->source,
-                              .source_path = cli->parser.inputs.items[0],
+                              .source_path = exporting->path,
                               .outputs = &exporting->baking.files};
     struct flat flat = {.report = &cli->report,
                         .path = path,
                         .source = exporting->source,
                         .source_path = writing.source_path};
-    bool good = open_surface(exporting, &surface);
+    bool good = has_stage || open_surface(exporting, &surface);
     good = flat_read(&flat, document, exporting->format->model) && good
            && exporting->format->write(&writing, &flat);
     good = batch_end(&writing.files, &cli->report, good && !cli->report.errors);
@@ -116,6 +133,95 @@ static void write_files(struct exporting *exporting, const mxg_document *documen
                 flat.num_materials == 1 ? "" : "s");
     flat_finish(&flat);
     bake_surface_close(&surface);
+}
+
+/* ---- The run: what the formats lack ---- */
+
+/* Tells an input of a material, "Wall/displacementshader", as a loss. */
+static void tell_other_input(struct exporting *exporting, const char *input)
+{
+    struct report *report = &exporting->baking.cli.report;
+    const struct flat of = {
+        .report = report, .source = exporting->source, .source_path = exporting->path};
+    char *place = flat_place(&of, input);
+    report_warning(report, "export-loss",
+                   "'%s' (%s) is not in the file as it is: a material of this format has one "
+                   "surface",
+                   input, place);
+    free(place);
+}
+
+/* Removes what a material has beside its surface, which it returns; 0: it has none. */
+static mxg_element keep_surface(struct exporting *exporting, const mxg_document *from,
+                                mxg_element material, mxg_edit *edit)
+{
+    mxg_element surface = 0;
+    for (mxg_element input = bake_element(from, material).first_child; input;) {
+        mxg_element_info info = bake_element(from, input);
+        if (strcmp(info.name, "surfaceshader") == 0) {
+            surface = bake_follow(from, input).node;
+        } else if (strcmp(info.category, "input") == 0) {
+            char *path = bake_path(from, input);
+            tell_other_input(exporting, path);
+            mxg_edit_remove_element(edit, input);
+            free(path);
+        }
+        input = info.next;
+    }
+    return surface;
+}
+
+/* True for a material of the file: every one, or of a stage those that its objects have. */
+static bool is_wanted(const struct exporting *exporting, const char *material)
+{
+    const struct stage *stage = &exporting->stage;
+    bool is_wanted = !exporting->options.stage;
+    for (size_t i = 0; !is_wanted && i < stage->num_looks * stage->site.num_objects; ++i)
+        is_wanted = stage->dresses[i].material && strcmp(stage->dresses[i].material, material) == 0;
+    return is_wanted;
+}
+
+/*
+ * Removes what would be baked and is not in the file: other shaders, and of a stage materials that
+ * no object has, with their surfaces.
+ */
+static void remove_others(struct exporting *exporting, const mxg_document *from, mxg_edit *edit)
+{
+    struct name_table kept = {0};
+    bool is_new;
+    const mxg_element first = bake_element(from, 0).first_child;
+    for (mxg_element node = first; node; node = bake_element(from, node).next) {
+        mxg_element_info info = bake_element(from, node);
+        if (strcmp(info.type, "material") == 0 && is_wanted(exporting, info.name)) {
+            mxg_element surface = keep_surface(exporting, from, node, edit);
+            names_add(&kept, info.name, &is_new);
+            names_add(&kept, bake_element(from, surface).name, &is_new);
+        }
+    }
+    for (mxg_element node = first; node; node = bake_element(from, node).next) {
+        mxg_element_info info = bake_element(from, node);
+        bool may_stay = !exporting->options.stage && strcmp(info.type, "displacementshader") != 0,
+             is_shader = strstr(info.type, "shader") || strcmp(info.type, "material") == 0;
+        if (is_shader && !may_stay && !names_find(&kept, info.name))
+            mxg_edit_remove_element(edit, node);
+    }
+    names_finish(&kept);
+}
+
+/* The document with the surfaces of the file alone. NULL after reporting an error. */
+static mxg_document *keep_surfaces(struct exporting *exporting, const mxg_document *from)
+{
+    struct cli *cli = &exporting->baking.cli;
+    mxg_document *kept = NULL;
+    mxg_edit *edit = NULL;
+    mxg_status status = mxg_edit_create(cli->context, cli->library, from, NULL, &edit);
+    if (status == MXG_OK) {
+        remove_others(exporting, from, edit);
+        status = mxg_edit_commit(edit, &kept);
+    }
+    mxg_edit_destroy(edit);
+    report_status(&cli->report, status);
+    return kept;
 }
 
 /* Bakes the translated document into a folder of its own, and writes what is there. */
@@ -149,8 +255,12 @@ static bool parse(struct exporting *exporting)
     static const char *const missing[] = {"error", "checker", NULL};
     struct cli *cli = &exporting->baking.cli;
     const char *output = exporting->options.output;
-    if (cli->parser.inputs.len != 1 || !output) {
-        fputs("usage: mxgen export FILE -o FILE.glb\n", stderr);
+    const struct export_options *options = &exporting->options;
+    size_t num = cli->parser.inputs.len;
+    if (num > 1 || (!num && !options->stage) || (options->look && !options->stage) || !output) {
+        fputs("usage: mxgen export FILE -o FILE.glb\n"
+              "       mxgen export [FILE] --stage STAGE [--look LOOK] -o FILE.glb\n",
+              stderr);
         return false;
     }
     exporting->format = find_format(output);
@@ -163,22 +273,55 @@ static bool parse(struct exporting *exporting)
            && cli_options_apply(cli, (const char *const[]){"vulkan"}, 1);
 }
 
+/* The document, with the materials of the stage. NULL after reporting an error. */
+static mxg_document *load(struct exporting *exporting)
+{
+    struct cli *cli = &exporting->baking.cli;
+    struct stage *stage = &exporting->stage;
+    const struct export_options *options = &exporting->options;
+    const char *path = cli->parser.inputs.len ? cli->parser.inputs.items[0] : NULL;
+    mxg_document *own = path ? cli_load(cli, path) : NULL;
+    if (!options->stage || (path && !own))
+        return own;
+    mxg_document *whole = stage_open(stage, cli, options->stage)
+                              ? scene_file_document(cli, own, stage->site.scene)
+                              : NULL;
+    bool is_bound =
+        whole && stage_bind(stage, cli, whole, options->look, exporting->format->has_variants);
+    mxg_document_destroy(own);
+    if (is_bound)
+        return whole;
+    mxg_document_destroy(whole);
+    return NULL;
+}
+
 static void run(struct exporting *exporting)
 {
     struct baking *baking = &exporting->baking;
-    const char *path = baking->cli.parser.inputs.items[0];
-    mxg_document *source = NULL, *translated = NULL;
+    const struct arg_list *inputs = &baking->cli.parser.inputs;
+    mxg_document *source = NULL, *translated = NULL, *kept = NULL;
+    exporting->path = inputs->len ? inputs->items[0] : exporting->options.stage;
     baking->options = exporting->options.bake;
-    bake_begin(baking, path);
-    if (outputs_write(&baking->files, &baking->cli.report, exporting->options.output, "--output"))
-        source = cli_load(&baking->cli, path);
+    bake_begin(baking, exporting->path);
+    bool is_free =
+        outputs_write(&baking->files, &baking->cli.report, exporting->options.output, "--output");
+    if (exporting->options.stage)
+        is_free =
+            outputs_read(&baking->files, &baking->cli.report, exporting->options.stage) && is_free;
+    if (is_free)
+        source = load(exporting);
     if (source)
-        translated = translated_make(&baking->cli, source, path, exporting->format->model);
+        translated =
+            translated_make(&baking->cli, source, exporting->path, exporting->format->model);
     exporting->source = source;
     if (translated)
-        bake_and_write(exporting, translated);
+        kept = keep_surfaces(exporting, translated);
+    if (kept)
+        bake_and_write(exporting, kept);
+    mxg_document_destroy(kept);
     mxg_document_destroy(translated);
     mxg_document_destroy(source);
+    stage_close(&exporting->stage);
     bake_finish(baking);
 }
 

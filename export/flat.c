@@ -60,6 +60,14 @@ void flat_tell_loss(const struct flat *flat, const struct flat_material *materia
     free(place);
 }
 
+size_t flat_find_material(const struct flat *flat, const char *name)
+{
+    size_t i = 0;
+    while (i < flat->num_materials && strcmp(flat->materials[i].name, name) != 0)
+        ++i;
+    return i;
+}
+
 const struct flat_input *flat_find(const struct flat_material *material, const char *name)
 {
     for (size_t i = 0; i < material->num_inputs; ++i)
@@ -313,28 +321,16 @@ static bool is_model(const struct flat *flat, mxg_element node, const char *mode
     return node && strcmp(bake_element(flat->document, node).category, model) == 0;
 }
 
-/* Only surfaces have a place in the formats. */
-static void tell_other_shaders(const struct flat *flat, const struct flat_material *material,
-                               mxg_element node)
-{
-    static const char *const others[] = {"displacementshader", "backsurfaceshader", NULL};
-    for (size_t i = 0; others[i]; ++i)
-        if (mxg_document_find_element(flat->document, node, others[i]))
-            flat_tell_loss(flat, material, others[i], "a material of this format has one surface");
-}
-
 static bool read_material(struct flat *flat, mxg_element node, const char *model)
 {
     mxg_element_info info = bake_element(flat->document, node);
-    mxg_element port = strcmp(info.category, "surfacematerial") == 0
+    mxg_element port = strcmp(info.type, "material") == 0
                            ? mxg_document_find_element(flat->document, node, "surfaceshader")
                            : 0,
                 surface = port ? bake_follow(flat->document, port).node : 0;
     if (!is_model(flat, surface, model))
         return true;
-    bool good = add(flat, info.name, surface);
-    tell_other_shaders(flat, &flat->materials[flat->num_materials - 1], node);
-    return good;
+    return add(flat, info.name, surface);
 }
 
 bool flat_read(struct flat *flat, const mxg_document *document, const char *model)

@@ -61,6 +61,9 @@ struct flat {
 bool flat_read(struct flat *flat, const mxg_document *document, const char *model);
 void flat_finish(struct flat *flat);
 
+/* The number of the material of that name; flat->num_materials: there is none. */
+size_t flat_find_material(const struct flat *flat, const char *name);
+
 /* The input of that name; NULL: the document does not set it. */
 const struct flat_input *flat_find(const struct flat_material *material, const char *name);
 

@@ -30,6 +30,12 @@ json_t *gltf_array(json_t *object, const char *key)
     return member(object, key, json_array);
 }
 
+size_t gltf_append(json_t *array, json_t *value)
+{
+    json_array_append_new(array, value);
+    return json_array_size(array) - 1;
+}
+
 size_t gltf_add(json_t *array, json_t *value)
 {
     size_t index;
@@ -39,8 +45,7 @@ size_t gltf_add(json_t *array, json_t *value)
         json_decref(value);
         return index;
     }
-    json_array_append_new(array, value);
-    return json_array_size(array) - 1;
+    return gltf_append(array, value);
 }
 
 /* ---- The buffer ---- */
@@ -73,7 +78,7 @@ size_t gltf_add_view(struct gltf *gltf, const void *data, size_t size, int targe
     json_set(view, "byteLength", json_integer((json_int_t)size));
     json_set_count(view, "target", (uint64_t)target);
     append(gltf, data, size);
-    return gltf_add(gltf_array(gltf->root, "bufferViews"), view);
+    return gltf_append(gltf_array(gltf->root, "bufferViews"), view);
 }
 
 /* ---- Files ---- */

@@ -41,7 +41,7 @@ static size_t add_floats(struct gltf *gltf, const float *values, size_t num, siz
     json_set(accessor, "componentType", json_integer(FLOATS));
     json_set(accessor, "count", json_integer((json_int_t)num));
     json_set(accessor, "type", json_string(types[width]));
-    return gltf_add(gltf_array(gltf->root, "accessors"), accessor);
+    return gltf_append(gltf_array(gltf->root, "accessors"), accessor);
 }
 
 static size_t add_positions(struct gltf *gltf, const struct scene_object *object,
@@ -130,7 +130,7 @@ static size_t add_indices(struct gltf *gltf, const struct mesh *mesh, bool is_mi
     json_set(accessor, "componentType", json_integer(UINTS));
     json_set(accessor, "count", json_integer((json_int_t)mesh->num_indices));
     json_set(accessor, "type", json_string("SCALAR"));
-    return gltf_add(gltf_array(gltf->root, "accessors"), accessor);
+    return gltf_append(gltf_array(gltf->root, "accessors"), accessor);
 }
 
 static struct accessors add_object(struct gltf *gltf, const struct scene_object *object,
@@ -148,7 +148,7 @@ static struct accessors add_object(struct gltf *gltf, const struct scene_object 
     return out;
 }
 
-static json_t *make_primitive(const struct accessors *accessors, bool has_tangents, size_t material)
+static json_t *make_primitive(const struct accessors *accessors, bool has_tangents)
 {
     json_t *primitive = json_object(), *attributes = json_object();
     json_set(attributes, "POSITION", json_integer((json_int_t)accessors->position));
@@ -158,8 +158,16 @@ static json_t *make_primitive(const struct accessors *accessors, bool has_tangen
         json_set(attributes, "TANGENT", json_integer((json_int_t)accessors->tangent));
     json_set(primitive, "attributes", attributes);
     json_set(primitive, "indices", json_integer((json_int_t)accessors->indices));
-    json_set(primitive, "material", json_integer((json_int_t)material));
     return primitive;
+}
+
+void gltf_add_root(struct gltf *gltf, size_t node)
+{
+    json_t *scenes = gltf_array(gltf->root, "scenes");
+    if (!json_array_size(scenes))
+        json_array_append_new(scenes, json_object());
+    json_array_append_new(gltf_array(json_array_get(scenes, 0), "nodes"),
+                          json_integer((json_int_t)node));
 }
 
 static void add_node(struct gltf *gltf, const char *name, json_t *primitives, double x)
@@ -168,37 +176,46 @@ static void add_node(struct gltf *gltf, const char *name, json_t *primitives, do
     json_set(mesh, "primitives", primitives);
     json_set_text(node, "name", name);
     json_set(node, "mesh",
-             json_integer((json_int_t)gltf_add(gltf_array(gltf->root, "meshes"), mesh)));
+             json_integer((json_int_t)gltf_append(gltf_array(gltf->root, "meshes"), mesh)));
     if (x != 0)
         json_set(node, "translation", json_pack("[f, i, i]", x, 0, 0));
-    size_t index = gltf_add(gltf_array(gltf->root, "nodes"), node);
-    json_t *scenes = gltf_array(gltf->root, "scenes"), *scene = json_array_get(scenes, 0);
-    if (!scene) {
-        scene = json_object();
-        json_array_append_new(scenes, scene);
+    gltf_add_root(gltf, gltf_append(gltf_array(gltf->root, "nodes"), node));
+}
+
+/* The objects of the surface once, and nodes of all materials with them. */
+static void add_samples(struct gltf *gltf, const bool *tangents)
+{
+    const double step = 1.1; /* widths from one material to the next */
+    const uint32_t num = write_num_objects(gltf->writing);
+    struct extent extent = {INFINITY, -INFINITY};
+    bool has_tangents = false;
+    struct accessors *accessors = memory_alloc(((size_t)num + 1) * sizeof *accessors);
+    for (size_t i = 0; i < gltf->flat->num_materials; ++i)
+        has_tangents = has_tangents || tangents[i];
+    for (uint32_t i = 0; i < num; ++i)
+        accessors[i] = add_object(gltf, write_object(gltf->writing, i), has_tangents, &extent);
+    for (size_t m = 0; m < gltf->flat->num_materials; ++m) {
+        json_t *primitives = json_array();
+        for (uint32_t i = 0; i < num; ++i) {
+            json_t *primitive = make_primitive(&accessors[i], tangents[m]);
+            json_set(primitive, "material", json_integer((json_int_t)m));
+            json_array_append_new(primitives, primitive);
+        }
+        add_node(gltf, gltf->flat->materials[m].name, primitives,
+                 (double)m * step * (double)(extent.high - extent.low));
     }
-    json_array_append_new(gltf_array(scene, "nodes"), json_integer((json_int_t)index));
+    free(accessors);
+}
+
+json_t *gltf_make_primitive(struct gltf *gltf, const struct scene_object *object, bool has_tangents)
+{
+    struct extent extent = {INFINITY, -INFINITY};
+    const struct accessors accessors = add_object(gltf, object, has_tangents, &extent);
+    return make_primitive(&accessors, has_tangents);
 }
 
 void gltf_add_nodes(struct gltf *gltf, const bool *tangents)
 {
-    const struct bake_surface *surface = gltf->writing->surface;
-    const double step = 1.1; /* widths from one material to the next */
-    struct extent extent = {INFINITY, -INFINITY};
-    bool has_tangents = false;
-    struct accessors *accessors =
-        memory_alloc(((size_t)surface->num_objects + 1) * sizeof *accessors);
-    for (size_t i = 0; i < gltf->flat->num_materials; ++i)
-        has_tangents = has_tangents || tangents[i];
-    for (uint32_t i = 0; i < surface->num_objects; ++i)
-        accessors[i] = add_object(gltf, &surface->objects[i], has_tangents, &extent);
-    for (size_t m = 0; m < gltf->flat->num_materials; ++m) {
-        json_t *primitives = json_array();
-        for (uint32_t i = 0; i < surface->num_objects; ++i)
-            json_array_append_new(primitives, make_primitive(&accessors[i], tangents[m], m));
-        add_node(gltf, gltf->flat->materials[m].name, primitives,
-                 (double)m * step * (double)(extent.high - extent.low));
-    }
+    (gltf->writing->stage ? gltf_add_stage : add_samples)(gltf, tangents);
     json_set(gltf->root, "scene", json_integer(0));
-    free(accessors);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* The objects of the surface, for each material. */
+/* The objects of the surface, for each material; or those of a stage, each with its own. */
 #include "export/usd.h"
 
 #include <math.h>
@@ -18,6 +18,7 @@ static void put_rows(struct usd *usd, const char *declaration, const float *valu
     fputs("]", usd->out);
 }
 
+/* material NULL: none. */
 static void put_mesh(struct usd *usd, const struct scene_object *object, const char *name,
                      const char *material)
 {
@@ -51,19 +52,20 @@ static void put_mesh(struct usd *usd, const struct scene_object *object, const c
     }
     fputs(")\n", usd->out);
     usd_put(usd, "uniform token[] xformOpOrder = [\"xformOp:transform\"]");
-    usd_put(usd, "rel material:binding = <%s>", material);
+    if (material)
+        usd_put(usd, "rel material:binding = <%s>", material);
     usd_close(usd);
 }
 
 /* The extent of the surface along x. */
 static double find_width(const struct writing *writing)
 {
-    const struct bake_surface *surface = writing->surface;
     double low = INFINITY, high = -INFINITY;
-    for (uint32_t i = 0; i < surface->num_objects; ++i) {
-        const struct matrix world = write_world(writing, &surface->objects[i]);
-        for (uint32_t k = 0; k < surface->objects[i].mesh.num_vertices; ++k) {
-            const float *at = surface->objects[i].mesh.vertices[k].position;
+    for (uint32_t i = 0; i < write_num_objects(writing); ++i) {
+        const struct scene_object *object = write_object(writing, i);
+        const struct matrix world = write_world(writing, object);
+        for (uint32_t k = 0; k < object->mesh.num_vertices; ++k) {
+            const float *at = object->mesh.vertices[k].position;
             double point[3] = {(double)at[0], (double)at[1], (double)at[2]};
             matrix_point(world, point, point);
             low = fmin(low, point[0]);
@@ -73,29 +75,52 @@ static double find_width(const struct writing *writing)
     return high - low;
 }
 
-void usd_put_objects(struct usd *usd, char *const *paths)
+/* Each material, side by side, on the objects of the surface. */
+static void put_samples(struct usd *usd, char *const *paths, struct name_table *names)
 {
-    const struct bake_surface *surface = usd->writing->surface;
     const double step = 1.1 * find_width(usd->writing);
-    struct name_table names = {0};
-    bool is_new;
-    names_add(&names, "Materials", &is_new); /* the scope beside them */
+    const uint32_t num = write_num_objects(usd->writing);
     for (size_t m = 0; m < usd->flat->num_materials; ++m) {
-        char *name = usd_name(&names, usd->flat->materials[m].name);
+        char *name = usd_name(names, usd->flat->materials[m].name);
         struct name_table objects = {0};
         usd_open(usd, "Xform", name);
         if (m) {
             usd_put(usd, "double3 xformOp:translate = (%.9g, 0, 0)", (double)m * step);
             usd_put(usd, "uniform token[] xformOpOrder = [\"xformOp:translate\"]");
         }
-        for (uint32_t i = 0; i < surface->num_objects; ++i) {
-            char *object = usd_name(&objects, surface->num_objects == 1 ? "mesh" : "part");
-            put_mesh(usd, &surface->objects[i], object, paths[m]);
+        for (uint32_t i = 0; i < num; ++i) {
+            char *object = usd_name(&objects, num == 1 ? "mesh" : "part");
+            put_mesh(usd, write_object(usd->writing, i), object, paths[m]);
             free(object);
         }
         usd_close(usd);
         names_finish(&objects);
         free(name);
     }
+}
+
+/* The objects that the look shows. A material of another model is none of the file. */
+static void put_stage(struct usd *usd, char *const *paths, struct name_table *names)
+{
+    const struct stage *stage = usd->writing->stage;
+    for (uint32_t i = 0; i < stage->site.num_objects; ++i) {
+        const struct stage_dress *dress = stage_dress(stage, 0, i);
+        const struct scene_object *object = write_object(usd->writing, i);
+        if (dress->state == STAGE_HIDDEN)
+            continue;
+        size_t material = dress->material ? flat_find_material(usd->flat, dress->material)
+                                          : usd->flat->num_materials;
+        char *name = usd_name(names, object->path + (*object->path == '/'));
+        put_mesh(usd, object, name, material < usd->flat->num_materials ? paths[material] : NULL);
+        free(name);
+    }
+}
+
+void usd_put_objects(struct usd *usd, char *const *paths)
+{
+    struct name_table names = {0};
+    bool is_new;
+    names_add(&names, "Materials", &is_new); /* the scope beside them */
+    (usd->writing->stage ? put_stage : put_samples)(usd, paths, &names);
     names_finish(&names);
 }

@@ -4,6 +4,7 @@
 #define MXG_EXPORT_WRITE_H
 
 #include "export/flat.h"
+#include "export/stage.h"
 #include "program/batch.h"
 #include "program/outputs.h"
 #include "render/bake_surface.h"
@@ -12,7 +13,8 @@ struct writing {
     struct cli *cli;
     const char *path;                   /* of the file */
     const char *scratch;                /* a folder for files that do not outlive the writer */
-    const struct bake_surface *surface; /* whose objects have the materials */
+    const struct bake_surface *surface; /* whose objects have each material; NULL: */
+    const struct stage *stage;          /* its objects have materials of their own */
     const mxg_document *source;         /* the document of the user, with its graphs */
     const char *source_path;
     struct batch files;
@@ -23,7 +25,10 @@ struct writing {
 bool write_beside(struct writing *writing, const char *name, const void *data, size_t size);
 /* The name of the file without folder and ending. The caller frees it. */
 char *write_stem(const struct writing *writing);
-/* From an object of the surface to a world in metres with y upwards. */
+/* The objects of the surface or the stage. */
+uint32_t write_num_objects(const struct writing *writing);
+const struct scene_object *write_object(const struct writing *writing, uint32_t index);
+/* From an object to a world in metres with y upwards. */
 struct matrix write_world(const struct writing *writing, const struct scene_object *object);
 /* The folder of a file. The caller frees it. */
 char *write_folder(const char *path);

@@ -55,16 +55,15 @@ static void add_materials(struct importing *importing)
 {
     const struct gltf_source *source = &importing->source;
     size_t num = json_array_size(json_object_get(source->root, "materials"));
+    importing->materials = memory_alloc((num + 1) * sizeof *importing->materials);
     mxg_edit_set_attribute(importing->edit, mxg_edit_find_element(importing->edit, 0, ""),
                            "colorspace", "lin_rec709");
     for (size_t i = 0; i < num; ++i)
-        import_add_material(importing, i);
+        importing->materials[importing->num_materials++] = import_add_material(importing, i);
     if (!num)
         report_error(&source->cli->report, "import-file", "cannot read '%s': it has no materials",
                      source->path);
-    if (json_object_get(json_object_get(source->root, "extensions"), "KHR_materials_variants"))
-        import_tell_loss(importing, "KHR_materials_variants", "%s",
-                         "variants assign materials to meshes, and these are not read");
+    import_add_looks(importing);
 }
 
 /* Writes the document that the edit makes. */
@@ -123,5 +122,8 @@ void import_document(struct cli *cli, const char *path, const char *output)
     for (size_t i = 0; i < importing.num_images; ++i)
         free(importing.images[i].name);
     free(importing.images);
+    for (size_t i = 0; i < importing.num_materials; ++i)
+        free(importing.materials[i]);
+    free(importing.materials);
     free(importing.folder);
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
  * Documents of the materials of glTF files: the way back from export/. import.c has the whole,
- * material.c the surfaces, texture.c the nodes of textures, images.c their files. The table
+ * material.c the surfaces, texture.c the nodes of textures, images.c their files, variants.c looks.
+ * The table
  * program/gltf_inputs.h says where each input comes from.
  */
 #ifndef MXG_IMPORT_IMPORT_H
@@ -26,6 +27,8 @@ struct importing {
         bool is_tried;
     } * images; /* by index */
     size_t num_images;
+    char **materials; /* names of their elements, by index */
+    size_t num_materials;
 };
 
 /* A material while it is made. */
@@ -58,8 +61,10 @@ bool import_write_file(struct importing *importing, const char *name, const void
 /* images.c: the file of an image as the document names it; NULL after telling a loss, once. */
 const char *import_image(struct importing *importing, size_t index);
 
-/* material.c */
-void import_add_material(struct importing *importing, size_t index);
+/* material.c: adds a material. Returns its name, which the caller frees. */
+char *import_add_material(struct importing *importing, size_t index);
+/* variants.c: looks, if the file has variants. */
+void import_add_looks(struct importing *importing);
 
 /* ---- texture.c: the nodes of a texture, which stand in the graph of the material ---- */
 

@@ -198,7 +198,7 @@ static void tell_extensions(struct import_material *material)
     }
 }
 
-void import_add_material(struct importing *importing, size_t index)
+char *import_add_material(struct importing *importing, size_t index)
 {
     mxg_edit *edit = importing->edit;
     const json_t *json = gltf_source_item(&importing->source, "materials", index);
@@ -215,7 +215,7 @@ void import_add_material(struct importing *importing, size_t index)
     mxg_element element = mxg_edit_add_element(edit, 0, "surfacematerial", name, "material");
     mxg_edit_connect_input(edit, element, "surfaceshader", shader, NULL);
     free(wanted);
-    free(name);
     free(shader_wanted);
     free(shader_name);
+    return name;
 }

@@ -17,6 +17,20 @@ size_t export_args(struct export_options *options, struct arg args[MAX_EXPORT_AR
     size_t num_of_bake = bake_args(&options->bake, of_bake), num = 0;
     args[num++] = (struct arg){
         "output", 'o', ARG_TEXT, "FILE", "the file: .glb, .gltf, .usda or .usdz", &options->output};
+    args[num++] = (struct arg){
+        "stage",
+        0,
+        ARG_TEXT,
+        "FILE",
+        "the objects of a stage, each with the material that looks give it, in place of an object "
+        "for each material; .usda, or a file such as glTF",
+        &options->stage};
+    args[num++] = (struct arg){"look",
+                               0,
+                               ARG_TEXT,
+                               "NAME",
+                               "the look for --stage (default: all; glTF has them as variants)",
+                               &options->look};
     for (size_t i = 0; i < num_of_bake; ++i)
         if (num < MAX_EXPORT_ARGS && is_shared(&of_bake[i]))
             args[num++] = of_bake[i];

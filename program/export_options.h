@@ -6,7 +6,7 @@
 #include "program/bake_options.h"
 
 struct export_options {
-    const char *output;
+    const char *output, *stage, *look;
     struct bake_options bake; /* how what varies is drawn */
 };
 
@@ -15,7 +15,7 @@ struct export_options {
         .bake = BAKE_OPTIONS_DEFAULTS \
     }
 
-enum { MAX_EXPORT_ARGS = 8 };
+enum { MAX_EXPORT_ARGS = 10 };
 
 /* Fills the table of options, which refers to the values; returns the number of options. */
 size_t export_args(struct export_options *options, struct arg args[MAX_EXPORT_ARGS]);

@@ -48,8 +48,7 @@ static void group(const struct site *site, const mxg_document *document, const c
     }
 }
 
-/* True if the look lets the camera see a primitive. What only some geometry sees, it may see. */
-static bool is_visible(const mxg_bindings *bindings, uint32_t primitive)
+bool site_is_visible(const mxg_bindings *bindings, uint32_t primitive)
 {
     bool is_visible = true;
     for (uint32_t i = 0; i < mxg_bindings_num_facts(bindings, primitive); ++i) {
@@ -80,7 +79,7 @@ bool site_subjects_make(struct painter *painter, const struct site *site,
     uint32_t num = 0;
     for (uint32_t i = 0; i < site->num_objects; ++i) {
         uint32_t primitive = site_bound_primitive(site, &site->objects[i]);
-        if (is_visible(out->bindings, primitive))
+        if (site_is_visible(out->bindings, primitive))
             dressed[num++] = (struct dressed){mxg_bindings_stack(out->bindings, primitive), i};
     }
     qsort(dressed, num, sizeof *dressed, compare_dressed);

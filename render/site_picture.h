@@ -22,4 +22,7 @@ bool site_subjects_make(struct painter *painter, const struct site *site,
                         const mxg_bindings_desc *desc, struct site_subjects *out);
 void site_subjects_finish(struct site_subjects *subjects);
 
+/* True if the look lets the camera see a primitive. What only some geometry sees, it may see. */
+bool site_is_visible(const mxg_bindings *bindings, uint32_t primitive);
+
 #endif

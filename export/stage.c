@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "export/stage.h"
+
+#include "program/memory.h"
+#include "render/site_picture.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+bool stage_open(struct stage *stage, struct cli *cli, const char *path)
+{
+    *stage = (struct stage){0};
+    return site_open(&stage->site, cli, path, NULL);
+}
+
+void stage_close(struct stage *stage)
+{
+    for (size_t i = 0; stage->dresses && i < stage->num_looks * stage->site.num_objects; ++i)
+        free(stage->dresses[i].material);
+    free(stage->dresses);
+    free(stage->looks);
+    site_close(&stage->site);
+}
+
+const struct stage_dress *stage_dress(const struct stage *stage, size_t look, uint32_t object)
+{
+    return &stage->dresses[look * stage->site.num_objects + object];
+}
+
+bool stage_shows(const struct stage *stage, uint32_t object)
+{
+    for (size_t i = 0; i < stage->num_looks; ++i)
+        if (stage_dress(stage, i, object)->state != STAGE_HIDDEN)
+            return true;
+    return false;
+}
+
+/* ---- Layers ---- */
+
+/* The base of a primitive, and the layers that the file lacks. */
+struct layers {
+    mxg_layer base, lost; /* the first that is lost; size 0: there is none */
+    uint32_t num_lost;
+};
+
+static struct layers read_layers(const mxg_bindings *bindings, uint32_t primitive)
+{
+    struct layers layers = {0};
+    uint32_t num = mxg_bindings_num_layers(bindings, primitive);
+    for (uint32_t i = 0; i < num; ++i) {
+        mxg_layer layer = {sizeof layer};
+        mxg_bindings_layer(bindings, primitive, i, &layer);
+        if (layer.kind == MXG_LAYER && !layer.is_nodegraph && !layers.base.size)
+            layers.base = layer;
+        else if (!layers.num_lost++)
+            layers.lost = layer;
+    }
+    return layers;
+}
+
+static void tell_lost(struct stage *stage, uint32_t primitive, const struct layers *layers)
+{
+    const mxg_layer *lost = &layers->lost;
+    char *path = site_path(stage->site.scene, primitive);
+    report_warning(
+        stage->site.report, "export-loss",
+        "'%s/%s' (%s:%u) is not in the file as it is: a primitive of this format has one "
+        "material, that of its base, and %u layer%s more",
+        path, *lost->slot ? lost->slot : lost->material, lost->file, (unsigned)lost->line,
+        (unsigned)layers->num_lost, layers->num_lost == 1 ? "" : "s");
+    free(path);
+}
+
+/* ---- Looks ---- */
+
+static void add_look(struct stage *stage, const char *name)
+{
+    stage->looks = memory_resize(stage->looks, (stage->num_looks + 1) * sizeof *stage->looks);
+    stage->looks[stage->num_looks++] = name;
+}
+
+static void list_looks(struct stage *stage, const mxg_document *document, const char *look,
+                       bool has_variants)
+{
+    mxg_element_info info = {sizeof info};
+    mxg_document_element(document, mxg_document_find_element(document, 0, ""), &info);
+    for (mxg_element child = look ? 0 : info.first_child; child; child = info.next) {
+        mxg_document_element(document, child, &info);
+        if (strcmp(info.category, "look") != 0)
+            continue;
+        if (has_variants || !stage->num_looks)
+            add_look(stage, info.name);
+        else
+            report_warning(stage->site.report, "export-loss",
+                           "'%s/%s' (%s:%u) is not in the file as it is: the format has one look",
+                           stage->site.file, info.name, info.file, (unsigned)info.line);
+    }
+    if (!stage->num_looks)
+        add_look(stage, look);
+}
+
+static struct stage_dress dress_of(const mxg_bindings *bindings, uint32_t primitive,
+                                   const struct layers *layers)
+{
+    if (!site_is_visible(bindings, primitive))
+        return (struct stage_dress){.state = STAGE_HIDDEN};
+    if (!layers->base.size)
+        return (struct stage_dress){.state = STAGE_BARE};
+    return (struct stage_dress){STAGE_DRESSED, cli_format("%s", layers->base.material)};
+}
+
+/* Losses are told once for each stack of layers. */
+static void dress(struct stage *stage, const mxg_bindings *bindings, struct stage_dress *dresses)
+{
+    uint32_t num_stacks = mxg_bindings_num_stacks(bindings);
+    bool *are_told = memory_alloc(((size_t)num_stacks + 1) * sizeof *are_told);
+    for (uint32_t i = 0; i < stage->site.num_objects; ++i) {
+        uint32_t primitive = site_bound_primitive(&stage->site, &stage->site.objects[i]),
+                 stack = mxg_bindings_stack(bindings, primitive);
+        const struct layers layers = read_layers(bindings, primitive);
+        dresses[i] = dress_of(bindings, primitive, &layers);
+        if (!layers.num_lost || dresses[i].state == STAGE_HIDDEN || stack >= num_stacks
+            || are_told[stack])
+            continue;
+        tell_lost(stage, primitive, &layers);
+        are_told[stack] = true;
+    }
+    free(are_told);
+}
+
+bool stage_bind(struct stage *stage, struct cli *cli, const mxg_document *document,
+                const char *look, bool has_variants)
+{
+    bool good = true;
+    list_looks(stage, document, look, has_variants);
+    stage->dresses =
+        memory_alloc((stage->num_looks * stage->site.num_objects + 1) * sizeof *stage->dresses);
+    for (size_t i = 0; good && i < stage->num_looks; ++i) {
+        mxg_bindings *bindings = NULL;
+        mxg_bindings_desc desc = MXG_BINDINGS_DESC_INIT;
+        desc.look = stage->looks[i];
+        mxg_status status =
+            mxg_bindings_create(cli->context, document, stage->site.scene, &desc, &bindings);
+        if (bindings)
+            report_list(&cli->report, mxg_bindings_diagnostics(bindings));
+        good = report_status(&cli->report, status) && status == MXG_OK;
+        if (good)
+            dress(stage, bindings, stage->dresses + i * stage->site.num_objects);
+        mxg_bindings_destroy(bindings);
+    }
+    return good;
+}
