@@ -14,6 +14,8 @@ lsp_handler handle_completion, handle_hover;
 /* navigation.c */
 lsp_handler handle_definition, handle_references, handle_highlight, handle_rename,
     handle_prepare_rename;
+/* file_names.c */
+lsp_handler handle_will_rename;
 /* outline.c */
 lsp_handler handle_symbols, handle_folding, handle_links;
 /* tokens.c, colours.c, hints.c, formatting.c */

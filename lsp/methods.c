@@ -14,6 +14,8 @@ const struct lsp_method lsp_methods[] = {
     {"textDocument/didSave", handle_save, NULL, NULL},
     {"workspace/didChangeWatchedFiles", handle_watched_files, NULL, NULL},
     {"workspace/didChangeConfiguration", handle_nothing, NULL, NULL},
+    {"workspace/willRenameFiles", handle_will_rename, "workspace",
+     "{\"fileOperations\":{\"willRename\":{\"filters\":[{\"pattern\":{\"glob\":\"**/*\"}}]}}}"},
     {"textDocument/completion", handle_completion, "completionProvider",
      "{\"triggerCharacters\":[\"<\",\"\\\"\",\"/\",\" \"]}"},
     {"textDocument/hover", handle_hover, "hoverProvider", "true"},

@@ -45,6 +45,19 @@ const char *names_file_prefix(const struct lsp_query *query, uint32_t element, c
     return query_text(query, element, "fileprefix", buffer, capacity);
 }
 
+const struct model_attribute *names_file(const struct lsp_query *query, uint32_t element,
+                                         char *prefix, size_t capacity)
+{
+    *prefix = '\0';
+    if (query_is(query, element, "xi:include"))
+        return query_attribute(query, element, "href");
+    if (!query_is(query, element, "input")
+        || !query_equals(query->text, query_value(query, element, "type"), "filename"))
+        return NULL;
+    names_file_prefix(query, element, prefix, capacity);
+    return query_attribute(query, element, "value");
+}
+
 /* ---- What a name means ---- */
 
 static uint32_t at_root(const struct lsp_query *query, uint32_t element, struct span name)

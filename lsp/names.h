@@ -19,6 +19,13 @@ const char *names_file_prefix(const struct lsp_query *query, uint32_t element, c
                               size_t capacity);
 
 /*
+ * The attribute of an element that names a file, with the prefix before its value; NULL: it names
+ * none.
+ */
+const struct model_attribute *names_file(const struct lsp_query *query, uint32_t element,
+                                         char *prefix, size_t capacity);
+
+/*
  * The element of the text that an attribute of `element` names: of a connection, a reference to a
  * definition, a material. MODEL_NONE: none in this text, or the attribute names nothing.
  */

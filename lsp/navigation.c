@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /* From a name to its element and back: definition, references, highlights, rename. */
+#include "lsp/family.h"
 #include "lsp/handlers.h"
 #include "lsp/references.h"
 #include "lsp/wire.h"
@@ -76,6 +77,48 @@ json_t *handle_definition(struct lsp_session *session, const json_t *params,
 
 /* ---- References ---- */
 
+/* The element under the cursor, which may stand in another file, and the files that name it. */
+struct aim {
+    struct lsp_query query; /* of the text that has it */
+    uint32_t target;        /* MODEL_NONE: there is none */
+    struct span name;       /* under the cursor */
+    struct family family;
+};
+
+/* The element at the root of a file of the family that a reference names. */
+static void aim_at_included(struct aim *aim, const struct lsp_query *query)
+{
+    mxg_element_info info;
+    struct place place = query_place(query);
+    if (place.part != PLACE_VALUE || !names_is_reference(query, place.attribute)
+        || !names_find_included(query, place.attribute->value, &info))
+        return;
+    for (size_t i = 0; i < aim->family.num_files; ++i) {
+        struct lsp_query of;
+        if (!family_query(&aim->family, i, query->session, &of)
+            || strcmp(of.document->path, info.file) != 0)
+            continue;
+        for (uint32_t child = model_first(of.model, query_root(&of)); child != MODEL_NONE;
+             child = model_next(of.model, child))
+            if (query_equals(of.text, query_value(&of, child, "name"), info.name)) {
+                aim->query = of;
+                aim->target = child;
+            }
+    }
+}
+
+/* False: there is nothing with a name under the cursor. Call family_finish in any case. */
+static bool find_aim(const struct lsp_query *query, struct aim *out)
+{
+    *out = (struct aim){.query = *query};
+    out->target = references_target(query, &out->name);
+    if (out->target == MODEL_NONE || family_can_name(query, out->target))
+        family_find(query->session, query->document, &out->family);
+    if (out->target == MODEL_NONE)
+        aim_at_included(out, query);
+    return out->target != MODEL_NONE;
+}
+
 /* Places of a name as JSON; `make` makes one. */
 struct places {
     const struct lsp_query *query;
@@ -107,27 +150,56 @@ static json_t *make_edit(const struct places *places, struct span name)
     return wire_edit(places->query->session, places->query->text, name, places->new_name);
 }
 
-/* Adds the name itself and its references. */
+/* Adds the name itself and its references in its text. */
 static void collect(struct places *places, uint32_t target, bool with_own)
 {
-    places->list = json_array();
     if (with_own)
         json_array_append_new(places->list, places->make(places, name_of(places->query, target)));
     references_each(places->query, target, take_place, places);
 }
 
+/* Adds the references of another file. */
+static void collect_in(struct places *places, const struct aim *aim)
+{
+    const struct lsp_query *in = places->query;
+    for (uint32_t i = 0; i < in->model->num_elements; ++i) {
+        const struct model_element *element = &in->model->elements[i];
+        for (uint32_t a = 0; a < element->num_attributes; ++a) {
+            const struct model_attribute *attribute =
+                &in->model->attributes[element->first_attribute + a];
+            if (family_names(&aim->query, aim->target, in, i, attribute))
+                take_place(places, i, attribute);
+        }
+    }
+}
+
+/* The next other file of the family; begin with *number 0. False: there are no more. */
+static bool next_other(const struct aim *aim, size_t *number, struct lsp_query *out)
+{
+    while (*number < aim->family.num_files) {
+        bool is_member = family_query(&aim->family, (*number)++, aim->query.session, out);
+        if (is_member && out->document != aim->query.document)
+            return true;
+    }
+    return false;
+}
+
 json_t *handle_references(struct lsp_session *session, const json_t *params,
                           struct lsp_error *error)
 {
-    struct lsp_query query;
-    struct span name;
+    struct lsp_query query, in;
+    struct aim aim;
     if (!lsp_query(session, params, &query, error))
         return NULL;
-    uint32_t target = references_target(&query, &name);
     const json_t *context = json_object_get(params, "context");
-    struct places places = {&query, NULL, make_location, NULL};
-    if (target != MODEL_NONE)
-        collect(&places, target, json_is_true(json_object_get(context, "includeDeclaration")));
+    struct places places = {&aim.query, json_array(), make_location, NULL};
+    if (find_aim(&query, &aim)) {
+        collect(&places, aim.target, json_is_true(json_object_get(context, "includeDeclaration")));
+        places.query = &in;
+        for (size_t i = 0; next_other(&aim, &i, &in);)
+            collect_in(&places, &aim);
+    }
+    family_finish(&aim.family);
     return places.list;
 }
 
@@ -138,7 +210,7 @@ json_t *handle_highlight(struct lsp_session *session, const json_t *params, stru
     if (!lsp_query(session, params, &query, error))
         return NULL;
     uint32_t target = references_target(&query, &name);
-    struct places places = {&query, NULL, make_highlight, NULL};
+    struct places places = {&query, json_array(), make_highlight, NULL};
     if (target != MODEL_NONE)
         collect(&places, target, true);
     return places.list;
@@ -154,31 +226,35 @@ static bool is_shared_output(const struct lsp_query *query, uint32_t output)
 }
 
 /*
- * An element whose references are all known. The names of inputs of a node are those of its
- * definition.
+ * True for an element whose references are all known. The names of inputs of a node are those of
+ * its definition.
  */
-static uint32_t find_renamed(const struct lsp_query *query, struct span *out_name)
+static bool can_rename(const struct lsp_query *query, uint32_t target)
 {
-    uint32_t target = references_target(query, out_name);
     bool is_input = query_is(query, target, "input"), is_output = query_is(query, target, "output");
     bool is_known = is_input || is_output || query_is_node(query, target)
                     || query_is(query, target, "nodegraph") || query_is(query, target, "nodedef");
     bool is_of_node =
         (is_input || is_output) && query_is_node(query, query->model->elements[target].parent);
-    return !is_known || is_of_node || (is_output && is_shared_output(query, target)) ? MODEL_NONE
-                                                                                     : target;
+    return is_known && !is_of_node && !(is_output && is_shared_output(query, target));
 }
 
 json_t *handle_prepare_rename(struct lsp_session *session, const json_t *params,
                               struct lsp_error *error)
 {
     struct lsp_query query;
-    struct span name;
-    if (!lsp_query(session, params, &query, error) || find_renamed(&query, &name) == MODEL_NONE)
+    struct aim aim;
+    json_t *result = NULL;
+    if (!lsp_query(session, params, &query, error))
         return NULL;
-    json_t *result = json_object();
-    json_object_set_new(result, "range", wire_range(session, query.text, name));
-    json_object_set_new(result, "placeholder", wire_span(query.text, name));
+    if (find_aim(&query, &aim) && can_rename(&aim.query, aim.target)) {
+        struct span name =
+            aim.query.document == query.document ? aim.name : query_place(&query).attribute->value;
+        result = json_object();
+        json_object_set_new(result, "range", wire_range(session, query.text, name));
+        json_object_set_new(result, "placeholder", wire_span(query.text, name));
+    }
+    family_finish(&aim.family);
     return result;
 }
 
@@ -190,34 +266,69 @@ static bool is_name(const char *name)
     return *name && strchr(letters, *name) && strspn(name, all) == strlen(name);
 }
 
-static bool is_taken(const struct lsp_query *query, uint32_t target, const char *name)
+static bool has_child(const struct lsp_query *query, uint32_t parent, uint32_t except,
+                      const char *name)
 {
-    uint32_t parent = query->model->elements[target].parent;
     for (uint32_t child = model_first(query->model, parent); child != MODEL_NONE;
          child = model_next(query->model, child))
-        if (child != target && query_equals(query->text, query_value(query, child, "name"), name))
+        if (child != except && query_equals(query->text, query_value(query, child, "name"), name))
             return true;
     return false;
+}
+
+/* Beside the element, and at the root of the family's files for one there. */
+static bool is_taken(const struct aim *aim, const char *name)
+{
+    struct lsp_query in;
+    uint32_t parent = aim->query.model->elements[aim->target].parent;
+    bool is_taken = has_child(&aim->query, parent, aim->target, name);
+    for (size_t i = 0; parent == query_root(&aim->query) && next_other(aim, &i, &in);)
+        is_taken |=
+            query_root(&in) != MODEL_NONE && has_child(&in, query_root(&in), MODEL_NONE, name);
+    return is_taken;
+}
+
+/* Adds edits of a text to the changes, if there are some. */
+static void add_changes(json_t *changes, struct places *places)
+{
+    if (json_array_size(places->list))
+        json_set(changes, places->query->document->uri, places->list);
+    else
+        json_decref(places->list);
+}
+
+static json_t *rename_aim(const struct aim *aim, const char *new_name)
+{
+    struct lsp_query in;
+    struct places places = {&aim->query, json_array(), make_edit, new_name};
+    json_t *changes = json_object();
+    collect(&places, aim->target, true);
+    add_changes(changes, &places);
+    places.query = &in;
+    for (size_t i = 0; next_other(aim, &i, &in);) {
+        places.list = json_array();
+        collect_in(&places, aim);
+        add_changes(changes, &places);
+    }
+    return json_pack("{s:o}", "changes", changes);
 }
 
 json_t *handle_rename(struct lsp_session *session, const json_t *params, struct lsp_error *error)
 {
     struct lsp_query query;
-    struct span name;
+    struct aim aim;
     const char *new_name = json_text_of(params, "newName");
     if (!lsp_query(session, params, &query, error))
         return NULL;
-    uint32_t target = find_renamed(&query, &name);
-    const char *fault = target == MODEL_NONE ? "there is no name here that can change"
+    const char *fault = !find_aim(&query, &aim) || !can_rename(&aim.query, aim.target)
+                            ? "there is no name here that can change"
                         : !is_name(new_name)
                             ? "a name has letters, digits and '_', and no digit first"
-                        : is_taken(&query, target, new_name) ? "another element has this name"
-                                                             : NULL;
-    if (fault) {
+                        : is_taken(&aim, new_name) ? "another element has this name"
+                                                   : NULL;
+    json_t *result = fault ? NULL : rename_aim(&aim, new_name);
+    if (fault)
         *error = (struct lsp_error){LSP_REQUEST_FAILED, fault};
-        return NULL;
-    }
-    struct places places = {&query, NULL, make_edit, new_name};
-    collect(&places, target, true);
-    return wire_workspace_edit(query.document->uri, places.list);
+    family_finish(&aim.family);
+    return result;
 }

@@ -132,15 +132,9 @@ json_t *handle_links(struct lsp_session *session, const json_t *params, struct l
     json_t *list = json_array();
     for (uint32_t i = 0; i < query.model->num_elements; ++i) {
         char prefix[QUERY_NAME];
-        bool is_texture = query_is(&query, i, "input")
-                          && query_equals(query.text, query_value(&query, i, "type"), "filename");
-        const struct model_attribute *file = query_is(&query, i, "xi:include")
-                                                 ? query_attribute(&query, i, "href")
-                                             : is_texture ? query_attribute(&query, i, "value")
-                                                          : NULL;
+        const struct model_attribute *file = names_file(&query, i, prefix, sizeof prefix);
         if (file)
-            add_link(&query, list, file->value,
-                     is_texture ? names_file_prefix(&query, i, prefix, sizeof prefix) : "");
+            add_link(&query, list, file->value, prefix);
     }
     return list;
 }

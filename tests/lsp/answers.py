@@ -279,6 +279,72 @@ def check_navigation(client):
     same([(line_of(item["range"]), item["target"]) for item in links], [(1, uri_of(WORK / "part.mtlx"))], "a link to an include")
 
 
+def check_families(client):
+    """References and renames across files: an open one, one that only the disk has, and one that has the name itself."""
+    include = '<materialx version="1.39" xmlns:xi="http://www.w3.org/2001/XInclude">\n  <xi:include href="{}"/>\n{}</materialx>\n'
+    reader = '  <add name="{}" type="float"><input name="in1" type="float" nodename="tone"/></add>\n'
+    part, user, far, other = (WORK / f"family_{name}.mtlx" for name in ("part", "user", "far", "other"))
+    part.write_text('<materialx version="1.39">\n  <constant name="tone" type="float"/>\n  <nodegraph name="NG_far"><constant name="tone" type="float"/>'
+                    '<output name="out" type="float" nodename="tone"/></nodegraph>\n</materialx>\n')
+    user.write_text(include.format(part.name, reader.format("u")))
+    far.write_text(include.format(user.name, reader.format("f")
+                                  + '  <add name="g" type="float"><input name="in1" type="float" nodegraph="NG_far" output="out"/></add>\n'))
+    other.write_text('<materialx version="1.39">\n  <constant name="tone" type="float"/>\n' + reader.format("o") + "</materialx>\n")
+    at = open_text(client, include.format(user.name, reader.format("mine").replace('"tone"', '"to¦ne"')))
+    client.diagnostics(URI)
+    found = client.at("textDocument/references", URI, at, context={"includeDeclaration": True})
+    same(sorted((item["uri"].rsplit("/", 1)[1], line_of(item["range"])) for item in found),
+         sorted([("family_far.mtlx", 2), ("family_part.mtlx", 1), ("family_user.mtlx", 2), (URI.rsplit("/", 1)[1], 2)]), "references across files")
+    same(client.at("textDocument/prepareRename", URI, at)["placeholder"], "tone", "a name of an included file can change")
+    changes = client.at("textDocument/rename", URI, at, newName="shade")["changes"]
+    same(edited(part.read_text(), changes[uri_of(part)]), part.read_text().replace('name="tone"', 'name="shade"', 1), "where the name stands")
+    same(edited(far.read_text(), changes[uri_of(far)]), far.read_text().replace('"tone"', '"shade"'), "in a file that includes another one")
+    same(sorted(uri.rsplit("/", 1)[1] for uri in changes), sorted(["family_far.mtlx", "family_part.mtlx", "family_user.mtlx", URI.rsplit("/", 1)[1]]),
+         "no other file changes")
+    for name in "f", "NG_far":
+        try:
+            client.at("textDocument/rename", URI, at, newName=name)
+            check(False, f"{name} is taken in another file")
+        except Failure as failure:
+            same(failure.args[0]["message"], "another element has this name", f"{name} is taken in another file")
+    client.open(uri_of(part), part.read_text())
+    place = part.read_text().index('name="out"') + len('name="o')
+    changes = client.at("textDocument/rename", uri_of(part), place, newName="value")["changes"]
+    same(edited(far.read_text(), changes[uri_of(far)]), far.read_text().replace('output="out"', 'output="value"'), "an output of a graph")
+    same(sorted(uri.rsplit("/", 1)[1] for uri in changes), ["family_far.mtlx", "family_part.mtlx"], "and its own file")
+    inside = part.read_text().index('"tone" type="float"/><output') + 2
+    same(list(client.at("textDocument/rename", uri_of(part), inside, newName="deep")["changes"]), [uri_of(part)], "names inside of a graph are its own")
+
+
+def check_moves(client):
+    """Names of files follow the files, and documents that move."""
+    include = '<materialx version="1.39" xmlns:xi="http://www.w3.org/2001/XInclude">\n{}</materialx>\n'
+    image = '  <image name="{}" type="color3"><input name="file" type="filename" value="{}"/></image>\n'
+    (WORK / "moves/sub").mkdir(parents=True)
+    library, reader = WORK / "moves/library.mtlx", WORK / "moves/sub/reader.mtlx"
+    library.write_text(include.format(image.format("brick", "../maps/brick.png") + image.format("sky", "https://example.com/sky.png")))
+    reader.write_text(include.format('  <xi:include href="../library.mtlx"/>\n  <nodegraph name="N" fileprefix="../../maps/">\n'
+                                     + image.format("prefixed", "brick.png") + "  </nodegraph>\n"))
+
+    def renamed(old, new):
+        return client.request("workspace/willRenameFiles", {"files": [{"oldUri": uri_of(WORK / old), "newUri": uri_of(WORK / new)}]})["changes"]
+
+    def after(path, changes):
+        return edited(path.read_text(), changes.pop(uri_of(path), []))
+
+    changes = renamed("moves/library.mtlx", "moves/sub/deep/parts.mtlx")
+    same(after(reader, changes), reader.read_text().replace("../library.mtlx", "deep/parts.mtlx"), "an include follows")
+    same(after(library, changes), library.read_text().replace("../maps", "../../../maps"), "what moves finds its files")
+    same(changes, {}, "nothing else changes")
+    changes = renamed("maps", "pictures")
+    same(after(reader, changes), reader.read_text().replace('"brick.png"', '"../pictures/brick.png"'), "a folder, behind a prefix")
+    same(after(library, changes), library.read_text().replace("../maps", "../pictures"), "a folder")
+    client.open(uri_of(library), library.read_text().replace("../maps/brick.png", "local.png"))
+    changes = renamed("moves/local.png", "moves/here.png")
+    same([edit["newText"] for edit in changes[uri_of(library)]], ["here.png"], "the editor's text counts")
+    client.close(uri_of(library))
+
+
 def names_of(symbols):
     return [(item["name"], item["detail"], names_of(item.get("children", []))) for item in symbols]
 
@@ -442,6 +508,8 @@ check_messages(session)
 check_completion(session)
 check_hover(session)
 check_navigation(session)
+check_families(session)
+check_moves(session)
 check_outline(session)
 check_colours(session)
 check_hints(session)

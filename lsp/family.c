@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lsp/family.h"
+
+#include "lsp/check.h"
+#include "lsp/names.h"
+#include "lsp/wire.h"
+#include "program/cli.h"
+#include "program/files.h"
+#include "program/memory.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { MAX_FILES = 2000, MAX_DEPTH = 16 /* of folders */ };
+
+/* ---- Files ---- */
+
+static struct family_file *find(const struct family *family, const char *path)
+{
+    for (size_t i = 0; i < family->num_files; ++i)
+        if (strcmp(family->files[i].document->path, path) == 0)
+            return &family->files[i];
+    return NULL;
+}
+
+static void list_includes(struct lsp_session *session, struct family_file *file)
+{
+    const struct lsp_query query = {session, file->document, &file->document->text,
+                                    &file->document->model, 0};
+    for (uint32_t i = 0; i < query.model->num_elements; ++i) {
+        struct span href = query_is(&query, i, "xi:include") ? query_value(&query, i, "href")
+                                                             : (struct span){0, 0};
+        if (href.start == href.end)
+            continue;
+        char *name = cli_copy(query.text->bytes + href.start, href.end - href.start);
+        args_append(&file->includes, disk_join(file->document->path, name));
+        free(name);
+    }
+}
+
+static void add(struct lsp_session *session, struct family *family, struct lsp_document *document,
+                bool is_own)
+{
+    if (family->num_files == family->capacity) {
+        family->capacity = 2 * family->capacity + 16;
+        family->files = memory_resize(family->files, family->capacity * sizeof *family->files);
+    }
+    family->files[family->num_files++] =
+        (struct family_file){.document = document, .is_own = is_own};
+    list_includes(session, &family->files[family->num_files - 1]);
+}
+
+/* Adds a file of the disk that the session may read and the family does not have. */
+static void add_path(struct lsp_session *session, struct family *family, const char *path)
+{
+    size_t size = 0;
+    char *bytes = family->num_files < MAX_FILES && !find(family, path)
+                      ? disk_read(&session->disk, path, 0, &size)
+                      : NULL;
+    if (!bytes || size > TEXT_MAX) {
+        free(bytes);
+        return;
+    }
+    struct lsp_document *document = memory_alloc(sizeof *document);
+    document->uri = wire_uri(path);
+    document->path = cli_copy(path, strlen(path));
+    document->is_file = true;
+    text_set(&document->text, bytes, size);
+    model_read(&document->model, &document->text);
+    add(session, family, document, true);
+    free(bytes);
+}
+
+/* Adds the documents in and below a folder. */
+static void add_folder(struct lsp_session *session, struct family *family, const char *folder,
+                       unsigned depth)
+{
+    static const char ending[] = ".mtlx";
+    size_t size = 0;
+    char *names = depth < MAX_DEPTH && family->num_files < MAX_FILES
+                      ? disk_list(&session->disk, folder, &size)
+                      : NULL;
+    for (size_t at = 0; at < size; at += strlen(names + at) + 1) {
+        const char *name = names + at;
+        size_t len = strlen(name);
+        bool is_folder = len && name[len - 1] == '/',
+             is_document = len > strlen(ending) && strcmp(name + len - strlen(ending), ending) == 0;
+        char *path = cli_format("%s/%.*s", folder, (int)(is_folder ? len - 1 : len), name);
+        if (is_folder && *name != '.')
+            add_folder(session, family, path, depth + 1);
+        else if (is_document)
+            add_path(session, family, path);
+        free(path);
+    }
+    free(names);
+}
+
+/* ---- Members ---- */
+
+static bool includes(const struct family_file *file, const struct lsp_document *other)
+{
+    for (size_t i = 0; i < file->includes.len; ++i)
+        if (strcmp(file->includes.items[i], other->path) == 0)
+            return true;
+    return false;
+}
+
+/* Makes the neighbours of a member members; true if there is a new one. */
+static bool spread(struct lsp_session *session, struct family *family, size_t index)
+{
+    bool is_new = false;
+    for (size_t i = 0; i < family->files[index].includes.len; ++i)
+        add_path(session, family, family->files[index].includes.items[i]);
+    for (size_t i = 0; i < family->num_files; ++i) {
+        struct family_file *file = &family->files[i], *member = &family->files[index];
+        if (file->is_member
+            || (!includes(member, file->document) && !includes(file, member->document)))
+            continue;
+        file->is_member = is_new = true;
+    }
+    return is_new;
+}
+
+void family_scan(struct lsp_session *session, struct family *out)
+{
+    *out = (struct family){0};
+    session->disk.from = "/dev/null/none"; /* the folders of the workspace, and no others */
+    for (struct lsp_document *open = session->documents; open; open = open->next)
+        add(session, out, open, false);
+    for (size_t i = 0; i < session->num_folders; ++i)
+        add_folder(session, out, session->folders[i], 0);
+}
+
+void family_find(struct lsp_session *session, struct lsp_document *document, struct family *out)
+{
+    family_scan(session, out);
+    session->disk.from = check_origin(document);
+    for (size_t i = 0; i < out->num_files; ++i)
+        out->files[i].is_member = out->files[i].document == document;
+    for (bool is_new = true; is_new;) {
+        is_new = false;
+        for (size_t i = 0; i < out->num_files; ++i)
+            is_new |= out->files[i].is_member && spread(session, out, i);
+    }
+}
+
+void family_finish(struct family *family)
+{
+    for (size_t i = 0; i < family->num_files; ++i) {
+        struct family_file *file = &family->files[i];
+        args_free(&file->includes);
+        if (file->is_own)
+            lsp_document_destroy(file->document);
+    }
+    free(family->files);
+}
+
+bool family_query(const struct family *family, size_t index, struct lsp_session *session,
+                  struct lsp_query *out)
+{
+    struct lsp_document *document = family->files[index].document;
+    *out = (struct lsp_query){session, document, &document->text, &document->model, 0};
+    return family->files[index].is_member;
+}
+
+/* ---- Names ---- */
+
+static bool is_same(const struct lsp_query *a, struct span of_a, const struct lsp_query *b,
+                    struct span of_b)
+{
+    size_t len = of_a.end - of_a.start;
+    return len == of_b.end - of_b.start
+           && memcmp(a->text->bytes + of_a.start, b->text->bytes + of_b.start, len) == 0;
+}
+
+/* The element whose name other files have: the nodegraph of an output, or the target itself. */
+static uint32_t named_of(const struct lsp_query *of, uint32_t target)
+{
+    uint32_t parent = of->model->elements[target].parent;
+    return query_is(of, target, "output") && query_is(of, parent, "nodegraph") ? parent : target;
+}
+
+bool family_can_name(const struct lsp_query *of, uint32_t target)
+{
+    uint32_t root = query_root(of);
+    return root != MODEL_NONE && of->model->elements[named_of(of, target)].parent == root;
+}
+
+bool family_names(const struct lsp_query *of, uint32_t target, const struct lsp_query *in,
+                  uint32_t element, const struct model_attribute *attribute)
+{
+    uint32_t named = named_of(of, target);
+    bool is_output = query_equals(in->text, attribute->name, "output");
+    if (is_output != (named != target) || !names_is_reference(in, attribute)
+        || query_equals(in->text, attribute->name, "interfacename")
+        || !is_same(of, query_value(of, target, "name"), in, attribute->value))
+        return false;
+    if (is_output) {
+        const struct model_attribute *graph = query_attribute(in, element, "nodegraph");
+        return graph && family_names(of, named, in, element, graph);
+    }
+    bool is_node = query_equals(in->text, attribute->name, "nodename");
+    return names_target(in, element, attribute) == MODEL_NONE
+           && (!is_node || names_scope(in, element) == query_root(in));
+}
