@@ -5,9 +5,8 @@ import * as THREE from "three";
 import { load } from "mxgen";
 import { MaterialXLoader, MaterialXMaterial } from "mxgen/three";
 
-import { makeMesh, makeSky } from "../../web/scene.js";
+import { CAMERA, cameraAt, encode, pixelsOf, SIZE, SKY, sphere } from "./studio.js";
 
-const SIZE = 256;
 const compiler = load();
 const renderer = new THREE.WebGLRenderer({ alpha: true, preserveDrawingBuffer: true, premultipliedAlpha: true });
 renderer.setPixelRatio(2);
@@ -15,46 +14,10 @@ renderer.setSize(SIZE, SIZE);
 renderer.setClearColor(0, 0);
 document.body.append(renderer.domElement);
 
-/** The sphere of `mxgen render`. */
-function sphere() {
-    const mesh = makeMesh("sphere", 1), geometry = new THREE.BufferGeometry();
-    for (const [name, values, size] of [["position", mesh.position, 3], ["normal", mesh.normal, 3], ["uv", mesh.texcoord, 2]])
-        geometry.setAttribute(name, new THREE.BufferAttribute(values, size));
-    return geometry.setIndex(new THREE.BufferAttribute(mesh.indices, 1));
-}
-
-/** The map of the sky for three: rows from below, and a quarter turn, because u = 0.5 is +x for three and -z for MaterialX. */
-function sky() {
-    const { width, height, pixels } = makeSky().radiance[0], turned = new Float32Array(pixels.length);
-    for (let y = 0; y < height; y++)
-        for (let x = 0; x < width; x++)
-            turned.set(pixels.subarray(4 * (y * width + (x + width / 4) % width), 4 * (y * width + (x + width / 4) % width) + 4), 4 * ((height - 1 - y) * width + x));
-    const texture = new THREE.DataTexture(turned, width, height, THREE.RGBAFormat, THREE.FloatType, THREE.EquirectangularReflectionMapping);
-    Object.assign(texture, { wrapS: THREE.RepeatWrapping, minFilter: THREE.LinearFilter, magFilter: THREE.LinearFilter, needsUpdate: true });
-    return texture;
-}
-
-const SKY = sky();
-
-/** Azimuth and elevation in degrees, as `mxgen render --camera`. */
-function cameraAt(azimuth, elevation, distance, field) {
-    const camera = new THREE.PerspectiveCamera(field, 1, 0.1, 100), [a, e] = [azimuth, elevation].map(THREE.MathUtils.degToRad);
-    camera.position.set(Math.sin(a) * Math.cos(e), Math.sin(e), Math.cos(a) * Math.cos(e)).multiplyScalar(distance);
-    camera.lookAt(0, 0, 0);
-    return camera;
-}
-
-const CAMERA = cameraAt(25, 16, 5, 30);
-
-/** The pixels of a picture, rows from the top. */
 function shoot(scene, camera = CAMERA) {
     renderer.render(scene, camera);
-    const context = new OffscreenCanvas(SIZE, SIZE).getContext("2d");
-    context.drawImage(renderer.domElement, 0, 0, SIZE, SIZE);
-    return context.getImageData(0, 0, SIZE, SIZE);
+    return pixelsOf(renderer.domElement);
 }
-
-const png = () => renderer.domElement.toDataURL().split(",")[1];
 
 /** Red, green and blue at a place, from -1 to 1. */
 function at(picture, x = 0, y = 0) {
@@ -81,9 +44,7 @@ const matte = async parameters => new MaterialXMaterial(await documentOf(MATTE),
 
 /** Loads an example with its textures. */
 async function example(name) {
-    const manager = new THREE.LoadingManager(), loaded = new Promise(resolve => { manager.onLoad = resolve; });
-    const { materials } = await new MaterialXLoader(manager).setPath("examples/").loadAsync(name);
-    await loaded;
+    const { materials } = await new MaterialXLoader().setPath("examples/").loadAsync(name);
     return Object.values(materials)[0];
 }
 
@@ -116,9 +77,7 @@ const draws = {
         Object.assign(renderer, { toneMapping: THREE.LinearToneMapping, toneMappingExposure: 0.6 });
         const picture = shoot(scene);
         renderer.toneMapping = THREE.NoToneMapping;
-        const canvas = new OffscreenCanvas(SIZE, SIZE);
-        canvas.getContext("2d").putImageData(picture, 0, 0);
-        return [...new Uint8Array(await (await canvas.convertToBlob()).arrayBuffer())];
+        return encode(picture);
     },
 
     /** The same light on three's own matte material and on ours. */
@@ -171,8 +130,12 @@ const draws = {
 
     async fog() {
         const { scene } = sceneOf(await matte());
-        scene.fog = new THREE.Fog(0x00ff00, 4, 4.0001);
-        return at(shoot(scene));
+        scene.fog = new THREE.Fog(0x004000, 4, 4.0001);
+        const opaque = at(shoot(scene)), faded = await matte();
+        faded.setInput("SR/opacity", [0.5, 0.5, 0.5]);
+        faded.transparent = true;
+        scene.children[0].material = faded;
+        return [opaque, at(shoot(scene))];
     },
 
     async toneMapping() {
@@ -337,4 +300,3 @@ const draws = {
 };
 
 window.draws = draws;
-window.png = png;

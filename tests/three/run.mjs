@@ -2,83 +2,24 @@
 // mxgen/three in Chromium. Arguments: the folder of the package, Chromium, the root of the project, the program, esbuild.
 
 import assert from "node:assert/strict";
-import { execFileSync } from "node:child_process";
 import fs from "node:fs";
-import http from "node:http";
 import os from "node:os";
 import path from "node:path";
 
-import { makeSky } from "../../web/scene.js";
 import { run, test } from "../js/harness.mjs";
 import { Browser } from "../web/browser.mjs";
+import { bundle, difference, render, serve, writeSky } from "./server.mjs";
 
 const [folder, chromium, root, program, esbuild] = process.argv.slice(2);
-const work = fs.mkdtempSync(path.join(os.tmpdir(), "mxgen-three-")), modules = path.join(work, "node_modules");
-fs.mkdirSync(modules);
-fs.symlinkSync(folder, path.join(modules, "mxgen"));
-fs.symlinkSync(path.join(root, "tests/npm/node_modules/three"), path.join(modules, "three"));
-
-// ---- A server of the bundle, the examples and the packages ----
+const work = fs.mkdtempSync(path.join(os.tmpdir(), "mxgen-three-"));
 
 const DOCUMENTS = {
-    "main.mtlx": `<materialx version="1.39" xmlns:xi="http://www.w3.org/2001/XInclude"><xi:include href="parts/shader.mtlx"/>
+    "documents/main.mtlx": `<materialx version="1.39" xmlns:xi="http://www.w3.org/2001/XInclude"><xi:include href="parts/shader.mtlx"/>
         <surfacematerial name="M" type="material"><input name="surfaceshader" type="surfaceshader" nodename="SR"/></surfacematerial></materialx>`,
-    "parts/shader.mtlx": `<materialx version="1.39"><standard_surface name="SR" type="surfaceshader">
+    "documents/parts/shader.mtlx": `<materialx version="1.39"><standard_surface name="SR" type="surfaceshader">
         <input name="base_color" type="color3" value="0, 0, 1"/><input name="specular" type="float" value="0"/></standard_surface></materialx>`,
-    "broken.mtlx": "<materialx version='1.39'><standard_surface name='S' type='surfaceshader'><input name='base' type='float' nodename='none'/></standard_surface></materialx>",
+    "documents/broken.mtlx": "<materialx version='1.39'><standard_surface name='S' type='surfaceshader'><input name='base' type='float' nodename='none'/></standard_surface></materialx>",
 };
-const TYPES = { ".html": "text/html", ".js": "text/javascript", ".wasm": "application/wasm", ".png": "image/png" };
-
-function contentOf(url) {
-    const name = decodeURIComponent(new URL(url, "http://x").pathname).slice(1);
-    if (name.startsWith("documents/"))
-        return DOCUMENTS[name.slice("documents/".length)];
-    const file = [path.join(work, name), path.join(root, name)].find(file => fs.existsSync(file) && fs.statSync(file).isFile());
-    return file && fs.readFileSync(file);
-}
-
-const server = http.createServer(({ url }, response) => {
-    const content = contentOf(url);
-    response.writeHead(content === undefined ? 404 : 200, { "Content-Type": TYPES[path.extname(new URL(url, "http://x").pathname)] ?? "text/plain" }).end(content);
-});
-
-function bundle() {
-    fs.writeFileSync(path.join(work, "page.html"), "<!DOCTYPE html><link rel='icon' href='data:,'><body><script type='module' src='page.js'></script>");
-    execFileSync(esbuild, [path.join(root, "tests/three/page.js"), "--bundle", "--format=esm", "--target=es2022", "--log-level=warning", `--outfile=${path.join(work, "page.js")}`],
-                 { env: { ...process.env, NODE_PATH: modules }, stdio: ["ignore", "inherit", "inherit"] });
-    fs.copyFileSync(path.join(folder, "mxgen.wasm"), path.join(work, "mxgen.wasm"));
-}
-
-// ---- Pictures ----
-
-/** The sky as a file of the Radiance format, whose pixels have three mantissas and a common exponent. */
-function writeSky(file) {
-    const { width, height, pixels } = makeSky().radiance[0], bytes = Buffer.alloc(4 * width * height);
-    for (let i = 0; i < bytes.length; i += 4) {
-        const rgb = pixels.subarray(i, i + 3), exponent = Math.floor(Math.log2(Math.max(...rgb))) + 1;
-        bytes.set([...Array.from(rgb, x => x / 2 ** exponent * 256), exponent + 128], i);
-    }
-    fs.writeFileSync(file, Buffer.concat([Buffer.from(`#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y ${height} +X ${width}\n`), bytes]));
-}
-
-/** Mean absolute difference of two PNG files in the pixels that both cover, from 0 to 255, and the part of the pixels that one alone covers. */
-const DIFFERENCE = (a, b) => `(async () => {
-    const [one, other] = await Promise.all(${JSON.stringify([a, b])}.map(async text => {
-        const image = await createImageBitmap(new Blob([Uint8Array.from(atob(text), letter => letter.charCodeAt(0))], { type: "image/png" }), { colorSpaceConversion: "none" });
-        const context = new OffscreenCanvas(image.width, image.height).getContext("2d");
-        context.drawImage(image, 0, 0);
-        return context.getImageData(0, 0, image.width, image.height).data;
-    }));
-    let sum = 0, count = 0, alone = 0;
-    for (let i = 0; i < one.length; i += 4) {
-        alone += (one[i + 3] > 0) !== (other[i + 3] > 0);
-        if (one[i + 3] === 255 && other[i + 3] === 255)
-            for (let c = count++ * 0; c < 3; c++)
-                sum += Math.abs(one[i + c] - other[i + c]) / 3;
-    }
-    return { mean: sum / count, alone: alone / count };
-})()`;
-
 let page;
 const draw = (name, argument) => page.evaluate(`draws.${name}(${JSON.stringify(argument)})`);
 
@@ -86,11 +27,10 @@ const draw = (name, argument) => page.evaluate(`draws.${name}(${JSON.stringify(a
 // highlights, and for a view along the normal: broad and anisotropic highlights differ most.
 for (const [name, limit] of Object.entries({ gold: 1.2, marble: 0.8, textured: 2, custom_expression: 0.3, frosted: 2, slabs: 2, haze: 4, shaderx: 6, old_copper: 6.5 }))
     test(`${name} looks as in mxgen render`, async () => {
-        const ours = Buffer.from(await draw("example", `${name}.mtlx`)), file = path.join(work, `${name}.png`);
-        fs.writeFileSync(path.join(work, `${name}.three.png`), ours);
-        execFileSync(program, ["render", path.join(work, "examples", `${name}.mtlx`), "-m", "sphere", "-s", "256", "--camera", "25,16,5,30", "--background", "none",
-            "--environment", path.join(work, "sky.hdr"), "-o", file], { stdio: "pipe" });
-        const { mean, alone } = await page.evaluate(DIFFERENCE(ours.toString("base64"), fs.readFileSync(file).toString("base64")));
+        const ours = path.join(work, `${name}.three.png`), theirs = path.join(work, `${name}.png`);
+        fs.writeFileSync(ours, Buffer.from(await draw("example", `${name}.mtlx`)));
+        render(program, path.join(work, "examples", `${name}.mtlx`), path.join(work, "sky.hdr"), theirs);
+        const { mean, alone } = await difference(page, ours, theirs);
         console.log(`${name}: ${mean.toFixed(2)} of 255`);
         assert(alone < 0.02 && mean < limit, `${mean} of 255, ${alone} alone`);
     });
@@ -113,7 +53,11 @@ test("a shadow darkens what receives it", async () => {
     assert(inside < 5 && outside > 100 && unreceived > 100, `${[inside, outside, unreceived]}`);
 });
 
-test("fog covers", async () => assert.deepEqual(await draw("fog"), [0, 255, 0, 255]));
+test("fog covers what is opaque, and as much of what is not", async () => {
+    const [opaque, [red, green, blue, alpha]] = await draw("fog");
+    assert.deepEqual(opaque, [0, 64, 0, 255]);
+    assert(red === 0 && blue === 0 && Math.abs(green - 64) < 3 && Math.abs(alpha - 128) < 3, `${[red, green, blue, alpha]}`);
+});
 
 test("tone mapping applies", async () => {
     const [plain, linear, agx] = await draw("toneMapping");
@@ -171,7 +115,7 @@ test("an orthographic camera looks in one direction", async () => {
 });
 
 test("the example, without a bundler", async () => {
-    const example = await browser.open(`http://127.0.0.1:${server.address().port}/examples/three.html`, { width: 400, height: 300 });
+    const example = await browser.open(`${server.address}/examples/three.html`, { width: 400, height: 300 });
     await example.until("document.body.dataset.drawn");
     const middle = () => example.evaluate(`(() => {
         const context = new OffscreenCanvas(400, 300).getContext("2d");
@@ -187,12 +131,11 @@ test("the example, without a bundler", async () => {
     await example.close();
 });
 
-const browser = new Browser(chromium);
+bundle(work, { page: path.join(root, "tests/three/page.js"), root, folder, esbuild });
+writeSky(path.join(work, "sky.hdr"));
+const browser = new Browser(chromium), server = await serve([work, root], DOCUMENTS);
 try {
-    bundle();
-    writeSky(path.join(work, "sky.hdr"));
-    await new Promise(resolve => server.listen(0, "127.0.0.1", resolve));
-    page = await browser.open(`http://127.0.0.1:${server.address().port}/page.html`);
+    page = await browser.open(`${server.address}/page.html`);
     await page.until("window.draws");
     fs.cpSync(path.join(root, "examples"), path.join(work, "examples"), { recursive: true });
     fs.mkdirSync(path.join(work, "examples/textures"));

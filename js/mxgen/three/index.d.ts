@@ -41,6 +41,8 @@ export class MaterialXTextures {
     constructor(path: string, manager?: LoadingManager);
     /** null: a texture of the variable's default colour. */
     get(file: string | null, variable: Pick<Variable, "values" | "uaddressmode" | "vaddressmode" | "filtertype">): Texture;
+    /** Resolves when all files are there or have failed. */
+    readonly ready: Promise<unknown>;
     /** Frees the memory of the device. */
     dispose(): void;
 }
@@ -49,6 +51,8 @@ export interface MaterialXResult {
     document: Document;
     /** By path: `materials.Gold`. */
     materials: Record<string, MaterialXMaterial>;
+    /** Those of all materials. `load` waits for them. */
+    textures: MaterialXTextures;
 }
 
 /** Loads a document and what it includes. Errors are those of three for files, and DocumentError. */

@@ -49,7 +49,9 @@ export class MaterialXLoader extends Loader {
             const name = from ? LoaderUtils.resolveURL(ref, LoaderUtils.extractUrlBase(from)) : ref;
             return { name, data: await files.loadAsync(name, onProgress) };
         });
-        return this.#materials(document, address);
+        const result = this.#materials(document, address);
+        await result.textures.ready;
+        return result;
     }
 
     /** The materials of a text, after `setCompiler`. `path` is that of its textures. */
@@ -63,6 +65,6 @@ export class MaterialXLoader extends Loader {
         const textures = new MaterialXTextures(this.resourcePath || LoaderUtils.extractUrlBase(address), this.manager);
         const materials = Object.fromEntries(document.renderables.map(
             ({ path }) => [path, new MaterialXMaterial(document, { ...this.#parameters, element: path, textures })]));
-        return { document, materials };
+        return { document, materials, textures };
     }
 }

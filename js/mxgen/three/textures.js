@@ -11,6 +11,7 @@ export class MaterialXTextures {
     #path;
     #manager;
     #found = new Map();
+    #loading = [];
 
     constructor(path, manager) {
         this.#path = path;
@@ -25,10 +26,18 @@ export class MaterialXTextures {
         return this.#found.get(key);
     }
 
+    /** Resolves when all files are there or have failed. */
+    get ready() {
+        return Promise.all(this.#loading);
+    }
+
     #load(file, uaddressmode, vaddressmode, filtertype) {
         const loader = this.#manager?.getHandler(file) ?? new TextureLoader(this.#manager), closest = filtertype === "closest";
         const address = LoaderUtils.resolveURL(file, this.#path);
-        const texture = loader.load(address, undefined, undefined, () => console.error(`MaterialXMaterial: cannot load ${address}`));
+        let texture;
+        this.#loading.push(new Promise(resolve => {
+            texture = loader.load(address, resolve, undefined, () => resolve(console.error(`MaterialXMaterial: cannot load ${address}`)));
+        }));
         return Object.assign(texture, {
             name: file, colorSpace: NoColorSpace, wrapS: WRAPPINGS[uaddressmode] ?? RepeatWrapping, wrapT: WRAPPINGS[vaddressmode] ?? RepeatWrapping,
             magFilter: closest ? NearestFilter : LinearFilter, minFilter: closest ? NearestFilter : LinearMipmapLinearFilter, generateMipmaps: !closest,
