@@ -33,8 +33,10 @@ async function rendererOf(isOurs) {
 window.drawDocument = async (isOurs, url, name) => {
     const manager = new THREE.LoadingManager(), Loader = isOurs ? Ours : Theirs, renderer = await rendererOf(isOurs);
     const { materials } = await new Loader(manager).loadAsync(url);
-    const material = materials[name], scene = new THREE.Scene();
+    const material = Object.entries(materials).find(([path]) => path.split("/").at(-1) === name)[1], scene = new THREE.Scene();
     scene.environment = SKY;
+    if (material.transparent)
+        material.side = THREE.DoubleSide; // as mxgen render
     scene.add(new THREE.Mesh(geometry, material));
     renderer.render(scene, CAMERA);
     const picture = pixelsOf(renderer.domElement);

@@ -131,10 +131,14 @@ vec3 mxg_irradiance(vec3 P, vec3 N)
 }
 #undef RE_IndirectDiffuse
 
+// three bends rough reflections towards the normal, which lies between L and the eye, unless L went through the surface.
 vec3 mxg_radiance(vec3 P, vec3 L, float roughness)
 {
 #ifdef USE_ENVMAP
-    vec3 direction = (viewMatrix * vec4(L, 0.0)).xyz;
+    vec3 direction = (viewMatrix * vec4(L, 0.0)).xyz, normal = (viewMatrix * vec4(v_normal, 0.0)).xyz;
+    vec3 eye = isOrthographic ? vec3(0.0, 0.0, 1.0) : normalize(vViewPosition);
+    if (dot(normal, direction) * dot(normal, eye) > 0.0)
+        return getIBLRadiance(eye, normalize(direction + eye), roughness);
     return getIBLRadiance(direction, direction, roughness);
 #else
     return vec3(0.0);
