@@ -20,7 +20,8 @@ const program = path.resolve(build, "mxgen"), folder = path.resolve(build, "js/m
 const KINDS = { "mxgen/three": true, "MaterialXLoader": false };
 
 /** Documents with a material of a surface, and the name of the first. */
-const documents = fs.readdirSync(samples, { recursive: true }).filter(file => file.endsWith(".mtlx")).sort().map(file => {
+const isDocument = file => file.endsWith(".mtlx") && fs.statSync(path.join(samples, file)).isFile();
+const documents = fs.readdirSync(samples, { recursive: true }).filter(isDocument).sort().map(file => {
     const [, name] = /<surfacematerial[^>]*\sname="([^"]*)"/.exec(fs.readFileSync(path.join(samples, file), "latin1")) ?? [];
     return { file, name };
 }).filter(({ name }) => name);

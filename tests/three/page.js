@@ -2,6 +2,7 @@
 // What the test draws with three, in the browser: run.mjs calls the functions of `draws` and looks at the numbers and pictures that they return.
 
 import * as THREE from "three";
+import { HDRLoader } from "three/addons/loaders/HDRLoader.js";
 import { load } from "mxgen";
 import { MaterialXLoader, MaterialXMaterial } from "mxgen/three";
 
@@ -55,7 +56,7 @@ const directional = (x, y, z, intensity = Math.PI) => {
 };
 
 const draws = {
-    /** Colours, roughness and a relief for textured.mtlx, as files. */
+    /** Colours, roughness and a relief for textured.mtlx, and tiles, as files. */
     async textures() {
         const files = {}, canvas = new OffscreenCanvas(64, 64), context = canvas.getContext("2d");
         for (const [name, colorAt] of Object.entries({
@@ -66,7 +67,12 @@ const draws = {
             for (let i = 0; i < 64 * 64; i++)
                 image.data.set([...colorAt(i % 64, i >> 6), 255], 4 * i);
             context.putImageData(image, 0, 0);
-            files[`${name}.png`] = [...new Uint8Array(await (await canvas.convertToBlob()).arrayBuffer())];
+            files[`examples/textures/${name}.png`] = [...new Uint8Array(await (await canvas.convertToBlob()).arrayBuffer())];
+        }
+        for (const [number, color] of Object.entries({ 1001: "red", 1002: "lime", 1011: "blue", 1012: "yellow" })) {
+            context.fillStyle = color;
+            context.fillRect(0, 0, 64, 64);
+            files[`documents/tile.${number}.png`] = [...new Uint8Array(await (await canvas.convertToBlob()).arrayBuffer())];
         }
         return files;
     },
@@ -261,6 +267,19 @@ const draws = {
         turned.setAttribute("tangent", constant(0, 1, 0, -1));
         await look("tangentAttribute", vector("tangent", space("world")), { geometry: turned });
         await look("bitangentAttribute", vector("bitangent", space("world")), { geometry: turned });
+        return found;
+    },
+
+    /** Tiles in four quarters, the colour outside them, and a texture of another loader, which repeats. */
+    async images() {
+        const manager = new THREE.LoadingManager().addHandler(/\.hdr$/, new HDRLoader()), front = cameraAt(0, 0, 5, 30), found = {};
+        const { materials } = await new MaterialXLoader(manager).setPath("documents/").loadAsync("images.mtlx");
+        const plane = new THREE.PlaneGeometry(2, 2);
+        plane.setAttribute("uv", new THREE.Float32BufferAttribute(Array.from(plane.attributes.uv.array, x => 2.4 * x), 2)); // the tiles cover 2 by 2
+        for (const [name, material] of Object.entries(materials)) {
+            const picture = shoot(sceneOf(material, { geometry: plane, environment: null }).scene, front);
+            found[name] = [[-0.4, -0.4], [0.1, -0.4], [-0.4, 0.1], [0.1, 0.1], [0.7, 0.7]].map(([x, y]) => at(picture, x, y).slice(0, 3).map(x => Math.round(x / 255)).join(""));
+        }
         return found;
     },
 

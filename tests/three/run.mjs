@@ -20,6 +20,16 @@ const DOCUMENTS = {
         <input name="base_color" type="color3" value="0, 0, 1"/><input name="specular" type="float" value="0"/></standard_surface></materialx>`,
     "documents/broken.mtlx": "<materialx version='1.39'><standard_surface name='S' type='surfaceshader'><input name='base' type='float' nodename='none'/></standard_surface></materialx>",
 };
+const shining = (name, image) => `${image}<standard_surface name="SR_${name}" type="surfaceshader"><input name="base" type="float" value="0"/>
+    <input name="specular" type="float" value="0"/><input name="emission" type="float" value="1"/><input name="emission_color" type="color3" nodename="${name}_image"/>
+    </standard_surface><surfacematerial name="${name}" type="material"><input name="surfaceshader" type="surfaceshader" nodename="SR_${name}"/></surfacematerial>`;
+DOCUMENTS["documents/images.mtlx"] = `<materialx version="1.39">
+    <geominfo name="all" geom="/"><geomprop name="udimset" type="stringarray" value="1001, 1002, 1011, 1012"/></geominfo>
+    ${shining("tiled", `<image name="tiled_image" type="color3"><input name="file" type="filename" value="tile.&lt;UDIM&gt;.png"/>
+        <input name="default" type="color3" value="1, 0, 1"/></image>`)}
+    ${shining("repeated", `<image name="repeated_image" type="color3"><input name="file" type="filename" value="pair.hdr"/>
+        <input name="filtertype" type="string" value="closest"/></image>`)}</materialx>`;
+
 let page;
 const draw = (name, argument) => page.evaluate(`draws.${name}(${JSON.stringify(argument)})`);
 
@@ -96,6 +106,11 @@ test("documents read attributes and spaces of the geometry", async () => {
         assert(values.every((x, i) => Math.abs(x - found[name][i]) < 0.01), `${name}: ${found[name]}`);
 });
 
+test("tiles are an array, and other loaders read other formats", async () => {
+    const found = await draw("images");
+    assert.deepEqual(found, { tiled: ["100", "010", "001", "110", "101"], repeated: ["010", "100", "010", "100", "100"] });
+});
+
 test("the loader", async () => {
     const found = await draw("loader");
     assert.deepEqual(found.names, ["M"]);
@@ -138,9 +153,13 @@ try {
     page = await browser.open(`${server.address}/page.html`);
     await page.until("window.draws");
     fs.cpSync(path.join(root, "examples"), path.join(work, "examples"), { recursive: true });
-    fs.mkdirSync(path.join(work, "examples/textures"));
-    for (const [name, bytes] of Object.entries(await draw("textures")))
-        fs.writeFileSync(path.join(work, "examples/textures", name), Buffer.from(bytes));
+    for (const [name, bytes] of Object.entries(await draw("textures"))) {
+        fs.mkdirSync(path.dirname(path.join(work, name)), { recursive: true });
+        fs.writeFileSync(path.join(work, name), Buffer.from(bytes));
+    }
+    // A red texel and a green one, of 128/256 times 2 to the power of 1
+    fs.writeFileSync(path.join(work, "documents/pair.hdr"), Buffer.concat([Buffer.from("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n"),
+                                                                          Buffer.from([128, 0, 0, 129, 0, 128, 0, 129])]));
     test("the console has no complaints", () => assert.deepEqual(page.complaints, []));
     await run("three");
 } finally {

@@ -39,8 +39,8 @@ export class MaterialXMaterial extends MeshStandardMaterial {
 /** Textures of files. `dispose` of a material leaves them. */
 export class MaterialXTextures {
     constructor(path: string, manager?: LoadingManager);
-    /** null: a texture of the variable's default colour. */
-    get(file: string | null, variable: Pick<Variable, "values" | "uaddressmode" | "vaddressmode" | "filtertype">): Texture;
+    /** The texture of a file, or of the tiles of the variable; null: one texel of the default colour. */
+    get(file: string | null, variable: Pick<Variable, "values" | "tiles" | "uaddressmode" | "vaddressmode" | "filtertype">): Texture;
     /** Resolves when all files are there or have failed. */
     readonly ready: Promise<unknown>;
     /** Frees the memory of the device. */

@@ -21,7 +21,7 @@ for (const [name, matrix] of Object.entries({
 
 /** The options of generation that the stages below need. */
 export const OPTIONS = {
-    "role": "function", "names": "neutral", "host-environment": true, "texture-modes": "shared", "tiles": "host", "ambient-occlusion": "none",
+    "role": "function", "names": "neutral", "host-environment": true, "texture-modes": "shared", "ambient-occlusion": "none",
     "aovs": "none", "rename": Object.keys(HOST).map(name => `u_${name}=host_${name}`),
 };
 

@@ -1,10 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 // The textures of materials. A shader converts colours itself, so textures have no colour space.
 
-import { ClampToEdgeWrapping, DataTexture, FloatType, LinearFilter, LinearMipmapLinearFilter, LoaderUtils, MirroredRepeatWrapping, NearestFilter,
-         NoColorSpace, RepeatWrapping, RGBAFormat, TextureLoader } from "three";
+import { ClampToEdgeWrapping, DataArrayTexture, DataTexture, FloatType, LinearFilter, LinearMipmapLinearFilter, LoaderUtils, MirroredRepeatWrapping,
+         NearestFilter, NoColorSpace, RepeatWrapping, RGBAFormat, TextureLoader, UnsignedByteType } from "three";
 
 const WRAPPINGS = { clamp: ClampToEdgeWrapping, constant: ClampToEdgeWrapping, mirror: MirroredRepeatWrapping };
+
+function modesOf({ uaddressmode, vaddressmode, filtertype }) {
+    const closest = filtertype === "closest";
+    return { colorSpace: NoColorSpace, wrapS: WRAPPINGS[uaddressmode] ?? RepeatWrapping, wrapT: WRAPPINGS[vaddressmode] ?? RepeatWrapping,
+             magFilter: closest ? NearestFilter : LinearFilter, minFilter: closest ? NearestFilter : LinearMipmapLinearFilter, generateMipmaps: !closest };
+}
+
+/** The bytes of an image in another size, rows from below. */
+function bytesOf(image, width, height) {
+    const context = new OffscreenCanvas(width, height).getContext("2d");
+    context.setTransform(1, 0, 0, -1, 0, height);
+    context.drawImage(image, 0, 0, width, height);
+    return context.getImageData(0, 0, width, height).data;
+}
 
 /** Loads each file once for each of its modes. Materials that share one share its textures. */
 export class MaterialXTextures {
@@ -18,11 +32,11 @@ export class MaterialXTextures {
         this.#manager = manager;
     }
 
-    /** The texture of a file; null: one texel of the default colour. */
-    get(file, { values, uaddressmode, vaddressmode, filtertype }) {
-        const key = JSON.stringify([file, file === null ? values : [uaddressmode, vaddressmode, filtertype]]);
+    /** The texture of a file, or of the tiles of the variable; null: one texel of the default colour. */
+    get(file, { values, tiles, ...variable }) {
+        const modes = modesOf(variable), key = JSON.stringify([file, file === null ? values : [modes, tiles]]);
         if (!this.#found.has(key))
-            this.#found.set(key, file === null ? this.#texel(values) : this.#load(file, uaddressmode, vaddressmode, filtertype));
+            this.#found.set(key, file === null ? this.#texel(values) : tiles.length ? this.#array(tiles, values, modes) : this.#load(file, modes).texture);
         return this.#found.get(key);
     }
 
@@ -31,23 +45,38 @@ export class MaterialXTextures {
         return Promise.all(this.#loading);
     }
 
-    #load(file, uaddressmode, vaddressmode, filtertype) {
-        const loader = this.#manager?.getHandler(file) ?? new TextureLoader(this.#manager), closest = filtertype === "closest";
-        const address = LoaderUtils.resolveURL(file, this.#path);
+    /** Begins to load a file; `loaded` resolves to the texture, or to undefined. */
+    #load(file, modes) {
+        const loader = this.#manager?.getHandler(file) ?? new TextureLoader(this.#manager), address = LoaderUtils.resolveURL(file, this.#path);
         let texture;
-        this.#loading.push(new Promise(resolve => {
-            texture = loader.load(address, resolve, undefined, () => resolve(console.error(`MaterialXMaterial: cannot load ${address}`)));
-        }));
-        return Object.assign(texture, {
-            name: file, colorSpace: NoColorSpace, wrapS: WRAPPINGS[uaddressmode] ?? RepeatWrapping, wrapT: WRAPPINGS[vaddressmode] ?? RepeatWrapping,
-            magFilter: closest ? NearestFilter : LinearFilter, minFilter: closest ? NearestFilter : LinearMipmapLinearFilter, generateMipmaps: !closest,
+        const loaded = new Promise(resolve => { // loaders set modes of their own
+            texture = loader.load(address, () => resolve(Object.assign(texture, modes)), undefined,
+                                  () => resolve(console.error(`MaterialXMaterial: cannot load ${address}`)));
         });
+        this.#loading.push(loaded);
+        return { texture: Object.assign(texture, modes, { name: file }), loaded };
+    }
+
+    /** Tiles as the layers of an array. Until all are there, each has the default colour. */
+    #array(tiles, values, modes) {
+        const { data } = this.#texel(values).image, array = new DataArrayTexture(Float32Array.from({ length: 4 * tiles.length }, (_, i) => data[i % 4]), 1, 1, tiles.length);
+        Object.assign(array, { type: FloatType, needsUpdate: true });
+        this.#loading.push(Promise.all(tiles.map(({ file }) => this.#load(file, modes).loaded)).then(parts => {
+            const images = parts.map(texture => texture?.image);
+            if (images.some(image => !image || image.data)) {
+                console.error(`MaterialXMaterial: not all tiles of ${tiles[0].file} are images that a canvas draws`);
+                return;
+            }
+            const [{ width, height }] = images, all = new Uint8Array(4 * width * height * images.length);
+            images.forEach((image, layer) => all.set(bytesOf(image, width, height), layer * 4 * width * height));
+            array.dispose(); // its memory has another size
+            Object.assign(array, modes, { image: { data: all, width, height, depth: images.length }, type: UnsignedByteType, needsUpdate: true });
+        }));
+        return array;
     }
 
     #texel([r = 0, g = r, b = g, a = 1]) {
-        const texture = new DataTexture(Float32Array.of(r, g, b, a), 1, 1, RGBAFormat, FloatType);
-        texture.needsUpdate = true;
-        return texture;
+        return Object.assign(new DataTexture(Float32Array.of(r, g, b, a), 1, 1, RGBAFormat, FloatType), { needsUpdate: true });
     }
 
     /** Frees the memory of the device. Textures that are drawn again go there again. */
