@@ -33,7 +33,8 @@ async function rendererOf(isOurs) {
 window.drawDocument = async (isOurs, url, name) => {
     const manager = new THREE.LoadingManager(), Loader = isOurs ? Ours : Theirs, renderer = await rendererOf(isOurs);
     const { materials } = await new Loader(manager).loadAsync(url);
-    const material = Object.entries(materials).find(([path]) => path.split("/").at(-1) === name)[1], scene = new THREE.Scene();
+    const found = Object.entries(materials).find(([path]) => path.split("/").at(-1) === name), material = found?.[1] ?? Object.values(materials)[0];
+    const scene = new THREE.Scene();
     scene.environment = SKY;
     if (material.transparent)
         material.side = THREE.DoubleSide; // as mxgen render

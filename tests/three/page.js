@@ -210,6 +210,12 @@ const draws = {
             const noise = edit.add("noise3d", "Noise", "color3");
             edit.find("SR").connect("base_color", noise);
         });
+        try {
+            material.document = await documentOf("<materialx version='1.39'/>");
+        } catch (error) {
+            steps.push(error.name);
+        }
+        look();
         return steps;
     },
 
