@@ -44,6 +44,10 @@ size_t render_args(struct render_options *options, struct arg args[MAX_RENDER_AR
         {"bake-environment", 0, ARG_TEXT, "FILE",
          "prefilters a map, or the built-in map 'sky', into the folder of -o", &options->baked,
          ARG_MORE},
+        {"bake-occlusion", 0, ARG_TEXT, "FILE.usda",
+         "writes the ambient occlusion of the meshes of --stage as a layer of USD, and draws "
+         "nothing; --paths is the rays of each corner (default: 64)",
+         &options->occlusion, ARG_MORE},
         {"background", 0, ARG_TEXT, "NAME",
          "backdrop, environment, or none for transparency (default: backdrop)",
          &options->background},

@@ -7,7 +7,7 @@
 
 struct render_options {
     const char *output, *copy, *element, *look, *size, *mesh, *camera, *scene, *background,
-        *missing_texture, *baked, *stage, *purpose, *layer_sample, *translate;
+        *missing_texture, *baked, *occlusion, *stage, *purpose, *layer_sample, *translate;
     struct arg_list settings, environments, solo, mute;
     size_t samples, frame, frames, paths, bounces, picks;
     bool path_trace, as_drawn, list;
@@ -20,7 +20,7 @@ struct render_options {
         .samples = 32, .frame = 33, .paths = 256, .bounces = 32, .picks = 1 \
     }
 
-enum { MAX_RENDER_ARGS = 33 };
+enum { MAX_RENDER_ARGS = 34 };
 
 /* Fills the table of options, which refers to the values; returns the number of options. */
 size_t render_args(struct render_options *options, struct arg args[MAX_RENDER_ARGS]);

@@ -68,15 +68,14 @@ bool applies_all(const struct arg_parser *parser, unsigned facts)
     return true;
 }
 
-bool applies_to_bake(const struct arg_parser *parser)
+bool applies_alone(const struct arg_parser *parser, const char *const *used)
 {
-    static const char *const used[] = {"bake-environment", "output"};
     struct render_options options = RENDER_OPTIONS_DEFAULTS;
     struct arg args[MAX_RENDER_ARGS];
     struct arg_list names = {0};
     size_t num_args = render_args(&options, args);
     for (size_t i = 0; i < num_args; ++i)
-        if (strcmp(args[i].name, used[0]) != 0 && strcmp(args[i].name, used[1]) != 0)
+        if (!args_is_one_of(args[i].name, used))
             args_append(&names, args[i].name);
     for (size_t i = 0; i < parser->num_settings; ++i)
         args_append(&names, parser->settings[i].key);
@@ -84,8 +83,8 @@ bool applies_to_bake(const struct arg_parser *parser)
     while (at < names.len && !args_is_given(parser, names.items[at]))
         ++at;
     if (at < names.len)
-        fprintf(stderr, "mxgen: option '--%s' does not apply: --bake-environment renders nothing\n",
-                names.items[at]);
+        fprintf(stderr, "mxgen: option '--%s' does not apply: --%s renders nothing\n",
+                names.items[at], used[0]);
     bool good = at == names.len;
     free(names.items);
     return good;

@@ -28,7 +28,10 @@ enum render_fact {
 /* False after a message about the first option that does not apply. */
 bool applies_all(const struct arg_parser *parser, unsigned facts);
 
-/* As applies_all, for --bake-environment, which takes -o and the options of all commands only. */
-bool applies_to_bake(const struct arg_parser *parser);
+/*
+ * As applies_all, for an option that draws nothing: it takes the others of its list, which NULL
+ * ends, and those of all commands only.
+ */
+bool applies_alone(const struct arg_parser *parser, const char *const *used);
 
 #endif

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/* A tree of boxes around the triangles of objects in the world, for path.glsl. */
+/*
+ * A tree of boxes around the triangles of objects in the world, for path.glsl; bvh_ray.c has rays
+ * on the CPU.
+ */
 #ifndef MXG_RENDER_BVH_H
 #define MXG_RENDER_BVH_H
 
@@ -34,5 +37,16 @@ bool bvh_build(const struct scene_object *const *objects, uint32_t num_objects, 
  */
 bool bvh_move(struct bvh *bvh, const float *positions);
 void bvh_finish(struct bvh *bvh);
+
+/* Where a ray meets a triangle; leaves: from behind. */
+struct bvh_crossing {
+    double distance; /* in lengths of the direction, above 0 */
+    bool leaves;
+};
+/* False: the ray from the point misses the triangle. */
+bool bvh_cross(const struct bvh_corner corners[3], const double point[3], const double direction[3],
+               struct bvh_crossing *out);
+/* True if the ray meets any triangle. */
+bool bvh_is_closed(const struct bvh *bvh, const double point[3], const double direction[3]);
 
 #endif

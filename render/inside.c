@@ -23,32 +23,14 @@ void inside_boxes(const struct bvh *bvh, struct inside_box *out, uint32_t num_ob
 
 /* Where a ray through the point leaves or enters an object first. */
 struct crossing {
-    double distance;
-    bool leaves;
+    struct bvh_crossing at;
     uint32_t object;
 };
 
-/* Möller and Trumbore 1997; false: the ray misses the triangle. */
-static bool cross_triangle(const struct bvh_corner *corners, const double point[3],
-                           const double direction[3], struct crossing *out)
-{
-    double u[3], v[3], t[3], p[3], q[3];
-    for (size_t i = 0; i < 3; ++i) {
-        u[i] = (double)corners[1].position[i] - (double)corners[0].position[i];
-        v[i] = (double)corners[2].position[i] - (double)corners[0].position[i];
-        t[i] = point[i] - (double)corners[0].position[i];
-    }
-    vector_cross(direction, v, p);
-    vector_cross(t, u, q);
-    double determinant = vector_dot(u, p), a = vector_dot(t, p) / determinant,
-           b = vector_dot(direction, q) / determinant;
-    *out = (struct crossing){vector_dot(v, q) / determinant, determinant < 0, corners->object};
-    return a >= 0 && b >= 0 && a + b <= 1 && out->distance > 0;
-}
-
 static int compare_farther_first(const void *a, const void *b)
 {
-    double x = ((const struct crossing *)a)->distance, y = ((const struct crossing *)b)->distance;
+    double x = ((const struct crossing *)a)->at.distance,
+           y = ((const struct crossing *)b)->at.distance;
     return x < y ? 1 : x > y ? -1 : 0;
 }
 
@@ -57,20 +39,21 @@ size_t inside_find(const struct bvh *bvh, const bool *marked, uint32_t num_objec
 {
     /* along no axis, edge or diagonal that meshes like to have */
     static const double direction[3] = {0.4913, 0.7231, 0.4855};
-    struct crossing *first = malloc((num_objects + 1) * sizeof *first), next;
+    struct crossing *first = malloc((num_objects + 1) * sizeof *first);
+    struct bvh_crossing next;
     if (!first)
         return SIZE_MAX;
     for (uint32_t o = 0; o < num_objects; ++o)
-        first[o] = (struct crossing){INFINITY, false, o};
+        first[o] = (struct crossing){{INFINITY, false}, o};
     for (size_t t = 0; t < bvh->num_triangles; ++t) {
         const struct bvh_corner *corners = &bvh->corners[3 * t];
-        if (marked[corners->object] && cross_triangle(corners, point, direction, &next)
-            && next.distance < first[corners->object].distance)
-            first[corners->object] = next;
+        if (marked[corners->object] && bvh_cross(corners, point, direction, &next)
+            && next.distance < first[corners->object].at.distance)
+            first[corners->object].at = next;
     }
     size_t num = 0;
     for (uint32_t o = 0; o < num_objects; ++o)
-        if (first[o].leaves)
+        if (first[o].at.leaves)
             first[num++] = first[o];
     qsort(first, num, sizeof *first, compare_farther_first);
     size_t skipped = num > most ? num - most : 0;

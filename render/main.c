@@ -11,6 +11,7 @@
 #include "render/prefilter.h"
 #include "render/job.h"
 #include "render/means.h"
+#include "render/occlusion.h"
 #include "render/site_picture.h"
 
 #include <stdlib.h>
@@ -87,6 +88,23 @@ static int bake(struct job *job)
     return job->cli.report.errors ? EXIT_FAULT : EXIT_DONE;
 }
 
+/* mxgen render --stage FILE --bake-occlusion FILE.usda */
+static int bake_occlusion(struct job *job)
+{
+    enum { RAYS = 64 };
+    struct report *report = &job->cli.report;
+    struct outputs outputs = {0};
+    bool is_free = outputs_read(&outputs, report, job->options.stage)
+                   && outputs_write(&outputs, report, job->options.occlusion, "--bake-occlusion");
+    if (is_free && site_open(&job->site, &job->cli, job->options.stage, job->options.purpose))
+        occlusion_bake(&job->site,
+                       args_is_given(&job->cli.parser, "paths") ? job->options.paths : RAYS,
+                       job->options.occlusion);
+    site_close(&job->site);
+    outputs_finish(&outputs);
+    return report->errors ? EXIT_FAULT : EXIT_DONE;
+}
+
 /* mxgen render --stage FILE --list */
 static int list_stage(struct job *job)
 {
@@ -103,8 +121,17 @@ static int list_stage(struct job *job)
 static int run(struct job *job)
 {
     const struct arg_list *inputs = &job->cli.parser.inputs;
+    static const char *const of_environment[] = {"bake-environment", "output", NULL},
+                             *const of_occlusion[] = {"bake-occlusion", "stage", "purpose", "paths",
+                                                      NULL};
     if (job->options.baked && inputs->len == 0)
-        return applies_to_bake(&job->cli.parser) ? bake(job) : EXIT_USAGE;
+        return applies_alone(&job->cli.parser, of_environment) ? bake(job) : EXIT_USAGE;
+    if (job->options.occlusion && job->options.stage && inputs->len == 0)
+        return applies_alone(&job->cli.parser, of_occlusion) ? bake_occlusion(job) : EXIT_USAGE;
+    if (job->options.occlusion) {
+        fputs("usage: mxgen render --stage FILE --bake-occlusion FILE.usda\n", stderr);
+        return EXIT_USAGE;
+    }
     if (job->options.baked || (inputs->len == 0 && !job->options.stage)) {
         fputs(job->options.baked ? "usage: mxgen render --bake-environment FILE -o FOLDER\n"
                                  : "usage: mxgen render FILE|FOLDER... -o PICTURE.png\n",
