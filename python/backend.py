@@ -2,9 +2,12 @@
 """Makes the wheel and the source archive of the Python package (PEP 517), with meson and ninja.
 
 The package calls the library through ctypes, so one wheel serves every Python: its tag names no Python, but the oldest glibc that has the
-symbols of the library. With the source of libxml2 (script/libxml2) the library needs nothing else."""
+symbols of the library. With the source of libxml2 (script/libxml2) the library needs nothing else. Equal sources give equal archives."""
 import base64
+import gzip
 import hashlib
+import io
+import os
 import pathlib
 import re
 import subprocess
@@ -16,6 +19,7 @@ import zipfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 OPTIONS = "-Dwheel=true", "-Dpython=enabled", "-Dcompile=disabled", "-Drender=disabled", "-Dbuildtype=release"
+LIBXML2_LICENCE = "build-libxml2/Copyright"
 
 
 def project(key):
@@ -45,6 +49,9 @@ def write_wheel(folder, modules):
     tag = f"py3-none-{platform(modules / 'libmxgen.so')}"
     files = {f"mxgen/{file.name}": file.read_bytes() for file in sorted(modules.iterdir()) if file.is_file()}
     files[f"{name}.dist-info/METADATA"] = metadata().encode()
+    files[f"{name}.dist-info/LICENSE"] = (ROOT / "LICENSE").read_bytes()
+    if (ROOT / LIBXML2_LICENCE).is_file():
+        files[f"{name}.dist-info/LICENSE.libxml2"] = (ROOT / LIBXML2_LICENCE).read_bytes()
     files[f"{name}.dist-info/WHEEL"] = f"Wheel-Version: 1.0\nGenerator: mxgen\nRoot-Is-Purelib: false\nTag: {tag}\n".encode()
     record = f"{name}.dist-info/RECORD"
     rows = [f"{path},sha256={base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b'=').decode()},{len(data)}\n"
@@ -57,7 +64,8 @@ def write_wheel(folder, modules):
 
 
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None): # pylint: disable=unused-argument
-    with tempfile.TemporaryDirectory() as build:
+    # Below the root, whose path then is in no file: assertions name their sources as the compiler sees them.
+    with tempfile.TemporaryDirectory(prefix="build-wheel-", dir=ROOT) as build:
         for command in ["meson", "setup", build, str(ROOT), *OPTIONS], ["ninja", "-C", build]:
             subprocess.run(command, check=True, stdout=sys.stderr)
         modules = pathlib.Path(build) / "python/mxgen"
@@ -65,15 +73,24 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
         return write_wheel(wheel_directory, modules)
 
 
+def archived(entry):
+    """What a file's date, owner and rights are in an archive."""
+    entry.mtime = int(os.environ.get("SOURCE_DATE_EPOCH", "0"))
+    entry.uid = entry.gid = 0
+    entry.uname = entry.gname = ""
+    entry.mode = 0o755 if entry.mode & 0o100 else 0o644
+    return entry
+
+
 def build_sdist(sdist_directory, config_settings=None): # pylint: disable=unused-argument
     """The tracked files."""
     name = f"{project('name')}-{project('version')}"
     listed = subprocess.run(["git", "-C", ROOT, "ls-files", "-z"], check=True, capture_output=True, text=True).stdout
-    with tarfile.open(pathlib.Path(sdist_directory) / f"{name}.tar.gz", "w:gz", format=tarfile.PAX_FORMAT) as archive:
+    with open(pathlib.Path(sdist_directory) / f"{name}.tar.gz", "wb") as file, gzip.GzipFile("", "wb", fileobj=file, mtime=0) as packed, \
+            tarfile.open(fileobj=packed, mode="w", format=tarfile.PAX_FORMAT) as archive:
         for path in filter(None, listed.split("\0")):
-            archive.add(ROOT / path, f"{name}/{path}", recursive=False)
-        with tempfile.TemporaryDirectory() as folder:
-            info = pathlib.Path(folder) / "PKG-INFO"
-            info.write_text(metadata(), encoding="utf-8")
-            archive.add(info, f"{name}/PKG-INFO")
+            archive.add(ROOT / path, f"{name}/{path}", recursive=False, filter=archived)
+        info, text = tarfile.TarInfo(f"{name}/PKG-INFO"), metadata().encode()
+        info.size = len(text)
+        archive.addfile(archived(info), io.BytesIO(text))
     return f"{name}.tar.gz"

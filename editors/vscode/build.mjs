@@ -54,7 +54,7 @@ fs.copyFileSync(path.join(library, "mxgen.wasm"), path.join(dist, "mxgen.wasm"))
 for (const name of ["README.md", "language-configuration.json", "media", "syntaxes"])
     fs.cpSync(path.join(here, name), path.join(folder, name), { recursive: true });
 fs.copyFileSync(path.join(root, "LICENSE"), path.join(folder, "LICENSE"));
-fs.writeFileSync(path.join(folder, "ThirdPartyNotices.txt"), notices());
+fs.writeFileSync(path.join(folder, "ThirdPartyNotices.txt"), `${notices()}\n${"-".repeat(80)}\n\nmxgen.wasm\n\n${fs.readFileSync(path.join(library, "NOTICES.txt"), "utf8")}`);
 const { private: _, devDependencies: __, ...manifest } = JSON.parse(fs.readFileSync(path.join(here, "package.json"), "utf8"));
 fs.writeFileSync(path.join(folder, "package.json"), JSON.stringify(manifest, null, 2));
 execFileSync(process.execPath, [path.join(here, "node_modules/@vscode/vsce/vsce"), "package", "--no-dependencies", "--allow-missing-repository", "--skip-license",

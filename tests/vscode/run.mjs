@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The extension in a real VS Code: what its users do. Arguments: a folder with the npm package, the root of the project, Chromium, the
-// program. With KEEP the screenshots stay.
+// The extension in a real VS Code: what its users do. Arguments: a folder with the npm package, or a built extension; the
+// root of the project, Chromium, the program. With KEEP the screenshots stay.
 
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
@@ -24,8 +24,9 @@ const original = fs.readFileSync(path.join(root, "examples/marble.mtlx"), "utf8"
 const settings = { "mxgen.path": program, "workbench.startupEditor": "none", "files.autoSave": "afterDelay", "files.autoSaveDelay": 100, "editor.minimap.enabled": false,
     "workbench.tips.enabled": false };
 
-const extension = path.join(work, "mxgen.vsix");
-execFileSync(process.execPath, [path.join(root, "editors/vscode/build.mjs"), library, path.join(work, "extension"), extension], { stdio: ["ignore", "ignore", "pipe"] });
+const isBuilt = library.endsWith(".vsix"), extension = isBuilt ? library : path.join(work, "mxgen.vsix");
+if (!isBuilt)
+    execFileSync(process.execPath, [path.join(root, "editors/vscode/build.mjs"), library, path.join(work, "extension"), extension], { stdio: ["ignore", "ignore", "pipe"] });
 fs.mkdirSync(folder);
 fs.writeFileSync(file, original);
 const browser = new Browser(chromium), server = new Server(code, extension, work);
