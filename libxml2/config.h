@@ -5,7 +5,7 @@
 #define HAVE_FCNTL_H 1
 #define HAVE_LIMITS_H 1
 #define HAVE_MATH_H 1
-#ifndef __wasm__
+#if !defined(__wasm__) && !defined(_WIN32)
 #define HAVE_PTHREAD_H 1
 #endif
 #define HAVE_SNPRINTF 1

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Checks the includes: a room of src/ includes only earlier rooms, the back end does not include the front end, one room includes
-libxml2, programs include only the public header and nothing of the commands (cli), and at most three files of a room call each other in a circle. Argument: the
+libxml2, two files know the platform, programs include only the public header and nothing of the commands (cli), and at most three files of a room call each other in a circle. Argument: the
 root of the project."""
 import pathlib
 import re
@@ -16,6 +16,11 @@ FRONT = set("document xml usda parse library bind build dynamic material network
 BACK = {"ir", "lower", "specialise", "print", "closure", "slabs", "deferred", "shader", "spell", "translate"}
 PROGRAMS = "cli check compile doc export lsp render".split()
 INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]', re.MULTILINE)
+
+# What a library in C17 may include with <>, and the files that need more: they know their platform.
+PORTABLE = re.compile(r"(assert|ctype|errno|inttypes|limits|math|setjmp|stdalign|stdarg|stdatomic|stdbool|stddef|stdint|stdio|stdlib|string)\.h|(libxml|mxgen)/\w+\.h")
+PLATFORM = {"posix.c", "windows.c"}
+ASKED = re.compile(r"^\s*#\s*(?:include\s*<([^>]+)>|.*\b(_(?:POSIX_C|XOPEN|GNU|DEFAULT)_SOURCE|__unix__|__linux__|__APPLE__|_WIN32)\b)", re.MULTILINE)
 
 
 def fault_of(path, included):
@@ -75,4 +80,7 @@ for folder in ("src", "generators", "program", "bench", "examples", *PROGRAMS):
         for included in INCLUDE.findall(path.read_text(encoding="utf-8")):
             fault = fault_of(path, included)
             check(not fault, f"{path.relative_to(ROOT)} includes {included}: {fault}")
+for path in sorted(path for folder in ("src", "generators") for path in (ROOT / folder).rglob("*.[ch]") if path.name not in PLATFORM):
+    for included, macro in ASKED.findall(path.read_text(encoding="utf-8")):
+        check(included and PORTABLE.fullmatch(included), f"{path.relative_to(ROOT)}: {included or macro} is for src/api/posix.c and src/api/windows.c")
 finish("layers")

@@ -252,11 +252,6 @@ void sandbox_finish(struct mxg_context *context);
  * folder.c: true if the path is a folder.
  */
 bool folder_exists(const char *path);
-/*
- * Writes the names in a folder, each with its NUL, as far as they fit, and the number of bytes that
- * all names need. NULL or an error.
- */
-const char *folder_names(const char *folder, char *names, size_t capacity, size_t *out_size);
 struct path_list {
     const char **items;
     uint32_t len, cap;

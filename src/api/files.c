@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /* Opens files: the host's resolver, as an interface for the readers in other rooms. */
 #include "api/api.h"
+#include "api/file_system.h"
 
 #include "base/hash.h"
 
@@ -132,7 +133,7 @@ bool source_path_add(struct mxg_context *context, const char *folder)
         return false;
     *path = (struct source_path){.next = context->source_paths, .size = size};
     memcpy(path->folder, folder, len);
-    if (len && folder[len - 1] == '/')
+    if (len && file_is_separator(folder[len - 1]))
         len--;
     memcpy(path->folder + len, "/", 2);
     context->source_paths = path;
@@ -164,11 +165,11 @@ void file_source_add_folder(struct file_source *source, const char *folder)
 {
     struct arena *arena = &source->object->arena;
     size_t len = strlen(folder);
-    while (len > 1 && folder[len - 1] == '/')
+    while (len > 1 && file_is_separator(folder[len - 1]))
         len--;
     vec_push(arena, &source->folders, with_slash(arena, folder, len));
     size_t parent = len;
-    while (parent > 0 && folder[parent - 1] != '/')
+    while (parent > 0 && !file_is_separator(folder[parent - 1]))
         parent--;
     if (parent > 0)
         vec_push(arena, &source->folders, arena_strndup(arena, folder, parent));

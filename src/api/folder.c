@@ -1,21 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 /* Lists folders of a library. */
-#define _POSIX_C_SOURCE 200809L
 #include "api/api.h"
+#include "api/file_system.h"
 
 #include "base/hash.h"
 #include "base/table.h"
 
 #include <assert.h>
-#include <dirent.h>
-#include <errno.h>
 #include <stdlib.h>
-#include <sys/stat.h>
 
 bool folder_exists(const char *path)
 {
-    struct stat info;
-    return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
+    return file_facts(path).kind == FILE_FOLDER;
 }
 
 static bool ends_with(const char *text, const char *end)
@@ -38,22 +34,6 @@ static const char *join(struct arena *arena, const char *folder, const char *nam
 static int compare(const void *a, const void *b)
 {
     return strcmp(*(const char *const *)a, *(const char *const *)b);
-}
-
-const char *folder_names(const char *folder, char *names, size_t capacity, size_t *out_size)
-{
-    *out_size = 0;
-    DIR *dir = opendir(folder);
-    if (!dir)
-        return strerror(errno);
-    for (const struct dirent *entry; (entry = readdir(dir)) != NULL;) {
-        size_t len = strlen(entry->d_name) + 1;
-        if (*out_size + len <= capacity)
-            memcpy(names + *out_size, entry->d_name, len);
-        *out_size += len;
-    }
-    closedir(dir);
-    return NULL;
 }
 
 /*
@@ -80,8 +60,7 @@ static const char *list_one(struct arena *arena, const char *folder, struct path
 /* Links give a folder several paths; its identity is its device and number. */
 struct folder {
     const char *path;
-    dev_t device;
-    ino_t inode;
+    uint64_t device, number;
 };
 
 struct folders {
@@ -89,34 +68,27 @@ struct folders {
     struct table by_identity; /* indices from 1 */
 };
 
-enum entry_kind { ENTRY_OTHER, ENTRY_FILE, ENTRY_FOLDER };
-
-/*
- * Follows links, and adds a folder once: links can form a cycle. Devices, pipes and sockets are
- * OTHER, because reading them may never end.
- */
-static enum entry_kind add_entry(struct arena *arena, struct folders *folders, const char *path)
+/* Follows links, and adds a folder once: links can form a cycle. */
+static enum file_kind add_entry(struct arena *arena, struct folders *folders, const char *path)
 {
-    struct stat info;
-    if (stat(path, &info) != 0)
-        return ENTRY_OTHER;
-    if (!S_ISDIR(info.st_mode))
-        return S_ISREG(info.st_mode) ? ENTRY_FILE : ENTRY_OTHER;
-    uint32_t hash = hash_pair((uint32_t)info.st_dev, (uint32_t)info.st_ino);
+    struct file_facts facts = file_facts(path);
+    if (facts.kind != FILE_FOLDER)
+        return facts.kind;
+    uint32_t hash = hash_pair((uint32_t)facts.device, (uint32_t)facts.number);
     for (uint32_t at = hash, i; (i = table_next(&folders->by_identity, hash, &at));)
-        if (folders->items.items[i - 1].inode == info.st_ino
-            && folders->items.items[i - 1].device == info.st_dev)
-            return ENTRY_FOLDER;
-    vec_push(arena, &folders->items, (struct folder){path, info.st_dev, info.st_ino});
+        if (folders->items.items[i - 1].number == facts.number
+            && folders->items.items[i - 1].device == facts.device)
+            return FILE_FOLDER;
+    vec_push(arena, &folders->items, (struct folder){path, facts.device, facts.number});
     table_add(&folders->by_identity, arena, hash, folders->items.len);
-    return ENTRY_FOLDER;
+    return FILE_FOLDER;
 }
 
 const char *folder_list(struct arena *arena, const char *path, const char *suffix,
                         struct path_list *out)
 {
     struct folders folders = {0};
-    if (add_entry(arena, &folders, path) != ENTRY_FOLDER)
+    if (add_entry(arena, &folders, path) != FILE_FOLDER)
         return "it is no folder";
     uint32_t first = out->len;
     assert(folders.items.len == 1);
@@ -129,7 +101,7 @@ const char *folder_list(struct arena *arena, const char *path, const char *suffi
         if (found.len)
             qsort(found.items, found.len, sizeof *found.items, compare);
         for (uint32_t j = 0; j < found.len; j++)
-            if (add_entry(arena, &folders, found.items[j]) == ENTRY_FILE
+            if (add_entry(arena, &folders, found.items[j]) == FILE_REGULAR
                 && ends_with(found.items[j], suffix))
                 vec_push(arena, out, found.items[j]);
     }

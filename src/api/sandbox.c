@@ -4,16 +4,8 @@
  * that the caller names, and below the include roots of the context. Links are resolved before
  * paths are compared.
  */
-#define _XOPEN_SOURCE 700
 #include "api/api.h"
-
-#include <limits.h>
-#include <stdlib.h>
-#include <sys/stat.h>
-
-#ifndef PATH_MAX
-#define PATH_MAX 4096
-#endif
+#include "api/file_system.h"
 
 struct sandbox_root {
     struct sandbox_root *next;
@@ -55,13 +47,13 @@ static bool add(struct mxg_context *context, const char *path)
 bool sandbox_admit_folder(struct mxg_context *context, const char *folder)
 {
     char real[PATH_MAX];
-    return !context->sandbox || !realpath(folder, real) || add(context, real);
+    return !context->sandbox || !file_real_path(folder, real) || add(context, real);
 }
 
 /* The folder of a file, "." without one; false: its path is too long. */
 static bool folder_of(const char *file, char out[PATH_MAX])
 {
-    const char *slash = strrchr(file, '/');
+    const char *slash = file_last_separator(file);
     size_t len = slash ? (size_t)(slash - file) + (slash == file) : 1;
     if (len >= PATH_MAX)
         return false;
@@ -80,7 +72,8 @@ bool sandbox_admit_file(struct mxg_context *context, const char *file)
 static bool is_beside(const char *file, const char *path)
 {
     char folder[PATH_MAX], real[PATH_MAX];
-    return folder_of(file, folder) && realpath(folder, real) && is_below(real, strlen(real), path);
+    return folder_of(file, folder) && file_real_path(folder, real)
+           && is_below(real, strlen(real), path);
 }
 
 /*
@@ -90,17 +83,16 @@ static bool is_beside(const char *file, const char *path)
 static bool is_inside(const struct mxg_context *context, const char *from, const char *path)
 {
     char part[PATH_MAX], real[PATH_MAX];
-    struct stat info;
     size_t len = strlen(path);
     if (len >= sizeof part)
         return false;
     memcpy(part, path, len + 1);
-    while (!realpath(part, real)) {
-        char *slash = strrchr(part, '/');
-        if (lstat(part, &info) == 0) /* a link that leads nowhere, or a folder closed to us */
+    while (!file_real_path(part, real)) {
+        const char *slash = file_last_separator(part);
+        if (file_has_entry(part)) /* a link that leads nowhere, or a folder closed to us */
             return false;
         if (slash)
-            slash[slash == part] = '\0';
+            part[slash == part ? 1 : slash - part] = '\0';
         else
             memcpy(part, ".", 2);
     }
@@ -117,25 +109,23 @@ const char *sandbox_texture_fault(const struct mxg_context *context, const char 
 
 const char *sandbox_fault(const struct mxg_context *context, const char *path)
 {
-    struct stat info;
     const char *fault = sandbox_texture_fault(context, path);
-    if (fault || stat(path, &info) != 0)
-        return fault; /* NULL: the attempt to open it gives the reason */
-    return S_ISREG(info.st_mode) || S_ISDIR(info.st_mode) ? NULL : irregular;
+    /* A missing file has none: the attempt to open it gives the reason. */
+    return !fault && file_facts(path).kind == FILE_OTHER ? irregular : fault;
 }
 
 const char *mxg_context_file_fault(const mxg_context *context, const char *from, const char *path)
 {
-    struct stat info;
     if (!context || !from || !path)
         return "it has no name";
     if (context->sandbox && !is_inside(context, from, path))
         return outside;
-    if (stat(path, &info) != 0)
+    struct file_facts facts = file_facts(path);
+    if (facts.kind == FILE_MISSING)
         return NULL;
-    if (!S_ISREG(info.st_mode))
+    if (facts.kind != FILE_REGULAR)
         return irregular;
-    return (uintmax_t)info.st_size > (uintmax_t)context->xml_limits.max_file_mib << 20
+    return facts.size > (uint64_t)context->xml_limits.max_file_mib << 20
                ? "it is too large; raise the limit 'max-file-size' if this is intended"
                : NULL;
 }

@@ -4,6 +4,7 @@
  * directory.
  */
 #include "api/api.h"
+#include "api/file_system.h"
 
 #include <assert.h>
 #include <errno.h>
@@ -57,7 +58,7 @@ static bool is_absolute(const char *path)
 /* The path of `ref` beside the file `from`; leading "./" and "../" of `ref` are resolved. */
 static struct block *join(struct mxg_context *context, const char *from, const char *ref)
 {
-    const char *slash = strrchr(from, '/');
+    const char *slash = file_last_separator(from);
     size_t folder = slash && !is_absolute(ref) ? (size_t)(slash - from) + 1 : 0;
     struct block *name = resize(context, NULL, folder + strlen(ref) + 1);
     if (!name)
@@ -67,11 +68,13 @@ static struct block *join(struct mxg_context *context, const char *from, const c
         ref += 2;
     while (folder > 1 && strncmp(ref, "../", 3) == 0) {
         size_t parent = folder - 1;
-        while (parent > 0 && name->bytes[parent - 1] != '/')
+        while (parent > 0 && !file_is_separator(name->bytes[parent - 1]))
             parent--;
-        if (memcmp(name->bytes + parent, "../", 3) == 0)
+        if (folder - parent == 3 && memcmp(name->bytes + parent, "..", 2) == 0)
             break; /* `ref` leads above the first folder of `from` */
-        ref += memcmp(name->bytes + parent, "./", 2) == 0 ? 0 : 3; /* "./" is no folder to leave */
+        ref += folder - parent == 2 && name->bytes[parent] == '.'
+                   ? 0
+                   : 3; /* "./" is no folder to leave */
         folder = parent;
     }
     memcpy(name->bytes + folder, ref, strlen(ref) + 1);
@@ -138,7 +141,7 @@ static struct block *place_of(struct mxg_context *context, const char *from, con
 /* The first of the places; the referring file may be in the working directory. */
 static int first_place(const char *from, const char *ref)
 {
-    return !strchr(from, '/') || is_absolute(ref);
+    return !file_last_separator(from) || is_absolute(ref);
 }
 
 /*

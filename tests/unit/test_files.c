@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+/* What the library asks the file system: the files of a folder, and what a sandbox lets documents
+ * read. */
+#define _XOPEN_SOURCE 700
+#include "api/file_system.h"
+#include "api/generation.h"
+
+#include "unit/test.h"
+
+#ifdef _WIN32
+#include <direct.h>
+#include <io.h>
+#else
+#include <stdlib.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#endif
+
+/* The name ends with "XXXXXX", which becomes something that no folder has. */
+static bool make_unique_folder(char *name)
+{
+#ifdef _WIN32
+    return _mktemp(name) && _mkdir(name) == 0;
+#else
+    return mkdtemp(name) != NULL;
+#endif
+}
+
+static bool make_deep_folder(void)
+{
+#ifdef _WIN32
+    return _mkdir("deep") == 0;
+#else
+    return mkdir("deep", 0777) == 0;
+#endif
+}
+
+static void write_file(const char *path)
+{
+    FILE *file = fopen(path, "w");
+    if (REQUIRE(file != NULL))
+        fclose(file);
+}
+
+static const char *const made_files[] = {"b.mtlx", "a.mtlx", "deep/c.mtlx", "deep/d.png",
+                                         ".hidden.mtlx"};
+
+/* In a folder of its own, which it then stands in. */
+static void make_folder(char *folder)
+{
+    REQUIRE(make_unique_folder(folder) && chdir(folder) == 0 && make_deep_folder());
+    for (size_t i = 0; i < sizeof made_files / sizeof *made_files; i++)
+        write_file(made_files[i]);
+}
+
+static void remove_folder(const char *folder)
+{
+    for (size_t i = 0; i < sizeof made_files / sizeof *made_files; i++)
+        REQUIRE(unlink(made_files[i]) == 0);
+    REQUIRE(rmdir("deep") == 0 && chdir("..") == 0 && rmdir(folder) == 0);
+}
+
+static void test_folders(void)
+{
+    struct mem mem;
+    struct arena arena;
+    struct path_list found = {0};
+    size_t size = 0, needed = 0;
+    char names[256], folder[] = "unit_files_XXXXXX";
+    mem_init(&mem, NULL, NULL);
+    arena_init(&arena, &mem);
+    make_folder(folder);
+    REQUIRE(folder_exists("deep") && !folder_exists("a.mtlx") && !folder_exists("none"));
+    REQUIRE(!folder_list(&arena, ".", ".mtlx", &found));
+    REQUIRE_EQ(found.len, 3); /* sorted, without what is hidden */
+    REQUIRE_STR(found.items[0], "./a.mtlx");
+    REQUIRE_STR(found.items[1], "./b.mtlx");
+    REQUIRE_STR(found.items[2], "./deep/c.mtlx");
+    REQUIRE(folder_list(&arena, "none", ".mtlx", &found) != NULL);
+    REQUIRE(!folder_names("deep", names, sizeof names, &size));
+    REQUIRE_EQ(size, strlen(".") + strlen("..") + strlen("c.mtlx") + strlen("d.png") + 4);
+    REQUIRE(!folder_names("deep", names, 0, &needed));
+    REQUIRE_EQ(needed, size);
+    remove_folder(folder);
+    arena_finish(&arena);
+}
+
+/* In a sandbox a document may refer to files beside what the caller named, and below. */
+static void test_sandbox(void)
+{
+    char folder[] = "unit_files_XXXXXX";
+    mxg_context_desc desc = MXG_CONTEXT_DESC_INIT;
+    mxg_context *context = NULL;
+    make_folder(folder);
+    desc.sandbox = true;
+    REQUIRE_EQ(mxg_context_create(&desc, &context), MXG_OK);
+    REQUIRE(sandbox_fault(context, "deep/c.mtlx") != NULL);
+    REQUIRE(sandbox_admit_file(context, "deep/d.png"));
+    REQUIRE(!sandbox_fault(context, "deep/c.mtlx"));
+    REQUIRE(sandbox_fault(context, "a.mtlx") != NULL);
+    REQUIRE(sandbox_fault(context, "deep/../a.mtlx") != NULL);
+    REQUIRE(sandbox_fault(context, "none.mtlx") != NULL); /* whether it exists or not */
+    REQUIRE(sandbox_fault(context, "deep/../none.mtlx") != NULL);
+    REQUIRE(sandbox_fault(context, "/no/such/folder/none.mtlx") != NULL);
+#ifdef _WIN32
+    REQUIRE(sandbox_fault(context, "deep\\..\\a.mtlx") != NULL);
+    REQUIRE(sandbox_fault(context, "deep\\..\\none.mtlx") != NULL);
+    REQUIRE(sandbox_fault(context, "C:\\none.mtlx") != NULL);
+    REQUIRE(!sandbox_fault(context, "deep\\c.mtlx"));
+#else
+    /* Links are followed. On Windows they need rights. */
+    static const char *const links[] = {"../a.mtlx", "../none.mtlx"};
+    for (size_t i = 0; i < sizeof links / sizeof *links; i++) {
+        REQUIRE(symlink(links[i], "deep/link.mtlx") == 0);
+        REQUIRE(sandbox_fault(context, "deep/link.mtlx") != NULL);
+        REQUIRE(unlink("deep/link.mtlx") == 0);
+    }
+#endif
+    REQUIRE(!sandbox_fault(context, "deep/none.mtlx")); /* opening it tells why */
+    REQUIRE(!sandbox_fault(context, "deep/no/folder/none.mtlx"));
+    REQUIRE(sandbox_admit_folder(context, "."));
+    REQUIRE(!sandbox_fault(context, "a.mtlx"));
+    mxg_context_destroy(context);
+    desc.sandbox = false;
+    REQUIRE_EQ(mxg_context_create(&desc, &context), MXG_OK);
+    REQUIRE(!sandbox_fault(context, "a.mtlx"));
+    mxg_context_destroy(context);
+    remove_folder(folder);
+}
+
+int main(void)
+{
+    test_folders();
+    test_sandbox();
+    return test_report("files");
+}
