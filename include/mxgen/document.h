@@ -214,6 +214,16 @@ MXG_API mxg_status mxg_edit_flatten_node(mxg_edit *edit, mxg_element node);
 MXG_API mxg_element mxg_edit_group_nodes(mxg_edit *edit, const mxg_element *nodes,
                                          uint32_t num_nodes, const char *name);
 
+/*
+ * Makes the definition `name` of the kind of node `node` from a nodegraph of the root, which then
+ * implements it, and returns the definition. Inputs and tokens of the nodegraph become those of the
+ * definition; its outputs stay and are declared there, too. Where elements read the nodegraph, or
+ * its inputs read elements, a node of the definition takes its place, with a name like `node`. An
+ * element that refers to the nodegraph otherwise is an error.
+ */
+MXG_API mxg_element mxg_edit_define_nodegraph(mxg_edit *edit, mxg_element nodegraph,
+                                              const char *name, const char *node);
+
 /* The reason of the last failure; length 0 if no call failed. */
 MXG_API size_t mxg_edit_error(const mxg_edit *edit, char *buffer, size_t capacity);
 

@@ -197,6 +197,15 @@ export class Edit extends Owner {
                                                                          native.newText(name, "name")));
     }
 
+    /**
+     * Makes the definition `name` of the kind of node `node` from a nodegraph of the root, which then implements it. Where elements read the
+     * nodegraph, a node of the definition takes its place.
+     */
+    define(nodegraph, name, node) {
+        const number = this._own(nodegraph);
+        return this._made((lib, native, pointer) => lib.mxg_edit_define_nodegraph(pointer, number, native.newText(name, "name"), native.newText(node, "node")));
+    }
+
     // ---- End ----
 
     /** Makes the document. The edit is over, also after an error. Throws DocumentError. */

@@ -390,6 +390,8 @@ export class Edit extends Owner {
     copy(element: Element, name?: string | null): Draft;
     /** Moves nodes of the root into a new nodegraph, in this order. */
     group(nodes: Iterable<Draft | Element>, name: string): Draft;
+    /** The definition of a kind of node, which the nodegraph then implements; where elements read it, a node takes its place. */
+    define(nodegraph: Draft | Element, name: string, node: string): Draft;
     /** Makes the document. The edit is over, also after an error. Throws DocumentError. */
     end(): Document;
     cancel(): void;

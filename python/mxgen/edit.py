@@ -212,6 +212,11 @@ class Edit(Native):
         numbers = [self._own(node) for node in nodes]
         return self._made(lib.mxg_edit_group_nodes, (ctypes.c_uint32 * len(numbers))(*numbers), len(numbers), c_text(name, "name"))
 
+    def define(self, nodegraph: Draft | Element, name: str, node: str) -> Draft:
+        """Makes the definition `name` of the kind of node `node` from a nodegraph of the root, which then implements it. Where
+        elements read the nodegraph, a node of the definition takes its place."""
+        return self._made(lib.mxg_edit_define_nodegraph, self._own(nodegraph), c_text(name, "name"), c_text(node, "node"))
+
     # ---- End ----
 
     def end(self) -> Document:

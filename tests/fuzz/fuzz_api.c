@@ -227,6 +227,8 @@ static void change_edit(struct machine *m, unsigned slot, unsigned argument)
         break;
     case 5: mxg_edit_flatten_node(edit, argument & 1 ? element : other); break;
     case 6:
+        if (argument & 4)
+            mxg_edit_define_nodegraph(edit, element, "ND", argument & 8 ? "group" : "noise2d");
         mxg_edit_group_nodes(edit, (const mxg_element[]){element, other}, 1 + argument % 2,
                              "group");
         break;

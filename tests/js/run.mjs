@@ -205,6 +205,15 @@ test("edits", () => {
     const grouped = copper.edit();
     assert.equal(grouped.group([grouped.add("constant", "C", "float")], "Graph").number, grouped.find("Graph").number);
     assert.deepEqual(grouped.end().find("Graph").children.map(({ name }) => name), ["C"]);
+    const defining = copper.edit();
+    defining.add("nodegraph", "NG").add("output", "out", "float").set("value", "1");
+    assert.equal(defining.define(defining.find("NG"), "ND_one", "one").number, defining.find("ND_one").number);
+    assert.throws(() => defining.define(defining.find("NG"), "ND_two", "two"), /implements 'ND_one' already/);
+    const defined = defining.end();
+    assert.equal(defined.find("NG").get("nodedef"), "ND_one");
+    const using = defined.edit();
+    using.find("SR").connect("specular_roughness", using.add("one", "One", "float"));
+    assert.equal(using.end().find("One").definition.name, "ND_one");
     const lossy = after.edit();
     lossy.find("Surface").remove();
     assert.throws(() => lossy.end(), error => error instanceof DocumentError && error.diagnostics.items[0].id === "removed-reference");

@@ -195,6 +195,13 @@ class Edits(unittest.TestCase):
                 edit.group([graph], "Outer")
         self.assertEqual([element.name for element in edit.document["Pattern"].children], ["Spots", "Spots_out"])
         self.assertEqual(edit.document["SR/specular_roughness"].connection.output, "Spots_out")
+        with edit.document.edit() as edit:
+            definition = edit.define(edit["Pattern"], "ND_pattern", "pattern")
+            self.assertEqual(definition, edit["ND_pattern"])
+            with self.assertRaisesRegex(mxgen.EditError, "implements 'ND_pattern' already"):
+                edit.define(edit["Pattern"], "ND_other", "other")
+        self.assertEqual(edit.document["pattern"].definition.name, "ND_pattern")
+        self.assertEqual(edit.document["SR/specular_roughness"].connection.source.name, "pattern")
         self.assertEqual(repr(mxgen.Draft(edit, 7)), "<Draft 7>")
 
     def test_failures(self):

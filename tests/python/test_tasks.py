@@ -82,6 +82,20 @@ class Tasks(unittest.TestCase):
             for shader in shaders:
                 self.assertEqual(edit.document[shader.path + "/specular_roughness"].value, 0.25)
 
+    def test_color_spaces_and_units(self):
+        """An edit sets the colour space and the unit of inputs, and shaders have the values in those of the scene."""
+        edit = self.context.edit()
+        product = edit.add("multiply", "product", "color3").value("in1", (0.5, 0.5, 0.5)).value("in2", 300.0, "float")
+        edit.add("output", "out", "color3").connect(None, product)
+        edit["product/in1"].set("colorspace", "srgb_texture")
+        edit["product/in2"].set("unittype", "distance").set("unit", "centimeter")
+        document = edit.end()
+        self.assertEqual((document["product/in1"].get("colorspace"), document["product/in1"].value), ("srgb_texture", (0.5, 0.5, 0.5)))
+        for unit, length in ("meter", 3), ("millimeter", 3000):
+            shader = document.generate("glsl", options={"distance-unit": unit, "interface": "reduced"})
+            value = float(re.search(r"out1 = vec4\(([0-9.]+),", shader.pixel)[1])
+            self.assertAlmostEqual(value / length, ((0.5 + 0.055) / 1.055) ** 2.4, 5) # the curve of IEC 61966-2-1
+
     def test_calls_beside_pymaterialx(self):
         """The right column of docs/pymaterialx.md, from top to bottom. Each call gives something, or makes the page's document."""
         page = (common.EXAMPLES.resolve().parent / "docs/pymaterialx.md").read_text(encoding="utf-8")
@@ -101,7 +115,7 @@ class Tasks(unittest.TestCase):
         document = names["doc"]
         self.assertGreater(len(calls), 50)
         names = [element.name for element in document if not element.name.startswith("SR_copy_")] # what was inside stays
-        self.assertEqual(names, ["dots", "SR", "Spots", "Gold", "NG", "wood", "Wood"])
+        self.assertEqual(names, ["ND_pattern", "NG_pattern", "pattern", "SR", "Spots", "Gold", "NG", "wood", "Wood"])
         self.assertEqual(document["SR/base_color"].value, (1, 0, 0))
         self.assertEqual(document["wood/rings/octaves"].type, "integer")
         self.assertEqual(document.validate().errors, 0)
