@@ -268,7 +268,7 @@ class Passes(unittest.TestCase):
         self.assertEqual(document.generate("vulkan", "Plain").storage.words, 0)
         self.assertEqual([(one.name, one.kind) for one in mxgen.pass_resources()][:2], [("words", "image2DArray"), ("word0", "image2D")])
         with self.assertRaises(mxgen.DocumentError):
-            context.passes("wgsl")
+            context.passes("osl")
 
     def test_reflection(self):
         """The JSON of a pass and the library say the same."""
