@@ -53,7 +53,7 @@ static double open_part(const struct occlusion *occlusion, const double place[3]
                         const double normal[3])
 {
     double x[3] = {0, normal[2], -normal[1]}, y[3], from[3], direction[3];
-    if (fabs(normal[2]) > 0.5) {
+    if (fabs(normal[0]) > 0.5) {
         x[0] = -normal[2];
         x[1] = 0;
         x[2] = normal[0];

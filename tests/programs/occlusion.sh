@@ -11,7 +11,7 @@ has() { # FILE TEXT...: the file has all of the texts
     shift
     for text in "$@"; do grep -qF -- "$text" "$file" || { echo "no '$text' in:" && cat "$file" && return 1; }; done
 }
-# A floor of 200 x 200 before a wall of 200 x 100, twice as large in the world, and a sphere that is far away.
+# A floor of 200 x 200 before a wall of 200 x 100, with a small post, twice as large in the world, and a sphere that is far away.
 cat >room.usda <<'END'
 #usda 1.0
 def Xform "room"
@@ -35,6 +35,12 @@ def Xform "room"
             int[] indices = [0]
         }
     }
+    def Mesh "post"
+    {
+        point3f[] points = [(50, 0, -95), (50, 0, -94), (50, 1, -94), (50, 1, -95)]
+        int[] faceVertexCounts = [4]
+        int[] faceVertexIndices = [0, 1, 2, 3]
+    }
     def Sphere "ball"
     {
         double3 xformOp:translate = (0, 100000, 0)
@@ -49,12 +55,13 @@ check 'what the wall hides is the integral over it' python3 - layer.usda <<'END'
 import re, sys
 from math import pi
 text = open(sys.argv[1]).read()
-floor, wall = ([float(x) for x in values.split(", ")] for values in re.findall(r"ambientocclusion = \[(.*?)\] \(interpolation = \"vertex\"\)", text))
+floor, wall, post = ([float(x) for x in values.split(", ")] for values in re.findall(r"ambientocclusion = \[(.*?)\] \(interpolation = \"vertex\"\)", text))
 def opening(d, step=0.5):
     steps = lambda low, high: (low + step * (i + 0.5) for i in range(int((high - low) / step)))
     return 1 - sum(y * d / (pi * (x * x + y * y + d * d) ** 2) for x in steps(-100, 100) for y in steps(0, 100)) * step * step
 for found, expected in ((floor[5], opening(30.5)), (floor[4], opening(3)), (floor[6], 1)):
     assert abs(found - expected) < 0.03, (found, expected)
+assert all(0.35 < x < 0.5 for x in post), post # the floor hides half, the wall some
 assert len(floor) == 7 and len(wall) == 4 and all(x > 0.9 for x in floor[:2]), (floor, wall)
 END
 cat >open.mtlx <<'END'
@@ -70,7 +77,7 @@ END
 python3 - <<'END'
 import re
 stage, layer = open("room.usda").read(), open("layer.usda").read()
-for name in "floor", "wall":
+for name in "floor", "wall", "post":
     line = re.search(f'over "{name}"\\s*{{\\s*(.*?\\))\n', layer).group(1)
     stage = stage.replace(f'def Mesh "{name}"\n    {{', f'def Mesh "{name}"\n    {{\n        {line}', 1)
 open("composed.usda", "w").write(stage)
