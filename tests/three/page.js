@@ -96,15 +96,30 @@ const draws = {
             hemisphere: () => new THREE.HemisphereLight(0x88aaff, 0x664422, 2),
             probe: () => Object.assign(new THREE.LightProbe(), { sh: new THREE.SphericalHarmonics3().set(Array.from({ length: 9 }, (_, i) => new THREE.Vector3(0.5, 0.4, 0.3).multiplyScalar(1 / (i + 1)))) }),
             environment: () => new THREE.Object3D(),
+            transparent: () => directional(1, 1, 2),
         };
-        const { scene, mesh } = sceneOf(await matte(), { environment: kind === "environment" ? SKY : null });
+        const material = await matte(), opacity = kind === "transparent" ? 0.5 : 1, transparent = opacity < 1;
+        material.setInput("SR/opacity", Array(3).fill(opacity));
+        material.transparent = transparent;
+        const { scene, mesh } = sceneOf(material, { environment: kind === "environment" ? SKY : null });
         scene.environmentRotation.set(0.3, 0.7, 0);
         scene.environmentIntensity = 0.8;
         scene.add(lights[kind]());
         const ours = shoot(scene);
-        mesh.material = new THREE.MeshPhysicalMaterial({ color: new THREE.Color(0.8, 0.4, 0.2), roughness: 1, specularIntensity: 0 });
+        mesh.material = new THREE.MeshPhysicalMaterial({ color: new THREE.Color(0.8, 0.4, 0.2), roughness: 1, specularIntensity: 0, opacity, transparent });
         const theirs = shoot(scene);
         return { ours: at(ours, 0.1, 0.1), theirs: at(theirs, 0.1, 0.1), difference: ours.data.reduce((sum, x, i) => sum + Math.abs(x - theirs.data[i]), 0) / ours.data.length };
+    },
+
+    /** What a flame of no coverage adds to black, with its alpha. */
+    async glow() {
+        const text = surface(input("base", "float", 0) + input("specular", "float", 0) + input("emission", "float", 1) + input("emission_color", "color3", "1, 1, 0"));
+        const { scene, mesh } = sceneOf(new MaterialXMaterial(await documentOf(text)), { environment: null });
+        mesh.material.fragmentShader = mesh.material.fragmentShader.replace("float covered", "shaded.alpha = 0.0; float covered");
+        mesh.material.transparent = true;
+        scene.background = new THREE.Color(0);
+        const color = at(shoot(scene));
+        return [...color.slice(0, 3), 255 - color[3]];
     },
 
     async lightMoves() {
@@ -260,6 +275,12 @@ const draws = {
         await look("uv1", `<texcoord name="t" type="vector2">${input("index", "integer", 1)}</texcoord><convert name="v" type="vector3"><input name="in" type="vector2" nodename="t"/></convert><convert name="n" type="color3"><input name="in" type="vector3" nodename="v"/></convert>`);
         await look("wear", `<geompropvalue name="n" type="color3">${input("geomprop", "string", "wear")}${input("default", "color3", "0.5, 0.6, 0.7")}</geompropvalue>`);
         await look("noWear", `<geompropvalue name="n" type="color3">${input("geomprop", "string", "wear")}${input("default", "color3", "0.5, 0.6, 0.7")}</geompropvalue>`, { geometry: new THREE.PlaneGeometry(2, 2) });
+        const read = (node, type, property) => `<geompropvalue name="${node}" type="${type}">${input("geomprop", "string", property)}</geompropvalue>`;
+        const toColor = name => `<convert name="n" type="color3"><input name="in" type="vector3" nodename="${name}"/></convert>`;
+        await look("uvProperty", `${read("p", "vector2", "uv")}<convert name="v" type="vector3"><input name="in" type="vector2" nodename="p"/></convert>${toColor("v")}`);
+        await look("stOfUsd", `${read("p", "vector2", "st1")}<convert name="v" type="vector3"><input name="in" type="vector2" nodename="p"/></convert>${toColor("v")}`);
+        await look("twoTypes", `${read("p", "vector3", "wear")}${read("f", "float", "wear")}<multiply name="v" type="vector3"><input name="in1" type="vector3" nodename="p"/>
+            <input name="in2" type="float" nodename="f"/></multiply>${toColor("v")}`);
         const lift = mesh => mesh.position.set(0, 0, 0.5);
         await look("positionWorld", vector("position", space("world")), { move: lift });
         await look("positionObject", vector("position", space("object")), { move: lift });

@@ -47,11 +47,13 @@ for (const [name, limit] of Object.entries({ gold: 1.2, marble: 0.8, textured: 2
 
 // ---- What three applies ----
 
-for (const kind of ["directional", "point", "spot", "ambient", "hemisphere", "probe", "environment"])
+for (const kind of ["directional", "point", "spot", "ambient", "hemisphere", "probe", "environment", "transparent"])
     test(`${kind}: a matte surface is lit as three's own`, async () => {
         const { ours, theirs, difference } = await draw("standard", kind);
         assert(ours[0] > 40 && difference < 0.01, `${ours} ${theirs} ${difference}`);
     });
+
+test("light without coverage is added", async () => assert.deepEqual(await draw("glow"), [255, 255, 0, 0]));
 
 test("light moves with its light", async () => {
     const [leftLeft, leftRight, rightLeft, rightRight] = (await draw("lightMoves")).map(([red]) => red);
@@ -99,6 +101,7 @@ test("materials share programs, not values", async () => {
 test("documents read attributes and spaces of the geometry", async () => {
     const place = [0.242, 0.117], expected = {
         color: [1, 0.5, 0], noColor: [1, 1, 1], uv1: [0.25, 0.75, 0], wear: [0.2, 0.4, 0.6], noWear: [0.5, 0.6, 0.7], normalWorld: [0, 0, 1],
+        uvProperty: [0.637, 0.564, 0], stOfUsd: [0.25, 0.75, 0], twoTypes: [0.04, 0.08, 0.12],
         positionWorld: [...place, 0.5], positionObject: [...place, 0], instanced: [...place, 0.5], transformed: [0.1, 0.2, 0.8], transformedInstance: [0.1, 0.2, 0.8],
         tangentWorld: [1, 0, 0], bitangentWorld: [0, 1, 0], tangentAttribute: [0, 1, 0], bitangentAttribute: [1, 0, 0],
     };

@@ -32,12 +32,22 @@ const PARAMETERS = {
     "bitangent:object": "inverse(mat3(v_toWorld)) * frame[1]", "texcoord:0": "v_uv", "color:0": "v_color",
 };
 
-/** The attributes of the geometry that a shader reads beside those: { name, variable }, named as GLTFLoader names them. */
+/** The attributes of the geometry that a shader reads beside those: { name, variable }, named as GLTFLoader names them; `st` of USD is `uv`. */
 export function attributesOf(shader) {
     return shader.variables.filter(({ block, semantic }) => block === "vertexData" && !(semantic in PARAMETERS)).map(variable => {
         const [kind, name] = variable.semantic.split(":");
-        return { name: { texcoord: `uv${name}`, color: `color_${name}` }[kind] ?? name.replace(/\W/g, "_"), variable };
+        return { name: { texcoord: `uv${name}`, color: `color_${name}` }[kind] ?? name.replace(/\W/g, "_").replace(/^st(?=[123]?$)/, "uv"), variable };
     });
+}
+
+// Several variables can read one attribute, as different types. What three declares has its own type.
+const DECLARED = { position: "vec4(position, 1.0)", normal: "vec4(normal, 0.0)", uv: "vec4(uv, 0.0, 1.0)", uv1: "vec4(uv1, 0.0, 1.0)",
+                   uv2: "vec4(uv2, 0.0, 1.0)", uv3: "vec4(uv3, 0.0, 1.0)" };
+const PARTS = { float: ".x", vec2: ".xy", vec3: ".xyz", vec4: "" };
+
+function declarationsOf(attributes) {
+    const types = new Map(attributes.filter(({ name }) => !(name in DECLARED)).map(({ name, variable: { type } }) => [name, type in PARTS ? "vec4" : type]));
+    return Array.from(types, ([name, type]) => `attribute ${type} ${name};\n`).join("");
 }
 
 const VARYINGS = `
@@ -52,12 +62,10 @@ varying vec4 v_color;
 flat varying mat4 v_toWorld;
 `;
 
-const varyingOf = ({ name, variable: { type, flat } }) => `${flat ? "flat " : ""}varying ${type} v_${name};\n`;
+const varyingOf = ({ variable: { name, type, flat } }) => `${flat ? "flat " : ""}varying ${type} v_${name};\n`;
 
 function vertexShader(attributes) {
-    const own = attributes.filter(({ name }) => !/^uv[123]$/.test(name)); // three declares those
-    return `${VARYINGS}${attributes.map(varyingOf).join("")}
-${own.map(({ name, variable }) => `attribute ${variable.type} ${name};`).join("\n")}
+    return `${VARYINGS}${attributes.map(varyingOf).join("")}${declarationsOf(attributes)}
 ${chunks("common batching_pars_vertex color_pars_vertex fog_pars_vertex morphtarget_pars_vertex skinning_pars_vertex shadowmap_pars_vertex "
        + "logdepthbuf_pars_vertex clipping_planes_pars_vertex")}
 void main()
@@ -86,7 +94,7 @@ void main()
 #ifdef USE_TANGENT
     v_tangent = vec4((vec4(transformedTangent, 0.0) * viewMatrix).xyz, tangent.w);
 #endif
-    ${attributes.map(({ name }) => `v_${name} = ${name};`).join("\n    ")}
+    ${attributes.map(({ name, variable }) => `v_${variable.name} = ${DECLARED[name] ?? name}${PARTS[variable.type] ?? ""};`).join("\n    ")}
 }
 `;
 }
@@ -169,8 +177,8 @@ mat2x3 frameOf(vec3 N)
 `;
 
 function fragmentShader(shader, attributes) {
-    const { function: surface, functionType } = shader.info, names = new Map(attributes.map(({ name, variable }) => [variable.semantic, `v_${name}`]));
-    const parameters = shader.variables.filter(({ block }) => block === "vertexData").map(({ semantic }) => PARAMETERS[semantic] ?? names.get(semantic));
+    const { function: surface, functionType } = shader.info;
+    const parameters = shader.variables.filter(({ block }) => block === "vertexData").map(({ name, semantic }) => PARAMETERS[semantic] ?? `v_${name}`);
     return `${VARYINGS}${attributes.map(varyingOf).join("")}
 uniform mat4 projectionMatrix;
 ${Object.entries(HOST).map(([name, text]) => `#define host_${name} ${text}`).join("\n")}
@@ -190,9 +198,11 @@ void main()
     mat2x3 frame = frameOf(N);
     gatherLights();
     ${functionType} shaded = ${surface}(${parameters.join(", ")});
-    gl_FragColor = vec4(shaded.color, shaded.alpha);
+    // The colour is premultiplied; three maps and encodes colours that are not. Light beyond what is covered covers as much as it is bright.
+    float covered = clamp(max(shaded.alpha, max(shaded.color.r, max(shaded.color.g, shaded.color.b))), 1e-6, 1.0);
+    gl_FragColor = vec4(shaded.color / covered, shaded.alpha);
     ${chunks("tonemapping_fragment colorspace_fragment")}
-    // The colour is premultiplied, and so must be that of the fog.
+    gl_FragColor.rgb *= covered;
     #define fogColor (fogColor * gl_FragColor.a)
     ${chunks("fog_fragment dithering_fragment")}
 }
