@@ -19,7 +19,7 @@ export const make = (data, usage) => {
     return buffer;
 };
 
-// What the host has: matrices by column, a light, grey surroundings, a ball.
+// The host has matrices by column, a light, grey surroundings, and a ball.
 export const near = 1, far = 10, a = far / (near - far), b = near * a, zoom = 3.5, distance = eye[2];
 const uniforms = {
     viewPosition: eye, numActiveLightSources: [1],

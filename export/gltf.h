@@ -35,7 +35,7 @@ json_t *gltf_object(json_t *object, const char *key);
 json_t *gltf_array(json_t *object, const char *key);
 /* Appends `value`, which it takes, and returns its index. */
 size_t gltf_append(json_t *array, json_t *value);
-/* The same index for equal values. */
+/* As gltf_append; equal values have one index. */
 size_t gltf_add(json_t *array, json_t *value);
 /* Appends a part of the buffer. `target`: what it is for; 0: an image. Returns its index. */
 size_t gltf_add_view(struct gltf *gltf, const void *data, size_t size, int target);

@@ -25,7 +25,7 @@ struct family {
  * to 2,000; none of them is a member. Call family_finish.
  */
 void family_scan(struct lsp_session *session, struct family *out);
-/* The same with the members of the family of a document. */
+/* As family_scan, with the members of the family of a document. */
 void family_find(struct lsp_session *session, struct lsp_document *document, struct family *out);
 void family_finish(struct family *family);
 

@@ -226,7 +226,7 @@ static void list_drawn(struct occlusion *occlusion)
     qsort(occlusion->drawn, occlusion->num_drawn, sizeof *occlusion->drawn, compare_drawn);
 }
 
-/* What is drawn of a mesh; *out_num 0: nothing. */
+/* The objects of a mesh; *out_num 0: there are none. */
 static const struct drawn *find_drawn(const struct occlusion *occlusion, uint32_t mesh,
                                       size_t *out_num)
 {

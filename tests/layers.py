@@ -17,7 +17,7 @@ BACK = {"ir", "lower", "specialise", "print", "closure", "slabs", "deferred", "s
 PROGRAMS = "cli check compile doc export lsp render".split()
 INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]', re.MULTILINE)
 
-# What a library in C17 may include with <>, and the files that need more: they know their platform.
+# Headers with <> that a library in C17 may include, and the files that need more: they know their platform.
 PORTABLE = re.compile(r"(assert|ctype|errno|inttypes|limits|math|setjmp|stdalign|stdarg|stdatomic|stdbool|stddef|stdint|stdio|stdlib|string)\.h|(libxml|mxgen)/\w+\.h")
 PLATFORM = {"posix.c", "windows.c"}
 ASKED = re.compile(r"^\s*#\s*(?:include\s*<([^>]+)>|.*\b(_(?:POSIX_C|XOPEN|GNU|DEFAULT)_SOURCE|__unix__|__linux__|__APPLE__|_WIN32)\b)", re.MULTILINE)

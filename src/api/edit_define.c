@@ -98,7 +98,7 @@ static const char *type_of(struct defining *d, elem_id port)
     return str_text(doc->strings, doc_attr_value(doc, port, STR_type));
 }
 
-/* What the nodegraph says about the values of its inputs goes where they go. */
+/* Attributes of the nodegraph about the values of its inputs go where these go. */
 static void add_nodedef(struct defining *d)
 {
     static const str_id inherited[] = {STR_colorspace, STR_fileprefix};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the test draws with three, in the browser: run.mjs calls the functions of `draws` and looks at the numbers and pictures that they return.
+// Pictures of the test by three, in the browser: run.mjs calls the functions of `draws` and looks at the numbers and pictures that they return.
 
 import * as THREE from "three";
 import { HDRLoader } from "three/addons/loaders/HDRLoader.js";
@@ -86,7 +86,7 @@ const draws = {
         return encode(picture);
     },
 
-    /** The same light on three's own matte material and on ours. */
+    /** A light on three's own matte material and on ours. */
     async standard(kind) {
         const lights = {
             directional: () => directional(1, 1, 2),

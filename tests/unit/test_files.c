@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/* What the library asks the file system: the files of a folder, and what a sandbox lets documents
- * read. */
+/* Questions of the library to the file system: the files of a folder, and those that a sandbox lets
+ * documents read. */
 #define _XOPEN_SOURCE 700
 #include "api/file_system.h"
 #include "api/generation.h"

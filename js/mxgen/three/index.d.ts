@@ -59,7 +59,7 @@ export interface MaterialXResult {
 export class MaterialXLoader extends Loader<MaterialXResult> {
     /** Uses a compiler that is there already; otherwise the first `load` of any loader loads one. */
     setCompiler(mxgen: Mxgen): this;
-    /** What each material gets: options of generation, and parameters of three such as `side`. */
+    /** Each material gets these: options of generation, and parameters of three such as `side`. */
     setParameters(parameters: Omit<MaterialXParameters, "element" | "path" | "manager" | "textures">): this;
     load(url: string, onLoad: (result: MaterialXResult) => void, onProgress?: (event: ProgressEvent) => void, onError?: (error: unknown) => void): void;
     /** The materials of a text, after `setCompiler`. `path` is that of the textures. */

@@ -27,7 +27,7 @@ export class MaterialXLoader extends Loader {
         return this;
     }
 
-    /** What each material gets: options of generation, and parameters of three such as `side`. */
+    /** Each material gets these: options of generation, and parameters of three such as `side`. */
     setParameters(parameters) {
         this.#parameters = parameters;
         return this;

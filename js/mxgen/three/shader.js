@@ -6,7 +6,7 @@ import { ShaderChunk } from "three";
 
 const chunks = names => names.split(" ").map(name => `#include <${name}>`).join("\n");
 
-// What the function reads of the host, in GLSL. v_toWorld is in place of three's modelMatrix, which knows no instances.
+// Names of the host that the function reads, in GLSL. v_toWorld is in place of three's modelMatrix, which knows no instances.
 const HOST = {
     // An orthographic camera sees from afar.
     viewPosition: "(isOrthographic ? v_position + 1e5 * vec3(viewMatrix[0].z, viewMatrix[1].z, viewMatrix[2].z) : cameraPosition)",
