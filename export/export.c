@@ -182,8 +182,8 @@ static bool is_wanted(const struct exporting *exporting, const char *material)
 }
 
 /*
- * Removes what would be baked and is not in the file: other shaders, and of a stage materials that
- * no object has, with their surfaces.
+ * Removes what would be baked and is not in the file: looks, other shaders, and of a stage
+ * materials that no object has, with their surfaces.
  */
 static void remove_others(struct exporting *exporting, const mxg_document *from, mxg_edit *edit)
 {
@@ -202,7 +202,8 @@ static void remove_others(struct exporting *exporting, const mxg_document *from,
         mxg_element_info info = bake_element(from, node);
         bool may_stay = !exporting->options.stage && strcmp(info.type, "displacementshader") != 0,
              is_shader = strstr(info.type, "shader") || strcmp(info.type, "material") == 0;
-        if (is_shader && !may_stay && !names_find(&kept, info.name))
+        if ((is_shader && !may_stay && !names_find(&kept, info.name))
+            || bake_is_of_look(from, node))
             mxg_edit_remove_element(edit, node);
     }
     names_finish(&kept);

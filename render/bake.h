@@ -2,8 +2,8 @@
 /*
  * mxgen bake: a document whose inputs are values and images, from one with graphs. bake.c runs it,
  * bake_folder.c for many, bake_plan.c finds the inputs, bake_needs.c what they read, bake_draw.c
- * draws them, bake_image.c writes images, bake_keep.c keeps those that stay, and bake_document.c
- * the document.
+ * draws them, bake_image.c writes images, bake_keep.c keeps those that stay, bake_document.c writes
+ * the document, and bake_looks.c its looks.
  */
 #ifndef MXG_RENDER_BAKE_H
 #define MXG_RENDER_BAKE_H
@@ -85,6 +85,9 @@ char *bake_place(const struct baking *baking, mxg_element element);
  * reporting an error.
  */
 bool bake_keep_files(struct baking *baking);
+
+/* Adds the looks to the new document, which has its materials. */
+void bake_add_looks(struct baking *baking, mxg_edit *edit);
 
 /* The new document as XML. NULL after reporting an error. The caller frees it. */
 char *bake_write_document(struct baking *baking, size_t *out_size);

@@ -256,6 +256,7 @@ char *bake_write_document(struct baking *baking, size_t *out_size)
         copy_definitions(&writer);
         for (size_t i = 0; i < plan->num_nodes; ++i)
             (plan->nodes[i].is_output ? add_output : add_node)(&writer, i);
+        bake_add_looks(baking, writer.edit);
         text = text_of(baking, writer.edit, out_size);
     }
     mxg_edit_destroy(writer.edit);

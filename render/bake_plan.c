@@ -437,7 +437,7 @@ void bake_plan_begin(struct bake_plan *plan, const mxg_document *document, struc
     *plan = (struct bake_plan){.document = document, .report = report};
     for (mxg_element child = bake_element(document, 0).first_child; child;) {
         mxg_element_info info = bake_element(document, child);
-        if (*info.name && bake_is_definition(document, child))
+        if (*info.name && (bake_is_definition(document, child) || bake_is_of_look(document, child)))
             take(plan, info.name, false);
         child = info.next;
     }

@@ -80,6 +80,9 @@ struct bake_plan {
 /* True for what belongs to the document's own definitions, which stay as they are. */
 bool bake_is_definition(const mxg_document *document, mxg_element element);
 
+/* True for looks, and what they name beside materials (bake_looks.c). */
+bool bake_is_of_look(const mxg_document *document, mxg_element element);
+
 /* An empty plan for a document. */
 void bake_plan_begin(struct bake_plan *plan, const mxg_document *document, struct report *report);
 /* Plans a renderable with all that it reads. false after reporting an error. */

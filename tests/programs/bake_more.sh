@@ -27,6 +27,17 @@ EOF
 noise='<noise2d name="n" type="float"/>'
 reads_noise='<input name="base" type="float" nodename="n"/>'
 
+# ---- Looks ----
+
+surface looks.mtlx "$noise
+  <collection name=\"parts\" includegeom=\"/a, /b\"/>
+  <constant name=\"dim\" type=\"float\"/>
+  <nodegraph name=\"wet\"><constant name=\"c\" type=\"float\"/><output name=\"specular_roughness\" type=\"float\" nodename=\"c\"/></nodegraph>" "$reads_noise"
+sed -i 's|</materialx>|  <look name="S_base"><materialassign name="m" material="M" collection="parts"/></look>\n  <look name="wet_look" inherit="S_base"><materialassign name="w" slot="000::010" nodegraph="wet" geom="/a"/><visibility name="v" geom="/b" visible="false"/></look>\n&|' looks.mtlx
+check 'looks stay' eval 'exits 0 "$mxgen" bake looks.mtlx -o looks --size 4 && has looks/looks.mtlx "<collection name=\"parts\"" "<materialassign name=\"m\" material=\"M\" collection=\"parts\"/>" "<visibility name=\"v\""'
+check 'names of images do not take theirs' eval 'has looks/looks.mtlx "<look name=\"S_base\">" && ! grep -q "<image name=\"S_base\"" looks/looks.mtlx && exits 0 "$mxgen" validate looks/looks.mtlx'
+check 'a layer that is a nodegraph is told' eval '"$mxgen" bake looks.mtlx -o looks --size 4 2>err; has err "'"'wet_look/w' (looks.mtlx:"'" "changes inputs that are baked [bake-look]" && ! grep -q wet\" looks/looks.mtlx'
+
 # ---- Folders ----
 
 mkdir -p many/wood/deep many/faulty
