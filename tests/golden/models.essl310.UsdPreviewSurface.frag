@@ -188,18 +188,11 @@ vec2 mx_map_point(const vec3 d)
         - mx_half_turn(d.y, square * stretch));
 }
 
-// Direction of the ray -v after it entered a solid sphere of index `ior` at the normal h, and left it again.
-vec3 mx_refract_sphere(const vec3 v, const vec3 h, const float ior)
-{
-    vec3 inside = refract(-v, h, 1.0 / ior);
-    return refract(inside, normalize(inside * dot(inside, h) - 0.5 * h), ior);
-}
-
 // The light that comes through a smooth solid sphere of index `ior`.
 mx_GgxLight mx_transmitted(const float ior, const vec3 N, const vec3 V)
 {
     return mx_GgxLight(textureLod(u_envRadiance,
-        mx_map_point(normalize(mat3(u_envMatrix) * mx_refract_sphere(V, faceforward(N, -V, N), ior))), 0.0).xyz
+        mx_map_point(normalize(mat3(u_envMatrix) * reflect(V, refract(-V, faceforward(N, -V, N), 1.0 / ior)))), 0.0).xyz
         * u_envLightIntensity, 1.0, max(abs(dot(N, V)), 1e-8));
 }
 

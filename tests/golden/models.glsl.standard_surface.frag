@@ -443,20 +443,13 @@ mx_GgxLight mx_ggx_reflected(const mx_GgxSamples s, const int i, const vec2 turn
         sqrt(clamp(0.5 * (facet.mirror * facet.cosine), 1e-8, 1.0)));
 }
 
-// Direction of the ray -v after it entered a solid sphere of index `ior` at the normal h, and left it again.
-vec3 mx_refract_sphere(const vec3 v, const vec3 h, const float ior)
-{
-    vec3 inside = refract(-v, h, 1.0 / ior);
-    return refract(inside, normalize(inside * dot(inside, h) - 0.5 * h), ior);
-}
-
 // The light that comes to the facet of sample i through a solid sphere of index `ior` behind it.
 mx_GgxLight mx_ggx_transmitted(const mx_GgxSamples s, const float ior, const int i, const vec2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     vec3 h = normalize(facet.h);
-    return mx_GgxLight(mx_filtered_light(s.to_map * mx_refract_sphere(s.v, h, ior), facet.texels), s.weight * 0.5
-        / s.v.z, clamp(dot(s.v, h), 1e-8, 1.0));
+    return mx_GgxLight(mx_filtered_light(s.to_map * reflect(s.v, refract(-s.v, h, 1.0 / ior)), facet.texels), s.weight
+        * 0.5 / s.v.z, clamp(dot(s.v, h), 1e-8, 1.0));
 }
 
 void main()

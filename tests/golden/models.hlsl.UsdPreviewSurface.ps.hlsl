@@ -241,19 +241,12 @@ float2 mx_map_point(float3 d)
         - mx_half_turn(d.y, square * stretch));
 }
 
-// Direction of the ray -v after it entered a solid sphere of index `ior` at the normal h, and left it again.
-float3 mx_refract_sphere(float3 v, float3 h, float ior)
-{
-    float3 inside = refract(-v, h, 1.0 / ior);
-    return refract(inside, normalize(inside * dot(inside, h) - 0.5 * h), ior);
-}
-
 // The light that comes through a smooth solid sphere of index `ior`.
 mx_GgxLight mx_transmitted(float ior, float3 N, float3 V)
 {
     return make_mx_GgxLight(u_envRadiance.SampleLevel(u_envRadiance_sampler,
-        mx_map_point(normalize(mul(mx_refract_sphere(V, faceforward(N, -V, N), ior), (float3x3)u_envMatrix))), 0.0).xyz
-        * u_envLightIntensity, 1.0, max(abs(dot(N, V)), 1e-8));
+        mx_map_point(normalize(mul(reflect(V, refract(-V, faceforward(N, -V, N), 1.0 / ior)), (float3x3)u_envMatrix))),
+        0.0).xyz * u_envLightIntensity, 1.0, max(abs(dot(N, V)), 1e-8));
 }
 
 // Unpolarised reflectance of an interface whose squared index is `re`, with c for the cosine in front of it:

@@ -585,20 +585,13 @@ mx_GgxLight mx_ggx_reflected(mx_GgxSamples s, int i, float2 turn)
         sqrt(clamp(0.5 * (facet.mirror * facet.cosine), 1e-8, 1.0)));
 }
 
-// Direction of the ray -v after it entered a solid sphere of index `ior` at the normal h, and left it again.
-float3 mx_refract_sphere(float3 v, float3 h, float ior)
-{
-    float3 inside = refract(-v, h, 1.0 / ior);
-    return refract(inside, normalize(inside * dot(inside, h) - 0.5 * h), ior);
-}
-
 // The light that comes to the facet of sample i through a solid sphere of index `ior` behind it.
 mx_GgxLight mx_ggx_transmitted(mx_GgxSamples s, float ior, int i, float2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     float3 h = normalize(facet.h);
-    return make_mx_GgxLight(mx_filtered_light(mul(mx_refract_sphere(s.v, h, ior), s.to_map), facet.texels), s.weight
-        * 0.5 / s.v.z, clamp(dot(s.v, h), 1e-8, 1.0));
+    return make_mx_GgxLight(mx_filtered_light(mul(reflect(s.v, refract(-s.v, h, 1.0 / ior)), s.to_map), facet.texels),
+        s.weight * 0.5 / s.v.z, clamp(dot(s.v, h), 1e-8, 1.0));
 }
 
 void main(

@@ -248,13 +248,6 @@ float2 mx_map_point(float3 d)
         - mx_half_turn(d.y, square * stretch));
 }
 
-// Direction of the ray -v after it entered a solid sphere of index `ior` at the normal h, and left it again.
-float3 mx_refract_sphere(float3 v, float3 h, float ior)
-{
-    float3 inside = refract(-v, h, 1.0 / ior);
-    return refract(inside, normalize(inside * dot(inside, h) - 0.5 * h), ior);
-}
-
 // Unpolarised reflectance of an interface whose squared index is `re`, with c for the cosine in front of it:
 //     F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2
 //     s = 1 - c^2,  g^2 = c^2 + 2k,  2k = re - 1
@@ -323,7 +316,7 @@ struct GlobalContext {
 mx_GgxLight mx_transmitted(float ior, float3 N, float3 V)
 {
     return make_mx_GgxLight(u_envRadiance.tex.sample(u_envRadiance.s,
-        mx_map_point(normalize(cut_3(u_prv.u_envMatrix) * mx_refract_sphere(V, faceforward(N, -V, N), ior))),
+        mx_map_point(normalize(cut_3(u_prv.u_envMatrix) * reflect(V, refract(-V, faceforward(N, -V, N), 1.0 / ior)))),
         level(0.0)).xyz * u_prv.u_envLightIntensity, 1.0, max(abs(dot(N, V)), 1e-8));
 }
 

@@ -196,19 +196,12 @@ fn mx_map_point(d: vec3f) -> vec2f
         0.5 - mx_half_turn(d.y, square * stretch));
 }
 
-// Direction of the ray -v after it entered a solid sphere of index `ior` at the normal h, and left it again.
-fn mx_refract_sphere(v: vec3f, h: vec3f, ior: f32) -> vec3f
-{
-    let inside: vec3f = refract(-v, h, 1.0 / ior);
-    return refract(inside, normalize(inside * dot(inside, h) - 0.5 * h), ior);
-}
-
 // The light that comes through a smooth solid sphere of index `ior`.
 fn mx_transmitted(ior: f32, N: vec3f, V: vec3f) -> mx_GgxLight
 {
     return mx_GgxLight(textureSampleLevel(u_envRadiance, u_envRadiance_sampler,
         mx_map_point(normalize(wgsl_mat3x3f_of_mat4x4f(u_prv.u_envMatrix)
-        * mx_refract_sphere(V, faceForward(N, -V, N), ior))), 0.0).xyz * u_prv.u_envLightIntensity, 1.0,
+        * reflect(V, refract(-V, faceForward(N, -V, N), 1.0 / ior)))), 0.0).xyz * u_prv.u_envLightIntensity, 1.0,
         max(abs(dot(N, V)), 1e-8));
 }
 

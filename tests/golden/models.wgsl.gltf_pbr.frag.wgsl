@@ -408,20 +408,13 @@ fn mx_ggx_samples_2(roughness: vec2f, count: i32, N: vec3f, X: vec3f, V: vec3f) 
         * (share * (v.z + lobe.masking)));
 }
 
-// Direction of the ray -v after it entered a solid sphere of index `ior` at the normal h, and left it again.
-fn mx_refract_sphere(v: vec3f, h: vec3f, ior: f32) -> vec3f
-{
-    let inside: vec3f = refract(-v, h, 1.0 / ior);
-    return refract(inside, normalize(inside * dot(inside, h) - 0.5 * h), ior);
-}
-
 // The light that comes to the facet of sample i through a solid sphere of index `ior` behind it.
 fn mx_ggx_transmitted(s: mx_GgxSamples, ior: f32, i: i32, turn: vec2f) -> mx_GgxLight
 {
     let facet: mx_GgxFacet = mx_ggx_facet(s, i, turn);
     let h: vec3f = normalize(facet.h);
-    return mx_GgxLight(mx_filtered_light(s.to_map * mx_refract_sphere(s.v, h, ior), facet.texels), s.weight * 0.5
-        / s.v.z, clamp(dot(s.v, h), 1e-8, 1.0));
+    return mx_GgxLight(mx_filtered_light(s.to_map * reflect(s.v, refract(-s.v, h, 1.0 / ior)), facet.texels), s.weight
+        * 0.5 / s.v.z, clamp(dot(s.v, h), 1e-8, 1.0));
 }
 
 @fragment

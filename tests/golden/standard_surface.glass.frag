@@ -116,21 +116,13 @@ mx_GgxLight mx_mirrored(const vec3 N, const vec3 V)
         1.0, max(abs(dot(N, V)), 1e-8));
 }
 
-// Direction of the ray -v after it entered a solid sphere of index `ior` at the normal h, and left it again.
-// Here ior = 1.52.
-vec3 mx_refract_sphere(const vec3 v, const vec3 h)
-{
-    vec3 inside = refract(-v, h, 0.65789473);
-    return refract(inside, normalize(inside * dot(inside, h) - 0.5 * h), 1.52);
-}
-
 // The light that comes through a smooth solid sphere of index `ior`.
 // Here ior = 1.52.
 mx_GgxLight mx_transmitted(const vec3 N, const vec3 V)
 {
     return mx_GgxLight(textureLod(u_envRadiance,
-        mx_map_point(normalize(mat3(u_envMatrix) * mx_refract_sphere(V, faceforward(N, -V, N)))), 0.0).xyz
-        * u_envLightIntensity, 1.0, max(abs(dot(N, V)), 1e-8));
+        mx_map_point(normalize(mat3(u_envMatrix) * reflect(V, refract(-V, faceforward(N, -V, N), 0.65789473)))),
+        0.0).xyz * u_envLightIntensity, 1.0, max(abs(dot(N, V)), 1e-8));
 }
 
 void main()

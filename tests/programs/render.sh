@@ -581,4 +581,14 @@ for channel in R=0.25 G=0.5 B=0.3; do
     check "sets of coordinates and colours are read: $channel" near "$(python3 "$exr" sets.exr ${channel%=*} 0.5 0.5)" ${channel#*=} 0.001
 done
 
+# At its edge the ray inside of a smooth ball is as flat as it can be.
+cat >smooth.mtlx <<'END'
+<materialx version="1.39">
+  <open_pbr_surface name="S" type="surfaceshader">
+    <input name="specular_roughness" type="float" value="0"/><input name="specular_ior" type="float" value="1.52"/><input name="transmission_weight" type="float" value="1"/>
+  </open_pbr_surface>
+  <surfacematerial name="Glass" type="material"><input name="surfaceshader" type="surfaceshader" nodename="S"/></surfacematerial>
+</materialx>
+END
+check 'smooth glass is finite up to its edge' exits 0 "$render" smooth.mtlx --mesh sphere --camera 25,16,5,30 -s 256 -o smooth.exr
 finish render

@@ -311,11 +311,11 @@ vec3 mx_ggx_eval(vec2 roughness, string distribution, bool by_direction, vec3 N,
 // ---- environment ----------------------------------------------------------------------------------------------------
 // Below, refract_ior > 0 looks through a solid sphere of that index instead of reflecting.
 
-// Direction of the ray -v after it entered a solid sphere of index `ior` at the normal h, and left it again.
+// Direction of the ray -v after it entered a solid sphere of index `ior` at the normal h, and left it again: the way
+// is the same from both ends, so a mirror across the ray inside turns one end into the other.
 vec3 mx_refract_sphere(vec3 v, vec3 h, float ior)
 {
-    vec3 inside = refract(-v, h, 1.0 / ior);
-    return refract(inside, normalize(inside * dot(inside, h) - 0.5 * h), ior);
+    return reflect(v, refract(-v, h, 1.0 / ior));
 }
 
 // Light that the lobe reflects, from a map whose levels of detail are filtered for rising roughness; with
