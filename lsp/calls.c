@@ -91,12 +91,13 @@ static bool is_connection(const struct lsp_query *query, const struct model_attr
            || query_equals(query->text, attribute->name, "nodegraph");
 }
 
-static void take_reader(void *user_data, uint32_t element, const struct model_attribute *attribute)
+static void take_reader(void *user_data, uint32_t element, const struct model_attribute *attribute,
+                        struct span name)
 {
     struct calls *calls = user_data;
     uint32_t reader = node_of(calls->query, element);
     if (reader != MODEL_NONE && is_connection(calls->query, attribute))
-        add_call(calls, reader, attribute->value);
+        add_call(calls, reader, name);
 }
 
 json_t *handle_incoming_calls(struct lsp_session *session, const json_t *params,

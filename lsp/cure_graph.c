@@ -141,11 +141,12 @@ struct renaming {
 };
 
 static void rename_reference(void *user_data, uint32_t element,
-                             const struct model_attribute *attribute)
+                             const struct model_attribute *attribute, struct span name)
 {
     const struct renaming *renaming = user_data;
     (void)element;
-    cure_replace(renaming->cure, attribute->value, renaming->name);
+    (void)attribute;
+    cure_replace(renaming->cure, name, renaming->name);
 }
 
 void cure_bad_name(struct cure *cure)

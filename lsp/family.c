@@ -187,19 +187,19 @@ bool family_can_name(const struct lsp_query *of, uint32_t target)
 }
 
 bool family_names(const struct lsp_query *of, uint32_t target, const struct lsp_query *in,
-                  uint32_t element, const struct model_attribute *attribute)
+                  uint32_t element, const struct model_attribute *attribute, struct span name)
 {
     uint32_t named = named_of(of, target);
     bool is_output = query_equals(in->text, attribute->name, "output");
-    if (is_output != (named != target) || !names_is_reference(in, attribute)
+    if (is_output != (named != target) || !names_is_reference(in, element, attribute)
         || query_equals(in->text, attribute->name, "interfacename")
-        || !is_same(of, query_value(of, target, "name"), in, attribute->value))
+        || !is_same(of, query_value(of, target, "name"), in, name))
         return false;
     if (is_output) {
         const struct model_attribute *graph = query_attribute(in, element, "nodegraph");
-        return graph && family_names(of, named, in, element, graph);
+        return graph && family_names(of, named, in, element, graph, graph->value);
     }
     bool is_node = query_equals(in->text, attribute->name, "nodename");
-    return names_target(in, element, attribute) == MODEL_NONE
+    return names_target_of(in, element, attribute, name) == MODEL_NONE
            && (!is_node || names_scope(in, element) == query_root(in));
 }

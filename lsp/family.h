@@ -34,11 +34,11 @@ bool family_query(const struct family *family, size_t index, struct lsp_session 
                   struct lsp_query *out);
 
 /*
- * True if an attribute of another file may name the target: an element at the root of the text of
- * `of`, or an output of a nodegraph there.
+ * True if a name in an attribute of another file is that of the target: an element at the root of
+ * the text of `of`, or an output of a nodegraph there.
  */
 bool family_names(const struct lsp_query *of, uint32_t target, const struct lsp_query *in,
-                  uint32_t element, const struct model_attribute *attribute);
+                  uint32_t element, const struct model_attribute *attribute, struct span name);
 /* True for an element that other files can name. */
 bool family_can_name(const struct lsp_query *of, uint32_t target);
 

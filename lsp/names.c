@@ -74,6 +74,12 @@ static uint32_t in_scope(const struct lsp_query *query, uint32_t element, struct
     return found != MODEL_NONE && query_is(query, found, "input") ? MODEL_NONE : found;
 }
 
+/* The look that a <lookgroup> has by default; other defaults are values. */
+static uint32_t of_group(const struct lsp_query *query, uint32_t element, struct span name)
+{
+    return query_is(query, element, "lookgroup") ? at_root(query, element, name) : MODEL_NONE;
+}
+
 /* A nodegraph stands beside the element that reads it, or at the root. */
 static uint32_t graph_of(const struct lsp_query *query, uint32_t element, struct span name)
 {
@@ -146,10 +152,21 @@ static const struct reference {
     const char *attribute;
     uint32_t (*find)(const struct lsp_query *query, uint32_t element, struct span name);
 } references[] = {
-    {"nodename", in_scope},        {"nodegraph", graph_of}, {"interfacename", input_of_graph},
-    {"output", output_of_source},  {"nodedef", at_root},    {"inherit", at_root},
-    {"material", at_root},         {"collection", at_root}, {"includecollection", at_root},
-    {"active", at_root},           {"variantset", at_root}, {"propertyset", at_root},
+    {"nodename", in_scope},
+    {"nodegraph", graph_of},
+    {"interfacename", input_of_graph},
+    {"output", output_of_source},
+    {"nodedef", at_root},
+    {"inherit", at_root},
+    {"material", at_root},
+    {"collection", at_root},
+    {"includecollection", at_root},
+    {"active", at_root},
+    {"variantset", at_root},
+    {"propertyset", at_root},
+    {"looks", at_root},
+    {"default", of_group},
+    {"viewercollection", at_root},
     {"name", input_of_definition},
 };
 
@@ -162,17 +179,40 @@ static const struct reference *reference_of(const struct lsp_query *query,
     return NULL;
 }
 
+uint32_t names_target_of(const struct lsp_query *query, uint32_t element,
+                         const struct model_attribute *attribute, struct span name)
+{
+    const struct reference *reference = reference_of(query, attribute);
+    return reference && name.end > name.start ? reference->find(query, element, name) : MODEL_NONE;
+}
+
 uint32_t names_target(const struct lsp_query *query, uint32_t element,
                       const struct model_attribute *attribute)
 {
-    const struct reference *reference = reference_of(query, attribute);
-    bool has_name = attribute->value.end > attribute->value.start;
-    return reference && has_name ? reference->find(query, element, attribute->value) : MODEL_NONE;
+    return names_target_of(query, element, attribute, attribute->value);
 }
 
-bool names_is_reference(const struct lsp_query *query, const struct model_attribute *attribute)
+bool names_next_item(const struct lsp_query *query, struct span value, struct span *item)
 {
-    return reference_of(query, attribute) && !query_equals(query->text, attribute->name, "name");
+    const char *bytes = query->text->bytes;
+    uint32_t at = item->end;
+    while (at < value.end && strchr(", \t\r\n", bytes[at]))
+        ++at;
+    item->start = item->end = at;
+    while (item->end < value.end && bytes[item->end] != ',')
+        ++item->end;
+    while (item->end > at && strchr(" \t\r\n", bytes[item->end - 1]))
+        --item->end;
+    return item->end > at;
+}
+
+bool names_is_reference(const struct lsp_query *query, uint32_t element,
+                        const struct model_attribute *attribute)
+{
+    bool is_value = query_equals(query->text, attribute->name, "default")
+                    && !query_is(query, element, "lookgroup");
+    return reference_of(query, attribute) && !is_value
+           && !query_equals(query->text, attribute->name, "name");
 }
 
 /* ---- Included files ---- */

@@ -26,13 +26,23 @@ const struct model_attribute *names_file(const struct lsp_query *query, uint32_t
                                          char *prefix, size_t capacity);
 
 /*
- * The element of the text that an attribute of `element` names: of a connection, a reference to a
- * definition, a material. MODEL_NONE: none in this text, or the attribute names nothing.
+ * The element of the text that `name`, the value of an attribute of `element` or an item of it,
+ * names: of a connection, a reference to a definition, a material. MODEL_NONE: none in this text,
+ * or the attribute names nothing.
  */
+uint32_t names_target_of(const struct lsp_query *query, uint32_t element,
+                         const struct model_attribute *attribute, struct span name);
+/* Of the whole value. */
 uint32_t names_target(const struct lsp_query *query, uint32_t element,
                       const struct model_attribute *attribute);
-/* True for attributes that name elements. */
-bool names_is_reference(const struct lsp_query *query, const struct model_attribute *attribute);
+/*
+ * The next item of a value with commas between its items, without blanks; begin with an empty span
+ * at the begin of the value. False: there are no more.
+ */
+bool names_next_item(const struct lsp_query *query, struct span value, struct span *item);
+/* True for an attribute of an element that names elements. */
+bool names_is_reference(const struct lsp_query *query, uint32_t element,
+                        const struct model_attribute *attribute);
 
 /* The next element at the root of the document that stands in another file; begin with 0. */
 mxg_element names_next_included(const struct lsp_query *query, mxg_element after,

@@ -69,8 +69,8 @@ json_t *handle_definition(struct lsp_session *session, const json_t *params,
         return locate(&query, name_of(&query, target));
     if (place.part == PLACE_CATEGORY)
         return locate_nodedef(&query, place.element);
-    if (place.part == PLACE_VALUE && names_is_reference(&query, place.attribute)
-        && names_find_included(&query, place.attribute->value, &info))
+    if (place.part == PLACE_VALUE && names_is_reference(&query, place.element, place.attribute)
+        && names_find_included(&query, name, &info))
         return locate_included(&query, &info);
     return NULL;
 }
@@ -90,8 +90,8 @@ static void aim_at_included(struct aim *aim, const struct lsp_query *query)
 {
     mxg_element_info info;
     struct place place = query_place(query);
-    if (place.part != PLACE_VALUE || !names_is_reference(query, place.attribute)
-        || !names_find_included(query, place.attribute->value, &info))
+    if (place.part != PLACE_VALUE || !names_is_reference(query, place.element, place.attribute)
+        || !names_find_included(query, aim->name, &info))
         return;
     for (size_t i = 0; i < aim->family.num_files; ++i) {
         struct lsp_query of;
@@ -127,11 +127,13 @@ struct places {
     const char *new_name;
 };
 
-static void take_place(void *user_data, uint32_t element, const struct model_attribute *attribute)
+static void take_place(void *user_data, uint32_t element, const struct model_attribute *attribute,
+                       struct span name)
 {
     struct places *places = user_data;
     (void)element;
-    json_array_append_new(places->list, places->make(places, attribute->value));
+    (void)attribute;
+    json_array_append_new(places->list, places->make(places, name));
 }
 
 static json_t *make_location(const struct places *places, struct span name)
@@ -167,8 +169,10 @@ static void collect_in(struct places *places, const struct aim *aim)
         for (uint32_t a = 0; a < element->num_attributes; ++a) {
             const struct model_attribute *attribute =
                 &in->model->attributes[element->first_attribute + a];
-            if (family_names(&aim->query, aim->target, in, i, attribute))
-                take_place(places, i, attribute);
+            struct span value = attribute->value, item = {value.start, value.start};
+            while (names_next_item(in, value, &item))
+                if (family_names(&aim->query, aim->target, in, i, attribute, item))
+                    take_place(places, i, attribute, item);
         }
     }
 }
@@ -231,9 +235,12 @@ static bool is_shared_output(const struct lsp_query *query, uint32_t output)
  */
 static bool can_rename(const struct lsp_query *query, uint32_t target)
 {
+    static const char *const others[] = {"nodegraph",  "nodedef",     "look",      "lookgroup",
+                                         "collection", "propertyset", "variantset"};
     bool is_input = query_is(query, target, "input"), is_output = query_is(query, target, "output");
-    bool is_known = is_input || is_output || query_is_node(query, target)
-                    || query_is(query, target, "nodegraph") || query_is(query, target, "nodedef");
+    bool is_known = is_input || is_output || query_is_node(query, target);
+    for (size_t i = 0; i < sizeof others / sizeof *others; ++i)
+        is_known |= query_is(query, target, others[i]);
     bool is_of_node =
         (is_input || is_output) && query_is_node(query, query->model->elements[target].parent);
     return is_known && !is_of_node && !(is_output && is_shared_output(query, target));
@@ -248,11 +255,9 @@ json_t *handle_prepare_rename(struct lsp_session *session, const json_t *params,
     if (!lsp_query(session, params, &query, error))
         return NULL;
     if (find_aim(&query, &aim) && can_rename(&aim.query, aim.target)) {
-        struct span name =
-            aim.query.document == query.document ? aim.name : query_place(&query).attribute->value;
         result = json_object();
-        json_object_set_new(result, "range", wire_range(session, query.text, name));
-        json_object_set_new(result, "placeholder", wire_span(query.text, name));
+        json_object_set_new(result, "range", wire_range(session, query.text, aim.name));
+        json_object_set_new(result, "placeholder", wire_span(query.text, aim.name));
     }
     family_finish(&aim.family);
     return result;

@@ -11,10 +11,10 @@
  */
 uint32_t references_target(const struct lsp_query *query, struct span *out_name);
 
-/* Calls `take` for each attribute that names the element, in the order of the text. */
+/* Calls `take` for each name of the element in an attribute, in the order of the text. */
 void references_each(const struct lsp_query *query, uint32_t target,
                      void (*take)(void *user_data, uint32_t element,
-                                  const struct model_attribute *attribute),
+                                  const struct model_attribute *attribute, struct span name),
                      void *user_data);
 
 #endif

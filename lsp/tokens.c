@@ -64,7 +64,7 @@ static void add_attribute(struct tokens *tokens, uint32_t element,
     else if (query_equals(query->text, attribute->name, "interfacename")
              || query_equals(query->text, attribute->name, "output"))
         add(tokens, attribute->value, TOKEN_PARAMETER, 0);
-    else if (names_is_reference(query, attribute))
+    else if (names_is_reference(query, element, attribute))
         add(tokens, attribute->value, TOKEN_VARIABLE, 0);
     else if (query_equals(query->text, attribute->name, "value")
              && is_number(query->text, attribute->value))

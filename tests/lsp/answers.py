@@ -316,6 +316,26 @@ def check_families(client):
     same(list(client.at("textDocument/rename", uri_of(part), inside, newName="deep")["changes"]), [uri_of(part)], "names inside of a graph are its own")
 
 
+def check_looks(client):
+    """Names in lists, and of what looks have."""
+    text = """<materialx version="1.39">
+  <collection name="legs" includegeom="/a"/>
+  <collection name="all" includecollection="legs, top ,legs2"/>
+  <collection name="top" includegeom="/b"/>
+  <input name="n" type="string" default="day"/>
+  <look name="day"><materialassign name="legs" collection="legs"/><visibility name="v" viewercollection="legs"/></look>
+  <look name="night" inherit="day"/>
+  <lookgroup name="both" looks="night,day" default="day"/>
+</materialx>
+"""
+    for old, count, new, at in (("legs", 4, "feet", text.index("legs, top") + 2), ("day", 4, "noon", text.index("night,day") + 7), ("top", 2, "lid", text.index('name="top"') + 7)):
+        open_text(client, text)
+        changed = edited(text, client.at("textDocument/rename", URI, at, newName=new)["changes"][URI])
+        same((changed.count(new), changed.replace(new, old)), (count, text), f"{old} renamed")
+    place = client.at("textDocument/definition", URI, text.index("top ,legs2") + 1)
+    same(line_of(place["range"]), 3, "an item of a list")
+
+
 def check_moves(client):
     """Names of files follow the files, and documents that move."""
     include = '<materialx version="1.39" xmlns:xi="http://www.w3.org/2001/XInclude">\n{}</materialx>\n'
@@ -509,6 +529,7 @@ check_completion(session)
 check_hover(session)
 check_navigation(session)
 check_families(session)
+check_looks(session)
 check_moves(session)
 check_outline(session)
 check_colours(session)
