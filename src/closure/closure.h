@@ -150,7 +150,6 @@ enum closure_darkening {
 };
 
 /* The lighting of the shaded point, from the options of the caller. */
-
 struct closure_lighting {
     bool lights;      /* light shaders are bound */
     bool environment; /* `--environment` is not none */

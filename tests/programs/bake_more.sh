@@ -8,11 +8,6 @@ here=$(cd "$(dirname "$0")" && pwd)
 has_device "$render" || { skip 'no Vulkan device'; finish bake-more; }
 export MESA_SHADER_CACHE_DISABLE=true
 
-has() { # FILE TEXT...: the file has all of the texts
-    local file=$1 text
-    shift
-    for text in "$@"; do grep -qF -- "$text" "$file" || { echo "no '$text' in:" && cat "$file" && return 1; }; done
-}
 # surface FILE NODES INPUTS: a document with one material
 surface() {
     cat >"$1" <<EOF

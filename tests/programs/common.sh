@@ -31,6 +31,13 @@ exits() {
     return 1
 }
 
+# has FILE TEXT...: the file has all of the texts.
+has() {
+    local file=$1 text
+    shift
+    for text in "$@"; do grep -qF -- "$text" "$file" || { echo "no '$text' in:" && cat "$file" && return 1; }; done
+}
+
 skip() {
     skipped=$((skipped + 1))
     printf 'skip: %s\n' "$1"

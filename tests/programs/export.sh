@@ -9,11 +9,6 @@ has_device "$render" || { skip 'no Vulkan device'; finish export; }
 export MESA_SHADER_CACHE_DISABLE=true TMPDIR=$work/temporary
 mkdir "$TMPDIR"
 
-has() { # FILE TEXT...: the file has all of the texts
-    local file=$1 text
-    shift
-    for text in "$@"; do grep -qF -- "$text" "$file" || { echo "no '$text' in:" && cat "$file" && return 1; }; done
-}
 valid() { # FILE...: by Khronos' validator
     NODE_PATH=$root/tests/npm/node_modules node "$here/validate_gltf.cjs" "$@"
 }

@@ -9,11 +9,6 @@ has_device "$render" || { skip 'no Vulkan device'; finish export-stage; }
 export MESA_SHADER_CACHE_DISABLE=true TMPDIR=$work/temporary
 mkdir "$TMPDIR"
 
-has() { # FILE TEXT...: the file has all of the texts
-    local file=$1 text
-    shift
-    for text in "$@"; do grep -qF -- "$text" "$file" || { echo "no '$text' in:" && cat "$file" && return 1; }; done
-}
 # worn FILE NODE: the material of a node's mesh, then "VARIANT=MATERIAL" in the order of the variants.
 worn() {
     python3 - "$1" "$2" <<'END'

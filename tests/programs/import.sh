@@ -6,11 +6,6 @@ here=$(cd "$(dirname "$0")" && pwd)
 . "$here/common.sh"
 export MESA_SHADER_CACHE_DISABLE=true
 
-has() { # FILE TEXT...: the file has all of the texts
-    local file=$1 text
-    shift
-    for text in "$@"; do grep -qF -- "$text" "$file" || { echo "no '$text' in:" && cat "$file" && return 1; }; done
-}
 files() { [ "$(cd "$1" && find . -type f | sort | tr '\n' ' ')" = "$2" ] || { find "$1" -type f && false; }; }
 imports() { exits 0 "$mxgen" import "$@"; }
 clean() { exits 0 "$mxgen" validate "$@" && [ ! -s err ]; }

@@ -6,11 +6,6 @@ mxgen=$(realpath "$1") render=$(realpath "$2")
 has_device "$render" || { skip 'no Vulkan device'; finish occlusion; }
 export MESA_SHADER_CACHE_DISABLE=true
 
-has() { # FILE TEXT...: the file has all of the texts
-    local file=$1 text
-    shift
-    for text in "$@"; do grep -qF -- "$text" "$file" || { echo "no '$text' in:" && cat "$file" && return 1; }; done
-}
 # A floor of 200 x 200 before a wall of 200 x 100, with a small post, twice as large in the world, and a sphere that is far away.
 cat >room.usda <<'END'
 #usda 1.0
