@@ -54,8 +54,8 @@ bool edit_check_text(struct edit_change *change, const char *what, const char *t
 bool edit_check_name(struct edit_change *change, const char *what, const char *name);
 /* A name that no element below the parent has. */
 bool edit_check_new_name(struct edit_change *change, elem_id parent, const char *name);
-/* The document may have another element. */
-bool edit_check_room(struct edit_change *change);
+/* The document may have so many elements more. */
+bool edit_check_room(struct edit_change *change, uint64_t num);
 /* The number is that of an element; 0 becomes the root, if that is allowed. */
 bool edit_check_element(struct edit_change *change, elem_id *element, bool may_be_root);
 

@@ -80,14 +80,11 @@ static bool find(struct defining *d)
     }
     note_interface(d);
     doc_visit_users(tree_of(d), c->element, note_user, d);
-    uint64_t num = 2 + (uint64_t)d->ports.len + d->outputs.len;
     if (defined)
         edit_fail(c, "'%s' implements '%s' already", label, str_text(doc->strings, defined));
     else if (!d->outputs.len)
         edit_fail(c, "'%s' has no output", label);
-    else if (doc->max_elements && num > doc->max_elements - doc_num_elements(doc))
-        edit_fail(c, "the document would have more elements than the context allows");
-    return !c->failed;
+    return !c->failed && edit_check_room(c, 2 + (uint64_t)d->ports.len + d->outputs.len);
 }
 
 /* ---- The definition ---- */

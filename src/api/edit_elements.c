@@ -130,10 +130,11 @@ bool edit_check_element(struct edit_change *change, elem_id *element, bool may_b
     return !change->failed;
 }
 
-bool edit_check_room(struct edit_change *change)
+bool edit_check_room(struct edit_change *change, uint64_t num)
 {
-    if (doc_is_full(edit_tree(change->edit)))
-        edit_fail(change, "the document has as many elements as the context allows");
+    const struct document *doc = edit_tree(change->edit);
+    if (doc->max_elements && doc_num_elements(doc) + num > doc->max_elements)
+        edit_fail(change, "the document would have more elements than the context allows");
     return !change->failed;
 }
 
@@ -156,7 +157,7 @@ static void add(void *arg)
     bool is_named = c->name && *c->name;
     if (edit_check_element(c, &c->element, true) && edit_check_name(c, "category", c->category)
         && (!is_named || edit_check_new_name(c, c->element, c->name))
-        && edit_check_text(c, "type", c->type) && edit_check_room(c))
+        && edit_check_text(c, "type", c->type) && edit_check_room(c, 1))
         c->result = edit_add(c, c->element, c->category, c->name, c->type);
 }
 

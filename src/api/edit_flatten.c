@@ -72,7 +72,7 @@ static elem_id first_token(struct flattening *f)
 }
 
 /* Each input of the definition may become a node with two inputs, and each node have all tokens. */
-static bool has_room(struct flattening *f)
+static uint64_t most_elements(struct flattening *f)
 {
     const struct document *doc = tree_of(f);
     uint64_t num = 3 * (uint64_t)library_nodedef(view_of(f), f->nodedef)->num_inputs, each = 1;
@@ -80,7 +80,7 @@ static bool has_room(struct flattening *f)
         each++;
     for (elem_id e = f->graph; e; e = doc_next_in_tree(doc, f->graph, e))
         num += each;
-    return !doc->max_elements || num <= doc->max_elements - doc_num_elements(doc);
+    return num;
 }
 
 /* False after a reason. */
@@ -96,9 +96,7 @@ static bool find(struct flattening *f)
                   edit_label(c->edit, c->element));
     else if (doc_is_within(tree_of(f), c->element, f->graph))
         edit_fail(c, "'%s' is a part of its own definition", edit_label(c->edit, c->element));
-    else if (!has_room(f))
-        edit_fail(c, "the document would have more elements than the context allows");
-    return !c->failed;
+    return !c->failed && edit_check_room(c, most_elements(f));
 }
 
 /* ---- Names ---- */

@@ -107,15 +107,6 @@ static void note_readers(struct grouping *g, elem_id node)
     }
 }
 
-static bool has_room(struct grouping *g)
-{
-    const struct document *doc = tree_of(g);
-    uint64_t num = 1 + (uint64_t)g->users.len + g->readers.len;
-    if (doc->max_elements && num > doc->max_elements - doc_num_elements(doc))
-        edit_fail(g->c, "the document would have more elements than the context allows");
-    return !g->c->failed;
-}
-
 /* False after a reason. */
 static bool find(struct grouping *g)
 {
@@ -128,7 +119,7 @@ static bool find(struct grouping *g)
         doc_visit_users(tree_of(g), c->other, note_user, g);
         note_readers(g, c->other);
     }
-    return !c->failed && has_room(g);
+    return !c->failed && edit_check_room(c, 1 + (uint64_t)g->users.len + g->readers.len);
 }
 
 /* ---- The nodegraph ---- */

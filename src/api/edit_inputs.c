@@ -14,7 +14,7 @@ static bool check_input(struct edit_change *c)
     elem_id input = edit_child(c->edit, c->element, c->name);
     if (input && doc_element(edit_tree(c->edit), input)->kind != KIND_INPUT)
         edit_fail(c, "'%s' is not an input", c->name);
-    return !c->failed && (input || edit_check_room(c));
+    return !c->failed && (input || edit_check_room(c, 1));
 }
 
 /* The input, with its type. `type` NULL keeps the type of an input that is there. */
