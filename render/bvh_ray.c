@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/bvh.h"
 
+#include <assert.h>
 #include <math.h>
 
 /* Möller and Trumbore 1997 */
@@ -40,7 +41,7 @@ static bool meets_box(const struct bvh_node *node, const double point[3], const 
 
 bool bvh_is_closed(const struct bvh *bvh, const double point[3], const double direction[3])
 {
-    enum { DEPTH = 128 };
+    enum { DEPTH = 128 }; /* bvh_build halves its triangles, so no tree comes near it */
     const double inverse[3] = {1 / direction[0], 1 / direction[1], 1 / direction[2]};
     uint32_t open[DEPTH], num = 0;
     struct bvh_crossing crossing;
@@ -54,7 +55,8 @@ bool bvh_is_closed(const struct bvh *bvh, const double point[3], const double di
             if (bvh_cross(&bvh->corners[3 * ((size_t)node->first + t)], point, direction,
                           &crossing))
                 return true;
-        if (!node->count && num + 2 <= DEPTH) {
+        if (!node->count) {
+            assert(num + 2 <= DEPTH);
             open[num++] = node->first;
             open[num++] = node->first + 1;
         }

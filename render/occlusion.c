@@ -18,16 +18,14 @@ struct point {
 };
 
 struct occlusion {
-    const struct site *site;
+    struct site *site;
     struct bvh bvh;
     double (*rays)[3]; /* of the cone around z, with a density like their cosine */
     size_t num_rays;
-    double near; /* how far a ray begins from its point */
-    struct drawn {
-        uint32_t mesh, object;
-    } * drawn; /* by mesh */
-    size_t num_drawn;
-    bool *is_above; /* by primitive: it is such a mesh, or one is below it */
+    double near;       /* how far a ray begins from its point */
+    uint32_t *last_of; /* by primitive: 1 + the last object of a mesh; 0: there is none */
+    uint32_t *before;  /* by object: 1 + the one before it of its mesh */
+    bool *is_above;    /* by primitive: it is such a mesh, or one is below it */
     FILE *out;
     unsigned depth;
 };
@@ -79,13 +77,16 @@ static int compare_points(const void *a, const void *b)
     return memcmp(a, b, sizeof((const struct point *)a)->position);
 }
 
-/* Where a corner of a triangle looks from, and along which normal, in the world. */
-static void place_corner(const struct scene_object *object, const uint32_t *triangle,
-                         uint32_t corner, double out_place[3], double out_normal[3])
+/*
+ * Where a corner of a triangle looks from, and along which normal, in the world; `turn` is the
+ * matrix of the object's normals.
+ */
+static void place_corner(const struct scene_object *object, struct matrix turn,
+                         const uint32_t *triangle, uint32_t corner, double out_place[3],
+                         double out_normal[3])
 {
     const double inwards = 0.05; /* of the way to the centre: another mesh may touch the corner */
     const struct vertex *vertices = object->mesh.vertices;
-    const struct matrix turn = matrix_transpose(matrix_inverse(object->world));
     for (size_t k = 0; k < 3; ++k) {
         double centre = 0, at = (double)vertices[triangle[corner]].position[k];
         for (size_t i = 0; i < 3; ++i)
@@ -114,6 +115,7 @@ static void see(const struct occlusion *occlusion, const struct scene_object *ob
                 struct point *points, size_t num)
 {
     const struct mesh *mesh = &object->mesh;
+    const struct matrix turn = matrix_transpose(matrix_inverse(object->world));
     for (uint32_t i = 0; i + 2 < mesh->num_indices; i += 3)
         for (uint32_t k = 0; k < 3; ++k) {
             double place[3], normal[3];
@@ -121,7 +123,7 @@ static void see(const struct occlusion *occlusion, const struct scene_object *ob
                 find_point(points, num, mesh->vertices[mesh->indices[i + k]].position);
             if (!point)
                 continue;
-            place_corner(object, mesh->indices + i, k, place, normal);
+            place_corner(object, turn, mesh->indices + i, k, place, normal);
             point->sum += open_part(occlusion, place, normal);
             ++point->num;
         }
@@ -138,9 +140,8 @@ static void put_indent(const struct occlusion *occlusion)
 static struct point *read_points(const struct occlusion *occlusion, uint32_t primitive,
                                  size_t *out_num)
 {
-    size_t num = mxg_scene_property_numbers(occlusion->site->scene, primitive, "points", NULL, 0);
-    double *values = memory_alloc((num + 1) * sizeof *values);
-    mxg_scene_property_numbers(occlusion->site->scene, primitive, "points", values, num);
+    size_t num;
+    double *values = usd_numbers(occlusion->site, primitive, "points", &num);
     *out_num = num / 3;
     struct point *points = memory_alloc((*out_num + 1) * sizeof *points);
     for (size_t i = 0; i < 3 * *out_num; ++i)
@@ -150,16 +151,15 @@ static struct point *read_points(const struct occlusion *occlusion, uint32_t pri
 }
 
 /* Writes the primvar: 1 where no face has the point. */
-static void put_primvar(const struct occlusion *occlusion, uint32_t primitive,
-                        const struct drawn *drawn, size_t num_drawn)
+static void put_primvar(const struct occlusion *occlusion, uint32_t primitive)
 {
     size_t num;
     struct point *points = read_points(occlusion, primitive, &num),
                  *sorted = memory_alloc((num + 1) * sizeof *sorted);
     memcpy(sorted, points, num * sizeof *sorted);
     qsort(sorted, num, sizeof *sorted, compare_points);
-    for (size_t i = 0; i < num_drawn; ++i)
-        see(occlusion, &occlusion->site->objects[drawn[i].object].object, sorted, num);
+    for (uint32_t i = occlusion->last_of[primitive]; i; i = occlusion->before[i - 1])
+        see(occlusion, &occlusion->site->objects[i - 1].object, sorted, num);
     put_indent(occlusion);
     fputs("float[] primvars:ambientocclusion = [", occlusion->out);
     for (size_t i = 0; i < num; ++i) {
@@ -195,68 +195,40 @@ static uint32_t mesh_of(const struct occlusion *occlusion, uint32_t object)
     return is_type(&primitive, "GeomSubset") ? primitive.parent : index;
 }
 
-static int compare_drawn(const void *a, const void *b)
-{
-    const struct drawn *x = a, *y = b;
-    return x->mesh != y->mesh ? (x->mesh < y->mesh ? -1 : 1)
-                              : (x->object > y->object) - (x->object < y->object);
-}
-
 /* Lists the objects by their meshes, and marks what is above these. */
 static void list_drawn(struct occlusion *occlusion)
 {
-    const struct site *site = occlusion->site;
-    occlusion->drawn = memory_alloc((site->num_objects + (size_t)1) * sizeof *occlusion->drawn);
-    occlusion->is_above = memory_alloc(mxg_scene_num_primitives(site->scene) + (size_t)1);
+    struct site *site = occlusion->site;
+    const size_t num = mxg_scene_num_primitives(site->scene) + (size_t)1;
+    occlusion->last_of = memory_alloc(num * sizeof *occlusion->last_of);
+    occlusion->before = memory_alloc((site->num_objects + (size_t)1) * sizeof(uint32_t));
+    occlusion->is_above = memory_alloc(num * sizeof *occlusion->is_above);
     for (uint32_t i = 0; i < site->num_objects; ++i) {
         uint32_t mesh = mesh_of(occlusion, i);
         mxg_primitive primitive = primitive_of(occlusion, mesh);
         if (!is_type(&primitive, "Mesh")) {
-            char *path = site_path(site->scene, mesh);
-            report_warning(site->report, "occlusion-left-out",
-                           "'%s' has no points that could have an occlusion: it is no Mesh", path);
-            free(path);
+            site_warn(site, "occlusion-left-out", mesh, NULL,
+                      "has no points that could have an occlusion: it is no Mesh");
             continue;
         }
-        occlusion->drawn[occlusion->num_drawn++] = (struct drawn){mesh, i};
+        occlusion->before[i] = occlusion->last_of[mesh];
+        occlusion->last_of[mesh] = i + 1;
         for (; mesh != MXG_NONE && !occlusion->is_above[mesh];
              mesh = primitive_of(occlusion, mesh).parent)
             occlusion->is_above[mesh] = true;
     }
-    qsort(occlusion->drawn, occlusion->num_drawn, sizeof *occlusion->drawn, compare_drawn);
-}
-
-/* The objects of a mesh; *out_num 0: there are none. */
-static const struct drawn *find_drawn(const struct occlusion *occlusion, uint32_t mesh,
-                                      size_t *out_num)
-{
-    size_t first = 0, last = occlusion->num_drawn;
-    *out_num = 0;
-    while (first < last) {
-        size_t middle = first + (last - first) / 2;
-        if (occlusion->drawn[middle].mesh < mesh)
-            first = middle + 1;
-        else
-            last = middle;
-    }
-    while (first + *out_num < occlusion->num_drawn
-           && occlusion->drawn[first + *out_num].mesh == mesh)
-        ++*out_num;
-    return occlusion->drawn + first;
 }
 
 static void put_primitive(struct occlusion *occlusion, uint32_t index)
 {
     const mxg_primitive primitive = primitive_of(occlusion, index);
-    size_t num;
-    const struct drawn *drawn = find_drawn(occlusion, index, &num);
     put_indent(occlusion);
     fprintf(occlusion->out, "over \"%.*s\"\n", (int)primitive.name_len, primitive.name);
     put_indent(occlusion);
     fputs("{\n", occlusion->out);
     ++occlusion->depth;
-    if (num)
-        put_primvar(occlusion, index, drawn, num);
+    if (occlusion->last_of[index])
+        put_primvar(occlusion, index);
     for (uint32_t child = primitive.first_child; child != MXG_NONE;
          child = primitive_of(occlusion, child).next_sibling)
         if (occlusion->is_above[child])
@@ -295,7 +267,7 @@ static void write_layer(struct occlusion *occlusion)
             put_primitive(occlusion, i);
 }
 
-bool occlusion_bake(const struct site *site, size_t num_rays, const char *path)
+bool occlusion_bake(struct site *site, size_t num_rays, const char *path)
 {
     struct occlusion occlusion = {.site = site, .num_rays = num_rays};
     struct batch files = {0};
@@ -319,7 +291,8 @@ bool occlusion_bake(const struct site *site, size_t num_rays, const char *path)
     good = batch_end(&files, site->report, good && !reason && !site->report->errors);
     bvh_finish(&occlusion.bvh);
     free(occlusion.rays);
-    free(occlusion.drawn);
+    free(occlusion.last_of);
+    free(occlusion.before);
     free(occlusion.is_above);
     free(text);
     return good;

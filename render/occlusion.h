@@ -10,6 +10,6 @@
  * sublayer on the stage. Instances of a mesh share its primvar, so it is their mean. What has no
  * points is told. false after reporting an error.
  */
-bool occlusion_bake(const struct site *site, size_t num_rays, const char *path);
+bool occlusion_bake(struct site *site, size_t num_rays, const char *path);
 
 #endif
