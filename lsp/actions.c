@@ -69,7 +69,8 @@ static void add_upgrade(const struct lsp_query *query, json_t *actions)
     json_t *action = json_object();
     json_object_set_new(action, "title", json_string("Upgrade the document to MaterialX 1.39"));
     json_object_set_new(action, "kind", json_string("source.upgrade"));
-    json_object_set_new(action, "edit", wire_workspace_edit(query->document->uri, edits));
+    json_object_set_new(action, "edit",
+                        wire_add_edits(wire_workspace_edit(), query->document->uri, edits));
     json_array_append_new(actions, action);
 }
 

@@ -9,7 +9,7 @@
 
 const char *check_origin(const struct lsp_document *document)
 {
-    return document->is_file ? document->path : "/dev/null/none";
+    return document && document->is_file ? document->path : "/dev/null/none";
 }
 
 /* Copies what the editor has open. */

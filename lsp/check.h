@@ -25,7 +25,7 @@ struct lsp_check {
     struct findings findings;
 };
 
-/* The folder of a document decides what it may read; those that are no files read the workspace. */
+/* The folder of a document decides what it may read; NULL, and what is no file, the workspace. */
 const char *check_origin(const struct lsp_document *document);
 
 /* NULL: out of memory. */

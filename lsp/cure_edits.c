@@ -88,7 +88,8 @@ void cure_finish(struct cure *cure, const char *title, bool is_preferred)
     json_object_set_new(action, "diagnostics", json_pack("[O]", cure->diagnostic));
     if (is_preferred)
         json_object_set_new(action, "isPreferred", json_true());
-    json_object_set_new(action, "edit", wire_workspace_edit(cure->query.document->uri, edits));
+    json_object_set_new(action, "edit",
+                        wire_add_edits(wire_workspace_edit(), cure->query.document->uri, edits));
     json_array_append_new(cure->actions, action);
 }
 

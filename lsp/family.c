@@ -13,6 +13,12 @@
 
 enum { MAX_FILES = 2000, MAX_DEPTH = 16 /* of folders */ };
 
+/* The text of a document without a place in it. */
+static struct lsp_query query_of(struct lsp_session *session, struct lsp_document *document)
+{
+    return (struct lsp_query){session, document, &document->text, &document->model, 0};
+}
+
 /* ---- Files ---- */
 
 static struct family_file *find(const struct family *family, const char *path)
@@ -25,8 +31,7 @@ static struct family_file *find(const struct family *family, const char *path)
 
 static void list_includes(struct lsp_session *session, struct family_file *file)
 {
-    const struct lsp_query query = {session, file->document, &file->document->text,
-                                    &file->document->model, 0};
+    const struct lsp_query query = query_of(session, file->document);
     for (uint32_t i = 0; i < query.model->num_elements; ++i) {
         struct span href = query_is(&query, i, "xi:include") ? query_value(&query, i, "href")
                                                              : (struct span){0, 0};
@@ -124,7 +129,7 @@ static bool spread(struct lsp_session *session, struct family *family, size_t in
 void family_scan(struct lsp_session *session, struct family *out)
 {
     *out = (struct family){0};
-    session->disk.from = "/dev/null/none"; /* the folders of the workspace, and no others */
+    session->disk.from = check_origin(NULL);
     for (struct lsp_document *open = session->documents; open; open = open->next)
         add(session, out, open, false);
     for (size_t i = 0; i < session->num_folders; ++i)
@@ -158,8 +163,7 @@ void family_finish(struct family *family)
 bool family_query(const struct family *family, size_t index, struct lsp_session *session,
                   struct lsp_query *out)
 {
-    struct lsp_document *document = family->files[index].document;
-    *out = (struct lsp_query){session, document, &document->text, &document->model, 0};
+    *out = query_of(session, family->files[index].document);
     return family->files[index].is_member;
 }
 

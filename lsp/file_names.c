@@ -21,7 +21,6 @@ struct renamed {
 };
 
 struct renaming {
-    struct lsp_session *session;
     struct renamed *files;
     size_t num_files;
 };
@@ -125,22 +124,17 @@ static void read_files(struct renaming *renaming, const json_t *files)
 json_t *handle_will_rename(struct lsp_session *session, const json_t *params,
                            struct lsp_error *error)
 {
-    struct renaming renaming = {.session = session};
+    struct renaming renaming = {0};
     struct family family;
-    json_t *changes = json_object();
+    json_t *edit = wire_workspace_edit();
     (void)error;
     read_files(&renaming, json_object_get(params, "files"));
     family_scan(session, &family);
     for (size_t i = 0; i < family.num_files; ++i) {
         struct lsp_query query;
         family_query(&family, i, session, &query);
-        if (!query.document->is_file)
-            continue;
-        json_t *edits = rename_in(&renaming, &query);
-        if (json_array_size(edits))
-            json_set(changes, query.document->uri, edits);
-        else
-            json_decref(edits);
+        if (query.document->is_file)
+            wire_add_edits(edit, query.document->uri, rename_in(&renaming, &query));
     }
     family_finish(&family);
     for (size_t i = 0; i < renaming.num_files; ++i) {
@@ -148,5 +142,5 @@ json_t *handle_will_rename(struct lsp_session *session, const json_t *params,
         free(renaming.files[i].to);
     }
     free(renaming.files);
-    return json_pack("{s:o}", "changes", changes);
+    return edit;
 }

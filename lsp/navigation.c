@@ -293,29 +293,20 @@ static bool is_taken(const struct aim *aim, const char *name)
     return is_taken;
 }
 
-/* Adds edits of a text to the changes, if there are some. */
-static void add_changes(json_t *changes, struct places *places)
-{
-    if (json_array_size(places->list))
-        json_set(changes, places->query->document->uri, places->list);
-    else
-        json_decref(places->list);
-}
-
 static json_t *rename_aim(const struct aim *aim, const char *new_name)
 {
     struct lsp_query in;
     struct places places = {&aim->query, json_array(), make_edit, new_name};
-    json_t *changes = json_object();
+    json_t *edit = wire_workspace_edit();
     collect(&places, aim->target, true);
-    add_changes(changes, &places);
+    wire_add_edits(edit, places.query->document->uri, places.list);
     places.query = &in;
     for (size_t i = 0; next_other(aim, &i, &in);) {
         places.list = json_array();
         collect_in(&places, aim);
-        add_changes(changes, &places);
+        wire_add_edits(edit, places.query->document->uri, places.list);
     }
-    return json_pack("{s:o}", "changes", changes);
+    return edit;
 }
 
 json_t *handle_rename(struct lsp_session *session, const json_t *params, struct lsp_error *error)

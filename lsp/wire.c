@@ -43,12 +43,18 @@ json_t *wire_edit(const struct lsp_session *session, const struct text *text, st
     return object;
 }
 
-json_t *wire_workspace_edit(const char *uri, json_t *edits)
+json_t *wire_workspace_edit(void)
 {
-    json_t *changes = json_object(), *object = json_object();
-    json_set(changes, uri, edits);
-    json_object_set_new(object, "changes", changes);
-    return object;
+    return json_pack("{s:{}}", "changes");
+}
+
+json_t *wire_add_edits(json_t *workspace_edit, const char *uri, json_t *edits)
+{
+    if (json_array_size(edits))
+        json_set(json_object_get(workspace_edit, "changes"), uri, edits);
+    else
+        json_decref(edits);
+    return workspace_edit;
 }
 
 json_t *wire_span(const struct text *text, struct span span)

@@ -13,8 +13,10 @@ json_t *wire_location(const struct lsp_session *session, const char *uri, const 
 /* A `TextEdit`. */
 json_t *wire_edit(const struct lsp_session *session, const struct text *text, struct span span,
                   const char *new_text);
-/* A `WorkspaceEdit` of one document; takes ownership of the edits. */
-json_t *wire_workspace_edit(const char *uri, json_t *edits);
+/* A `WorkspaceEdit` without edits. */
+json_t *wire_workspace_edit(void);
+/* Adds edits of a document, if there are some, and takes ownership of them. Returns the whole. */
+json_t *wire_add_edits(json_t *workspace_edit, const char *uri, json_t *edits);
 /* The text of a span. */
 json_t *wire_span(const struct text *text, struct span span);
 /* A `MarkupContent`; the value is Markdown. */
