@@ -174,11 +174,7 @@ static mxg_element keep_surface(struct exporting *exporting, const mxg_document 
 /* True for a material of the file: every one, or of a stage those that its objects have. */
 static bool is_wanted(const struct exporting *exporting, const char *material)
 {
-    const struct stage *stage = &exporting->stage;
-    bool is_wanted = !exporting->options.stage;
-    for (size_t i = 0; !is_wanted && i < stage->num_looks * stage->site.num_objects; ++i)
-        is_wanted = stage->dresses[i].material && strcmp(stage->dresses[i].material, material) == 0;
-    return is_wanted;
+    return !exporting->options.stage || names_find(&exporting->stage.worn, material);
 }
 
 /*

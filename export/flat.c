@@ -62,10 +62,8 @@ void flat_tell_loss(const struct flat *flat, const struct flat_material *materia
 
 size_t flat_find_material(const struct flat *flat, const char *name)
 {
-    size_t i = 0;
-    while (i < flat->num_materials && strcmp(flat->materials[i].name, name) != 0)
-        ++i;
-    return i;
+    const struct name_entry *entry = name ? names_find(&flat->by_name, name) : NULL;
+    return entry ? entry->value : flat->num_materials;
 }
 
 const struct flat_input *flat_find(const struct flat_material *material, const char *name)
@@ -313,6 +311,8 @@ static bool add(struct flat *flat, const char *name, mxg_element surface)
     flat->materials =
         memory_resize(flat->materials, (flat->num_materials + 1) * sizeof *flat->materials);
     flat->materials[flat->num_materials] = (struct flat_material){.name = name, .surface = surface};
+    bool is_new;
+    names_add(&flat->by_name, name, &is_new)->value = flat->num_materials;
     return read_inputs(flat, &flat->materials[flat->num_materials++]);
 }
 
@@ -357,5 +357,6 @@ void flat_finish(struct flat *flat)
         free(material->inputs);
     }
     free(flat->materials);
+    names_finish(&flat->by_name);
     *flat = (struct flat){0};
 }

@@ -7,6 +7,7 @@
 #define MXG_EXPORT_FLAT_H
 
 #include "program/cli.h"
+#include "program/name_table.h"
 
 #include <mxgen/mxgen.h>
 
@@ -51,6 +52,7 @@ struct flat {
     const mxg_document *document;
     struct flat_material *materials;
     size_t num_materials;
+    struct name_table by_name; /* with the numbers of the materials */
 };
 
 /*
@@ -61,7 +63,7 @@ struct flat {
 bool flat_read(struct flat *flat, const mxg_document *document, const char *model);
 void flat_finish(struct flat *flat);
 
-/* The number of the material of that name; flat->num_materials: there is none. */
+/* The number of the material of that name; flat->num_materials: NULL, or there is none. */
 size_t flat_find_material(const struct flat *flat, const char *name);
 
 /* The input of that name; NULL: the document does not set it. */

@@ -62,11 +62,11 @@ static void add_variants(struct gltf *gltf)
         json_array_append_new(variants, json_pack("{s:s}", "name", stage->looks[i]));
 }
 
-/* The number of the material in the file; num_materials: none. */
-static size_t material_of(const struct gltf *gltf, const struct stage_dress *dress)
+/* The number of the material that a look gives to an object; num_materials: none. */
+static size_t material_of(const struct gltf *gltf, size_t look, uint32_t object)
 {
-    return dress->material ? flat_find_material(gltf->flat, dress->material)
-                           : gltf->flat->num_materials;
+    return flat_find_material(gltf->flat,
+                              stage_dress(gltf->writing->stage, look, object)->material);
 }
 
 /* Adds a look to the mapping of its material. */
@@ -101,12 +101,12 @@ static void dress(struct gltf *gltf, uint32_t object, json_t *primitive)
     json_t *mappings = json_array();
     size_t first = none;
     for (size_t i = stage->num_looks; i-- > 0;)
-        if (stage_dress(stage, i, object)->state != STAGE_HIDDEN)
-            first = material_of(gltf, stage_dress(stage, i, object));
+        if (!stage_dress(stage, i, object)->is_hidden)
+            first = material_of(gltf, i, object);
         else
             tell_hidden(gltf, object, i);
     for (size_t i = 0; i < stage->num_looks; ++i) {
-        size_t material = material_of(gltf, stage_dress(stage, i, object));
+        size_t material = material_of(gltf, i, object);
         if (stage->num_looks > 1 && material < none)
             map(mappings, material, i);
     }
@@ -124,7 +124,7 @@ static bool needs_tangents(const struct gltf *gltf, uint32_t object, const bool 
 {
     bool needs = false;
     for (size_t i = 0; i < gltf->writing->stage->num_looks; ++i) {
-        size_t material = material_of(gltf, stage_dress(gltf->writing->stage, i, object));
+        size_t material = material_of(gltf, i, object);
         needs |= material < gltf->flat->num_materials && tangents[material];
     }
     return needs;

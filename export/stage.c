@@ -19,6 +19,8 @@ void stage_close(struct stage *stage)
         free(stage->dresses[i].material);
     free(stage->dresses);
     free(stage->looks);
+    names_finish(&stage->worn);
+    names_finish(&stage->told);
     site_close(&stage->site);
 }
 
@@ -30,7 +32,7 @@ const struct stage_dress *stage_dress(const struct stage *stage, size_t look, ui
 bool stage_shows(const struct stage *stage, uint32_t object)
 {
     for (size_t i = 0; i < stage->num_looks; ++i)
-        if (stage_dress(stage, i, object)->state != STAGE_HIDDEN)
+        if (!stage_dress(stage, i, object)->is_hidden)
             return true;
     return false;
 }
@@ -58,16 +60,23 @@ static struct layers read_layers(const mxg_bindings *bindings, uint32_t primitiv
     return layers;
 }
 
+/* Tells lost layers once, with the first primitive that has them. */
 static void tell_lost(struct stage *stage, uint32_t primitive, const struct layers *layers)
 {
     const mxg_layer *lost = &layers->lost;
-    char *path = site_path(stage->site.scene, primitive);
-    report_warning(
-        stage->site.report, "export-loss",
-        "'%s/%s' (%s:%u) is not in the file as it is: a primitive of this format has one "
-        "material, that of its base, and %u layer%s more",
-        path, *lost->slot ? lost->slot : lost->material, lost->file, (unsigned)lost->line,
-        (unsigned)layers->num_lost, layers->num_lost == 1 ? "" : "s");
+    char *path = site_path(stage->site.scene, primitive),
+         *key = cli_format("%s:%u:%s:%s:%u", lost->file, (unsigned)lost->line, lost->slot,
+                           lost->material, (unsigned)layers->num_lost);
+    bool is_new;
+    names_add(&stage->told, key, &is_new);
+    free(key);
+    if (is_new)
+        report_warning(
+            stage->site.report, "export-loss",
+            "'%s/%s' (%s:%u) is not in the file as it is: a primitive of this format has one "
+            "material, that of its base, and %u layer%s more",
+            path, *lost->slot ? lost->slot : lost->material, lost->file, (unsigned)lost->line,
+            (unsigned)layers->num_lost, layers->num_lost == 1 ? "" : "s");
     free(path);
 }
 
@@ -99,33 +108,22 @@ static void list_looks(struct stage *stage, const mxg_document *document, const 
         add_look(stage, look);
 }
 
-static struct stage_dress dress_of(const mxg_bindings *bindings, uint32_t primitive,
-                                   const struct layers *layers)
-{
-    if (!site_is_visible(bindings, primitive))
-        return (struct stage_dress){.state = STAGE_HIDDEN};
-    if (!layers->base.size)
-        return (struct stage_dress){.state = STAGE_BARE};
-    return (struct stage_dress){STAGE_DRESSED, cli_format("%s", layers->base.material)};
-}
-
-/* Losses are told once for each stack of layers. */
 static void dress(struct stage *stage, const mxg_bindings *bindings, struct stage_dress *dresses)
 {
-    uint32_t num_stacks = mxg_bindings_num_stacks(bindings);
-    bool *are_told = memory_alloc(((size_t)num_stacks + 1) * sizeof *are_told);
     for (uint32_t i = 0; i < stage->site.num_objects; ++i) {
-        uint32_t primitive = site_bound_primitive(&stage->site, &stage->site.objects[i]),
-                 stack = mxg_bindings_stack(bindings, primitive);
+        uint32_t primitive = site_bound_primitive(&stage->site, &stage->site.objects[i]);
         const struct layers layers = read_layers(bindings, primitive);
-        dresses[i] = dress_of(bindings, primitive, &layers);
-        if (!layers.num_lost || dresses[i].state == STAGE_HIDDEN || stack >= num_stacks
-            || are_told[stack])
+        bool is_new;
+        dresses[i].is_hidden = !site_is_visible(bindings, primitive);
+        if (dresses[i].is_hidden)
             continue;
-        tell_lost(stage, primitive, &layers);
-        are_told[stack] = true;
+        if (layers.base.size) {
+            dresses[i].material = cli_format("%s", layers.base.material);
+            names_add(&stage->worn, layers.base.material, &is_new);
+        }
+        if (layers.num_lost)
+            tell_lost(stage, primitive, &layers);
     }
-    free(are_told);
 }
 
 bool stage_bind(struct stage *stage, struct cli *cli, const mxg_document *document,

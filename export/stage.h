@@ -3,19 +3,14 @@
 #ifndef MXG_EXPORT_STAGE_H
 #define MXG_EXPORT_STAGE_H
 
+#include "program/name_table.h"
 #include "render/site.h"
 
 #include <mxgen/scene.h>
 
-enum stage_state {
-    STAGE_HIDDEN, /* the look hides the object */
-    STAGE_BARE,   /* it has no material */
-    STAGE_DRESSED
-};
-
 /* A look on an object. */
 struct stage_dress {
-    enum stage_state state;
+    bool is_hidden;
     char *material; /* its name; NULL: none */
 };
 
@@ -24,6 +19,8 @@ struct stage {
     const char **looks; /* NULL alone: a document without looks */
     size_t num_looks;
     struct stage_dress *dresses; /* those of a look one after the other, by object */
+    struct name_table worn;      /* the names of their materials */
+    struct name_table told;      /* lost layers */
 };
 
 /* false after reporting an error. Call stage_close in any case. */

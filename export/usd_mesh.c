@@ -106,10 +106,9 @@ static void put_stage(struct usd *usd, char *const *paths, struct name_table *na
     for (uint32_t i = 0; i < stage->site.num_objects; ++i) {
         const struct stage_dress *dress = stage_dress(stage, 0, i);
         const struct scene_object *object = write_object(usd->writing, i);
-        if (dress->state == STAGE_HIDDEN)
+        if (dress->is_hidden)
             continue;
-        size_t material = dress->material ? flat_find_material(usd->flat, dress->material)
-                                          : usd->flat->num_materials;
+        size_t material = flat_find_material(usd->flat, dress->material);
         char *name = usd_name(names, object->path + (*object->path == '/'));
         put_mesh(usd, object, name, material < usd->flat->num_materials ? paths[material] : NULL);
         free(name);

@@ -63,18 +63,26 @@ static char *name_of(const json_t *object, const char *array, size_t index)
 
 /* ---- Materials ---- */
 
+/* True if the mapping of a material is for the variant of a look. */
+static bool is_mapped(const json_t *mapping, size_t look)
+{
+    const json_t *variants = json_object_get(mapping, "variants");
+    for (size_t i = 0; i < json_array_size(variants); ++i) {
+        const json_t *variant = json_array_get(variants, i);
+        if (json_is_integer(variant) && json_integer_value(variant) == (json_int_t)look)
+            return true;
+    }
+    return false;
+}
+
 /* The material of a primitive in a look; SIZE_MAX: none. */
 static size_t material_of(const json_t *primitive, size_t look)
 {
     const json_t *mappings = json_object_get(
         json_object_get(json_object_get(primitive, "extensions"), extension), "mappings");
-    size_t i, k;
-    json_t *mapping, *variant;
-    json_array_foreach(mappings, i, mapping) json_array_foreach(
-        json_object_get(mapping, "variants"), k,
-        variant) if (json_is_integer(variant)
-                     && json_integer_value(variant)
-                            == (json_int_t)look) return gltf_index_of(mapping, "material");
+    for (size_t i = 0; i < json_array_size(mappings); ++i)
+        if (is_mapped(json_array_get(mappings, i), look))
+            return gltf_index_of(json_array_get(mappings, i), "material");
     return gltf_index_of(primitive, "material");
 }
 
