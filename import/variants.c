@@ -5,7 +5,7 @@
  */
 #include "import/import.h"
 #include "program/memory.h"
-#include "program/name_table.h"
+#include "program/node_path.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -20,8 +20,8 @@ struct geom {
 
 struct walk {
     const struct gltf_source *source;
-    struct name_table paths; /* with the number of the last one that took a path */
-    struct geom *geoms;      /* of a look by material, then of the next one */
+    struct name_table paths;
+    struct geom *geoms; /* of a look by material, then of the next one */
     size_t num_looks, num_materials;
 };
 
@@ -30,29 +30,6 @@ struct visit {
     size_t node;
     char *parent;
 };
-
-/* ---- Paths ---- */
-
-/* "/parent/name", of letters, digits and '_', or "/parent/name_2" where others have it. Free it. */
-static char *add_path(struct walk *walk, const char *parent, const char *name)
-{
-    char *base = cli_format("%s/%s", parent, *name ? name : "_"), *path;
-    for (char *c = base + strlen(parent) + 1; *c; ++c)
-        if (!strchr("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_", *c))
-            *c = '_';
-    bool is_new;
-    struct name_entry *taken = names_add(&walk->paths, base, &is_new);
-    taken->value += is_new;
-    path = cli_format("%s", base);
-    for (uint64_t number = taken->value; !is_new;) {
-        free(path);
-        path = cli_format("%s_%llu", base, (unsigned long long)++number);
-        names_find(&walk->paths, base)->value = number;
-        names_add(&walk->paths, path, &is_new)->value += is_new;
-    }
-    free(base);
-    return path;
-}
 
 /* Names as Assimp has them. */
 static char *name_of(const json_t *object, const char *array, size_t index)
@@ -114,7 +91,7 @@ static void add_mesh(struct walk *walk, size_t index, const char *path)
     char *name = name_of(mesh, "meshes", index);
     for (size_t i = 0; i < num; ++i) {
         char *part = cli_format("%s-%zu", name, i),
-             *below = num > 1 ? add_path(walk, path, part) : NULL;
+             *below = num > 1 ? node_path_add(&walk->paths, path, part) : NULL;
         add_primitive(walk, json_array_get(primitives, i), below ? below : path);
         free(part);
         free(below);
@@ -160,7 +137,7 @@ static void visit_nodes(struct walk *walk)
         if (visit.node < num && !are_visited[visit.node]) {
             const json_t *node = gltf_source_item(walk->source, "nodes", visit.node);
             char *name = name_of(node, "nodes", visit.node),
-                 *path = add_path(walk, visit.parent, name);
+                 *path = node_path_add(&walk->paths, visit.parent, name);
             are_visited[visit.node] = true;
             add_mesh(walk, gltf_index_of(node, "mesh"), path);
             push(&visits, json_object_get(node, "children"), path);

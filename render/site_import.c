@@ -7,7 +7,7 @@
 #include "render/site.h"
 
 #include "program/memory.h"
-#include "program/name_table.h"
+#include "program/node_path.h"
 
 #include <assimp/cimport.h>
 #include <assimp/postprocess.h>
@@ -28,7 +28,7 @@ struct importer {
     struct site *site;
     const struct aiScene *scene;
     bool is_gltf, good;
-    struct name_table paths; /* with the number of the last primitive that took a path */
+    struct name_table paths;
     struct index cameras, lights;
 };
 
@@ -39,28 +39,10 @@ struct visit {
     struct matrix world;
 };
 
-/* The name of a node as a part of a path: letters, digits and '_'. */
-static char *part_of(const char *name)
-{
-    char *part = cli_format("%s", *name ? name : "_");
-    for (char *c = part; *c; ++c)
-        if (!strchr("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_", *c))
-            *c = '_';
-    return part;
-}
-
-/* Adds a primitive below a path: "name", or "name_2" where others have the name. Its path; free. */
+/* Adds a primitive below a path. Its path; free. */
 static char *add_primitive(struct importer *in, const char *parent, const char *name)
 {
-    char *part = part_of(name), *path = cli_format("%s/%s", parent, part);
-    bool is_new;
-    struct name_entry *taken = names_add(&in->paths, path, &is_new);
-    taken->value += is_new;
-    while (mxg_scene_find_primitive(in->site->scene, path) != UINT32_MAX) {
-        free(path);
-        path = cli_format("%s/%s_%llu", parent, part, (unsigned long long)++taken->value);
-    }
-    free(part);
+    char *path = node_path_add(&in->paths, parent, name);
     in->good = report_status(in->site->report,
                              mxg_scene_add_paths(in->site->scene, (const char *const *)&path, 1))
                && in->good;
