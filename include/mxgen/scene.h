@@ -30,6 +30,13 @@ MXG_API size_t mxg_slot_decode(const char *identifiers, char *buffer, size_t cap
 MXG_API mxg_status mxg_scene_create(mxg_context *context, mxg_scene **out_scene);
 MXG_API mxg_status mxg_scene_load(mxg_context *context, const char *path, const char *purpose,
                                   mxg_scene **out_scene);
+/*
+ * The scene of a USD text layer that the host has, such as what UsdStage::ExportToString composes.
+ * `name` appears in messages, and textures of its materials are found from there. The text is
+ * copied.
+ */
+MXG_API mxg_status mxg_scene_parse(mxg_context *context, const char *name, const char *data,
+                                   size_t size, const char *purpose, mxg_scene **out_scene);
 MXG_API void mxg_scene_destroy(mxg_scene *scene);
 /*
  * Adds primitives by their paths, "/set/table", and those above them. MXG_ERROR_DOCUMENT if a path

@@ -326,12 +326,26 @@ export class Context extends Owner {
         const native = this._native;
         return native.using(() => {
             const name = native.newText(path, "path"), chosen = native.newOptionalText(purpose, "purpose");
-            const { handle, status } = this._make("mxg_scene_load", "mxg_scene_destroy", [], out => [name, chosen, out]);
-            const scene = new Scene(this, handle);
-            if (status !== STATUS.ok)
-                throw new DocumentError(scene.diagnostics);
-            return scene;
+            return this._readScene("mxg_scene_load", out => [name, chosen, out]);
         });
+    }
+
+    /** Reads a USD text layer from its text. `name` appears in messages, and textures are found from there. Throws DocumentError. */
+    parseScene(text, { name = "<text>", purpose = null } = {}) {
+        const native = this._native;
+        return native.using(() => {
+            const bytes = bytesOf(text, "text"), data = native.newBytes(bytes);
+            const called = native.newText(name, "name"), chosen = native.newOptionalText(purpose, "purpose");
+            return this._readScene("mxg_scene_parse", out => [called, data, bytes.length, chosen, out]);
+        });
+    }
+
+    _readScene(name, makeArguments) {
+        const { handle, status } = this._make(name, "mxg_scene_destroy", [], makeArguments);
+        const scene = new Scene(this, handle);
+        if (status !== STATUS.ok)
+            throw new DocumentError(scene.diagnostics);
+        return scene;
     }
 
     /** The materials in a USD scene as a document. `Document.withMaterials` adds them to one. Throws DocumentError. */

@@ -163,6 +163,8 @@ export class Context extends Owner {
     scene(...paths: string[]): Scene;
     /** Reads a list of paths, or a USD text layer (.usda) with its bindings, by the resolver. `purpose`: "full", "preview", null for all. */
     loadScene(path: string, request?: { purpose?: string | null }): Scene;
+    /** Reads a USD text layer from its text. `name` appears in messages, and textures are found from there. Throws DocumentError. */
+    parseScene(text: string | ArrayBuffer | ArrayBufferView, request?: { name?: string; purpose?: string | null }): Scene;
     /** The materials in a USD scene as a document. Throws DocumentError. */
     sceneMaterials(scene: Scene, request?: { library?: Library | null }): Document;
     /** The passes of the deferred pipeline that belong to no material, in their order, as far as the options ask for them. Their source is `shader.pixel`. Throws DocumentError. */

@@ -8,6 +8,7 @@
     print(shader.pixel)
 
 docs/python.md is the guide; the C library's header, include/mxgen/mxgen.h, has every detail."""
+from . import usd
 from .catalogue import Option, OptionType, PassMember, PassResource, Target, option_applies, options, pass_resources, targets
 from .context import Context, File, ListFolder, ReadTexels, Resolver, Rewriting, Rewritten
 from .definition import Implementation, Library, NodeDef, Port, UserInterface
@@ -31,4 +32,4 @@ __all__ = ["Alpha", "ArgumentError", "Bindings", "BindingsFormat", "Block", "Blo
            "OptionValue", "OutOfMemoryError", "Part", "PassInfo", "PassMember", "PassResource", "Place", "Port", "Primitive", "Property",
            "ReadTexels", "RenderError", "Renderable", "Resolver", "Rewriting", "Rewritten", "Scene", "Semantic", "Severity", "Shader", "ShaderInfo", "SlotBinding",
            "Stack", "Stage", "Storage", "Target", "Tile", "UserInterface", "Value", "Variable", "View", "ZipFiles", "bake", "color_difference", "decode_slot", "diagnostic_kinds", "encode_slot",
-           "equal", "library_version", "option_applies", "options", "pass_resources", "render", "render_picture", "semantics", "targets"]
+           "equal", "library_version", "option_applies", "options", "pass_resources", "render", "render_picture", "semantics", "targets", "usd"]

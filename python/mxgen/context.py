@@ -288,7 +288,7 @@ class Context(Native):
 
     def parse(self, text: str | bytes, *, name: str = "<text>", library: Library | None = None) -> Document:
         """Reads a document from its text. `name` appears in messages and is the base of includes. Raises DocumentError."""
-        data = _document_bytes(text)
+        data = _text_bytes(text)
         return self._document(self._library_for(library), lib.mxg_document_parse, c_text(name, "name"), data, len(data))
 
     def edit(self, document: Document | None = None, *, name: str = "<edit>", library: Library | None = None) -> Edit:
@@ -319,8 +319,15 @@ class Context(Native):
     def load_scene(self, path: str | os.PathLike[str], *, purpose: str | None = None) -> Scene:
         """Reads a list with one path in each line, or a USD text layer (.usda) with its bindings. `purpose` chooses among these:
         "full", "preview", or None for those of all purposes. Raises DocumentError."""
-        purpose_text = optional_text(purpose, "purpose")
-        handle, status = self._make(lib.mxg_scene_load, lib.mxg_scene_destroy, (), c_path(path, "path"), purpose_text)
+        return self._read_scene(lib.mxg_scene_load, c_path(path, "path"), optional_text(purpose, "purpose"))
+
+    def parse_scene(self, text: str | bytes, *, name: str = "<text>", purpose: str | None = None) -> Scene:
+        """Reads a USD text layer from its text. `name` appears in messages, and textures are found from there. Raises DocumentError."""
+        data = _text_bytes(text)
+        return self._read_scene(lib.mxg_scene_parse, c_text(name, "name"), data, len(data), optional_text(purpose, "purpose"))
+
+    def _read_scene(self, function: Callable[..., int], *arguments: Any) -> Scene:
+        handle, status = self._make(function, lib.mxg_scene_destroy, (), *arguments)
         scene = Scene(handle)
         if status != lib.MXG_OK:
             raise document_error(scene.diagnostics)
@@ -336,7 +343,7 @@ class Context(Native):
 
     def rewrite(self, rewriting: Rewriting, name: str | os.PathLike[str], text: str | bytes | None = None) -> Rewritten:
         """Reads a document and writes it again. `text` None: reads the file `name`. Raises DocumentError."""
-        data = None if text is None else _document_bytes(text)
+        data = None if text is None else _text_bytes(text)
         size = 0 if data is None else len(data)
         handle, status = self._make(lib.mxg_rewrite, lib.mxg_result_destroy, (), Rewriting(rewriting),
                                     c_path(name, "name"), data, size)
@@ -351,7 +358,7 @@ class Context(Native):
         return self.rewrite(Rewriting.UPGRADE, name, text)
 
 
-def _document_bytes(text: str | bytes) -> bytes:
+def _text_bytes(text: str | bytes) -> bytes:
     if not isinstance(text, (str, bytes)):
         raise TypeError(f"text must be str or bytes, not {type(text).__name__}")
     return text.encode("utf-8", "surrogateescape") if isinstance(text, str) else text

@@ -69,6 +69,8 @@ mxg_status mxg_scene_create(mxg_context *context, mxg_scene **out_scene)
 struct scene_load {
     mxg_scene *scene;
     const char *path, *purpose;
+    const char *text; /* of USD; NULL: read the file `path` */
+    size_t size;
     struct file_source files;
 };
 
@@ -86,45 +88,62 @@ static void read_scene(void *arg)
 {
     struct scene_load *load = arg;
     struct diag_list *diags = &load->scene->object.diagnostics.list;
-    const char *data;
-    size_t size;
-    if (!file_source_read(&load->files, load->path, &data, &size, diags))
+    struct arena *arena = &load->scene->object.arena;
+    const char *name = arena_strndup(arena, load->path, strlen(load->path)), *data;
+    size_t size = load->size;
+    if (load->text)
+        data = arena_strndup(arena, load->text, size);
+    else if (!file_source_read(&load->files, name, &data, &size, diags))
         return;
-    if (is_usda(load->path)) { /* the scene keeps the text */
-        scene_read_usda(&load->scene->scene, load->path, data, size, load->purpose,
-                        &load->files.scratch, diags);
+    if (load->text || is_usda(name)) { /* the scene keeps the text */
+        scene_read_usda(&load->scene->scene, name, data, size, load->purpose, &load->files.scratch,
+                        diags);
         return;
     }
-    scene_read_list(&load->scene->scene, load->path, data, size, diags);
-    /* the scene keeps the names */
-    arena_release(&load->scene->object.arena, (void *)(uintptr_t)data, size + 1);
+    scene_read_list(&load->scene->scene, name, data, size, diags);
+    arena_release(arena, (void *)(uintptr_t)data, size + 1); /* the scene keeps the names */
+}
+
+static mxg_status load_scene(mxg_context *context, struct scene_load *load, mxg_scene **out_scene)
+{
+    if (out_scene)
+        *out_scene = NULL;
+    if (!load->path)
+        return MXG_ERROR_ARGUMENT;
+    mxg_status status = mxg_scene_create(context, &load->scene);
+    if (status != MXG_OK)
+        return status;
+    struct object *object = &load->scene->object;
+    if (!sandbox_admit_file(context, load->path)) {
+        object_unref(object);
+        return MXG_ERROR_MEMORY;
+    }
+    file_source_init(&load->files, object);
+    status = object_run(object, read_scene, load);
+    file_source_finish(&load->files);
+    if (status != MXG_OK) {
+        object_unref(object);
+        return status;
+    }
+    *out_scene = load->scene;
+    return object_status(object);
 }
 
 mxg_status mxg_scene_load(mxg_context *context, const char *path, const char *purpose,
                           mxg_scene **out_scene)
 {
-    if (out_scene)
-        *out_scene = NULL;
-    if (!path)
-        return MXG_ERROR_ARGUMENT;
     struct scene_load load = {.path = path, .purpose = purpose ? purpose : ""};
-    mxg_status status = mxg_scene_create(context, &load.scene);
-    if (status != MXG_OK)
-        return status;
-    struct object *object = &load.scene->object;
-    if (!sandbox_admit_file(context, path)) {
-        object_unref(object);
-        return MXG_ERROR_MEMORY;
-    }
-    file_source_init(&load.files, object);
-    status = object_run(object, read_scene, &load);
-    file_source_finish(&load.files);
-    if (status != MXG_OK) {
-        object_unref(object);
-        return status;
-    }
-    *out_scene = load.scene;
-    return object_status(object);
+    return load_scene(context, &load, out_scene);
+}
+
+mxg_status mxg_scene_parse(mxg_context *context, const char *name, const char *data, size_t size,
+                           const char *purpose, mxg_scene **out_scene)
+{
+    struct scene_load load = {.path = data || !size ? name : NULL,
+                              .purpose = purpose ? purpose : "",
+                              .text = data ? data : "",
+                              .size = size};
+    return load_scene(context, &load, out_scene);
 }
 
 void mxg_scene_destroy(mxg_scene *scene)

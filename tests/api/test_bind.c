@@ -434,15 +434,11 @@ static void test_stacks(mxg_context *context)
 
 /* ---- A stage of USD ---- */
 
-/* The scene of a text, from a file that the test removes. */
-static mxg_scene *load_usda(mxg_context *context, const char *text, mxg_status expected)
+static mxg_scene *parse_usda(mxg_context *context, const char *text, mxg_status expected)
 {
-    static const char name[] = "test_bind.usda";
     mxg_scene *scene = NULL;
-    FILE *file = fopen(name, "wb");
-    REQUIRE(file && fputs(text, file) >= 0 && fclose(file) == 0);
-    REQUIRE(mxg_scene_load(context, name, NULL, &scene) == expected);
-    remove(name);
+    REQUIRE(mxg_scene_parse(context, "test_bind.usda", text, strlen(text), NULL, &scene)
+            == expected);
     return scene;
 }
 
@@ -462,7 +458,7 @@ static void test_removed_members(mxg_context *context)
                  "nodename='s9'/></surfacematerial>"};
     mxg_document *document = parse_rule(context, &rule);
     for (unsigned set = 1; set < 1u << (sizeof removed / sizeof *removed); set++) {
-        mxg_scene *scene = load_usda(context, stage, MXG_OK);
+        mxg_scene *scene = parse_usda(context, stage, MXG_OK);
         mxg_bindings *bindings = NULL;
         for (size_t i = 0; i < sizeof removed / sizeof *removed; i++) {
             uint32_t primitive = mxg_scene_find_primitive(scene, removed[i]);

@@ -433,6 +433,9 @@ def Material "paint" {
         assert.equal(both.renderables.length, 2);
         assert.equal(bindings.layers(box)[0].source.path, "/box");
         assert(both.generate("essl", { stack: bindings.stack("/box") }).pixel.includes("base_color"));
+        const parsed = context.parseScene(fs.readFileSync(file), { name: "shot.usda" });
+        assert.equal(parsed.find("/box").property("primvars:wear").file, "shot.usda");
+        assert.throws(() => context.parseScene("#usda 1.0\ndef {"), DocumentError);
         fs.writeFileSync(file, "#usda 1.0\ndef {");
         assert.throws(() => context.loadScene(file), DocumentError);
     });

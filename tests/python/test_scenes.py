@@ -140,7 +140,8 @@ class Scenes(unittest.TestCase):
 
     def test_usd(self):
         with tempfile.TemporaryDirectory() as folder:
-            scene = self.context.load_scene(write(folder, "stage.usda", STAGE))
+            file = write(folder, "stage.usda", STAGE)
+            scene = self.context.load_scene(file)
             with self.assertRaises(mxgen.DocumentError) as caught:
                 self.context.load_scene(write(folder, "broken.usda", STAGE[:200]))
         self.assertEqual(caught.exception.diagnostics[0].severity, mxgen.Severity.ERROR)
@@ -149,7 +150,7 @@ class Scenes(unittest.TestCase):
         box = scene["/world/box"]
         self.assertEqual(box.type, "Mesh")
         wear = box.properties["primvars:wear"]
-        self.assertEqual((wear.type, wear.interpolation, wear.line), ("float[]", "vertex", 5))
+        self.assertEqual((wear.type, wear.interpolation, wear.file, wear.line), ("float[]", "vertex", str(file), 5))
         self.assertEqual(wear, box.property("primvars:wear"))
         self.assertEqual(box.numbers("primvars:wear"), (0.25, 0.5))
         self.assertEqual(box.numbers("doubleSided"), (1,))
@@ -166,6 +167,42 @@ class Scenes(unittest.TestCase):
         self.assertIn("base_color", both.generate("glsl", bindings.stack(box)).pixel)
         with self.assertRaises(TypeError):
             both.with_materials(5)
+
+    def test_text_of_usd(self):
+        scene = self.context.parse_scene(STAGE, name="shot.usda")
+        self.assertEqual(scene["/world/box"].property("primvars:wear").file, "shot.usda")
+        with self.assertRaises(mxgen.DocumentError) as caught:
+            self.context.parse_scene(STAGE[:200].encode())
+        self.assertEqual(caught.exception.diagnostics[0].file, "<text>")
+        with self.assertRaises(TypeError):
+            self.context.parse_scene(5)
+
+    def test_stage_of_openusd(self):
+        stage = ComposedStage("anon:0x1:shot.usda", "")
+        scene = mxgen.usd.scene(stage, context=self.context)
+        self.assertEqual(scene["/world/box"].property("primvars:wear").file, "anon:0x1:shot.usda")
+        saved = mxgen.usd.scene(ComposedStage("shot.usda", "/show/shot.usda"))
+        self.assertEqual(saved["/world/box"].property("primvars:wear").file, "/show/shot.usda")
+        full = """#usda 1.0
+def Sphere "ball" { rel material:binding:full = </paint> }
+def Material "paint" {}
+"""
+        for purpose, number in ("full", 1), ("preview", 0), (None, 0):
+            scene = mxgen.usd.scene(ComposedStage("a", "", full), purpose=purpose)
+            self.assertEqual(sum(binding.is_purpose for binding in scene.bindings_of("/ball")), number)
+
+
+class ComposedStage:
+    """Stands in for pxr.Usd.Stage: the three members that mxgen reads."""
+
+    def __init__(self, identifier, real_path, text=STAGE):
+        self.identifier, self.realPath, self.text = identifier, real_path, text
+
+    def GetRootLayer(self):
+        return self
+
+    def ExportToString(self, addSourceFileComment=True):
+        return ("# Composed\n" if addSourceFileComment else "") + self.text
 
 
 class Bindings(unittest.TestCase):
