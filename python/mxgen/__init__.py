@@ -10,10 +10,10 @@
 docs/python.md is the guide; the C library's header, include/mxgen/mxgen.h, has every detail."""
 from . import usd
 from .catalogue import Option, OptionType, PassMember, PassResource, Target, option_applies, options, pass_resources, targets
-from .context import Context, File, ListFolder, ReadTexels, Resolver, Rewriting, Rewritten
+from .context import Context, File, ListFolder, ReadTexels, Resolver, Rewriting
 from .definition import Implementation, Library, NodeDef, Port, UserInterface
 from .diagnostic import Diagnostic, DiagnosticKind, Diagnostics, Severity, color_difference, diagnostic_kinds, library_version
-from .document import Connection, Document, Edge, Element, Item, Renderable, Value, equal
+from .document import Connection, Document, Edge, Element, Item, Renderable, Rewritten, Value, equal
 from .edit import Draft, Edit, NewValue
 from .error import ArgumentError, CancelledError, DocumentError, EditError, Error, InternalError, MissingFileError, OutOfMemoryError
 from .files import ZipFiles
