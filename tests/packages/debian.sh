@@ -35,5 +35,10 @@ check "a program in C compiles" cc "$root/examples/c_minimal.c" -o c_minimal $fl
 cp "$root/examples/gold.mtlx" .
 check "the program in C runs" unpacked ./c_minimal gold.mtlx
 check "the program in C uses the shared library" sh -c 'objdump -p c_minimal | grep -q "NEEDED *libmxgen.so.0"'
+dpkg-deb -f mxgen_*.deb Built-Using >built-using
+for library in glslang jansson libmd spirv-tools; do
+    check "the programs name $library, which they contain" grep -q "\<$library (= " built-using
+done
+check "its licence comes with them" grep -q 'BSD-3-clause' system/usr/share/doc/mxgen/copyright.glslang-dev
 check "the man page is there" ls system/usr/share/man/man1/mxgen.1.gz
 finish debian
