@@ -99,7 +99,7 @@ class _Importer:
         return node
 
     def source_of(self, element: mxgen.Element) -> mxgen.Element | None:
-        """The node that a connection ends at, through outputs of nodegraphs."""
+        """The node that a connection ends at, through outputs of nodegraphs and conversions that Blender does by itself."""
         for _ in range(100):
             connection = element.connection
             source = connection.source if connection is not None else None
@@ -112,9 +112,19 @@ class _Importer:
                 element = outputs[0]
             elif source.category == "input":
                 element = source
+            elif source.category in ("convert", "luminance") and source.child("in") is not None:
+                element = source.child("in")
+            elif source.category == "extract" and (inner := self.source_element(source)) is not None and inner.category == "luminance":
+                element = source.child("in")
             else:
                 return source
         return None
+
+    @staticmethod
+    def source_element(node: mxgen.Element) -> mxgen.Element | None:
+        """The node at the input `in`, if it is connected directly."""
+        element = node.child("in")
+        return element.connection.source if element is not None and element.connection is not None else None
 
     def connect(self, element: mxgen.Element, socket: bpy.types.NodeSocket) -> bool:
         """Links a texture or a normal map to a socket. False: the document has something else there."""
