@@ -202,16 +202,18 @@ static bool compile_function(const char *target, const mxg_result *result,
     *out = (struct compiled){0};
     if (!text)
         return false;
-    size_t len = (size_t)snprintf(text, capacity, "%s%s", host->head, source);
-    if (!strstr(host->head, "MxgLights"))
+    bool has_halves = strcmp(info->device_feature, "shader-f16") == 0;
+    const char *head = has_halves ? "enable f16;\n" : host->head;
+    size_t len = (size_t)snprintf(text, capacity, "%s%s", head, source);
+    if (!strstr(head, "MxgLights"))
         len += write_host_functions(host, source, text + len);
     if (host->main)
         write_caller(host, result, info, text + len, capacity - len);
     bool good = compile_program(target, (const char *const[MXG_NUM_STAGES]){NULL, text}, out);
-    unsigned head = count_lines(host->head);
+    unsigned above = count_lines(head);
     for (size_t i = 0; i < out->num_messages; ++i)
-        if (out->messages[i].line > head)
-            out->messages[i].line -= head;
+        if (out->messages[i].line > above)
+            out->messages[i].line -= above;
     free(text);
     return good;
 }

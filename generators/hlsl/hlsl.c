@@ -41,6 +41,13 @@ static const char *const type_names[IR_NUM_TYPES] = {
     [IR_TYPE_SAMPLER_ARRAY] = "Texture2DArray",
 };
 
+static const char *const half_types[IR_NUM_TYPES] = {
+    [IR_TYPE_FLOAT] = "min16float",
+    [IR_TYPE_VEC2] = "min16float2",
+    [IR_TYPE_VEC3] = "min16float3",
+    [IR_TYPE_VEC4] = "min16float4",
+};
+
 static const char *const phrases[NUM_PHRASES] = {
     [PHRASE_CONSTANT] = "static const $T $N = $V;",
     [PHRASE_VARIABLE] = "static $T $N",
@@ -50,6 +57,7 @@ const struct lang_syntax hlsl_syntax = {
     .name = "hlsl",
     .base = &lang_syntax_portable,
     .type_names = type_names,
+    .half_types = half_types,
     .forms = forms,
     .forms_alone = forms_alone,
     .reserved = reserved,
@@ -86,7 +94,8 @@ const struct target target_hlsl = {
     .brief = "HLSL of shader model 5.1 and 6, for Direct3D 12 and Vulkan",
     .caps = CAP_VERTEX_STAGE | CAP_HOST_FILES | CAP_OVERLOADS | CAP_BITWISE | CAP_IMPLICIT_LOD
             | CAP_TEXTURE_ARRAYS | CAP_UNIFORM_BLOCKS | CAP_BINDINGS | CAP_SETS | CAP_BLOCK_STAGE_IO
-            | CAP_SAMPLERS | CAP_VULKAN_ATTRIBUTES | CAP_STORES | CAP_PASSES | CAP_HOST_FUNCTIONS,
+            | CAP_SAMPLERS | CAP_VULKAN_ATTRIBUTES | CAP_STORES | CAP_PASSES | CAP_HOST_FUNCTIONS
+            | CAP_MEDIUMP,
     .versions = versions,
     .syntax = &hlsl_syntax,
     .frame = &hlsl_frame,

@@ -27,10 +27,18 @@ static const char *const type_names[IR_NUM_TYPES] = {
     [IR_TYPE_SAMPLER_ARRAY] = "SamplerTexture2DArray",
 };
 
+static const char *const half_types[IR_NUM_TYPES] = {
+    [IR_TYPE_FLOAT] = "half",
+    [IR_TYPE_VEC2] = "half2",
+    [IR_TYPE_VEC3] = "half3",
+    [IR_TYPE_VEC4] = "half4",
+};
+
 static const struct lang_syntax syntax = {
     .name = "slang",
     .base = &hlsl_syntax,
     .type_names = type_names,
+    .half_types = half_types,
     .forms = forms,
     .forms_alone = forms_alone,
     .reserved = reserved,
@@ -55,7 +63,7 @@ const struct target target_slang = {
     .brief = "Slang 2025.3, with the names of MaterialX's generator",
     .caps = CAP_VERTEX_STAGE | CAP_OVERLOADS | CAP_BITWISE | CAP_IMPLICIT_LOD | CAP_TEXTURE_ARRAYS
             | CAP_BLOCK_STAGE_IO | CAP_SAMPLERS | CAP_HOST_FILES | CAP_STORES | CAP_PASSES
-            | CAP_HOST_FUNCTIONS,
+            | CAP_HOST_FUNCTIONS | CAP_MEDIUMP,
     .versions = versions,
     .syntax = &syntax,
     .frame = &slang_frame,

@@ -196,7 +196,7 @@ static void declare(struct spell *spell)
 {
     spell_text(spell, "// ");
     spell_title(spell);
-    spell_text(spell, "\n\n");
+    SPELL(spell, "\n", spell->half_style ? "enable f16;\n\n" : "\n");
     spell_structs(spell);
     write_buffers(spell);
     write_lights(spell);

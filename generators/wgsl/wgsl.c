@@ -19,6 +19,10 @@ static const char *const type_names[IR_NUM_TYPES] = {
     [IR_TYPE_SAMPLER] = "texture_2d<f32>", [IR_TYPE_SAMPLER_ARRAY] = "texture_2d_array<f32>",
 };
 
+static const char *const half_types[IR_NUM_TYPES] = {
+    [IR_TYPE_FLOAT] = "f16", [IR_TYPE_VEC2] = "vec2h", [IR_TYPE_VEC3] = "vec3h", [IR_TYPE_VEC4] = "vec4h",
+};
+
 #define TEXTURE "$0, $0" LANG_SAMPLER_SUFFIX ", $1"
 
 static const struct lang_form forms[IR_NUM_OPS] = {
@@ -80,6 +84,7 @@ static const struct lang_syntax syntax = {
     .name = "wgsl",
     .base = &lang_syntax_portable,
     .type_names = type_names,
+    .half_types = half_types,
     .forms = forms,
     .forms_alone = forms_alone,
     .reserved = reserved,
@@ -125,7 +130,8 @@ const struct target target_wgsl = {
     .brief = "WGSL for WebGPU",
     .caps = CAP_VERTEX_STAGE | CAP_BITWISE | CAP_IMPLICIT_LOD | CAP_TEXTURE_ARRAYS
             | CAP_UNIFORM_BLOCKS | CAP_BINDINGS | CAP_SETS | CAP_BLOCK_STAGE_IO | CAP_SAMPLERS
-            | CAP_SAMPLER_BINDINGS | CAP_HOST_FILES | CAP_HOST_FUNCTIONS | CAP_STORES | CAP_PASSES,
+            | CAP_SAMPLER_BINDINGS | CAP_HOST_FILES | CAP_HOST_FUNCTIONS | CAP_STORES | CAP_PASSES
+            | CAP_MEDIUMP,
     .max_textures = 16, /* WebGPU, default of maxSampledTexturesPerShaderStage */
     .versions = versions,
     .syntax = &syntax,
@@ -134,6 +140,7 @@ const struct target target_wgsl = {
     .functions = functions,
     .images = images,
     .tests_late = true,
+    .half_feature = "shader-f16",
     .any_format = "rgba16f",
     .instances = instances,
     .position = ".position",

@@ -171,6 +171,8 @@ typedef struct mxg_shader_info {
      * MXG_BLOCK_OUTPUTS, both in order. "": a program
      */
     const char *function, *function_type;
+    /* A feature that the device must have, or "": "shader-f16" with precision=mediump in WGSL */
+    const char *device_feature;
 } mxg_shader_info;
 MXG_API mxg_status mxg_result_info(const mxg_result *result, mxg_shader_info *out);
 

@@ -664,6 +664,8 @@ export interface ShaderInfo {
     /** with role=function: the names of the function and of the struct that it returns; otherwise "" */
     function: string;
     functionType: string;
+    /** a feature that the device must have, for requiredFeatures: "shader-f16" of WebGPU with precision=mediump; otherwise "" */
+    deviceFeature: string;
 }
 
 /** What a shader stores for the passes of the deferred pipeline, or what a pass reads. */

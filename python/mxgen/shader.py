@@ -267,6 +267,8 @@ class ShaderInfo:
     #: with role=function, the names of the function and of the struct that it returns; else ""
     function: str
     function_type: str
+    #: a feature that the device must have, "shader-f16" of WebGPU with precision=mediump; else ""
+    device_feature: str
 
 @dataclass(frozen=True)
 class Storage:

@@ -453,12 +453,21 @@ bool generation_emit(struct generation *g)
     return is_good(g) && generation_effects_are_defined(g, &g->result->shader, g->element);
 }
 
+/* Passes have no colours of a material. */
+static bool has_halves(const struct generation *g)
+{
+    return g->options[OPTION_precision].number && !role_is_pass(g->role)
+           && g->result->target->caps & CAP_MEDIUMP;
+}
+
 /* This step reports nothing, and no limit counts the few nodes that it adds. */
 bool generation_finish(struct generation *g)
 {
     g->result->graph.max_nodes = 0;
     struct shader_layout_rules rules = generation_layout_rules(g);
     shader_finish(&g->result->shader, &rules);
+    if (has_halves(g) && g->result->target->half_feature)
+        g->result->shader.reflection.device_feature = g->result->target->half_feature;
     return is_good(g);
 }
 
@@ -543,7 +552,7 @@ struct spell_options generation_spell_options(const struct generation *g)
         .metadata = (int)g->options[OPTION_metadata].number,
         .vulkan_attributes = g->options[OPTION_hlsl_vulkan].number,
         .comments = g->options[OPTION_comments].number,
-        .halves = g->options[OPTION_precision].number != 0,
+        .halves = has_halves(g),
         .user_data = result,
         .path = origin_path,
         .ui = result_ui,

@@ -64,6 +64,11 @@ struct lang_syntax {
     /* has the rows that are absent here; NULL for the portable syntax */
     const struct lang_syntax *base;
     const char *const *type_names; /* [IR_NUM_TYPES], NULL entries: from base */
+    /*
+     * [IR_NUM_TYPES]: the types of half floats, to which values are converted. NULL: from base. If
+     * no base has them, declarations have the qualifier mediump.
+     */
+    const char *const *half_types;
     const char *const *phrases;    /* [NUM_PHRASES], NULL entries: from base */
     const struct lang_form *forms; /* [IR_NUM_OPS], text NULL: from base */
     /*
@@ -175,6 +180,8 @@ struct lang_style {
 
 void lang_style_init(struct lang_style *style, const struct lang_syntax *syntax,
                      struct arena *arena);
+/* A style whose floats are the half floats of the language; NULL: it has no such types. */
+struct lang_style *lang_style_of_halves(const struct lang_style *style, struct arena *arena);
 const struct lang_pieces *lang_style_split(struct lang_style *style, enum ir_op op);
 /* a form made at run time, which lives as long as the arena */
 const struct lang_pieces *lang_form_of(struct arena *arena, const char *text,

@@ -17,6 +17,22 @@ void lang_style_init(struct lang_style *style, const struct lang_syntax *syntax,
         style->phrases[phrase] = lang_syntax_phrase(syntax, (enum lang_phrase)phrase);
 }
 
+struct lang_style *lang_style_of_halves(const struct lang_style *style, struct arena *arena)
+{
+    const struct lang_syntax *syntax = style->syntax;
+    while (syntax && !syntax->half_types)
+        syntax = syntax->base;
+    if (!syntax)
+        return NULL;
+    struct lang_style *halves = ARENA_NEW(arena, struct lang_style);
+    *halves = *style;
+    for (ir_type_id type = 0; type < IR_NUM_TYPES; type++)
+        if (syntax->half_types[type])
+            halves->types[type] =
+                (struct text_word){syntax->half_types[type], strlen(syntax->half_types[type])};
+    return halves;
+}
+
 /* The precedence that an operand needs, by the characters around it in the form. */
 static enum lang_precedence operand_precedence(const uint8_t *levels, const struct lang_form *form,
                                                unsigned index, char before, char after)

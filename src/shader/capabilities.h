@@ -39,7 +39,7 @@ enum target_caps {
     CAP_METADATA = 1 << 19,          /* parameters have metadata */
     CAP_VULKAN_ATTRIBUTES = 1 << 20, /* can write bindings of Vulkan beside its own */
     CAP_STORES = 1 << 21,            /* pixel stages can write images; functions pack slabs */
-    CAP_MEDIUMP = 1 << 22,           /* declarations can have a lower precision: --precision */
+    CAP_MEDIUMP = 1 << 22,           /* colours can be half floats: --precision */
     CAP_TWO_SOURCES = 1 << 23,       /* a pixel stage has a second source for blending */
     CAP_SAMPLER_BINDINGS = 1 << 24, /* with CAP_BINDINGS: a texture and its sampler have one each */
     CAP_HOST_FILES = 1 << 25,  /* a shader can be a function in a file that has other functions */

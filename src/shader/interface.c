@@ -63,7 +63,8 @@ void shader_init(struct shader *shader, const struct role *role, struct arena *a
                               .interface.naming.prefix = "",
                               .interface.naming_of_members.prefix = "",
                               .reflection.function = "",
-                              .reflection.function_type = ""};
+                              .reflection.function_type = "",
+                              .reflection.device_feature = ""};
     for (int stage = 0; stage < NUM_STAGES; stage++)
         shader->stages[stage].reach.arena = arena;
     vec_reserve(arena, &shader->interface.variables, FIRST_VARIABLES);

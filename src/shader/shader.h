@@ -346,6 +346,7 @@ struct shader_reflection {
     uint32_t stored_classes; /* that its pixels may have, as bits (docs/deferred.md) */
     /* names of the function and of the struct that it returns; "": it is no function of a host */
     const char *function, *function_type;
+    const char *device_feature; /* of the host's device, which the shader needs; "": none */
 };
 
 struct shader {

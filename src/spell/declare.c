@@ -123,7 +123,7 @@ void spell_declare(struct spell *spell, enum lang_phrase phrase,
     if (block_type)
         type.name = lang_word(block_type);
     if (spell_is_half_variable(spell, variable))
-        type.name = spell_half_type(spell, type.name);
+        type.name = spell_half_type(spell, variable->type);
     (void)lang_open(spell->style, phrase, type, spell_word(name), spell->out);
 }
 

@@ -215,7 +215,7 @@ void spell_read(struct spell *spell, const struct shader_variable *variable, str
 }
 
 /* Writes a node as its local, as a variable, or as an expression. */
-static inline void write_operand(struct spell *spell, ir_ref ref, enum lang_precedence least)
+static inline void write_plain(struct spell *spell, ir_ref ref, enum lang_precedence least)
 {
     uint32_t local = spell->local_of[ref];
     const struct ir_node *node = &spell->shader->graph->nodes.items[ref];
@@ -230,9 +230,50 @@ static inline void write_operand(struct spell *spell, ir_ref ref, enum lang_prec
         spell->write_node(spell, ref, node, least);
 }
 
+/*
+ * Writes a node in a language with types of half floats, and converts it to the floats of the text
+ * around it: "vec3h(u_pub.tint)", "vec3f(tinted)". Constants take these types without conversion.
+ */
+static void write_converted(struct spell *spell, ir_ref ref, enum lang_precedence least)
+{
+    struct lang_style *around = spell->style;
+    ir_type_id type = ir_type_of(spell->shader->graph, ref);
+    bool is_float = ir_type_is_float(type) && !ir_type_is_matrix(type),
+         is_constant = ir_get(spell->shader->graph, ref)->op == IR_CONST && !spell->local_of[ref];
+    struct lang_style *own = is_float && is_constant           ? around
+                             : spell_has_half_text(spell, ref) ? spell->half_style
+                                                               : spell->whole_style;
+    bool converts = is_float && own != around;
+    if (converts) {
+        spell_type(spell, type);
+        text_char(spell->out, '(');
+    }
+    spell->style = own;
+    write_plain(spell, ref, converts ? lang_argument_level(own->syntax) : least);
+    spell->style = around;
+    text_str(spell->out, converts ? ")" : "");
+}
+
+static inline void write_operand(struct spell *spell, ir_ref ref, enum lang_precedence least)
+{
+    if (spell->half_style)
+        write_converted(spell, ref, least);
+    else
+        write_plain(spell, ref, least);
+}
+
 void spell_expression(struct spell *spell, ir_ref ref, enum lang_precedence least)
 {
     write_operand(spell, ref, least);
+}
+
+void spell_value(struct spell *spell, ir_ref ref)
+{
+    struct lang_style *around = spell->style;
+    if (spell->half_style && spell_is_half(spell, ref))
+        spell->style = spell->half_style;
+    spell_expression(spell, ref, LANG_PREC_ASSIGN);
+    spell->style = around;
 }
 
 static void write_form(struct spell *spell, const struct ir_node *node,

@@ -81,17 +81,20 @@ static enum kind kind_of_operands(const struct spell *spell, ir_ref ref, unsigne
     return kind;
 }
 
-static bool is_float(ir_type_id type)
+/* A function of a colour alone makes a colour: another colour space. */
+static enum kind kind_of_call(const struct spell *spell, ir_ref call)
 {
-    return type == IR_TYPE_FLOAT || type == IR_TYPE_VEC2 || type == IR_TYPE_VEC3
-           || type == IR_TYPE_VEC4;
+    const struct ir_graph *g = spell->shader->graph;
+    bool is_of_color = ir_get(g, call)->num_args == 1 && spell->kinds[ir_arg(g, call, 0)] == COLOR
+                       && shader_call_outs(spell->shader, call) == 0;
+    return is_of_color ? COLOR : NEITHER;
 }
 
 static enum kind kind_of(const struct spell *spell, ir_ref ref)
 {
     const struct ir_graph *g = spell->shader->graph;
     const struct ir_node *node = ir_get(g, ref);
-    if (!is_float(node->type))
+    if (!ir_type_is_float(node->type) || ir_type_is_matrix(node->type))
         return node->op == IR_TEXTURE
                    ? kind_of_variable(spell, &spell->shader->interface.variables.items[node->attr])
                    : NEITHER;
@@ -111,8 +114,7 @@ static enum kind kind_of(const struct spell *spell, ir_ref ref)
     case IR_CONSTRUCT:
     case IR_SWIZZLE: return kind_of_operands(spell, ref, 0);
     case IR_SELECT: return kind_of_operands(spell, ref, 1);
-    case IR_CALL: /* of a colour alone: another colour space */
-        return node->num_args == 1 && spell->kinds[ir_arg(g, ref, 0)] == COLOR ? COLOR : NEITHER;
+    case IR_CALL: return kind_of_call(spell, ref);
     default: return NEITHER;
     }
 }
@@ -120,19 +122,23 @@ static enum kind kind_of(const struct spell *spell, ir_ref ref)
 void spell_find_kinds(struct spell *spell)
 {
     const struct ir_graph *g = spell->shader->graph;
-    if (!spell->options->halves || !spell_can(spell, CAP_MEDIUMP))
+    if (!spell->options->halves)
         return;
     spell->kinds = ARENA_ARRAY(spell->scratch, uint8_t, g->nodes.len);
     for (ir_ref ref = 1; ref < g->nodes.len; ref++)
         spell->kinds[ref] = (uint8_t)kind_of(spell, ref);
+    spell->whole_style = spell->style;
+    spell->half_style = lang_style_of_halves(spell->style, spell->scratch);
 }
 
-struct text_word spell_half_type(struct spell *spell, struct text_word type)
+struct text_word spell_half_type(struct spell *spell, ir_type_id type)
 {
     struct text half;
+    if (spell->half_style)
+        return spell->half_style->types[type];
     text_init(&half, spell->scratch);
     text_str(&half, "mediump ");
-    text_put(&half, type);
+    text_put(&half, lang_type_name(spell->style, &spell->lang_names, type));
     return (struct text_word){text_cstr(&half), half.len};
 }
 
@@ -143,7 +149,17 @@ bool spell_is_half(const struct spell *spell, ir_ref ref)
            && (type == IR_TYPE_VEC3 || type == IR_TYPE_VEC4);
 }
 
+bool spell_has_half_text(const struct spell *spell, ir_ref ref)
+{
+    const struct ir_graph *g = spell->shader->graph;
+    while (!spell->local_of[ref] && ir_get(g, ref)->op == IR_SWIZZLE)
+        ref = ir_arg(g, ref, 0);
+    uint8_t op = ir_get(g, ref)->op;
+    bool is_read = op == IR_UNIFORM || op == IR_TEX || op == IR_CALL;
+    return spell->half_style && spell_is_half(spell, ref) && (spell->local_of[ref] || !is_read);
+}
+
 bool spell_is_half_variable(const struct spell *spell, const struct shader_variable *variable)
 {
-    return spell->kinds && kind_of_variable(spell, variable) == COLOR;
+    return spell->kinds && !spell->half_style && kind_of_variable(spell, variable) == COLOR;
 }

@@ -52,7 +52,9 @@ struct spell {
     VEC(struct spell_mark) marks;        /* ascending */
     size_t verbatim_begin, verbatim_end; /* verbatim source in `out`: its lines stay unbroken */
     struct name_set names;
-    struct lang_style *style;     /* of the target's syntax */
+    struct lang_style *style; /* of the target's syntax; of halves: while a half is written */
+    /* of whole floats, and of half floats where these are types; NULL: they are not */
+    struct lang_style *whole_style, *half_style;
     struct lang_names lang_names; /* for the portable printer */
     /*
      * Writes a node without a local: spell_node, or spell_typed_node if the target has forms that
@@ -94,17 +96,24 @@ struct spell {
 
 /* ---- precision.c: values that bear half floats, if the options ask for them. ---- */
 
-/* Fills spell->kinds, which the functions below read. */
+/* Fills spell->kinds and the styles of halves, which the functions below read. */
 void spell_find_kinds(struct spell *spell);
 bool spell_is_half(const struct spell *spell, ir_ref ref);
-struct text_word spell_half_type(struct spell *spell, struct text_word type); /* "mediump vec3" */
-/* A uniform or a texture. */
+/*
+ * True if the text of the node has a type of half floats: the name of its local, or what arithmetic
+ * makes of halves.
+ */
+bool spell_has_half_text(const struct spell *spell, ir_ref ref);
+/* "mediump vec3", "vec3h" */
+struct text_word spell_half_type(struct spell *spell, ir_type_id type);
+/* A uniform or a texture that has the qualifier. */
 bool spell_is_half_variable(const struct spell *spell, const struct shader_variable *variable);
 
 /* ---- expression.c ---- */
 
 /* Writes a node. Adds parentheses if it binds less tightly than `least`. */
 void spell_expression(struct spell *spell, ir_ref ref, enum lang_precedence least);
+void spell_value(struct spell *spell, ir_ref ref); /* for its local, which may be a half float */
 void spell_node(struct spell *spell, ir_ref ref, const struct ir_node *node,
                 enum lang_precedence least);
 void spell_typed_node(struct spell *spell, ir_ref ref, const struct ir_node *node,

@@ -95,8 +95,8 @@ static void write_typed(struct spell *spell, enum lang_phrase phrase, ir_ref ref
     const char *own_type = spell->target->node_type ? spell->target->node_type(spell, ref) : NULL;
     struct lang_type_text text =
         own_type ? (struct lang_type_text){lang_word(own_type), 0} : spell_type_text(spell, type);
-    if (spell_is_half(spell, ref) && type == ir_type_of(spell->shader->graph, ref))
-        text.name = spell_half_type(spell, text.name);
+    if (spell_is_half(spell, ref))
+        text.name = spell_half_type(spell, type);
     (void)lang_open(spell->style, phrase, text, spell_word(name), spell->out);
 }
 
@@ -352,7 +352,7 @@ static void write_let(struct spell *spell, unsigned indent, ir_ref ref)
     write_typed(spell, node->op == IR_CONST ? PHRASE_LOCAL_CONSTANT : PHRASE_VALUE, ref, node->type,
                 name);
     text_mem(spell->out, " = ", 3);
-    spell_expression(spell, ref, LANG_PREC_ASSIGN);
+    spell_value(spell, ref);
     text_mem(spell->out, ";\n", 2);
     spell->local_of[ref] = spell->let_names.len;
 }

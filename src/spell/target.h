@@ -140,7 +140,8 @@ struct target {
     const struct target_function *functions;
     uint32_t first_resource; /* the number of the first resource of programs */
     bool tests_late; /* pixel stages that write images run before the depth test: they read depth */
-    const char *any_format; /* of images of any format of floats; NULL: the host chooses */
+    const char *half_feature; /* that half floats ask of a device: "shader-f16"; NULL: none */
+    const char *any_format;   /* of images of any format of floats; NULL: the host chooses */
     const struct target_image *images; /* ends with kind NULL; NULL: from base */
     enum shader_packing packing;       /* of blocks of uniforms */
     /*
@@ -207,7 +208,7 @@ struct spell_options {
     bool vulkan_attributes;  /* of HLSL: [[vk::binding(3, 0)]] */
     const char *shader_name; /* unique among functions and shaders; NULL: from the element's path */
     bool comments;           /* write element paths as comments */
-    bool halves;             /* colours are half floats, with CAP_MEDIUMP */
+    bool halves;             /* colours are half floats */
     void *user_data;
     /* The element path for the comment of an origin; NULL: none. May be NULL. */
     const char *(*path)(void *user_data, uint32_t origin);

@@ -479,6 +479,12 @@ test("a scene that changes", () => {
     assert.throws(() => document.bind(scene, null, { previous: 5 }), TypeError);
 });
 
+test("the feature of a device", () => {
+    const document = mxgen.createContext().parse(GOLD);
+    assert.equal(document.generate("wgsl", { options: { precision: "mediump" } }).info.deviceFeature, "shader-f16");
+    assert.equal(document.generate("wgsl").info.deviceFeature, "");
+});
+
 test("functions of the host", () => {
     const document = mxgen.createContext().parse(GOLD);
     assert.deepEqual(document.generate("essl").hostFunctions, []);

@@ -57,6 +57,13 @@ for role in path scatter function deferred depth payload pack; do
     [[ ,$lacking, == *,$role,* ]] ||
         check "role $role" compiles gold.mtlx coat.mtlx --interfaces complete,reduced --role "$role" "${options[@]}"
 done
+case $target in
+    wgsl | slang)
+        for role in raster function payload; do
+            check "half floats, role $role" compiles gold.mtlx coat.mtlx --interfaces complete,reduced --precision mediump --role "$role"
+        done
+        ;;
+esac
 for role in function deferred payload; do
     ! $has_folders || [[ ,$lacking, == *,$role,* ]] || check "documents, role $role" compiles "${documents[@]}" --trust --interfaces reduced --role "$role"
 done

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""What --precision mediump says in the source and in SPIR-V: colours bear half floats, all else has all bits. Arguments: mxgen, and the document
+"""What --precision mediump says in the source, in SPIR-V and in the reflection: colours bear half floats, all else has all bits. Arguments: mxgen, and the document
 tests/golden/precision.mtlx, whose colours have the names below."""
+import json
 import pathlib
 import re
 import shutil
@@ -15,6 +16,12 @@ import checks
 MXGEN, DOCUMENT = sys.argv[1:]
 UNIFORMS = {"NG_coloured_tint", "SR_coloured_specular_color", "SR_coloured_sheen_color"}
 IMAGE = "albedo_file"
+# Languages with types of half floats: the file of the pixel stage, a local of such a type, and what a device must have.
+HALVES = {
+    "wgsl": ("frag.wgsl", r"let (\w+): vec[34]h = ", "shader-f16"),
+    "hlsl": ("ps.hlsl", r"min16float[34] (\w+) = ", None),
+    "slang": ("frag.slang", r"half[34] (\w+) = ", None),
+}
 RESULT = re.compile(r"^\s*(%\S+) = (Op\w+) (.*)$", re.M)
 # instructions whose results are directions, lengths, positions
 WHOLE = "Normalize", "Length", "Cross", "Sqrt", "InverseSqrt", "Log2", "Pow", "FaceForward"
@@ -61,6 +68,21 @@ def check_spirv(folder):
     checks.check("%tinted" in locals_of, f"relaxed locals: {locals_of}")
 
 
+def check_halves(folder, target):
+    """Locals are half floats, and nothing else is: the host writes uniforms as ever."""
+    ending, local, feature = HALVES[target]
+    texts, features = [], []
+    for precision in "mediump", "highp":
+        run(MXGEN, DOCUMENT, "--target", target, "--precision", precision, "--reflect", "-q", "-o", folder)
+        texts.append(pathlib.Path(f"{folder}/Coloured.{ending}").read_text(encoding="utf-8"))
+        features.append(json.loads(pathlib.Path(f"{folder}/Coloured.json").read_text(encoding="utf-8")).get("deviceFeature"))
+    checks.check(set(re.findall(local, texts[0])) == {"image", "tinted", "faded", "fresnel_facing"}, f"{target}: {re.findall(local, texts[0])}")
+    checks.check(not re.search(local, texts[1]), f"{target}: half floats without the option")
+    checks.check(features == [feature, None], f"{target}: {features}")
+    for text, word in zip(texts, (target == "wgsl", False)):
+        checks.check(("\nenable f16;\n" in text) == word, f"{target}: enable f16 in {text[:80]}")
+
+
 def main():
     missing = [tool for tool in ("glslangValidator", "spirv-dis") if not shutil.which(tool)]
     with tempfile.TemporaryDirectory() as folder:
@@ -74,6 +96,8 @@ def main():
             checks.check("precision highp float;" in lines, f"{target}: not highp by default")
             uniforms = {line.split()[-1].rstrip(";") for line in lines if re.match(r"\s*(uniform )?mediump vec[34] \w+;", line)}
             checks.check(uniforms == UNIFORMS, f"{target}: {sorted(uniforms)}")
+        for target in HALVES:
+            check_halves(folder, target)
         refused = subprocess.run([MXGEN, DOCUMENT, "--target", "glsl", "--precision", "mediump", "-o", folder], capture_output=True, text=True,
                                  check=False)
         checks.check(refused.returncode == 2 and "precision" in refused.stderr, f"glsl: {refused.returncode}, {refused.stderr}")

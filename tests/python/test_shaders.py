@@ -95,6 +95,11 @@ class Shaders(unittest.TestCase):
         self.assertEqual(shader.host_functions, ("mxg_light_count", "mxg_light", "mxg_irradiance", "mxg_radiance"))
         self.assertEqual(document.generate("vulkan").host_functions, ())
 
+    def test_device_feature(self):
+        document = self.context.load(common.EXAMPLES / "gold.mtlx")
+        self.assertEqual(document.generate("wgsl", options={"precision": "mediump"}).info.device_feature, "shader-f16")
+        self.assertEqual(document.generate("wgsl").info.device_feature, "")
+
     def test_parts(self):
         shader = self.context.load(common.EXAMPLES / "car_paint.mtlx").generate("osl", options={"osl-network": True})
         self.assertGreater(len(shader.parts), 2)

@@ -1,0 +1,305 @@
+// Coloured · surfacematerial · mxgen 0.1 · wgsl · reduced · 2 closures · 3 textures
+enable f16;
+
+struct mx_GgxLobe {
+    N: vec3f,
+    cosine: f32,
+    x: vec3f,
+    alpha: vec2f,
+    masking: f32,
+}
+struct mx_GgxSamples {
+    to_map: mat3x3f,
+    stretch: vec3f,
+    area: f32,
+    v: vec3f,
+    masking: f32,
+    reach: f32,
+    step: f32,
+    texels: f32,
+    weight: f32,
+}
+struct mx_GgxFacet {
+    h: vec3f,
+    cosine: f32,
+    mirror: f32,
+    texels: f32,
+}
+struct mx_GgxLight {
+    color: vec3f,
+    weight: f32,
+    cosine: f32,
+}
+struct PrivateUniforms {
+    u_worldMatrix: mat4x4f,
+    u_worldInverseTransposeMatrix: mat4x4f,
+    u_viewProjectionMatrix: mat4x4f,
+    u_viewPosition: vec3f,
+    u_numActiveLightSources: i32,
+    u_envMatrix: mat4x4f,
+    u_envRadianceMips: i32,
+    u_envRadianceSamples: i32,
+    u_envLightIntensity: f32,
+}
+@group(0) @binding(0) var<uniform> u_prv: PrivateUniforms;
+struct LightData {
+    @align(16) type_: i32,
+    direction: vec3f,
+    color: vec3f,
+    intensity: f32,
+    position: vec3f,
+    decay_rate: f32,
+    inner_angle: f32,
+    outer_angle: f32,
+}
+@group(0) @binding(2) var<uniform> u_lightData: array<LightData, 3>;
+@group(0) @binding(3) var albedo_file: texture_2d<f32>;
+@group(0) @binding(4) var albedo_file_sampler: sampler;
+@group(0) @binding(5) var rough_file: texture_2d<f32>;
+@group(0) @binding(6) var rough_file_sampler: sampler;
+@group(0) @binding(7) var bumps_file: texture_2d<f32>;
+@group(0) @binding(8) var bumps_file_sampler: sampler;
+@group(0) @binding(9) var u_envRadiance: texture_2d<f32>;
+@group(0) @binding(10) var u_envRadiance_sampler: sampler;
+struct VertexData {
+    @builtin(position) position: vec4f,
+    @location(0) positionWorld: vec3f,
+    @location(1) normalWorld: vec3f,
+    @location(2) tangentWorld: vec3f,
+    @location(3) bitangentWorld: vec3f,
+    @location(4) texcoord_0: vec2f,
+}
+
+fn wgsl_mat3x3f_of_mat4x4f(m: mat4x4f) -> mat3x3f
+{
+    return mat3x3f(m[0].xyz, m[1].xyz, m[2].xyz);
+}
+
+// IEC 61966-2-1
+fn mx_srgb_texture_to_lin_rec709(color: vec3f) -> vec3f
+{
+    return mix(color / 12.92, pow(max((color + 0.055) / 1.055, vec3f(0.0)), vec3f(2.4)), step(vec3f(0.04045), color));
+}
+
+// A texel of zeros is a missing map, and means the normal itself.
+// Here scale = vec2f(1.0).
+fn mx_normalmap(texel: vec3f, normal: vec3f, tangent: vec3f, bitangent: vec3f) -> vec3f
+{
+    let n: vec3f = select(texel * 2.0 - 1.0, vec3f(0.0, 0.0, 1.0), dot(texel, texel) == 0.0);
+    return normalize(tangent * n.x + bitangent * n.y + normal * n.z);
+}
+
+// A cubic polynomial of x and y with the coefficients m, to which directional albedos are fitted.
+fn mx_bicubic(m: mat4x4f, x: f32, y: f32) -> f32
+{
+    return dot(vec4f(1.0, x, x * x, x * x * x), m * vec4f(1.0, y, y * y, y * y * y));
+}
+
+// The light that a white GGX lobe of roughness a reflects at the viewer's cosine c (x), and the mean of (1 - cos)^5
+// over it (y); u is a / (a + c).
+fn mx_ggx_albedo_fit(a: f32, u: f32, c: f32) -> vec2f
+{
+    let x: f32 = clamp(1.0 - c - a * mx_bicubic(mat4x4f(-0.2174, 5.3819, -3.911, 0.2674, -9.7298, 3.9904, 3.8225,
+        -0.0277, 36.4897, -72.9122, 58.0878, -20.917, -31.4763, 79.0768, -73.9706, 26.5429), u, a), 0.0, 1.0);
+    return vec2f(min(1.005 - u * mx_bicubic(mat4x4f(-0.1449, 2.7808, -5.4855, 2.8822, -1.0694, 1.8502, 0.2967, -1.0447,
+        12.503, -32.5955, 30.0409, -9.9567, -5.0066, 10.9491, -6.6309, 0.6544), u, a), 1.0), x * x * x * x * x);
+}
+
+// Schlick's curve from f0 to f90 at a cosine, less `bend` times cos (1 - cos)^6.
+// Here bend = vec3f(0.0), f90 = vec3f(1.0), exponent = 5.0.
+fn mx_fresnel_schlick(cosine: f32, f0: vec3f) -> vec3f
+{
+    let x: f32 = 1.0 - cosine;
+    return mix(f0, vec3f(1.0), x * x * x * x * x);
+}
+
+// The square of the length of the facet's normal H after the roughness divided its parts along the surface, times the
+// product of the roughness along x and y; cos_h is its part along N.
+// Here is_round = true, is_wide = false.
+fn mx_ggx_stretched(lobe: mx_GgxLobe, H: vec3f, cos_h: f32) -> f32
+{
+    let slope: vec3f = H - cos_h * lobe.N;
+    return dot(slope, slope) + lobe.alpha.x * lobe.alpha.y * (cos_h * cos_h);
+}
+
+// The GGX lobe towards the light L, without Fresnel's factor: distribution, visibility and the cosine over one divisor.
+// Here is_round = true, is_wide = false.
+fn mx_ggx_light(lobe: mx_GgxLobe, V: vec3f, L: vec3f) -> f32
+{
+    let area: f32 = lobe.alpha.x * lobe.alpha.y;
+    let cos_l: f32 = max(dot(lobe.N, L), 1e-8);
+    let square: f32 = 2.0 + 2.0 * dot(V, L);
+    let e: f32 = mx_ggx_stretched(lobe, V + L, lobe.cosine + dot(lobe.N, L));
+    return area / 6.2831855 * square * square * cos_l
+        / (e * e * (lobe.cosine * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * lobe.masking));
+}
+
+// The number of samples, from 1, that a lobe takes; roughness is that along two directions, squared.
+fn mx_sample_count(roughness: vec2f) -> i32
+{
+    let wide: f32 = max(roughness.x, roughness.y);
+    var share: f32 = 0.5 * min(4.0 * sqrt(wide), 1.0);
+    share = min(share * wide / min(roughness.x, roughness.y), 1.0);
+    return max(i32(ceil(share * f32(u_prv.u_envRadianceSamples))), 1);
+}
+
+// cos (1 + 2 Lambda) of a direction for GGX; `area` is the product of the roughness along x and y (Heitz 2014,
+// "Understanding the Masking-Shadowing Function", equation 72).
+fn mx_ggx_masking(cosine: f32, area: f32) -> f32
+{
+    return sqrt(area + (1.0 - area) * (cosine * cosine));
+}
+
+// The GGX lobe of a surface as lights see it; roughness is that along X and across, squared.
+// Here is_round = true.
+fn mx_ggx_lobe(roughness: vec2f, N: vec3f, V: vec3f) -> mx_GgxLobe
+{
+    let alpha: vec2f = clamp(roughness, vec2f(1e-8), vec2f(1.0));
+    let cosine: f32 = max(abs(dot(N, V)), 1e-8);
+    return mx_GgxLobe(faceForward(N, -V, N), cosine, vec3f(0.0), alpha, mx_ggx_masking(cosine, alpha.x * alpha.y));
+}
+
+// The GGX lobe of a surface as samples of the environment see it.
+// Here is_round = true.
+fn mx_ggx_samples(roughness: vec2f, count: i32, N: vec3f, V: vec3f) -> mx_GgxSamples
+{
+    let lobe: mx_GgxLobe = mx_ggx_lobe(roughness, N, V);
+    let x: vec3f = normalize(V - lobe.cosine * lobe.N + 1e-6 * lobe.N.yzx);
+    let v: vec3f = vec3f(sqrt(max(1.0 - lobe.cosine * lobe.cosine, 0.0)), 0.0, lobe.cosine);
+    let stretch: vec3f = vec3f(lobe.alpha, 1.0);
+    let reach: f32 = lobe.masking;
+    let area: f32 = stretch.x * stretch.y;
+    let share: f32 = 1.0 / f32(count);
+    return mx_GgxSamples(wgsl_mat3x3f_of_mat4x4f(u_prv.u_envMatrix) * mat3x3f(x, cross(lobe.N, x), lobe.N), stretch,
+        area, v, lobe.masking, reach, share * (v.z + reach), area * (v.z + lobe.masking)
+        * max(2.0 / f32(count), 4.4 / f32(max(u_prv.u_envRadianceSamples, 1)))
+        * exp2(2.0 * f32(u_prv.u_envRadianceMips) - 4.6485), u_prv.u_envLightIntensity
+        * (share * (v.z + lobe.masking)));
+}
+
+// The angle, over pi, with this sine and cosine; the cosine is not negative. It errs by 2.9e-5 at most.
+fn mx_half_turn(sine: f32, cosine: f32) -> f32
+{
+    return sine * (0.4999709 + cosine * (cosine * (0.2302802 + cosine * (0.0398298 * cosine - 0.1351235)) - 0.3164252));
+}
+
+// The square of the distance of the unit direction d from the vertical axis, never 0.
+fn mx_map_square(d: vec3f) -> f32
+{
+    return d.x * d.x + (d.z * d.z + 1e-16);
+}
+
+// The point of the latitude-longitude picture for the unit direction d, to a tenth of a texel in 4096.
+fn mx_map_point(d: vec3f) -> vec2f
+{
+    let square: f32 = mx_map_square(d);
+    let stretch: f32 = inverseSqrt(square);
+    return vec2f(fract(select(0.5, -0.5, d.z > 0.0) * (mx_half_turn(d.x * stretch, abs(d.z) * stretch) + 0.5) + 0.25),
+        0.5 - mx_half_turn(d.y, square * stretch));
+}
+
+// Light of the environment from the unit direction d of its picture, filtered over as many texels.
+fn mx_filtered_light(d: vec3f, texels: f32) -> vec3f
+{
+    return textureSampleLevel(u_envRadiance, u_envRadiance_sampler, mx_map_point(d), 0.5
+        * log2(texels * inverseSqrt(mx_map_square(d)))).xyz;
+}
+
+// Height-correlated masking and shadowing G2 over 2 cos_v cos_l (Heitz 2014, equation 99); `masking` is that of the
+// viewer.
+fn mx_ggx_visibility(cos_v: f32, masking: f32, area: f32, cos_l: f32) -> f32
+{
+    return 1.0 / (cos_v * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * masking);
+}
+
+// A normal of those visible from v, at any length (Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with Spherical
+// Caps"): v is stretched by the roughness and has the length `reach`, `around` is (cos, sin) of the turn around z, and
+// `depth` how far the normal lies below the top of the cap, v.z + reach at most.
+fn mx_ggx_cap(around: vec2f, depth: f32, v: vec3f, reach: f32) -> vec3f
+{
+    return v + vec3f(sqrt(depth * (2.0 * reach - depth)) * around, reach - depth);
+}
+
+// The facet of sample i. Samples are spherical Fibonacci points (Marques et al. 2013): each is the golden angle further
+// around than the one before, by its `turn`.
+fn mx_ggx_facet(s: mx_GgxSamples, i: i32, turn: vec2f) -> mx_GgxFacet
+{
+    let h: vec3f = mx_ggx_cap(turn, (f32(i) + 0.5) * s.step, s.v * s.stretch, s.reach) * s.stretch;
+    let cosine: f32 = dot(s.v, h);
+    let mirror: f32 = 2.0 * cosine / dot(h, h);
+    return mx_GgxFacet(h, cosine, mirror, mirror * mirror * s.texels);
+}
+
+// The light that the facet of sample i reflects.
+fn mx_ggx_reflected(s: mx_GgxSamples, i: i32, turn: vec2f) -> mx_GgxLight
+{
+    let facet: mx_GgxFacet = mx_ggx_facet(s, i, turn);
+    let l: vec3f = facet.mirror * facet.h - s.v;
+    let cos_l: f32 = max(l.z, 1e-8);
+    return mx_GgxLight(mx_filtered_light(s.to_map * l, facet.texels), s.weight * cos_l
+        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l),
+        sqrt(clamp(0.5 * (facet.mirror * facet.cosine), 1e-8, 1.0)));
+}
+
+@fragment
+fn main(vd: VertexData) -> @location(0) vec4f
+{
+    var out1: vec4f;
+    // NG_coloured
+    let uv: vec2f = vd.texcoord_0 * vec2f(3.0, 2.0);
+    let tinted: vec3h = vec3h(mx_srgb_texture_to_lin_rec709(textureSample(albedo_file, albedo_file_sampler, uv).xyz))
+        * vec3h(0.9, 0.5, 0.3);
+    var color: vec3f = vec3f(tinted) * 2000.0;
+    // lights
+    // SR_coloured
+    let fresnel_facing: vec3h = max(mix(vec3h(0.9, 0.5, 0.3), tinted, 0.75), vec3h(0.0));
+    let rough: f32 = textureSample(rough_file, rough_file_sampler, uv).x;
+    let specular_roughness: f32 = clamp(rough * rough, 0.00001, 1.0);
+    let alpha: f32 = clamp(specular_roughness, 1e-8, 1.0);
+    let bent: vec3f = mx_normalmap(textureSample(bumps_file, bumps_file_sampler, uv).xyz, normalize(vd.normalWorld),
+        normalize(vd.tangentWorld), normalize(vd.bitangentWorld));
+    let V: vec3f = normalize(u_prv.u_viewPosition - vd.positionWorld);
+    let cosine: f32 = max(abs(dot(bent, V)), 1e-8);
+    let scale: vec3f = vec3f(mix(fresnel_facing, vec3h(1.0), 0.04761905))
+        * (1.0 / mx_ggx_albedo_fit(alpha, alpha / (cosine + alpha), cosine).x - 1.0) + vec3f(1.0);
+    let metal_bare_facing: vec3f = faceForward(bent, -V, bent);
+    let ggx_masking: f32 = sqrt(alpha * alpha + (1.0 - alpha * alpha) * (cosine * cosine));
+    let metal_bare_vector: mx_GgxLobe = mx_GgxLobe(metal_bare_facing, cosine, vec3f(0.0), vec2f(alpha), ggx_masking);
+    // from the last light, so that drivers do not unroll the loop
+    for (var i: i32 = min(u_prv.u_numActiveLightSources, 3) - 1; i >= 0; i--) {
+        var L: vec3f;
+        var intensity: f32;
+        let light_type_: i32 = u_lightData[i].type_;
+        if (light_type_ == 1) {
+            L = -u_lightData[i].direction;
+            intensity = u_lightData[i].intensity;
+        } else {
+            let d: vec3f = u_lightData[i].position - vd.positionWorld;
+            let to_light: vec3f = normalize(d);
+            L = to_light;
+            let ratio: f32 = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+            if (light_type_ == 2) {
+                intensity = ratio;
+            } else {
+                let spot_light_difference: f32 = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+                intensity = select(0.0, smoothstep(spot_light_difference, u_lightData[i].inner_angle,
+                    -dot(u_lightData[i].direction, to_light)) * ratio, light_type_ == 3);
+            }
+        }
+        // metal_bare
+        let metal_bare_product: vec3f = scale
+            * mx_fresnel_schlick(sqrt(clamp(dot(L, V) * 0.5 + 0.500001, 0.0, 1.0)), vec3f(fresnel_facing));
+        color += u_lightData[i].color * (intensity * (metal_bare_product * mx_ggx_light(metal_bare_vector, V, L)));
+    }
+    // environment: metal_bare
+    var turn: vec2f = vec2f(1.0, 0.0);
+    let count: i32 = mx_sample_count(vec2f(alpha));
+    let metal_bare_ggx_samples: mx_GgxSamples = mx_ggx_samples(vec2f(specular_roughness), count, bent, V);
+    for (var i: i32 = 0; i < count; i++) {
+        let light: mx_GgxLight = mx_ggx_reflected(metal_bare_ggx_samples, i, turn);
+        color += light.color * (light.weight * (scale * mx_fresnel_schlick(light.cosine, vec3f(fresnel_facing))));
+        turn = vec2f(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
+    }
+    out1 = vec4f(color, 1.0);
+    return out1;
+}
