@@ -1,10 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # What a language's compiler says of shaders, in all roles that the language has.
-# Arguments: mxgen, mxgen-compile, the target, roles that it lacks ("deferred,depth"; none: ''), and documents or folders of documents.
-mxgen=$(realpath "$1") compile=$(realpath "$2") target=$3 lacking=$4
-shift 4
-mapfile -d '' documents < <(realpath -z "$@" | xargs -0 -I{} find {} -name "*.mtlx" -print0)
+# Arguments: mxgen, mxgen-compile, the target, roles that it lacks ("deferred,depth"; none: ''), a part and the number of parts, and documents or
+# folders of documents, of which the test takes this part.
+mxgen=$(realpath "$1") compile=$(realpath "$2") target=$3 lacking=$4 part=$5 parts=$6
+shift 6
+mapfile -d '' all < <(realpath -z "$@" | xargs -0 -I{} find {} -name "*.mtlx" -print0 | sort -z)
+documents=()
+for i in "${!all[@]}"; do ((i % parts != part - 1)) || documents+=("${all[i]}"); done
 has_folders=false
 for path; do [ ! -d "$path" ] || has_folders=true; done
 . "$(dirname "$0")/common.sh"
