@@ -408,7 +408,11 @@ static bool is_by_component(const struct lang_use *use)
     case IR_ASINH:
     case IR_ACOSH:
     case IR_ATANH:
-    case IR_ISINF: return true;
+    case IR_ISINF:
+    case IR_FLOAT_TO_INT_BITS:
+    case IR_FLOAT_TO_UINT_BITS:
+    case IR_INT_BITS_TO_FLOAT:
+    case IR_UINT_BITS_TO_FLOAT: return true;
     default: return differs_unsigned(use->op) && is_unsigned(use->operands[0]);
     }
 }
