@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Rows that the tables of several languages share: struct lang_form, and names of types. */
+/*
+ * Rows that the tables of several languages share: struct lang_form, names of types, and the rows
+ * of functions.def and images.def.
+ */
 #ifndef MXG_GENERATORS_ROWS_H
 #define MXG_GENERATORS_ROWS_H
 
 #define CALL(op, text) [IR_##op] = {text, LANG_PREC_POSTFIX, false}
+
+/* struct target_function, and struct target_image with the functions that read and write it */
+#define FUNCTION(name, text) {name, text},
+#define IMAGE(kind, format, access, type, ...) {kind, format, access, type, {__VA_ARGS__}},
 
 /* clang-format off */
 

@@ -73,16 +73,12 @@ const struct lang_syntax hlsl_syntax = {
 };
 
 const struct target_function hlsl_functions[] = {
-#define FUNCTION(name, text) {name, text},
 #include "generators/hlsl/functions.def"
-#undef FUNCTION
     {NULL, NULL},
 };
 
 const struct target_image hlsl_images[] = {
-#define IMAGE(kind, format, access, type, ...) {kind, format, access, type, {__VA_ARGS__}},
 #include "generators/hlsl/images.def"
-#undef IMAGE
     {.kind = NULL},
 };
 

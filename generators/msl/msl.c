@@ -72,16 +72,12 @@ static const char *const instances[NUM_BLOCKS] = {
 };
 
 static const struct target_function functions[] = {
-#define FUNCTION(name, text) {name, text},
 #include "generators/msl/functions.def"
-#undef FUNCTION
     {NULL, NULL},
 };
 
 static const struct target_image images[] = {
-#define IMAGE(kind, format, access, type, ...) {kind, format, access, type, {__VA_ARGS__}},
 #include "generators/msl/images.def"
-#undef IMAGE
     {.kind = NULL},
 };
 

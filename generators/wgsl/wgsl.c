@@ -109,16 +109,12 @@ static const char *const instances[NUM_BLOCKS] = {
     [BLOCK_PRIVATE_UNIFORMS] = "u_prv", [BLOCK_PUBLIC_UNIFORMS] = "u_pub"};
 
 static const struct target_function functions[] = {
-#define FUNCTION(name, text) {name, text},
 #include "generators/wgsl/functions.def"
-#undef FUNCTION
     {NULL, NULL},
 };
 
 static const struct target_image images[] = {
-#define IMAGE(kind, format, access, type, ...) {kind, format, access, type, {__VA_ARGS__}},
 #include "generators/wgsl/images.def"
-#undef IMAGE
     {.kind = NULL},
 };
 
