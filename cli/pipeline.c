@@ -63,7 +63,7 @@ int command_pipeline(const struct command *command, int argc, char **argv)
     const char *name = "vulkan";
     const struct arg args[] = {
         {"target", 't', ARG_TEXT, "T",
-         "target language: vulkan (default), glsl, hlsl, slang or msl", &name},
+         "target language: vulkan (default), glsl, hlsl, slang, msl or wgsl", &name},
     };
     struct cli cli;
     mxg_target target;
