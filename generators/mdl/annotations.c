@@ -7,6 +7,8 @@
  */
 #include "generators/mdl/mdl.h"
 
+#include "base/num.h"
+
 void mdl_write_string(struct spell *spell, const char *text)
 {
     text_char(spell->out, '"');
@@ -63,6 +65,15 @@ static void write_range(struct spell *spell, unsigned *count, const char *annota
           is_int || strchr(high, '.') ? ")" : ".0)");
 }
 
+/* False if the document's value is outside: MDL takes no such value for a hard range. */
+static bool has_default(const char *low, const char *high, const struct shader_variable *variable)
+{
+    union ir_word value = variable->value.w[0];
+    float x = variable->type == IR_TYPE_INT ? (float)value.i : value.f, from, to;
+    return !low || !high || !num_parse_float(low, strlen(low), &from)
+           || !num_parse_float(high, strlen(high), &to) || (from <= x && x <= to);
+}
+
 void mdl_write_annotations(struct spell *spell, const struct shader_variable *variable)
 {
     const struct spell_options *options = spell->options;
@@ -74,7 +85,8 @@ void mdl_write_annotations(struct spell *spell, const struct shader_variable *va
         options->ui(options->user_data, variable, &ui);
     write_text(spell, &count, "display_name", ui.uiname);
     write_text(spell, &count, "in_group", ui.uifolder);
-    write_range(spell, &count, "hard_range", variable, ui.uimin, ui.uimax);
+    if (has_default(ui.uimin, ui.uimax, variable))
+        write_range(spell, &count, "hard_range", variable, ui.uimin, ui.uimax);
     write_range(spell, &count, "soft_range", variable, ui.uisoftmin, ui.uisoftmax);
     if (options->metadata > 1)
         write_text(spell, &count, "description", ui.doc);

@@ -8,11 +8,11 @@
  * All else stays whole: positions, directions, texture coordinates and roughness, whose small
  * differences show; light, which may be brighter; and the results of other functions.
  */
+#include "base/num.h"
 #include "spell/spell.h"
 
 #include <assert.h>
 #include <math.h>
-#include <stdlib.h>
 
 enum kind { NEITHER, SHARE, COLOR };
 
@@ -32,10 +32,10 @@ static enum kind kind_of_constant(const struct ir_graph *g, ir_ref ref)
     return SHARE;
 }
 
-static bool ends_at(const char *text, double value)
+static bool ends_at(const char *text, float value)
 {
-    char *end;
-    return text && strtod(text, &end) == value && end != text;
+    float number;
+    return text && num_parse_float(text, strlen(text), &number) && number == value;
 }
 
 /* True if the definition limits a number to the range from 0 to 1. */
@@ -45,7 +45,7 @@ static bool is_share(const struct spell *spell, const struct shader_variable *va
     if (!spell->options->ui || variable->type != IR_TYPE_FLOAT || !variable->definition)
         return false;
     spell->options->ui(spell->options->user_data, variable, &ui);
-    return ends_at(ui.uimin, 0.0) && ends_at(ui.uimax, 1.0);
+    return ends_at(ui.uimin, 0.0f) && ends_at(ui.uimax, 1.0f);
 }
 
 static bool is_half_texture(const struct spell *spell, const struct shader_variable *variable)

@@ -26,6 +26,12 @@ check 'a text is no light' exits 1 "$mxgen" gold.mtlx --target mdl --element tex
 check 'a value is light' exits 0 "$mxgen" gold.mtlx --target mdl --element glow -o glow
 check 'a value is the intensity of an edf' grep -q 'emission: material_emission(emission: surface_emission' glow/glow.mdl
 
+# A hard range holds the default: MDL refuses a value outside.
+sed 's/name="metalness" type="float" value="1"/name="metalness" type="float" value="1.5"/' gold.mtlx >outside.mtlx
+check 'a value outside of its range' exits 0 "$mxgen" outside.mtlx --target mdl --element gold --interface authored -o outside
+check 'it has no hard range' eval 'grep -q "float metalness = 1.5 " outside/gold.mdl && ! grep -q "float metalness .*hard_range" outside/gold.mdl'
+check 'a value inside of it has one' eval '"$mxgen" gold.mtlx --target mdl --element gold --interface authored -q -o inside && grep -q "float metalness = 1.0 .*hard_range(0.0, 1.0)" inside/gold.mdl'
+
 # Names that begin as no identifier of MDL, and results in structs: the compiler of MDL reads the file where it is installed.
 cat >names.mtlx <<'END'
 <materialx version="1.39">
