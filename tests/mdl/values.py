@@ -19,7 +19,8 @@ import scene
 FLAGS = [a for a in sys.argv[1:] if a.startswith("--")]
 MXGEN, ROWS, *NAMES = [a for a in sys.argv[1:] if not a.startswith("--")]
 PIXEL, U, V = 6, 0.625, 0.375 # the third of the second row of 4x4
-COORDINATES = f"float3({0.0313 + 0.9371 * U + 0.0129 * V:.9g}, {0.0217 + 0.0171 * U + 0.9331 * V:.9g}, 0.0)" # as in scene.SCENE
+# of index 0, as in scene.SCENE
+COORDINATES = f"(index == 0 ? float3({0.0313 + 0.9371 * U + 0.0129 * V:.9g}, {0.0217 + 0.0171 * U + 0.9331 * V:.9g}, 0.0) : state::texture_coordinate(index))"
 NUMBER = r"(-?[\d.]+(?:e[-+]?\d+)?)f"
 FOLDED = re.compile(rf"intensity: color\({NUMBER}(?:, {NUMBER}, {NUMBER})?\)")
 LEAST_FOLDED = 0.4 # of the rows
@@ -57,10 +58,10 @@ def run_document(name, folder):
     modules = {}
     for row in rows:
         source = folder / (row["case"].replace("/", ".") + ".mdl")
-        if source.exists(): # MDL has no derivatives, for example: tests/mdl/limits.sh
+        text = source.read_text(encoding="utf-8") if source.exists() else "" # MDL has no derivatives, for example: tests/mdl/limits.sh
+        if text and "tex::lookup" not in text and "tex::texel" not in text: # mdlc folds a missing texture to black
+            (folder / f"row{len(modules)}.mdl").write_text(text.replace("state::texture_coordinate(index)", COORDINATES), encoding="utf-8")
             modules[f"row{len(modules)}"] = row
-            text = source.read_text(encoding="utf-8").replace("state::texture_coordinate(index)", COORDINATES)
-            (folder / f"row{len(modules) - 1}.mdl").write_text(text, encoding="utf-8")
     values = folded(folder, modules) if modules else {}
     found = {row["case"]: "does not compile" for module, row in modules.items() if module not in values}
     with_value = {modules[module]["case"]: difference(modules[module], value) for module, value in values.items() if value}
@@ -71,7 +72,7 @@ def main():
     if not shutil.which("mdlc"):
         checks.skip("mdlc is not installed")
         checks.finish("values-mdl")
-    known = scene.known_deviations(pathlib.Path(ROWS) / "deviations.tsv")
+    known = scene.known_deviations(pathlib.Path(ROWS) / "deviations.tsv", pathlib.Path(__file__).with_name("deviations.tsv"))
     num_folded = num_rows = 0
     for path in sorted((pathlib.Path(ROWS) / "cases").glob("*.mtlx")):
         if NAMES and path.stem not in NAMES:
@@ -80,7 +81,7 @@ def main():
             found, with_value, rows = run_document(path.stem, pathlib.Path(work))
         num_folded, num_rows = num_folded + with_value, num_rows + rows
         for case, fault in found.items():
-            checks.check(not fault or (path.stem, case) in known, f"{path.stem} {case}: {fault}")
+            checks.check(not fault or known & {(path.stem, case), (path.stem, "*")}, f"{path.stem} {case}: {fault}")
     print(f"mdlc folds {num_folded} of {num_rows} rows")
     checks.check(num_folded >= LEAST_FOLDED * num_rows, "mdlc folds too few rows")
     checks.finish("values-mdl")
