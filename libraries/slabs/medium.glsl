@@ -2,26 +2,15 @@
 // Layers of a medium that absorbs and scatters light: what they reflect and let through, and their coefficients for light that walks through
 // them at random. `color` is the albedo at infinite thickness, `mean_free_path` the way between two collisions, g the phase anisotropy.
 
-// Ways through a medium are multiples of its thickness. Every medium has the index 1.5.
-const float MX_MEAN_WAY = 1.1458980; // over cosine-weighted directions: 4.5 - 1.5 sqrt(5)
+#include "scatter.glsl"
 
 const float MX_CLEAR_PATH = 1e6; // of a clear medium, by which src/slabs/recognise.c knows matter that is an interface only
-const float MX_MOST_ANISOTROPIC = 0.95; // of phase functions: beyond, all light would go straight on
 
 // How far light goes through a medium of index 1.5, over the thickness, on its way to or from V.
 float mx_way(vec3 N, vec3 V)
 {
     float c = dot(N, V);
     return 1.5 * inversesqrt(1.25 + c * c);
-}
-
-// The number s of a medium that reflects `color` at infinite thickness: the albedo of one scattering is 1 - s^2
-// (Kulla and Conty 2017, "Revisiting Physically Based Shading at Imageworks").
-vec3 mx_medium_loss(vec3 color)
-{
-    vec3 c = clamp(color, 0.0, 1.0);
-    vec3 s = clamp(4.09712 + 4.20863 * c - sqrt(9.59217 + c * (41.6808 + 17.7126 * c)), 0.0, 1.0);
-    return mix(s, vec3(1.0), step(c, vec3(0.0))); // exactly: no albedo, no scattering
 }
 
 // Optical depth, along the normal, of the medium that scatters evenly and stands for one with the phase anisotropy
@@ -53,11 +42,6 @@ vec3 mx_medium_layer(vec3 a, vec3 t, float way, out vec3 transmitted)
     return s * ways / below;
 }
 
-bool mx_is_black(vec3 color)
-{
-    return max(color.x, max(color.y, color.z)) <= 0.0;
-}
-
 // Light that the layer of a medium lets through on a way.
 //
 // A medium without scattering has only absorption (Beer, Lambert).
@@ -80,18 +64,6 @@ vec3 mx_medium_reflected(vec3 color, vec3 mean_free_path, float g, float thickne
     vec3 ignored;
     vec3 loss = mx_medium_loss(color);
     return mx_medium_layer(1.0 - loss * loss, mx_medium_depth(loss, mean_free_path, g, thickness), way, ignored);
-}
-
-// Scattering coefficient of a medium over a length, for light that walks through it at random; 0 where it is
-// opaque.
-//
-// g by similarity, see mx_medium_depth.
-vec3 mx_medium_scattering(vec3 color, vec3 mean_free_path, float g, float length)
-{
-    if (mx_is_black(mean_free_path) || mx_is_black(color))
-        return vec3(0.0);
-    vec3 loss = mx_medium_loss(color);
-    return max(length, 0.0) / max(mean_free_path, 1e-6) * (1.0 - loss * loss) / (1.0 - clamp(g, -MX_MOST_ANISOTROPIC, MX_MOST_ANISOTROPIC) * loss * loss);
 }
 
 // Absorption coefficient of a medium over a length, for light that walks through it at random; 0 where it is

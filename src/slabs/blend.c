@@ -447,8 +447,11 @@ static void blend_over(const struct slab_blend *blend, struct part *a, struct pa
 {
     struct shader *shader = blend->shader;
     struct ir_graph *g = shader->graph;
-    if (!(a->lacks & 1u << SLAB_ROUGHNESS))
+    if (!(a->lacks & 1u << SLAB_ROUGHNESS)) {
         slab_widen(shader, slab_spread(shader, a->in), b->in);
+        ir_ref scattering = slab_scattering(shader, a->in);
+        slab_even(shader, scattering ? ir_op2(g, IR_MUL, scattering, thickness) : 0, b->in);
+    }
     struct top top = look_along_normal(blend, a, b, thickness);
     ir_ref coverage = a->in[SLAB_coverage], of_b = b->in[SLAB_coverage];
     out[SLAB_coverage] = FORMULA(shader, "mx_blend_coverage", coverage, of_b);

@@ -1,15 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slabs/spread.h"
 
+#include "ir/arithmetic.h"
 #include "shader/formula.h"
+
+static bool is_opaque(const struct ir_graph *g, const ir_ref *in)
+{
+    return ir_const_is(g, in[SLAB_mean_free_path], 0.0f);
+}
+
+static bool scatters(const struct ir_graph *g, const ir_ref *in)
+{
+    return !is_opaque(g, in) && !ir_const_is(g, in[SLAB_diffuse_albedo], 0.0f);
+}
 
 bool slab_spreads(const struct ir_graph *g, const ir_ref *in)
 {
     bool is_smooth = ir_const_is(g, in[SLAB_roughness], 0.0f)
                      && (ir_const_is(g, in[SLAB_second_roughness_weight], 0.0f)
                          || ir_const_is(g, in[SLAB_second_roughness], 0.0f));
-    return !is_smooth && !ir_const_is(g, in[SLAB_f0], 0.0f)
-           && !ir_const_is(g, in[SLAB_mean_free_path], 0.0f);
+    bool has_rough_interface = !is_smooth && !ir_const_is(g, in[SLAB_f0], 0.0f);
+    return scatters(g, in) || (has_rough_interface && !is_opaque(g, in));
 }
 
 /* A formula of alpha, the presence and the coverage of the interface. */
@@ -40,4 +51,27 @@ void slab_widen(struct shader *shader, ir_ref spread, ir_ref *in)
     if (!ir_const_is(g, in[SLAB_second_roughness_weight], 0.0f))
         in[SLAB_second_roughness] =
             FORMULA(shader, "mx_spread_widened", in[SLAB_second_roughness], spread);
+}
+
+ir_ref slab_scattering(struct shader *shader, const ir_ref *in)
+{
+    struct ir_graph *g = shader->graph;
+    if (!scatters(g, in))
+        return 0;
+    ir_ref of_matter =
+        FORMULA(shader, "mx_medium_scattering", in[SLAB_diffuse_albedo], in[SLAB_mean_free_path],
+                in[SLAB_phase_anisotropy], ir_const_float(g, 1.0f));
+    return ir_op2(g, IR_MUL, of_matter, in[SLAB_coverage]);
+}
+
+void slab_even(struct shader *shader, ir_ref depth, ir_ref *in)
+{
+    struct ir_graph *g = shader->graph;
+    if (!depth || ir_const_is(g, depth, 0.0f) || !is_opaque(g, in)
+        || ir_const_is(g, in[SLAB_f0], 0.0f))
+        return;
+    ir_ref straight = FORMULA(shader, "mx_medium_straight", depth, in[SLAB_f0]);
+    in[SLAB_diffuse_albedo] =
+        FORMULA(shader, "mx_medium_evened", in[SLAB_f0], in[SLAB_diffuse_albedo], straight);
+    in[SLAB_f0] = ir_op2(g, IR_MUL, in[SLAB_f0], straight);
 }

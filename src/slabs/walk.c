@@ -36,6 +36,7 @@ struct where {
     ir_ref thickness; /* float, centimetres */
     ir_ref below;     /* closure: the lobes of everything below; 0: nothing */
     ir_ref spread;    /* float: of the interfaces above; 0: there are none */
+    ir_ref depth;     /* vec3: optical, of what scatters light above; 0: nothing does */
     struct way way;
     uint32_t is_body;
 };
@@ -64,6 +65,11 @@ struct walk {
     struct table albedos_by_lobes; /* by hash */
     /* per node below the root, of a closure, a float; 0: none */
     ir_ref *spreads, *slopes;
+    /*
+     * per node, vec3, 0: none: optical depth for scattering of the layers in it, and of a
+     * centimetre of the rest; NULL: light walks through all of it
+     */
+    ir_ref *depths, *scattering;
 };
 
 static bool is_closure(const struct walk *w, ir_ref ref)
@@ -265,6 +271,7 @@ static ir_ref slab_at(struct walk *w, ir_ref slab, const struct where *where)
         if (has_mean((enum slab_operand)i))
             inputs[i] = seen_at(w, inputs[i], where);
     slab_widen(w->shader, where->spread, inputs);
+    slab_even(w->shader, where->depth, inputs);
     inputs[SLAB_diffuse_albedo] =
         slab_regime_albedo(g, attr, inputs[SLAB_mean_free_path], inputs[SLAB_diffuse_albedo]);
     bool never_clear = attr & SLAB_NEVER_CLEAR;
@@ -310,6 +317,14 @@ static struct way way_below(struct ir_graph *g, struct way way, ir_ref slope, ir
     return way;
 }
 
+/* The optical depth for scattering of matter with a thickness; 0: light goes straight through it.
+ */
+static ir_ref depth_at(struct walk *w, ir_ref ref, ir_ref thickness)
+{
+    ir_ref rest = w->scattering[ref];
+    return ir_sum(w->graph, w->depths[ref], rest ? ir_op2(w->graph, IR_MUL, rest, thickness) : 0);
+}
+
 /* A layer. False: an operand is open. */
 static bool visit_layer(struct walk *w, ir_ref ref, struct where where, ir_ref *out_result)
 {
@@ -318,10 +333,12 @@ static bool visit_layer(struct walk *w, ir_ref ref, struct where where, ir_ref *
     ir_ref thickness = seen_at(w, slabs_layer_thickness(g, ref), &where);
     struct where below = where;
     below.spread = ir_sum(g, where.spread, top ? w->spreads[top] : 0);
+    below.depth = ir_sum(g, where.depth, top && w->depths ? depth_at(w, top, thickness) : 0);
     below.way = way_below(g, where.way, top ? w->slopes[top] : 0, thickness);
     if (!visited(w, base, below, &base))
         return false;
-    struct where above = {.thickness = thickness, .spread = where.spread, .way = where.way};
+    struct where above = {
+        .thickness = thickness, .spread = where.spread, .depth = where.depth, .way = where.way};
     bool is_surface = base && ir_type_of(g, base) == IR_TYPE_BSDF;
     above.below = is_surface ? layered(w, base, where.below) : where.below;
     if (!visited(w, top, above, &top))
@@ -462,7 +479,7 @@ static ir_ref variance_of_operator(struct walk *w, ir_ref ref, const ir_ref *var
     ir_ref b = ir_arg(g, ref, 1) ? variances[ir_arg(g, ref, 1)] : 0;
     if (node.op != IR_CLOSURE_MIX || (!a && !b))
         return ir_sum(g, a, b);
-    ir_ref nothing = ir_const_float(g, 0.0f);
+    ir_ref nothing = ir_const_splat(g, ir_type_of(g, a ? a : b), 0.0f);
     return ir_op3(g, IR_MIX, a ? a : nothing, b ? b : nothing, ir_arg(g, ref, 2));
 }
 
@@ -485,6 +502,32 @@ static ir_ref *find_variances(struct walk *w, enum slab_feature feature,
         }
     }
     return variances;
+}
+
+/* The scattering above all nodes: the tops of layers have thicknesses, the rest gets one later. */
+static void find_scattering(struct walk *w)
+{
+    struct ir_graph *g = w->graph;
+    w->depths = ARENA_ARRAY(w->shader->arena, ir_ref, w->num_nodes);
+    w->scattering = ARENA_ARRAY(w->shader->arena, ir_ref, w->num_nodes);
+    for (ir_ref ref = 1; ref < w->num_nodes; ref++) {
+        const struct ir_node node = *ir_get(g, ref);
+        if (!w->has_slabs[ref] || node.type != IR_TYPE_BSDF)
+            continue;
+        if (node.op == IR_SLAB && !(node.attr & 1u << SLAB_ROUGHNESS)) {
+            ir_ref in[NUM_SLAB_OPERANDS];
+            memcpy(in, ir_args(g, ref), sizeof in);
+            w->scattering[ref] = slab_scattering(w->shader, in);
+        } else if (slabs_is_layer(g, ref)) {
+            ir_ref top = ir_arg(g, ref, 0), base = ir_arg(g, ref, 1);
+            ir_ref above = top ? depth_at(w, top, slabs_layer_thickness(g, ref)) : 0;
+            w->depths[ref] = ir_sum(g, above, base ? w->depths[base] : 0);
+            w->scattering[ref] = base ? w->scattering[base] : 0;
+        } else if (is_operator(&node)) {
+            w->depths[ref] = variance_of_operator(w, ref, w->depths);
+            w->scattering[ref] = variance_of_operator(w, ref, w->scattering);
+        }
+    }
 }
 
 bool slabs_has(const struct shader *shader, ir_ref ref)
@@ -512,6 +555,8 @@ ir_ref slabs_walk(struct shader *shader, const struct slabs_host *host, ir_ref r
         return root;
     w.spreads = find_variances(&w, SLAB_ROUGHNESS, slab_spread);
     w.slopes = find_variances(&w, SLAB_REFRACTION, slab_slope);
+    if (!host->walks)
+        find_scattering(&w);
     if (ir_type_is_closure(ir_type_of(g, root)))
         return walk_closure(&w, root, body(&w));
     ir_ref *replaced = ARENA_ARRAY(shader->arena, ir_ref, w.num_nodes);

@@ -654,10 +654,12 @@ void main()
     vec3 milk_medium = mx_medium_layer(way, milk_medium_transmitted);
     vec2 metal_reflection_albedo = mx_ggx_albedo_fit(0.29886922, 0.29886922 / (cos_v + 0.29886922), cos_v);
     vec3 metal_reflection_ggx_compensation = (1.0 / metal_reflection_albedo.x - 1.0)
-        * vec3(0.9047619, 0.61904764, 0.33333334) + vec3(1.0);
+        * vec3(0.6821221, 0.48832548, 0.27722293) + vec3(1.0);
+    vec3 slab_reflection_bsdf_albedo = mix(vec3(0.66622823, 0.46274176, 0.24108408), vec3(1.0),
+        metal_reflection_albedo.y) * metal_reflection_albedo.x * metal_reflection_ggx_compensation;
     vec3 milk_medium_throughput = milk_medium_transmitted
-        / (vec3(1.0) - min(mix(vec3(0.9, 0.6, 0.3), vec3(1.0), metal_reflection_albedo.y) * metal_reflection_albedo.x
-        * metal_reflection_ggx_compensation * vec3(0.10193972, 0.102937125, 0.103155464), 0.999));
+        / (vec3(1.0) - min((slab_reflection_bsdf_albedo + max(vec3(1.0) - slab_reflection_bsdf_albedo, 0.0)
+        * vec3(0.700394, 0.2554791, 0.0776317)) * vec3(0.10193972, 0.102937125, 0.103155464), 0.999));
     vec3 milky_metal_weight = milk_reflection_throughput * milk_medium_throughput * drops_throughput;
     vec3 milk_medium_throughput_2 = milk_medium_throughput * vec3(0.9081714, 0.9090508, 0.9092436);
     vec3 milky_metal_weight_2 = milk_reflection_throughput * milk_medium_throughput_2 * drops_throughput_2;
@@ -665,9 +667,9 @@ void main()
         * (milk_medium_throughput_2 * vec3(0.9081714, 0.9090508, 0.9092436)) * drops_throughput_3;
     vec3 metal_mark_decay = clamp(difference / max(milky_metal_weight - milky_metal_weight_2, 1e-6), 0.0, 0.999);
     vec3 decaying_2 = (milky_metal_weight - milky_metal_weight_2) / (vec3(1.0) - metal_mark_decay);
-    stored = mx_store_closure(stored, vec3(0.0), vec3(0.9, 0.6, 0.3), vec3(1.0), 0.54668933, 0.0, N, vec3(0.0), 0.5,
-        0.0, 0.0, vec3(1.0), 0.54668933, vec3(0.0), 0.0, 0.0, 0.0, vec2(0.0), 0.0, 0.0, 0.0, milky_metal_weight
-        - decaying_2, decaying_2, metal_mark_decay, 0.0);
+    stored = mx_store_closure(stored, vec3(0.700394, 0.2554791, 0.0776317), vec3(0.66622823, 0.46274176, 0.24108408),
+        vec3(1.0), 0.54668933, 0.0, N, vec3(0.0), 0.5, 0.0, 0.0, vec3(1.0), 0.54668933, vec3(0.0), 0.0, 0.0, 0.0,
+        vec2(0.0), 0.0, 0.0, 0.0, milky_metal_weight - decaying_2, decaying_2, metal_mark_decay, 0.0);
     stored = mx_finish_closures(stored);
     out1 = vec4((decaying + (drops_throughput - decaying)) * vec3(0.0, 0.1, 0.0), 1.0);
 }

@@ -543,11 +543,13 @@ void main(
     float3 milk_medium = mx_medium_layer(way, milk_medium_transmitted);
     float2 metal_reflection_albedo = mx_ggx_albedo_fit(0.29886922, 0.29886922 / (cos_v + 0.29886922), cos_v);
     float3 metal_reflection_ggx_compensation = (1.0 / metal_reflection_albedo.x - 1.0)
-        * float3(0.9047619, 0.61904764, 0.33333334) + float3(1.0, 1.0, 1.0);
+        * float3(0.6821221, 0.48832548, 0.27722293) + float3(1.0, 1.0, 1.0);
+    float3 slab_reflection_bsdf_albedo = lerp(float3(0.66622823, 0.46274176, 0.24108408), float3(1.0, 1.0, 1.0),
+        metal_reflection_albedo.y) * metal_reflection_albedo.x * metal_reflection_ggx_compensation;
     float3 milk_medium_throughput = milk_medium_transmitted
-        / (float3(1.0, 1.0, 1.0) - min(lerp(float3(0.9, 0.6, 0.3), float3(1.0, 1.0, 1.0), metal_reflection_albedo.y)
-        * metal_reflection_albedo.x * metal_reflection_ggx_compensation * float3(0.10193972, 0.102937125, 0.103155464),
-        0.999));
+        / (float3(1.0, 1.0, 1.0) - min((slab_reflection_bsdf_albedo
+        + max(float3(1.0, 1.0, 1.0) - slab_reflection_bsdf_albedo, 0.0) * float3(0.700394, 0.2554791, 0.0776317))
+        * float3(0.10193972, 0.102937125, 0.103155464), 0.999));
     float3 milky_metal_weight = milk_reflection_throughput * milk_medium_throughput * drops_throughput;
     float3 milk_medium_throughput_2 = milk_medium_throughput * float3(0.9081714, 0.9090508, 0.9092436);
     float3 milky_metal_weight_2 = milk_reflection_throughput * milk_medium_throughput_2 * drops_throughput_2;
@@ -555,9 +557,10 @@ void main(
         * (milk_medium_throughput_2 * float3(0.9081714, 0.9090508, 0.9092436)) * drops_throughput_3;
     float3 metal_mark_decay = clamp(difference / max(milky_metal_weight - milky_metal_weight_2, 1e-6), 0.0, 0.999);
     float3 decaying_2 = (milky_metal_weight - milky_metal_weight_2) / (float3(1.0, 1.0, 1.0) - metal_mark_decay);
-    stored = mx_store_closure(stored, float3(0.0, 0.0, 0.0), float3(0.9, 0.6, 0.3), float3(1.0, 1.0, 1.0), 0.54668933,
-        0.0, N, float3(0.0, 0.0, 0.0), 0.5, 0.0, 0.0, float3(1.0, 1.0, 1.0), 0.54668933, float3(0.0, 0.0, 0.0), 0.0,
-        0.0, 0.0, float2(0.0, 0.0), 0.0, 0.0, 0.0, milky_metal_weight - decaying_2, decaying_2, metal_mark_decay, 0.0);
+    stored = mx_store_closure(stored, float3(0.700394, 0.2554791, 0.0776317),
+        float3(0.66622823, 0.46274176, 0.24108408), float3(1.0, 1.0, 1.0), 0.54668933, 0.0, N, float3(0.0, 0.0, 0.0),
+        0.5, 0.0, 0.0, float3(1.0, 1.0, 1.0), 0.54668933, float3(0.0, 0.0, 0.0), 0.0, 0.0, 0.0, float2(0.0, 0.0), 0.0,
+        0.0, 0.0, milky_metal_weight - decaying_2, decaying_2, metal_mark_decay, 0.0);
     stored = mx_finish_closures(stored);
     out1 = float4((decaying + (drops_throughput - decaying)) * float3(0.0, 0.1, 0.0), 1.0);
     word0 = mx_stored_word(stored, 0);

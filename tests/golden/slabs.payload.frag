@@ -475,8 +475,8 @@ Surface surface(vec3 normalWorld)
     vd.normalWorld = normalWorld;
     Surface result;
     int stored = 0;
-    stored = mx_store_closure(stored, vec3(0.36743554, 0.17833364, 0.11866965), vec3(0.7790918, 0.5325779, 0.29006478),
-        vec3(1.0), 0.54332435, 0.0, normalize(vd.normalWorld), vec3(0.0), 0.1, 0.037459373, 0.0, vec3(1.0), 0.54332435,
+    stored = mx_store_closure(stored, vec3(0.65784276, 0.33324012, 0.17179143), vec3(0.5915951, 0.42398295, 0.24452911),
+        vec3(1.0), 0.5423649, 0.0, normalize(vd.normalWorld), vec3(0.0), 0.1, 0.04761499, 0.0, vec3(1.0), 0.5423649,
         vec3(0.0), 0.0, 0.0, 0.0, vec2(0.0), 0.0, 0.0, 0.0, vec3(1.0), vec3(0.0), vec3(0.0), 0.0);
     stored = mx_finish_payload(stored, vec3(0.0, 0.09642637, 0.0), 1.0);
     result.word_0 = mx_payload_word(stored, 0);

@@ -1,5 +1,5 @@
 #version 450
-// wet_metal · slab_surface · mxgen 0.1 · vulkan · reduced · 5 closures · 0 textures
+// wet_metal · slab_surface · mxgen 0.1 · vulkan · reduced · 6 closures · 0 textures
 
 struct mx_GgxLobe {
     vec3 N;
@@ -76,35 +76,6 @@ vec2 mx_ggx_albedo_fit(const float a, const float u, const float c)
         12.503, -32.5955, 30.0409, -9.9567, -5.0066, 10.9491, -6.6309, 0.6544), u, a), 1.0), x * x * x * x * x);
 }
 
-// Schlick's curve from f0 to f90 at a cosine, less `bend` times cos (1 - cos)^6.
-// Here bend = vec3(0.0), f90 = vec3(1.0), exponent = 5.0.
-vec3 mx_fresnel_schlick(const float cosine, const vec3 f0)
-{
-    float x = 1.0 - cosine;
-    return mix(f0, vec3(1.0), x * x * x * x * x);
-}
-
-// The square of the length of the facet's normal H after the roughness divided its parts along the surface, times the
-// product of the roughness along x and y; cos_h is its part along N.
-// Here is_round = true, is_wide = false.
-float mx_ggx_stretched(const mx_GgxLobe lobe, const vec3 H, const float cos_h)
-{
-    vec3 slope = H - cos_h * lobe.N;
-    return dot(slope, slope) + lobe.alpha.x * lobe.alpha.y * (cos_h * cos_h);
-}
-
-// The GGX lobe towards the light L, without Fresnel's factor: distribution, visibility and the cosine over one divisor.
-// Here is_round = true, is_wide = false.
-float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
-{
-    float area = lobe.alpha.x * lobe.alpha.y;
-    float cos_l = max(dot(lobe.N, L), 1e-8);
-    float square = 2.0 + 2.0 * dot(V, L);
-    float e = mx_ggx_stretched(lobe, V + L, lobe.cosine + dot(lobe.N, L));
-    return area / 6.2831855 * square * square * cos_l
-        / (e * e * (lobe.cosine * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * lobe.masking));
-}
-
 // Light that the layer of a medium reflects and lets through (`transmitted`), with all orders of scattering, on a way:
 // a is the albedo of one scattering, t the optical depth (after Kubelka and Munk 1931).
 // Here a = vec3(0.990589, 0.99790716, 0.99950534), t = vec3(0.2).
@@ -134,6 +105,14 @@ vec3 mx_medium_reflected(const float way)
     return mx_medium_layer(way, ignored);
 }
 
+// Schlick's curve from f0 to f90 at a cosine, less `bend` times cos (1 - cos)^6.
+// Here bend = vec3(0.0), f90 = vec3(1.0), exponent = 5.0.
+vec3 mx_fresnel_schlick(const float cosine, const vec3 f0)
+{
+    float x = 1.0 - cosine;
+    return mix(f0, vec3(1.0), x * x * x * x * x);
+}
+
 // The square of the length of the facet's normal H after the roughness divided its parts along the surface, times the
 // product of the roughness along x and y; cos_h is its part along N.
 // Here is_round = true, is_wide = true.
@@ -144,7 +123,7 @@ float mx_ggx_stretched(const mx_GgxLobe lobe, const float cos_h, const float squ
 
 // The GGX lobe towards the light L, without Fresnel's factor: distribution, visibility and the cosine over one divisor.
 // Here is_round = true, is_wide = true.
-float mx_ggx_light_2(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
+float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
 {
     float area = lobe.alpha.x * lobe.alpha.y;
     float cos_l = max(dot(lobe.N, L), 1e-8);
@@ -152,6 +131,31 @@ float mx_ggx_light_2(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
     float e = mx_ggx_stretched(lobe, lobe.cosine + dot(lobe.N, L), square);
     return area / 6.2831855 * square * square * cos_l
         / (e * e * (lobe.cosine * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * lobe.masking));
+}
+
+// x^5.
+float mx_power5(const float x)
+{
+    return x * x * x * x * x;
+}
+
+// 1 / (pi times the directional albedo) of Chan's lobe of gloss g at the cosine c, within 0.0012.
+// Here g = 0.24549508.
+float mx_chan_share(const float c)
+{
+    vec4 fit = mat4(0.7111, 0.0005, 0.4749, 0.0263, 0.1526, 0.0031, 1.026, -0.7185, 0.1026, -0.0048, -2.2232, 0.3473,
+        -0.0538, 0.0016, 2.0696, -0.4921) * vec4(1.0, c, c * c, c * c * c);
+    return 1.0 / (3.1415927 * (mix(fit.x, 0.96428573 * (1.0 - 0.75 * mx_power5(1.0 - c)), 0.04008919) + 12.095031
+        * fit.y / (fit.w + c)));
+}
+
+// Chan's diffuse lobe of gloss g, times its directional albedo, for a light whose half vector has the cosine cos_d to
+// V; `even` is the part that a smooth surface lets out to the viewer.
+// Here g = 0.24549508.
+float mx_chan_lobe(const float cos_v, const float cos_l, const float cos_d, const float even)
+{
+    return max(mix(cos_d + mx_power5(1.0 - cos_d), even * (1.0 - 0.75 * mx_power5(1.0 - cos_l)), 0.04008919) + 12.095031
+        * cos_d * exp2(-8.9 * sqrt(min((cos_l + cos_v) / (2.0 * cos_d), 1.0))), 0.0);
 }
 
 // The angle, over pi, with this sine and cosine; the cosine is not negative. It errs by 2.9e-5 at most.
@@ -259,6 +263,27 @@ mx_GgxLight mx_ggx_reflected(const mx_GgxSamples s, const int i, const vec2 turn
         sqrt(clamp(0.5 * (facet.mirror * facet.cosine), 1e-8, 1.0)));
 }
 
+// The square of the length of the facet's normal H after the roughness divided its parts along the surface, times the
+// product of the roughness along x and y; cos_h is its part along N.
+// Here is_round = true, is_wide = false.
+float mx_ggx_stretched(const mx_GgxLobe lobe, const vec3 H, const float cos_h)
+{
+    vec3 slope = H - cos_h * lobe.N;
+    return dot(slope, slope) + lobe.alpha.x * lobe.alpha.y * (cos_h * cos_h);
+}
+
+// The GGX lobe towards the light L, without Fresnel's factor: distribution, visibility and the cosine over one divisor.
+// Here is_round = true, is_wide = false.
+float mx_ggx_light_2(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
+{
+    float area = lobe.alpha.x * lobe.alpha.y;
+    float cos_l = max(dot(lobe.N, L), 1e-8);
+    float square = 2.0 + 2.0 * dot(V, L);
+    float e = mx_ggx_stretched(lobe, V + L, lobe.cosine + dot(lobe.N, L));
+    return area / 6.2831855 * square * square * cos_l
+        / (e * e * (lobe.cosine * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * lobe.masking));
+}
+
 void main()
 {
     vec3 N = normalize(vd.normalWorld);
@@ -284,13 +309,10 @@ void main()
     vec3 decaying = (drops_throughput - drops_throughput_2) / (vec3(1.0) - milk_reflection_decay);
     vec3 milk_reflection_steady = drops_throughput - decaying;
     vec3 color = (decaying + milk_reflection_steady) * vec3(0.0, 0.1, 0.0);
-    // lights
-    vec3 N_2 = faceforward(N, -V, N);
-    float scaled_cos_v = cos_v * cos_v;
-    mx_GgxLobe coat_reflection_vector = mx_GgxLobe(N_2, cos_v, vec3(0.0), vec2(0.01),
-        sqrt(scaled_cos_v * 0.9999 + 0.00010000001));
+    // lights: metal_reflection, metal_medium, milk_reflection, milk_medium
     vec3 slab_medium_bsdf_albedo = mx_medium_reflected(closure_way);
     vec3 scaled_slab_medium_bsdf_albedo = slab_medium_bsdf_albedo / vec3(0.10193972, 0.102937125, 0.103155464);
+    vec3 N_2 = faceforward(N, -V, N);
     vec2 milk_reflection_albedo = mx_ggx_albedo_fit(0.25071993, 0.25071993 / (cos_v + 0.25071993), cos_v);
     float milk_reflection_scale = (1.0 / milk_reflection_albedo.x - 1.0) * 0.08571428 + 1.0;
     float milk_reflection_throughput = max(1.0 - mix(0.04, 1.0, milk_reflection_albedo.y) * milk_reflection_albedo.x
@@ -301,27 +323,47 @@ void main()
         * drops_throughput_3) / max(milk_medium_difference, 1e-6), 0.0, 0.999);
     vec3 milk_medium_decaying = milk_medium_difference / (vec3(1.0) - milk_medium_decay);
     vec3 milk_medium_steady = milk_reflection_throughput * drops_throughput - milk_medium_decaying;
+    float scaled_cos_v = cos_v * cos_v;
+    mx_GgxLobe milk_reflection_vector = mx_GgxLobe(N_2, cos_v, vec3(0.0), vec2(0.25071993),
+        sqrt(scaled_cos_v * 0.9371395 + 0.0628605));
     vec2 metal_reflection_albedo = mx_ggx_albedo_fit(0.29886922, 0.29886922 / (cos_v + 0.29886922), cos_v);
-    vec3 metal_reflection_scale = (1.0 / metal_reflection_albedo.x - 1.0) * vec3(0.9047619, 0.61904764, 0.33333334)
+    vec3 metal_reflection_scale = (1.0 / metal_reflection_albedo.x - 1.0) * vec3(0.6821221, 0.48832548, 0.27722293)
         + vec3(1.0);
-    const vec3 metal_constant = vec3(0.9, 0.6, 0.3);
+    const vec3 metal_constant = vec3(0.66622823, 0.46274176, 0.24108408);
     mx_GgxLobe metal_reflection_vector = mx_GgxLobe(N_2, cos_v, vec3(0.0), vec2(0.29886922),
         sqrt(scaled_cos_v * 0.9106772 + 0.08932281));
     vec3 milk_medium_transmitted;
     vec3 milk_medium = mx_medium_layer(closure_way, milk_medium_transmitted);
+    vec3 slab_reflection_bsdf_albedo = mix(metal_constant, vec3(1.0), metal_reflection_albedo.y)
+        * metal_reflection_albedo.x * metal_reflection_scale;
+    vec3 metal_reflection_throughput = max(vec3(1.0) - slab_reflection_bsdf_albedo, 0.0);
+    const vec3 metal_constant_2 = vec3(0.700394, 0.2554791, 0.0776317);
+    vec3 milk_medium_throughput = milk_medium_transmitted
+        / (vec3(1.0) - min((slab_reflection_bsdf_albedo + metal_reflection_throughput * metal_constant_2)
+        * vec3(0.10193972, 0.102937125, 0.103155464), 0.999));
     vec3 milk_bare_throughput = milk_reflection_throughput
-        * (milk_medium_transmitted / (vec3(1.0)
-        - min(mix(metal_constant, vec3(1.0), metal_reflection_albedo.y) * metal_reflection_albedo.x
-        * metal_reflection_scale * vec3(0.10193972, 0.102937125, 0.103155464), 0.999))
-        * vec3(0.895498, 0.89649165, 0.8967095));
+        * (milk_medium_throughput * vec3(0.895498, 0.89649165, 0.8967095));
     vec3 metal_reflection_difference = drops_throughput * milk_bare_throughput - drops_throughput_2
         * milk_bare_throughput;
     vec3 metal_reflection_decay = clamp((drops_throughput_2 * milk_bare_throughput - drops_throughput_3
         * milk_bare_throughput) / max(metal_reflection_difference, 1e-6), 0.0, 0.999);
     vec3 metal_reflection_decaying = metal_reflection_difference / (vec3(1.0) - metal_reflection_decay);
     vec3 metal_reflection_steady = drops_throughput * milk_bare_throughput - metal_reflection_decaying;
-    mx_GgxLobe milk_reflection_vector = mx_GgxLobe(N_2, cos_v, vec3(0.0), vec2(0.25071993),
-        sqrt(scaled_cos_v * 0.9371395 + 0.0628605));
+    vec3 metal_medium_product = mx_chan_share(cos_v) * metal_constant_2;
+    float x = 1.0 - cos_v;
+    float metal_medium_difference = 1.0 - x * (x * (x * (x * x))) * 0.75;
+    vec3 metal_bare_metal_medium_weight = metal_reflection_throughput
+        * (milk_reflection_throughput * milk_medium_throughput * drops_throughput);
+    vec3 milk_medium_throughput_2 = milk_medium_throughput * vec3(0.9081714, 0.9090508, 0.9092436);
+    vec3 metal_bare_metal_medium_weight_2 = metal_reflection_throughput
+        * (milk_reflection_throughput * milk_medium_throughput_2 * drops_throughput_2);
+    vec3 metal_medium_difference_2 = metal_bare_metal_medium_weight_2 - metal_reflection_throughput
+        * (milk_reflection_throughput * (milk_medium_throughput_2 * vec3(0.9081714, 0.9090508, 0.9092436))
+        * drops_throughput_3);
+    vec3 metal_medium_decay = clamp(metal_medium_difference_2
+        / max(metal_bare_metal_medium_weight - metal_bare_metal_medium_weight_2, 1e-6), 0.0, 0.999);
+    vec3 metal_medium_decaying = (metal_bare_metal_medium_weight - metal_bare_metal_medium_weight_2)
+        / (vec3(1.0) - metal_medium_decay);
     // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         vec3 L;
@@ -344,32 +386,43 @@ void main()
                     -dot(u_lightData[i].direction, to_light)) * ratio : 0.0;
             }
         }
-        // metal_reflection, milk_reflection, milk_medium, coat_reflection
-        float cosine_2 = sqrt(clamp(dot(V, L) * 0.5 + 0.500001, 0.0, 1.0));
-        vec3 fresnel = mx_fresnel_schlick(cosine_2, vec3(0.04));
-        float cosine_3 = dot(N, L);
-        float closure_way_2 = inversesqrt(cosine_3 * cosine_3 + 1.25) * 1.5;
+        // metal_reflection, metal_medium, milk_reflection, milk_medium
+        float cosine_2 = dot(N, L);
+        float closure_way_2 = inversesqrt(cosine_2 * cosine_2 + 1.25) * 1.5;
+        float l_dot_n_2 = dot(L, N_2);
         vec3 milk_medium_weight = milk_medium_steady + milk_medium_decaying
             * pow(milk_medium_decay, vec3(closure_way_2));
         vec3 milk_medium_response = scaled_slab_medium_bsdf_albedo
-            * (mx_medium_reflected(closure_way_2) * (max(dot(L, N_2), 0.0) / 3.1415927 * milk_medium_weight));
-        vec3 metal_reflection_weight = metal_reflection_steady + metal_reflection_decaying
-            * pow(metal_reflection_decay, vec3(closure_way_2));
-        vec3 metal_reflection_product = mx_ggx_light_2(metal_reflection_vector, V, L) * metal_reflection_weight;
+            * (mx_medium_reflected(closure_way_2) * (max(l_dot_n_2, 0.0) / 3.1415927 * milk_medium_weight));
+        float cosine_3 = sqrt(clamp(dot(V, L) * 0.5 + 0.500001, 0.0, 1.0));
         vec3 milk_reflection_weight = milk_reflection_steady + decaying
             * pow(milk_reflection_decay, vec3(closure_way_2));
-        vec3 milk_reflection_response = fresnel
-            * (milk_reflection_weight * (milk_reflection_scale * mx_ggx_light_2(milk_reflection_vector, V, L)));
-        vec3 sum = milk_medium_response + (metal_reflection_scale
-            * (mx_fresnel_schlick(cosine_2, metal_constant) * metal_reflection_product) + milk_reflection_response);
+        vec3 milk_reflection_product = milk_reflection_weight
+            * (milk_reflection_scale * mx_ggx_light(milk_reflection_vector, V, L));
+        vec3 metal_reflection_weight = metal_reflection_steady + metal_reflection_decaying
+            * pow(metal_reflection_decay, vec3(closure_way_2));
+        vec3 metal_reflection_product = mx_ggx_light(metal_reflection_vector, V, L) * metal_reflection_weight;
+        float cos_l = max(l_dot_n_2, 1e-8);
+        vec3 metal_medium_weight = metal_bare_metal_medium_weight - metal_medium_decaying + metal_medium_decaying
+            * pow(metal_medium_decay, vec3(closure_way_2));
+        vec3 metal_medium_response = metal_medium_product
+            * (cos_l * mx_chan_lobe(cos_v, cos_l, cosine_3, metal_medium_difference) * metal_medium_weight);
+        vec3 sum = metal_reflection_scale * (mx_fresnel_schlick(cosine_3, metal_constant) * metal_reflection_product)
+            + metal_medium_response;
         color += u_lightData[i].color * (intensity
-            * (fresnel * (mx_ggx_light(coat_reflection_vector, V, L) * (coat_reflection_scale * 0.5)) + sum));
+            * (milk_medium_response + (mx_fresnel_schlick(cosine_3, vec3(0.04)) * milk_reflection_product + sum)));
     }
-    // environment: milk_medium
+    // environment: metal_medium, milk_medium
+    vec3 metal_medium_product_2 = textureLod(u_envIrradiance,
+        mx_map_point(normalize(mat3(u_envMatrix)
+        * (N_2 + V * ((cos_v * (cos_v * 0.5624 - 0.7155) + 0.4353) * 0.732292)))), 0.0).xyz * metal_constant_2;
+    vec3 metal_medium_response = u_envLightIntensity
+        * ((metal_bare_metal_medium_weight - metal_medium_decaying + metal_medium_decaying
+        * pow(metal_medium_decay, vec3(1.145898))) * metal_medium_product_2);
     vec3 milk_medium_product = slab_medium_bsdf_albedo
         * textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * N_2)), 0.0).xyz;
-    color += u_envLightIntensity * ((milk_medium_steady + milk_medium_decaying * pow(milk_medium_decay, vec3(1.145898)))
-        * milk_medium_product);
+    color += metal_medium_response + u_envLightIntensity
+        * ((milk_medium_steady + milk_medium_decaying * pow(milk_medium_decay, vec3(1.145898))) * milk_medium_product);
     // environment: metal_reflection
     vec2 turn = vec2(1.0, 0.0);
     int metal_reflection_count = mx_sample_count(vec2(0.29886922));
@@ -395,6 +448,39 @@ void main()
             * (milk_reflection_ggx_reflected.weight
             * mx_fresnel_schlick(milk_reflection_ggx_reflected.cosine, vec3(0.04))));
         turn_2 = vec2(-turn_2.y, turn_2.x) * 0.6754903 - turn_2 * 0.7373689;
+    }
+    // lights: coat_reflection
+    mx_GgxLobe coat_reflection_vector = mx_GgxLobe(N_2, cos_v, vec3(0.0), vec2(0.01),
+        sqrt(scaled_cos_v * 0.9999 + 0.00010000001));
+    // from the last light, so that drivers do not unroll the loop
+    for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
+        vec3 L;
+        float intensity;
+        int light_type = u_lightData[i].type;
+        if (light_type == 1) {
+            L = -u_lightData[i].direction;
+            intensity = u_lightData[i].intensity;
+        } else {
+            vec3 spot_light_difference = u_lightData[i].position - vd.positionWorld;
+            vec3 spot_light_direction = normalize(spot_light_difference);
+            L = spot_light_direction;
+            float spot_light_ratio = u_lightData[i].intensity
+                / pow(length(spot_light_difference) + 1.0, u_lightData[i].decay_rate);
+            if (light_type == 2) {
+                intensity = spot_light_ratio;
+            } else {
+                float spot_light_difference_2 = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+                intensity = light_type == 3 ? spot_light_ratio
+                    * smoothstep(spot_light_difference_2, u_lightData[i].inner_angle,
+                    -dot(u_lightData[i].direction, spot_light_direction)) : 0.0;
+            }
+        }
+        // coat_reflection
+        vec3 milk_reflection_fresnel_schlick = mx_fresnel_schlick(sqrt(clamp(dot(V, L) * 0.5 + 0.500001, 0.0, 1.0)),
+            vec3(0.04));
+        color += u_lightData[i].color * (intensity
+            * (milk_reflection_fresnel_schlick
+            * (coat_reflection_scale * 0.5 * mx_ggx_light_2(coat_reflection_vector, V, L))));
     }
     // environment: coat_reflection
     vec2 turn_3 = vec2(1.0, 0.0);

@@ -21,20 +21,41 @@ fi
 
 # compare DOCUMENT ELEMENT MESH [OF-WHAT-IS-TRACED]
 compare() {
-    check "$2 is drawn" exits 0 "$render" "$examples/$1.mtlx" -e "$2" -q -m "$3" --lights none --size 48 --samples 128 -o drawn.exr
+    check "$2 is drawn" exits 0 "$render" "$1" -e "$2" -q -m "$3" --lights none --size 48 --samples 128 -o drawn.exr
     # shellcheck disable=SC2086 # arguments, divided by spaces
-    check "$2 is traced" trace traced.exr "$examples/$1.mtlx" "$2" -m "$3" --lights none --size 48 --paths 64 ${4:-}
+    check "$2 is traced" trace traced.exr "$1" "$2" -m "$3" --lights none --size 48 --paths 64 ${4:-}
     check "the mean of $2 is the same drawn and traced" near "$("$mean_ratio" traced.exr drawn.exr)" 1 0.03
 }
-compare slabs CoatedMetal sphere    # opaque below a clear coat
-compare slabs CarPaint sphere
-compare slabs WrappedSilk sphere    # below a coat that scatters
-compare slab_blends MetalToPlastic sphere
+compare "$examples/slabs.mtlx" CoatedMetal sphere    # opaque below a clear coat
+compare "$examples/slabs.mtlx" CarPaint sphere
+compare "$examples/slabs.mtlx" WrappedSilk sphere    # below a coat that scatters
+compare "$examples/slab_blends.mtlx" MetalToPlastic sphere
 # rough media, which have the light of the environment from between the normal and the viewer
-compare slab_helpers AmberOnOak sphere
-compare slab_helpers DustyLacquer sphere
-compare slab_helpers AmberOnOak plane
-compare slabs MilkySheet plane --as-drawn # a drawn sheet has no light from behind
+compare "$examples/slab_helpers.mtlx" AmberOnOak sphere
+compare "$examples/slab_helpers.mtlx" DustyLacquer sphere
+compare "$examples/slab_helpers.mtlx" AmberOnOak plane
+compare "$examples/slabs.mtlx" MilkySheet plane --as-drawn # a drawn sheet has no light from behind
+
+# metal below media that scatter, which mirrors a part of the light
+cat >milk.mtlx <<'XML'
+<?xml version="1.0"?>
+<materialx version="1.39">
+  <slab name="milk" type="BSDF"><input name="diffuse_albedo" type="color3" value="0.9, 0.9, 0.9"/><input name="f0" type="color3" value="0, 0, 0"/>
+    <input name="mean_free_path" type="vector3" value="1, 1, 1"/></slab>
+  <slab name="chrome" type="BSDF"><input name="diffuse_albedo" type="color3" value="0, 0, 0"/><input name="f0" type="color3" value="0.8, 0.8, 0.8"/>
+    <input name="roughness" type="float" value="0.1"/></slab>
+  <slab name="steel" type="BSDF"><input name="diffuse_albedo" type="color3" value="0, 0, 0"/><input name="f0" type="color3" value="0.5, 0.5, 0.5"/>
+    <input name="roughness" type="float" value="0.4"/></slab>
+  <slab_layer name="thin" type="BSDF"><input name="top" type="BSDF" nodename="milk"/><input name="base" type="BSDF" nodename="chrome"/>
+    <input name="thickness" type="float" value="0.2"/></slab_layer>
+  <slab_layer name="thick" type="BSDF"><input name="top" type="BSDF" nodename="milk"/><input name="base" type="BSDF" nodename="steel"/>
+    <input name="thickness" type="float" value="0.5"/></slab_layer>
+  <slab_surface name="MilkOnChrome" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="thin"/></slab_surface>
+  <slab_surface name="MilkOnSteel" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="thick"/></slab_surface>
+</materialx>
+XML
+compare milk.mtlx MilkOnChrome sphere
+compare milk.mtlx MilkOnSteel sphere
 
 # Light from everywhere: what a white pile does not let straight on comes out of it, whatever it is made of.
 write_white white.hdr

@@ -246,6 +246,34 @@ check 'the error says what a line is' says 'wrong.toml:1: error: a line is a com
 check 'a profile that is missing is wrong usage' exits 2 "$mxgen" "$slabs" --profile gone.toml -o made
 check 'the error names the file of the profile' says "cannot read the profile 'gone.toml'"
 
+# Below a medium that scatters, metal mirrors a part of the light and sends the rest back evenly.
+cat >milky.mtlx <<'END'
+<materialx version="1.39">
+  <slab name="milk" type="BSDF"><input name="diffuse_albedo" type="color3" value="0.9, 0.9, 0.9"/><input name="mean_free_path" type="vector3" value="1, 1, 1"/></slab>
+  <slab name="amber" type="BSDF"><input name="diffuse_albedo" type="color3" value="0, 0, 0"/><input name="mean_free_path" type="vector3" value="1, 1, 1"/></slab>
+  <slab name="metal" type="BSDF"><input name="diffuse_albedo" type="color3" value="0, 0, 0"/><input name="f0" type="color3" value="0.8, 0.8, 0.8"/></slab>
+  <slab_layer name="in_amber" type="BSDF"><input name="top" type="BSDF" nodename="amber"/><input name="base" type="BSDF" nodename="metal"/><input name="thickness" type="float" value="0.5"/></slab_layer>
+  <slab_layer name="in_milk" type="BSDF"><input name="top" type="BSDF" nodename="milk"/><input name="base" type="BSDF" nodename="metal"/><input name="thickness" type="float" value="0.5"/></slab_layer>
+  <slab_layer name="in_both" type="BSDF"><input name="top" type="BSDF" nodename="amber"/><input name="base" type="BSDF" nodename="in_milk"/></slab_layer>
+  <slab_layer name="both" type="BSDF"><input name="top" type="BSDF" nodename="milk"/><input name="base" type="BSDF" nodename="amber"/><input name="thickness" type="float" value="0.5"/></slab_layer>
+  <slab_layer name="below_both" type="BSDF"><input name="top" type="BSDF" nodename="both"/><input name="base" type="BSDF" nodename="metal"/></slab_layer>
+  <slab_surface name="InAmber" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="in_amber"/></slab_surface>
+  <slab_surface name="InMilk" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="in_milk"/></slab_surface>
+  <slab_surface name="InBoth" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="in_both"/></slab_surface>
+  <slab_surface name="BelowBoth" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="below_both"/></slab_surface>
+</materialx>
+END
+metal() { # element, options: the line that stores its metal, the lowest slab
+    "$mxgen" milky.mtlx -e "$1" --interface reduced --role deferred --target vulkan "${@:2}" --stdout | grep -F 'stored = mx_store_closure(' | tail -1
+}
+# scattering of albedo 0.9 over half a free path: 0.499; straight: exp(-2.292 0.499) (1 + 0.374) (1 + 0.374 0.2) = 0.471; 0.8 0.529 / (1 - 0.8 0.471)
+evened='vec3(0.679'
+check 'metal below a clear medium mirrors all light' eval '[ "$(metal InAmber | grep -cF "vec3(0.0), vec3(0.8)")" = 1 ]'
+check 'metal below milk has a diffuse albedo' eval 'metal InMilk | grep -qF "$evened"'
+check 'a clear coat above the milk changes nothing' eval 'metal InBoth | grep -qF "$evened"'
+check 'a layer in the top of another keeps its thickness' eval 'metal BelowBoth | grep -qF "$evened"'
+check 'without roughness tracking metal below milk mirrors all light' eval 'metal InMilk --features -roughness-tracking | grep -qF "vec3(0.0), vec3(0.8)"'
+
 # Other materials
 for document in marble gold car_paint; do
     check "$document.mtlx compiles as slabs" compiles "$examples/$document.mtlx" --slabs
