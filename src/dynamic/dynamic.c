@@ -175,8 +175,11 @@ static bool blur(void *user_data, mxg_build *build, mxg_ref *results)
 static bool build_layer(void *user_data, mxg_build *build, mxg_ref *results)
 {
     (void)user_data;
-    if (dynamic_needs_thickness(build, dynamic_arg(build, STR_top)))
+    ir_ref top = dynamic_arg(build, STR_top);
+    if (dynamic_needs_thickness(build, top))
         dynamic_warn_of_thickness(build, "0.01 cm");
+    if (top && ir_get(build->b->graph, top)->op == IR_SLAB)
+        dynamic_check_base(build, top);
     return op_of(build, "layer", (const char *const[]){"top", "base"}, 2, results);
 }
 

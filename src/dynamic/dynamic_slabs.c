@@ -200,8 +200,7 @@ static bool hides_base(struct builder *b, ir_ref top)
     return top && ir_get(b->graph, top)->op == IR_SLAB && !needs_thickness(b, top);
 }
 
-/* A base that the values of the document hide is one, too. */
-static void check_base(const mxg_build *build, ir_ref top)
+void dynamic_check_base(const mxg_build *build, ir_ref top)
 {
     struct builder *b = build->b;
     elem_id node = build->frame->node.element;
@@ -217,7 +216,7 @@ bool dynamic_slab_layer(void *user_data, mxg_build *build, mxg_ref *results)
                       dynamic_arg(build, STR_thickness)};
     (void)user_data;
     check_bounds(build, STR_thickness, args[2], LENGTH);
-    check_base(build, args[0]);
+    dynamic_check_base(build, args[0]);
     if (args[0])
         return finish(build, IR_SLAB_LAYER, blends(build), args, 3, results);
     results[0] = code_issue(build, args[1]);
