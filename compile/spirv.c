@@ -6,7 +6,7 @@
 #include <string.h>
 
 #define HEADER_WORDS 5
-/* SPIR-V 1.0, sections 3.32.2, 3.32.3, 3.32.5 and 3.32.9 */
+/* SPIR-V 1.0, sections 3.32.2, 3.32.3, 3.32.5 and 3.32.9; decorations: 3.20 */
 enum spirv_op {
     OP_SOURCE = 3,
     OP_NAME = 5,
@@ -14,6 +14,7 @@ enum spirv_op {
     OP_ENTRY_POINT = 15,
     OP_FUNCTION = 54,
     OP_FUNCTION_END = 56,
+    OP_DECORATE = 71,
     OP_NO_LINE = 317
 };
 
@@ -108,4 +109,12 @@ void spirv_hide_language(uint32_t *words, size_t num_words)
     for (size_t i = HEADER_WORDS; i < num_words && words[i] >> 16; i += words[i] >> 16)
         if ((words[i] & 0xffff) == OP_SOURCE)
             words[i + 1] = 0;
+}
+
+void spirv_store_uniforms(uint32_t *words, size_t num_words)
+{
+    enum { BLOCK = 2, BUFFER_BLOCK = 3 };
+    for (size_t i = HEADER_WORDS; i < num_words && words[i] >> 16; i += words[i] >> 16)
+        if ((words[i] & 0xffff) == OP_DECORATE && words[i + 2] == BLOCK)
+            words[i + 2] = BUFFER_BLOCK;
 }

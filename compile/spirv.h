@@ -26,4 +26,11 @@ uint32_t spirv_count(const uint32_t *words, size_t num_words, struct spirv_part 
 /* Makes the language of OpSource unknown: readers refuse languages that are newer than they are. */
 void spirv_hide_language(uint32_t *words, size_t num_words);
 
+/*
+ * Makes storage buffers of the uniform blocks in a module of SPIR-V 1.0, where all blocks are in
+ * uniform storage: pipelines then bind storage buffers in their places. For compute stages, which
+ * have no other blocks.
+ */
+void spirv_store_uniforms(uint32_t *words, size_t num_words);
+
 #endif

@@ -6,10 +6,11 @@
 struct maker {
     struct gpu *gpu;
     const struct draw *draw;
+    VkDescriptorType block_type;
     struct inputs *inputs;
 };
 
-/* Every device takes such an offset into a uniform buffer. */
+/* Every device takes such an offset into a uniform or storage buffer. */
 #define OFFSET_ROUND 256u
 
 static bool create_blocks(struct maker *maker)
@@ -20,8 +21,9 @@ static bool create_blocks(struct maker *maker)
         uint32_t size = (uint32_t)draw->blocks[i].size,
                  stride = (size + OFFSET_ROUND - 1) / OFFSET_ROUND * OFFSET_ROUND;
         maker->inputs->strides[i] = stride;
-        good = gpu_create_buffer(maker->gpu, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, NULL,
-                                 (size_t)stride * draw->num_objects, &maker->inputs->blocks[i]);
+        good = gpu_create_buffer(
+            maker->gpu, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+            NULL, (size_t)stride * draw->num_objects, &maker->inputs->blocks[i]);
     }
     if (good)
         inputs_update(draw, maker->inputs);
@@ -65,9 +67,8 @@ static bool create_set_layout(struct maker *maker, uint32_t set)
     const VkShaderStageFlags stages = VK_SHADER_STAGE_ALL_GRAPHICS | VK_SHADER_STAGE_COMPUTE_BIT;
     for (uint32_t i = 0; i < draw->num_blocks; ++i) {
         if (draw->blocks[i].set == set)
-            bindings[count++] = (VkDescriptorSetLayoutBinding){
-                draw->blocks[i].binding, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, 1, stages,
-                NULL};
+            bindings[count++] = (VkDescriptorSetLayoutBinding){draw->blocks[i].binding,
+                                                               maker->block_type, 1, stages, NULL};
     }
     for (uint32_t i = 0; i < draw->num_textures; ++i) {
         if (draw->textures[i].set == set)
@@ -88,7 +89,7 @@ static bool create_set_layout(struct maker *maker, uint32_t set)
 static bool allocate_sets(struct maker *maker)
 {
     const VkDescriptorPoolSize sizes[] = {
-        {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, DRAW_MAX_BLOCKS},
+        {maker->block_type, DRAW_MAX_BLOCKS},
         {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, DRAW_MAX_TEXTURES}};
     const VkDescriptorPoolCreateInfo pool = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
                                              .maxSets = DRAW_MAX_SETS,
@@ -119,8 +120,7 @@ static void write_sets(struct maker *maker)
                                             .dstSet = maker->inputs->sets[draw->blocks[i].set],
                                             .dstBinding = draw->blocks[i].binding,
                                             .descriptorCount = 1,
-                                            .descriptorType =
-                                                VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC,
+                                            .descriptorType = maker->block_type,
                                             .pBufferInfo = &buffer};
         vkUpdateDescriptorSets(maker->gpu->device, 1, &write, 0, NULL);
     }
@@ -162,9 +162,10 @@ static bool create_descriptors(struct maker *maker)
     return true;
 }
 
-bool inputs_create(struct gpu *gpu, const struct draw *draw, struct inputs *out)
+bool inputs_create(struct gpu *gpu, const struct draw *draw, VkDescriptorType block_type,
+                   struct inputs *out)
 {
-    struct maker maker = {gpu, draw, out};
+    struct maker maker = {gpu, draw, block_type, out};
     return create_blocks(&maker) && create_textures(&maker) && create_descriptors(&maker);
 }
 

@@ -16,8 +16,12 @@ struct inputs {
     uint32_t num_sets;
 };
 
-/* false: see gpu->reason. Zeroes `out` first. Call inputs_destroy in any case. */
-bool inputs_create(struct gpu *gpu, const struct draw *draw, struct inputs *out);
+/*
+ * block_type: VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC or _STORAGE_BUFFER_DYNAMIC. false: see
+ * gpu->reason. Call inputs_destroy in any case.
+ */
+bool inputs_create(struct gpu *gpu, const struct draw *draw, VkDescriptorType block_type,
+                   struct inputs *out);
 /* Uploads the current contents of the blocks. */
 void inputs_update(const struct draw *draw, struct inputs *inputs);
 /* Binds the sets from set 0 on, with the blocks of an object. */

@@ -586,7 +586,9 @@ struct draw_program *draw_open(struct draw_canvas *canvas, const struct draw *dr
         gpu->id = "no-device";
         snprintf(gpu->reason, sizeof gpu->reason,
                  "the device cannot blend with a second source, as '--transparency dual' needs");
-    } else if (create_buffers(program) && inputs_create(program->gpu, draw, &program->inputs)
+    } else if (create_buffers(program)
+               && inputs_create(program->gpu, draw, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC,
+                                &program->inputs)
                && create_layout(program, canvas) && create_modules(program)
                && create_pipelines(program, canvas))
         return program;

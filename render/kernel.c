@@ -2,6 +2,8 @@
 /* One shader as a kernel of the path tracer: its source, its inputs, its pipeline. */
 #include "render/trace.h"
 
+#include "compile/spirv.h"
+
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -314,20 +316,18 @@ static bool compile(struct kernel *kernel, const struct trace_options *options, 
 }
 
 static bool create_pipeline(struct gpu *gpu, const struct kernel *kernel,
-                            VkDescriptorSetLayout set_layout, uint32_t push_size,
-                            struct kernel_program *program)
+                            VkDescriptorSetLayout set_layout, struct kernel_program *program)
 {
     const struct compiled_stage *code = &program->compiled.stages[MXG_STAGE_PIXEL];
+    /* lavapipe compiles a shader again, for the values of its uniforms, whenever it is bound */
+    spirv_store_uniforms(code->words, code->num_words);
     VkDescriptorSetLayout layouts[DRAW_MAX_SETS + 1];
     memcpy(layouts, kernel->inputs.set_layouts, sizeof kernel->inputs.set_layouts);
     layouts[kernel->inputs.num_sets] = set_layout;
-    const VkPushConstantRange camera = {VK_SHADER_STAGE_COMPUTE_BIT, 0, push_size};
     const VkPipelineLayoutCreateInfo layout = {.sType =
                                                    VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
                                                .setLayoutCount = kernel->inputs.num_sets + 1,
-                                               .pSetLayouts = layouts,
-                                               .pushConstantRangeCount = 1,
-                                               .pPushConstantRanges = &camera};
+                                               .pSetLayouts = layouts};
     return gpu_create_compute(gpu, &layout, code->words, code->num_words, &program->layout,
                               &program->pipeline);
 }
@@ -360,17 +360,17 @@ bool kernel_open(struct gpu *gpu, struct bind *bind, uint32_t first_shader, stru
     if (!bind_shader(bind))
         return false;
     out->num_shaders = differs_by_object(bind) ? bind->num_objects : 1;
-    return inputs_create(gpu, &bind->draw, &out->inputs);
+    return inputs_create(gpu, &bind->draw, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER_DYNAMIC, &out->inputs);
 }
 
 bool kernel_compile(struct gpu *gpu, struct kernel *kernel, VkDescriptorSetLayout set_layout,
-                    uint32_t push_size, const struct trace_options *options)
+                    const struct trace_options *options)
 {
     return compile(kernel, options, "", &kernel->paths.compiled)
-           && create_pipeline(gpu, kernel, set_layout, push_size, &kernel->paths)
+           && create_pipeline(gpu, kernel, set_layout, &kernel->paths)
            && (!*kernel->prepared
                || (compile(kernel, options, kernel->prepared, &kernel->prepares.compiled)
-                   && create_pipeline(gpu, kernel, set_layout, push_size, &kernel->prepares)));
+                   && create_pipeline(gpu, kernel, set_layout, &kernel->prepares)));
 }
 
 static void close_program(struct gpu *gpu, struct kernel_program *program)

@@ -10,6 +10,12 @@ struct Object {
     float majorant;                  // of a medium that varies: about the most of its extinction; 0: it does not vary
     uint around_eye;                 // in number i: side_of() the i-th medium that the eye is in, from the outermost; 0: there is no more
 };
+struct Camera {
+    vec4 eye, right, up, forward;  // a ray through (x, y), each from -1 to 1, goes along forward + x * right + y * up. eye.w: how often a path
+                                   // may turn; up.w: brightness of the environment; forward.w: the most media around a path
+    vec4 environment[3];           // columns: from the world to the map; [0].w: a distance that nothing has; [1].w: number of this shader
+    uvec4 frame;                   // width, height, first sample, number of samples
+};
 struct Hit { float distance; uint triangle; vec2 weights; };
 // The medium that a path is in: nothing, a solid, or the body of an object (see media.glsl). Coefficients are over a unit of the world.
 struct Medium {

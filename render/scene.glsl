@@ -24,14 +24,8 @@ layout(set = TRACER_SET, binding = 5, std430) readonly buffer Values { vec4 valu
 layout(set = TRACER_SET, binding = 6, std430) buffer Paths { Path paths[]; };
 layout(set = TRACER_SET, binding = 7, std430) buffer Waiting { uint waiting[]; }; // how many paths wait for each shader
 layout(set = TRACER_SET, binding = 9, std430) buffer Media { Medium media[]; };
-layout(set = TRACER_SET, binding = 10) uniform sampler2D environment_map;
-layout(push_constant) uniform Camera {
-    vec4 eye, right, up, forward;  // a ray through (x, y), each from -1 to 1, goes along forward + x * right + y * up
-    vec4 environment[3];           // columns: from the world to the map
-    uvec4 frame;                   // width, height, first sample, number of samples
-} camera;                          // eye.w: how often a path may turn;
-                                   // up.w: brightness of the environment; forward.w: the most media around a path
-                                   // environment[0].w: a distance that nothing has; [1].w: number of this shader
+layout(set = TRACER_SET, binding = 10, std430) readonly buffer TheCamera { Camera camera; };
+layout(set = TRACER_SET, binding = 11) uniform sampler2D environment_map;
 layout(local_size_x = 8, local_size_y = 8) in;
 
 #define NEAR camera.environment[0].w

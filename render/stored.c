@@ -280,7 +280,9 @@ bool stored_add_pass(struct stored *stored, const struct stored_pass *source)
 {
     struct pass *pass = &stored->passes[stored->num_passes++];
     *pass = (struct pass){.source = *source};
-    return inputs_create(stored->gpu, source->draw, &pass->inputs) && create_pipeline(stored, pass);
+    return inputs_create(stored->gpu, source->draw, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC,
+                         &pass->inputs)
+           && create_pipeline(stored, pass);
 }
 
 VkDescriptorSetLayout stored_set_layout(const struct stored *stored)

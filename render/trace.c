@@ -22,6 +22,7 @@ enum {
     WAITING,
     AOVS,
     MEDIA,
+    CAMERA,
     NUM_BUFFERS,
     NUM_BINDINGS = NUM_BUFFERS + 1,
     MOST_AROUND = 4, /* media around one */
@@ -32,17 +33,14 @@ enum {
     SAMPLES_AT_ONCE = 16
 };
 
-struct camera { /* layout as in path.glsl */
-    float eye[4], right[4], up[4], forward[4], environment[3][4];
-    uint32_t frame[4];
-};
-
 /* The types of GLSL in a buffer (layout std430), for its structs. A typedef has no alignment. */
 typedef unsigned int uint;
 typedef float floats2[2], floats3[3], floats4[4], floats4x4[4][4];
+typedef uint uints4[4];
 #define vec2 _Alignas(8) floats2
 #define vec3 _Alignas(16) floats3
 #define vec4 _Alignas(16) floats4
+#define uvec4 _Alignas(16) uints4
 #define mat4 _Alignas(16) floats4x4
 typedef struct Hit Hit;
 typedef struct Medium Medium;
@@ -51,6 +49,7 @@ typedef struct Shadow Shadow;
 #undef vec2
 #undef vec3
 #undef vec4
+#undef uvec4
 #undef mat4
 _Static_assert(sizeof(struct Node) == sizeof(struct bvh_node)
                    && sizeof(struct Corner) == sizeof(struct bvh_corner),
@@ -181,15 +180,15 @@ static bool create_buffers(struct tracer *tracer)
         const void *data;
         size_t size;
         unsigned buffer;
-    } made[] = {
-        {bvh->nodes, bvh->num_nodes * sizeof *bvh->nodes, NODES},
-        {bvh->corners, corners * sizeof *bvh->corners, CORNERS},
-        {NULL, film, FILM},
-        {sums, num_sums * sizeof *sums, SUMS},
-        {NULL, pixels * sizeof(struct Path), PATHS},
-        {NULL, most_around(tracer) * NUM_RAYS * pixels * sizeof(struct Medium), MEDIA},
-        {NULL, tracer->num_shaders * sizeof(uint32_t), WAITING},
-        {NULL, (aovs_stride(tracer->options->aovs) * pixels + 1) * 4 * sizeof(float), AOVS}};
+    } made[] = {{bvh->nodes, bvh->num_nodes * sizeof *bvh->nodes, NODES},
+                {bvh->corners, corners * sizeof *bvh->corners, CORNERS},
+                {NULL, film, FILM},
+                {sums, num_sums * sizeof *sums, SUMS},
+                {NULL, pixels * sizeof(struct Path), PATHS},
+                {NULL, most_around(tracer) * NUM_RAYS * pixels * sizeof(struct Medium), MEDIA},
+                {NULL, tracer->num_shaders * sizeof(uint32_t), WAITING},
+                {NULL, (aovs_stride(tracer->options->aovs) * pixels + 1) * 4 * sizeof(float), AOVS},
+                {NULL, sizeof(struct Camera), CAMERA}};
     bool good = sums || fail_for_memory(tracer);
     for (size_t i = 0; good && i < sizeof made / sizeof *made; ++i)
         good = gpu_create_buffer(gpu, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, made[i].data,
@@ -268,11 +267,11 @@ static void write_set(struct tracer *tracer)
 
 /* ---- Running ---- */
 
-static struct camera make_camera(const struct tracer *tracer)
+static struct Camera make_camera(const struct tracer *tracer)
 {
     const struct scene *scene = scene_of(tracer);
     struct matrix axes = matrix_transpose(scene->view); /* of a rotation: its inverse */
-    struct camera camera = {.frame = {tracer->width, tracer->height, 0, 0}};
+    struct Camera camera = {.frame = {tracer->width, tracer->height, 0, 0}};
     camera.eye[3] = (float)tracer->options->bounces;
     camera.up[3] = tracer->options->dark ? 0 : 1;
     camera.forward[3] = (float)most_around(tracer);
@@ -297,7 +296,7 @@ static const struct kernel *kernel_of(const struct tracer *tracer, uint32_t shad
 }
 
 /* Runs one invocation of a shader, which traces or prepares, per element of an area. */
-static bool run(struct tracer *tracer, uint32_t shader, bool is_first, struct camera *camera,
+static bool run(struct tracer *tracer, uint32_t shader, bool is_first, struct Camera *camera,
                 uint32_t width, uint32_t height)
 {
     const struct kernel *kernel = kernel_of(tracer, shader);
@@ -311,8 +310,7 @@ static bool run(struct tracer *tracer, uint32_t shader, bool is_first, struct ca
                 &kernel->inputs, shader - kernel->first_shader);
     vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, program->layout,
                             kernel->inputs.num_sets, 1, &tracer->set, 0, NULL);
-    vkCmdPushConstants(commands, program->layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof *camera,
-                       camera);
+    memcpy(tracer->buffers[CAMERA].mapped, camera, sizeof *camera);
     vkCmdDispatch(commands, (width + GROUP - 1) / GROUP, (height + GROUP - 1) / GROUP, 1);
     return gpu_end(tracer->gpu, commands);
 }
@@ -376,7 +374,7 @@ static bool displace_vertices(struct tracer *tracer, struct vertices *vertices)
     if (!list_vertices(tracer, vertices))
         return fail_for_memory(tracer);
     uint32_t count = vertices->num_rows;
-    struct camera camera = {.frame = {ROW, count, 0, 0}};
+    struct Camera camera = {.frame = {ROW, count, 0, 0}};
     for (size_t k = 0; k < tracer->num_kernels; ++k) {
         const struct kernel *kernel = &tracer->kernels[k];
         for (uint32_t i = 0; kernel->info.displaced && i < kernel->num_shaders; ++i)
@@ -412,7 +410,7 @@ static bool measure_medium(struct tracer *tracer, uint32_t object, const struct 
 {
     const float ROOM = 1.25f, FEWEST = 4; /* FEWEST: collisions along the diagonal of the box */
     struct Object *to = (struct Object *)tracer->buffers[OBJECTS].mapped + object;
-    struct camera camera = {.frame = {ROW, MEASURED / ROW, MEASURED_SIDE, object}};
+    struct Camera camera = {.frame = {ROW, MEASURED / ROW, MEASURED_SIDE, object}};
     float most = 0, diagonal = 0;
     for (size_t i = 0; i < 3; ++i) {
         camera.eye[i] = box->low[i];
@@ -487,7 +485,7 @@ static bool find_waiting(const struct tracer *tracer, uint32_t *out_shader)
 }
 
 /* Traces some samples of each pixel: from kernel to kernel, until no path waits. */
-static bool trace_samples(struct tracer *tracer, struct camera *camera)
+static bool trace_samples(struct tracer *tracer, struct Camera *camera)
 {
     uint32_t *waiting = tracer->buffers[WAITING].mapped, shader = 0;
     memset(waiting, 0, tracer->num_shaders * sizeof *waiting);
@@ -523,8 +521,7 @@ static bool open_kernels(struct tracer *tracer, struct bind *const *binds, size_
     write_set(tracer);
     for (size_t i = 0; i < count; ++i) {
         *out_failed = i;
-        if (!kernel_compile(tracer->gpu, &tracer->kernels[i], tracer->set_layout,
-                            sizeof(struct camera), tracer->options))
+        if (!kernel_compile(tracer->gpu, &tracer->kernels[i], tracer->set_layout, tracer->options))
             return false;
     }
     *out_failed = 0;
@@ -588,7 +585,7 @@ bool trace_picture(struct gpu *gpu, struct bind *const *binds, size_t count,
     *out_failed = 0;
     bool good =
         tracer.kernels && open_kernels(&tracer, binds, count, out_failed) && prepare(&tracer);
-    struct camera camera = {0};
+    struct Camera camera = {0};
     if (good)
         camera = make_camera(&tracer);
     for (uint32_t done = 0; good && done < samples; done += camera.frame[3]) {

@@ -59,7 +59,7 @@ struct kernel {
 bool kernel_open(struct gpu *gpu, struct bind *bind, uint32_t first_shader, struct kernel *out);
 /* Compiles it; the tracer's set comes after the sets of the shader. */
 bool kernel_compile(struct gpu *gpu, struct kernel *kernel, VkDescriptorSetLayout set_layout,
-                    uint32_t push_size, const struct trace_options *options);
+                    const struct trace_options *options);
 void kernel_close(struct gpu *gpu, struct kernel *kernel);
 /*
  * The values that the shader reads from an object (hit_value() in path.glsl): for each attribute
