@@ -117,10 +117,11 @@ vec2 mx_ggx_albedo(const float c)
 // k = vec3(0.0), f90 = vec3(1.0), exponent = 0.0, film = 0.0, film_ior = 1.5.
 vec3 mx_ggx_prefiltered(const vec3 N, const vec3 V)
 {
+    vec3 h = faceforward(N, -V, N);
     vec2 albedo = mx_ggx_albedo(max(abs(dot(N, V)), 1e-8));
     return mix(vec3(0.03373595), vec3(1.0), albedo.y) * albedo.x
-        * (textureLod(u_envRadiance, mx_map_point(normalize(mat3(u_envMatrix) * reflect(-V, faceforward(N, -V, N)))),
-        0.2 * float(u_envRadianceMips - 1)).xyz * u_envLightIntensity);
+        * (textureLod(u_envRadiance, mx_map_point(normalize(mat3(u_envMatrix)
+        * mix(h, reflect(-V, h), vec3(0.979004)))), 0.2 * float(u_envRadianceMips - 1)).xyz * u_envLightIntensity);
 }
 
 void main()

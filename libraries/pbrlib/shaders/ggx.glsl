@@ -320,6 +320,10 @@ vec3 mx_refract_sphere(vec3 v, vec3 h, float ior)
 
 // Light that the lobe reflects, from a map whose levels of detail are filtered for rising roughness; with
 // refract_ior > 0 light through a solid sphere of that index.
+//
+// A rough lobe looks between the mirror's direction and the normal (Lagarde and de Rousiers 2014, "Moving Frostbite to
+// Physically Based Rendering", on image based lights). The levels of the roughest have two rows of texels; nearly as wide
+// as diffuse lobes, they take the irradiance instead.
 vec3 mx_ggx_prefiltered(vec2 roughness, string distribution, bool by_direction, vec3 N, vec3 X, vec3 V, float refract_ior, string model, vec3 n, vec3 k, vec3 f90,
                         float exponent, float film, float film_ior)
 {
@@ -336,7 +340,8 @@ vec3 mx_ggx_prefiltered(vec2 roughness, string distribution, bool by_direction, 
     float lod = (a < 0.25 ? sqrt(a) : 0.5 * a + 0.375) * float(u_envRadianceMips - 1);
     if (refract_ior > 0.0)
         return (1.0 - f) * mx_environment_radiance(mx_refract_sphere(V, h, refract_ior), lod);
-    return f * mx_environment_radiance(reflect(-V, h), lod);
+    vec3 ray = mix(h, reflect(-V, h), (1.0 - a) * (sqrt(1.0 - a) + a));
+    return f * mix(mx_environment_radiance(ray, lod), mx_environment_irradiance(h), smoothstep(0.5, 0.9, a));
 }
 
 // A normal of those visible from v, at any length (Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with
