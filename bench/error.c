@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * bench-error MAP PREFILTERED TRUTH MATERIALX FILE...: how far pictures of the first material of
- * each document are from the truth, and what they cost, under the light of a map alone. Prints a
- * line for each way to draw it and each number of samples: the material, the way, the samples, the
- * mean over the ball of scalar operations and of texture reads of a pixel (operations.h), and of
- * CIEDE2000 the mean and the value that 99 of 100 pixels stay below, divided by tabs.
+ * bench-error MAP PREFILTERED TRUTH MATERIALX INTERFACE FILE...: how far pictures of the first
+ * material of each document are from the truth, and what they cost, under the light of a map alone.
+ * Prints a line for each way to draw it and each number of samples: the material, the way, the
+ * samples, the mean over the ball of scalar operations and of texture reads of a pixel
+ * (operations.h), and of CIEDE2000 the mean and the value that 99 of 100 pixels stay below, divided
+ * by tabs.
  *
  * PREFILTERED: the map as `mxgen render --bake-environment` writes it
  * TRUTH: a folder with the picture NAME.exr of each document, as `mxgen render -m sphere
  * --path-trace` draws it MATERIALX: a folder with its shaders fis/NAME and prefilter/NAME
  * (foreign.h)
+ * INTERFACE: that of mxgen's shaders
  */
 #define _POSIX_C_SOURCE 200809L
 #include "bench/counted.h"
@@ -44,7 +46,7 @@ struct bench {
     struct scene scenes[2]; /* with the map, and with the prefiltered one */
     struct draw_canvas *canvas;
     mxg_context *context;
-    const char *truths, *materialx;
+    const char *truths, *materialx, *interface;
     struct image truth;     /* of the current material */
     uint32_t width, height; /* of the canvas */
     float *pixels;
@@ -73,7 +75,7 @@ static void generate(struct bench *b, const struct way *way, const char *path, s
     if (mxg_options_create(b->context, &options) != MXG_OK
         || mxg_options_set(options, "environment", way->environment) != MXG_OK
         || (way->quality && mxg_options_set(options, "quality", way->quality) != MXG_OK)
-        || mxg_options_set(options, "interface", "reduced") != MXG_OK
+        || mxg_options_set(options, "interface", b->interface) != MXG_OK
         || mxg_options_set(options, "lights", "none") != MXG_OK)
         bench_fail("no such options");
     desc.target = "vulkan";
@@ -230,11 +232,12 @@ static void measure_material(struct bench *b, const char *path)
 int main(int argc, char **argv)
 {
     struct bench b = {0};
-    if (argc < 6)
-        bench_fail("bench-error MAP PREFILTERED TRUTH MATERIALX FILE...");
+    if (argc < 7)
+        bench_fail("bench-error MAP PREFILTERED TRUTH MATERIALX INTERFACE FILE...");
     setenv("GALLIVM_PERF", "nopt", 0); /* nobody waits for these pixels */
     b.truths = argv[3];
     b.materialx = argv[4];
+    b.interface = argv[5];
     if (!gpu_open(&b.gpu)) {
         printf("skip: %s\n", b.gpu.reason);
         return 0;
@@ -252,7 +255,7 @@ int main(int argc, char **argv)
     }
     if (mxg_context_create(NULL, &b.context) != MXG_OK)
         bench_fail("no context");
-    for (int i = 5; i < argc; ++i)
+    for (int i = 6; i < argc; ++i)
         measure_material(&b, argv[i]);
     mxg_context_destroy(b.context);
     for (int i = 0; i < 2; ++i)

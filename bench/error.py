@@ -3,7 +3,7 @@
 """How far pictures are from the truth, and what they cost: rasters of mxgen and of MaterialX against a path tracer, by the number of samples
 of the environment. Needs `mxgenpeer`, which writes MaterialX's shaders; without it the figures are those of mxgen alone.
 
-    bench/error.py BUILD FOLDER [--size 64] [--paths 256] [--plots FOLDER] FILE...
+    bench/error.py BUILD FOLDER [--size 64] [--paths 256] [--interface reduced] [--plots FOLDER] FILE...
 
 Draws the first material of each document on a ball, under the light of four maps. FOLDER keeps pictures and shaders, which a second run does
 not make again. Prints tables (docs/benchmarks.md, "Light at equal error"); --plots writes a picture for each folder of documents."""
@@ -84,29 +84,30 @@ def write_map(path, radiance, width):
 # ---- MaterialX's shaders
 
 
-def add_files(variables, document, build, folder):
-    """The textures of a shader, as the reflection of mxgen's tells them."""
-    subprocess.run([f"{build}/mxgen", document, "-q", "--target", "vulkan", "--interface", "reduced", "--reflect", "-o", folder], check=True)
+def add_values(blocks, document, interface, build, folder):
+    """The textures of a shader and the values of its inputs, as the reflection of mxgen's tells them. An input that mxgen's lacks is 0:
+    what no raster of mxgen reads, such as the anisotropy of scattering, MaterialX's ignore, too."""
+    subprocess.run([f"{build}/mxgen", document, "-q", "--target", "vulkan", "--interface", interface, "--reflect", "-o", folder], check=True)
     known = {}
     for path in folder.glob("*.json"):
         for block in json.loads(path.read_text(encoding="utf-8"))["blocks"]:
             known.update({variable["name"]: variable for variable in block["variables"]})
-    for variable in variables:
+    for variable in (variable for block in blocks if block["name"] in ("PublicUniforms", "Textures") for variable in block["variables"]):
         variable.update({key: value for key, value in known.get(variable["name"], {}).items()
-                         if key in ("path", "file", "uaddressmode", "vaddressmode", "filtertype")})
+                         if key in ("path", "file", "uaddressmode", "vaddressmode", "filtertype", "default")})
 
 
-def write_theirs(document, libraries, build, folder):
+def write_theirs(document, libraries, build, folder, interface):
     """Writes the shaders of a document for foreign.h."""
     for kind in "fis", "prefilter":
-        stem, work = folder / kind / document.stem, folder / "work"
+        stem, work = folder / interface / kind / document.stem, folder / "work"
         if stem.with_suffix(".json").exists():
             continue
         shutil.rmtree(work, ignore_errors=True)
         (work / "ours").mkdir(parents=True)
-        stem.parent.mkdir(exist_ok=True)
-        done = subprocess.run([GENERATOR, document, "vkglsl", work, "--reduced", "--no-lights", "--env", kind, "--transparency", "off", "--libs",
-                               libraries], capture_output=True, text=True, check=False)
+        stem.parent.mkdir(parents=True, exist_ok=True)
+        done = subprocess.run([GENERATOR, document, "vkglsl", work, *(["--reduced"] if interface == "reduced" else []), "--no-lights", "--env", kind,
+                               "--transparency", "off", "--libs", libraries], capture_output=True, text=True, check=False)
         pixel = next(iter(sorted(work.glob("*.frag"))), None)
         if not pixel:
             print(f"{document.stem}: {GENERATOR} wrote no shader: {done.stderr.strip()[-200:]}", file=sys.stderr)
@@ -114,14 +115,14 @@ def write_theirs(document, libraries, build, folder):
         for ending in "vert", "frag":
             shutil.copy(pixel.with_suffix(f".{ending}"), stem.with_suffix(f".{ending}"))
         made = reflect.reflection(stem.with_suffix(".vert"), stem.with_suffix(".frag"))
-        add_files(next(block["variables"] for block in made["blocks"] if block["name"] == "Textures"), document, build, work / "ours")
+        add_values(made["blocks"], document, interface, build, work / "ours")
         stem.with_suffix(".json").write_text(json.dumps(made), encoding="utf-8")
 
 
 # ---- Figures
 
 
-def draw(build, folder, documents, name, truth, width=512):
+def draw(build, folder, documents, name, truth, width=512, interface="reduced"):
     """The rows of all documents under a map of this width; truth: the options of their true pictures. None: there is no device."""
     file, baked, truths = folder / f"{name}.hdr", folder / f"{name}-prefiltered", folder / f"{name}-truth"
     if not file.exists():
@@ -134,7 +135,8 @@ def draw(build, folder, documents, name, truth, width=512):
         if not picture.exists():
             subprocess.run([f"{build}/mxgen", "render", document, "-q", "-m", "sphere", "--lights", "none", "--environment", file, "-o", picture,
                             *truth], check=True)
-    done = subprocess.run([f"{build}/bench/bench-error", file, baked, truths, folder, *documents], stdout=subprocess.PIPE, text=True, check=True).stdout
+    done = subprocess.run([f"{build}/bench/bench-error", file, baked, truths, folder / interface, interface, *documents], stdout=subprocess.PIPE, text=True,
+                          check=True).stdout
     if done.startswith("skip"):
         return None
     return [Row(fields[0], fields[1], int(fields[2]), *map(float, fields[3:])) for fields in (line.split("\t") for line in done.splitlines())]
@@ -189,11 +191,11 @@ def compare(found, names):
         yield f"| `{way}` | {len(ratios)} | {spread(ratios)} | {spread(errors)} | {spread(reads)} |"
 
 
-def prepare_theirs(build, folder, documents):
+def prepare_theirs(build, folder, documents, interface="reduced"):
     """Writes MaterialX's shaders of the documents where its generator is at hand; says whether it is."""
     generator = shutil.which(GENERATOR)
     for document in documents if generator else []:
-        write_theirs(document, pathlib.Path(generator).resolve().parent.parent / "materialx", build, folder)
+        write_theirs(document, pathlib.Path(generator).resolve().parent.parent / "materialx", build, folder, interface)
     return generator is not None
 
 
@@ -204,13 +206,14 @@ def main():
     parser.add_argument("documents", nargs="+", type=pathlib.Path)
     parser.add_argument("--size", type=int, default=64)
     parser.add_argument("--paths", type=int, default=256)
+    parser.add_argument("--interface", choices=("reduced", "complete"), default="reduced")
     parser.add_argument("--plots", type=pathlib.Path)
     args = parser.parse_args()
     args.folder.mkdir(parents=True, exist_ok=True)
-    if not prepare_theirs(args.build, args.folder, args.documents):
+    if not prepare_theirs(args.build, args.folder, args.documents, args.interface):
         print(f"MaterialX's shaders: left out, {GENERATOR} is not on the PATH\n")
     truth = "--path-trace", "--as-drawn", "--paths", str(args.paths), "--size", str(args.size)
-    found = {name: draw(args.build, args.folder, args.documents, name, truth) for name in MAPS}
+    found = {name: draw(args.build, args.folder, args.documents, name, truth, interface=args.interface) for name in MAPS}
     if None in found.values():
         sys.exit("skip: no Vulkan device")
     families = collections.defaultdict(list)
