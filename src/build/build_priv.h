@@ -292,6 +292,12 @@ struct build_meaning build_meaning_of(struct builder *b, elem_id node, const str
                                       const struct binding *binding);
 /* The default of a definition: in the space that its input, or the user's document, says. */
 struct build_meaning build_meaning_of_default(struct builder *b, const struct port *port);
+/*
+ * The same for what a file contains, which a node reads through an input of its definition: the
+ * element that names the file says it, also where the file comes from another node.
+ */
+struct build_meaning build_meaning_of_file(struct builder *b, const struct frame *frame,
+                                           uint32_t input);
 /* A value of a type in the working space and the unit of the target; other types stay. */
 ir_ref build_convert(struct builder *b, ir_ref value, doc_type type,
                      const struct build_meaning *meaning);

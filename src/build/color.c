@@ -101,31 +101,40 @@ static ir_ref convert_unit(struct builder *b, ir_ref value, const struct build_m
 
 /* ---- what a value means ---- */
 
-/* The first of two elements that has the attribute itself; 0: neither. */
-static elem_id first_with(const struct builder *b, str_id attr, elem_id holder, elem_id asker)
+/* The first of these elements that has the attribute itself; 0: none. */
+static elem_id first_with(const struct builder *b, str_id attr, const elem_id elements[3])
 {
-    if (holder && doc_attr_value(&b->lib->doc, holder, attr))
-        return holder;
-    return asker && doc_attr_value(&b->lib->doc, asker, attr) ? asker : 0;
+    for (unsigned i = 0; i < 3; i++)
+        if (elements[i] && doc_attr_value(&b->lib->doc, elements[i], attr))
+            return elements[i];
+    return 0;
+}
+
+/* `holder` has the value; 0: it is an argument. The connection of the node's input ends at `end`.
+ */
+static struct build_meaning meaning_of(struct builder *b, elem_id node, const struct port *port,
+                                       elem_id holder, elem_id end)
+{
+    const struct document *doc = &b->lib->doc;
+    bool has_other_end =
+        end && doc_element(doc, end)->parent != node && doc_element(doc, node)->kind == KIND_NODE;
+    elem_id own = has_other_end ? doc_child_of_kind(doc, node, KIND_INPUT, port->name) : 0;
+    const elem_id elements[] = {holder, own, end};
+    /* arguments have the working space; files are read inside */
+    bool may_say = holder || port->type == DOC_TYPE_filename;
+    elem_id of_space = may_say ? first_with(b, STR_colorspace, elements) : 0;
+    of_space = of_space ? of_space : holder;
+    return (struct build_meaning){.port = port,
+                                  .of_space = of_space,
+                                  .space = of_space ? build_colorspace(b, of_space) : 0,
+                                  .of_unit = first_with(b, STR_unit, elements)};
 }
 
 struct build_meaning build_meaning_of(struct builder *b, elem_id node, const struct port *port,
                                       const struct binding *binding)
 {
-    const struct document *doc = &b->lib->doc;
-    bool is_value = binding->kind == BIND_VALUE;
-    elem_id holder = is_value ? binding->element : 0,
-            owner = holder ? doc_element(doc, holder)->parent : 0, asker = binding->element;
-    if (holder && owner != node && doc_element(doc, node)->kind == KIND_NODE)
-        asker = doc_child_of_kind(doc, node, KIND_INPUT, port->name);
-    /* arguments have the working space; files are read inside */
-    bool may_ask = is_value || port->type == DOC_TYPE_filename;
-    elem_id of_space = first_with(b, STR_colorspace, holder, may_ask ? asker : 0);
-    of_space = of_space ? of_space : holder;
-    return (struct build_meaning){.port = port,
-                                  .of_space = of_space,
-                                  .space = of_space ? build_colorspace(b, of_space) : 0,
-                                  .of_unit = first_with(b, STR_unit, holder, asker)};
+    elem_id holder = binding->kind == BIND_VALUE ? binding->element : 0;
+    return meaning_of(b, node, port, holder, binding->element);
 }
 
 struct build_meaning build_meaning_of_default(struct builder *b, const struct port *port)
@@ -136,6 +145,39 @@ struct build_meaning build_meaning_of_default(struct builder *b, const struct po
     return (struct build_meaning){.port = port,
                                   .of_space = port->element,
                                   .space = says ? build_colorspace(b, port->element) : 0};
+}
+
+/* The element that names the file of an argument; 0: it is not known here. */
+static elem_id file_holder(const struct builder *b, const struct frame *frame, uint32_t input)
+{
+    const struct binding *binding = &frame->bindings[input];
+    ir_ref file = frame->args[input];
+    if (binding->kind == BIND_VALUE)
+        return binding->element;
+    if (!file || ir_get(b->graph, file)->op != IR_TEXTURE)
+        return 0;
+    const struct shader_variable *texture =
+        &b->shader->interface.variables.items[ir_get(b->graph, file)->attr];
+    if (binding->kind == BIND_NODE)
+        return texture->element;
+    /* a functional graph without a node that uses it has the defaults of its definition */
+    return frame->scope->graph ? 0 : texture->definition;
+}
+
+struct build_meaning build_meaning_of_file(struct builder *b, const struct frame *frame,
+                                           uint32_t input)
+{
+    const struct port *port = library_ports(b->lib, frame->node.nodedef, NULL) + input;
+    const struct binding *binding = &frame->bindings[input];
+    assert(port->type == DOC_TYPE_filename);
+    if (binding->kind == BIND_DEFAULT)
+        return build_meaning_of_default(b, port);
+    elem_id holder = file_holder(b, frame, input);
+    struct build_meaning meaning =
+        meaning_of(b, frame->node.element, port, holder, binding->element);
+    if (binding->kind == BIND_INTERFACE && meaning.of_unit == holder)
+        meaning.of_unit = 0; /* a default has the unit that its definition declares */
+    return meaning;
 }
 
 ir_ref build_convert(struct builder *b, ir_ref value, doc_type type,

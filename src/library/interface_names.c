@@ -25,6 +25,16 @@ bool library_graph_reads(const struct library *lib, elem_id graph, str_id input)
     return false;
 }
 
+bool library_graph_says(const struct library *lib, elem_id graph, str_id input, str_id attr)
+{
+    for (elem_id at = doc_element(&lib->doc, graph)->first_child; at;
+         at = doc_next_in_tree(&lib->doc, graph, at))
+        if (doc_attr_value(&lib->doc, at, STR_interfacename) == input
+            && doc_attr_value(&lib->doc, at, attr))
+            return true;
+    return false;
+}
+
 uint32_t library_implemented_nodedef(const struct library *lib, elem_id graph)
 {
     str_id name = graph ? doc_attr_value(&lib->doc, graph, STR_nodedef) : 0;

@@ -398,6 +398,8 @@ int library_resolve_output(const struct library *lib, elem_id port, elem_id node
 elem_id library_graph_around(const struct library *lib, elem_id element);
 /* True if something in the nodegraph reads this input of its definition. */
 bool library_graph_reads(const struct library *lib, elem_id graph, str_id input);
+/* True if an element in it that reads this input has the attribute. */
+bool library_graph_says(const struct library *lib, elem_id graph, str_id input, str_id attr);
 /*
  * The definition that a nodegraph implements, by its own attribute or by the first
  * <implementation> of its layer. LIBRARY_NONE.

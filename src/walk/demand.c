@@ -142,25 +142,42 @@ static void build_args(struct builder *b, struct frame *frame)
             build_input(b, frame->scope, frame->node.element, &ports[i], &frame->bindings[i]);
 }
 
+/* The first input for a file that has one, else the first input for a file; their number: none. */
+static uint32_t first_file(const struct builder *b, const struct frame *frame)
+{
+    const struct nodedef *def = library_nodedef(b->lib, frame->node.nodedef);
+    const struct port *ports = library_ports(b->lib, frame->node.nodedef, NULL);
+    uint32_t found = def->num_inputs;
+    for (uint32_t i = 0; i < def->num_inputs; i++) {
+        if (ports[i].type != DOC_TYPE_filename)
+            continue;
+        if (frame->bindings[i].kind != BIND_DEFAULT)
+            return i;
+        found = found < i ? found : i;
+    }
+    return found;
+}
+
 /*
  * Converts the results of image nodes from the colour space and the unit of their file
- * (specification, "Color Spaces" and "Units").
+ * (specification, "Color Spaces" and "Units"), unless an input inside of the definition says it.
  */
 static void convert_results(struct builder *b, const struct frame *frame, ir_ref *results)
 {
     assert(frame->impl->nodedef == frame->node.nodedef);
     const struct nodedef *def = library_nodedef(b->lib, frame->node.nodedef);
     const struct port *ports = library_ports(b->lib, frame->node.nodedef, NULL);
-    for (uint32_t i = 0; i < def->num_inputs; i++) {
-        const struct binding *binding = &frame->bindings[i];
-        if (ports[i].type != DOC_TYPE_filename
-            || (binding->kind != BIND_VALUE && binding->kind != BIND_INTERFACE))
-            continue;
-        struct build_meaning meaning = build_meaning_of(b, frame->node.element, &ports[i], binding);
-        for (uint32_t o = 0; o < def->num_outputs; o++)
-            results[o] = build_convert(b, results[o], ports[def->num_inputs + o].type, &meaning);
+    uint32_t i = first_file(b, frame);
+    if (i == def->num_inputs)
         return;
-    }
+    struct build_meaning meaning = build_meaning_of_file(b, frame, i);
+    bool is_graph = frame->impl->kind == IMPL_GRAPH;
+    if (is_graph && library_graph_says(b->lib, frame->impl->ref, ports[i].name, STR_colorspace))
+        meaning.space = 0;
+    if (is_graph && library_graph_says(b->lib, frame->impl->ref, ports[i].name, STR_unit))
+        meaning.of_unit = 0;
+    for (uint32_t o = 0; o < def->num_outputs; o++)
+        results[o] = build_convert(b, results[o], ports[def->num_inputs + o].type, &meaning);
 }
 
 static void push_origin(struct builder *b, const struct frame *frame)
@@ -189,17 +206,26 @@ static void name_results(struct builder *b, const struct frame *frame, const ir_
     }
 }
 
-/* The results of a graph for these arguments are complete; the memo keeps them for equal uses. */
+/* The node has the results of its implementation, with the meaning of its files. */
+static void finish_node(struct builder *b, const struct frame *frame, ir_ref *results)
+{
+    convert_results(b, frame, results);
+    name_results(b, frame, results);
+    finish(b, add_results(b, results, library_nodedef(b->lib, frame->node.nodedef)->num_outputs));
+}
+
+/*
+ * The results of a graph for these arguments are complete; the memo keeps them for equal uses,
+ * whose files may mean something else.
+ */
 static void finish_graph(struct builder *b, struct frame *frame, ir_ref *results)
 {
     assert(frame->has_tokens || frame->memo_key < b->memos.len);
-    convert_results(b, frame, results);
-    name_results(b, frame, results);
-    uint32_t first =
-        add_results(b, results, library_nodedef(b->lib, frame->node.nodedef)->num_outputs);
     if (!frame->has_tokens)
-        b->memos.items[frame->memo_key].first_result = first + 1;
-    finish(b, first);
+        b->memos.items[frame->memo_key].first_result =
+            add_results(b, results, library_nodedef(b->lib, frame->node.nodedef)->num_outputs) + 1;
+    struct frame use = *frame; /* frames move while a conversion applies definitions */
+    finish_node(b, &use, results);
 }
 
 static void finish_call(struct builder *b, struct frame *frame, uint32_t function)
@@ -242,7 +268,11 @@ static void enter_graph(struct builder *b, struct frame *frame)
     struct memo *memo = build_memo(b, frame->impl->ref, frame->args, def->num_inputs);
     frame->has_tokens = build_has_tokens(b, frame->node.element);
     if (memo->first_result && !frame->has_tokens) {
-        finish(b, memo->first_result - 1);
+        ir_ref results[LIBRARY_MAX_OUTPUTS];
+        memcpy(results, b->results.items + memo->first_result - 1,
+               def->num_outputs * sizeof *results);
+        struct frame use = *frame;
+        finish_node(b, &use, results);
         return;
     }
     frame->memo_key = (uint32_t)(memo - b->memos.items);
@@ -289,9 +319,7 @@ static void step_inputs(struct builder *b)
     } else {
         ir_ref results[LIBRARY_MAX_OUTPUTS];
         build_node(b, &use, results);
-        convert_results(b, &use, results);
-        name_results(b, &use, results);
-        finish(b, add_results(b, results, def->num_outputs));
+        finish_node(b, &use, results);
     }
     ir_pop_origin(b->graph);
 }
