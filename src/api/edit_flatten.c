@@ -217,14 +217,23 @@ static void take_input(struct flattening *f, elem_id port, elem_id from, const s
 {
     static const str_id values[] = {STR_value, STR_unit, STR_unittype};
     struct document *doc = tree_of(f);
+    bool is_file = input->type == DOC_TYPE_filename,
+         port_says = doc_attr(doc, port, STR_colorspace) != NULL;
     if (has_source(doc, from)) {
         copy_attrs(f, port, from, doc_connections, DOC_NUM_CONNECTIONS);
+        if (is_file && !port_says)
+            copy_attrs(f, port, from, (const str_id[]){STR_colorspace}, 1);
+        if (is_file && !doc_attr(doc, port, STR_unit))
+            copy_attrs(f, port, from, values + 1, 2);
         return;
     }
     if (!scale_value(f, port, from, input->element))
         copy_attrs(f, port, from, values, sizeof values / sizeof *values);
-    /* what the input says itself goes before what the port says, and that before its ancestors */
-    if (doc_attr(doc, from, STR_colorspace) || !doc_attr(doc, port, STR_colorspace))
+    /*
+     * What the input says itself goes before what the port says, except of a file, and that before
+     * its ancestors.
+     */
+    if (!port_says || (!is_file && doc_attr(doc, from, STR_colorspace)))
         keep_meaning(f, port, from);
 }
 

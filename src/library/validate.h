@@ -37,6 +37,9 @@ void validate_declaration(struct validate *v, elem_id element);
 /* Reports two implementations of one definition for the same target. */
 void validate_implementations(struct validate *v, struct arena *scratch);
 void validate_unit(struct validate *v, elem_id node, const struct port *port, elem_id input);
-void validate_unit_type(struct validate *v, elem_id element);
+/* The type of an element has the unit or the colour space that the element says. */
+void validate_type_of_meaning(struct validate *v, elem_id element);
+/* An input that reads a node says no colour space and no unit, except of a file. */
+void validate_connected_meaning(struct validate *v, const struct port *port, elem_id input);
 
 #endif

@@ -67,6 +67,8 @@ void validate_input(struct validate *v, elem_id node, uint32_t nodedef, const st
     if (is_empty && must_be_given(v, nodedef, port))
         diag_add(v->diags, DIAG_ID_unconnected_input, doc_place(v->doc, node),
                  text_of(v, doc_element(v->doc, node)->category), text_of(v, port->name));
+    if (binding->kind == BIND_NODE && binding->element >= v->doc->first_element)
+        validate_connected_meaning(v, port, binding->element);
     if (!text || binding->element < v->doc->first_element)
         return;
     if (doc_read_loosely(port->type, text_of(v, text), str_len(&v->lib->strings, text), NULL)
@@ -194,7 +196,7 @@ void validate_attributes_of(struct validate *v, elem_id element)
         diag_add(v->diags, DIAG_ID_bad_nodedef_version,
                  doc_attr_place(v->doc, element, STR_version), text_of(v, version));
     check_unit(v, element);
-    validate_unit_type(v, element);
+    validate_type_of_meaning(v, element);
     check_space(v, element);
     check_bounds(v, element, STR_uimin, STR_uimax);
     check_bounds(v, element, STR_uisoftmin, STR_uisoftmax);

@@ -311,14 +311,38 @@ static bool can_have_unit(doc_type type)
            || (type >= DOC_TYPE_vector2array && type <= DOC_TYPE_vector4array);
 }
 
-void validate_unit_type(struct validate *v, elem_id element)
+/* "Color Spaces": numbers and texts without one; types of documents may contain colours. */
+static bool is_colorless(doc_type type)
+{
+    return can_have_unit(type)
+               ? type != DOC_TYPE_filename
+               : type == DOC_TYPE_integer || type == DOC_TYPE_boolean || type == DOC_TYPE_string
+                     || type == DOC_TYPE_matrix33 || type == DOC_TYPE_matrix44;
+}
+
+void validate_type_of_meaning(struct validate *v, elem_id element)
 {
     str_id name = doc_attr_value(v->doc, element, STR_type);
     doc_type type = library_type(v->lib, name);
+    if (is_colorless(type) && doc_element(v->doc, element)->kind == KIND_INPUT
+        && has(v, element, STR_colorspace))
+        diag_add(v->diags, DIAG_ID_colorspace_misplaced,
+                 doc_attr_place(v->doc, element, STR_colorspace),
+                 text_of(v, doc_element(v->doc, element)->name), text_of(v, name));
     if (type && !can_have_unit(type)
         && (has(v, element, STR_unit) || has(v, element, STR_unittype)))
         diag_add(v->diags, DIAG_ID_unit_misplaced, doc_place(v->doc, element),
                  text_of(v, doc_element(v->doc, element)->name), text_of(v, name));
+}
+
+void validate_connected_meaning(struct validate *v, const struct port *port, elem_id input)
+{
+    static const str_id meanings[] = {STR_colorspace, STR_unit};
+    for (unsigned i = 0; port->type != DOC_TYPE_filename && i < 2; i++)
+        if (has(v, input, meanings[i]))
+            diag_add(v->diags, DIAG_ID_connected_meaning,
+                     doc_attr_place(v->doc, input, meanings[i]), text_of(v, meanings[i]),
+                     text_of(v, doc_element(v->doc, input)->name));
 }
 
 /*

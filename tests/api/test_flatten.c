@@ -186,6 +186,40 @@ static void test_outputs(struct fixture *f)
     mxg_document_destroy(after);
 }
 
+/* A file from a node has the space of the input that it goes through; what the definition says
+ * stays. */
+static void test_files(struct fixture *f)
+{
+    mxg_document *before = parse(
+        f, DOCUMENT(
+               " colorspace='lin_rec709'",
+               "<nodedef name='ND_t' node='twice'>"
+               "<input name='a' type='filename' value='none.png'/>"
+               "<input name='b' type='filename' value='none.png'/>"
+               "<output name='out' type='color3'/></nodedef><nodegraph name='NG_t' nodedef='ND_t'>"
+               "<image name='i' type='color3'>"
+               "<input name='file' type='filename' interfacename='a'/></image>"
+               "<image name='j' type='color3'><input name='file' type='filename' "
+               "interfacename='b' colorspace='srgb_texture'/></image>"
+               "<add name='both' type='color3'><input name='in1' type='color3' nodename='i'/>"
+               "<input name='in2' type='color3' nodename='j'/></add>"
+               "<output name='out' type='color3' nodename='both'/></nodegraph>"
+               "<constant name='map' type='filename'>"
+               "<input name='value' type='filename' value='wood.png'/></constant>"
+               "<twice name='P' type='color3'>"
+               "<input name='a' type='filename' nodename='map' colorspace='acescg'/>"
+               "<input name='b' type='filename' value='rust.png' "
+               "colorspace='acescg'/></twice>" SURFACE(
+                   "<input name='base_color' type='color3' nodename='P'/>")));
+    mxg_document *after = flatten(f, before, (const char *const[]){"P", NULL});
+    expect_attribute(after, "P_i/file", "nodename", "map");
+    expect_attribute(after, "P_i/file", "colorspace", "acescg");
+    expect_attribute(after, "P_j/file", "value", "rust.png");
+    expect_attribute(after, "P_j/file", "colorspace", "srgb_texture");
+    mxg_document_destroy(before);
+    mxg_document_destroy(after);
+}
+
 /* ---- Definitions inside of others, and those of the library ---- */
 
 static void test_levels(struct fixture *f)
@@ -266,8 +300,9 @@ static void test_failures(void)
     close_fixture(&f);
 }
 
-static void (*const tests[])(struct fixture *f) = {test_values, test_defaults, test_outputs,
-                                                   test_levels, test_library};
+static void (*const tests[])(struct fixture *f) = {
+    test_values, test_defaults, test_outputs, test_files, test_levels, test_library,
+};
 
 int main(void)
 {
