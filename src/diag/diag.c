@@ -119,6 +119,20 @@ bool diag_is_shown(const struct diag_list *list, enum diag_id id)
     return severity_in(list, id) < DIAG_REMARK;
 }
 
+static struct diag_place keep_place(const struct diag_list *list, struct diag_place place)
+{
+    place.file = keep_file(list, place.file);
+    if (place.path)
+        place.path = arena_strndup(list->arena, place.path, strlen(place.path));
+    return place;
+}
+
+void diag_move(struct diag_list *list, struct diag_place place)
+{
+    assert(list->last < list->items.len);
+    list->items.items[list->last].place = keep_place(list, place);
+}
+
 /* Adds a diagnostic whose texts the list has. Sets its severity, parent and place. */
 static void append(struct diag_list *list, struct diag diag)
 {
@@ -128,9 +142,7 @@ static void append(struct diag_list *list, struct diag diag)
     if (!is_note)
         list->last = list->items.len;
     diag.parent = list->last;
-    diag.place.file = keep_file(list, diag.place.file);
-    if (diag.place.path)
-        diag.place.path = arena_strndup(list->arena, diag.place.path, strlen(diag.place.path));
+    diag.place = keep_place(list, diag.place);
     vec_push(list->arena, &list->items, diag);
     if (diag.id == DIAG_ID_include_missing && !list->cause)
         list->cause = list->items.len;

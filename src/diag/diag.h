@@ -86,6 +86,9 @@ void diag_list_init(struct diag_list *list, struct arena *arena);
  */
 void diag_add(struct diag_list *list, enum diag_id id, struct diag_place place, ...);
 
+/* Moves the last diagnostic that is no note to another place. Copies the name of the file. */
+void diag_move(struct diag_list *list, struct diag_place place);
+
 /*
  * Lets the errors of a list be consequences of a missing include in the list of its document, which
  * outlives it.
