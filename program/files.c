@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#define _GNU_SOURCE /* O_TMPFILE */
+#define _GNU_SOURCE /* O_TMPFILE, flock */
 #include "program/files.h"
 
 #include "program/temporary.h"
@@ -10,6 +10,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -90,7 +91,38 @@ static int open_nameless(const char *path)
     char *folder = access("/proc/self/fd", X_OK) == 0 ? folder_of(path) : NULL;
     int fd = folder ? open(folder, O_TMPFILE | O_RDWR | O_CLOEXEC, 0666) : -1;
     free(folder);
+    if (fd >= 0)
+        flock(fd, LOCK_EX | LOCK_NB);
     return fd;
+}
+
+/* A name beside `path` that is noted, where killed processes have left no files; NULL: no memory.
+ */
+static char *note_name(const char *path)
+{
+    char *folder = folder_of(path);
+    if (folder)
+        temporary_sweep(folder);
+    free(folder);
+    char *name = temporary_name(path, TEMPORARY_SUFFIX);
+    if (name)
+        temporary_note(name);
+    return name;
+}
+
+/* A new file that this process locks; -1 with errno, EEXIST if another one sweeps it. */
+static int create_locked(const char *name)
+{
+    struct stat info;
+    int fd = open(name, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (fd < 0)
+        return -1;
+    bool is_locked = flock(fd, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
+    if (is_locked && fstat(fd, &info) == 0 && info.st_nlink > 0)
+        return fd;
+    close(fd);
+    errno = EEXIST;
+    return -1;
 }
 
 /* A new file beside `path`; -1 with errno. *out_name is its noted name. */
@@ -98,11 +130,10 @@ static int open_named(const char *path, char **out_name)
 {
     enum { MAX_TRIES = 100 };
     for (int i = 0; i < MAX_TRIES; ++i) {
-        char *name = temporary_name(path, ".tmp");
+        char *name = note_name(path);
         if (!name)
             return -1;
-        temporary_note(name);
-        int fd = open(name, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        int fd = create_locked(name);
         *out_name = name;
         if (fd >= 0)
             return fd;
@@ -178,10 +209,9 @@ static int name_file(struct files_stream *stream)
     int reason = link_file(stream, stream->path);
     for (int i = 0; i < MAX_TRIES && reason == EEXIST; ++i) {
         free(stream->temporary);
-        stream->temporary = temporary_name(stream->path, ".tmp");
+        stream->temporary = note_name(stream->path);
         if (!stream->temporary)
             return ENOMEM;
-        temporary_note(stream->temporary);
         reason = link_file(stream, stream->temporary);
         if (reason)
             temporary_forget(stream->temporary);

@@ -3,6 +3,7 @@
 #include "program/scratch.h"
 
 #include "program/cli.h"
+#include "program/temporary.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -36,19 +37,9 @@ static void remove_tree(const char *path)
     nftw(path, remove_one, MAX_OPEN, FTW_DEPTH | FTW_PHYS);
 }
 
-/* Locks a folder of this user; -1: another process has it, or has removed it. */
 static int lock(const char *path, int mode)
 {
-    struct stat opened, named;
-    int fd = open(path, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-    if (fd < 0)
-        return -1;
-    if (fstat(fd, &opened) == 0 && opened.st_uid == geteuid() && flock(fd, LOCK_EX | mode) == 0
-        && lstat(path, &named) == 0 && named.st_ino == opened.st_ino
-        && named.st_dev == opened.st_dev)
-        return fd;
-    close(fd);
-    return -1;
+    return temporary_lock(path, O_RDONLY | O_DIRECTORY, mode);
 }
 
 /* Removes folders that nobody locks, once in a process. */

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#define _DEFAULT_SOURCE /* getentropy */
+#define _DEFAULT_SOURCE /* getentropy, flock */
 #include "program/temporary.h"
 
+#include "program/name_table.h"
+
+#include <dirent.h>
+#include <fcntl.h>
 #include <signal.h>
 #include <stdatomic.h>
 #include <stdbool.h>
@@ -10,6 +14,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -81,4 +87,54 @@ void temporary_forget(const char *path)
         if (atomic_compare_exchange_strong(&files[i], &expected, NULL))
             return;
     }
+}
+
+int temporary_lock(const char *path, int flags, int mode)
+{
+    struct stat opened, named;
+    int fd = open(path, flags | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (fd < 0)
+        return -1;
+    if (fstat(fd, &opened) == 0 && opened.st_uid == geteuid() && flock(fd, LOCK_EX | mode) == 0
+        && lstat(path, &named) == 0 && named.st_ino == opened.st_ino
+        && named.st_dev == opened.st_dev)
+        return fd;
+    close(fd);
+    return -1;
+}
+
+/* True for the first of a few folders in a row; a folder may come again after many others. */
+static bool is_new_folder(const char *folder)
+{
+    enum { NUM_KNOWN = 64 };
+    static _Atomic uint64_t known[NUM_KNOWN];
+    uint64_t hash = names_hash(NAMES_HASH_OF_NOTHING, folder);
+    return atomic_exchange(&known[hash % NUM_KNOWN], hash) != hash;
+}
+
+/* Removes a file that nobody locks. */
+static void remove_left(const char *folder, const char *name)
+{
+    size_t size = strlen(folder) + strlen(name) + 2;
+    char *path = malloc(size);
+    if (path)
+        snprintf(path, size, "%s/%s", folder, name);
+    int fd = path ? temporary_lock(path, O_RDWR, LOCK_NB) : -1;
+    if (fd >= 0) {
+        unlink(path);
+        close(fd);
+    }
+    free(path);
+}
+
+void temporary_sweep(const char *folder)
+{
+    DIR *entries = is_new_folder(folder) ? opendir(folder) : NULL;
+    for (const struct dirent *entry; entries && (entry = readdir(entries)) != NULL;) {
+        size_t len = strlen(entry->d_name), end = strlen(TEMPORARY_SUFFIX);
+        if (len > end && strcmp(entry->d_name + len - end, TEMPORARY_SUFFIX) == 0)
+            remove_left(folder, entry->d_name);
+    }
+    if (entries)
+        closedir(entries);
 }

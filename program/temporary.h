@@ -12,6 +12,20 @@
  */
 char *temporary_name(const char *before, const char *after);
 
+/* The end of the names of files that replace others: only mxgen makes files that end so. */
+#define TEMPORARY_SUFFIX ".mxgen.tmp"
+
+/*
+ * Opens a file or folder of this user and locks it: `flags` of open(2), `mode` of flock(2). Whoever
+ * ends the process ends the lock. -1: another process has it, or has removed it.
+ */
+int temporary_lock(const char *path, int flags, int mode);
+/*
+ * Removes files in a folder that end with TEMPORARY_SUFFIX and that nobody locks: their processes
+ * were killed. Looks at a folder about once in a process.
+ */
+void temporary_sweep(const char *folder);
+
 /* Notes a file before it exists; the caller keeps the name alive until temporary_forget. */
 void temporary_note(const char *path);
 /* After the file got its name, or was removed. */

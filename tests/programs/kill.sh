@@ -44,6 +44,19 @@ done
 check 'some runs were killed' test "$killed" -ge 5
 check 'a run after a killed one is not disturbed' exits 0 "$mxgen" many.mtlx --reflect -o made
 check 'a run after a killed one writes everything' eval 'for file in whole/*; do cmp "$file" "made/${file#whole/}" || exit 1; done'
+# What a killed process leaves where it replaces a file: the next run removes it, but nothing that a process locks, and nothing of others.
+touch made/M_1.frag.0123abcd.mxgen.tmp made/M_2.frag.0123abcd.mxgen.tmp made/M_3.frag.0123abcd.tmp
+mkdir made/folder.0123abcd.mxgen.tmp
+ln -s ../whole.d made/link.0123abcd.mxgen.tmp
+mkfifo made/pipe.0123abcd.mxgen.tmp
+exec 9<>made/M_2.frag.0123abcd.mxgen.tmp
+flock 9
+check 'a run beside files of a killed one writes everything' exits 0 timeout 60 "$mxgen" many.mtlx --reflect -o made
+check 'the file of the killed one is gone' test ! -e made/M_1.frag.0123abcd.mxgen.tmp
+check 'a file that a process locks stays' test -e made/M_2.frag.0123abcd.mxgen.tmp
+check 'files, folders and links of others stay' test -e made/M_3.frag.0123abcd.tmp -a -d made/folder.0123abcd.mxgen.tmp -a -L made/link.0123abcd.mxgen.tmp
+exec 9<&-
+rm -r made/*tmp
 check 'no other file stays in a folder that files were new in' eval '[ -z "$(find . -name "*tmp*")" ]'
 
 # ---- Files that libraries write, which have no names until they are complete ----
