@@ -280,10 +280,29 @@ char *record_to_text(const struct check_document *document, size_t *out_size)
 static void read_object(struct store *store, json_t *object, const struct record_type *type,
                         char *out);
 
+/*
+ * A copy with '?' for control characters but line ends and tabs: records come from other machines,
+ * and texts of them go to terminals. C1 in UTF-8 is 0xc2 and the byte itself.
+ */
+static const char *keep_text(struct store *store, const char *from)
+{
+    char *text = store_text(store, from, strlen(from));
+    for (char *at = text; *at; ++at) {
+        unsigned char byte = (unsigned char)*at, next = (unsigned char)at[1];
+        bool is_c0 = (byte < 0x20 && byte != '\n' && byte != '\t') || byte == 0x7f,
+             is_c1 = byte == 0xc2 && next >= 0x80 && next < 0xa0;
+        if (is_c0 || is_c1)
+            *at = '?';
+        if (is_c1)
+            *++at = '?';
+    }
+    return text;
+}
+
 static const char *read_text(struct store *store, const json_t *value)
 {
     const char *text = json_string_value(value);
-    return text ? store_text(store, text, strlen(text)) : "";
+    return text ? keep_text(store, text) : "";
 }
 
 /* `otherwise`: for what is no count. */
@@ -347,7 +366,7 @@ static void read_parts(struct store *store, json_t *parts, struct check_shader *
             shader->parts =
                 store_grow(store, shader->parts, shader->num_parts, sizeof *shader->parts);
             shader->parts[shader->num_parts++] = (struct check_part){
-                (enum measure)measure, store_text(store, name, strlen(name)), read_count(value, 0)};
+                (enum measure)measure, keep_text(store, name), read_count(value, 0)};
         }
     }
 }
@@ -361,8 +380,8 @@ static void read_settings(struct store *store, json_t *object, const struct fiel
     json_object_foreach(object, path, value)
     {
         if (json_is_string(value))
-            settings[num++] = (struct check_setting){store_text(store, path, strlen(path)),
-                                                     read_text(store, value)};
+            settings[num++] =
+                (struct check_setting){keep_text(store, path), read_text(store, value)};
     }
     *(struct check_setting **)(void *)(out + field->at) = settings;
     *(size_t *)(void *)(out + field->num_at) = num;

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""A report from elsewhere puts no markup into the reports that are made of it: each text of a report becomes markup in turn, also those
-that a report may have and this one lacks. Argument: mxgen."""
+"""A report from elsewhere puts no markup into the reports that are made of it, and no control character on the terminal: each text of a
+report becomes hostile in turn, also those that a report may have and this one lacks. Argument: mxgen."""
 import copy
 import json
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -14,7 +15,7 @@ sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent))
 from checks import check, finish
 
 MXGEN = pathlib.Path(sys.argv[1]).resolve()
-HOSTILE = "\"'/><script>alert(1)</script><!-- ]]>%s%n&amp;\x07"
+HOSTILE = "\"'/><script>alert(1)</script><!-- ]]>%s%n&amp;\x07\x1b[31m\x9b31m"
 DOCUMENT = """<materialx version="1.39"><standard_surface name="S" type="surfaceshader"></standard_surface>
 <surfacematerial name="M" type="material"><input name="surfaceshader" type="surfaceshader" nodename="S"/></surfacematerial></materialx>
 """
@@ -61,6 +62,8 @@ def try_report(folder, report, what):
     command = [MXGEN, "check", "merge", "part.json", "--html", "page.html", "--junit", "cases.xml", "--json", "merged.json"]
     result = subprocess.run(command, cwd=folder, capture_output=True, check=False)
     check(result.returncode in (0, 1), f"{what}: exit code {result.returncode}: {result.stderr[-200:]}")
+    said = (result.stdout + result.stderr).decode(errors="replace")
+    check(not re.search(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]", said), f"{what}: a control character goes to the terminal: {said!r}")
     for name, scripts in ("page.html", 1), ("cases.xml", 0):
         path = folder / name
         if not path.exists():
