@@ -288,7 +288,10 @@ static bool find_bound(struct bind_look *look, struct look_assign *assign,
         look_guess(look, &guess, KIND_NODE);
         near = diag_guess_text(&guess);
     }
-    diag_add(look->diags, DIAG_ID_unknown_assigned, binding->place, "material", material, near);
+    if (binding->place.file) /* of a stage, whose other parts count, as in USD */
+        diag_add(look->diags, DIAG_ID_usda_binding, binding->place, material, near);
+    else
+        diag_add(look->diags, DIAG_ID_unknown_assigned, binding->place, "material", material, near);
     return false;
 }
 

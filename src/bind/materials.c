@@ -255,7 +255,8 @@ void maker_read_input(struct maker *m, const struct made_node *node,
         is_connection ? maker_follow(m, property) : (struct source){.value = property};
     if (!type)
         return;
-    maker_check_type(m, property, str_text(m->doc->strings, type));
+    if (!from.node) /* of a connection to a node, the types of its ends count */
+        maker_check_type(m, property, str_text(m->doc->strings, type));
     if (from.value && from.value != property)
         maker_check_type(m, from.value, str_text(m->doc->strings, type));
     if (from.node || from.value)

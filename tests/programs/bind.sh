@@ -222,7 +222,9 @@ check 'a reference to a file is an error' broken 's|references = </Flattened_Pro
 check 'a reference to nothing is an error' broken 's|references = </Flattened_Prototype_1>|references = </Prototype>|' usda-reference 17
 check 'a cycle of references is an error' broken 's|def Mesh "leg"|def Mesh "leg" ( references = </Flattened_Prototype_1> )|' usda-cycle 7
 check 'a property that names no slot is an error' broken 's/slotBinding:_dust = None/slotBinding:dust = None/' bad-binding 31
-check 'a binding to no material is an error' broken 's|</Looks/Dust>|</Looks/Duts>|' unknown-assigned 15:
+sed 's|</Looks/Dust>|</Looks/Duts>|' stage.usda >broken.usda
+check 'a binding to no material is told' eval 'exits 0 "$mxgen" bind materials.mtlx --stage broken.usda && grep -q "^broken.usda:15:.*did you mean.*\[usda-binding\]" err'
+check 'the rest of the stage counts' grep -qF '[000 Clay]' out
 # Collections of USD: /s holds three bindings, of which the first wins, and one in a slot.
 cat >collections.usda <<'USD'
 #usda 1.0
