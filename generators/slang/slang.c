@@ -9,6 +9,9 @@ static const char *const reserved[] = {
 };
 
 static const struct lang_form forms[IR_NUM_OPS] = {
+    /* The compiler takes one of two "?:" among the arguments of min or max for both:
+       github.com/shader-slang/slang/issues/10278. */
+    CALL(SELECT, "select($0, $1, $2)"),
     CALL(TEX, "$0.tex.Sample($0.sampler, $1)"),
     CALL(TEX_LOD, "$0.tex.SampleLevel($0.sampler, $1, $2)"),
     CALL(TEX_GRAD, "$0.tex.SampleGrad($0.sampler, $1, $2, $3)"),
