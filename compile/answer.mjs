@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
  * Answers requests of compile/worker.c, one program after the other. A request is the line "LENGTH LENGTH", then the sources of the vertex
- * and the pixel stage; length 0: there is no such stage. The answer is the line "LENGTH LENGTH LENGTH", then a log and the words of both
- * stages. The log has lines "STAGE ERROR LINE TEXT": ERROR is 1 for an error and 0 for a warning, LINE is 0 without a line of the source.
+ * and the pixel stage; length 0: there is no such stage. The answer is the line "LENGTH LENGTH LENGTH LENGTH", then a log, the words of both
+ * stages, and the places of variables (compile/compile.h) that the compiler chose.
  *
- * The script before this one has the function compile(sources, words), which returns the log and may put SPIR-V into words.
+ * The log has lines "STAGE ERROR LINE TEXT": ERROR is 1 for an error and 0 for a warning, LINE is 0 without a line of the source. Places
+ * have lines "SET INDEX OFFSET SIZE STRIDE NAME".
+ *
+ * The script before this one has the function compile(sources, out), which returns the log and may set out.words, SPIR-V of both stages,
+ * and out.places.
  */
 import fs from 'node:fs';
 
@@ -35,9 +39,9 @@ function write(bytes) {
 
 for (;;) {
     const sources = readNumbers().map((size) => read(size).toString());
-    const words = [Buffer.alloc(0), Buffer.alloc(0)];
-    const log = Buffer.from(await compile(sources, words));
-    write(Buffer.from(`${log.length} ${words[0].length} ${words[1].length}\n`));
-    for (const bytes of [log, ...words])
-        write(bytes);
+    const out = { words: [Buffer.alloc(0), Buffer.alloc(0)], places: '' };
+    const log = await compile(sources, out);
+    const parts = [Buffer.from(log), ...out.words, Buffer.from(out.places)];
+    write(Buffer.from(`${parts.map(({ length }) => length).join(' ')}\n`));
+    parts.forEach(write);
 }

@@ -27,10 +27,23 @@ struct compiled_stage {
     uint32_t body_instructions;
 };
 
+/*
+ * Where a compiler that chooses places put a variable. A variable of both stages has several, and a
+ * texture has one for itself and one for its sampler.
+ */
+struct compiled_place {
+    char *name; /* "u_lightData.color": a member of each element of an array */
+    uint32_t set;
+    uint32_t index; /* the binding, or the location of a vertex attribute */
+    uint32_t offset, byte_size, array_stride; /* in the buffer; 0 for textures and attributes */
+};
+
 struct compiled {
     struct compiled_stage stages[MXG_NUM_STAGES];
     struct compile_message *messages;
     size_t num_messages;
+    struct compiled_place *places; /* none: they stand in the source, as the reflection has them */
+    size_t num_places;
     uint32_t errors;
 };
 

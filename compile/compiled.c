@@ -28,6 +28,9 @@ void compiled_finish(struct compiled *compiled)
     for (size_t i = 0; i < compiled->num_messages; ++i)
         free(compiled->messages[i].text);
     free(compiled->messages);
+    for (size_t i = 0; i < compiled->num_places; ++i)
+        free(compiled->places[i].name);
+    free(compiled->places);
     for (int stage = 0; stage < MXG_NUM_STAGES; ++stage)
         free(compiled->stages[stage].words);
     *compiled = (struct compiled){0};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Compiles Slang to SPIR-V with slang-wasm, whose module MXGEN_SLANG names, for compile/worker.c.
+ * Compiles Slang to SPIR-V with slang-wasm, whose module MXGEN_SLANG names, for compile/worker.c. Places of variables are those of Slang's
+ * reflection.
  */
 import { pathToFileURL } from 'node:url';
 
@@ -23,7 +24,40 @@ function required(object) {
     return object;
 }
 
-function compileProgram(sources, words) {
+/* ---- Places ---- */
+
+/* Where a parameter or member is, of its place in buffers ("uniform"), among descriptors or among the inputs of a stage. */
+const placeOf = (layout, kind) => (layout.bindings ?? [layout.binding ?? {}]).find((place) => place.kind === kind) ?? {};
+const slotOf = (layout) => placeOf(layout, 'descriptorTableSlot').index ?? 0;
+const line = (name, { set = 0, index = 0, offset = 0, size = 0, stride = 0 }) => `${set} ${index} ${offset} ${size} ${stride} ${name}\n`;
+
+/* A texture and its sampler have the name of their struct; "lights.color" is a member of each element of an array. */
+function placesOfMember(member, set, buffer, firstSlot) {
+    const { type, name } = member, { offset, size } = placeOf(member, 'uniform');
+    if (type.kind === 'struct')
+        return type.fields.map((part) => line(name, { set, index: firstSlot + slotOf(member) + slotOf(part) }));
+    if (type.kind !== 'array')
+        return [line(name, { set, index: buffer, offset, size })];
+    return type.elementType.fields.map((part) => {
+        const inside = placeOf(part, 'uniform');
+        return line(`${name}.${part.name}`, { set, index: buffer, offset: offset + inside.offset, size: inside.size, stride: type.uniformStride });
+    });
+}
+
+function placesOf({ parameters, entryPoints }) {
+    const inBuffers = parameters.filter(({ type }) => type.kind === 'constantBuffer').flatMap((parameter) => {
+        const { containerVarLayout: container, elementVarLayout: element } = parameter.type;
+        const set = placeOf(parameter, 'descriptorTableSlot').space, slot = slotOf(parameter);
+        return element.type.fields.flatMap((member) => placesOfMember(member, set, slot + slotOf(container), slot + slotOf(element)));
+    });
+    const attributes = entryPoints.filter(({ stage }) => stage === 'vertex').flatMap((entry) => entry.parameters)
+        .filter((parameter) => parameter.binding?.kind === 'varyingInput');
+    return [...inBuffers, ...attributes.map(({ name, binding }) => line(name, { index: binding.index }))].join('');
+}
+
+/* ---- Programs ---- */
+
+function compileProgram(sources, out) {
     const session = required(compiler.createSession(spirv));
     try {
         const parts = [], entries = [];
@@ -39,16 +73,17 @@ function compileProgram(sources, words) {
         });
         const program = required(required(session.createCompositeComponentType(parts)).link());
         entries.forEach((stage, i) => {
-            words[stage] = Buffer.from(required(program.getEntryPointCodeBlob(i, 0)));
+            out.words[stage] = Buffer.from(required(program.getEntryPointCodeBlob(i, 0)));
         });
+        out.places = placesOf(required(program.getLayout(0)).toJsonObject());
     } finally {
         session.delete();
     }
 }
 
-function compile(sources, words) {
+function compile(sources, out) {
     try {
-        compileProgram(sources, words);
+        compileProgram(sources, out);
         return '';
     } catch (error) {
         return logOf(String(error.message ?? error)) || '1 1 0 slang failed without a message\n';

@@ -5,6 +5,7 @@
 #include "compile/spirv.h"
 
 #include <fcntl.h>
+#include <inttypes.h>
 #include <spawn.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -135,8 +136,12 @@ static bool send_request(const struct worker *worker, const char *const sources[
     return good;
 }
 
-/* The sizes of a log and of the words of both stages. */
-static bool receive_sizes(const struct worker *worker, size_t out_sizes[1 + MXG_NUM_STAGES])
+/* Of an answer. */
+struct sizes {
+    size_t log, words[MXG_NUM_STAGES], places;
+};
+
+static bool receive_sizes(const struct worker *worker, struct sizes *out)
 {
     char line[96];
     size_t len = 0;
@@ -145,32 +150,54 @@ static bool receive_sizes(const struct worker *worker, size_t out_sizes[1 + MXG_
             return false;
     } while (line[len++] != '\n');
     line[len] = '\0';
-    return sscanf(line, "%zu %zu %zu", &out_sizes[0], &out_sizes[1], &out_sizes[2]) == 3;
+    return sscanf(line, "%zu %zu %zu %zu", &out->log, &out->words[0], &out->words[1], &out->places)
+           == 4;
 }
 
-static void add_log(struct compiled *out, char *log)
+static bool add_message(struct compiled *out, const char *line, size_t len)
 {
-    for (char *line = log; *line;) {
+    unsigned stage, is_error, number;
+    int text = 0;
+    if (sscanf(line, "%u %u %u %n", &stage, &is_error, &number, &text) == 3 && text)
+        compiled_add(out, stage == 0 ? MXG_STAGE_VERTEX : MXG_STAGE_PIXEL,
+                     is_error ? MXG_SEVERITY_ERROR : MXG_SEVERITY_WARNING, number, line + text,
+                     len - (size_t)text);
+    return true;
+}
+
+static bool add_place(struct compiled *out, const char *line, size_t len)
+{
+    struct compiled_place place = {0};
+    int name = 0;
+    if (sscanf(line, "%" SCNu32 "%" SCNu32 "%" SCNu32 "%" SCNu32 "%" SCNu32 " %n", &place.set,
+               &place.index, &place.offset, &place.byte_size, &place.array_stride, &name)
+            != 5
+        || !name)
+        return false;
+    struct compiled_place *more = realloc(out->places, (out->num_places + 1) * sizeof *more);
+    if (!more)
+        return false;
+    out->places = more;
+    place.name = strndup(line + name, len - (size_t)name);
+    out->places[out->num_places] = place;
+    out->num_places += place.name != NULL;
+    return place.name != NULL;
+}
+
+/* `add` is false for a line that cannot be kept. */
+static bool receive_lines(const struct worker *worker, struct compiled *out, size_t size,
+                          bool (*add)(struct compiled *out, const char *line, size_t len))
+{
+    char *text = malloc(size + 1);
+    bool good = text && receive_all(worker, text, size);
+    if (good)
+        text[size] = '\0';
+    for (char *line = text; good && *line;) {
         size_t len = strcspn(line, "\n");
-        unsigned stage, is_error, number;
-        int text = 0;
-        if (sscanf(line, "%u %u %u %n", &stage, &is_error, &number, &text) == 3 && text)
-            compiled_add(out, stage == 0 ? MXG_STAGE_VERTEX : MXG_STAGE_PIXEL,
-                         is_error ? MXG_SEVERITY_ERROR : MXG_SEVERITY_WARNING, number, line + text,
-                         len - (size_t)text);
+        good = add(out, line, len);
         line += len + (line[len] == '\n');
     }
-}
-
-static bool receive_log(const struct worker *worker, struct compiled *out, size_t size)
-{
-    char *log = malloc(size + 1);
-    bool good = log && receive_all(worker, log, size);
-    if (good) {
-        log[size] = '\0';
-        add_log(out, log);
-    }
-    free(log);
+    free(text);
     return good;
 }
 
@@ -192,11 +219,12 @@ bool worker_compile_program(const char *target, const char *const sources[MXG_NU
 {
     static const char fault[] = "the compiler cannot be started, or ended early";
     struct worker *worker = find_worker(target);
-    size_t sizes[1 + MXG_NUM_STAGES];
-    bool good = start(worker) && send_request(worker, sources) && receive_sizes(worker, sizes)
-                && receive_log(worker, out, sizes[0]);
+    struct sizes sizes;
+    bool good = start(worker) && send_request(worker, sources) && receive_sizes(worker, &sizes)
+                && receive_lines(worker, out, sizes.log, add_message);
     for (int i = 0; good && i < MXG_NUM_STAGES; i++)
-        good = receive_words(worker, &out->stages[i], sizes[1 + i]);
+        good = receive_words(worker, &out->stages[i], sizes.words[i]);
+    good = good && receive_lines(worker, out, sizes.places, add_place);
     if (!good) {
         compiled_add(out, MXG_STAGE_PIXEL, MXG_SEVERITY_ERROR, 0, fault, sizeof fault - 1);
         end(worker);

@@ -13,7 +13,8 @@
 bool worker_knows_target(const char *target);
 
 /*
- * compile_program for such a target; code is SPIR-V that is not validated, or none. The first call
+ * compile_program for such a target; code is SPIR-V that is not validated, with the places of its
+ * variables, or none. The first call
  * for a target starts a process, which takes about a second and waits for more programs until
  * workers_end.
  */

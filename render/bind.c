@@ -33,7 +33,9 @@ fail_as(struct bind *bind, const char *id, const char *format, ...)
 
 static uint32_t num_variables(const struct bind *bind)
 {
-    return bind->program ? bind->program->num_variables : mxg_result_num_variables(bind->result);
+    return bind->variables ? bind->num_variables
+           : bind->program ? bind->program->num_variables
+                           : mxg_result_num_variables(bind->result);
 }
 
 static mxg_variable read_variable(const struct bind *bind, uint32_t index)
@@ -118,12 +120,25 @@ static bool reserve(struct bind *bind, const mxg_variable *variable)
         block = &draw->blocks[draw->num_blocks++];
         *block = (struct draw_block){variable->set, variable->binding, 0};
     }
-    uint32_t end = round_up(variable->offset + variable->byte_size);
-    if (variable->block == MXG_BLOCK_LIGHT_DATA)
-        end *= bind->max_lights; /* an array of structures; the last member decides */
-    if (end > block->size)
-        block->size = end;
+    uint32_t end = variable->offset + variable->byte_size;
+    if (variable->block == MXG_BLOCK_LIGHT_DATA) /* an array of structures */
+        end += (bind->max_lights - 1) * bind->light_stride;
+    if (round_up(end) > block->size)
+        block->size = round_up(end);
     return true;
+}
+
+/* The array of lights is alone in a block: the last member decides. */
+static uint32_t stride_of_lights(const struct bind *bind)
+{
+    uint32_t stride = 0;
+    for (uint32_t i = 0; i < num_variables(bind); ++i) {
+        const mxg_variable variable = get_variable(bind, i);
+        uint32_t end = round_up(variable.offset + variable.byte_size);
+        if (variable.block == MXG_BLOCK_LIGHT_DATA && end > stride)
+            stride = end;
+    }
+    return stride;
 }
 
 /* Metal's booleans have one byte, the first of an integer in memory. */
@@ -263,8 +278,6 @@ static const struct bind_value *light_value(const struct bind *bind, uint32_t li
 
 static bool store_lights(struct bind *bind, uint32_t object, const mxg_variable *variable)
 {
-    size_t stride =
-        find_block(&bind->draw, variable->set, variable->binding)->size / bind->max_lights;
     const struct shape *shape = find_shape(variable->type);
     const char *member = *variable->semantic ? variable->semantic : variable->name;
     uint32_t num_lights = bind->scene->num_lights;
@@ -278,7 +291,7 @@ static bool store_lights(struct bind *bind, uint32_t object, const mxg_variable 
         if (said && (!shape || !parse_value(said->text, shape, values)))
             return fail_as(bind, "bad-value", "'%s' is not a value of '%s', which is a %s",
                            said->text, said->path, variable->type);
-        store(address(bind, object, variable) + i * stride, variable, values);
+        store(address(bind, object, variable) + (size_t)i * bind->light_stride, variable, values);
     }
     return true;
 }
@@ -297,6 +310,8 @@ static bool is_uniform(const mxg_variable *variable)
 
 static bool make_blocks(struct bind *bind)
 {
+    if (!bind->light_stride)
+        bind->light_stride = stride_of_lights(bind);
     for (uint32_t i = 0; i < num_variables(bind); ++i) {
         mxg_variable variable = get_variable(bind, i);
         if (is_uniform(&variable) && !reserve(bind, &variable))
@@ -425,7 +440,7 @@ static bool bind_texture(struct bind *bind, uint32_t index, const mxg_variable *
     texture.set = variable->set;
     texture.binding = variable->binding;
     bind->draw.textures[bind->draw.num_textures++] = texture;
-    return texture.image != NULL;
+    return texture.image && bind_place_texture(bind, variable);
 }
 
 static bool bind_textures(struct bind *bind)
@@ -578,10 +593,13 @@ static bool check_values(struct bind *bind)
 static bool keep_variables(struct bind *bind)
 {
     uint32_t num = num_variables(bind);
-    bind->variables = calloc(num + 1, sizeof *bind->variables);
-    for (uint32_t i = 0; bind->variables && i < num; ++i)
+    bind->variables = calloc(num + bind->num_places + 1, sizeof *bind->variables);
+    if (!bind->variables)
+        return fail(bind, "out of memory");
+    bind->num_variables = num;
+    for (uint32_t i = 0; i < num; ++i)
         bind->variables[i] = read_variable(bind, i);
-    return bind->variables || fail(bind, "out of memory");
+    return !bind->num_places || bind_place_variables(bind);
 }
 
 static bool make_objects(struct bind *bind)

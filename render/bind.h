@@ -13,6 +13,8 @@
 
 #include <mxgen/mxgen.h>
 
+struct compiled_place; /* compile/compile.h */
+
 /*
  * A value for an input of the document: "SR_gold/base_color" = "1, 0, 0", or a file for a texture.
  */
@@ -61,9 +63,15 @@ struct bind {
     struct bind_fault *faults; /* the files that cannot be read, also where that is an error */
     size_t num_faults;
 
+    /* where the compiler put variables (compile.h); none: where the reflection says */
+    const struct compiled_place *places;
+    size_t num_places;
+
     const struct tints *tints; /* tables of stored materials; NULL: there are none */
 
-    mxg_variable *variables;                /* of the shader, once they are read */
+    mxg_variable *variables; /* of the shader, once they are read */
+    uint32_t num_variables;
+    uint32_t light_stride;                  /* bytes from a light to the next one */
     struct draw draw;                       /* the result */
     struct image images[DRAW_MAX_TEXTURES]; /* images for the textures */
     uint32_t num_images;
@@ -99,6 +107,16 @@ bool bind_scene(struct bind *bind);
 bool bind_read_texture(struct bind *bind, uint32_t index, const mxg_variable *variable,
                        const char *file, struct image *out, bool *out_checker);
 void bind_finish(struct bind *bind);
+
+/* ---- bind_places.c ---- */
+
+/*
+ * Gives the variables the places that bind->places has; one that both stages read stands once more,
+ * behind the others. There is room for so many more as there are places. false: see bind->reason.
+ */
+bool bind_place_variables(struct bind *bind);
+/* Draws the texture that was bound last at its other places, too. false: see bind->reason. */
+bool bind_place_texture(struct bind *bind, const mxg_variable *variable);
 
 /* ---- bind_notes.c ---- */
 

@@ -57,7 +57,10 @@ bool render_open(struct render *render, struct draw_canvas *canvas, struct gpu *
     *render = (struct render){.gpu = gpu, .bind = bind};
     if (!canvas)
         return copy_reason(render);
-    if (!compile(bind, &render->compiled) || !bind_shader(bind))
+    bool good = compile(bind, &render->compiled);
+    bind->places = render->compiled.places;
+    bind->num_places = render->compiled.num_places;
+    if (!good || !bind_shader(bind))
         return false;
     for (int stage = 0; stage < MXG_NUM_STAGES; ++stage) {
         bind->draw.code[stage] = render->compiled.stages[stage].words;

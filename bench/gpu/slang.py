@@ -27,7 +27,7 @@ class Slang:
         texts = [pathlib.Path(source).read_bytes() for source in sources]
         self.process.stdin.write(b"%d %d\n" % tuple(map(len, texts)) + b"".join(texts))
         self.process.stdin.flush()
-        log, *words = (self.process.stdout.read(int(size)) for size in self.process.stdout.readline().split())
+        log, *words, _ = (self.process.stdout.read(int(size)) for size in self.process.stdout.readline().split())
         if not all(words):
             raise RuntimeError(log.decode())
         for target, module in zip(targets, words):

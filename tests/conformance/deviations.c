@@ -23,6 +23,7 @@ bool deviations_read(struct deviations *list, const char *path, size_t num_numbe
         d->part = strdup(lines_field(&rest, '\t'));
         for (size_t i = 0; i < num_numbers; ++i)
             d->numbers[i] = strtod(lines_field(&rest, '\t'), NULL);
+        d->is_open = strncmp(rest, "open: ", 6) == 0;
     }
     if (file)
         fclose(file);

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Materials drawn by a command that is not Vulkan (draws.h), and by Vulkan: the first one of each
- * document below a folder, opaque, on the sphere scene. Without the worst 1 % of the pixels, their
- * mean difference is within 1 % of their mean. Both draw with SwiftShader where it is installed,
- * because devices choose the levels of textures differently.
+ * Materials drawn by the shaders of a target and by those of "vulkan": the first one of each
+ * document of folders and files, opaque, on the sphere scene. Without the worst 1 % of the pixels,
+ * their mean difference is within 1 % of their mean. A command draws the target's (draws.h), with
+ * SwiftShader where it is installed, which then draws those of "vulkan", too, because devices
+ * choose the levels of textures differently. Without a command, the target compiles to SPIR-V, and
+ * the same device draws both.
  *
- *     test_pictures TARGET FOLDER COMMAND
+ *     test_pictures TARGET COMMAND PATH...      COMMAND "": none
  */
 #define _POSIX_C_SOURCE 200112L
 #include "draws.h"
@@ -33,65 +35,13 @@ struct run {
     mxg_library *library;
     struct gpu gpu;
     struct scene scene;
+    const char *command; /* NULL: Vulkan draws the target's shaders */
     struct draws draws;
     struct arg_list documents;
     struct material *materials; /* of the documents */
     double worst;
     unsigned passed, failed, skipped;
 };
-
-/* ---- Draws ---- */
-
-static bool generate(struct run *run, const mxg_document *document, const char *target,
-                     mxg_result **out)
-{
-    mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
-    desc.target = target;
-    return mxg_generate(run->context, document, &desc, out) == MXG_OK;
-}
-
-static struct bind bind_of(struct run *run, const struct material *material, mxg_result *result)
-{
-    return (struct bind){.result = result,
-                         .scene = &run->scene,
-                         .document = material->document,
-                         .is_opaque = true,
-                         .checker = true};
-}
-
-/* False if the material has no shader, which is a failure, or files are missing. */
-static bool add_material(struct run *run, const mxg_document *document, struct material *material)
-{
-    mxg_result *result = NULL, *other = NULL;
-    material->expected = malloc(sizeof *material->expected);
-    bool good = material->expected && generate(run, document, "vulkan", &result)
-                && generate(run, document, run->target, &other);
-    struct bind bind = bind_of(run, material, result), to_draw = bind_of(run, material, other);
-    good = good && render_result(&run->gpu, &bind, SIZE, SIZE, (*material->expected)[0])
-           && bind_shader(&to_draw)
-           && draws_add(&run->draws, &to_draw, material->document, SIZE, SIZE);
-    if (!good)
-        printf("%s: not drawn: %s%s\n", material->document, bind.reason, to_draw.reason);
-    bind_finish(&bind);
-    bind_finish(&to_draw);
-    mxg_result_destroy(result);
-    mxg_result_destroy(other);
-    return good;
-}
-
-static void add_document(struct run *run, struct material *material)
-{
-    mxg_document *document = NULL;
-    if (mxg_document_load(run->context, run->library, material->document, &document) != MXG_OK) {
-        printf("skip: %s includes a file that is not here\n", material->document);
-        ++run->skipped;
-    } else if (!add_material(run, document, material)) {
-        ++run->failed;
-        free(material->expected);
-        material->expected = NULL;
-    }
-    mxg_document_destroy(document);
-}
 
 /* ---- Judgement ---- */
 
@@ -125,33 +75,102 @@ static double difference(picture *expected, picture *got)
     return of_differences / sum;
 }
 
+static void judge(struct run *run, const struct material *material, picture *got,
+                  const char *reason)
+{
+    double d = got ? difference(material->expected, got) : INFINITY;
+    run->worst = fmax(run->worst, d);
+    bool good = d <= max_difference;
+    ++*(good ? &run->passed : &run->failed);
+    if (!good)
+        printf("%s: %.2f %%%s%s\n", material->document, 100.0 * d, got ? "" : ": ",
+               got ? "" : reason);
+}
+
+/* ---- Draws ---- */
+
+static bool generate(struct run *run, const mxg_document *document, const char *target,
+                     mxg_result **out)
+{
+    mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
+    desc.target = target;
+    return mxg_generate(run->context, document, &desc, out) == MXG_OK;
+}
+
+static struct bind bind_of(struct run *run, const struct material *material, mxg_result *result)
+{
+    return (struct bind){.result = result,
+                         .scene = &run->scene,
+                         .document = material->document,
+                         .is_opaque = true,
+                         .checker = true};
+}
+
+static bool draw_now(struct run *run, const struct material *material, struct bind *bind)
+{
+    static picture got;
+    bool good = render_result(&run->gpu, bind, SIZE, SIZE, got[0]);
+    if (good)
+        judge(run, material, &got, NULL);
+    return good;
+}
+
+/* False if the material has no shader, which is a failure, or files are missing. */
+static bool add_material(struct run *run, const mxg_document *document, struct material *material)
+{
+    mxg_result *result = NULL, *other = NULL;
+    material->expected = malloc(sizeof *material->expected);
+    bool good = material->expected && generate(run, document, "vulkan", &result)
+                && generate(run, document, run->target, &other);
+    struct bind bind = bind_of(run, material, result), to_draw = bind_of(run, material, other);
+    good =
+        good && render_result(&run->gpu, &bind, SIZE, SIZE, (*material->expected)[0])
+        && (run->command ? bind_shader(&to_draw)
+                               && draws_add(&run->draws, &to_draw, material->document, SIZE, SIZE)
+                         : draw_now(run, material, &to_draw));
+    if (!good)
+        printf("%s: not drawn: %s%s\n", material->document, bind.reason, to_draw.reason);
+    bind_finish(&bind);
+    bind_finish(&to_draw);
+    mxg_result_destroy(result);
+    mxg_result_destroy(other);
+    return good;
+}
+
+static void add_document(struct run *run, struct material *material)
+{
+    mxg_document *document = NULL;
+    if (mxg_document_load(run->context, run->library, material->document, &document) != MXG_OK) {
+        printf("skip: %s includes a file that is not here\n", material->document);
+        ++run->skipped;
+    } else if (!add_material(run, document, material)) {
+        ++run->failed;
+        free(material->expected);
+        material->expected = NULL;
+    }
+    mxg_document_destroy(document);
+}
+
+/* ---- Answers ---- */
+
 /* False if the command cannot draw. */
-static bool judge(struct run *run, const struct material *material)
+static bool judge_answer(struct run *run, const struct material *material)
 {
     static picture got;
     const char *reason;
     enum draws_answer answer = draws_next(&run->draws, got[0], sizeof got / sizeof *got, &reason);
-    if (answer == DRAWS_ABSENT) {
+    if (answer == DRAWS_ABSENT)
         printf("skip: %s\n", reason);
-        return false;
-    }
-    double d = answer == DRAWS_DRAWN ? difference(material->expected, &got) : INFINITY;
-    run->worst = fmax(run->worst, d);
-    if (d <= max_difference) {
-        ++run->passed;
-        return true;
-    }
-    ++run->failed;
-    printf("%s: %.2f %%%s%s\n", material->document, 100.0 * d, isfinite(d) ? "" : ": ",
-           isfinite(d) ? "" : reason);
-    return true;
+    else
+        judge(run, material, answer == DRAWS_DRAWN ? &got : NULL, reason);
+    return answer != DRAWS_ABSENT;
 }
 
 /* What main returns. */
 static int judge_all(struct run *run)
 {
     for (size_t i = 0; i < run->documents.len; ++i)
-        if (run->materials[i].expected && !judge(run, &run->materials[i]))
+        if (run->command && run->materials[i].expected && !judge_answer(run, &run->materials[i]))
             return EXIT_SKIPPED;
     printf("the pixels differ by %.2f %% at most\n", 100.0 * run->worst);
     printf("pictures-%s: %u passed, %u failed, %u skipped\n", run->target, run->passed, run->failed,
@@ -161,15 +180,15 @@ static int judge_all(struct run *run)
 
 /* ---- The program ---- */
 
-static bool start(struct run *run, const char *folder)
+static bool start(struct run *run, const struct arg_list *paths)
 {
     compile_begin();
-    const char *problem = folder_find(folder, ".mtlx", &run->documents);
+    const char *reason = NULL, *problem = folder_documents(paths, &run->documents, &reason);
     run->materials = calloc(run->documents.len + 1, sizeof *run->materials);
     for (size_t i = 0; run->materials && i < run->documents.len; ++i)
         run->materials[i].document = run->documents.items[i];
-    if (problem || !run->documents.len)
-        printf("skip: there are no documents in %s\n", folder);
+    if (problem)
+        printf("skip: %s: %s\n", problem, reason);
     bool good = !problem && run->materials && mxg_context_create(NULL, &run->context) == MXG_OK
                 && (run->library = mxg_library_builtin(run->context)) != NULL
                 && scene_init_sphere(&run->scene, 1.0) && draws_open(&run->draws);
@@ -203,19 +222,23 @@ static void choose_device(void)
 
 int main(int argc, char **argv)
 {
-    if (argc != 4) {
-        fprintf(stderr, "usage: %s TARGET FOLDER COMMAND\n", argv[0]);
+    if (argc < 4) {
+        fprintf(stderr, "usage: %s TARGET COMMAND PATH...\n", argv[0]);
         return 2;
     }
-    struct run run = {.target = argv[1]};
-    choose_device();
+    struct arg_list paths = {(const char **)(uintptr_t)(argv + 3), (size_t)(argc - 3)};
+    struct run run = {.target = argv[1], .command = *argv[2] ? argv[2] : NULL};
+    if (run.command)
+        choose_device();
     int code = EXIT_SKIPPED;
-    if (!gpu_open(&run.gpu)) {
+    if (!run.command && !compile_knows_target(run.target)) {
+        printf("skip: there is no compiler of %s\n", run.target);
+    } else if (!gpu_open(&run.gpu)) {
         printf("skip: there is no Vulkan device: %s\n", run.gpu.reason);
-    } else if (start(&run, argv[2])) {
+    } else if (start(&run, &paths)) {
         for (size_t i = 0; i < run.documents.len; ++i)
             add_document(&run, &run.materials[i]);
-        code = draws_run(&run.draws, argv[3]) ? judge_all(&run) : 1;
+        code = !run.command || draws_run(&run.draws, run.command) ? judge_all(&run) : 1;
     }
     stop(&run);
     return code;

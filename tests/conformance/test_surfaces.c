@@ -309,7 +309,10 @@ int main(int argc, char **argv)
         run.names = argv + 4;
         run.num_names = (size_t)argc - 4;
     }
-    if (!gpu_open(&run.gpu)) {
+    if (!compile_knows_target(run.target)) {
+        printf("skip: there is no compiler of %s\n", run.target);
+        code = EXIT_SKIPPED;
+    } else if (!gpu_open(&run.gpu)) {
         printf("skip: there is no Vulkan device: %s\n", run.gpu.reason);
         code = EXIT_SKIPPED;
     } else if (start(&run, argv[1], settings, (size_t)(argv + 1 - settings))) {

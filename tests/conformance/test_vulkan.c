@@ -136,7 +136,10 @@ int main(int argc, char **argv)
     const char *library = argc == 8 ? argv[6] : NULL;
     struct run run = {.suite = {.folder = argv[2]}, .target = argv[1]};
     int code = 1;
-    if (!gpu_open(&run.gpu)) {
+    if (!compile_knows_target(run.target)) {
+        printf("skip: there is no compiler of %s\n", run.target);
+        code = EXIT_SKIPPED;
+    } else if (!gpu_open(&run.gpu)) {
         printf("skip: there is no Vulkan device: %s\n", run.gpu.reason);
         code = EXIT_SKIPPED;
     } else if (start(&run, argv + 2, library, argc == 8 ? argv[7] : NULL)) {

@@ -166,7 +166,7 @@ def serve(path):
     for line in iter(requests.readline, b''):
         sources = [requests.read(int(size)).decode() for size in line.split()]
         log = ''.join('%d 1 %d %s\n' % (stage, at, msg.replace('\n', ' ')) for stage, src in enumerate(sources) if src for at, msg in check(src, path)).encode()
-        answers.write(b'%d 0 0\n' % len(log) + log); answers.flush()
+        answers.write(b'%d 0 0 0\n' % len(log) + log); answers.flush()
 
 def main():
     keep = tempfile.TemporaryDirectory(prefix='mslcheck'); path = keep.name + '/shader.metal'
