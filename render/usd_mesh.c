@@ -59,6 +59,29 @@ static bool fail_indices(struct usd_mesh *mesh)
     return false;
 }
 
+/* Normals with indices become one for each index. False: an index has no normal. */
+static bool expand_normals(struct usd_mesh *mesh, const char *name)
+{
+    size_t num_indices;
+    char *indices_name = cli_format("%s:indices", name);
+    double *indices = usd_numbers(mesh->site, mesh->primitive, indices_name, &num_indices);
+    free(indices_name);
+    if (!indices)
+        return true;
+    double *expanded = memory_alloc(num_indices * 3 * sizeof *expanded + 1);
+    bool good = true;
+    for (size_t i = 0; good && i < num_indices; ++i) {
+        good = indices[i] >= 0 && indices[i] < (double)mesh->num_normals;
+        if (good)
+            memcpy(&expanded[3 * i], &mesh->normals[3 * (size_t)indices[i]], 3 * sizeof *expanded);
+    }
+    free(indices);
+    free(mesh->normals);
+    mesh->normals = expanded;
+    mesh->num_normals = num_indices;
+    return good;
+}
+
 static void read_normals(struct usd_mesh *mesh)
 {
     struct site *site = mesh->site;
@@ -73,6 +96,10 @@ static void read_normals(struct usd_mesh *mesh)
         return;
     mesh->normals = usd_numbers(site, mesh->primitive, name, &mesh->num_normals);
     mesh->num_normals /= 3;
+    if (!expand_normals(mesh, name)) {
+        site_fail(site, mesh->primitive, name, "has an index without a value");
+        return;
+    }
     size_t len = property.interpolation_len;
     mesh->normals_of = len && strncmp(property.interpolation, "faceVarying", len) == 0 ? 'c'
                        : len && strncmp(property.interpolation, "uniform", len) == 0   ? 'f'

@@ -306,6 +306,14 @@ check 'a mesh with texture coordinates is drawn' env document=tangents.mtlx bash
 sees 'the tangent of the left face' tangents -2.8 0 r
 sees 'of the right face' tangents 2.8 0 rg
 sees 'smooth in between' tangents -0.2 0 rg
+# indexed SED: the normals of the mesh as one value with indices; the script changes them
+indexed() {
+    sed "s|normal3f\[\] normals = .*|normal3f[] primvars:normals = [(0, 0, 1)] ( interpolation = \"vertex\" )\n    int[] primvars:normals:indices = [0, 0, 0, 0, 0, 0]|; $1" tangents.usda >indexed.usda
+    "$render" tangents.mtlx --stage indexed.usda --look l --camera 0,0 -s 64 -o indexed.ppm 2>err
+}
+"$render" tangents.mtlx --stage tangents.usda --look l --camera 0,0 -s 64 -o plain.ppm
+check 'normals may have indices' eval "indexed '' && cmp indexed.ppm plain.ppm"
+check 'an index without a normal is an error' eval "! indexed 's/0, 0, 0\]/0, 0, 1]/' && grep -q 'indexed.usda:.*has an index without a value' err"
 
 # Groups of a file of Assimp, assigned by a look.
 cat >two.obj <<'OBJ'
