@@ -2,6 +2,8 @@
 """Nodes of Blender that read the geometry: coordinates, attributes, normals, and what turns and bends them."""
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import bpy
 import mathutils
 
@@ -11,33 +13,40 @@ from .values import Value
 # ---- Coordinates ----
 
 
+def _objects(g: Patterns) -> Iterator[bpy.types.Object]:
+    """The objects with the material."""
+    return (one for one in bpy.data.objects if g.material.name in getattr(one.data, "materials", ()))
+
+
+def texture_set(g: Patterns, name: str = "") -> int:
+    """The number of a set of texture coordinates of the first mesh that has it; "": the one that is active for drawing."""
+    for one in _objects(g):
+        sets = getattr(one.data, "uv_layers", ())
+        found = next((i for i, layer in enumerate(sets) if (layer.name == name if name else layer.active_render)), None)
+        if found is not None:
+            return found
+    return 0
+
+
 def texture_coordinates(g: Patterns, name: str = "") -> Value:
-    """The coordinates of a set of a mesh with this material; "": the one that is active for drawing."""
-    index = 0
-    for one in bpy.data.objects:
-        layers = getattr(one.data, "uv_layers", None)
-        if layers and g.material.name in one.data.materials and (name in layers if name else True):
-            index = list(layers.keys()).index(name) if name else next((i for i, layer in enumerate(layers) if layer.active_render), 0)
-            break
-    g_base, g.base = g.base, "UV"
-    made = g.node("texcoord", "vector2", index=index).to("vector3")
-    g.base = g_base
+    """The coordinates of a set."""
+    before, g.base = g.base, "UV"
+    made = g.node("texcoord", "vector2", index=texture_set(g, name)).to("vector3")
+    g.base = before
     return made
 
 
 def generated(g: Patterns) -> Value:
     """The place in the box of the object, from 0 to 1: that of the first object with this material."""
-    for one in bpy.data.objects:
-        if g.material.name in getattr(one.data, "materials", ()):
-            corners = [tuple(corner) for corner in one.bound_box]
-            low, high = (tuple(map(pick, zip(*corners))) for pick in (min, max))
-            # an edge without length counts as 2 units
-            middles = [(a + b) / 2 for a, b in zip(low, high)]
-            halves = [(b - a) / 2 if b - a > 1e-5 else 1 for a, b in zip(low, high)]
-            place = (g.node("position", "vector3", space="object") - [m - h for m, h in zip(middles, halves)]) / [2 * h for h in halves]
-            g.lose("Generated", f"the coordinates are those of the object '{one.name}'")
-            return place
-    raise Lost("generated coordinates need an object with the material")
+    one = next(_objects(g), None)
+    if one is None:
+        raise Lost("generated coordinates need an object with the material")
+    low, high = (tuple(map(pick, zip(*(tuple(corner) for corner in one.bound_box)))) for pick in (min, max))
+    # an edge without length counts as 2 units
+    middles = [(a + b) / 2 for a, b in zip(low, high)]
+    halves = [(b - a) / 2 if b - a > 1e-5 else 1 for a, b in zip(low, high)]
+    g.lose("Generated", f"the coordinates are those of the object '{one.name}'")
+    return (g.node("position", "vector3", space="object") - [m - h for m, h in zip(middles, halves)]) / [2 * h for h in halves]
 
 
 @converts("ShaderNodeTexCoord")

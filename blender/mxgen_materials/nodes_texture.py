@@ -9,7 +9,7 @@ import struct
 
 import bpy
 
-from .nodes_geometry import generated, texture_coordinates
+from .nodes_geometry import generated, texture_coordinates, texture_set
 from .patterns import Lost, Patterns, Reading, converts
 from .values import Value
 
@@ -45,7 +45,7 @@ def convert_image(node: Reading, output: str) -> Value:
     if node.is_linked("Vector"):
         place = node["Vector"].to("vector2")
         made.connect("texcoord", place.node, place.output) if place.node is not None else made.value("texcoord", place.numbers, "vector2")
-    elif texture_coordinates_differ(g):
+    elif texture_set(g) != 0: # images read the first one by themselves
         place = texture_coordinates(g).to("vector2")
         made.connect("texcoord", place.node, place.output)
     if settings.extension != "REPEAT":
@@ -55,15 +55,6 @@ def convert_image(node: Reading, output: str) -> Value:
         made.value("filtertype", "closest", "string")
     value = Value(g, "color4" if is_alpha else "color3", node=made)
     return value.part(3) if is_alpha else value
-
-
-def texture_coordinates_differ(g: Patterns) -> bool:
-    """True where the active set of coordinates is not the first one, which images read by themselves."""
-    for one in bpy.data.objects:
-        layers = getattr(one.data, "uv_layers", None)
-        if layers and g.material.name in one.data.materials:
-            return next((i for i, layer in enumerate(layers) if layer.active_render), 0) != 0
-    return False
 
 
 # ---- Noise ----
