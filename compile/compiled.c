@@ -74,27 +74,28 @@ enum { MAX_ARGUMENTS = 8192 }; /* bytes of the arguments of a call */
 /*
  * The file of a host around a function, per target: what stands above it, and what calls it; `main`
  * NULL: functions that nothing calls are compiled, too. `scatter_main` calls scatter().
+ * `feature_head` stands above, too, where the shader asks for a feature of the device.
  */
 static const struct host {
-    const char *target, *head, *vec3, *output, *main, *scatter_main;
+    const char *target, *head, *vec3, *output, *main, *scatter_main, *feature_head;
 } hosts[] = {
-    {"glsl", "#version 450\n", "vec3", "out vec4 host_color;\n", "void main()", "void main()"},
+    {"glsl", "#version 450\n", "vec3", "out vec4 host_color;\n", "void main()", "void main()", ""},
     {"vulkan", "#version 450\n", "vec3", "layout(location = 0) out vec4 host_color;\n",
-     "void main()", "void main()"},
+     "void main()", "void main()", ""},
     {"essl", "#version 300 es\n" ESSL_PRECISIONS, "vec3", "out vec4 host_color;\n", "void main()",
-     "void main()"},
+     "void main()", ""},
     {"essl310", "#version 310 es\n" ESSL_PRECISIONS, "vec3",
-     "layout(location = 0) out vec4 host_color;\n", "void main()", "void main()"},
-    {"hlsl", "", "float3", "", "void main(out float4 host_color : SV_Target0)", "void main()"},
+     "layout(location = 0) out vec4 host_color;\n", "void main()", "void main()", ""},
+    {"hlsl", "", "float3", "", "void main(out float4 host_color : SV_Target0)", "void main()", ""},
     {"slang", "", "float3", "", SLANG_STAGE "void fragmentMain(out float4 host_color : SV_Target0)",
-     SLANG_STAGE "void main()"},
+     SLANG_STAGE "void main()", ""},
     {"msl",
      "#include <metal_stdlib>\nusing namespace metal;\nstruct MxgLights {\n    int count() { "
      "return 2; "
      "}\n    void light(int i, float3 P, thread float3& L, thread float3& radiance) { L = "
      "normalize(P); radiance = P; }\n};\n",
-     "float3", "", NULL, NULL},
-    {"wgsl", "", "vec3f", "", NULL, NULL},
+     "float3", "", NULL, NULL, ""},
+    {"wgsl", "", "vec3f", "", NULL, NULL, "enable f16;\n"},
 };
 
 /* Functions that a shader may ask its host for; $ is the type of three floats. */
@@ -205,15 +206,14 @@ static bool compile_function(const char *target, const mxg_result *result,
     *out = (struct compiled){0};
     if (!text)
         return false;
-    bool has_halves = strcmp(info->device_feature, "shader-f16") == 0;
-    const char *head = has_halves ? "enable f16;\n" : host->head;
-    size_t len = (size_t)snprintf(text, capacity, "%s%s", head, source);
-    if (!strstr(head, "MxgLights"))
+    const char *feature_head = *info->device_feature ? host->feature_head : "";
+    size_t len = (size_t)snprintf(text, capacity, "%s%s%s", feature_head, host->head, source);
+    if (!strstr(host->head, "MxgLights"))
         len += write_host_functions(host, source, text + len);
     if (host->main)
         write_caller(host, result, info, text + len, capacity - len);
     bool good = compile_program(target, (const char *const[MXG_NUM_STAGES]){NULL, text}, out);
-    unsigned above = count_lines(head);
+    unsigned above = count_lines(feature_head) + count_lines(host->head);
     for (size_t i = 0; i < out->num_messages; ++i)
         if (out->messages[i].line > above)
             out->messages[i].line -= above;

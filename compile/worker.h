@@ -14,9 +14,8 @@ bool worker_knows_target(const char *target);
 
 /*
  * compile_program for such a target; code is SPIR-V that is not validated, with the places of its
- * variables, or none. The first call
- * for a target starts a process, which takes about a second and waits for more programs until
- * workers_end.
+ * variables, or none. The first call for a target starts a process, which takes about a second and
+ * waits for more programs until workers_end.
  */
 bool worker_compile_program(const char *target, const char *const sources[MXG_NUM_STAGES],
                             struct compiled *out);

@@ -96,8 +96,7 @@ static int open_nameless(const char *path)
     return fd;
 }
 
-/* A name beside `path` that is noted, where killed processes have left no files; NULL: no memory.
- */
+/* A noted name beside `path`, after files of killed processes are gone; NULL: no memory. */
 static char *note_name(const char *path)
 {
     char *folder = folder_of(path);
