@@ -136,7 +136,7 @@ static bool send_request(const struct worker *worker, const char *const sources[
     return good;
 }
 
-/* Of an answer. */
+/* How long the parts of an answer are. */
 struct sizes {
     size_t log, words[MXG_NUM_STAGES], places;
 };

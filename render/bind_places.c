@@ -45,7 +45,7 @@ static void put(struct bind *bind, const struct compiled_place *place, mxg_varia
         bind->light_stride = place->array_stride;
 }
 
-/* What hosts do not bind has no place. */
+/* Variables that hosts do not bind have no place. */
 static bool is_bound(const mxg_variable *variable)
 {
     return variable->block != MXG_BLOCK_VERTEX_DATA && variable->block != MXG_BLOCK_OUTPUTS;

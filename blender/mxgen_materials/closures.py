@@ -14,7 +14,7 @@ from .values import Value
 
 
 class Surface(NamedTuple):
-    """What a shader socket gives: closures, or a whole shader, which has an opacity of its own."""
+    """The surface of a shader socket: closures, or a whole shader, which has an opacity of its own."""
 
     bsdf: mxgen.Draft | None = None
     edf: mxgen.Draft | None = None

@@ -27,7 +27,7 @@ def _toward_zero(g: Graph, x: Value) -> Value:
 
 
 def _remainder(g: Graph, a: Value, b: Value) -> Value:
-    """Of a division whose quotient is cut off: it has the sign of a."""
+    """The rest of a division whose quotient is cut off: it has the sign of a."""
     return a - b * _toward_zero(g, a / b)
 
 
@@ -36,7 +36,7 @@ def _compare(g: Graph, a: Value, b: Value, within: Value) -> Value:
 
 
 def _power(g: Graph, a: Value, b: Value) -> Value:
-    """Of a negative number only whole powers are defined; the others are 0."""
+    """A negative number has whole powers alone; its other powers are 0."""
     exponent = b.number
     if exponent is None or exponent != round(exponent):
         return g.power(g.max(a, 0.0), b)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a medium scatters, and what that does to the light of a mirror below it. The compiler calls some of it, too (src/slabs/spread.c).
+// Media scatter light, also that of a mirror below them. The compiler calls some of it, too (src/slabs/spread.c).
 
 // Ways through a medium are multiples of its thickness. Every medium has the index 1.5.
 const float MX_MEAN_WAY = 1.1458980; // over cosine-weighted directions: 4.5 - 1.5 sqrt(5)

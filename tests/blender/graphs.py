@@ -315,7 +315,7 @@ def image_cases(tree):
 
 
 def tree_cases(tree):
-    """What is no node with a value: groups, reroutes, muted nodes, values of sockets."""
+    """Groups, reroutes and muted nodes have no values of their own."""
     t = tree()
     inner = bpy.data.node_groups.new("Twice", "ShaderNodeTree")
     inner.inputs.new("NodeSocketFloat", "X")

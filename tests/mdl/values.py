@@ -40,7 +40,7 @@ def folded(folder, modules):
 
 
 def difference(row, value):
-    """What is wrong with a value; None: nothing."""
+    """The fault of a value; None: it has none."""
     numbers = [float(x) for x in row["values"].split(",")]
     size = len(numbers) // int(row["pixels"])
     expected = numbers[-size:] if row["pixels"] == "1" else numbers[PIXEL * size:(PIXEL + 1) * size]
