@@ -16,11 +16,12 @@ static bool source(void *user_data, const struct ir_graph *graph, ir_ref ref, st
     return build_initial(user_data, ref, out);
 }
 
-static bool call(void *user_data, const struct ir_graph *graph, ir_ref ref,
-                 const struct ir_value *args, uint32_t result, struct ir_value *out)
+static uint32_t call(void *user_data, const struct ir_graph *graph, ir_ref ref,
+                     const struct ir_value *args, struct ir_value *out)
 {
     struct builder *b = user_data;
-    return lang_eval_node(b->shader->unit, graph, ref, args, result, b->arena, out);
+    return lang_eval_node(b->shader->unit, graph, ref, args, &(uint32_t){LANG_MAX_STEPS}, b->arena,
+                          out);
 }
 
 /*

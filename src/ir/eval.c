@@ -12,7 +12,7 @@ struct frame {
     ir_ref at, end;  /* next node, and end of the range */
     uint8_t *needed; /* per node */
     /*
-     * per node: index of its value in ->words, or for a function call of its results in ->results;
+     * per node: index of its value in ->words, or for a call of its results in ->results;
      * 0 = unknown
      */
     uint32_t *places;
@@ -63,6 +63,11 @@ static bool load(const struct evaluator *e, uint32_t place, ir_type_id type, str
     return true;
 }
 
+static bool is_call(const struct ir_graph *graph, ir_ref ref)
+{
+    return ir_get(graph, ref)->op == IR_CALL || ir_get(graph, ref)->op == IR_GRAPH_CALL;
+}
+
 /* The value of an operand that the frame has already visited. */
 static bool value_of(const struct evaluator *e, const struct frame *frame, ir_ref ref,
                      struct ir_value *out)
@@ -70,7 +75,7 @@ static bool value_of(const struct evaluator *e, const struct frame *frame, ir_re
     if (ir_get_const(e->graph, ref, out))
         return true;
     uint32_t place = frame->places[ref];
-    if (place && ir_get(e->graph, ref)->op == IR_GRAPH_CALL)
+    if (place && is_call(e->graph, ref))
         place = e->results.items[place];
     return load(e, place, ir_type_of(e->graph, ref), out);
 }
@@ -96,17 +101,26 @@ static bool eval_source(const struct evaluator *e, ir_ref ref, struct ir_value *
     return e->env && e->env->source && e->env->source(e->env->user_data, e->graph, ref, out);
 }
 
-static bool eval_call(const struct evaluator *e, ir_ref call, uint32_t result, ir_type_id type,
-                      struct ir_value *out)
+/* Calls a function of the library. */
+static void eval_call(struct evaluator *e, ir_ref call)
 {
-    const struct frame *frame = &vec_last(&e->frames);
-    if (ir_get(e->graph, call)->op == IR_GRAPH_CALL)
-        return frame->places[call]
-               && load(e, e->results.items[frame->places[call] + result], type, out);
-    struct ir_value *args =
-        ARENA_ARRAY(e->scratch, struct ir_value, ir_get(e->graph, call)->num_args);
-    return e->env && e->env->call && values_of(e, frame, call, args)
-           && e->env->call(e->env->user_data, e->graph, call, args, result, out);
+    struct frame *frame = &vec_last(&e->frames);
+    struct ir_value results[IR_MAX_RESULTS],
+        *args = ARENA_ARRAY(e->scratch, struct ir_value, ir_get(e->graph, call)->num_args);
+    if (!e->env || !e->env->call || !values_of(e, frame, call, args))
+        return;
+    uint32_t num = e->env->call(e->env->user_data, e->graph, call, args, results),
+             first = e->results.len;
+    for (uint32_t i = 0; i < num; i++)
+        vec_push(e->scratch, &e->results, store(e, &results[i]));
+    frame->places[call] = num ? first : 0;
+}
+
+static bool eval_result(const struct evaluator *e, ir_ref ref, struct ir_value *out)
+{
+    const struct ir_node *node = ir_get(e->graph, ref);
+    uint32_t place = vec_last(&e->frames).places[ir_arg(e->graph, ref, 0)];
+    return place && load(e, e->results.items[place + node->attr], node->type, out);
 }
 
 static bool eval_texture(const struct evaluator *e, ir_ref ref, struct ir_value *out)
@@ -152,8 +166,7 @@ static bool eval_node(const struct evaluator *e, ir_ref ref, struct ir_value *ou
     case IR_TEX_GRAD:
     case IR_TEX_FETCH: return eval_texture(e, ref, out);
     case IR_TEX_SIZE: return false;
-    case IR_CALL: return eval_call(e, ref, 0, node->type, out);
-    case IR_RESULT: return eval_call(e, ir_arg(e->graph, ref, 0), node->attr, node->type, out);
+    case IR_RESULT: return eval_result(e, ref, out);
     case IR_SELECT:
     case IR_LAND:
     case IR_LOR: return eval_choice(e, ref, out);
@@ -190,6 +203,10 @@ static void step(struct evaluator *e)
     const struct ir_node *node = ir_get(e->graph, ref);
     if (!frame->needed[ref] || node->op == IR_CONST)
         return;
+    if (node->op == IR_CALL) {
+        eval_call(e, ref);
+        return;
+    }
     if (node->op == IR_GRAPH_CALL) {
         const struct ir_function *function = &e->graph->functions.items[node->attr];
         push_frame(e, e->graph->function_results.items + function->first_result,

@@ -503,15 +503,18 @@ void ir_assert_valid(const struct ir_graph *graph, const char *step);
 
 /* eval.c: evaluates pure graphs, for tests and for folding whole graphs. */
 
+enum { IR_MAX_RESULTS = 17 /* of a CALL that has a value */ };
+
 struct ir_eval_env {
     void *user_data;
     /*
-     * The value of a source (UNIFORM, STREAM, PARAM, LOCAL, CONTEXT), of a screen derivative, or of
-     * a CALL's result; false if it is unknown.
+     * The value of a source (UNIFORM, STREAM, PARAM, LOCAL, CONTEXT), or of a screen derivative;
+     * false if it is unknown.
      */
     bool (*source)(void *user_data, const struct ir_graph *graph, ir_ref ref, struct ir_value *out);
-    bool (*call)(void *user_data, const struct ir_graph *graph, ir_ref call,
-                 const struct ir_value *args, uint32_t result, struct ir_value *out);
+    /* The results of a CALL: out[i] is that of RESULT i. Returns their number; 0: unknown. */
+    uint32_t (*call)(void *user_data, const struct ir_graph *graph, ir_ref call,
+                     const struct ir_value *args, struct ir_value out[IR_MAX_RESULTS]);
     /*
      * The value of a texture; place: its coordinates, NULL if they are unknown. NULL: textures are
      * unknown.

@@ -2,21 +2,18 @@
 #include "lower/lower.h"
 #include "tree/eval.h"
 
-enum { MAX_STEPS = 1000000, MAX_RESULTS = 16 };
-
-bool lang_eval_node(const struct lang_unit *unit, const struct ir_graph *graph, ir_ref call,
-                    const struct ir_value *args, uint32_t result, struct arena *scratch,
-                    struct ir_value *out)
+uint32_t lang_eval_node(const struct lang_unit *unit, const struct ir_graph *graph, ir_ref call,
+                        const struct ir_value *args, uint32_t *steps_left, struct arena *scratch,
+                        struct ir_value out[IR_MAX_RESULTS])
 {
-    struct ir_value results[MAX_RESULTS];
     const struct ir_node *node = ir_get(graph, call);
     if (node->op != IR_CALL)
-        return false;
+        return 0;
     uint32_t function = graph->callees.items[node->attr].index;
-    bool returns = lang_function(unit, function, NULL)->return_type != IR_TYPE_VOID;
-    if ((result == 0 && !returns) || lang_num_results(unit, function) > MAX_RESULTS
-        || !lang_eval_call(unit, function, args, results, &(uint32_t){MAX_STEPS}, scratch))
-        return false;
-    *out = results[returns ? result : result - 1];
-    return true;
+    uint32_t first = lang_function(unit, function, NULL)->return_type == IR_TYPE_VOID,
+             end = first + lang_num_results(unit, function);
+    out[0].type = IR_TYPE_VOID;
+    bool is_known = end <= IR_MAX_RESULTS
+                    && lang_eval_call(unit, function, args, out + first, steps_left, scratch);
+    return is_known ? end : 0;
 }

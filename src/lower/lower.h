@@ -22,13 +22,15 @@ void lang_lower_call(struct lang_unit *generated, struct ir_graph *graph,
 ir_type_id lang_graph_type(const struct lang_unit *unit, struct ir_graph *graph, ir_type_id type);
 unsigned lang_num_results(const struct lang_unit *unit, uint32_t id);
 
+enum { LANG_MAX_STEPS = 1000000 /* of an evaluated call */ };
 /*
- * evaluate.c: the value of a CALL for its arguments. RESULT 0 is what the function returns, RESULT
- * 1 its first `out` parameter, also where it returns nothing. false: another node, or the function
- * reads a texture, or it takes too many steps.
+ * evaluate.c: the results of a CALL for its arguments, and their number. out[0] is what the
+ * function returns, out[1] its first `out` parameter, also where it returns nothing. 0: another
+ * node, or the function reads a texture, or it takes more than *steps_left, which falls by those
+ * that it took.
  */
-bool lang_eval_node(const struct lang_unit *unit, const struct ir_graph *graph, ir_ref call,
-                    const struct ir_value *args, uint32_t result, struct arena *scratch,
-                    struct ir_value *out);
+uint32_t lang_eval_node(const struct lang_unit *unit, const struct ir_graph *graph, ir_ref call,
+                        const struct ir_value *args, uint32_t *steps_left, struct arena *scratch,
+                        struct ir_value out[IR_MAX_RESULTS]);
 
 #endif

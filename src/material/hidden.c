@@ -31,12 +31,12 @@ static bool source(void *user_data, const struct ir_graph *graph, ir_ref ref, st
     return uniform->has_default && out->type == node->type;
 }
 
-static bool call(void *user_data, const struct ir_graph *graph, ir_ref ref,
-                 const struct ir_value *args, uint32_t result, struct ir_value *out)
+static uint32_t call(void *user_data, const struct ir_graph *graph, ir_ref ref,
+                     const struct ir_value *args, struct ir_value *out)
 {
     const struct hider *h = user_data;
-    return lang_eval_node(h->builder->shader->unit, graph, ref, args, result, h->builder->arena,
-                          out);
+    return lang_eval_node(h->builder->shader->unit, graph, ref, args, &(uint32_t){LANG_MAX_STEPS},
+                          h->builder->arena, out);
 }
 
 /* True if all components have a value, which then is compiled in. */

@@ -14,14 +14,20 @@ struct spender {
     struct slab_report *report;
 };
 
+/* Takes a step whose error is known. */
 static void record(struct spender *s, struct slab_step step, ir_ref root)
 {
     step.before = s->saver.cost;
     slab_saver_set_root(&s->saver, root);
     step.after = s->saver.cost;
-    step.error = slab_saver_error(&s->saver, root);
     vec_push(s->saver.shader->arena, &s->report->steps, step);
     s->report->error = step.error;
+}
+
+static void take(struct spender *s, struct slab_step step, ir_ref root)
+{
+    step.error = slab_saver_error(&s->saver, root);
+    record(s, step, root);
 }
 
 /* False: the steps that the budget wants to see are done. */
@@ -62,6 +68,18 @@ static void take_in_order(struct spender *s)
             c = slab_next_feature(&s->saver);
         if (!c.root)
             return;
+        take(s, c.step, c.root);
+    }
+}
+
+/* Blends within the largest error, if there is one. */
+static void take_within_error(struct spender *s)
+{
+    while (s->budget->max_error >= 0.0f && keeps_error(s) && goes_on(s)) {
+        struct slab_candidate c = slab_next_blend(&s->saver, SLAB_CHEAPER);
+        c.step.error = c.root ? slab_saver_error(&s->saver, c.root) : -1.0f;
+        if (c.step.error < 0.0f || c.step.error > s->budget->max_error)
+            return;
         record(s, c.step, c.root);
     }
 }
@@ -80,6 +98,8 @@ static void take_best(struct spender *s)
         record(s, steps.items.items[i].step, steps.items.items[i].root);
     if (!is_whole || !keeps_bytes(s))
         take_in_order(s);
+    if (!is_whole)
+        take_within_error(s);
 }
 
 /* ---- Before the limits ---- */
@@ -92,7 +112,7 @@ static void blend_while_any(struct spender *s, enum slab_choice choice)
         if (!c.root)
             return;
         c.step.kind = choice == SLAB_ASKED ? SLAB_STEP_ASKED : c.step.kind;
-        record(s, c.step, c.root);
+        take(s, c.step, c.root);
     }
 }
 
@@ -108,7 +128,7 @@ static void recognise(struct spender *s)
     const struct slab_saver *saver = &s->saver;
     ir_ref root = slabs_recognise(saver->shader, saver->host, has_limits(s->budget), saver->root);
     if (root != saver->root)
-        record(s, (struct slab_step){.kind = SLAB_STEP_RECOGNISE}, root);
+        take(s, (struct slab_step){.kind = SLAB_STEP_RECOGNISE}, root);
 }
 
 static void turn_off(struct spender *s)
@@ -116,7 +136,7 @@ static void turn_off(struct spender *s)
     for (int i = 0; i < NUM_SLAB_FEATURES; i++) {
         struct slab_candidate c = slab_feature_step(&s->saver, (enum slab_feature)i);
         if (c.root && s->budget->off & 1u << i && goes_on(s))
-            record(s, c.step, c.root);
+            take(s, c.step, c.root);
     }
 }
 
@@ -147,6 +167,7 @@ ir_ref slabs_budget(struct shader *shader, const struct slabs_host *host,
     out->is_met = !goes_on(&s) || (keeps_slabs(&s) && keeps_bytes(&s) && keeps_error(&s));
     out->unblended = goes_on(&s) ? slab_find_asked(&s.saver) : 0;
     out->after = s.saver.cost;
+    out->num_steps = s.saver.num_steps;
     return s.saver.root;
 }
 

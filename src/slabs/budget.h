@@ -43,10 +43,11 @@ struct slab_step {
 struct slab_report {
     VEC(struct slab_step) steps;
     struct slab_cost before, after;
-    float error;      /* below 0: unknown; 0 without steps */
-    bool is_met;      /* the limits hold */
-    bool is_too_much; /* more than SLABS_MAX closures: nobody may walk the tree */
-    ir_ref unblended; /* an operator that the document asks to blend in vain; 0: none */
+    float error;        /* below 0: unknown; 0 without steps */
+    bool is_met;        /* the limits hold */
+    bool is_too_much;   /* more than SLABS_MAX closures: nobody may walk the tree */
+    uint64_t num_steps; /* of the evaluator, for all estimates */
+    ir_ref unblended;   /* an operator that the document asks to blend in vain; 0: none */
 };
 
 /* The cheaper tree. root: of any type; without slabs it stays as it is. */

@@ -29,6 +29,7 @@ struct eye {
     const struct slabs_host *host;
     ir_ref view, light; /* vec3: stand for directions */
     unsigned at;        /* a place of the ball */
+    uint64_t num_steps; /* of the evaluator so far */
     struct ir_value view_value, light_value;
 };
 
@@ -99,11 +100,15 @@ static bool source(void *user_data, const struct ir_graph *graph, ir_ref ref, st
     }
 }
 
-static bool call(void *user_data, const struct ir_graph *graph, ir_ref ref,
-                 const struct ir_value *args, uint32_t result, struct ir_value *out)
+static uint32_t call(void *user_data, const struct ir_graph *graph, ir_ref ref,
+                     const struct ir_value *args, struct ir_value *out)
 {
-    const struct eye *eye = user_data;
-    return lang_eval_node(eye->shader->unit, graph, ref, args, result, eye->host->scratch, out);
+    struct eye *eye = user_data;
+    uint32_t steps_left = LANG_MAX_STEPS;
+    uint32_t num =
+        lang_eval_node(eye->shader->unit, graph, ref, args, &steps_left, eye->host->scratch, out);
+    eye->num_steps += LANG_MAX_STEPS - steps_left;
+    return num;
 }
 
 /* ---- Functions ---- */
@@ -216,6 +221,7 @@ static bool evaluate(struct eye *eye, ir_ref color, struct ir_value *out)
     const struct ir_eval_env env = {
         .user_data = eye, .source = source, .call = call, .texture = texture};
     bool good = ir_eval(eye->shader->graph, color, &env, eye->host->scratch, out);
+    eye->num_steps += color;
     arena_finish(eye->host->scratch);
     return good;
 }
@@ -333,6 +339,7 @@ void slabs_look(struct shader *shader, const struct slabs_host *host, ir_ref roo
     const uint8_t *needed = ir_mark(shader->graph, &root, 1, shader->arena);
     for (ir_ref ref = 1; ref <= root && out->is_known; ref++)
         out->is_known = !needed[ref] || look_at_node(&eye, ref, root, out);
+    out->num_steps = eye.num_steps;
 }
 
 float slabs_difference(const struct slab_look *a, const struct slab_look *b)

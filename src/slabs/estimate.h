@@ -13,7 +13,8 @@
 struct slab_look {
     VEC(float) colors; /* in threes */
     struct slab_glances glances;
-    bool is_known; /* false: the evaluator cannot compute a value */
+    bool is_known;      /* false: the evaluator cannot compute a value */
+    uint64_t num_steps; /* that the evaluator took */
 };
 
 /*

@@ -11,11 +11,6 @@
 /* Trees that go on for each number of steps: large trees take longer, and have more steps. */
 enum { WIDTH = 3, WIDTH_OF_LARGE = 1, LARGE = 8 /* closures */ };
 #define MARGIN 1.5f
-/*
- * The time of a search grows with the closures of all trees whose errors it estimates. A material
- * of 8 closures needs up to 700; a stack of five of them would need 7,000.
- */
-enum { MAX_WORK = 2000 };
 
 /* A tree, and the step that leads to it. */
 struct state {
@@ -30,7 +25,6 @@ struct search {
     struct slab_saver saver; /* at any tree */
     const struct slab_budget *limits;
     VEC(struct state) states;
-    uint32_t work; /* closures of the trees so far */
 };
 
 /* ---- Ends ---- */
@@ -75,12 +69,21 @@ static bool is_better(const struct search *s, const struct state *a, const struc
 
 /* ---- Levels ---- */
 
-static bool is_new(const struct search *s, ir_ref root)
+/* The last state with a tree; NULL: it is new. */
+static struct state *state_of(const struct search *s, ir_ref root)
 {
-    for (uint32_t i = 0; i < s->states.len; i++)
+    for (uint32_t i = s->states.len; i-- > 0;)
         if (s->states.items[i].by.root == root)
-            return false;
-    return true;
+            return &s->states.items[i];
+    return NULL;
+}
+
+/* A tree that a level left behind goes on from the next one, where another way leads to it. */
+static void take_up(struct search *s, struct state *state)
+{
+    struct state next = *state;
+    state->is_open = false;
+    vec_push(s->saver.shader->arena, &s->states, next);
 }
 
 /* Limits alone do not ask for instructions. */
@@ -89,17 +92,25 @@ static bool is_useful(const struct search *s, struct slab_cost cost)
     return s->limits->max_error >= 0.0f || slab_cost_is_higher(s->saver.cost, cost);
 }
 
-static void expand(struct search *s, uint32_t from)
+static bool is_affordable(const struct search *s)
+{
+    return s->saver.num_steps < SLAB_SEARCH_STEPS;
+}
+
+/* end: of the level */
+static void expand(struct search *s, uint32_t from, uint32_t end)
 {
     struct slab_candidates steps = {0};
     slab_saver_set_root(&s->saver, s->states.items[from].by.root);
     slab_find_steps(&s->saver, &steps);
-    for (uint32_t i = 0; i < steps.items.len && s->work < MAX_WORK; i++) {
+    for (uint32_t i = 0; i < steps.items.len && is_affordable(s); i++) {
         struct state next = {.by = steps.items.items[i], .parent = from, .is_open = true};
-        if (!is_new(s, next.by.root))
+        struct state *known = state_of(s, next.by.root);
+        if (known && known->is_open && known < s->states.items + end)
+            take_up(s, known);
+        if (known)
             continue;
-        s->work += s->saver.cost.closures + 1;
-        next.error = slab_saver_error(&s->saver, next.by.root);
+        next.error = next.by.step.error = slab_saver_error(&s->saver, next.by.root);
         next.cost = slab_saver_cost(&s->saver, next.by.root);
         if (next.error >= 0.0f && is_useful(s, next.cost))
             vec_push(s->saver.shader->arena, &s->states, next);
@@ -140,14 +151,14 @@ static void search_levels(struct search *s)
             if (at == end)
                 break;
             s->states.items[at].is_open = false;
-            expand(s, at);
+            expand(s, at, end);
         }
         first = end;
         end = s->states.len;
     }
 }
 
-bool slabs_search(const struct slab_saver *saver, const struct slab_budget *limits,
+bool slabs_search(struct slab_saver *saver, const struct slab_budget *limits,
                   struct slab_candidates *out)
 {
     struct search s = {.saver = *saver, .limits = limits};
@@ -167,5 +178,6 @@ bool slabs_search(const struct slab_saver *saver, const struct slab_budget *limi
         out->items.items[num - 1 - i] = out->items.items[i];
         out->items.items[i] = last;
     }
-    return s.work < MAX_WORK;
+    saver->num_steps = s.saver.num_steps;
+    return is_affordable(&s);
 }

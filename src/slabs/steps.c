@@ -41,6 +41,7 @@ float slab_saver_error(struct slab_saver *s, ir_ref root)
     if (!s->whole.glances.items.len)
         slabs_look(s->shader, s->host, s->first, NULL, &s->whole);
     slabs_look(s->shader, s->host, root, &s->whole, &look);
+    s->num_steps += look.num_steps;
     return slabs_difference(&s->whole, &look);
 }
 

@@ -19,6 +19,7 @@ struct slab_saver {
     ir_ref first;           /* the tree before all steps */
     struct slab_look whole; /* of that tree, from the first estimate on */
     uint32_t unseen;        /* features of that tree that estimates do not see */
+    uint64_t num_steps;     /* that the evaluator took for estimates */
     ir_ref root;
     struct slab_spots spots; /* of the root */
     struct slab_cost cost;   /* of the root */

@@ -9,7 +9,7 @@
  */
 #include "api/generation.h"
 #include "render/scene.h"
-#include "function.h"
+#include "lower/lower.h"
 #include "rows.h"
 
 #include <stdio.h>
@@ -97,11 +97,12 @@ static bool source(void *user_data, const struct ir_graph *graph, ir_ref ref, st
     return vertex_data(run, node->attr, out);
 }
 
-static bool call(void *user_data, const struct ir_graph *graph, ir_ref ref,
-                 const struct ir_value *args, uint32_t result, struct ir_value *out)
+static uint32_t call(void *user_data, const struct ir_graph *graph, ir_ref ref,
+                     const struct ir_value *args, struct ir_value *out)
 {
     struct run *run = user_data;
-    return function_call(run->generation, graph, ref, args, result, out);
+    return lang_eval_node(&run->generation->result->unit, graph, ref, args,
+                          &(uint32_t){LANG_MAX_STEPS}, &run->generation->scratch, out);
 }
 
 /* ---- Rows ---- */

@@ -9,6 +9,7 @@
 #include "slabs/blend.h"
 #include "slabs/difference.h"
 #include "slabs/estimate.h"
+#include "slabs/search.h"
 
 #include "slab_stacks.h"
 #include "test.h"
@@ -453,34 +454,72 @@ static void test_bytes(const struct run *run, char **paths)
     REQUIRE(stored > NUM_ROWS + NUM_STACKS / 2);
 }
 
-/* ---- Code ---- */
+/* ---- Large stacks ---- */
 
-/* The bytes of the shader of a stack of layers whose media scatter. */
-static size_t size_of_layers(const struct run *run, int num)
+/* A stack of operators on slabs whose media scatter: each has the stack before as an operand. */
+struct operator
+{
+    const char *node, *upper, *lower;
+};
+static const struct operator layer = {"slab_layer", "top", "base"};
+static const struct operator mix = {"slab_mix", "fg", "bg"};
+
+static mxg_document *stack_of(const struct run *run, int num, const struct operator* op)
 {
     static char text[STACK_TEXT];
     mxg_document *document = NULL;
-    mxg_result *result = NULL;
-    mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
     size_t len = (size_t)snprintf(text, sizeof text,
-                                  "<materialx version='1.39'><slab name='l0' type='BSDF'/>");
+                                  "<materialx version='1.39'><slab name='l0' type='BSDF'/>"
+                                  "<noise2d name='noise' type='float'/>");
     for (int i = 1; i <= num; i++)
         len += (size_t)snprintf(
             text + len, sizeof text - len,
             "<slab name='s%d' type='BSDF'><input name='diffuse_albedo' type='color3' "
             "value='0.5,0.%d,0.4'/><input name='roughness' type='float' value='0.%d'/>"
             "<input name='mean_free_path' type='vector3' value='0.0%d,0.02,0.02'/></slab>"
-            "<slab_layer name='l%d' type='BSDF'><input name='top' type='BSDF' nodename='s%d'/>"
-            "<input name='base' type='BSDF' nodename='l%d'/></slab_layer>",
-            i, i % 8 + 1, i % 9 + 1, i % 7 + 1, i, i, i - 1);
+            "<%s name='l%d' type='BSDF'><input name='%s' type='BSDF' nodename='s%d'/>"
+            "<input name='%s' type='BSDF' nodename='l%d'/>%s</%s>",
+            i, i % 8 + 1, i % 9 + 1, i % 7 + 1, op->node, i, op->upper, i, op->lower, i - 1,
+            op == &mix ? "<input name='mix' type='float' nodename='noise'/>" : "", op->node);
     snprintf(text + len, sizeof text - len,
              "<slab_surface name='out' type='surfaceshader'><input name='bsdf' type='BSDF' "
              "nodename='l%d'/></slab_surface></materialx>",
              num);
-    size_t size = 0;
-    desc.target = "glsl";
     REQUIRE(mxg_document_parse(run->context, run->library, "l.mtlx", text, strlen(text), &document)
             == MXG_OK);
+    return document;
+}
+
+/* A search that tried all orders of 23 steps would not end. */
+static void search_stack(struct generation *g)
+{
+    struct slab_budget budget = {.max_error = 100.0f, .max_steps = -1};
+    struct slab_report report;
+    if (!begin(g))
+        return;
+    build_budget_slabs(g->builder, &g->closure_host, &g->estimates, &budget, g->root, &report);
+    REQUIRE(report.is_met && report.before.closures == 24 && report.after.closures == 1);
+    REQUIRE(report.num_steps < 2 * SLAB_SEARCH_STEPS);
+}
+
+static void search_stacks(struct run *run)
+{
+    static const struct operator* const operators[] = {&layer, &mix};
+    for (size_t i = 0; i < sizeof operators / sizeof *operators; i++) {
+        mxg_document *document = stack_of(run, 23, operators[i]);
+        with_document(run, document, NULL, search_stack);
+        mxg_document_destroy(document);
+    }
+}
+
+/* The bytes of the shader of a stack of layers. */
+static size_t size_of_layers(const struct run *run, int num)
+{
+    mxg_document *document = stack_of(run, num, &layer);
+    mxg_result *result = NULL;
+    mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
+    size_t size = 0;
+    desc.target = "glsl";
     REQUIRE(mxg_generate(run->context, document, &desc, &result) == MXG_OK);
     mxg_result_source(result, MXG_STAGE_PIXEL, &size);
     mxg_result_destroy(result);
@@ -513,6 +552,7 @@ int main(int argc, char **argv)
     with_document(&run, document, "CarPaint", save_nothing);
     test_bytes(&run, argv);
     mxg_document_destroy(document);
+    search_stacks(&run);
     mxg_library_unref(run.library);
     mxg_context_destroy(run.context);
     return test_report("budgets");

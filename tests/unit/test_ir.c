@@ -490,12 +490,13 @@ static bool source_value(void *user_data, const struct ir_graph *graph, ir_ref r
     return true;
 }
 
-static bool call_value(void *user_data, const struct ir_graph *graph, ir_ref call,
-                       const struct ir_value *args, uint32_t result, struct ir_value *out)
+static uint32_t call_value(void *user_data, const struct ir_graph *graph, ir_ref call,
+                           const struct ir_value *args, struct ir_value *out)
 {
     (void)user_data, (void)graph, (void)call;
-    *out = ir_value_float(args[0].w[0].f + (float)result);
-    return true;
+    for (uint32_t i = 0; i < IR_MAX_RESULTS; i++)
+        out[i] = ir_value_float(args[0].w[0].f + (float)i);
+    return IR_MAX_RESULTS;
 }
 
 static const struct {

@@ -155,16 +155,12 @@ static bool source_value(void *user_data, const struct ir_graph *graph, ir_ref r
     return true;
 }
 
-static bool call_value(void *user_data, const struct ir_graph *graph, ir_ref call,
-                       const struct ir_value *args, uint32_t result, struct ir_value *out)
+static uint32_t call_value(void *user_data, const struct ir_graph *graph, ir_ref call,
+                           const struct ir_value *args, struct ir_value *out)
 {
     struct agree *a = user_data;
-    uint32_t id = graph->callees.items[ir_get(graph, call)->attr].index;
-    struct ir_value results[MAX_ARGS];
-    if (!lang_eval_call(&a->generated, id, args, results, &(uint32_t){MAX_STEPS}, &a->scratch))
-        return false;
-    *out = results[result]; /* all functions here return something */
-    return true;
+    return lang_eval_node(&a->generated, graph, call, args, &(uint32_t){LANG_MAX_STEPS},
+                          &a->scratch, out);
 }
 
 static void try_lowering(struct agree *a, uint32_t max_inline_nodes)

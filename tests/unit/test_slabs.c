@@ -6,7 +6,7 @@
  */
 #include "api/generation.h"
 
-#include "../conformance/function.h"
+#include "lower/lower.h"
 #include "slab_stacks.h"
 #include "test.h"
 
@@ -66,11 +66,12 @@ static bool source(void *user_data, const struct ir_graph *graph, ir_ref ref, st
     return out->type == variable->type;
 }
 
-static bool call(void *user_data, const struct ir_graph *graph, ir_ref ref,
-                 const struct ir_value *args, uint32_t result, struct ir_value *out)
+static uint32_t call(void *user_data, const struct ir_graph *graph, ir_ref ref,
+                     const struct ir_value *args, struct ir_value *out)
 {
     struct run *run = user_data;
-    return function_call(run->generation, graph, ref, args, result, out);
+    return lang_eval_node(&run->generation->result->unit, graph, ref, args,
+                          &(uint32_t){LANG_MAX_STEPS}, &run->generation->scratch, out);
 }
 
 /* The red channel; NAN after a failure. */
