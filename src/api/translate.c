@@ -69,6 +69,8 @@ static const char *use_of(struct translation *t, uint32_t index)
     if (is_geometry
         || translate_surface_reads(t, 0, source->port.name, translate_uniforms(t, index)))
         return "changes this surface";
+    if (strcmp(source->port.name, "displacement") == 0)
+        return "moves the vertices";
     uint32_t definition = mxg_document_find_nodedef(t->document, t->surface);
     return translate_is_for_others(t, definition, source->port.name) ? "is for other programs"
                                                                      : NULL;

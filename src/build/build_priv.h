@@ -43,6 +43,14 @@ struct frame {
     uint32_t function; /* of the nodegraph; valid with `outline` */
 };
 
+/* A height, or a vector, that a surface itself moves its vertices by. */
+struct own_displacement {
+    const struct instance *scope;
+    elem_id surface;
+    ir_ref height;
+    doc_type type;
+};
+
 /*
  * The results of nodegraphs, and the functions of outline.c, by definition and arguments: the
  * builder builds equal uses once.
@@ -105,6 +113,7 @@ struct builder {
     VEC(struct memo) memos;
     uint32_t *memo_table;
     uint32_t memo_mask;
+    VEC(struct own_displacement) own_displacements;
     VEC(ir_ref) geomprops;       /* value per geomprop name, in pairs (name, ref) */
     ir_ref *globals;             /* by id: host data of functions, after the first use */
     struct text scratch;         /* for a path or a name */
@@ -189,9 +198,13 @@ static inline void build_apply(struct builder *b, uint32_t nodedef, elem_id wher
  */
 struct memo *build_memo(struct builder *b, uint32_t impl, const ir_ref *args, uint32_t n);
 
-/* unread.c: warns of inputs that a surface has, and the nodegraph of its definition does not read.
+/*
+ * unread.c: the inputs that a surface has, and the nodegraph of its definition does not read. Keeps
+ * a displacement for the material that the surface is built for, and warns of the others.
  */
-void build_report_unread(struct builder *b, const struct graph_node *node, elem_id graph);
+void build_unread_inputs(struct builder *b, const struct frame *surface, elem_id graph);
+/* The displacement that was kept for a material without a displacement shader; 0: none. */
+ir_ref build_own_displacement(struct builder *b, const struct frame *material);
 
 /* outline.c: the memo of the function for a nodegraph, or LIBRARY_NONE to inline it. */
 uint32_t build_outlined(struct builder *b, const struct frame *frame);

@@ -267,10 +267,14 @@ static bool build_displacement(void *user_data, mxg_build *build, mxg_ref *resul
 
 static bool build_surfacematerial(void *user_data, mxg_build *build, mxg_ref *results)
 {
-    static const char *const inputs[] = {"surfaceshader", "backsurfaceshader", "displacementshader",
-                                         NULL};
+    mxg_ref args[] = {optional_input(build, "surfaceshader"),
+                      optional_input(build, "backsurfaceshader"),
+                      optional_input(build, "displacementshader"), 0};
     (void)user_data;
-    return op_of(build, "material", inputs, 4, results);
+    if (!args[2])
+        args[2] = code_issue(build, build_own_displacement(build->b, build->frame));
+    results[0] = mxg_build_op(build, "material", NULL, args, 4);
+    return true;
 }
 
 /* The argument of an input that the node sets; 0: it does not. */

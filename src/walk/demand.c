@@ -264,7 +264,7 @@ static void enter_graph(struct builder *b, struct frame *frame)
         return;
     }
     if (gives_surface(b, def, library_ports(b->lib, frame->node.nodedef, NULL) + def->num_inputs))
-        build_report_unread(b, &frame->node, graph);
+        build_unread_inputs(b, frame, graph);
     struct memo *memo = build_memo(b, frame->impl->ref, frame->args, def->num_inputs);
     frame->has_tokens = build_has_tokens(b, frame->node.element);
     if (memo->first_result && !frame->has_tokens) {

@@ -236,6 +236,41 @@ check 'displacement is not' eval '! grep -qF "displacement" err'
 check 'displacement moves vertices' eval 'grep -qF "* 0.75)" preview.usda.m/*.vert'
 check 'it does not without its terminal' eval 'sed "/outputs:displacement.connect/d" preview.usda >flat.usda; main flat.usda && ! grep -qF "0.75" flat.usda.m/*.vert'
 check 'an input of the material is a colour and a vector' eval 'sed "s|normal3f inputs:normal.connect = </m/n.outputs:rgb>|normal3f inputs:normal.connect = </m.inputs:tint>|" preview.usda >both.usda; main both.usda'
+
+# ---- UsdPreviewSurface in documents ----
+
+# document NAME INPUTS ELEMENTS: a material whose surface and displacement are the arguments
+document() {
+    cat >"$1.mtlx" <<XML
+<materialx version="1.39">
+  <noise2d name="n" type="float"/>
+  <UsdPreviewSurface name="S" type="surfaceshader">$2</UsdPreviewSurface>
+  <nodegraph name="G">
+    <noise2d name="n" type="float"/>
+    <UsdPreviewSurface name="S" type="surfaceshader">$2</UsdPreviewSurface>
+    <output name="out" type="surfaceshader" nodename="S"/>
+  </nodegraph>
+  $3
+</materialx>
+XML
+    for target in vulkan osl mdl; do
+        exits 0 "$mxgen" "$1.mtlx" -e M --target "$target" --interface reduced -o "$1.d" && [ ! -s err ] || return
+    done
+}
+own='<input name="displacement" type="float" nodename="n"/>'
+surface='<input name="surfaceshader" type="surfaceshader" nodename="S"/>'
+check 'a material with a displacement shader' document explicit '' "<displacement name='D' type='displacementshader'>$own</displacement>
+  <surfacematerial name='M' type='material'>$surface<input name='displacementshader' type='displacementshader' nodename='D'/></surfacematerial>"
+check 'a material whose surface has a displacement' document implicit "$own" "<surfacematerial name='M' type='material'>$surface</surfacematerial>"
+# words DIRECTORY: the words of its shaders; operands of a product may stand in another order
+words() { cat "$1"/* | grep -oE '[A-Za-z0-9_.]+' | sort; }
+check 'its shaders are those of the displacement shader' cmp <(words explicit.d) <(words implicit.d)
+check 'it moves vertices' grep -q 'normalize(vd.normalWorld)' implicit.d/M.vert
+check 'a surface inside a nodegraph' document nested "$own" "<surfacematerial name='M' type='material'><input name='surfaceshader' type='surfaceshader' nodegraph='G' output='out'/></surfacematerial>"
+check 'it moves vertices, too' grep -q 'normalize(vd.normalWorld)' nested.d/M.vert
+
+# ---- Textures of UsdPreviewSurface ----
+
 # auto FILE: true if the texture is decoded
 auto() { sed "s/@rgb8.png@/@$1@/; /inputs:sourceColorSpace = \"sRGB\"/d" preview.usda >auto.usda && main auto.usda && grep -q 'mx_srgb_texture_to_lin_rec709(' main.txt; }
 for file in rgb8.png rgba8.png palette.png rgb.jpg none.jpg; do
