@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import pathlib
 import subprocess
 import tempfile
 
@@ -40,6 +41,10 @@ class ImportMaterialX(bpy.types.Operator, ImportHelper):
     bl_options = {"UNDO"}
     filename_ext = ".mtlx"
     filter_glob: bpy.props.StringProperty(default="*.mtlx", options={"HIDDEN"})
+    bake: bpy.props.BoolProperty(name="Bake graphs", default=True, description="Graphs without a counterpart become images beside the document")
+    size: bpy.props.IntProperty(name="Size", default=0, min=0, max=16384, description="Texels along each side; 0: those of the largest texture, or 1024")
+    on_object: bpy.props.BoolProperty(name="On the active object", default=False, description="Graphs are baked on the surface of the active mesh, so they "
+                                      "may read positions and normals; otherwise over its texture coordinates alone")
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         try:
@@ -47,9 +52,12 @@ class ImportMaterialX(bpy.types.Operator, ImportHelper):
         except ImportError as error:
             self.report({"ERROR"}, f"{NO_PACKAGE}: {error}")
             return {"CANCELLED"}
+        from .baking import Baking
         from .importing import import_file
+        path = pathlib.Path(self.filepath)
+        baking = Baking(path.with_name(f"{path.stem}_baked"), self.size, context.object if self.on_object else None)
         try:
-            made, losses = import_file(self.filepath)
+            made, losses = import_file(self.filepath, baking if self.bake else None)
         except mxgen.DocumentError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}

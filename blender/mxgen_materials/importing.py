@@ -7,6 +7,7 @@ import pathlib
 import bpy
 import mxgen
 
+from .baking import Baking, bake, surface_of, translate_unknown
 from .losses import Loss
 from .mapping import MODELS, specular_of
 
@@ -32,8 +33,8 @@ class _Importer:
         output.location.x = 300
         self.tree.links.new(self.bsdf.outputs["BSDF"], output.inputs["Surface"])
 
-    def lose(self, what: str, reason: str) -> None:
-        self.losses.append(Loss(self.material.name, what, reason))
+    def lose(self, what: str, reason: str, is_graph: bool = False) -> None:
+        self.losses.append(Loss(self.material.name, what, reason, is_graph))
 
     # ---- Values ----
 
@@ -87,7 +88,7 @@ class _Importer:
         node.extension = EXTENSIONS.get(str(mode.value) if mode is not None else "periodic", "REPEAT")
         tiling = source.child("uvtiling")
         if tiling is not None and tiling.value is None:
-            self.lose(what, "the tiling comes from a graph; the texture is not tiled")
+            self.lose(what, "the tiling comes from a graph; the texture is not tiled", is_graph=True)
         elif tiling is not None and tiling.value != (1.0, 1.0):
             mapping, place = self.tree.nodes.new("ShaderNodeMapping"), self.tree.nodes.new("ShaderNodeTexCoord")
             mapping.inputs["Scale"].default_value = (*tiling.value, 1.0)
@@ -95,7 +96,7 @@ class _Importer:
             self.tree.links.new(mapping.outputs["Vector"], node.inputs["Vector"])
         texcoord = source.child("texcoord")
         if texcoord is not None and texcoord.connection is not None:
-            self.lose(what, "the texture coordinates come from a graph; the active ones are used")
+            self.lose(what, "the texture coordinates come from a graph; the active ones are used", is_graph=True)
         return node
 
     def source_of(self, element: mxgen.Element) -> mxgen.Element | None:
@@ -127,16 +128,18 @@ class _Importer:
         return element.connection.source if element is not None and element.connection is not None else None
 
     def connect(self, element: mxgen.Element, socket: bpy.types.NodeSocket) -> bool:
-        """Links a texture or a normal map to a socket. False: the document has something else there."""
+        """Links a texture or a normal map to a socket, or tells why its file is lost. False: the document has something else there."""
         source = self.source_of(element)
         if source is None:
             return False
         if source.category == "normalmap" and socket.name in ("Normal", "Clearcoat Normal"):
             picture = source.child("in")
             image = self.source_of(picture) if picture is not None else None
-            node = self.image_node(image, element.name) if image is not None and image.category in IMAGES else None
-            if node is None:
+            if image is None or image.category not in IMAGES:
                 return False
+            node = self.image_node(image, element.name)
+            if node is None:
+                return True
             bump = self.tree.nodes.new("ShaderNodeNormalMap")
             scale = source.child("scale")
             bump.inputs["Strength"].default_value = float(scale.value) if scale is not None and isinstance(scale.value, float) else 1.0
@@ -157,7 +160,7 @@ class _Importer:
                 if name in self.model.scales:
                     self.lose(input_name, f"the texture is not scaled: 1 in Blender is {self.model.scales[name]:g} in the document")
             else:
-                self.lose(input_name, "the graph has no counterpart: only images and normal maps are converted")
+                self.lose(input_name, "the graph has no counterpart: only images and normal maps are converted", is_graph=True)
                 value = self.default(input_name)
                 if value is not None:
                     self.set_socket(socket, value)
@@ -280,26 +283,43 @@ def _same(one: object, other: object) -> bool:
     return one == other
 
 
-def import_file(path: str) -> tuple[list[bpy.types.Material], list[Loss]]:
-    """Makes a material for each surface material of a document. Raises mxgen.DocumentError; then nothing is made."""
-    document = mxgen.Context().load(path)
-    found = document.validate()
-    if found.errors:
-        raise mxgen.DocumentError(found, document)
+def _convert(document: mxgen.Document, folder: pathlib.Path) -> tuple[list[bpy.types.Material], list[Loss]]:
     made, losses = [], []
     for element in list(document):
         if element.category != "surfacematerial":
             continue
-        port = element.child("surfaceshader")
-        shader = port.connection.source if port is not None and port.connection is not None else None
+        shader = surface_of(element)
         if shader is None or shader.category not in MODELS:
             kind = shader.category if shader is not None else "no shader"
             losses.append(Loss(element.name, "surfaceshader", f"'{kind}' has no counterpart; known are {', '.join(MODELS)}"))
             continue
-        importer = _Importer(bpy.data.materials.new(element.name), shader, pathlib.Path(path).resolve().parent)
+        importer = _Importer(bpy.data.materials.new(element.name), shader, folder)
         importer.convert()
         if element.child("displacementshader") is not None:
             importer.lose("displacementshader", "displacement is not converted")
         made.append(importer.material)
         losses += importer.losses
     return made, losses
+
+
+def import_file(path: str, baking: Baking | None = None) -> tuple[list[bpy.types.Material], list[Loss]]:
+    """Makes a material for each surface material of a document. With `baking`, graphs become images, and surfaces of other models become
+    those of the export. Raises mxgen.DocumentError; then nothing is made."""
+    document = mxgen.Context().load(path)
+    found = document.validate()
+    if found.errors:
+        raise mxgen.DocumentError(found, document)
+    earlier: list[Loss] = []
+    if baking is not None:
+        document = translate_unknown(document, path, earlier)
+    made, losses = _convert(document, pathlib.Path(path).resolve().parent)
+    if baking is None or not any(loss.is_graph for loss in losses):
+        return made, earlier + losses
+    try:
+        document, flat = bake(document, baking)
+    except mxgen.RenderError as error:
+        return made, [*earlier, Loss(pathlib.Path(path).name, "graphs", f"they cannot be images: {error}"), *losses]
+    for material in made:
+        bpy.data.materials.remove(material)
+    made, losses = _convert(document, flat.resolve().parent)
+    return made, earlier + losses

@@ -12,6 +12,8 @@ class Loss(NamedTuple):
     #: the input or the socket
     what: str
     reason: str
+    #: an image in the place of a graph would keep it
+    is_graph: bool = False
 
     def __str__(self) -> str:
         return f"{self.material}: {self.what}: {self.reason}"

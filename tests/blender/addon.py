@@ -12,6 +12,7 @@ from checks import check, finish, skip
 
 import mxgen_materials
 import mxgen
+from mxgen_materials.baking import Baking
 from mxgen_materials.exporting import export_file
 from mxgen_materials.importing import import_file
 import pictures
@@ -171,6 +172,49 @@ def check_models():
     check(not made and "has no counterpart" in losses[0].reason, f"a surface of BSDF nodes: {losses}")
 
 
+RAMP = """<standard_surface name="S" type="surfaceshader"><input name="specular_roughness" type="float" nodename="r"/></standard_surface>
+    <ramplr name="r" type="float"><input name="valuel" type="float" value="0"/><input name="valuer" type="float" value="1"/></ramplr>"""
+#: on a plane from -1 to 1 the same
+ALONG = """<standard_surface name="S" type="surfaceshader"><input name="specular_roughness" type="float" nodename="r"/></standard_surface>
+    <position name="p" type="vector3"><input name="space" type="string" value="object"/></position>
+    <extract name="x" type="float"><input name="in" type="vector3" nodename="p"/><input name="index" type="integer" value="0"/></extract>
+    <remap name="r" type="float"><input name="in" type="float" nodename="x"/><input name="inlow" type="float" value="-1"/></remap>"""
+
+
+def is_ramp(image):
+    """Whether the rows of an image go from 0 to 1."""
+    width, height = image.size
+    pixels = image.pixels[:]
+    return all(abs(pixels[4 * (row * width + column)] - (column + 0.5) / width) < 0.01 for row in (0, height // 2) for column in range(width))
+
+
+def check_baking():
+    """Graphs become images, and other surfaces the model of the export."""
+    clear()
+    bpy.ops.mesh.primitive_plane_add()
+    plane = bpy.context.object
+    for name, shader, surface in ("ramp", RAMP, None), ("along", ALONG, plane):
+        made, losses = import_file(text_of(WORK / f"{name}.mtlx", document(shader)), Baking(WORK / f"{name}_baked", 32, surface))
+        check(len(made) == 1 and not losses, f"{name} loses nothing: {losses}")
+        links = bsdf_of(made[0]).inputs["Roughness"].links
+        image = links[0].from_node.image if links else None
+        check(image is not None and image.colorspace_settings.name == "Non-Color" and is_ramp(image), f"{name}: the graph is an image")
+        check(len(bpy.data.materials) == 1, f"{name}: the first try leaves no material")
+        clear()
+    check(bpy.context.object == plane and not plane.data.materials, "the object stays as it was")
+    closures = document("""<oren_nayar_diffuse_bsdf name="B" type="BSDF"><input name="color" type="color3" value="0.2, 0.4, 0.6"/></oren_nayar_diffuse_bsdf>
+        <surface name="S" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="B"/></surface>""")
+    made, losses = import_file(text_of(WORK / "closures.mtlx", closures), Baking(WORK / "closures_baked"))
+    check(len(made) == 1 and close(values_of(made[0])["Base Color"], [0.2, 0.4, 0.6, 1]), f"closures become the model of the export: {losses}")
+    check(not (WORK / "closures_baked").exists(), "without a graph nothing is baked")
+    clear()
+    facing = document(RAMP.replace("ramplr", "facingratio").replace('valuel" type="float" value="0"', 'faceforward" type="boolean" value="true"')
+                      .replace('<input name="valuer" type="float" value="1"/>', ""))
+    made, losses = import_file(text_of(WORK / "facing.mtlx", facing), Baking(WORK / "facing_baked"))
+    check(len(made) == 1 and [loss.what for loss in losses] == ["graphs", "specular_roughness"], f"what depends on the view stays lost: {losses}")
+    check("facing.mtlx:" in losses[0].reason, f"with its place: {losses[0]}")
+
+
 def fails(operator, *words, **arguments):
     """Whether an operator reports an error with the words."""
     try:
@@ -304,6 +348,7 @@ def check_pictures():
 check_round_trips()
 check_textures()
 check_models()
+check_baking()
 check_operators()
 check_closures()
 check_pictures()
