@@ -3,7 +3,7 @@
  * mxgen lsp: the language server over standard input and output. A message stands behind a header
  * with its length, as in HTTP ("Base Protocol" of the specification, LSP 3.17).
  */
-#define _POSIX_C_SOURCE 200809L
+#define _XOPEN_SOURCE 700 /* realpath, pipe, poll */
 #include "cli/commands.h"
 #include "lsp/lsp.h"
 #include "program/json.h"
@@ -171,26 +171,50 @@ static int serve(struct lsp_session *session, struct checker *checker)
     return is_clean ? EXIT_DONE : EXIT_FAULT;
 }
 
+/*
+ * The pictures of a reference, which the caller frees; NULL: there is no reference, or after a
+ * report it has no pictures.
+ */
+static char *find_pictures(struct report *report, const char *reference)
+{
+    char *folder = reference ? cli_format("%s/pictures", reference) : NULL,
+         *found = folder ? realpath(folder, NULL) : NULL;
+    if (reference && !found)
+        report_error(report, "file-missing",
+                     "there is no folder '%s': 'mxgen library doc --pictures -o %s' makes it",
+                     folder, reference);
+    free(folder);
+    return found;
+}
+
 int command_lsp(const struct command *command, int argc, char **argv)
 {
     struct cli cli;
     int code;
     bool uses_stdio; /* editors write it; it is the only way */
+    const char *reference = NULL;
     const struct arg args[] = {
+        {"reference", 0, ARG_TEXT, "DIR",
+         "shows the pictures of nodes in DIR, which 'mxgen library doc --pictures' has made",
+         &reference},
         {"stdio", 0, ARG_FLAG, NULL, "uses standard input and output, as always", &uses_stdio},
     };
     if (cli_start(&cli, command, args, sizeof args / sizeof *args, 0, argc, argv, &code)) {
         json_use_memory();
-        struct lsp_desc desc = {
-            .library = cli.library, .send = send_framed, .messages_url = MESSAGES_URL};
+        char *pictures = find_pictures(&cli.report, reference);
+        struct lsp_desc desc = {.library = cli.library,
+                                .send = send_framed,
+                                .messages_url = MESSAGES_URL,
+                                .pictures = pictures};
         char *warnings = cli_describe_context(&cli, &desc.context);
         struct lsp_session *session = lsp_session_create(&desc);
         struct checker checker = {NULL};
         code = EXIT_FAULT;
-        if (session && pipe(checker.ends) == 0)
+        if (session && (pictures || !reference) && pipe(checker.ends) == 0)
             code = serve(session, &checker);
         lsp_session_destroy(session);
         free(warnings);
+        free(pictures);
     }
     cli_finish(&cli);
     return code;

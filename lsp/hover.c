@@ -7,6 +7,8 @@
 #include "lsp/names.h"
 #include "lsp/wire.h"
 #include "program/cli.h"
+#include "program/file_name.h"
+#include "program/files.h"
 #include "program/memory.h"
 
 #include <stdarg.h>
@@ -73,7 +75,21 @@ static bool put_input(struct page *page, const mxg_port *port)
     return true;
 }
 
-/* The definition that the text chooses, with its outputs and inputs. */
+static void put_picture(struct page *page, const struct lsp_query *query, const char *node)
+{
+    const char *folder = query->session->desc.pictures;
+    if (!folder)
+        return;
+    char *name = file_name_of_element(node), *path = cli_format("%s/%s.png", folder, name),
+         *uri = wire_uri(path);
+    if (files_is_regular(path))
+        put(page, "\n\n![picture of %s](<%s>)", node, uri);
+    free(uri);
+    free(path);
+    free(name);
+}
+
+/* The definition that the text chooses, with its picture, its outputs and inputs. */
 static bool put_node(struct page *page, const struct lsp_query *query, uint32_t element)
 {
     uint32_t index = catalogue_resolve(query, element);
@@ -83,6 +99,7 @@ static bool put_node(struct page *page, const struct lsp_query *query, uint32_t 
     put(page, "**%s**", nodedef.node);
     if (*nodedef.group)
         put(page, " (%s)", nodedef.group);
+    put_picture(page, query, nodedef.node);
     put(page, "\n\n%s%sDefinition `%s`%s%s", nodedef.doc, *nodedef.doc ? "\n\n" : "", nodedef.name,
         *nodedef.version ? ", version " : "", nodedef.version);
     for (uint32_t i = 0; i < nodedef.num_outputs; ++i) {

@@ -18,6 +18,9 @@ struct lsp_desc {
     void (*send)(void *user_data, const char *message, size_t size);
     void *user_data;
     const char *messages_url; /* the page of all messages; NULL: messages have no links */
+    /* the folder with the pictures of nodes, "noise2d.png": an absolute path; NULL: there are none
+     */
+    const char *pictures;
 };
 
 /* NULL: the context cannot be made. */

@@ -3,6 +3,7 @@
 """What the language server answers, for each kind of request on small documents. Arguments: mxgen, the root of the project."""
 import pathlib
 import re
+import subprocess
 import sys
 import tempfile
 
@@ -212,6 +213,21 @@ def check_hover(client):
     same(hover(client, within(GRAPH, 'interfacename="tint"', 'interface¦name="tint"')),
          "`interfacename`: The input of the nodegraph whose value this has.", "an attribute")
     same(hover(client, within(GRAPH, "<materialx ", "¦<materialx ")), None, "nothing")
+
+
+def check_pictures():
+    """Hovers show pictures of a reference."""
+    folder = WORK / "a reference"
+    (folder / "pictures").mkdir(parents=True)
+    (folder / "pictures/multiply.png").write_bytes(b"")
+    client = Client(MXGEN, WORK, ["--reference", str(folder)])
+    found = hover(client, within(GRAPH, "<multiply name", "<mult¦iply name"))
+    picture = f"**multiply** (math)\n\n![picture of multiply](<{uri_of((folder / 'pictures/multiply.png').resolve())}>)\n\nin1 * in2"
+    check(found.startswith(picture), f"a picture: {found}")
+    check("![" not in hover(client, within(GRAPH, "<image name", "<im¦age name")), "a node without a picture")
+    same(client.end(), 0, "the end of that")
+    done = subprocess.run([MXGEN, "lsp", "--reference", WORK / "none"], stdin=subprocess.DEVNULL, capture_output=True, text=True)
+    check(done.returncode == 1 and "none/pictures" in done.stderr and "[file-missing]" in done.stderr, f"no reference: {done.stderr}")
 
 
 def text_at(client, place, uri=URI):
@@ -527,6 +543,7 @@ check_junk(session)
 check_messages(session)
 check_completion(session)
 check_hover(session)
+check_pictures()
 check_navigation(session)
 check_families(session)
 check_looks(session)

@@ -8,7 +8,8 @@ import { resolve } from "./library";
 /** The settings of a folder that are paths, absolute; relative ones begin at the first folder of the workspace. */
 export function settingPaths(key: string): vscode.Uri[] {
     const base = vscode.workspace.workspaceFolders?.[0]?.uri;
-    return vscode.workspace.getConfiguration("mxgen").get<string[]>(key, []).flatMap(path => {
+    const paths = vscode.workspace.getConfiguration("mxgen").get<string[] | string>(key, []);
+    return [paths].flat().filter(path => path).flatMap(path => {
         if (/^(\/|[A-Za-z]:[\\/])/.test(path))
             return [base?.with({ path: vscode.Uri.file(path).path }) ?? vscode.Uri.file(path)];
         return base ? [vscode.Uri.joinPath(base, path)] : [];

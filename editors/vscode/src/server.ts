@@ -19,8 +19,9 @@ export const programPath = () => vscode.workspace.getConfiguration("mxgen").get(
 /** Starts the server. Throws if the program does not start. */
 export async function startServer(): Promise<LanguageClient> {
     await promisify(execFile)(programPath(), ["--version"]); // the client would tell a failure in its own words
+    const reference = settingPaths("reference").flatMap(({ fsPath }) => ["--reference", fsPath]);
     const client = new LanguageClient("mxgen", "MaterialX (mxgen)",
-        { command: programPath(), args: ["lsp", ...programOptions()] },
+        { command: programPath(), args: ["lsp", ...programOptions(), ...reference] },
         {
             documentSelector: [{ language: "materialx", scheme: "file" }, { language: "materialx", scheme: "untitled" }],
             revealOutputChannelOn: RevealOutputChannelOn.Never,
