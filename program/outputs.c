@@ -28,11 +28,7 @@ static char *append(char *folder, const char *rest)
     return folder;
 }
 
-/*
- * The absolute path without links; of a missing file, the path of its closest existing folder and
- * the rest.
- */
-static char *resolve(const char *path)
+char *outputs_resolve(const char *path)
 {
     char *real = realpath(path, NULL), *folder = cli_format("%s", path);
     size_t len = strlen(path);
@@ -53,7 +49,7 @@ static char *resolve(const char *path)
 static struct name_entry *add(struct outputs *outputs, const char *path, const char *owner,
                               bool *out_is_new)
 {
-    char *key = strcmp(path, "-") == 0 ? cli_format("-") : resolve(path);
+    char *key = strcmp(path, "-") == 0 ? cli_format("-") : outputs_resolve(path);
     struct name_entry *entry = names_add(&outputs->paths, key, out_is_new);
     free(key);
     if (!*out_is_new)
@@ -98,7 +94,7 @@ bool outputs_has(const struct outputs *outputs, const char *path)
 {
     if (!outputs->num_uses)
         return false;
-    char *key = resolve(path);
+    char *key = outputs_resolve(path);
     const struct name_entry *entry = names_find(&outputs->paths, key);
     free(key);
     return entry && outputs->uses[entry->value].owner;

@@ -18,6 +18,12 @@ struct outputs {
 };
 
 /*
+ * The absolute path without links; of a missing file, the path of its closest existing folder and
+ * the rest. The caller frees it.
+ */
+char *outputs_resolve(const char *path);
+
+/*
  * Notes that the command reads a file. False after an error: an output has the same path.
  */
 bool outputs_read(struct outputs *outputs, struct report *report, const char *path);

@@ -144,14 +144,34 @@ static bool copy_file(struct baking *baking, struct bake_input *input, const cha
     return copy_to(baking, path, input->copy);
 }
 
-static bool keep_file(struct baking *baking, struct bake_input *input)
+/*
+ * True if an earlier input has the file, whose copy then serves both. copied: the files so far; the
+ * value is the first input that has the file.
+ */
+static bool shares_copy(struct name_table *copied, struct bake_input *input, const char *path)
+{
+    bool is_new;
+    char *real = outputs_resolve(path);
+    struct name_entry *entry = names_add(copied, real, &is_new);
+    free(real);
+    const struct bake_input *first = (const struct bake_input *)(uintptr_t)entry->value;
+    if (is_new)
+        entry->value = (uintptr_t)input;
+    else if (first->copy)
+        input->copy = cli_format("%s", first->copy);
+    return !is_new;
+}
+
+static bool keep_file(struct baking *baking, struct name_table *copied, struct bake_input *input)
 {
     const char *file = bake_attribute(baking->document, input->origin, "value");
     if (!*file)
         return true;
     char *path = bake_file_path(baking->document, baking->path, input->origin, file);
     bool is_set = bake_is_set(path), copies = baking->options.copy, good = true;
-    if (is_set && copies && !bake_is_set(files_base_name(path)) && !baking->cli.quiet)
+    if (copies && shares_copy(copied, input, path))
+        good = true;
+    else if (is_set && copies && !bake_is_set(files_base_name(path)) && !baking->cli.quiet)
         fprintf(stderr, "note: '%s' stands for files of several folders, which stay there\n", path);
     else if (is_set)
         good = !copies || copy_set(baking, input, path);
@@ -167,11 +187,13 @@ static bool keep_file(struct baking *baking, struct bake_input *input)
 bool bake_keep_files(struct baking *baking)
 {
     bool good = true;
+    struct name_table copied = {0};
     for (size_t i = 0; i < baking->plan.num_nodes; ++i)
         for (size_t k = 0; k < baking->plan.nodes[i].num_inputs; ++k) {
             struct bake_input *input = &baking->plan.nodes[i].inputs[k];
             if (input->way == BAKE_KEEPS && strcmp(input->type, "filename") == 0)
-                good = keep_file(baking, input) && good;
+                good = keep_file(baking, &copied, input) && good;
         }
+    names_finish(&copied);
     return good;
 }

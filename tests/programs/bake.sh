@@ -160,6 +160,10 @@ cat >in/stays.mtlx <<'EOF'
 EOF
 check 'an image without changes stays' eval 'exits 0 "$mxgen" bake in/stays.mtlx -o stays && has stays/stays.mtlx "value=\"../in/a tone.png\" colorspace=\"srgb_texture\"" && test "$(ls stays)" = stays.mtlx'
 check 'or is copied' eval 'exits 0 "$mxgen" bake in/stays.mtlx -o copies --copy && has copies/stays.mtlx "value=\"a_tone.png\"" && cmp "in/a tone.png" copies/a_tone.png'
+sed 's|<standard_surface|<image name="again" type="color3"><input name="file" type="filename" value="../in/a tone.png"/></image>&|
+    s|nodename="tone"/>|&<input name="specular_color" type="color3" nodename="again"/>|' in/stays.mtlx >in/twice.mtlx
+check 'a file that two images read is copied once' eval 'exits 0 "$mxgen" bake in/twice.mtlx -o once --copy && test "$(ls once)" = "a_tone.png
+twice.mtlx" && test "$(grep -c a_tone.png once/twice.mtlx)" = 2'
 rm 'in/a tone.png'
 check 'a lost one is told' eval 'exits 1 "$mxgen" bake in/stays.mtlx -o none && has err "[missing-texture]" && test ! -e none'
 
