@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/* A line over each material with figures of its shader, which the editor asks for when it shows it.
+/*
+ * A line over each material: figures of its shader, which the editor asks for when it shows them,
+ * and the client's command that renders.
  */
 #include "lsp/check.h"
 #include "lsp/handlers.h"
@@ -8,6 +10,22 @@
 
 #include <mxgen/reflection.h>
 #include <string.h>
+
+static void add_lenses(const struct lsp_query *query, uint32_t material, json_t *list)
+{
+    struct lsp_session *session = query->session;
+    json_t *name = wire_span(query->text, query_value(query, material, "name")),
+           *range = wire_range(session, query->text, query->model->elements[material].name);
+    json_array_append_new(list, json_pack("{s:O, s:{s:s, s:O}}", "range", range, "data", "uri",
+                                          query->document->uri, "name", name));
+    if (session->render_command)
+        json_array_append_new(list,
+                              json_pack("{s:O, s:{s:s, s:s, s:[s, O]}}", "range", range, "command",
+                                        "title", "render", "command", session->render_command,
+                                        "arguments", query->document->uri, name));
+    json_decref(range);
+    json_decref(name);
+}
 
 json_t *handle_lenses(struct lsp_session *session, const json_t *params, struct lsp_error *error)
 {
@@ -22,11 +40,7 @@ json_t *handle_lenses(struct lsp_session *session, const json_t *params, struct 
         if (!query_equals(query.text, query_value(&query, child, "type"), "material")
             || name.start == name.end)
             continue;
-        json_array_append_new(
-            list,
-            json_pack("{s:o, s:{s:s, s:o}}", "range",
-                      wire_range(session, query.text, query.model->elements[child].name), "data",
-                      "uri", query.document->uri, "name", wire_span(query.text, name)));
+        add_lenses(&query, child, list);
     }
     return list;
 }

@@ -45,6 +45,7 @@ void lsp_session_destroy(struct lsp_session *session)
         lsp_document_destroy(document);
     }
     free_folders(session);
+    free(session->render_command);
     catalogue_destroy(session->catalogue);
     mxg_library_unref(session->desc.library);
     mxg_context_destroy(session->context);
@@ -216,6 +217,9 @@ json_t *handle_initialize(struct lsp_session *session, const json_t *params,
         json_object_get(json_object_get(capabilities, "workspace"), "didChangeWatchedFiles");
     session->can_watch = json_is_true(json_object_get(watching, "dynamicRegistration"));
     session->has_snippets = json_is_true(json_object_get(completion, "snippetSupport"));
+    const char *render =
+        json_text_of(json_object_get(params, "initializationOptions"), "renderCommand");
+    session->render_command = render && *render ? cli_format("%s", render) : NULL;
     read_folders(session, params);
     if (!disk_open(&session->disk, &session->desc.context, session->folders,
                    session->num_folders)) {

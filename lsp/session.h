@@ -38,6 +38,7 @@ struct lsp_session {
     struct lsp_document *documents;
     char **folders; /* of the workspace */
     size_t num_folders;
+    char *render_command;                  /* of the client, for lenses; NULL: it has none */
     bool is_utf8, has_snippets, can_watch; /* of the client */
     bool is_initialised, is_shut_down, is_over;
 };

@@ -442,6 +442,16 @@ def check_lenses(client):
     same(client.request("codeLens/resolve", lens[0])["command"]["title"], "shader: none, because of errors", "a lens without a shader")
 
 
+def check_render():
+    """The command of a client stands over materials."""
+    client = Client(MXGEN, WORK, options={"renderCommand": "draw"})
+    open_text(client, GRAPH)
+    client.diagnostics(URI)
+    found = [lens.get("command") for lens in client.of("textDocument/codeLens", URI)]
+    same(found, [None, {"title": "render", "command": "draw", "arguments": [URI, "Paint"]}], "a lens that renders")
+    same(client.end(), 0, "the end of that client")
+
+
 def check_format(client):
     options = {"tabSize": 2, "insertSpaces": True}
     open_text(client, GRAPH)
@@ -552,6 +562,7 @@ check_outline(session)
 check_colours(session)
 check_hints(session)
 check_lenses(session)
+check_render()
 check_format(session)
 check_actions(session)
 check_calls(session)

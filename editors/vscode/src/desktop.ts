@@ -53,21 +53,21 @@ class Language implements vscode.Disposable {
     }
 }
 
-/** Draws the saved document with `mxgen render`, and shows the picture. */
-async function render(storage: vscode.Uri): Promise<void> {
-    const source = activeDocument();
+/** Draws a material of the saved document, or its first one, with `mxgen render`, and shows the picture. */
+async function render(storage: vscode.Uri, document?: string, material?: string): Promise<void> {
+    const source = document ? await vscode.workspace.openTextDocument(vscode.Uri.parse(document)) : activeDocument();
     if (!source)
         return;
     if (source.uri.scheme !== "file" || (source.isDirty && !await source.save()))
         throw new Error("the program draws saved files only");
     await vscode.workspace.fs.createDirectory(storage);
-    const name = source.uri.path.split("/").at(-1)!.replace(/\.mtlx$/, ""), picture = vscode.Uri.joinPath(storage, `${name}.png`);
+    const name = material ?? source.uri.path.split("/").at(-1)!.replace(/\.mtlx$/, ""), picture = vscode.Uri.joinPath(storage, `${name}.png`);
     const progress = { location: vscode.ProgressLocation.Notification, title: `Rendering ${name}`, cancellable: true };
     await vscode.window.withProgress(progress, async (_, token) => {
         const stop = new AbortController();
         token.onCancellationRequested(() => stop.abort());
         try {
-            await promisify(execFile)(programPath(), ["render", source.uri.fsPath, ...programOptions(), "-o", picture.fsPath], { signal: stop.signal });
+            await promisify(execFile)(programPath(), ["render", source.uri.fsPath, ...material ? ["-e", material] : [], ...programOptions(), "-o", picture.fsPath], { signal: stop.signal });
         } catch (error) {
             if (stop.signal.aborted)
                 return;
@@ -83,10 +83,10 @@ export async function activate(context: vscode.ExtensionContext): Promise<void> 
     const here = language = new Language(start(context)), restart = () => here.restart();
     context.subscriptions.push(here,
         register("mxgen.restart", restart),
-        register("mxgen.render", () => render(context.globalStorageUri)),
+        register("mxgen.render", (document?: string, material?: string) => render(context.globalStorageUri, document, material)),
         vscode.workspace.onDidGrantWorkspaceTrust(restart),
         vscode.workspace.onDidChangeConfiguration(event => {
-            if (["path", "libraries", "includeRoots"].some(key => event.affectsConfiguration(`mxgen.${key}`)))
+            if (["path", "libraries", "includeRoots", "reference"].some(key => event.affectsConfiguration(`mxgen.${key}`)))
                 void restart();
         }));
     await restart();

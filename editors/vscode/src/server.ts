@@ -25,6 +25,7 @@ export async function startServer(): Promise<LanguageClient> {
         {
             documentSelector: [{ language: "materialx", scheme: "file" }, { language: "materialx", scheme: "untitled" }],
             revealOutputChannelOn: RevealOutputChannelOn.Never,
+            initializationOptions: { renderCommand: "mxgen.render" },
             initializationFailedHandler: () => false,
         });
     await client.start();
