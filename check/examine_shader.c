@@ -271,6 +271,9 @@ static void compile(struct examiner *examiner, const mxg_result *result,
     channel_mark(&examiner->channel, CHECK_COMPILE, element, shader->target);
     if (!examiner->is_compiler_ready) {
         compile_begin();
+        if (args_is_given(&examiner->cli->parser, "mdl-module"))
+            compile_import_module(examiner->cli->context, examiner->cli->library,
+                                  examiner->cli->options);
         examiner->is_compiler_ready = true;
     }
     struct compiled compiled = {0};

@@ -212,11 +212,28 @@ static struct arg_list find_elements(const struct generate *gen, const mxg_docum
     return list;
 }
 
+/* The file of a material would stand in the place of the module that the material imports. */
+static bool is_no_module(struct generate *gen, const char *folder, const char *element)
+{
+    const char *suffix = gen->target_info.stage_suffix[MXG_STAGE_PIXEL];
+    char *path = file_path(gen, folder, element, suffix),
+         *module = gen->module ? file_path(gen, folder, gen->module, suffix) : NULL;
+    bool is_it = module && strcmp(path, module) == 0 && !gen->is_file;
+    if (is_it)
+        report_error(&gen->cli.report, "output-clash",
+                     "the element '%s' and the module '%s' would write one file, '%s'", element,
+                     gen->module, path);
+    free(module);
+    free(path);
+    return !is_it;
+}
+
 bool generate_claim(struct generate *gen, const char *folder, const char *element)
 {
     const char *const *suffixes =
         gen->is_network ? network_suffixes : gen->target_info.stage_suffix;
-    bool good = !gen->reflect || claim(gen, folder, element, "json");
+    bool good = is_no_module(gen, folder, element)
+                && (!gen->reflect || claim(gen, folder, element, "json"));
     for (int stage = 0; stage < MXG_NUM_STAGES && good; ++stage)
         good = !suffixes[stage] || claim(gen, folder, element, suffixes[stage]);
     return good;
@@ -453,6 +470,7 @@ static bool prepare_output(struct generate *gen)
 {
     gen->is_network = args_has_setting(&gen->cli.parser, "osl-network", "true");
     gen->is_deferred = args_has_setting(&gen->cli.parser, "role", "deferred");
+    gen->module = args_setting(&gen->cli.parser, "mdl-module");
     if (gen->to_stdout && (args_is_given(&gen->cli.parser, "output") || gen->depfile)) {
         fprintf(stderr, "mxgen: option '--%s' does not apply: --stdout writes no file\n",
                 gen->depfile ? "depfile" : "output");

@@ -16,6 +16,7 @@ struct generate {
     mxg_target target_info;
     bool is_network;                    /* --osl-network */
     bool is_deferred;                   /* --role deferred */
+    const char *module;                 /* --mdl-module; NULL: not given */
     bool is_file;                       /* -o names one file: a stage of one element */
     mxg_stage stage;                    /* this stage */
     struct arg_list documents, folders; /* each document with its output folder; allocated */

@@ -46,7 +46,9 @@ static const struct command commands[] = {
     {"import", "import FILE.glb|FILE.gltf -o FILE.mtlx",
      "Writes the materials of a glTF file as a document, with its images.", command_import},
     {"pipeline", "pipeline FOLDER [--target T] [options]",
-     "Writes the passes of the deferred pipeline that belong to no material.", command_pipeline},
+     "Writes what belongs to no material: the passes of the deferred pipeline, or the module of "
+     "MDL.",
+     command_pipeline},
     {"translate", "translate FILE --to MODEL [-o FILE]",
      "Writes a document with its surfaces as another shading model.", command_translate},
     {"library", "library pack|list|expand|doc [PATH...] [-o PATH]  |  library list WORD...",

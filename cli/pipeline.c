@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/* mxgen pipeline: the passes of the deferred pipeline that belong to no material
- * (docs/deferred.md). */
+/*
+ * mxgen pipeline: what belongs to no material: the passes of the deferred pipeline
+ * (docs/deferred.md), or the module of the materials of MDL (docs/mdl.md).
+ */
 #include "cli/commands.h"
 #include "program/cli.h"
 #include "program/files.h"
@@ -46,13 +48,37 @@ static bool write_pass(struct cli *cli, uint32_t index, const mxg_target *target
     return good;
 }
 
-static bool write_passes(struct cli *cli, const mxg_target *target, const char *folder)
+static bool write_module(struct cli *cli, const mxg_target *target, const char *folder)
+{
+    mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
+    desc.target = target->name;
+    desc.options = cli->options;
+    mxg_result *result;
+    mxg_status status = mxg_generate_module(cli->context, cli->library, &desc, &result);
+    if (result)
+        report_list(&cli->report, mxg_result_diagnostics(result));
+    bool good = report_status(&cli->report, status);
+    if (good) {
+        size_t size = 0;
+        mxg_shader_info info = MXG_INIT(mxg_shader_info);
+        mxg_result_info(result, &info);
+        const char *text = mxg_result_source(result, MXG_STAGE_PIXEL, &size);
+        good = write_file(&cli->report, folder, info.name, target->stage_suffix[MXG_STAGE_PIXEL],
+                          text, size);
+    }
+    mxg_result_destroy(result);
+    return good;
+}
+
+static bool write_all(struct cli *cli, const mxg_target *target, const char *folder)
 {
     const char *reason = files_make_folder(folder);
     bool good = !reason;
     if (reason)
         report_error(&cli->report, "output-failed", "cannot make the folder '%s': %s", folder,
                      reason);
+    if (good && args_is_given(&cli->parser, "mdl-module"))
+        return write_module(cli, target, folder);
     for (uint32_t i = 0; good && i < mxg_catalogue_num_passes(); ++i)
         good = write_pass(cli, i, target, folder);
     return good;
@@ -63,7 +89,8 @@ int command_pipeline(const struct command *command, int argc, char **argv)
     const char *name = "vulkan";
     const struct arg args[] = {
         {"target", 't', ARG_TEXT, "T",
-         "target language: vulkan (default), glsl, hlsl, slang, msl or wgsl", &name},
+         "target language: vulkan (default), glsl, hlsl, slang, msl or wgsl; mdl with --mdl-module",
+         &name},
     };
     struct cli cli;
     mxg_target target;
@@ -76,9 +103,9 @@ int command_pipeline(const struct command *command, int argc, char **argv)
             fprintf(stderr, "mxgen: 'mxgen pipeline' takes one folder\n");
             is_usage = false;
         }
-        code = !is_usage                                                 ? EXIT_USAGE
-               : write_passes(&cli, &target, cli.parser.inputs.items[0]) ? EXIT_DONE
-                                                                         : EXIT_FAULT;
+        code = !is_usage                                              ? EXIT_USAGE
+               : write_all(&cli, &target, cli.parser.inputs.items[0]) ? EXIT_DONE
+                                                                      : EXIT_FAULT;
     }
     cli_finish(&cli);
     return code;

@@ -46,6 +46,26 @@ bool command_knows_target(const char *target)
     return command && files_find_program(command->argv[0]);
 }
 
+/* ---- The module that shaders of MDL import ---- */
+
+static mxg_result *module; /* NULL: they import none */
+
+void compile_import_module(mxg_context *context, mxg_library *library, const mxg_options *options)
+{
+    mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
+    desc.target = "mdl";
+    desc.options = options;
+    command_end();
+    if (mxg_generate_module(context, library, &desc, &module) != MXG_OK)
+        command_end();
+}
+
+void command_end(void)
+{
+    mxg_result_destroy(module);
+    module = NULL;
+}
+
 /* ---- Files: a compiler reads one and may write one ---- */
 
 struct work { /* in a folder of its own */
@@ -53,18 +73,32 @@ struct work { /* in a folder of its own */
     char source[PATH_CAPACITY], object[PATH_CAPACITY], log[PATH_CAPACITY];
 };
 
+static bool write_text(const char *path, const char *text)
+{
+    FILE *file = fopen(path, "w");
+    if (!file)
+        return false;
+    bool whole = fputs(text, file) >= 0;
+    return fclose(file) == 0 && whole;
+}
+
+static bool write_module(const struct work *work, const char *ending)
+{
+    char path[PATH_CAPACITY];
+    mxg_shader_info info = MXG_INIT(mxg_shader_info);
+    mxg_result_info(module, &info);
+    snprintf(path, sizeof path, "%s/%s.%s", work->folder.path, info.name, ending);
+    return write_text(path, mxg_result_source(module, MXG_STAGE_PIXEL, NULL));
+}
+
 static bool make_work(struct work *work, const char *ending, const char *source)
 {
-    if (!scratch_make(&work->folder))
+    if (!scratch_make(&work->folder) || (module && !write_module(work, ending)))
         return false;
     snprintf(work->source, sizeof work->source, "%s/shader.%s", work->folder.path, ending);
     snprintf(work->object, sizeof work->object, "%s/shader.object", work->folder.path);
     snprintf(work->log, sizeof work->log, "%s/log", work->folder.path);
-    FILE *file = fopen(work->source, "w");
-    if (!file)
-        return false;
-    bool whole = fputs(source, file) >= 0;
-    return fclose(file) == 0 && whole;
+    return write_text(work->source, source);
 }
 
 static const char *argument(const char *text, const struct work *work)

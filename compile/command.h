@@ -18,4 +18,7 @@ bool command_knows_target(const char *target);
 bool command_compile_program(const char *target, const char *const sources[MXG_NUM_STAGES],
                              struct compiled *out);
 
+/* Forgets the module of compile_import_module. */
+void command_end(void);
+
 #endif

@@ -44,6 +44,7 @@ void compile_begin(void)
 void compile_end(void)
 {
     workers_end();
+    command_end();
     glslang_finalize_process();
 }
 

@@ -51,6 +51,12 @@ struct compiled {
 void compile_begin(void);
 void compile_end(void);
 
+/*
+ * Makes the module that the options name for shaders of MDL, whose compiler then finds it beside
+ * them; without one these shaders have faults. For all calls until compile_end.
+ */
+void compile_import_module(mxg_context *context, mxg_library *library, const mxg_options *options);
+
 /* `tell` is called when a compiler finds no memory, which ends the program. */
 void compile_on_exhaustion(void (*tell)(void));
 

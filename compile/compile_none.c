@@ -13,6 +13,7 @@ void compile_begin(void)
 
 void compile_end(void)
 {
+    command_end();
 }
 
 void compile_on_exhaustion(void (*tell)(void))

@@ -237,6 +237,8 @@ int main(int argc, char **argv)
                   CLI_GENERATES | CLI_NEEDS_INPUT, argc, argv, &code)) {
         compile_begin();
         note_missing_compilers(&check);
+        if (args_is_given(&check.cli.parser, "mdl-module"))
+            compile_import_module(check.cli.context, check.cli.library, check.cli.options);
         for (size_t i = 0; i < check.cli.parser.inputs.len; ++i) {
             check.input = check.cli.parser.inputs.items[i];
             check_document(&check);

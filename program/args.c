@@ -75,13 +75,19 @@ bool args_is_given(const struct arg_parser *parser, const char *name)
     return false;
 }
 
-bool args_has_setting(const struct arg_parser *parser, const char *key, const char *value)
+const char *args_setting(const struct arg_parser *parser, const char *key)
 {
-    bool is_it = false;
+    const char *value = NULL;
     for (size_t i = 0; i < parser->num_settings; ++i)
         if (strcmp(parser->settings[i].key, key) == 0)
-            is_it = strcmp(parser->settings[i].value, value) == 0;
-    return is_it;
+            value = parser->settings[i].value;
+    return value;
+}
+
+bool args_has_setting(const struct arg_parser *parser, const char *key, const char *value)
+{
+    const char *last = args_setting(parser, key);
+    return last && strcmp(last, value) == 0;
 }
 
 /* An option on the command line: "--name=value" or "-n". */

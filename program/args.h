@@ -61,7 +61,9 @@ void args_finish(struct arg_parser *parser);
 
 /* True if the command line has this option, also if it repeats the default. */
 bool args_is_given(const struct arg_parser *parser, const char *name);
-/* True if the last value of an option of generation on the command line is this one. */
+/* The last value of an option of generation on the command line; NULL: it has none. */
+const char *args_setting(const struct arg_parser *parser, const char *key);
+/* True if that value is this one. */
 bool args_has_setting(const struct arg_parser *parser, const char *key, const char *value);
 
 void args_append(struct arg_list *list, const char *item);

@@ -165,13 +165,21 @@ static void name_variables(struct spell *spell)
 static void declare(struct spell *spell)
 {
     static const char *const modules[] = {"anno", "df", "math", "scene", "state", "tex"};
+    const struct shader_module *module = &spell->shader->module;
     const char *version = spell->options->version;
     name_variables(spell);
     SPELL(spell, "mdl ", version ? version : spell->target->versions[0], ";\n\n// ");
-    spell_title(spell);
+    if (module->is_shader)
+        SPELL(spell, module->name, " · module · ", spell->options->generator);
+    else
+        spell_title(spell);
     spell_text(spell, "\n\n");
     for (size_t i = 0; i < sizeof modules / sizeof *modules; i++)
         SPELL(spell, "import ::", modules[i], "::*;\n");
+    if (module->is_shader)
+        spell->style->exports = "export ";
+    else if (spell->stage->reach.needs_module)
+        SPELL(spell, "import ::", module->name, "::*;\n");
     spell_text(spell, spell->stage->reach.user_types.len ? "\n" : "");
     spell_structs(spell);
 }

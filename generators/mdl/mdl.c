@@ -107,6 +107,10 @@ static const char *node_type(const struct spell *spell, ir_ref ref)
 
 static const char *const versions[] = {"1.8", "1.9", "1.10", NULL};
 
+/* The modules of MDL 1.10. */
+static const char *const modules[] = {"anno",  "base",  "debug", "df",  "limits", "math",
+                                      "scene", "state", "std",   "tex", NULL};
+
 const struct target target_mdl = {
     .name = "mdl",
     .materialx_name = "mdl", /* sources for genmdl need modules of MaterialX */
@@ -114,6 +118,7 @@ const struct target target_mdl = {
     .caps = CAP_BITWISE | CAP_IMPLICIT_LOD | CAP_STRINGS | CAP_NAMED_WHOLES | CAP_TYPED_TEXTURES
             | CAP_MISSING_COLORS | CAP_SCOPED_PARAMETERS | CAP_INDEXED_TANGENTS | CAP_METADATA,
     .versions = versions,
+    .modules = modules,
     .closures = &mdl_closures,
     .syntax = &syntax,
     .frame = &mdl_frame,

@@ -410,6 +410,15 @@ typedef struct mxg_generate_desc {
 MXG_API mxg_status mxg_generate(mxg_context *context, const mxg_document *document,
                                 const mxg_generate_desc *desc, mxg_result **out_result);
 
+/*
+ * The module that materials of MDL import with the option `mdl-module`, which `desc` sets, too
+ * (docs/mdl.md): a result with one source, of the pixel stage, whose name (mxg_shader_info) is that
+ * of the module. It has functions of the library, and depends on the library, the name and the
+ * version of the language alone. `desc` names a target and options only.
+ */
+MXG_API mxg_status mxg_generate_module(mxg_context *context, mxg_library *library,
+                                       const mxg_generate_desc *desc, mxg_result **out_result);
+
 MXG_API void mxg_result_destroy(mxg_result *result);
 
 /*

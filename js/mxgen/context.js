@@ -309,6 +309,22 @@ export class Context extends Owner {
         }));
     }
 
+    /**
+     * The module with functions of the library that shaders of a target import with the option `mdl-module` (docs/mdl.md); its source is
+     * `shader.pixel`. Throws DocumentError.
+     */
+    module(target, { library = null, options = null } = {}) {
+        const native = this._native, used = this.#libraryFor(library);
+        return native.using(() => withOptions(this, options, made => {
+            const desc = native.newStruct("mxg_generate_desc", { target: native.newText(target, "target"), options: made });
+            const { handle, status } = this._make("mxg_generate_module", "mxg_result_destroy", [used._handle], out => [used._pointer, desc, out]);
+            const shader = new Shader(native, handle);
+            if (status === STATUS.errorDocument)
+                throw new DocumentError(shader.diagnostics);
+            return shader;
+        }));
+    }
+
     // ---- Scenes ----
 
     /** A scene of primitives by their paths, "/set/table", and those above them. Throws DocumentError if a path is none. */

@@ -169,6 +169,8 @@ export class Context extends Owner {
     sceneMaterials(scene: Scene, request?: { library?: Library | null }): Document;
     /** The passes of the deferred pipeline that belong to no material, in their order, as far as the options ask for them. Their source is `shader.pixel`. Throws DocumentError. */
     passes(target: string, request?: { options?: Record<string, boolean | number | string | string[]> | null }): { name: string; shader: Shader }[];
+    /** The module with functions of the library that shaders import with the option `mdl-module`; its source is `shader.pixel`. Throws DocumentError. */
+    module(target: string, request?: { library?: Library | null; options?: Record<string, boolean | number | string | string[]> | null }): Shader;
     /** Reads a document and writes it again. `text` null: reads the file `name`. */
     rewrite(rewriting: Rewriting, name: string, text?: string | ArrayBuffer | ArrayBufferView | null): { text: string; diagnostics: Diagnostics };
     /** The text of a document in one layout; comments stay. */

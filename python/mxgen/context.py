@@ -236,6 +236,18 @@ class Context(Native):
                 found[py_text(lib.mxg_catalogue_pass(index))] = shader
         return found
 
+    def module(self, target: str, *, library: Library | None = None, options: Mapping[str, OptionValue]) -> Shader:
+        """The module with functions of the library that shaders of a target import with the option `mdl-module` (docs/mdl.md). Its source is
+        that of `Shader.pixel`, and its name that of `Shader.name`. Raises DocumentError."""
+        used = self._library_for(library)
+        made_options = make_options(self, options)
+        desc = new("mxg_generate_desc", target=c_text(target, "target"), options=made_options._handle.pointer)
+        handle, status = self._make(lib.mxg_generate_module, lib.mxg_result_destroy, (used._handle,), used._handle.pointer, desc)
+        shader = Shader(handle)
+        if status != lib.MXG_OK:
+            raise document_error(shader.diagnostics)
+        return shader
+
     # ---- Libraries ----
 
     @property

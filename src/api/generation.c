@@ -73,7 +73,7 @@ static void set_build_options(struct generation *g)
 {
     const struct option_value *o = g->options;
     const mxg_context *context = g->result->object.context;
-    uint32_t caps = target_capabilities(g->result->target);
+    uint64_t caps = target_capabilities(g->result->target);
     bool is_pass = role_is_pass(g->role),
          hosts_environment = o[OPTION_host_environment].number && o[OPTION_environment].number != 0;
     g->build_options = (struct build_options){
@@ -176,6 +176,14 @@ static void name_stack(struct generation *g)
     shader->reflection.element_type = str_intern_z(shader->strings, "stack");
 }
 
+/* The functions of the libraries are those below the document's. */
+static void import_module(struct generation *g)
+{
+    const char *name = g->options[OPTION_mdl_module].text;
+    if (*name)
+        shader_import_module(&g->result->shader, name, g->document->layer.unit.base_functions);
+}
+
 static void name_shader(struct generation *g)
 {
     struct shader *shader = &g->result->shader;
@@ -243,6 +251,7 @@ bool generation_start(struct generation *g)
     generation_check_globs(g);
     init_layers(g);
     name_shader(g);
+    import_module(g);
     name_variables(g);
     set_build_options(g);
     return generation_slab_features(g);
@@ -371,7 +380,7 @@ void generation_start_closures(struct generation *g)
 
 struct shader_layout_rules generation_layout_rules(const struct generation *g)
 {
-    uint32_t caps = g->result->target->caps;
+    uint64_t caps = g->result->target->caps;
     return (struct shader_layout_rules){
         .blocks = (caps & CAP_UNIFORM_BLOCKS)
                   || ((caps & CAP_BLOCK_OPTION) && g->options[OPTION_uniform_blocks].number),

@@ -64,8 +64,23 @@ static bool check_renamed(struct generation *g)
     return good;
 }
 
+/* The language's own modules, and words of the language, are no names of modules. */
+static bool check_module(struct generation *g)
+{
+    const struct target *target = g->result->target;
+    const char *name = g->options[OPTION_mdl_module].text;
+    size_t len = strlen(name);
+    bool is_good =
+        !len || (identifier_is(name, len) && !lang_syntax_is_reserved(target->syntax, name, len));
+    for (const char *const *own = target->modules; own && *own; own++)
+        is_good = is_good && strcmp(name, *own) != 0;
+    return is_good
+           || report(g, OPTION_mdl_module, name,
+                     "an identifier that is no word and no module of the language");
+}
+
 bool generation_check_names(struct generation *g)
 {
-    bool prefix = check_prefix(g), renamed = check_renamed(g);
-    return prefix && renamed;
+    bool prefix = check_prefix(g), renamed = check_renamed(g), module = check_module(g);
+    return prefix && renamed && module;
 }

@@ -23,7 +23,7 @@ static const mxg_option table[NUM_OPTIONS] = {
 
 /* The capabilities that an option needs of a target, and the task of a role that it sets. */
 static const struct need {
-    uint32_t caps;
+    uint64_t caps;
     enum role_task task;
 } needs[NUM_OPTIONS] = {
 #define OPTION(id, key, type, caps, task, values, initial, doc) {caps, TASK_##task},

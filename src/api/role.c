@@ -31,7 +31,7 @@ static const struct combination {
 
 /* The texts say what a capability allows, as the end of "only … can" and of "the first to". */
 static const struct ability {
-    uint32_t cap;
+    uint64_t cap;
     const char *text;
 } abilities[] = {{CAP_STORES, "store slabs"},
                  {CAP_PASSES, "have passes"},
@@ -39,7 +39,8 @@ static const struct ability {
                  {CAP_HOST_FILES, "be a function in a file of the host"},
                  {CAP_LIGHTING, "compute light in the shader"},
                  {CAP_HOST_FUNCTIONS, "call functions of the host"},
-                 {CAP_CLOSURES, "return closures"}};
+                 {CAP_CLOSURES, "return closures"},
+                 {CAP_MODULES, "have modules"}};
 
 static void tell_clash(struct generation *g, const char *option, const char *value,
                        const char *other, const char *other_value, const char *why)
@@ -67,11 +68,11 @@ static void tell_other_targets(struct generation *g, const struct ability *abili
 
 /* The value of an option asks the target for capabilities. */
 static void check_target(struct generation *g, const char *option, const char *value,
-                         uint32_t wanted)
+                         uint64_t wanted)
 {
     const struct target *target = g->result->target;
     const char *version = g->options[OPTION_version].text;
-    uint32_t never = target_lacks(target, NULL, wanted),
+    uint64_t never = target_lacks(target, NULL, wanted),
              not_yet = target_lacks(target, version, wanted) & ~never;
     for (size_t i = 0; i < sizeof abilities / sizeof *abilities; i++) {
         const struct ability *ability = &abilities[i];
@@ -173,6 +174,17 @@ static const struct role *check_pass(struct generation *g)
         tell_clash(g, option_key(OPTION_role), option->text, "pass",
                    deferred_pass_name(g->result->pass), "a pass lights what materials store");
     return material;
+}
+
+bool generation_has_module(struct generation *g)
+{
+    const char *key = option_key(OPTION_mdl_module), *name = g->options[OPTION_mdl_module].text;
+    uint32_t before = diags_of(g)->num_errors;
+    check_target(g, key, name, CAP_MODULES);
+    if (diags_of(g)->num_errors == before && !*name)
+        diag_add(diags_of(g), DIAG_ID_bad_option, (struct diag_place){0}, name, key,
+                 "the name of the module");
+    return diags_of(g)->num_errors == before;
 }
 
 bool generation_find_role(struct generation *g)

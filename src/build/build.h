@@ -36,7 +36,7 @@ struct build_options {
     unsigned num_uniform_globs, num_constant_globs;
     str_id colorspace; /* working colour space: "lin_rec709" */
     str_id distance_unit, angle_unit;
-    uint32_t caps;      /* enum target_caps */
+    uint64_t caps;      /* enum target_caps */
     bool neutral_names; /* uniform names are numbers */
     int environment;    /* values of option_environment… */
     bool host_environment;

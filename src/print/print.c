@@ -90,6 +90,7 @@ static void print_head(struct printer *p, uint32_t id)
     const char *array = print_array_name(p->names, type);
     if (array)
         type = (struct lang_type_text){lang_word(array), 0};
+    text_str(p->out, p->style->exports);
     struct lang_declaration head =
         lang_open(p->style, returns ? PHRASE_FUNCTION : PHRASE_PROCEDURE, type,
                   lang_word(print_function_name(p->names, p->unit, id)), p->out);

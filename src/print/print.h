@@ -172,7 +172,8 @@ struct lang_pieces {
 struct lang_style {
     const struct lang_syntax *syntax;
     struct arena *arena;
-    bool from_images; /* copy the text of functions from library images */
+    bool from_images;    /* copy the text of functions from library images */
+    const char *exports; /* before functions and structs that other files see: "export "; "" */
     struct text_word types[IR_NUM_TYPES];
     const char *phrases[NUM_PHRASES];
     struct lang_pieces *forms[IR_NUM_OPS]; /* parsed forms, each on first use */
@@ -263,7 +264,12 @@ const char *lang_member_name(const struct lang_style *style, const struct strpoo
 
 /* results.c: functions of languages with results_in_struct, whose results are a struct. */
 
-/* "mdl_results_f": the struct of the results of a function, by its name in the output. */
+/* Between the name of a module and that of its function: "mxgen::f". */
+#define LANG_OF_MODULE "::"
+/*
+ * "mdl_results_f", "mxgen::mdl_results_f": the struct of the results of a function, by its name in
+ * the output.
+ */
 const char *lang_results_name(const struct lang_syntax *syntax, const char *function,
                               struct arena *arena);
 /* The member of the value that the function returns in the portable language. */

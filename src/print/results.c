@@ -17,7 +17,10 @@ const char *lang_results_name(const struct lang_syntax *syntax, const char *func
 {
     struct text name;
     text_init(&name, arena);
-    text_fmt(&name, "%sresults_%s", syntax->reserved_prefix, function);
+    const char *end = strstr(function, LANG_OF_MODULE),
+               *own = end ? end + strlen(LANG_OF_MODULE) : function;
+    text_mem(&name, function, (size_t)(own - function));
+    text_fmt(&name, "%sresults_%s", syntax->reserved_prefix, own);
     return text_cstr(&name);
 }
 
@@ -56,7 +59,7 @@ static void print_member(struct printer *p, ir_type_id type, const char *name)
 
 void print_results_struct(struct printer *p, uint32_t id)
 {
-    text_fmt(p->out, "struct %s {\n", struct_name(p, id));
+    text_fmt(p->out, "%sstruct %s {\n", p->style->exports, struct_name(p, id));
     if (p->fn->return_type != IR_TYPE_VOID)
         print_member(p, p->fn->return_type, LANG_RESULTS_VALUE);
     for (uint32_t i = 0; i < p->fn->num_params; i++) {

@@ -7,8 +7,8 @@
 void lang_style_init(struct lang_style *style, const struct lang_syntax *syntax,
                      struct arena *arena)
 {
-    *style =
-        (struct lang_style){.syntax = syntax, .arena = arena, .from_images = syntax->in_images};
+    *style = (struct lang_style){
+        .syntax = syntax, .arena = arena, .from_images = syntax->in_images, .exports = ""};
     for (ir_type_id type = 0; type < IR_NUM_TYPES; type++) {
         const char *name = lang_syntax_type(syntax, type);
         style->types[type] = (struct text_word){name, strlen(name)};

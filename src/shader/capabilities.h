@@ -3,6 +3,8 @@
 #ifndef MXG_SHADER_CAPABILITIES_H
 #define MXG_SHADER_CAPABILITIES_H
 
+#include <stdint.h>
+
 enum target_caps {
     /* a vertex stage computes the inputs of the pixel stage; otherwise shaders read the geometry */
     CAP_VERTEX_STAGE = 1 << 0,
@@ -51,10 +53,10 @@ enum target_caps {
     CAP_NETWORKS = 1 << 30, /* has `network` */
 };
 
-/*
- * Programs can declare functions that the host appends. No enumerator, because an int has no bit
- * for it.
- */
-#define CAP_HOST_FUNCTIONS (1u << 31)
+/* No enumerators, because an int has no bits for them. */
+/* programs can declare functions that the host appends */
+#define CAP_HOST_FUNCTIONS (UINT64_C(1) << 31)
+/* the language has modules: --mdl-module. It follows from `modules` of the target, too */
+#define CAP_MODULES (UINT64_C(1) << 32)
 
 #endif

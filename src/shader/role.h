@@ -74,7 +74,7 @@ struct target_frame; /* spell/target.h */
 
 struct role {
     const char *name; /* a word of the option `role`, or a name that no option has */
-    uint32_t caps;    /* enum target_caps that it asks a target for */
+    uint64_t caps;    /* enum target_caps that it asks a target for */
     enum role_stages stages;
     enum role_lights lights;
     enum role_derivatives derivatives;

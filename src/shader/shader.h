@@ -360,6 +360,10 @@ struct shader {
     /* the unit of the generation, above the units of the library: contains the specialisations */
     struct lang_unit *unit;
     struct lang_style *style; /* its reserved words are not valid for variables; NULL: none */
+    struct shader_module {
+        const char *name; /* that has functions of libraries for the shader; NULL: none has */
+        bool is_shader;   /* the shader is the module */
+    } module;
     struct shader_interface interface;
     struct shader_effects effects;
     struct shader_sources sources;
@@ -373,6 +377,16 @@ struct shader {
 
 void shader_init(struct shader *shader, const struct role *role, struct arena *arena,
                  struct strpool *strings, struct ir_graph *graph, struct lang_unit *unit);
+
+/* module.c */
+
+/*
+ * Leaves to a module of this name what is the same in each shader of the first `num_functions`
+ * functions, those of the libraries. Before the first call of a function; the shader has its style.
+ */
+void shader_import_module(struct shader *shader, const char *name, uint32_t num_functions);
+/* Makes the shader the module that it imports, after shader_finish: it has all these functions. */
+void shader_become_module(struct shader *shader);
 
 /* interface.c */
 

@@ -71,17 +71,17 @@ static void note_call(struct spec *s, const struct lang_node *call)
     vec_push(unit->arena, &unit->plan->calls, called);
 }
 
-/* A function of the host takes all its arguments. */
+/* A function of the host or of a module takes all its arguments. */
 static bool begin_final(struct spec *s)
 {
-    bool is_hosts = !s->fn.body;
-    if (!(s->fn.flags & LANG_FN_FINAL) && !is_hosts)
+    bool is_elsewhere = !s->fn.body || lang_module_name(s->unit, variant_of(s)->function);
+    if (!(s->fn.flags & LANG_FN_FINAL) && !is_elsewhere)
         return false;
-    for (uint32_t i = 0; i < s->fn.num_params && !is_hosts; i++)
+    for (uint32_t i = 0; i < s->fn.num_params && !is_elsewhere; i++)
         if (is_bound(s, i))
             return false;
     uint32_t first_call = s->unit->plan->calls.len;
-    for (uint32_t i = 0; i < s->fn.num_calls; i++)
+    for (uint32_t i = 0; i < s->fn.num_calls && !is_elsewhere; i++)
         note_call(s, ast_node(s->layer, ast_calls(s->layer, &s->fn)[i]));
     struct variant *v = variant_of(s);
     v->is_final = true;
@@ -94,6 +94,8 @@ static bool stays_final(const struct spec *s)
 {
     const struct lang_plan *plan = s->unit->plan;
     uint32_t first_call = variant_of(s)->first_call;
+    if (lang_module_name(s->unit, variant_of(s)->function))
+        return true;
     for (uint32_t i = 0; i < s->fn.num_calls; i++) {
         assert(plan->calls.items[first_call + i] < plan->variants.len);
         const struct variant *called = &plan->variants.items[plan->calls.items[first_call + i]];

@@ -354,7 +354,7 @@ static inline bool spell_has_sampler(const struct spell *spell, ir_type_id type)
     return spell->target->syntax->sampler_type
            && (type == IR_TYPE_SAMPLER || type == IR_TYPE_SAMPLER_ARRAY);
 }
-static inline bool spell_can(const struct spell *spell, uint32_t cap)
+static inline bool spell_can(const struct spell *spell, uint64_t cap)
 {
     return (spell->target->caps & cap) != 0;
 }

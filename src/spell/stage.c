@@ -80,10 +80,14 @@ static void name_functions(struct spell *spell)
 {
     const struct shader *shader = spell->shader;
     struct overloads overloads = overloads_init(spell);
+    for (uint32_t id = 0; id < shader->unit->num_module; id++)
+        spell->functions[id] = shader->unit->module[id];
     for (uint32_t i = 0; i < spell->stage->reach.functions.len; i++) {
         uint32_t id = spell->stage->reach.functions.items[i];
         const struct lang_function *fn = lang_function(shader->unit, id, NULL);
         str_id source = fn->name;
+        if (lang_module_name(shader->unit, id))
+            continue;
         if (!fn->body) { /* the host has named it */
             spell->functions[id] = str_text(shader->strings, source);
             names_take(&spell->names, str_text(shader->strings, source),
@@ -297,7 +301,7 @@ void spell_stage(struct spell *spell, enum shader_stage_id stage)
         spell->out = &body;
     }
     write_functions(spell);
-    if (!spell->shader->sources.pass.lacks_surface)
+    if (!spell->shader->sources.pass.lacks_surface && !spell->shader->module.is_shader)
         write_main(spell, frame);
     if (spell->frame->close_context)
         spell->frame->close_context(spell);

@@ -27,7 +27,7 @@ static bool is_structural(enum ir_op op)
 }
 
 /* The capability that an op needs beside a form; 0: none. */
-static uint32_t needed_caps(enum ir_op op)
+static uint64_t needed_caps(enum ir_op op)
 {
     switch (op) {
     case IR_BITNOT:
@@ -52,6 +52,6 @@ enum spell_support spell_support(const struct target *target, enum ir_op op)
     const struct lang_form *form = lang_syntax_form(target->syntax, op);
     if (!form || !form->text)
         return SPELL_NO;
-    uint32_t caps = needed_caps(op);
+    uint64_t caps = needed_caps(op);
     return (target->caps & caps) == caps ? SPELL_YES : SPELL_NO;
 }

@@ -18,15 +18,15 @@ const struct role *role_find(const char *name)
     return NULL;
 }
 
-uint32_t target_capabilities(const struct target *target)
+uint64_t target_capabilities(const struct target *target)
 {
     return target->caps | (target->closures ? CAP_CLOSURES : CAP_LIGHTING)
-           | (target->network ? CAP_NETWORKS : 0u);
+           | (target->network ? CAP_NETWORKS : 0u) | (target->modules ? CAP_MODULES : 0u);
 }
 
-uint32_t target_lacks(const struct target *target, const char *version, uint32_t wanted)
+uint64_t target_lacks(const struct target *target, const char *version, uint64_t wanted)
 {
-    uint32_t lacks = wanted & ~target_capabilities(target);
+    uint64_t lacks = wanted & ~target_capabilities(target);
     bool is_early =
         version && *version && target->since.caps && strcmp(version, target->since.version) < 0;
     return is_early ? lacks | (wanted & target->since.caps) : lacks;

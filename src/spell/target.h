@@ -97,7 +97,7 @@ struct target_image {
 
 /* Capabilities that the first versions of a language lack; caps 0: there are none. */
 struct target_since {
-    uint32_t caps;
+    uint64_t caps;
     const char *version; /* the first that has them */
 };
 
@@ -106,7 +106,7 @@ struct target {
     const char *materialx_name; /* "genglsl": the target of implementations */
     const struct target *base;  /* provides missing hooks and rows */
     const char *brief;          /* one line for --help and introspection */
-    uint32_t caps;
+    uint64_t caps;
     uint32_t max_textures; /* that a stage can read; 0: that of base, or no limit */
     /* values of the option `version`, the default first; "#version" takes it */
     const char *const *versions;
@@ -144,6 +144,9 @@ struct target {
     const char *any_format;   /* of images of any format of floats; NULL: the host chooses */
     const struct target_image *images; /* ends with kind NULL; NULL: from base */
     enum shader_packing packing;       /* of blocks of uniforms */
+    /* the language's own, NULL-terminated: a module of functions has another name; NULL: the
+     * language has no modules */
+    const char *const *modules;
     /*
      * By block: the variable that has the block's variables as members, "u_pub" of u_pub.base.
      * NULL, also for a block: they stand at file scope. Blocks of nodes in C have "u_" before their
@@ -165,12 +168,12 @@ struct target {
 /* generators/generators.c: every target, NULL-terminated. */
 extern const struct target *const targets[];
 /* Its capabilities, with those that follow from its members. */
-uint32_t target_capabilities(const struct target *target);
+uint64_t target_capabilities(const struct target *target);
 /*
  * The capabilities of `wanted` that the target lacks in a version of its language; NULL or "": the
  * default version.
  */
-uint32_t target_lacks(const struct target *target, const char *version, uint32_t wanted);
+uint64_t target_lacks(const struct target *target, const char *version, uint64_t wanted);
 const struct target *target_find(const char *name); /* by name or MaterialX name; NULL: unknown */
 /*
  * True if `target` is `name` or inherits from it, by MaterialX name ("essl" inherits from

@@ -60,6 +60,14 @@ static void add_own_needs(struct lang_reach *reach, const struct lang_unit *unit
         add_global(reach, unit, ast_globals(layer, fn)[i]);
 }
 
+/* False: it is no news, or a module has the function. */
+static bool is_new(struct lang_reach *reach, const struct lang_unit *unit, uint32_t id)
+{
+    bool is_elsewhere = lang_module_name(unit, id) != NULL;
+    reach->needs_module |= is_elsewhere;
+    return !is_elsewhere && mark(reach->arena, &reach->seen_functions, &reach->cap_functions, id);
+}
+
 /*
  * Nothing bounds the depth of calls in the author's functions, so the walk uses an explicit stack.
  */
@@ -69,7 +77,7 @@ void lang_reach_add(struct lang_reach *reach, const struct lang_unit *unit, uint
         uint32_t id, next_callee;
     };
     VEC(struct visit) stack = {0};
-    if (mark(reach->arena, &reach->seen_functions, &reach->cap_functions, id))
+    if (is_new(reach, unit, id))
         vec_push(reach->arena, &stack, (struct visit){id, 0});
     while (stack.len) {
         struct visit *top = &vec_last(&stack);
@@ -84,7 +92,7 @@ void lang_reach_add(struct lang_reach *reach, const struct lang_unit *unit, uint
         }
         uint32_t callee = ast_callees(layer, fn)[top->next_callee++];
         assert(callee < top->id);
-        if (mark(reach->arena, &reach->seen_functions, &reach->cap_functions, callee))
+        if (is_new(reach, unit, callee))
             vec_push(reach->arena, &stack, (struct visit){callee, 0});
     }
 }

@@ -6,12 +6,13 @@
 
 /*
  * Adds the functions that `id` needs to `functions` (ids, callees before callers, each once, `id`
- * last), and the globals that they read to `globals`.
+ * last), and the globals that they read to `globals`. Functions of the unit's module are elsewhere.
  */
 struct lang_reach {
     struct arena *arena;
     VEC(uint32_t) functions, globals;
     VEC(ir_type_id) user_types; /* structs in signatures and locals, in order of use */
+    bool needs_module;          /* some call is of a function of the module */
     uint8_t *seen_functions, *seen_globals, *seen_types;
     uint32_t cap_functions, cap_globals, cap_types;
 };

@@ -206,6 +206,10 @@ struct lang_unit {
     VEC(struct lang_version) versions; /* by function */
     /* plan.c: the constants that functions assume; NULL until the shader is complete */
     struct lang_plan *plan;
+    /* by id, of the functions that a module beside the shader has: their names in calls, NULL of
+     * others (module.c); num_module 0: there is no module */
+    const char *const *module;
+    uint32_t num_module;
 };
 
 void lang_unit_init(struct lang_unit *unit, struct arena *arena, struct strpool *strings,
@@ -224,6 +228,13 @@ static inline const struct lang_function *lang_function(const struct lang_unit *
         *out_unit = unit;
     assert(id - unit->base_functions < unit->functions.len);
     return &unit->functions.items[id - unit->base_functions];
+}
+
+/* The name with which a shader calls a function of its module; NULL: the shader has the function.
+ */
+static inline const char *lang_module_name(const struct lang_unit *unit, uint32_t id)
+{
+    return id < unit->num_module ? unit->module[id] : NULL;
 }
 
 static inline const struct lang_global *lang_global(const struct lang_unit *unit, uint32_t id,

@@ -595,6 +595,52 @@ static void test_passes(const struct bench *b)
     REQUIRE_EQ(mxg_generate_pass(b->context, 0, &desc, NULL), MXG_ERROR_ARGUMENT);
 }
 
+/* ---- Modules ---- */
+
+static mxg_result *generate_module(const struct bench *b, mxg_generate_desc desc,
+                                   mxg_status expected)
+{
+    mxg_result *result = NULL;
+    desc.options = b->options;
+    REQUIRE_EQ(mxg_generate_module(b->context, b->library, &desc, &result), expected);
+    return result;
+}
+
+/* A target without modules, an option without a name, and elements have none. */
+static void test_no_module(const struct bench *b)
+{
+    mxg_generate_desc desc = {.size = sizeof desc, .target = "mdl", .element = "NG"};
+    mxg_result *result = generate_module(b, desc, MXG_ERROR_ARGUMENT);
+    REQUIRE(!result);
+    desc.element = NULL;
+    desc.target = "osl";
+    mxg_result_destroy(generate_module(b, desc, MXG_ERROR_DOCUMENT));
+    desc.target = "mdl";
+    desc.only_diagnostics = true;
+    result = generate_module(b, desc, MXG_OK);
+    REQUIRE(!mxg_result_source(result, MXG_STAGE_PIXEL, NULL));
+    mxg_result_destroy(result);
+    REQUIRE_EQ(mxg_options_set(b->options, "mdl-module", ""), MXG_OK);
+    mxg_result_destroy(generate_module(b, desc, MXG_ERROR_DOCUMENT));
+}
+
+static void test_module(const struct bench *b)
+{
+    mxg_generate_desc desc = {.size = sizeof desc, .target = "mdl"};
+    mxg_shader_info info = {sizeof info};
+    REQUIRE_EQ(mxg_options_set(b->options, "mdl-module", "studio"), MXG_OK);
+    mxg_result *result = generate_module(b, desc, MXG_OK);
+    const char *source = mxg_result_source(result, MXG_STAGE_PIXEL, NULL);
+    REQUIRE(source && strstr(source, "\nexport float mx_fractal_float("));
+    REQUIRE(!mxg_result_source(result, MXG_STAGE_VERTEX, NULL));
+    REQUIRE_EQ(mxg_result_info(result, &info), MXG_OK);
+    REQUIRE_STR(info.name, "studio");
+    mxg_pass pass = {sizeof pass};
+    REQUIRE_EQ(mxg_result_pass(result, &pass), MXG_ERROR_ARGUMENT);
+    mxg_result_destroy(result);
+    test_no_module(b);
+}
+
 int main(void)
 {
     struct bench b;
@@ -608,6 +654,7 @@ int main(void)
     test_only_diagnostics(&b);
     test_interfaces(&b);
     test_passes(&b);
+    test_module(&b);
     bench_close(&b);
     test_elements();
     test_tokens();

@@ -511,6 +511,14 @@ test("passes of the deferred pipeline", () => {
     assert.throws(() => context.passes("moon"), DocumentError);
 });
 
+test("the module of the materials of MDL", () => {
+    const context = mxgen.createContext(), options = { "mdl-module": "studio" };
+    const module = context.module("mdl", { options }), marble = context.load(path.join(examples, "marble.mtlx")).generate("mdl", { options });
+    assert.match(module.pixel, /^export float mx_fractal_float_vec3\(/m);
+    assert.match(marble.pixel, /^import ::studio::\*;$/m);
+    assert.throws(() => context.module("glsl", { options }), DocumentError);
+});
+
 test("facts of primitives", () => {
     const context = mxgen.createContext(), scene = context.scene("/set/table", "/set/chair");
     const document = context.parse(`<materialx version="1.39"><geominfo name="G" geom="/set/table"><token name="id" type="string" value="7"/></geominfo>

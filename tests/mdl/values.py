@@ -3,7 +3,7 @@
 """Computes the rows of tests/conformance with the folder of mdlc: at one point of the scene the texture coordinates are constants, so mdlc
 folds the expression of a material's emission where it has no loops, textures and other state. The others compile and have no value.
 Arguments: mxgen, the folder of the rows, and optionally document names and --all (every row; by default the first with
-varying inputs of each nodegraph). Skipped (77) without mdlc."""
+varying inputs of each nodegraph), and --module (materials import the functions). Skipped (77) without mdlc."""
 import math
 import pathlib
 import re
@@ -23,7 +23,10 @@ PIXEL, U, V = 6, 0.625, 0.375 # the third of the second row of 4x4
 COORDINATES = f"(index == 0 ? float3({0.0313 + 0.9371 * U + 0.0129 * V:.9g}, {0.0217 + 0.0171 * U + 0.9331 * V:.9g}, 0.0) : state::texture_coordinate(index))"
 NUMBER = r"(-?[\d.]+(?:e[-+]?\d+)?)f"
 FOLDED = re.compile(rf"intensity: color\({NUMBER}(?:, {NUMBER}, {NUMBER})?\)")
+CALLS = [] # the rows with a value that call the module
 LEAST_FOLDED = 0.4 # of the rows
+MODULE = ["--mdl-module", "mxgen"] if "--module" in FLAGS else []
+NAME = "values-mdl-module" if MODULE else "values-mdl"
 
 
 def folded(folder, modules):
@@ -53,8 +56,10 @@ def run_document(name, folder):
     """By case, for rows that have a value or do not compile: what is wrong, or None. And the numbers of rows with a value, and of all."""
     rows = scene.wanted(pathlib.Path(ROWS) / "expected" / f"{name}.csv", "--all" in FLAGS)
     elements = [word for row in rows for word in ("--element", row["case"])]
-    subprocess.run([MXGEN, pathlib.Path(ROWS) / "cases" / f"{name}.mtlx", "--target", "mdl", "-q", "-o", folder, *elements], capture_output=True,
+    subprocess.run([MXGEN, pathlib.Path(ROWS) / "cases" / f"{name}.mtlx", "--target", "mdl", "-q", "-o", folder, *MODULE, *elements], capture_output=True,
                    check=False)
+    if MODULE:
+        subprocess.run([MXGEN, "pipeline", folder, "--target", "mdl", *MODULE], check=True)
     modules = {}
     for row in rows:
         source = folder / (row["case"].replace("/", ".") + ".mdl")
@@ -64,6 +69,7 @@ def run_document(name, folder):
             modules[f"row{len(modules)}"] = row
     values = folded(folder, modules) if modules else {}
     found = {row["case"]: "does not compile" for module, row in modules.items() if module not in values}
+    CALLS.extend(module for module, value in values.items() if value and "mxgen::" in (folder / f"{module}.mdl").read_text(encoding="utf-8"))
     with_value = {modules[module]["case"]: difference(modules[module], value) for module, value in values.items() if value}
     return found | with_value, len(with_value), len(rows)
 
@@ -71,7 +77,7 @@ def run_document(name, folder):
 def main():
     if not shutil.which("mdlc"):
         checks.skip("mdlc is not installed")
-        checks.finish("values-mdl")
+        checks.finish(NAME)
     known = scene.known_deviations(pathlib.Path(ROWS) / "deviations.tsv", pathlib.Path(__file__).with_name("deviations.tsv"))
     num_folded = num_rows = 0
     for path in sorted((pathlib.Path(ROWS) / "cases").glob("*.mtlx")):
@@ -82,9 +88,10 @@ def main():
         num_folded, num_rows = num_folded + with_value, num_rows + rows
         for case, fault in found.items():
             checks.check(not fault or known & {(path.stem, case), (path.stem, "*")}, f"{path.stem} {case}: {fault}")
-    print(f"mdlc folds {num_folded} of {num_rows} rows")
+    print(f"mdlc folds {num_folded} of {num_rows} rows, {len(CALLS)} with calls of the module")
     checks.check(num_folded >= LEAST_FOLDED * num_rows, "mdlc folds too few rows")
-    checks.finish("values-mdl")
+    checks.check(CALLS or not MODULE, "no row with a value calls the module")
+    checks.finish(NAME)
 
 
 main()

@@ -27,6 +27,11 @@ for document in "$examples"/*.mtlx; do
     [ -z "$compile_osl" ] || check "${document##*/} compiles as OSL" exits 0 "$compile" "$document" --targets osl
     check "${document##*/} is in the list of examples" grep -qF "\`${document##*/}\`" "$examples/README.md"
 done
+# Materials of MDL with one module of functions, as docs/mdl.md has them.
+check 'examples are generated as MDL' exits 0 "$mxgen" "$examples"/{gold,marble,textured,slabs}.mtlx --target mdl --mdl-module studio -o mdl.d
+check 'their module is generated' exits 0 "$mxgen" pipeline mdl.d --target mdl --mdl-module studio
+check 'it has what they call' eval '[ -z "$(comm -23 <(grep -ho "studio::mx_[a-z0-9_]*" mdl.d/*.mdl | sed "s/studio:://" | sort -u) <(sed -n "s/^export .* \(mx_[a-z0-9_]*\)(.*/\1/p" mdl.d/studio.mdl | sort))" ]'
+check 'they call it' [ "$(grep -ho 'studio::mx_[a-z0-9_]*' mdl.d/*.mdl | sort -u | wc -l)" -ge 5 ]
 # Light data and light code are made of what is bound, and of nothing else.
 for lights in lantern_light=7 none; do
     check "lantern.mtlx is generated with the lights $lights" exits 0 "$mxgen" "$examples/lantern.mtlx" --lights "$lights" --environment none -o out.d

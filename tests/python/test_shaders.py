@@ -275,6 +275,18 @@ class Passes(unittest.TestCase):
         with self.assertRaises(mxgen.DocumentError):
             context.passes("osl")
 
+    def test_module(self):
+        context = mxgen.Context()
+        module = context.module("mdl", options={"mdl-module": "studio"})
+        self.assertTrue(module.pixel.startswith("mdl 1.8;\n\n// studio · module"))
+        marble = context.load(common.EXAMPLES / "marble.mtlx").generate("mdl", options={"mdl-module": "studio"})
+        self.assertIn("import ::studio::*;", marble.pixel)
+        self.assertIn("export float mx_fractal_float_vec3(", module.pixel)
+        with self.assertRaisesRegex(mxgen.DocumentError, "only mdl can have modules"):
+            context.module("glsl", options={"mdl-module": "studio"})
+        with self.assertRaisesRegex(mxgen.DocumentError, "the name of the module"):
+            context.module("mdl", options={})
+
     def test_reflection(self):
         """The JSON of a pass and the library say the same."""
         resources = mxgen.pass_resources()
