@@ -212,12 +212,15 @@ static struct arg_list find_elements(const struct generate *gen, const mxg_docum
     return list;
 }
 
-/* The file of a material would stand in the place of the module that the material imports. */
+/*
+ * False, after a message, for a material whose file would be that of the module which materials in
+ * the folder import.
+ */
 static bool is_no_module(struct generate *gen, const char *folder, const char *element)
 {
     const char *suffix = gen->target_info.stage_suffix[MXG_STAGE_PIXEL];
     char *path = file_path(gen, folder, element, suffix),
-         *module = gen->module ? file_path(gen, folder, gen->module, suffix) : NULL;
+         *module = gen->module ? file_path(gen, gen->output, gen->module, suffix) : NULL;
     bool is_it = module && strcmp(path, module) == 0 && !gen->is_file;
     if (is_it)
         report_error(&gen->cli.report, "output-clash",

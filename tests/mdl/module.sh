@@ -62,7 +62,7 @@ for version in 1.8 1.10; do
         rm -rf made
     done
 done
-check 'there are materials' [ "$number" -ge 100 ]
+check 'there are materials' [ "$number" -ge 80 ]
 importing=$(grep -l '^import ::studio::' with*/m*.mdl | wc -l)
 check 'most import the module' [ "$importing" -ge $((number / 2)) ]
 check 'each that calls the module imports it, and no other' diff <(grep -l 'studio::m' with*/m*.mdl) <(grep -l '^import ::studio::' with*/m*.mdl)
