@@ -33,6 +33,10 @@
     [IR_TYPE_VEC2] = "float2", [IR_TYPE_VEC3] = "float3", [IR_TYPE_VEC4] = "float4", \
     [IR_TYPE_MAT2] = "float2x2", [IR_TYPE_MAT3] = "float3x3", [IR_TYPE_MAT4] = "float4x4"
 
+/* Half floats as `type`, type2, type3 and type4. */
+#define HALF_TYPES(type) \
+    [IR_TYPE_FLOAT] = type, [IR_TYPE_VEC2] = type "2", [IR_TYPE_VEC3] = type "3", [IR_TYPE_VEC4] = type "4"
+
 /* clang-format on */
 
 #endif

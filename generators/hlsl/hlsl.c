@@ -41,12 +41,7 @@ static const char *const type_names[IR_NUM_TYPES] = {
     [IR_TYPE_SAMPLER_ARRAY] = "Texture2DArray",
 };
 
-static const char *const half_types[IR_NUM_TYPES] = {
-    [IR_TYPE_FLOAT] = "min16float",
-    [IR_TYPE_VEC2] = "min16float2",
-    [IR_TYPE_VEC3] = "min16float3",
-    [IR_TYPE_VEC4] = "min16float4",
-};
+static const char *const half_types[IR_NUM_TYPES] = {HALF_TYPES("min16float")};
 
 static const char *const phrases[NUM_PHRASES] = {
     [PHRASE_CONSTANT] = "static const $T $N = $V;",

@@ -41,6 +41,8 @@ static const char *const type_names[IR_NUM_TYPES] = {
     [IR_TYPE_SAMPLER_ARRAY] = "MetalTextureArray",
 };
 
+static const char *const half_types[IR_NUM_TYPES] = {HALF_TYPES("half")};
+
 static const char *const phrases[NUM_PHRASES] = {
     [PHRASE_CONSTANT] = "constant $T $N = $V;", [PHRASE_ARRAY] = "array<$T, $L>",
     [PHRASE_PARAM_OUT] = "thread $T& $N",       [PHRASE_PARAM_INOUT] = "thread $T& $N",
@@ -51,6 +53,8 @@ static const struct lang_syntax syntax = {
     .name = "msl",
     .base = &lang_syntax_portable,
     .type_names = type_names,
+    .half_types = half_types,
+    .half_suffix = "h",
     .forms = forms,
     .forms_alone = forms_alone,
     .reserved = reserved,
@@ -89,7 +93,7 @@ const struct target target_msl = {
     .brief = "Metal Shading Language 2.3 and 3.0",
     .caps = CAP_VERTEX_STAGE | CAP_OVERLOADS | CAP_BITWISE | CAP_IMPLICIT_LOD | CAP_TEXTURE_ARRAYS
             | CAP_UNIFORM_BLOCKS | CAP_BINDINGS | CAP_OWN_NUMBERS | CAP_BLOCK_STAGE_IO
-            | CAP_SAMPLERS | CAP_HOST_FILES | CAP_STORES | CAP_PASSES,
+            | CAP_SAMPLERS | CAP_HOST_FILES | CAP_STORES | CAP_PASSES | CAP_MEDIUMP,
     .max_textures = 16, /* section 2.10: samplers of a function */
     .versions = versions,
     .syntax = &syntax,

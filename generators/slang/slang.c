@@ -30,12 +30,7 @@ static const char *const type_names[IR_NUM_TYPES] = {
     [IR_TYPE_SAMPLER_ARRAY] = "SamplerTexture2DArray",
 };
 
-static const char *const half_types[IR_NUM_TYPES] = {
-    [IR_TYPE_FLOAT] = "half",
-    [IR_TYPE_VEC2] = "half2",
-    [IR_TYPE_VEC3] = "half3",
-    [IR_TYPE_VEC4] = "half4",
-};
+static const char *const half_types[IR_NUM_TYPES] = {HALF_TYPES("half")};
 
 static const struct lang_syntax syntax = {
     .name = "slang",

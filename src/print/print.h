@@ -98,8 +98,8 @@ struct lang_syntax {
     bool one_per_declaration; /* "float x, y;" is two declarations */
     bool always_braces;       /* also around a single statement */
     bool no_directives; /* nor prototypes: declarations stand in any order, and once in a file */
-    bool float_literals_need_suffix; /* 1.0f */
-    const char *infinity, *nan;      /* expressions, the highest precedence (docs/ir.md) */
+    const char *float_suffix, *half_suffix; /* of literals: 1.0f, 1.0h; NULL: none */
+    const char *infinity, *nan;             /* expressions, the highest precedence (docs/ir.md) */
     /* max(v, vec3(0.0)), although the language also has max(v, 0.0) */
     bool wide_constants;
     bool lists_components; /* vec3(1.0, 1.0, 1.0), because the language has no vec3(1.0) */
@@ -172,8 +172,9 @@ struct lang_pieces {
 struct lang_style {
     const struct lang_syntax *syntax;
     struct arena *arena;
-    bool from_images;    /* copy the text of functions from library images */
-    const char *exports; /* before functions and structs that other files see: "export "; "" */
+    bool from_images;         /* copy the text of functions from library images */
+    const char *float_suffix; /* of literals; "" */
+    const char *exports;      /* before functions and structs that other files see: "export "; "" */
     struct text_word types[IR_NUM_TYPES];
     const char *phrases[NUM_PHRASES];
     struct lang_pieces *forms[IR_NUM_OPS]; /* parsed forms, each on first use */

@@ -9,6 +9,7 @@ void lang_style_init(struct lang_style *style, const struct lang_syntax *syntax,
 {
     *style = (struct lang_style){
         .syntax = syntax, .arena = arena, .from_images = syntax->in_images, .exports = ""};
+    style->float_suffix = syntax->float_suffix ? syntax->float_suffix : "";
     for (ir_type_id type = 0; type < IR_NUM_TYPES; type++) {
         const char *name = lang_syntax_type(syntax, type);
         style->types[type] = (struct text_word){name, strlen(name)};
@@ -26,6 +27,7 @@ struct lang_style *lang_style_of_halves(const struct lang_style *style, struct a
         return NULL;
     struct lang_style *halves = ARENA_NEW(arena, struct lang_style);
     *halves = *style;
+    halves->float_suffix = syntax->half_suffix ? syntax->half_suffix : style->float_suffix;
     for (ir_type_id type = 0; type < IR_NUM_TYPES; type++)
         if (syntax->half_types[type])
             halves->types[type] =

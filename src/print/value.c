@@ -59,11 +59,11 @@ static float shortened(float f)
     return is_neighbour && isfinite(near) ? near : f;
 }
 
-static void print_float(const struct lang_syntax *syntax, float f, struct text *out)
+static void print_float(const struct lang_style *style, float f, struct text *out)
 {
     if (!isfinite(f)) { /* docs/ir.md, "Infinities and NaN" */
         text_str(out, isinf(f) && signbit(f) ? "-" : "");
-        text_str(out, isnan(f) ? syntax->nan : syntax->infinity);
+        text_str(out, isnan(f) ? style->syntax->nan : style->syntax->infinity);
         return;
     }
     size_t begin = out->len;
@@ -72,14 +72,13 @@ static void print_float(const struct lang_syntax *syntax, float f, struct text *
         out->len = begin;
         text_float(out, shortened(f));
     }
-    if (syntax->float_literals_need_suffix)
-        text_char(out, 'f');
+    text_str(out, style->float_suffix);
 }
 
-static void print_scalar(const struct lang_syntax *syntax, ir_type_id type, union ir_word word,
+static void print_scalar(const struct lang_style *style, ir_type_id type, union ir_word word,
                          struct text *out)
 {
-    if (syntax->plain_scalars && (type == IR_TYPE_BOOL || type == IR_TYPE_UINT))
+    if (style->syntax->plain_scalars && (type == IR_TYPE_BOOL || type == IR_TYPE_UINT))
         type = IR_TYPE_INT;
     switch (type) {
     case IR_TYPE_BOOL: text_str(out, word.u ? "true" : "false"); break;
@@ -93,7 +92,7 @@ static void print_scalar(const struct lang_syntax *syntax, ir_type_id type, unio
         text_u32(out, word.u);
         text_char(out, 'u');
         break;
-    default: print_float(syntax, word.f, out);
+    default: print_float(style, word.f, out);
     }
 }
 
@@ -144,7 +143,7 @@ void lang_print_value(const struct lang_style *style, const struct strpool *stri
     for (unsigned i = 0; i < count; i++) {
         if (i)
             text_mem(out, ", ", 2);
-        print_scalar(style->syntax, info->scalar, words[i], out);
+        print_scalar(style, info->scalar, words[i], out);
     }
     if (parentheses)
         text_char(out, ')');

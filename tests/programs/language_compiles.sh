@@ -61,7 +61,7 @@ for role in path scatter function deferred depth payload pack; do
         check "role $role" compiles gold.mtlx coat.mtlx --interfaces complete,reduced --role "$role" "${options[@]}"
 done
 case $target in
-    wgsl | slang)
+    msl | wgsl | slang)
         for role in raster function payload; do
             check "half floats, role $role" compiles gold.mtlx coat.mtlx --interfaces complete,reduced --precision mediump --role "$role"
         done

@@ -20,6 +20,7 @@ IMAGE = "albedo_file"
 HALVES = {
     "wgsl": ("frag.wgsl", r"let (\w+): vec[34]h = ", "shader-f16"),
     "hlsl": ("ps.hlsl", r"min16float[34] (\w+) = ", None),
+    "msl": ("frag.metal", r"half[34] (\w+) = ", None),
     "slang": ("frag.slang", r"half[34] (\w+) = ", None),
 }
 RESULT = re.compile(r"^\s*(%\S+) = (Op\w+) (.*)$", re.M)

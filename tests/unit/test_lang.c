@@ -134,7 +134,7 @@ static void test_print_target(void)
         .phrases = phrases,
         .infinity = "INFINITY",
         .nan = "NAN",
-        .float_literals_need_suffix = true,
+        .float_suffix = "f",
         .array_braces = true,
     };
     const struct lang_names names = {.function = other_name};
