@@ -71,13 +71,18 @@ enum { MAX_ARGUMENTS = 8192 }; /* bytes of the arguments of a call */
     "precision highp sampler2DArray;\n"
 #define SLANG_STAGE "[shader(\"fragment\")] "
 
+/* How a language declares functions. */
+enum declarations { TYPE_FIRST, NAME_FIRST, NUM_DECLARATIONS };
+
 /*
  * The file of a host around a function, per target: what stands above it, and what calls it; `main`
  * NULL: functions that nothing calls are compiled, too. `scatter_main` calls scatter().
- * `feature_head` stands above, too, where the shader asks for a feature of the device.
+ * `feature_head` stands above, too, where the shader asks for a feature of the device. Functions of
+ * the host have the text of `declarations`.
  */
 static const struct host {
     const char *target, *head, *vec3, *output, *main, *scatter_main, *feature_head;
+    enum declarations declarations;
 } hosts[] = {
     {"glsl", "#version 450\n", "vec3", "out vec4 host_color;\n", "void main()", "void main()", ""},
     {"vulkan", "#version 450\n", "vec3", "layout(location = 0) out vec4 host_color;\n",
@@ -95,27 +100,31 @@ static const struct host {
      "}\n    void light(int i, float3 P, thread float3& L, thread float3& radiance) { L = "
      "normalize(P); radiance = P; }\n};\n",
      "float3", "", NULL, NULL, ""},
-    {"wgsl", "", "vec3f", "", NULL, NULL, "enable f16;\n"},
+    {"wgsl", "", "vec3f", "", NULL, NULL, "enable f16;\n", NAME_FIRST},
 };
 
 /* Functions that a shader may ask its host for; $ is the type of three floats. */
 static const struct {
-    const char *name, *text, *wgsl;
+    const char *name, *texts[NUM_DECLARATIONS];
 } host_functions[] = {
-    {"mxg_light_count", "int mxg_light_count() { return 2; }\n",
-     "fn mxg_light_count() -> i32 { return 2; }\n"},
+    {"mxg_light_count",
+     {"int mxg_light_count() { return 2; }\n", "fn mxg_light_count() -> i32 { return 2; }\n"}},
     {"mxg_light",
-     "void mxg_light(int i, $ P, out $ L, out $ radiance) { L = normalize(P); radiance = P; }\n",
-     "fn mxg_light(i: i32, P: $, L: ptr<function, $>, radiance: ptr<function, $>) { *L = "
-     "normalize(P); *radiance = P; }\n"},
-    {"mxg_shadow", "float mxg_shadow(int i, $ P, $ N, $ L) { return dot(N, L); }\n",
-     "fn mxg_shadow(i: i32, P: $, N: $, L: $) -> f32 { return dot(N, L); }\n"},
-    {"mxg_ambient_occlusion", "float mxg_ambient_occlusion($ P, $ N) { return dot(P, N); }\n",
-     "fn mxg_ambient_occlusion(P: $, N: $) -> f32 { return dot(P, N); }\n"},
-    {"mxg_irradiance", "$ mxg_irradiance($ P, $ N) { return P + N; }\n",
-     "fn mxg_irradiance(P: $, N: $) -> $ { return P + N; }\n"},
-    {"mxg_radiance", "$ mxg_radiance($ P, $ L, float roughness) { return P + L * roughness; }\n",
-     "fn mxg_radiance(P: $, L: $, roughness: f32) -> $ { return P + L * roughness; }\n"},
+     {"void mxg_light(int i, $ P, out $ L, out $ radiance) { L = normalize(P); radiance = P; }\n",
+      "fn mxg_light(i: i32, P: $, L: ptr<function, $>, radiance: ptr<function, $>) { *L = "
+      "normalize(P); *radiance = P; }\n"}},
+    {"mxg_shadow",
+     {"float mxg_shadow(int i, $ P, $ N, $ L) { return dot(N, L); }\n",
+      "fn mxg_shadow(i: i32, P: $, N: $, L: $) -> f32 { return dot(N, L); }\n"}},
+    {"mxg_ambient_occlusion",
+     {"float mxg_ambient_occlusion($ P, $ N) { return dot(P, N); }\n",
+      "fn mxg_ambient_occlusion(P: $, N: $) -> f32 { return dot(P, N); }\n"}},
+    {"mxg_irradiance",
+     {"$ mxg_irradiance($ P, $ N) { return P + N; }\n",
+      "fn mxg_irradiance(P: $, N: $) -> $ { return P + N; }\n"}},
+    {"mxg_radiance",
+     {"$ mxg_radiance($ P, $ L, float roughness) { return P + L * roughness; }\n",
+      "fn mxg_radiance(P: $, L: $, roughness: f32) -> $ { return P + L * roughness; }\n"}},
 };
 enum { NUM_HOST_FUNCTIONS = sizeof host_functions / sizeof *host_functions, MAX_HOST_TEXT = 4096 };
 
@@ -133,8 +142,7 @@ static size_t write_host_functions(const struct host *host, const char *source, 
 {
     size_t len = 0;
     for (size_t i = 0; i < NUM_HOST_FUNCTIONS; ++i) {
-        const char *text =
-            strcmp(host->target, "wgsl") == 0 ? host_functions[i].wgsl : host_functions[i].text;
+        const char *text = host_functions[i].texts[host->declarations];
         if (!calls(source, host_functions[i].name))
             continue;
         for (; *text && len + strlen(host->vec3) < MAX_HOST_TEXT - 1; ++text)
