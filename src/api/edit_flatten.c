@@ -435,9 +435,7 @@ static void connect_copies(struct flattening *f)
 
 static elem_id output_of(struct flattening *f, int index)
 {
-    const struct nodedef *def = library_nodedef(view_of(f), f->nodedef);
-    str_id name = library_ports(view_of(f), f->nodedef, NULL)[def->num_inputs + index].name;
-    return doc_child_of_kind(tree_of(f), f->graph, KIND_OUTPUT, name);
+    return library_inner_output(view_of(f), f->nodedef, (unsigned)index, tree_of(f), f->graph);
 }
 
 static void connect_user(void *arg, elem_id user, str_id attr)

@@ -59,8 +59,7 @@ static elem_id node_inside(const struct translation *t, uint32_t nodedef)
     const struct nodedef *def = graph ? library_nodedef(lib, nodedef) : NULL;
     if (!def || def->num_outputs != 1)
         return 0;
-    str_id name = library_ports(lib, nodedef, NULL)[def->num_inputs].name;
-    elem_id output = doc_child_of_kind(&lib->doc, graph, KIND_OUTPUT, name);
+    elem_id output = library_inner_output(lib, nodedef, 0, &lib->doc, graph);
     return output ? doc_named_node(&lib->doc, output) : 0;
 }
 

@@ -81,16 +81,19 @@ static ir_ref convert_unit(struct builder *b, ir_ref value, const struct build_m
         type = doc_attr_value(doc, meaning->of_unit, STR_unittype);
     if (!type)
         type = library_unit_type_of(b->lib, unit);
-    /* The unit that the definition declares, else the option's unit (specification, "Units"). */
+    /* The unit that the definition declares, else the option's unit (specification, "Units"). Types
+     * without an option have the unit whose scale is 1. */
     elem_id declared = meaning->port->element; /* of an <output>: itself */
     str_id target = declared == meaning->of_unit ? 0 : doc_attr_value(doc, declared, STR_unit);
-    if (!target)
-        target = type == STR_angle ? b->options->angle_unit : b->options->distance_unit;
-    if (target == b->options->distance_unit && !b->has_distance_unit)
+    if (!target && type == STR_angle)
+        target = b->options->angle_unit;
+    if (!target && type == STR_distance)
+        target = b->options->distance_unit;
+    if (target && target == b->options->distance_unit && !b->has_distance_unit)
         return value;
-    float from, to;
+    float from, to = 1.0f;
     if (!library_unit_scale(b->lib, type, unit, &from)
-        || !library_unit_scale(b->lib, type, target, &to)) {
+        || (target && !library_unit_scale(b->lib, type, target, &to))) {
         library_report_unit(b->lib, type, unit, doc_attr_place(doc, meaning->of_unit, STR_unit),
                             b->diags);
         return value;

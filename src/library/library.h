@@ -365,6 +365,14 @@ struct graph_node library_resolve_node(const struct library *lib, elem_id node,
                                        struct resolve_out *out, struct diag_list *diags);
 
 /*
+ * The <output> of a nodegraph that implements a definition, for an output of the definition; 0:
+ * none. A single output may have any name (specification, "Functional Nodegraphs"). The graph is in
+ * `doc`.
+ */
+elem_id library_inner_output(const struct library *lib, uint32_t nodedef, unsigned output,
+                             const struct document *doc, elem_id graph);
+
+/*
  * The source of the value of an <input> or <output> element. Looks through outputs and interface
  * inputs of nodegraphs without a nodedef. `type` is the type of the port.
  */

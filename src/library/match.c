@@ -43,9 +43,24 @@ static bool gives_type(const struct library *lib, const struct nodedef *def,
     return !wanted || (def->num_outputs == 1 && wanted == ports[def->num_inputs].type);
 }
 
-static bool has_version(const struct nodedef *def, str_id wanted)
+/* Numbers that are not given are 0, so "2" is "2.0" (specification, "NodeDef Elements"). */
+static bool is_same_version(const char *a, const char *b)
 {
-    return wanted ? wanted == def->version : !def->version || def->is_default_version;
+    while (*a && *a == *b)
+        a++, b++;
+    if (*a && *b)
+        return false;
+    const char *rest = *a ? a : b;
+    while (strncmp(rest, ".0", 2) == 0)
+        rest += 2;
+    return !*rest;
+}
+
+static bool has_version(const struct library *lib, const struct nodedef *def, str_id wanted)
+{
+    if (!wanted)
+        return !def->version || def->is_default_version;
+    return def->version && is_same_version(text_of(lib, wanted), text_of(lib, def->version));
 }
 
 /* A definition that gives the type of the node. Its faults are the node's. */
@@ -68,8 +83,8 @@ static struct candidate examine(const struct library *lib, uint32_t id, elem_id 
     struct candidate c = {.nodedef = id};
     const struct port *ports = library_ports(lib, id, NULL);
     c.is_of_version =
-        has_version(library_nodedef(lib, id), doc_attr_value(&lib->doc, node, STR_version));
-    c.is_default = has_version(library_nodedef(lib, id), 0);
+        has_version(lib, library_nodedef(lib, id), doc_attr_value(&lib->doc, node, STR_version));
+    c.is_default = has_version(lib, library_nodedef(lib, id), 0);
     for (elem_id child = doc_element(&lib->doc, node)->first_child; child;
          child = doc_element(&lib->doc, child)->next) {
         const struct element *input = doc_element(&lib->doc, child);

@@ -4,6 +4,7 @@
 #include "library/library.h"
 
 #include <assert.h>
+#include <limits.h>
 
 static const char *text_of(const struct library *lib, str_id id)
 {
@@ -102,6 +103,16 @@ static void report_assumed(const struct library *lib, elem_id port, const char *
 {
     const char *name = text_of(lib, output);
     diag_add(diags, DIAG_ID_output_needed, doc_place(&lib->doc, port), of, name, name);
+}
+
+/* Where there is one output, the name that a port gives is ignored (specification, "Inputs"). */
+static void report_ignored(const struct library *lib, elem_id port, elem_id of, str_id output,
+                           struct diag_list *diags)
+{
+    str_id ignored = doc_attr_value(&lib->doc, port, STR_output);
+    diag_add(diags, DIAG_ID_output_ignored, doc_attr_place(&lib->doc, port, STR_output),
+             text_of(lib, doc_element(&lib->doc, of)->name), text_of(lib, output),
+             text_of(lib, ignored));
 }
 
 /*
@@ -230,11 +241,27 @@ static void report_type(const struct library *lib, elem_id port, doc_type want, 
                  text_of(lib, have));
 }
 
+/* The name of an output that a port gives; 0: none, or it is ignored. */
+static str_id name_of_output(const struct library *lib, elem_id port, elem_id node,
+                             struct diag_list *diags)
+{
+    str_id name = doc_attr_value(&lib->doc, port, STR_output);
+    struct diag_list unheard;
+    diag_list_init(&unheard, diags->arena);
+    uint32_t id = name ? library_match(lib, node, &unheard) : LIBRARY_NONE;
+    if (id == LIBRARY_NONE || library_nodedef(lib, id)->num_outputs != 1
+        || library_find_output(lib, id, name) == 0)
+        return name;
+    const struct nodedef *def = library_nodedef(lib, id);
+    report_ignored(lib, port, node, library_ports(lib, id, NULL)[def->num_inputs].name, diags);
+    return 0;
+}
+
 static struct binding bind_node(const struct library *lib, elem_id port, elem_id node,
                                 doc_type type, struct diag_list *diags)
 {
-    int output = library_resolve_output(lib, port, node,
-                                        doc_attr_value(&lib->doc, port, STR_output), type, diags);
+    int output = library_resolve_output(lib, port, node, name_of_output(lib, port, node, diags),
+                                        type, diags);
     str_id have = output >= 0 ? output_type(lib, node, output, diags) : 0;
     if (!have)
         return bind_error;
@@ -267,16 +294,14 @@ static elem_id graph_output(const struct library *lib, elem_id port, elem_id gra
                             struct diag_list *diags)
 {
     str_id name = doc_attr_value(&lib->doc, port, STR_output);
-    if (name) {
-        elem_id output = doc_child_of_kind(&lib->doc, graph, KIND_OUTPUT, name);
-        if (!output)
-            report_output(lib, port, graph, name, diags);
-        return output && library_is_unique(lib, output, port, STR_output, diags) ? output : 0;
-    }
+    elem_id output = name ? doc_child_of_kind(&lib->doc, graph, KIND_OUTPUT, name) : 0;
+    if (output)
+        return library_is_unique(lib, output, port, STR_output, diags) ? output : 0;
     const char *graph_name = text_of(lib, doc_element(&lib->doc, graph)->name);
     elem_id first = 0, fitting = 0;
     unsigned count = 0;
-    for (elem_id e = doc_element(&lib->doc, graph)->first_child; e;
+    unsigned most = name ? 2 : UINT_MAX; /* a name is ignored where there is one output */
+    for (elem_id e = doc_element(&lib->doc, graph)->first_child; e && count < most;
          e = doc_element(&lib->doc, e)->next) {
         if (doc_element(&lib->doc, e)->kind != KIND_OUTPUT)
             continue;
@@ -289,10 +314,31 @@ static elem_id graph_output(const struct library *lib, elem_id port, elem_id gra
     if (count == 0)
         diag_add(diags, DIAG_ID_dangling_output, doc_place(&lib->doc, port), graph_name, "out",
                  "; it has none");
+    if (count == 1 && name)
+        report_ignored(lib, port, graph, doc_element(&lib->doc, first)->name, diags);
+    if (count > 1 && name) {
+        report_output(lib, port, graph, name, diags);
+        return 0;
+    }
     if (count > 1)
         report_assumed(lib, port, graph_name, doc_element(&lib->doc, assumed)->name, diags);
     assert(!assumed == (count == 0));
     return assumed;
+}
+
+elem_id library_inner_output(const struct library *lib, uint32_t nodedef, unsigned output,
+                             const struct document *doc, elem_id graph)
+{
+    const struct nodedef *def = library_nodedef(lib, nodedef);
+    assert(output < def->num_outputs);
+    const struct port *ports = library_ports(lib, nodedef, NULL) + def->num_inputs;
+    elem_id named = doc_child_of_kind(doc, graph, KIND_OUTPUT, ports[output].name);
+    if (named || def->num_outputs > 1)
+        return named;
+    elem_id e = doc_element(doc, graph)->first_child;
+    while (e && doc_element(doc, e)->kind != KIND_OUTPUT)
+        e = doc_element(doc, e)->next;
+    return e;
 }
 
 /* The connection attributes of a port. */
@@ -454,6 +500,30 @@ struct binding library_resolve_connection(const struct library *lib, elem_id por
     return library_resolve_driven(lib, port, type, NULL, diags);
 }
 
+/*
+ * The nodes of a nodegraph that implements a definition see each other and the inputs of the
+ * definition. Reports a source elsewhere, to which the chain of a port leads.
+ */
+static bool is_in_reach(const struct library *lib, elem_id port, elem_id source,
+                        struct diag_list *diags)
+{
+    const struct document *doc = &lib->doc;
+    elem_id scope = doc_element(doc, source)->parent, e = doc_element(doc, port)->parent;
+    if (doc_element(doc, port)->kind == KIND_INPUT)
+        e = doc_element(doc, e)->parent; /* an input of a nodegraph sees what stands beside it */
+    for (; e && e != scope; e = doc_element(doc, e)->parent) {
+        if (doc_element(doc, e)->kind != KIND_NODEGRAPH
+            || library_implemented_nodedef(lib, e) == LIBRARY_NONE || doc_is_within(doc, source, e))
+            continue;
+        elem_id named = doc_element(doc, source)->kind == KIND_NODE ? source : scope;
+        diag_add(diags, DIAG_ID_outside_definition, doc_place(doc, port),
+                 text_of(lib, doc_element(doc, named)->name),
+                 text_of(lib, doc_element(doc, e)->name));
+        return false;
+    }
+    return true;
+}
+
 struct binding library_resolve_driven(const struct library *lib, elem_id port, doc_type type,
                                       const struct library_drives *drives, struct diag_list *diags)
 {
@@ -474,7 +544,9 @@ struct binding library_resolve_driven(const struct library *lib, elem_id port, d
     if (port)
         diag_add(diags, DIAG_ID_cycle, doc_place(&lib->doc, asker),
                  text_of(lib, doc_element(&lib->doc, port)->name));
-    return result;
+    bool has_scope = result.kind == BIND_NODE || result.kind == BIND_INTERFACE;
+    elem_id source = result.kind == BIND_NODE ? result.ref : result.element;
+    return !has_scope || is_in_reach(lib, asker, source, diags) ? result : bind_error;
 }
 
 /* An input of another type is reported; whether its source exists is another question. */

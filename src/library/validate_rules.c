@@ -172,11 +172,7 @@ static void check_functional_graph(struct validate *v, elem_id graph, uint32_t i
             break;
         }
     for (unsigned i = 0; i < def->num_outputs; i++) {
-        elem_id output = doc_child_of_kind(v->doc, graph, KIND_OUTPUT, outputs[i].name);
-        for (elem_id e = doc_element(v->doc, graph)->first_child;
-             e && !output && def->num_outputs == 1; e = doc_element(v->doc, e)->next)
-            /* a single output may have any name */
-            output = doc_element(v->doc, e)->kind == KIND_OUTPUT ? e : 0;
+        elem_id output = library_inner_output(v->lib, id, i, v->doc, graph);
         if (!output)
             report(v, graph, "lacks an output of the nodedef that it implements");
         else if (library_type(v->lib, doc_attr_value(v->doc, output, STR_type)) != outputs[i].type)

@@ -327,11 +327,7 @@ static void step_inputs(struct builder *b)
 /* The <output> of the inner graph for output `i` of the definition. */
 static elem_id inner_output(const struct builder *b, const struct frame *frame, uint32_t i)
 {
-    const struct nodedef *def = library_nodedef(b->lib, frame->node.nodedef);
-    assert(i < def->num_outputs);
-    const struct port *port =
-        library_ports(b->lib, frame->node.nodedef, NULL) + def->num_inputs + i;
-    return doc_child_of_kind(build_doc(b), frame->inner->graph, KIND_OUTPUT, port->name);
+    return library_inner_output(b->lib, frame->node.nodedef, i, build_doc(b), frame->inner->graph);
 }
 
 static void leave_graph(struct builder *b)
@@ -443,8 +439,7 @@ void build_apply_definition(struct builder *b, uint32_t nodedef, elem_id where, 
     inner->args = args;
     inner->origin = b->graph->origin;
     for (uint32_t i = 0; i < def->num_outputs; i++) {
-        elem_id output =
-            doc_child_of_kind(build_doc(b), inner->graph, KIND_OUTPUT, outputs[i].name);
+        elem_id output = library_inner_output(b->lib, nodedef, i, build_doc(b), inner->graph);
         struct binding binding = {.kind = BIND_ERROR};
         if (output)
             binding = library_resolve_connection(b->lib, output, outputs[i].type, b->diags);

@@ -9,11 +9,14 @@ struct instance *build_new_instance(struct builder *b, struct instance *parent, 
     inner->parent = parent;
     inner->graph = graph;
     inner->depth = parent->depth + 1;
+    const struct document *doc = &b->lib->doc;
     elem_id low = UINT32_MAX, high = 0;
-    for (elem_id e = doc_element(&b->lib->doc, graph)->first_child; e;
-         e = doc_element(&b->lib->doc, e)->next) {
-        low = e < low ? e : low;
-        high = e > high ? e : high;
+    for (elem_id e = doc_element(doc, graph)->first_child; e; e = doc_element(doc, e)->next) {
+        bool has_nodes = doc_element(doc, e)->kind == KIND_NODEGRAPH; /* of this scope */
+        for (elem_id at = e; at; at = has_nodes ? doc_next_in_tree(doc, e, at) : 0) {
+            low = at < low ? at : low;
+            high = at > high ? at : high;
+        }
     }
     inner->first = low;
     inner->num_slots = high >= low ? high - low + 1 : 0;
