@@ -22,7 +22,7 @@ enum { MAX_HEADER = 4096, MAX_MESSAGE = 1 << 30, READ_SIZE = 64 << 10 };
 struct input {
     char *bytes;
     size_t start, end, capacity;
-    bool is_over; /* the input ended, or a header is wrong */
+    bool is_over, has_wrong_header;
 };
 
 static void send_framed(void *user_data, const char *message, size_t size)
@@ -75,11 +75,11 @@ static const char *take_message(struct input *input, size_t *out_size)
                *end = input->end > input->start ? strstr(header, "\r\n\r\n") : NULL;
     size_t available = input->end - input->start, length;
     if (!end) {
-        input->is_over |= available > MAX_HEADER;
+        input->has_wrong_header = available > MAX_HEADER;
         return NULL;
     }
     if (!read_length(header, &length)) {
-        input->is_over = true;
+        input->has_wrong_header = true;
         return NULL;
     }
     size_t head = (size_t)(end - header) + 4;
@@ -160,6 +160,11 @@ static int serve(struct lsp_session *session, struct checker *checker)
         if (message) {
             lsp_session_handle(session, message, size);
             continue;
+        }
+        if (input.has_wrong_header) {
+            fprintf(stderr, "mxgen lsp: a message has no 'Content-Length' of up to %d bytes\n",
+                    MAX_MESSAGE);
+            break;
         }
         begin_check(checker, session);
         if (wait_for_message(checker, session))

@@ -85,6 +85,9 @@ def check_life():
     client = Client(MXGEN, WORK)
     client.notify("exit", None)
     same(client.process.wait(10), 1, "exit without shutdown")
+    for header in (b"Length: 2\r\n\r\n{}", b"Content-Length: -1\r\n\r\n", b"Content-Length: 99999999999999999999\r\n\r\n", b"x" * 100000):
+        ended = subprocess.run([MXGEN, "lsp"], input=header, capture_output=True, check=False)
+        same((ended.returncode, b"Content-Length" in ended.stderr), (1, True), f"a wrong header: {header[:40]}")
 
 
 def check_messages(client):
