@@ -83,6 +83,13 @@ struct code_parsed { /* an expression in the code of a node */
     uint32_t function; /* LANG_NONE: its errors are reported */
 };
 
+/* The numbers in the names of the variables of a property. */
+struct property_name {
+    str_id semantic;
+    ir_type_id scalar;
+    unsigned last;
+};
+
 struct builder {
     const struct library *lib;
     const struct build_options *options;
@@ -114,7 +121,11 @@ struct builder {
     uint32_t *memo_table;
     uint32_t memo_mask;
     VEC(struct own_displacement) own_displacements;
-    VEC(ir_ref) geomprops;       /* value per geomprop name, in pairs (name, ref) */
+    VEC(ir_ref) geomprops; /* value per geomprop name, in pairs (name, ref) */
+    /* property.c */
+    struct table properties; /* by the property: indices of variables + 1 */
+    struct table property_table;
+    VEC(struct property_name) property_names;
     ir_ref *globals;             /* by id: host data of functions, after the first use */
     struct text scratch;         /* for a path or a name */
     elem_id called;              /* the node whose implementation is lowered; 0: none */

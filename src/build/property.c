@@ -4,6 +4,7 @@
  * geometry without the property, so readers with different values have a variable each, and these
  * share the semantic, by which hosts find the property.
  */
+#include "base/hash.h"
 #include "build/build_priv.h"
 
 /* "geomprop_fade" for the first variable; the others have a name that no property can have. */
@@ -65,13 +66,55 @@ static ir_ref variable_of(struct builder *b, const struct property *property, bo
                : shader_read(b->shader, shader_private_uniform(b->shader, name, property->type, 0));
 }
 
+static uint32_t hash_of(const struct property *property, str_id semantic)
+{
+    uint32_t hash = hash_pair(semantic, property->type);
+    if (property->type == IR_TYPE_SAMPLER)
+        return hash_pair(hash, property->texture ? property->texture->file : 0);
+    for (unsigned i = 0; property->value && i < ir_type_info(property->type)->components; i++)
+        hash = hash_pair(hash, property->value->w[i].u);
+    return hash;
+}
+
+/* The variable of an equal property; UINT32_MAX: there is none yet. */
+static uint32_t find_variable(const struct builder *b, const struct property *property,
+                              str_id semantic, uint32_t hash)
+{
+    for (uint32_t at = hash, found; (found = table_next(&b->properties, hash, &at));) {
+        const struct shader_variable *variable = &b->shader->interface.variables.items[found - 1];
+        if (variable->semantic == semantic && variable->type == property->type
+            && has_value(variable, property))
+            return found - 1;
+    }
+    return UINT32_MAX;
+}
+
+/* The last number of the names of a property, among variables of one scalar type. */
+static unsigned *last_number(struct builder *b, str_id semantic, ir_type_id type)
+{
+    ir_type_id scalar = build_is_number(type) ? ir_type_info(type)->scalar : type;
+    uint32_t hash = hash_pair(semantic, scalar);
+    for (uint32_t at = hash, found; (found = table_next(&b->property_table, hash, &at));) {
+        struct property_name *name = &b->property_names.items[found - 1];
+        if (name->semantic == semantic && name->scalar == scalar)
+            return &name->last;
+    }
+    vec_push(b->arena, &b->property_names, (struct property_name){semantic, scalar, 0});
+    table_add(&b->property_table, b->arena, hash, b->property_names.len);
+    return &vec_last(&b->property_names).last;
+}
+
 ir_ref build_property(struct builder *b, const struct property *property)
 {
     bool is_stream = property->type != IR_TYPE_BOOL && property->type != IR_TYPE_SAMPLER;
     str_id semantic = semantic_of(b, property, is_stream);
-    for (unsigned number = 1;; number++) {
+    uint32_t hash = hash_of(property, semantic), equal = find_variable(b, property, semantic, hash);
+    if (equal != UINT32_MAX)
+        return shader_read(b->shader, equal);
+    unsigned *last = last_number(b, semantic, property->type);
+    for (;;) {
         uint32_t known = b->shader->interface.variables.len, attribute;
-        ir_ref ref = variable_of(b, property, is_stream, number);
+        ir_ref ref = variable_of(b, property, is_stream, ++*last);
         const struct ir_node *node = ir_get(b->graph, ref);
         bool is_variable =
             node->op == IR_STREAM || node->op == IR_UNIFORM || node->op == IR_TEXTURE;
@@ -80,6 +123,7 @@ ir_ref build_property(struct builder *b, const struct property *property)
         uint32_t index = node->attr;
         if (index < known && !has_value(&b->shader->interface.variables.items[index], property))
             continue;
+        table_add(&b->properties, b->arena, hash, index + 1);
         if (index < known)
             return ref;
         if (is_stream && shader_attribute(b->shader, index, &attribute))

@@ -139,6 +139,16 @@ SHAPES = [
         "<output name='o' type='float' nodename='n*'/>",
     ),
     (
+        "readers of one property, each with a default",
+        "-e o",
+        "<constant name='n0' type='float'/>",
+        (
+            "<geompropvalue name='p#' type='float'><input name='geomprop' type='string' value='q'/><input name='default' type='float' value='#'/>"
+            "</geompropvalue><add name='n^' type='float'><input name='in1' type='float' nodename='p#'/><input name='in2' type='float' nodename='n#'/></add>",
+        ),
+        "<output name='o' type='float' nodename='n*'/>",
+    ),
+    (
         "textures, all used",
         "-e o",
         "<constant name='n0' type='float'/>",
