@@ -70,21 +70,22 @@ static bool reserve(struct report *report, size_t size)
 }
 
 /*
- * A line of the source, from 1, without its end; NULL if there is none. The report stores each line
- * that it has found.
+ * A line of the source, from 1, without its end; NULL if there is none. The report stores the begin
+ * of each line that it has found, and at last the place of a line behind the source.
  */
 static const char *find_line(struct report *report, uint32_t number, size_t *out_len)
 {
-    const char *end = report->source + report->source_size;
     while (report->source && report->num_lines <= number) {
-        const char *last = report->num_lines ? report->lines[report->num_lines - 1] : NULL;
-        const char *newline = last ? memchr(last, '\n', (size_t)(end - last)) : NULL,
-                   *next = last ? newline + 1 : report->source;
-        if (last && !newline)
+        size_t last = report->num_lines ? report->lines[report->num_lines - 1] : 0, next = 0;
+        if (last > report->source_size)
             break;
+        if (report->num_lines) {
+            const char *newline = memchr(report->source + last, '\n', report->source_size - last);
+            next = newline ? (size_t)(newline - report->source) + 1 : report->source_size + 1;
+        }
         if (report->num_lines == report->capacity_lines) {
             size_t capacity = report->capacity_lines ? report->capacity_lines * 2 : 256;
-            const char **lines = realloc(report->lines, capacity * sizeof *lines);
+            size_t *lines = realloc(report->lines, capacity * sizeof *lines);
             if (!lines)
                 return NULL;
             report->lines = lines;
@@ -92,11 +93,10 @@ static const char *find_line(struct report *report, uint32_t number, size_t *out
         }
         report->lines[report->num_lines++] = next;
     }
-    if (!number || number > report->num_lines)
+    if (!number || number >= report->num_lines)
         return NULL;
-    const char *line = report->lines[number - 1];
-    const char *newline = memchr(line, '\n', (size_t)(end - line));
-    size_t len = (size_t)((newline ? newline : end) - line);
+    const char *line = report->source + report->lines[number - 1];
+    size_t len = report->lines[number] - report->lines[number - 1] - 1;
     *out_len = len && line[len - 1] == '\r' ? len - 1 : len;
     return line;
 }

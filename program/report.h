@@ -26,7 +26,7 @@ struct report {
     char *source_name, *source; /* the last file that was read */
     size_t source_size;
     size_t max_source_size; /* of larger files no lines are shown; 0: no limit */
-    const char **lines;     /* its lines, as far as the report has found them */
+    size_t *lines;          /* where its lines begin, as far as the report has found them */
     size_t num_lines, capacity_lines;
     char *text; /* text of the current message */
     size_t len, capacity;

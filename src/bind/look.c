@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /* Chooses a look and reads it. */
+#include "base/hash.h"
+#include "base/table.h"
 #include "bind/look.h"
 
 #include <assert.h>
@@ -76,14 +78,22 @@ static elem_id look_or_group(const struct document *doc, str_id name)
 struct chain { /* elements, each once */
     elem_id *items;
     uint32_t len, cap;
+    struct table table;
 };
 
 static bool is_in(const struct chain *chain, elem_id element)
 {
-    for (uint32_t i = 0; i < chain->len; i++)
-        if (chain->items[i] == element)
+    uint32_t hash = hash_pair(element, 0);
+    for (uint32_t at = hash, found; (found = table_next(&chain->table, hash, &at));)
+        if (found == element)
             return true;
     return false;
+}
+
+static void add_to(struct chain *chain, elem_id element, struct arena *arena)
+{
+    vec_push(arena, chain, element);
+    table_add(&chain->table, arena, hash_pair(element, 0), element);
 }
 
 /* True if the list of a group names the member; adds the groups in it to the chain. */
@@ -99,7 +109,7 @@ static bool list_has(const struct document *doc, elem_id group, str_id member, s
         if (name && name == member)
             return true;
         if (inner && !is_in(groups, inner))
-            vec_push(arena, groups, inner);
+            add_to(groups, inner, arena);
         list += len;
     }
     return false;
@@ -110,7 +120,7 @@ static bool group_has(const struct document *doc, elem_id group, str_id member, 
 {
     struct chain groups = {0};
     bool found = false;
-    vec_push(arena, &groups, group);
+    add_to(&groups, group, arena);
     for (uint32_t i = 0; i < groups.len && !found; i++)
         found = list_has(doc, groups.items[i], member, &groups, arena);
     return found;
@@ -161,7 +171,7 @@ static void find_parents(struct bind_look *look, struct chain *chain)
 {
     const struct document *doc = look->doc;
     for (elem_id e = look->element; e;) {
-        vec_push(look->arena, chain, e);
+        add_to(chain, e, look->arena);
         str_id base = doc_attr_value(doc, e, STR_inherit);
         elem_id parent = base ? doc_top_level(doc, KIND_LOOK, base) : 0;
         const char *name = text_of(doc, doc_element(doc, e)->name);
@@ -171,7 +181,7 @@ static void find_parents(struct bind_look *look, struct chain *chain)
         else if (base && !parent)
             diag_add(look->diags, DIAG_ID_inherit_missing, doc_attr_place(doc, e, STR_inherit),
                      name, text_of(doc, base));
-        if (is_in(chain, parent)) {
+        if (parent && is_in(chain, parent)) {
             diag_add(look->diags, DIAG_ID_inherit_cycle, doc_attr_place(doc, e, STR_inherit), name);
             return;
         }

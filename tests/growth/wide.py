@@ -30,6 +30,7 @@ SHAPES = [
     ("attributes of one element", "<constant name='c' type='float' ", ("typo#='1' ",), "/>"),
     ("names that are not ASCII, on one line", ("<constant name='c#' type='float' doc='ü'/> ",)),
     ("warnings on one line", ("<constant name='c#' type='float' typo#='1'/> ",)),
+    ("warnings on one line that is long", ("<constant name='c#' type='float' typo#='1' doc='" + "x" * 2000 + "'/> ",)),
     ("declared attributes", ("<attributedef name='A#' attrname='a#' type='string'/>",), ("<constant name='c#' type='float' a#='1'/>",)),
     ("unknown inputs", "<constant name='c' type='float'>", ("<input name='i#' type='float' value='0'/>",), "</constant>"),
     ("dangling nodes", ("<add name='a#' type='float'><input name='in1' type='float' nodename='xa#'/></add>",)),
@@ -200,6 +201,7 @@ SHAPES = [
         ("<surfacematerial name='x#' type='material'><input name='surfaceshader' type='surfaceshader' nodename='s'/></surfacematerial>",),
     ),
     ("materials without a shader", ("<surface name='s#' type='surfaceshader'/><surfacematerial name='x#' type='material'/>",)),
+    ("looks that inherit and assign nothing", "<look name='l0'/>", ("<look name='l^' inherit='l#'/>",)),
     ("looks that inherit", "<look name='l0'/>", ("<look name='l^' inherit='l#'><materialassign name='a' material='x' geom='/g'/></look>",)),
     (
         "variants",
