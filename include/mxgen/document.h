@@ -189,8 +189,8 @@ MXG_API mxg_status mxg_edit_remove_element(mxg_edit *edit, mxg_element element);
 MXG_API mxg_status mxg_edit_move_element(mxg_edit *edit, mxg_element element, mxg_element parent,
                                          mxg_element before);
 /*
- * Appends a copy of an element of any document, with all below it. `name` NULL keeps the name,
- * which must be new below the parent.
+ * Appends a copy of an element of any document, with all below it. `name` NULL or "" keeps the
+ * name, which must be new below the parent.
  */
 MXG_API mxg_element mxg_edit_copy_element(mxg_edit *edit, mxg_element parent,
                                           const mxg_document *document, mxg_element element,

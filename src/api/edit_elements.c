@@ -282,7 +282,7 @@ static void copy(void *arg)
         return;
     }
     const char *name =
-        c->name ? c->name : str_text(from->strings, doc_element(from, c->other)->name);
+        c->name && *c->name ? c->name : str_text(from->strings, doc_element(from, c->other)->name);
     if (*name && !edit_check_new_name(c, c->element, name))
         return;
     c->result =

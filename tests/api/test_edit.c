@@ -472,6 +472,7 @@ static void test_refused(struct fixture *f)
     REFUSED(mxg_edit_remove_element(e, element_at(d, "")), "no such element");
     NO_ELEMENT(mxg_edit_copy_element(e, graph, d, element_at(d, ""), NULL), "no such element");
     NO_ELEMENT(mxg_edit_copy_element(e, 0, d, shader, NULL), "'SR' already");
+    NO_ELEMENT(mxg_edit_copy_element(e, 0, d, shader, ""), "'SR' already");
     REQUIRE_EQ(mxg_edit_remove_element(e, graph), MXG_OK);
     REFUSED(mxg_edit_set_attribute(e, spots, "doc", "of a removed graph"), "no such element");
     /* nothing else has changed */
