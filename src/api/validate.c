@@ -128,21 +128,46 @@ static void check_textures(struct generation *g)
 
 /* ---- Looks ---- */
 
-/* The places that have a message, so that a look and those that inherit it say everything once. */
+/*
+ * What has been told, so that a look and those that inherit it say everything once, and nothing
+ * where the elements themselves have a fault.
+ */
 struct told {
-    struct table table;
+    struct table table; /* by place: indices of items + 1 */
+    VEC(struct diag) items;
+    uint32_t num_elements; /* the first items: of elements */
     struct arena *arena;
 };
 
-/* True if nothing is told of the place so far. */
-static bool tell_place(struct told *told, struct diag_place place)
+static bool is_same_text(const char *a, const char *b)
 {
-    uint32_t hash = hash_pair(place.line, place.column);
-    for (uint32_t at = hash, found; (found = table_next(&told->table, hash, &at));)
-        if (found == place.line)
+    return strcmp(a ? a : "", b ? b : "") == 0;
+}
+
+static bool is_same_place(const struct diag_place *a, const struct diag_place *b)
+{
+    return a->line == b->line && a->column == b->column && is_same_text(a->file, b->file)
+           && is_same_text(a->path, b->path);
+}
+
+static uint32_t hash_of_place(const struct diag_place *place)
+{
+    const char *path = place->line || !place->path ? "" : place->path; /* of edited elements */
+    return hash_pair(hash_pair(place->line, place->column), hash_bytes(path, strlen(path)));
+}
+
+/* True if nothing of the kind is told of the place so far. */
+static bool tell(struct told *told, const struct diag *diag)
+{
+    uint32_t hash = hash_of_place(&diag->place);
+    for (uint32_t at = hash, found; (found = table_next(&told->table, hash, &at));) {
+        const struct diag *known = &told->items.items[found - 1];
+        if ((found <= told->num_elements || known->id == diag->id)
+            && is_same_place(&known->place, &diag->place))
             return false;
-    if (place.line)
-        table_add(&told->table, told->arena, hash, place.line);
+    }
+    vec_push(told->arena, &told->items, *diag);
+    table_add(&told->table, told->arena, hash, told->items.len);
     return true;
 }
 
@@ -158,7 +183,7 @@ static void check_look(struct generation *g, elem_id element, struct told *told)
     look_finish(&look);
     for (uint32_t i = 0; i < found.items.len; i++) {
         const struct diag *d = &found.items.items[i];
-        if (tell_place(told, d->place))
+        if (tell(told, d))
             diag_repeat(diags, d);
     }
 }
@@ -184,7 +209,8 @@ static void check_looks(struct generation *g)
     uint8_t *states = ARENA_ARRAY(&g->scratch, uint8_t, doc_num_elements(doc));
     struct told told = {.arena = &g->scratch};
     for (uint32_t i = 0; i < diags->items.len; i++)
-        tell_place(&told, diags->items.items[i].place);
+        tell(&told, &diags->items.items[i]);
+    told.num_elements = told.items.len;
     for (elem_id e = begin; e; e = doc_element(doc, e)->next) {
         elem_id parent = doc_element(doc, e)->kind == KIND_LOOK ? parent_of(doc, e) : 0;
         if (parent)
