@@ -50,10 +50,11 @@ static void draw(const double v[3], double xi, double eta, double h[3])
 }
 
 /* Normally distributed slopes lose next to nothing where the surface is smooth. */
-static void variables(double alpha, double cosine, double out[2])
+static void variables(double alpha, double cosine, double out[3])
 {
     out[0] = exp(-0.6 * cosine / alpha);
     out[1] = alpha * cosine;
+    out[2] = out[0];
 }
 
 int main(void)

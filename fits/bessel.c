@@ -51,7 +51,7 @@ int main(void)
     double p[FIT_PARAMETERS] = {0.4, 0.6, 2.5, 2.0};
     for (int i = 0; i < POINTS; ++i)
         values[i] = scaled_bessel(argument_of(i));
-    double worst = fit_minimax(p, residuals, POINTS, values);
+    double worst = fit_minimax(p, FIT_PARAMETERS, residuals, POINTS, values, FIT_ROUNDS);
     printf("above: 1, %.4f, %.4f; below: 1, %.4f, %.4f; relative error %.5f\n", p[0], p[1], p[2],
            p[3], worst);
     return 0;

@@ -113,9 +113,11 @@ int main(void)
         cells[i] = (struct cell){.cosine = c, .gloss = g};
         measure(&cells[i]);
     }
-    printf("// within %.4f, relatively\n", fit_minimax(p, residuals, CELLS, cells));
+    printf("// within %.4f, relatively\n",
+           fit_minimax(p, FIT_PARAMETERS, residuals, CELLS, cells, FIT_ROUNDS));
     fit_print_form("FIT", p, 1.0);
-    printf("// within %.4f radians\n", fit_minimax(axis, turns, CELLS, cells));
+    printf("// within %.4f radians\n",
+           fit_minimax(axis, FIT_PARAMETERS, turns, CELLS, cells, FIT_ROUNDS));
     printf(
         "float bend = (%.4f + c * (%.4f + %.4f * c)) * (1.0 - %.4f * g) * (1.0 - %.4f * s * s);\n",
         axis[0], axis[1], axis[2], axis[3], axis[4]);

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_STEPS = 300, MAX_ROUNDS = 30 };
+enum { MAX_STEPS = 300 };
 
 double fit_form(const double p[FIT_PARAMETERS], double u, double v)
 {
@@ -32,8 +32,8 @@ void fit_print_form(const char *name, const double p[FIT_PARAMETERS], double sca
 
 struct system {
     size_t n, m;
-    double normal[FIT_PARAMETERS][FIT_PARAMETERS]; /* JᵀJ */
-    double gradient[FIT_PARAMETERS];               /* Jᵀr */
+    double normal[FIT_MOST_PARAMETERS][FIT_MOST_PARAMETERS]; /* JᵀJ */
+    double gradient[FIT_MOST_PARAMETERS];                    /* Jᵀr */
 };
 
 static double sum_of_squares(const double *values, size_t count)
@@ -79,7 +79,7 @@ static void multiply(struct system *s, const double *jacobian, const double *r)
 /* (JᵀJ + damping · diag) step = -Jᵀr, by Gaussian elimination with pivots. */
 static void solve(const struct system *s, double damping, double *step)
 {
-    double a[FIT_PARAMETERS][FIT_PARAMETERS + 1];
+    double a[FIT_MOST_PARAMETERS][FIT_MOST_PARAMETERS + 1];
     for (size_t i = 0; i < s->n; ++i) {
         memcpy(a[i], s->normal[i], s->n * sizeof(double));
         a[i][i] *= 1.0 + damping;
@@ -112,7 +112,7 @@ static void solve(const struct system *s, double damping, double *step)
 static double least_squares(double *p, size_t n, fit_residuals residuals, size_t m, void *user_data)
 {
     double *jacobian = malloc((n + 2) * m * sizeof(double)), *r = jacobian + n * m, *work = r + m;
-    double step[FIT_PARAMETERS], next[FIT_PARAMETERS], damping = 1e-3;
+    double step[FIT_MOST_PARAMETERS], next[FIT_MOST_PARAMETERS], damping = 1e-3;
     struct system s = {.n = n, .m = m};
     residuals(p, r, user_data);
     double best = sum_of_squares(r, m);
@@ -162,17 +162,16 @@ static double largest(const double *values, size_t count)
     return most;
 }
 
-double fit_minimax(double parameters[FIT_PARAMETERS], fit_residuals residuals, size_t m,
-                   void *user_data)
+double fit_minimax(double *parameters, size_t n, fit_residuals residuals, size_t m, void *user_data,
+                   int num_rounds)
 {
-    double *weights = malloc(2 * m * sizeof(double)), *r = weights + m, p[FIT_PARAMETERS],
+    double *weights = malloc(2 * m * sizeof(double)), *r = weights + m, p[FIT_MOST_PARAMETERS],
            best = INFINITY;
-    const size_t n = FIT_PARAMETERS;
     struct weighted w = {residuals, user_data, weights, m};
     memcpy(p, parameters, n * sizeof(double));
     for (size_t i = 0; i < m; ++i)
         weights[i] = 1.0;
-    for (int round = 0; round < MAX_ROUNDS; ++round) {
+    for (int round = 0; round < num_rounds; ++round) {
         double sum = 0.0;
         least_squares(p, n, weigh, m, &w);
         residuals(p, r, user_data);

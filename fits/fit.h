@@ -5,7 +5,12 @@
 
 #include <stddef.h>
 
-enum { FIT_TERMS = 4, FIT_PARAMETERS = FIT_TERMS * FIT_TERMS };
+enum {
+    FIT_TERMS = 4,
+    FIT_PARAMETERS = FIT_TERMS * FIT_TERMS,
+    FIT_MOST_PARAMETERS = 26,
+    FIT_ROUNDS = 30
+};
 
 /* The polynomial dot((1, u, u², u³), M · (1, v, v², v³)) of all fits; parameters by row. */
 double fit_form(const double parameters[FIT_PARAMETERS], double u, double v);
@@ -18,9 +23,10 @@ typedef void (*fit_residuals)(const double *parameters, double *residuals, void 
 
 /*
  * Minimises the largest residual: least squares (Levenberg, Marquardt) in rounds that increase the
- * weight of points with a large residual (after Lawson 1961). Returns the largest residual.
+ * weight of points with a large residual (after Lawson 1961). At most FIT_MOST_PARAMETERS. Returns
+ * the largest residual.
  */
-double fit_minimax(double parameters[FIT_PARAMETERS], fit_residuals residuals, size_t num_residuals,
-                   void *user_data);
+double fit_minimax(double *parameters, size_t num_parameters, fit_residuals residuals,
+                   size_t num_residuals, void *user_data, int num_rounds);
 
 #endif

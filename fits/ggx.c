@@ -21,11 +21,12 @@ static void draw(const double v[3], double xi, double eta, double h[3])
     h[2] = top;
 }
 
-/* A variable for the limit of light that grazes the facets, and the roughness. */
-static void variables(double alpha, double cosine, double out[2])
+/* A variable for the limit of light that grazes the facets, and one that is 0 there. */
+static void variables(double alpha, double cosine, double out[3])
 {
-    out[0] = alpha / (alpha + cosine);
-    out[1] = alpha;
+    out[0] = alpha / (alpha + 0.6 * cosine);
+    out[1] = alpha * cosine;
+    out[2] = out[0] * out[0];
 }
 
 int main(void)

@@ -8,8 +8,8 @@
 
 enum { STEPS = 24, CELLS = STEPS * STEPS, SAMPLES = 1 << 13 };
 /* of anisotropic lobes: roughness, anisotropy, turns and cosines of the viewer */
-enum { WIDTHS = 10, SHAPES = 8, TURNS = 7, SLANTS = 12 };
-enum { LOBES = WIDTHS * SHAPES * TURNS * SLANTS, LIKE_TERMS = 12 };
+enum { WIDTHS = 9, SHAPES = 11, TURNS = 7, SLANTS = 16 };
+enum { LOBES = WIDTHS * SHAPES * TURNS * SLANTS, LIKE_TERMS = 26 };
 
 static const double pi = 3.14159265358979323846;
 #define LEAST_COSINE 0.03 /* the fit extrapolates below, where a surface is hardly visible */
@@ -58,9 +58,9 @@ static double grazing(const struct cell *cell)
 
 static double albedo(const struct distribution *d, const double *p, const struct cell *cell)
 {
-    double v[2];
+    double v[3];
     d->variables(cell->alpha, cell->cosine, v);
-    return 1.0 - v[0] * fit_form(p, v[0], v[1]);
+    return 1.0 - v[2] * fit_form(p, v[0], v[1]);
 }
 
 static double effective_cosine(const double *p, const struct cell *cell)
@@ -94,7 +94,7 @@ static void cosine_residuals(const double *p, double *out, void *user_data)
 /*
  * Divided by the roughness, visible normals are those of a unit sphere, whatever the roughness is.
  * So a round lobe has the same ones if its viewer has the same cosine after that division. What
- * remains is its roughness: the mean of both times a factor.
+ * remains is its roughness: the square of the mean of both times a factor.
  */
 struct like {
     double mean, shape; /* of both widths: mean, and difference over sum */
@@ -115,15 +115,24 @@ static struct like compare(const struct cell *cell)
                          .slope = sqrt(x * x + y * y)};
 }
 
+/* A polynomial of the second degree. */
+static double second_degree(const double *p, double z, double m)
+{
+    return p[0] + z * (p[1] + p[2] * z + p[3] * m) + m * (p[4] + p[5] * m);
+}
+
 /* The round cell. `p` begins with the parameters of this form. */
 static struct cell round_like(const double *p, const struct cell *cell)
 {
     struct like l = compare(cell);
     double d = l.shape * l.shape, w = l.turned, z = l.up, m = l.mean;
-    double factor =
-        1.0 + d * (p[0] + p[1] * z + p[2] * m + d * (p[3] + p[4] * z))
-        + w * (p[5] + z * (p[6] + p[7] * m + p[8] * z) + p[9] * d + w * (p[10] + p[11] * m));
-    double a = m * fmax(factor, 0.05), reach = hypot(a * cell->cosine, l.slope);
+    double by_shape =
+        second_degree(p, z, m) + d * (p[6] + p[7] * z + p[8] * m + p[9] * w + p[10] * d);
+    double by_turn = second_degree(p + 11, z, m) + p[17] * z * z * z
+                     + d * (p[18] + p[19] * z + p[20] * m)
+                     + w * (p[21] + p[22] * z + p[23] * m + p[24] * d + p[25] * w);
+    double square = 1.0 + d * by_shape + w * by_turn;
+    double a = m * sqrt(fmax(square, 0.05)), reach = hypot(a * cell->cosine, l.slope);
     return (struct cell){.alpha = a, .across = a, .cosine = a * cell->cosine / reach};
 }
 
@@ -132,7 +141,6 @@ struct lobes {
     const struct cell *cells;
     const double *albedo, *cosine; /* parameters of round lobes */
     double bound;                  /* factor of that albedo */
-    double excess;                 /* of the result, in the middle of the errors */
 };
 
 static double like_error(const struct lobes *lobes, const double *p, const struct cell *cell)
@@ -143,13 +151,13 @@ static double like_error(const struct lobes *lobes, const double *p, const struc
            - 1.0;
 }
 
-/* A slanted lobe counts less, as less of it is visible. */
+/* A lobe that is hardly visible counts less. */
 static void like_residuals(const double *p, double *out, void *user_data)
 {
     const struct lobes *lobes = user_data;
     for (int i = 0; i < LOBES; ++i)
-        out[i] = (like_error(lobes, p, &lobes->cells[i]) - lobes->excess)
-                 * (0.5 + 0.5 * lobes->cells[i].cosine);
+        out[i] =
+            like_error(lobes, p, &lobes->cells[i]) * fmin(1.0, 0.5 + 5.0 * lobes->cells[i].cosine);
 }
 
 /* A facet's cosine grows with the length of the stretched viewer. */
@@ -166,11 +174,12 @@ static void measure_lobes(const struct distribution *d, struct cell *cells)
         double r = (double)(i % WIDTHS + 1) / WIDTHS,
                s = 0.95 * (i / WIDTHS % SHAPES) / (SHAPES - 1),
                turn = 0.5 * pi * (i / (WIDTHS * SHAPES) % TURNS) / (TURNS - 1),
-               c = (i / (WIDTHS * SHAPES * TURNS) + 0.5) / SLANTS;
-        cells[i] = (struct cell){.alpha = fmin(r * r * (1.0 + s), 1.0),
-                                 .across = r * r * (1.0 - s),
-                                 .cosine = LEAST_COSINE + (1.0 - LEAST_COSINE) * c,
-                                 .turn = turn};
+               c = (i / (WIDTHS * SHAPES * TURNS) + 1.0) / SLANTS;
+        cells[i] =
+            (struct cell){.alpha = fmin(r * r * (1.0 + s), 1.0),
+                          .across = r * r * (1.0 - s),
+                          .cosine = LEAST_COSINE + (1.0 - LEAST_COSINE) * c * (0.5 + 0.5 * c),
+                          .turn = turn};
         measure(d, &cells[i]);
     }
 }
@@ -179,11 +188,11 @@ static void fit_lobes(const struct distribution *d, const double *reflected, dou
                       const double *cosine)
 {
     static struct cell cells[LOBES];
-    struct lobes lobes = {d, cells, reflected, cosine, bound, 0.8 * (bound - 1.0)};
-    double p[FIT_PARAMETERS] = {0.4}, grazing_most = 0.0, grazing_mean = 0.0, least = 1.0,
+    struct lobes lobes = {d, cells, reflected, cosine, bound};
+    double p[FIT_MOST_PARAMETERS] = {0.4}, grazing_most = 0.0, grazing_mean = 0.0, least = 1.0,
            most = -1.0;
     measure_lobes(d, cells);
-    fit_minimax(p, like_residuals, LOBES, &lobes);
+    fit_minimax(p, LIKE_TERMS, like_residuals, LOBES, &lobes, 3 * FIT_ROUNDS);
     for (int i = 0; i < LOBES; ++i) {
         double error = like_error(&lobes, p, &cells[i]),
                at_grazing = fabs(error_at_grazing(&lobes, p, &cells[i]));
@@ -212,12 +221,13 @@ void lobe_fit(const struct distribution *d)
             .alpha = a * a, .across = a * a, .cosine = LEAST_COSINE + (1.0 - LEAST_COSINE) * c};
         measure(d, &cells[i]);
     }
-    double error = fit_minimax(reflected, albedo_residuals, CELLS, &lobes),
+    double error =
+               fit_minimax(reflected, FIT_PARAMETERS, albedo_residuals, CELLS, &lobes, FIT_ROUNDS),
            bound = 1.0 + error - SLACK;
     printf("// albedo times %.4f, so that it is never too small; within %.4f, relatively\n", bound,
            error);
     fit_print_form("LOST", reflected, bound);
-    error = fit_minimax(cosine, cosine_residuals, CELLS, &lobes);
+    error = fit_minimax(cosine, FIT_PARAMETERS, cosine_residuals, CELLS, &lobes, FIT_ROUNDS);
     printf("// (1 - cosine)^5 of the lobe within %.4f\n", error);
     fit_print_form("COSINE", cosine, 1.0);
     fit_lobes(d, reflected, bound, cosine);

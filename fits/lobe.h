@@ -12,9 +12,9 @@
 struct distribution {
     /* cos (1 + 2 Lambda) of the direction at distance x and height z from the surface's point. */
     double (*masking)(double x, double z);
-    /* The two numbers whose polynomial, times the first, is the light lost at this roughness and
-     * cosine. */
-    void (*variables)(double alpha, double cosine, double out[2]);
+    /* The light lost at this roughness and cosine is a polynomial of the first two numbers, times
+     * the third. */
+    void (*variables)(double alpha, double cosine, double out[3]);
     /* A normal of any length, drawn from those that are visible from v, of any length. */
     void (*draw)(const double v[3], double xi, double eta, double h[3]);
 };

@@ -106,7 +106,8 @@ int main(void)
             for (int i = 0; i < WALKS; ++i)
                 walk(first);
         }
-    printf("// within %.4f\n", fit_minimax(p, residuals, 2 * CELLS, cells));
+    printf("// within %.4f\n",
+           fit_minimax(p, FIT_PARAMETERS, residuals, 2 * CELLS, cells, FIT_ROUNDS));
     for (int i = 0; i < FIT_PARAMETERS; ++i)
         printf("%.4f%s", p[i], i == FIT_PARAMETERS - 1 ? "\n" : ", ");
     return 0;

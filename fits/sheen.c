@@ -58,7 +58,7 @@ int main(void)
                                  .roughness = LEAST + (1.0 - LEAST) * r};
         measure(&cells[i]);
     }
-    printf("// within %.4f\n", fit_minimax(p, residuals, CELLS, cells));
+    printf("// within %.4f\n", fit_minimax(p, FIT_PARAMETERS, residuals, CELLS, cells, FIT_ROUNDS));
     fit_print_form("FIT", p, 1.0);
     return 0;
 }

@@ -85,7 +85,7 @@ int main(void)
     double p[FIT_PARAMETERS] = {0.2, 0.7, 0.6, 0.02, 0.2, 0.4, 0.2, 0.6, 0.8, 0.2, 0.7};
     for (int i = 0; i < POINTS; ++i)
         values[i] = response(size_of(i), cosine_of(i));
-    fit_minimax(p, residuals, POINTS, values);
+    fit_minimax(p, FIT_PARAMETERS, residuals, POINTS, values, FIT_ROUNDS);
     print_polynomial("odd", p);
     print_polynomial("flat", p + 3);
     print_polynomial("steep", p + 6);

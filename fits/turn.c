@@ -27,7 +27,7 @@ static void residuals(const double *p, double *out, void *user_data)
 int main(void)
 {
     double p[FIT_PARAMETERS] = {0.5, -0.3, 0.2, -0.1, 0.0};
-    double worst = fit_minimax(p, residuals, POINTS, NULL);
+    double worst = fit_minimax(p, FIT_PARAMETERS, residuals, POINTS, NULL, FIT_ROUNDS);
     printf("from the constant: %.7f %.7f %.7f %.7f %.7f, within %.2g half turns\n", p[0], p[1],
            p[2], p[3], p[4], worst);
     return 0;

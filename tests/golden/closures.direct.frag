@@ -24,21 +24,22 @@ in VertexData {
 out vec4 out1;
 
 // A cubic polynomial of x and y with the coefficients m, to which directional albedos are fitted.
-// Here y = 0.04.
-float mx_bicubic(const mat4 m, const float x)
+float mx_bicubic(const mat4 m, const float x, const float y)
 {
-    return dot(vec4(1.0, x, x * x, x * x * x), m * vec4(1.0, 0.04, 0.0016, 0.000064));
+    return dot(vec4(1.0, x, x * x, x * x * x), m * vec4(1.0, y, y * y, y * y * y));
 }
 
 // The light that a white GGX lobe of roughness a reflects at the viewer's cosine c (x), and the mean of (1 - cos)^5
-// over it (y); u is a / (a + c).
+// over it (y).
 // Here a = 0.04.
-vec2 mx_ggx_albedo_fit(const float u, const float c)
+vec2 mx_ggx_albedo_fit(const float c)
 {
     float x = clamp(1.0 - c - 0.04 * mx_bicubic(mat4(-0.2174, 5.3819, -3.911, 0.2674, -9.7298, 3.9904, 3.8225, -0.0277,
-        36.4897, -72.9122, 58.0878, -20.917, -31.4763, 79.0768, -73.9706, 26.5429), u), 0.0, 1.0);
-    return vec2(min(1.005 - u * mx_bicubic(mat4(-0.1449, 2.7808, -5.4855, 2.8822, -1.0694, 1.8502, 0.2967, -1.0447,
-        12.503, -32.5955, 30.0409, -9.9567, -5.0066, 10.9491, -6.6309, 0.6544), u), 1.0), x * x * x * x * x);
+        36.4897, -72.9122, 58.0878, -20.917, -31.4763, 79.0768, -73.9706, 26.5429), 0.04 / (0.04 + c), 0.04), 0.0, 1.0);
+    float u = 0.04 / (0.04 + 0.6 * c);
+    return vec2(min(1.0017 - u * u * mx_bicubic(mat4(-0.0334, 3.1441, -6.1576, 3.0758, 0.6997, 7.8981, -14.3238, 8.7382,
+        4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, 0.04 * c), 1.0), x * x * x * x
+        * x);
 }
 
 // Unpolarised reflectance of an interface whose squared index is `re`, with c for the cosine in front of it:
@@ -81,7 +82,7 @@ void main()
     vec3 N = normalize(vd.normalWorld);
     vec3 V = normalize(u_viewPosition - vd.positionWorld);
     float cos_v = max(abs(dot(N, V)), 1e-8);
-    vec2 albedo = mx_ggx_albedo_fit(0.04 / (cos_v + 0.04), cos_v);
+    vec2 albedo = mx_ggx_albedo_fit(cos_v);
     float ggx_compensation = (1.0 / albedo.x - 1.0) * 0.079748526 + 1.0;
     vec3 facing = faceforward(N, -V, N);
     float ggx_masking = sqrt(cos_v * cos_v * 0.9984 + 0.0016);

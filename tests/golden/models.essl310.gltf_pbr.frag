@@ -94,13 +94,14 @@ float mx_bicubic(const mat4 m, const float x, const float y)
 }
 
 // The light that a white GGX lobe of roughness a reflects at the viewer's cosine c (x), and the mean of (1 - cos)^5
-// over it (y); u is a / (a + c).
-vec2 mx_ggx_albedo_fit(const float a, const float u, const float c)
+// over it (y).
+vec2 mx_ggx_albedo_fit(const float a, const float c)
 {
     float x = clamp(1.0 - c - a * mx_bicubic(mat4(-0.2174, 5.3819, -3.911, 0.2674, -9.7298, 3.9904, 3.8225, -0.0277,
-        36.4897, -72.9122, 58.0878, -20.917, -31.4763, 79.0768, -73.9706, 26.5429), u, a), 0.0, 1.0);
-    return vec2(min(1.005 - u * mx_bicubic(mat4(-0.1449, 2.7808, -5.4855, 2.8822, -1.0694, 1.8502, 0.2967, -1.0447,
-        12.503, -32.5955, 30.0409, -9.9567, -5.0066, 10.9491, -6.6309, 0.6544), u, a), 1.0), x * x * x * x * x);
+        36.4897, -72.9122, 58.0878, -20.917, -31.4763, 79.0768, -73.9706, 26.5429), a / (a + c), a), 0.0, 1.0);
+    float u = a / (a + 0.6 * c);
+    return vec2(min(1.0017 - u * u * mx_bicubic(mat4(-0.0334, 3.1441, -6.1576, 3.0758, 0.6997, 7.8981, -14.3238, 8.7382,
+        4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, a * c), 1.0), x * x * x * x * x);
 }
 
 // Light of one polarisation that interferes in a film, as Gaussian i of the CIE curves sees it: `a` is the amplitude of
@@ -420,9 +421,8 @@ void main()
     vec2 specular_roughness = clamp(vec2(mix(alpha_bitangent, 1.0, SR_gltf_pbr_anisotropy_strength
         * SR_gltf_pbr_anisotropy_strength), alpha_bitangent), 0.00001, 1.0);
     vec2 alpha = clamp(specular_roughness, 1e-8, 1.0);
-    float a = sqrt(alpha.x * alpha.y);
     float cos_v = max(abs(dot(N, V)), 1e-8);
-    vec2 albedo = mx_ggx_albedo_fit(a, a / (cos_v + a), cos_v);
+    vec2 albedo = mx_ggx_albedo_fit(sqrt(alpha.x * alpha.y), cos_v);
     vec3 product = mix(fresnel_f0, f90, albedo.y) * albedo.x;
     float difference = 1.0 / albedo.x - 1.0;
     vec3 reflection_scale = difference * mix(fresnel_f0, f90, 0.04761905) + vec3(1.0);
@@ -434,7 +434,7 @@ void main()
     float clamped_iridescence = clamp(SR_gltf_pbr_iridescence, 0.0, 1.0);
     float coating_weight = clamp(SR_gltf_pbr_clearcoat, 0.0, 1.0);
     float coat_lobe = clamp(SR_gltf_pbr_clearcoat_roughness * SR_gltf_pbr_clearcoat_roughness, 1e-8, 1.0);
-    vec2 coating_albedo = mx_ggx_albedo_fit(coat_lobe, coat_lobe / (coat_lobe + cos_v), cos_v);
+    vec2 coating_albedo = mx_ggx_albedo_fit(coat_lobe, cos_v);
     float coating_scale = (1.0 / coating_albedo.x - 1.0) * 0.08571429 + 1.0;
     float coating_throughput = 1.0 - coating_weight
         * (mix(0.04, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale);

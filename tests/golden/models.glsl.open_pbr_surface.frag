@@ -112,13 +112,14 @@ float mx_bicubic(const mat4 m, const float x, const float y)
 }
 
 // The light that a white GGX lobe of roughness a reflects at the viewer's cosine c (x), and the mean of (1 - cos)^5
-// over it (y); u is a / (a + c).
-vec2 mx_ggx_albedo_fit(const float a, const float u, const float c)
+// over it (y).
+vec2 mx_ggx_albedo_fit(const float a, const float c)
 {
     float x = clamp(1.0 - c - a * mx_bicubic(mat4(-0.2174, 5.3819, -3.911, 0.2674, -9.7298, 3.9904, 3.8225, -0.0277,
-        36.4897, -72.9122, 58.0878, -20.917, -31.4763, 79.0768, -73.9706, 26.5429), u, a), 0.0, 1.0);
-    return vec2(min(1.005 - u * mx_bicubic(mat4(-0.1449, 2.7808, -5.4855, 2.8822, -1.0694, 1.8502, 0.2967, -1.0447,
-        12.503, -32.5955, 30.0409, -9.9567, -5.0066, 10.9491, -6.6309, 0.6544), u, a), 1.0), x * x * x * x * x);
+        36.4897, -72.9122, 58.0878, -20.917, -31.4763, 79.0768, -73.9706, 26.5429), a / (a + c), a), 0.0, 1.0);
+    float u = a / (a + 0.6 * c);
+    return vec2(min(1.0017 - u * u * mx_bicubic(mat4(-0.0334, 3.1441, -6.1576, 3.0758, 0.6997, 7.8981, -14.3238, 8.7382,
+        4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, a * c), 1.0), x * x * x * x * x);
 }
 
 // Reflectance of a dielectric that faces the viewer.
@@ -556,9 +557,8 @@ void main()
         mx_open_pbr_blurred(SR_open_pbr_surface_specular_roughness, SR_open_pbr_surface_coat_roughness),
         SR_open_pbr_surface_coat_weight), SR_open_pbr_surface_specular_roughness_anisotropy);
     vec2 alpha = clamp(roughness, 1e-8, 1.0);
-    float a = sqrt(alpha.x * alpha.y);
     float cos_v = max(absolute, 1e-8);
-    vec2 albedo = mx_ggx_albedo_fit(a, a / (cos_v + a), cos_v);
+    vec2 albedo = mx_ggx_albedo_fit(sqrt(alpha.x * alpha.y), cos_v);
     float product = mix(r * r, 1.0, albedo.y) * albedo.x;
     float difference = 1.0 / albedo.x - 1.0;
     float reflection_bare_scale = difference * mix(r * r, 1.0, 0.04761905) + 1.0;
@@ -582,8 +582,7 @@ void main()
     vec2 coat_lobe = mx_open_pbr_anisotropy(SR_open_pbr_surface_coat_roughness,
         SR_open_pbr_surface_coat_roughness_anisotropy);
     vec2 coating_alpha = clamp(coat_lobe, 1e-8, 1.0);
-    float coating_a = sqrt(coating_alpha.x * coating_alpha.y);
-    vec2 coating_albedo = mx_ggx_albedo_fit(coating_a, coating_a / (cos_v + coating_a), cos_v);
+    vec2 coating_albedo = mx_ggx_albedo_fit(sqrt(coating_alpha.x * coating_alpha.y), cos_v);
     float coating_scale = mix(coating_r * coating_r, 1.0, 0.04761905) * (1.0 / coating_albedo.x - 1.0) + 1.0;
     float coated_weight = (1.0 - fuzz_product_2)
         * (1.0 - coating_weight * (mix(coating_r * coating_r, 1.0, coating_albedo.y) * coating_albedo.x

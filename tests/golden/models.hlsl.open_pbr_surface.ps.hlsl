@@ -172,13 +172,14 @@ float mx_bicubic(float4x4 m, float x, float y)
 }
 
 // The light that a white GGX lobe of roughness a reflects at the viewer's cosine c (x), and the mean of (1 - cos)^5
-// over it (y); u is a / (a + c).
-float2 mx_ggx_albedo_fit(float a, float u, float c)
+// over it (y).
+float2 mx_ggx_albedo_fit(float a, float c)
 {
     float x = clamp(1.0 - c - a * mx_bicubic(float4x4(-0.2174, 5.3819, -3.911, 0.2674, -9.7298, 3.9904, 3.8225, -0.0277,
-        36.4897, -72.9122, 58.0878, -20.917, -31.4763, 79.0768, -73.9706, 26.5429), u, a), 0.0, 1.0);
-    return float2(min(1.005 - u * mx_bicubic(float4x4(-0.1449, 2.7808, -5.4855, 2.8822, -1.0694, 1.8502, 0.2967,
-        -1.0447, 12.503, -32.5955, 30.0409, -9.9567, -5.0066, 10.9491, -6.6309, 0.6544), u, a), 1.0), x * x * x * x
+        36.4897, -72.9122, 58.0878, -20.917, -31.4763, 79.0768, -73.9706, 26.5429), a / (a + c), a), 0.0, 1.0);
+    float u = a / (a + 0.6 * c);
+    return float2(min(1.0017 - u * u * mx_bicubic(float4x4(-0.0334, 3.1441, -6.1576, 3.0758, 0.6997, 7.8981, -14.3238,
+        8.7382, 4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, a * c), 1.0), x * x * x * x
         * x);
 }
 
@@ -621,9 +622,8 @@ void main(
         mx_open_pbr_blurred(SR_open_pbr_surface_specular_roughness, SR_open_pbr_surface_coat_roughness), coat_weight),
         SR_open_pbr_surface_specular_roughness_anisotropy);
     float2 alpha = clamp(roughness, 1e-8, 1.0);
-    float a = sqrt(alpha.x * alpha.y);
     float cos_v = max(absolute, 1e-8);
-    float2 albedo = mx_ggx_albedo_fit(a, a / (cos_v + a), cos_v);
+    float2 albedo = mx_ggx_albedo_fit(sqrt(alpha.x * alpha.y), cos_v);
     float product = lerp(r * r, 1.0, albedo.y) * albedo.x;
     float difference = 1.0 / albedo.x - 1.0;
     float reflection_bare_scale = difference * lerp(r * r, 1.0, 0.04761905) + 1.0;
@@ -647,8 +647,7 @@ void main(
     float2 coat_lobe = mx_open_pbr_anisotropy(SR_open_pbr_surface_coat_roughness,
         SR_open_pbr_surface_coat_roughness_anisotropy);
     float2 coating_alpha = clamp(coat_lobe, 1e-8, 1.0);
-    float coating_a = sqrt(coating_alpha.x * coating_alpha.y);
-    float2 coating_albedo = mx_ggx_albedo_fit(coating_a, coating_a / (cos_v + coating_a), cos_v);
+    float2 coating_albedo = mx_ggx_albedo_fit(sqrt(coating_alpha.x * coating_alpha.y), cos_v);
     float coating_scale = lerp(coating_r * coating_r, 1.0, 0.04761905) * (1.0 / coating_albedo.x - 1.0) + 1.0;
     float coated_weight = (1.0 - fuzz_product_2)
         * (1.0 - coating_weight * (lerp(coating_r * coating_r, 1.0, coating_albedo.y) * coating_albedo.x

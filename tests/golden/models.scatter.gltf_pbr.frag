@@ -33,21 +33,21 @@ vec4 out6;
 vec4 out7;
 
 // A cubic polynomial of x and y with the coefficients m, to which directional albedos are fitted.
-// Here y = 1.0.
-float mx_bicubic(const mat4 m, const float x)
+float mx_bicubic(const mat4 m, const float x, const float y)
 {
-    return dot(vec4(1.0, x, x * x, x * x * x), m * vec4(1.0));
+    return dot(vec4(1.0, x, x * x, x * x * x), m * vec4(1.0, y, y * y, y * y * y));
 }
 
 // The light that a white GGX lobe of roughness a reflects at the viewer's cosine c (x), and the mean of (1 - cos)^5
-// over it (y); u is a / (a + c).
+// over it (y).
 // Here a = 1.0.
-vec2 mx_ggx_albedo_fit(const float u, const float c)
+vec2 mx_ggx_albedo_fit(const float c)
 {
     float x = clamp(1.0 - c - mx_bicubic(mat4(-0.2174, 5.3819, -3.911, 0.2674, -9.7298, 3.9904, 3.8225, -0.0277,
-        36.4897, -72.9122, 58.0878, -20.917, -31.4763, 79.0768, -73.9706, 26.5429), u), 0.0, 1.0);
-    return vec2(min(1.005 - u * mx_bicubic(mat4(-0.1449, 2.7808, -5.4855, 2.8822, -1.0694, 1.8502, 0.2967, -1.0447,
-        12.503, -32.5955, 30.0409, -9.9567, -5.0066, 10.9491, -6.6309, 0.6544), u), 1.0), x * x * x * x * x);
+        36.4897, -72.9122, 58.0878, -20.917, -31.4763, 79.0768, -73.9706, 26.5429), 1.0 / (1.0 + c), 1.0), 0.0, 1.0);
+    float u = 1.0 / (1.0 + 0.6 * c);
+    return vec2(min(1.0017 - u * u * mx_bicubic(mat4(-0.0334, 3.1441, -6.1576, 3.0758, 0.6997, 7.8981, -14.3238, 8.7382,
+        4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, c), 1.0), x * x * x * x * x);
 }
 
 // Schlick's curve from f0 to f90 at a cosine, less `bend` times cos (1 - cos)^6.
@@ -109,7 +109,7 @@ void mx_ggx_scatter(const vec3 N, const vec3 X, const vec3 V, const vec3 xi, out
     if (l.z <= 0.0)
         return;
     weight = mx_fresnel_schlick(clamp(dot(v, h), 1e-8, 1.0)) * (mx_ggx_smith_visibility(v, l) * 4.0 / density)
-        * (vec3(1.0) + vec3(1.0 / mx_ggx_albedo_fit(1.0 / (1.0 + v.z), v.z).x - 1.0));
+        * (vec3(1.0) + vec3(1.0 / mx_ggx_albedo_fit(v.z).x - 1.0));
     pdf = 0.25;
     pdf *= density * (1.0 / (3.1415927 * dot(h, h) * dot(h, h)));
 }
@@ -160,8 +160,7 @@ void scatter()
     vec3 axis = normalize(vd.normalWorld);
     // SR_gltf_pbr
     float axis_dot_lobe_view = dot(axis, vd.viewWorld);
-    float c = max(abs(axis_dot_lobe_view), 1e-8);
-    vec2 albedo = mx_ggx_albedo_fit(1.0 / (c + 1.0), c);
+    vec2 albedo = mx_ggx_albedo_fit(max(abs(axis_dot_lobe_view), 1e-8));
     vec3 f = mx_fresnel_schlick(max(1.0 - pow(albedo.y, 0.2), 1e-8));
     float ggx_compensation = 1.0 / albedo.x;
     float metal_bare_share = max(dot(f * (albedo.x * ggx_compensation * 0.9) + vec3(0.1), vec3(0.33333334)), 0.0);

@@ -33,21 +33,22 @@ vec4 out6;
 vec4 out7;
 
 // A cubic polynomial of x and y with the coefficients m, to which directional albedos are fitted.
-// Here y = 0.04.
-float mx_bicubic(const mat4 m, const float x)
+float mx_bicubic(const mat4 m, const float x, const float y)
 {
-    return dot(vec4(1.0, x, x * x, x * x * x), m * vec4(1.0, 0.04, 0.0016000002, 0.000064000014));
+    return dot(vec4(1.0, x, x * x, x * x * x), m * vec4(1.0, y, y * y, y * y * y));
 }
 
 // The light that a white GGX lobe of roughness a reflects at the viewer's cosine c (x), and the mean of (1 - cos)^5
-// over it (y); u is a / (a + c).
+// over it (y).
 // Here a = 0.04.
-vec2 mx_ggx_albedo_fit(const float u, const float c)
+vec2 mx_ggx_albedo_fit(const float c)
 {
     float x = clamp(1.0 - c - 0.04 * mx_bicubic(mat4(-0.2174, 5.3819, -3.911, 0.2674, -9.7298, 3.9904, 3.8225, -0.0277,
-        36.4897, -72.9122, 58.0878, -20.917, -31.4763, 79.0768, -73.9706, 26.5429), u), 0.0, 1.0);
-    return vec2(min(1.005 - u * mx_bicubic(mat4(-0.1449, 2.7808, -5.4855, 2.8822, -1.0694, 1.8502, 0.2967, -1.0447,
-        12.503, -32.5955, 30.0409, -9.9567, -5.0066, 10.9491, -6.6309, 0.6544), u), 1.0), x * x * x * x * x);
+        36.4897, -72.9122, 58.0878, -20.917, -31.4763, 79.0768, -73.9706, 26.5429), 0.04 / (0.04 + c), 0.04), 0.0, 1.0);
+    float u = 0.04 / (0.04 + 0.6 * c);
+    return vec2(min(1.0017 - u * u * mx_bicubic(mat4(-0.0334, 3.1441, -6.1576, 3.0758, 0.6997, 7.8981, -14.3238, 8.7382,
+        4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, 0.04 * c), 1.0), x * x * x * x
+        * x);
 }
 
 // Unpolarised reflectance of an interface whose squared index is `re`, with c for the cosine in front of it:
@@ -140,8 +141,7 @@ void mx_ggx_scatter(const vec3 N, const vec3 X, const vec3 V, const vec3 xi, con
     if (l.z <= 0.0)
         return;
     weight = vec3(mx_fresnel_permittivity(clamp(dot(v, h), 1e-8, 1.0), n.x * n.x))
-        * (mx_ggx_smith_visibility(v, l) * 4.0 / density)
-        * mx_ggx_compensation(mx_ggx_albedo_fit(0.04 / (0.04 + v.z), v.z), n);
+        * (mx_ggx_smith_visibility(v, l) * 4.0 / density) * mx_ggx_compensation(mx_ggx_albedo_fit(v.z), n);
     pdf = 0.25;
     pdf *= density * mx_ggx_distribution(h / vec3(0.04, 0.04, 1.0));
 }
@@ -183,8 +183,7 @@ void scatter()
     vec3 axis = normalize(vd.normalWorld);
     // SR_standard_surface
     float axis_dot_lobe_view = dot(axis, vd.viewWorld);
-    float cos_v = max(abs(axis_dot_lobe_view), 1e-8);
-    vec2 albedo = mx_ggx_albedo_fit(0.04 / (cos_v + 0.04), cos_v);
+    vec2 albedo = mx_ggx_albedo_fit(max(abs(axis_dot_lobe_view), 1e-8));
     float eta = axis_dot_lobe_view < 0.0 ? 0.6666667 : 1.5;
     float scaled_eta = eta * eta;
     float r = (1.0 - eta) / (eta + 1.0);

@@ -101,13 +101,15 @@ fn mx_bicubic(m: mat4x4f, x: f32, y: f32) -> f32
 }
 
 // The light that a white GGX lobe of roughness a reflects at the viewer's cosine c (x), and the mean of (1 - cos)^5
-// over it (y); u is a / (a + c).
-fn mx_ggx_albedo_fit(a: f32, u: f32, c: f32) -> vec2f
+// over it (y).
+fn mx_ggx_albedo_fit(a: f32, c: f32) -> vec2f
 {
     let x: f32 = clamp(1.0 - c - a * mx_bicubic(mat4x4f(-0.2174, 5.3819, -3.911, 0.2674, -9.7298, 3.9904, 3.8225,
-        -0.0277, 36.4897, -72.9122, 58.0878, -20.917, -31.4763, 79.0768, -73.9706, 26.5429), u, a), 0.0, 1.0);
-    return vec2f(min(1.005 - u * mx_bicubic(mat4x4f(-0.1449, 2.7808, -5.4855, 2.8822, -1.0694, 1.8502, 0.2967, -1.0447,
-        12.503, -32.5955, 30.0409, -9.9567, -5.0066, 10.9491, -6.6309, 0.6544), u, a), 1.0), x * x * x * x * x);
+        -0.0277, 36.4897, -72.9122, 58.0878, -20.917, -31.4763, 79.0768, -73.9706, 26.5429), a / (a + c), a), 0.0, 1.0);
+    let u: f32 = a / (a + 0.6 * c);
+    return vec2f(min(1.0017 - u * u * mx_bicubic(mat4x4f(-0.0334, 3.1441, -6.1576, 3.0758, 0.6997, 7.8981, -14.3238,
+        8.7382, 4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, a * c), 1.0), x * x * x * x
+        * x);
 }
 
 // Light of one polarisation that interferes in a film, as Gaussian i of the CIE curves sees it: `a` is the amplitude of
@@ -436,9 +438,8 @@ fn main(vd: VertexData) -> @location(0) vec4f
     let specular_roughness: vec2f = clamp(vec2f(mix(alpha_bitangent, 1.0, u_pub.SR_gltf_pbr_anisotropy_strength
         * u_pub.SR_gltf_pbr_anisotropy_strength), alpha_bitangent), vec2f(0.00001), vec2f(1.0));
     let alpha: vec2f = clamp(specular_roughness, vec2f(1e-8), vec2f(1.0));
-    let a: f32 = sqrt(alpha.x * alpha.y);
     let cos_v: f32 = max(abs(dot(N, V)), 1e-8);
-    let albedo: vec2f = mx_ggx_albedo_fit(a, a / (cos_v + a), cos_v);
+    let albedo: vec2f = mx_ggx_albedo_fit(sqrt(alpha.x * alpha.y), cos_v);
     let product: vec3f = mix(fresnel_f0, f90, albedo.y) * albedo.x;
     let difference: f32 = 1.0 / albedo.x - 1.0;
     let reflection_scale: vec3f = difference * mix(fresnel_f0, f90, 0.04761905) + vec3f(1.0);
@@ -451,7 +452,7 @@ fn main(vd: VertexData) -> @location(0) vec4f
     let coating_weight: f32 = clamp(u_pub.SR_gltf_pbr_clearcoat, 0.0, 1.0);
     let coat_lobe: f32 = clamp(u_pub.SR_gltf_pbr_clearcoat_roughness * u_pub.SR_gltf_pbr_clearcoat_roughness, 1e-8,
         1.0);
-    let coating_albedo: vec2f = mx_ggx_albedo_fit(coat_lobe, coat_lobe / (coat_lobe + cos_v), cos_v);
+    let coating_albedo: vec2f = mx_ggx_albedo_fit(coat_lobe, cos_v);
     let coating_scale: f32 = (1.0 / coating_albedo.x - 1.0) * 0.08571429 + 1.0;
     let coating_throughput: f32 = 1.0 - coating_weight
         * (mix(0.04, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale);

@@ -127,13 +127,15 @@ fn mx_bicubic(m: mat4x4f, x: f32, y: f32) -> f32
 }
 
 // The light that a white GGX lobe of roughness a reflects at the viewer's cosine c (x), and the mean of (1 - cos)^5
-// over it (y); u is a / (a + c).
-fn mx_ggx_albedo_fit(a: f32, u: f32, c: f32) -> vec2f
+// over it (y).
+fn mx_ggx_albedo_fit(a: f32, c: f32) -> vec2f
 {
     let x: f32 = clamp(1.0 - c - a * mx_bicubic(mat4x4f(-0.2174, 5.3819, -3.911, 0.2674, -9.7298, 3.9904, 3.8225,
-        -0.0277, 36.4897, -72.9122, 58.0878, -20.917, -31.4763, 79.0768, -73.9706, 26.5429), u, a), 0.0, 1.0);
-    return vec2f(min(1.005 - u * mx_bicubic(mat4x4f(-0.1449, 2.7808, -5.4855, 2.8822, -1.0694, 1.8502, 0.2967, -1.0447,
-        12.503, -32.5955, 30.0409, -9.9567, -5.0066, 10.9491, -6.6309, 0.6544), u, a), 1.0), x * x * x * x * x);
+        -0.0277, 36.4897, -72.9122, 58.0878, -20.917, -31.4763, 79.0768, -73.9706, 26.5429), a / (a + c), a), 0.0, 1.0);
+    let u: f32 = a / (a + 0.6 * c);
+    return vec2f(min(1.0017 - u * u * mx_bicubic(mat4x4f(-0.0334, 3.1441, -6.1576, 3.0758, 0.6997, 7.8981, -14.3238,
+        8.7382, 4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, a * c), 1.0), x * x * x * x
+        * x);
 }
 
 // Reflectance of a dielectric that faces the viewer.
@@ -582,9 +584,8 @@ fn main(vd: VertexData) -> @location(0) vec4f
         mx_open_pbr_blurred(u_pub.SR_open_pbr_surface_specular_roughness, u_pub.SR_open_pbr_surface_coat_roughness),
         coat_weight), u_pub.SR_open_pbr_surface_specular_roughness_anisotropy);
     let alpha: vec2f = clamp(roughness, vec2f(1e-8), vec2f(1.0));
-    let a: f32 = sqrt(alpha.x * alpha.y);
     let cos_v: f32 = max(absolute, 1e-8);
-    let albedo: vec2f = mx_ggx_albedo_fit(a, a / (cos_v + a), cos_v);
+    let albedo: vec2f = mx_ggx_albedo_fit(sqrt(alpha.x * alpha.y), cos_v);
     let product: f32 = mix(r * r, 1.0, albedo.y) * albedo.x;
     let difference: f32 = 1.0 / albedo.x - 1.0;
     let reflection_bare_scale: f32 = difference * mix(r * r, 1.0, 0.04761905) + 1.0;
@@ -610,8 +611,7 @@ fn main(vd: VertexData) -> @location(0) vec4f
     let coat_lobe: vec2f = mx_open_pbr_anisotropy(u_pub.SR_open_pbr_surface_coat_roughness,
         u_pub.SR_open_pbr_surface_coat_roughness_anisotropy);
     let coating_alpha: vec2f = clamp(coat_lobe, vec2f(1e-8), vec2f(1.0));
-    let coating_a: f32 = sqrt(coating_alpha.x * coating_alpha.y);
-    let coating_albedo: vec2f = mx_ggx_albedo_fit(coating_a, coating_a / (cos_v + coating_a), cos_v);
+    let coating_albedo: vec2f = mx_ggx_albedo_fit(sqrt(coating_alpha.x * coating_alpha.y), cos_v);
     let coating_scale: f32 = mix(coating_r * coating_r, 1.0, 0.04761905) * (1.0 / coating_albedo.x - 1.0) + 1.0;
     let coated_weight: f32 = (1.0 - fuzz_product_2)
         * (1.0 - coating_weight * (mix(coating_r * coating_r, 1.0, coating_albedo.y) * coating_albedo.x

@@ -137,8 +137,11 @@ vec3 mx_ggx_round_like(const vec2 alpha, const vec3 v)
     float d = shape * shape;
     float w = shape * (slope.x * slope.x - slope.y * slope.y) / square;
     float z = v.z * inversesqrt(square);
-    float a = m * (1.0 + d * (1.3394 - 0.6964 * z - 0.4846 * m + d * (0.2158 * z - 0.2872)) + w
-        * (z * (1.5821 * m - 0.5235 * z - 0.5466) - 0.3548 + 0.3007 * d + w * (0.7022 * m - 0.6604)));
+    float by_shape = 2.2948 + z * (0.4077 - z * 0.9768 - m * 1.2426) + m * (-0.3067 - m * 0.1914) + d
+        * (-1.3213 + z * 0.8393 + m * 0.5168 - w * 0.4015 + d * 0.1179);
+    float by_turn = -1.107 + z * (-2.1285 + z * (0.2635 - z * 1.0931) + m * 3.7599) + m * (1.5833 - m * 1.2029) + d
+        * (0.9877 + z * 0.4531 - m * 0.6085) + w * (-0.6818 - z * 1.0142 + m * 0.6407 + d * 0.6879 - w * 0.1762);
+    float a = m * sqrt(max(1.0 + d * by_shape + w * by_turn, 0.05));
     float stretch = sqrt(v.z * v.z + dot(slope, slope) / (a * a));
     return vec3(a, v.z / stretch, stretch);
 }
@@ -150,13 +153,14 @@ float mx_bicubic(const mat4 m, const float x, const float y)
 }
 
 // The light that a white GGX lobe of roughness a reflects at the viewer's cosine c (x), and the mean of (1 - cos)^5
-// over it (y); u is a / (a + c).
-vec2 mx_ggx_albedo_fit(const float a, const float u, const float c)
+// over it (y).
+vec2 mx_ggx_albedo_fit(const float a, const float c)
 {
     float x = clamp(1.0 - c - a * mx_bicubic(mat4(-0.2174, 5.3819, -3.911, 0.2674, -9.7298, 3.9904, 3.8225, -0.0277,
-        36.4897, -72.9122, 58.0878, -20.917, -31.4763, 79.0768, -73.9706, 26.5429), u, a), 0.0, 1.0);
-    return vec2(min(1.005 - u * mx_bicubic(mat4(-0.1449, 2.7808, -5.4855, 2.8822, -1.0694, 1.8502, 0.2967, -1.0447,
-        12.503, -32.5955, 30.0409, -9.9567, -5.0066, 10.9491, -6.6309, 0.6544), u, a), 1.0), x * x * x * x * x);
+        36.4897, -72.9122, 58.0878, -20.917, -31.4763, 79.0768, -73.9706, 26.5429), a / (a + c), a), 0.0, 1.0);
+    float u = a / (a + 0.6 * c);
+    return vec2(min(1.0017 - u * u * mx_bicubic(mat4(-0.0334, 3.1441, -6.1576, 3.0758, 0.6997, 7.8981, -14.3238, 8.7382,
+        4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, a * c), 1.0), x * x * x * x * x);
 }
 
 // The albedo (x), and the mean of (1 - cos)^5 (y) where all cosines are as many times greater.
@@ -484,10 +488,8 @@ void surface()
     vec3 greater = max(V * frame, vec3(-1.0, -1.0, 1e-8));
     vec3 second_reflection_round_lobe = mx_ggx_round_like(second_reflection_alpha, greater);
     vec2 second_reflection_alpha_2 = clamp(second_reflection_round_lobe.xx, 1e-8, 1.0);
-    float second_reflection_a = sqrt(second_reflection_alpha_2.x * second_reflection_alpha_2.y);
-    vec2 second_reflection_albedo = mx_ggx_facing_more(mx_ggx_albedo_fit(second_reflection_a, second_reflection_a
-        / (second_reflection_round_lobe.y + second_reflection_a), second_reflection_round_lobe.y),
-        second_reflection_round_lobe.z);
+    vec2 second_reflection_albedo = mx_ggx_facing_more(mx_ggx_albedo_fit(sqrt(second_reflection_alpha_2.x
+        * second_reflection_alpha_2.y), second_reflection_round_lobe.y), second_reflection_round_lobe.z);
     vec3 second_reflection_scale = blend * (1.0 / second_reflection_albedo.x - 1.0) + vec3(1.0);
     float fuzz_throughput = 1.0 - fuzz_weight * sheen_albedo;
     bool reflection_visible = 1.0 - second_reflection_weight > 0.0;
@@ -496,9 +498,8 @@ void surface()
     vec2 reflection_alpha = clamp(alpha, 1e-8, 1.0);
     vec3 reflection_round_lobe = mx_ggx_round_like(reflection_alpha, greater);
     vec2 reflection_alpha_2 = clamp(reflection_round_lobe.xx, 1e-8, 1.0);
-    float reflection_a = sqrt(reflection_alpha_2.x * reflection_alpha_2.y);
-    vec2 reflection_albedo = mx_ggx_facing_more(mx_ggx_albedo_fit(reflection_a, reflection_a
-        / (reflection_round_lobe.y + reflection_a), reflection_round_lobe.y), reflection_round_lobe.z);
+    vec2 reflection_albedo = mx_ggx_facing_more(mx_ggx_albedo_fit(sqrt(reflection_alpha_2.x * reflection_alpha_2.y),
+        reflection_round_lobe.y), reflection_round_lobe.z);
     vec3 reflection_scale = blend * (1.0 / reflection_albedo.x - 1.0) + vec3(1.0);
     // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {

@@ -83,13 +83,14 @@ float mx_bicubic(const mat4 m, const float x, const float y)
 }
 
 // The light that a white GGX lobe of roughness a reflects at the viewer's cosine c (x), and the mean of (1 - cos)^5
-// over it (y); u is a / (a + c).
-vec2 mx_ggx_albedo_fit(const float a, const float u, const float c)
+// over it (y).
+vec2 mx_ggx_albedo_fit(const float a, const float c)
 {
     float x = clamp(1.0 - c - a * mx_bicubic(mat4(-0.2174, 5.3819, -3.911, 0.2674, -9.7298, 3.9904, 3.8225, -0.0277,
-        36.4897, -72.9122, 58.0878, -20.917, -31.4763, 79.0768, -73.9706, 26.5429), u, a), 0.0, 1.0);
-    return vec2(min(1.005 - u * mx_bicubic(mat4(-0.1449, 2.7808, -5.4855, 2.8822, -1.0694, 1.8502, 0.2967, -1.0447,
-        12.503, -32.5955, 30.0409, -9.9567, -5.0066, 10.9491, -6.6309, 0.6544), u, a), 1.0), x * x * x * x * x);
+        36.4897, -72.9122, 58.0878, -20.917, -31.4763, 79.0768, -73.9706, 26.5429), a / (a + c), a), 0.0, 1.0);
+    float u = a / (a + 0.6 * c);
+    return vec2(min(1.0017 - u * u * mx_bicubic(mat4(-0.0334, 3.1441, -6.1576, 3.0758, 0.6997, 7.8981, -14.3238, 8.7382,
+        4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, a * c), 1.0), x * x * x * x * x);
 }
 
 // Schlick's curve from f0 to f90 at a cosine, less `bend` times cos (1 - cos)^6.
@@ -242,8 +243,8 @@ void main()
         normalize(vd_bitangentWorld));
     vec3 V = normalize(u_viewPosition - vd_positionWorld);
     float cosine = max(abs(dot(bent, V)), 1e-8);
-    vec3 scale = mix(fresnel_facing, vec3(1.0), 0.04761905)
-        * (1.0 / mx_ggx_albedo_fit(alpha, alpha / (cosine + alpha), cosine).x - 1.0) + vec3(1.0);
+    vec3 scale = mix(fresnel_facing, vec3(1.0), 0.04761905) * (1.0 / mx_ggx_albedo_fit(alpha, cosine).x - 1.0)
+        + vec3(1.0);
     vec3 metal_bare_facing = faceforward(bent, -V, bent);
     float ggx_masking = sqrt(alpha * alpha + (1.0 - alpha * alpha) * (cosine * cosine));
     mx_GgxLobe metal_bare_vector = mx_GgxLobe(metal_bare_facing, cosine, vec3(0.0), vec2(alpha), ggx_masking);

@@ -96,13 +96,15 @@ fn mx_bicubic(m: mat4x4f, x: f32, y: f32) -> f32
 }
 
 // The light that a white GGX lobe of roughness a reflects at the viewer's cosine c (x), and the mean of (1 - cos)^5
-// over it (y); u is a / (a + c).
-fn mx_ggx_albedo_fit(a: f32, u: f32, c: f32) -> vec2f
+// over it (y).
+fn mx_ggx_albedo_fit(a: f32, c: f32) -> vec2f
 {
     let x: f32 = clamp(1.0 - c - a * mx_bicubic(mat4x4f(-0.2174, 5.3819, -3.911, 0.2674, -9.7298, 3.9904, 3.8225,
-        -0.0277, 36.4897, -72.9122, 58.0878, -20.917, -31.4763, 79.0768, -73.9706, 26.5429), u, a), 0.0, 1.0);
-    return vec2f(min(1.005 - u * mx_bicubic(mat4x4f(-0.1449, 2.7808, -5.4855, 2.8822, -1.0694, 1.8502, 0.2967, -1.0447,
-        12.503, -32.5955, 30.0409, -9.9567, -5.0066, 10.9491, -6.6309, 0.6544), u, a), 1.0), x * x * x * x * x);
+        -0.0277, 36.4897, -72.9122, 58.0878, -20.917, -31.4763, 79.0768, -73.9706, 26.5429), a / (a + c), a), 0.0, 1.0);
+    let u: f32 = a / (a + 0.6 * c);
+    return vec2f(min(1.0017 - u * u * mx_bicubic(mat4x4f(-0.0334, 3.1441, -6.1576, 3.0758, 0.6997, 7.8981, -14.3238,
+        8.7382, 4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, a * c), 1.0), x * x * x * x
+        * x);
 }
 
 // Schlick's curve from f0 to f90 at a cosine, less `bend` times cos (1 - cos)^6.
@@ -261,7 +263,7 @@ fn main(vd: VertexData) -> @location(0) vec4f
     let V: vec3f = normalize(u_prv.u_viewPosition - vd.positionWorld);
     let cosine: f32 = max(abs(dot(bent, V)), 1e-8);
     let scale: vec3f = vec3f(mix(fresnel_facing, vec3h(1.0), 0.04761905))
-        * (1.0 / mx_ggx_albedo_fit(alpha, alpha / (cosine + alpha), cosine).x - 1.0) + vec3f(1.0);
+        * (1.0 / mx_ggx_albedo_fit(alpha, cosine).x - 1.0) + vec3f(1.0);
     let metal_bare_facing: vec3f = faceForward(bent, -V, bent);
     let ggx_masking: f32 = sqrt(alpha * alpha + (1.0 - alpha * alpha) * (cosine * cosine));
     let metal_bare_vector: mx_GgxLobe = mx_GgxLobe(metal_bare_facing, cosine, vec3f(0.0), vec2f(alpha), ggx_masking);

@@ -75,13 +75,14 @@ float mx_bicubic(float4x4 m, float x, float y)
 }
 
 // The light that a white GGX lobe of roughness a reflects at the viewer's cosine c (x), and the mean of (1 - cos)^5
-// over it (y); u is a / (a + c).
-float2 mx_ggx_albedo_fit(float a, float u, float c)
+// over it (y).
+float2 mx_ggx_albedo_fit(float a, float c)
 {
     float x = clamp(1.0 - c - a * mx_bicubic(float4x4(-0.2174, 5.3819, -3.911, 0.2674, -9.7298, 3.9904, 3.8225, -0.0277,
-        36.4897, -72.9122, 58.0878, -20.917, -31.4763, 79.0768, -73.9706, 26.5429), u, a), 0.0, 1.0);
-    return float2(min(1.005 - u * mx_bicubic(float4x4(-0.1449, 2.7808, -5.4855, 2.8822, -1.0694, 1.8502, 0.2967,
-        -1.0447, 12.503, -32.5955, 30.0409, -9.9567, -5.0066, 10.9491, -6.6309, 0.6544), u, a), 1.0), x * x * x * x
+        36.4897, -72.9122, 58.0878, -20.917, -31.4763, 79.0768, -73.9706, 26.5429), a / (a + c), a), 0.0, 1.0);
+    float u = a / (a + 0.6 * c);
+    return float2(min(1.0017 - u * u * mx_bicubic(float4x4(-0.0334, 3.1441, -6.1576, 3.0758, 0.6997, 7.8981, -14.3238,
+        8.7382, 4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, a * c), 1.0), x * x * x * x
         * x);
 }
 
@@ -502,7 +503,7 @@ void FragmentMain()
     float c = dot(N, normalize(u_prv.u_viewPosition - vd.positionWorld));
     float cos_v = max(abs(c), 1e-8);
     // coat
-    float2 coat_reflection_albedo = mx_ggx_albedo_fit(0.01, 0.01 / (cos_v + 0.01), cos_v);
+    float2 coat_reflection_albedo = mx_ggx_albedo_fit(0.01, cos_v);
     float coat_reflection_ggx_compensation = (1.0 / coat_reflection_albedo.x - 1.0) * 0.08571428 + 1.0;
     float coat_reflection_throughput = max(1.0 - mix(0.04, 1.0, coat_reflection_albedo.y) * coat_reflection_albedo.x
         * coat_reflection_ggx_compensation, 0.0);
@@ -520,13 +521,13 @@ void FragmentMain()
     stored = mx_store_closure(stored, float3(0.8, 0.9, 0.95), float3(0.04), float3(1.0), 0.5007194, 0.0, N, float3(0.0),
         0.5, 0.0, 0.0, float3(1.0), 0.5007194, float3(5.0), 0.0, 0.0, 0.0, float2(0.0), 0.0, 0.0, 0.0, drops_throughput
         - decaying, decaying, milk_mark_decay, 0.0);
-    float2 milk_reflection_albedo = mx_ggx_albedo_fit(0.25071993, 0.25071993 / (cos_v + 0.25071993), cos_v);
+    float2 milk_reflection_albedo = mx_ggx_albedo_fit(0.25071993, cos_v);
     float milk_reflection_ggx_compensation = (1.0 / milk_reflection_albedo.x - 1.0) * 0.08571428 + 1.0;
     float milk_reflection_throughput = max(1.0 - mix(0.04, 1.0, milk_reflection_albedo.y) * milk_reflection_albedo.x
         * milk_reflection_ggx_compensation, 0.0);
     float3 milk_medium_transmitted;
     float3 milk_medium = mx_medium_layer(way, milk_medium_transmitted);
-    float2 metal_reflection_albedo = mx_ggx_albedo_fit(0.29886922, 0.29886922 / (cos_v + 0.29886922), cos_v);
+    float2 metal_reflection_albedo = mx_ggx_albedo_fit(0.29886922, cos_v);
     float3 metal_reflection_ggx_compensation = (1.0 / metal_reflection_albedo.x - 1.0)
         * float3(0.6821221, 0.48832548, 0.27722293) + float3(1.0);
     float3 slab_reflection_bsdf_albedo = mix(float3(0.66622823, 0.46274176, 0.24108408), float3(1.0),

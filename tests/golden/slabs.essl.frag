@@ -63,13 +63,14 @@ float mx_bicubic(const mat4 m, const float x, const float y)
 }
 
 // The light that a white GGX lobe of roughness a reflects at the viewer's cosine c (x), and the mean of (1 - cos)^5
-// over it (y); u is a / (a + c).
-vec2 mx_ggx_albedo_fit(const float a, const float u, const float c)
+// over it (y).
+vec2 mx_ggx_albedo_fit(const float a, const float c)
 {
     float x = clamp(1.0 - c - a * mx_bicubic(mat4(-0.2174, 5.3819, -3.911, 0.2674, -9.7298, 3.9904, 3.8225, -0.0277,
-        36.4897, -72.9122, 58.0878, -20.917, -31.4763, 79.0768, -73.9706, 26.5429), u, a), 0.0, 1.0);
-    return vec2(min(1.005 - u * mx_bicubic(mat4(-0.1449, 2.7808, -5.4855, 2.8822, -1.0694, 1.8502, 0.2967, -1.0447,
-        12.503, -32.5955, 30.0409, -9.9567, -5.0066, 10.9491, -6.6309, 0.6544), u, a), 1.0), x * x * x * x * x);
+        36.4897, -72.9122, 58.0878, -20.917, -31.4763, 79.0768, -73.9706, 26.5429), a / (a + c), a), 0.0, 1.0);
+    float u = a / (a + 0.6 * c);
+    return vec2(min(1.0017 - u * u * mx_bicubic(mat4(-0.0334, 3.1441, -6.1576, 3.0758, 0.6997, 7.8981, -14.3238, 8.7382,
+        4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, a * c), 1.0), x * x * x * x * x);
 }
 
 // Light that the layer of a medium reflects and lets through (`transmitted`), with all orders of scattering, on a way:
@@ -288,7 +289,7 @@ void main()
     float cosine = dot(N, V);
     float cos_v = max(abs(cosine), 1e-8);
     // coat
-    vec2 coat_reflection_albedo = mx_ggx_albedo_fit(0.01, 0.01 / (cos_v + 0.01), cos_v);
+    vec2 coat_reflection_albedo = mx_ggx_albedo_fit(0.01, cos_v);
     float coat_reflection_scale = (1.0 / coat_reflection_albedo.x - 1.0) * 0.08571428 + 1.0;
     float coat_reflection_throughput = max(1.0 - mix(0.04, 1.0, coat_reflection_albedo.y) * coat_reflection_albedo.x
         * coat_reflection_scale, 0.0);
@@ -309,7 +310,7 @@ void main()
     vec3 slab_medium_bsdf_albedo = mx_medium_reflected(closure_way);
     vec3 scaled_slab_medium_bsdf_albedo = slab_medium_bsdf_albedo / vec3(0.10193972, 0.102937125, 0.103155464);
     vec3 N_2 = faceforward(N, -V, N);
-    vec2 milk_reflection_albedo = mx_ggx_albedo_fit(0.25071993, 0.25071993 / (cos_v + 0.25071993), cos_v);
+    vec2 milk_reflection_albedo = mx_ggx_albedo_fit(0.25071993, cos_v);
     float milk_reflection_scale = (1.0 / milk_reflection_albedo.x - 1.0) * 0.08571428 + 1.0;
     float milk_reflection_throughput = max(1.0 - mix(0.04, 1.0, milk_reflection_albedo.y) * milk_reflection_albedo.x
         * milk_reflection_scale, 0.0);
@@ -322,7 +323,7 @@ void main()
     float scaled_cos_v = cos_v * cos_v;
     mx_GgxLobe milk_reflection_vector = mx_GgxLobe(N_2, cos_v, vec3(0.0), vec2(0.25071993),
         sqrt(scaled_cos_v * 0.9371395 + 0.0628605));
-    vec2 metal_reflection_albedo = mx_ggx_albedo_fit(0.29886922, 0.29886922 / (cos_v + 0.29886922), cos_v);
+    vec2 metal_reflection_albedo = mx_ggx_albedo_fit(0.29886922, cos_v);
     vec3 metal_reflection_scale = (1.0 / metal_reflection_albedo.x - 1.0) * vec3(0.6821221, 0.48832548, 0.27722293)
         + vec3(1.0);
     const vec3 metal_constant = vec3(0.66622823, 0.46274176, 0.24108408);

@@ -475,8 +475,8 @@ Surface surface(vec3 normalWorld)
     vd.normalWorld = normalWorld;
     Surface result;
     int stored = 0;
-    stored = mx_store_closure(stored, vec3(0.65784276, 0.33324012, 0.17179143), vec3(0.5915951, 0.42398295, 0.24452911),
-        vec3(1.0), 0.5423649, 0.0, normalize(vd.normalWorld), vec3(0.0), 0.1, 0.04761499, 0.0, vec3(1.0), 0.5423649,
+    stored = mx_store_closure(stored, vec3(0.6579555, 0.3332806, 0.17180733), vec3(0.5916348, 0.4240101, 0.24454294),
+        vec3(1.0), 0.5423652, 0.0, normalize(vd.normalWorld), vec3(0.0), 0.1, 0.04761195, 0.0, vec3(1.0), 0.5423652,
         vec3(0.0), 0.0, 0.0, 0.0, vec2(0.0), 0.0, 0.0, 0.0, vec3(1.0), vec3(0.0), vec3(0.0), 0.0);
     stored = mx_finish_payload(stored, vec3(0.0, 0.09642637, 0.0), 1.0);
     result.word_0 = mx_payload_word(stored, 0);

@@ -489,9 +489,9 @@ Surface surface(float3 normalWorld)
     vd.normalWorld = normalWorld;
     Surface result;
     int stored = 0;
-    stored = mx_store_closure(stored, float3(0.65784276, 0.33324012, 0.17179143),
-        float3(0.5915951, 0.42398295, 0.24452911), float3(1.0, 1.0, 1.0), 0.5423649, 0.0, normalize(vd.normalWorld),
-        float3(0.0, 0.0, 0.0), 0.1, 0.04761499, 0.0, float3(1.0, 1.0, 1.0), 0.5423649, float3(0.0, 0.0, 0.0), 0.0, 0.0,
+    stored = mx_store_closure(stored, float3(0.6579555, 0.3332806, 0.17180733),
+        float3(0.5916348, 0.4240101, 0.24454294), float3(1.0, 1.0, 1.0), 0.5423652, 0.0, normalize(vd.normalWorld),
+        float3(0.0, 0.0, 0.0), 0.1, 0.04761195, 0.0, float3(1.0, 1.0, 1.0), 0.5423652, float3(0.0, 0.0, 0.0), 0.0, 0.0,
         0.0, float2(0.0, 0.0), 0.0, 0.0, 0.0, float3(1.0, 1.0, 1.0), float3(0.0, 0.0, 0.0), float3(0.0, 0.0, 0.0), 0.0);
     stored = mx_finish_payload(stored, float3(0.0, 0.09642637, 0.0), 1.0);
     result.word_0 = mx_payload_word(stored, 0);

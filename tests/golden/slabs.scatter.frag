@@ -42,13 +42,14 @@ float mx_bicubic(const mat4 m, const float x, const float y)
 }
 
 // The light that a white GGX lobe of roughness a reflects at the viewer's cosine c (x), and the mean of (1 - cos)^5
-// over it (y); u is a / (a + c).
-vec2 mx_ggx_albedo_fit(const float a, const float u, const float c)
+// over it (y).
+vec2 mx_ggx_albedo_fit(const float a, const float c)
 {
     float x = clamp(1.0 - c - a * mx_bicubic(mat4(-0.2174, 5.3819, -3.911, 0.2674, -9.7298, 3.9904, 3.8225, -0.0277,
-        36.4897, -72.9122, 58.0878, -20.917, -31.4763, 79.0768, -73.9706, 26.5429), u, a), 0.0, 1.0);
-    return vec2(min(1.005 - u * mx_bicubic(mat4(-0.1449, 2.7808, -5.4855, 2.8822, -1.0694, 1.8502, 0.2967, -1.0447,
-        12.503, -32.5955, 30.0409, -9.9567, -5.0066, 10.9491, -6.6309, 0.6544), u, a), 1.0), x * x * x * x * x);
+        36.4897, -72.9122, 58.0878, -20.917, -31.4763, 79.0768, -73.9706, 26.5429), a / (a + c), a), 0.0, 1.0);
+    float u = a / (a + 0.6 * c);
+    return vec2(min(1.0017 - u * u * mx_bicubic(mat4(-0.0334, 3.1441, -6.1576, 3.0758, 0.6997, 7.8981, -14.3238, 8.7382,
+        4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, a * c), 1.0), x * x * x * x * x);
 }
 
 // Schlick's curve from f0 to f90 at a cosine, less `bend` times cos (1 - cos)^6.
@@ -77,8 +78,7 @@ float mx_ggx_smith_visibility(const vec3 v, const vec3 l, const vec2 alpha)
 vec2 mx_ggx_albedo(const vec2 roughness, const float c)
 {
     vec2 alpha = clamp(roughness, vec2(1e-8), vec2(1.0));
-    float a = sqrt(alpha.x * alpha.y);
-    return mx_ggx_albedo_fit(a, a / (a + c), c);
+    return mx_ggx_albedo_fit(sqrt(alpha.x * alpha.y), c);
 }
 
 // A normal of those visible from v, at any length (Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with Spherical
@@ -230,7 +230,7 @@ void scatter()
     float cosine = dot(N, vd.viewWorld);
     float cos_v = max(abs(cosine), 1e-8);
     // coat
-    vec2 coat_reflection_albedo = mx_ggx_albedo_fit(0.01, 0.01 / (cos_v + 0.01), cos_v);
+    vec2 coat_reflection_albedo = mx_ggx_albedo_fit(0.01, cos_v);
     float coat_reflection_ggx_compensation = (1.0 / coat_reflection_albedo.x - 1.0) * 0.08571428 + 1.0;
     vec3 coat_reflection_slab_reflection_bsdf_albedo = mx_fresnel_schlick(max(1.0 - pow(coat_reflection_albedo.y, 0.2),
         1e-8), vec3(0.04)) * (coat_reflection_albedo.x * coat_reflection_ggx_compensation);
@@ -271,7 +271,7 @@ void scatter()
             density = pdf * (0.1 / (coat_medium_passing + 0.1));
         }
     }
-    vec2 milk_reflection_albedo = mx_ggx_albedo_fit(0.25071993, 0.25071993 / (cos_v + 0.25071993), cos_v);
+    vec2 milk_reflection_albedo = mx_ggx_albedo_fit(0.25071993, cos_v);
     float milk_reflection_ggx_compensation = (1.0 / milk_reflection_albedo.x - 1.0) * 0.08571428 + 1.0;
     vec3 milk_reflection_slab_reflection_bsdf_albedo = mx_fresnel_schlick(max(1.0 - pow(milk_reflection_albedo.y, 0.2),
         1e-8), vec3(0.04)) * (milk_reflection_albedo.x * milk_reflection_ggx_compensation);
@@ -293,7 +293,7 @@ void scatter()
         }
     }
     bool is_level_4 = level == 4.0;
-    vec2 metal_reflection_albedo = mx_ggx_albedo_fit(0.29886922, 0.29886922 / (cos_v + 0.29886922), cos_v);
+    vec2 metal_reflection_albedo = mx_ggx_albedo_fit(0.29886922, cos_v);
     const vec3 metal_constant = vec3(0.9, 0.6, 0.3);
     vec3 metal_reflection_ggx_compensation = (1.0 / metal_reflection_albedo.x - 1.0)
         * vec3(0.9047619, 0.61904764, 0.33333334) + vec3(1.0);
