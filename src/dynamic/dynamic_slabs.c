@@ -20,6 +20,15 @@ static bool is_off(const mxg_build *build, str_id input)
     return build_initial(b, ref, &value) && value.w[0].u == 0;
 }
 
+/* Warns where the node does not have the input. */
+static void check_has(const mxg_build *build, str_id input, enum diag_id warning)
+{
+    struct builder *b = build->b;
+    elem_id node = build->frame->node.element;
+    if (!doc_child(&b->lib->doc, node, input))
+        diag_add(b->diags, warning, doc_place(&b->lib->doc, node), build_text(b, build->def->node));
+}
+
 /* The parts that the document does not have, also behind a uniform, because their code is long. */
 static void leave_out(const mxg_build *build, ir_ref *args)
 {
@@ -28,6 +37,8 @@ static void leave_out(const mxg_build *build, ir_ref *args)
         args[SLAB_glint_density] = nothing;
     if (!is_off(build, STR_specular_lut))
         return;
+    if (doc_child(&build->b->lib->doc, build->frame->node.element, STR_specular_lut_weight))
+        check_has(build, STR_specular_lut, DIAG_ID_slab_without_table);
     args[SLAB_specular_lut] = 0;
     args[SLAB_specular_lut_weight] = nothing;
 }
@@ -217,6 +228,8 @@ bool dynamic_slab_layer(void *user_data, mxg_build *build, mxg_ref *results)
     (void)user_data;
     check_bounds(build, STR_thickness, args[2], LENGTH);
     dynamic_check_base(build, args[0]);
+    if (args[1])
+        check_has(build, STR_top, DIAG_ID_slab_without_top);
     if (args[0])
         return finish(build, IR_SLAB_LAYER, blends(build), args, 3, results);
     results[0] = code_issue(build, args[1]);
