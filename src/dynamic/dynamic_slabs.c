@@ -37,7 +37,8 @@ static void leave_out(const mxg_build *build, ir_ref *args)
         args[SLAB_glint_density] = nothing;
     if (!is_off(build, STR_specular_lut))
         return;
-    if (doc_child(&build->b->lib->doc, build->frame->node.element, STR_specular_lut_weight))
+    if (!ir_const_is(build->b->graph, args[SLAB_specular_lut_weight], 0.0f)
+        && doc_child(&build->b->lib->doc, build->frame->node.element, STR_specular_lut_weight))
         check_has(build, STR_specular_lut, DIAG_ID_slab_without_table);
     args[SLAB_specular_lut] = 0;
     args[SLAB_specular_lut_weight] = nothing;

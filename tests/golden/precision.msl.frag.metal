@@ -144,13 +144,14 @@ float mx_bicubic(float4x4 m, float x, float y)
 }
 
 // The light that a white GGX lobe of roughness a reflects at the viewer's cosine c (x), and the mean of (1 - cos)^5
-// over it (y); u is a / (a + c).
-float2 mx_ggx_albedo_fit(float a, float u, float c)
+// over it (y).
+float2 mx_ggx_albedo_fit(float a, float c)
 {
     float x = clamp(1.0 - c - a * mx_bicubic(float4x4(-0.2174, 5.3819, -3.911, 0.2674, -9.7298, 3.9904, 3.8225, -0.0277,
-        36.4897, -72.9122, 58.0878, -20.917, -31.4763, 79.0768, -73.9706, 26.5429), u, a), 0.0, 1.0);
-    return float2(min(1.005 - u * mx_bicubic(float4x4(-0.1449, 2.7808, -5.4855, 2.8822, -1.0694, 1.8502, 0.2967,
-        -1.0447, 12.503, -32.5955, 30.0409, -9.9567, -5.0066, 10.9491, -6.6309, 0.6544), u, a), 1.0), x * x * x * x
+        36.4897, -72.9122, 58.0878, -20.917, -31.4763, 79.0768, -73.9706, 26.5429), a / (a + c), a), 0.0, 1.0);
+    float u = a / (a + 0.6 * c);
+    return float2(min(1.0017 - u * u * mx_bicubic(float4x4(-0.0334, 3.1441, -6.1576, 3.0758, 0.6997, 7.8981, -14.3238,
+        8.7382, 4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, a * c), 1.0), x * x * x * x
         * x);
 }
 
@@ -319,7 +320,7 @@ void FragmentMain()
     float3 V = normalize(u_prv.u_viewPosition - vd.positionWorld);
     float cosine = max(abs(dot(bent, V)), 1e-8);
     float3 scale = float3(mix(fresnel_facing, half3(1.0h), 0.04761905h))
-        * (1.0 / mx_ggx_albedo_fit(alpha, alpha / (cosine + alpha), cosine).x - 1.0) + float3(1.0);
+        * (1.0 / mx_ggx_albedo_fit(alpha, cosine).x - 1.0) + float3(1.0);
     float3 metal_bare_facing = faceforward(bent, -V, bent);
     float ggx_masking = sqrt(alpha * alpha + (1.0 - alpha * alpha) * (cosine * cosine));
     mx_GgxLobe metal_bare_vector = make_mx_GgxLobe(metal_bare_facing, cosine, float3(0.0), float2(alpha), ggx_masking);
