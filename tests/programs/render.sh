@@ -591,4 +591,30 @@ cat >smooth.mtlx <<'END'
 </materialx>
 END
 check 'smooth glass is finite up to its edge' exits 0 "$render" smooth.mtlx --mesh sphere --camera 25,16,5,30 -s 256 -o smooth.exr
+
+# White matter in white light has the light's colour: MaterialX's rough Burley lobe has more, its anisotropic metal less.
+cat >white.mtlx <<'END'
+<materialx version="1.39">
+  <burley_diffuse_bsdf name="B" type="BSDF"><input name="color" type="color3" value="1, 1, 1"/><input name="roughness" type="float" value="1"/></burley_diffuse_bsdf>
+  <conductor_bsdf name="C" type="BSDF">
+    <input name="ior" type="color3" value="0.001, 0.001, 0.001"/><input name="extinction" type="color3" value="100, 100, 100"/>
+    <input name="roughness" type="vector2" value="0.6, 0.05"/>
+  </conductor_bsdf>
+  <surface name="burley" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="B"/></surface>
+  <surface name="metal" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="C"/></surface>
+  <surface_unlit name="light" type="surfaceshader"/>
+</materialx>
+END
+{ printf '#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 8\n'; for _ in {1..32}; do printf '\200\200\200\201'; done; } >white.hdr
+# furnace ELEMENT QUALITY RATIO: the share of the light that comes back
+furnace() {
+    exits 0 "$render" white.mtlx -e "$1" --mesh sphere -s 32 --lights none --environment white.hdr --samples 256 --quality "$2" -o white.exr &&
+        ratio_is white.exr light.exr "$3"
+}
+check 'the light' exits 0 "$render" white.mtlx -e light --mesh sphere -s 32 -o light.exr
+for element in burley metal; do
+    check "the best quality keeps the energy of $element" furnace $element reference 1
+done
+check 'a good one has that of MaterialX: Burley' furnace burley good 1.07
+check 'and of anisotropic metal' furnace metal good 0.89
 finish render

@@ -117,11 +117,11 @@ float mx_burley_albedo(float c, float roughness)
 
 // The divisor of the Burley lobe where its albedo is greater than 1.
 //
-// The model reflects more than there is where it is rough and seen at grazing angles; a path tracer takes that
-// back.
+// The model reflects more than there is where it is rough and seen at grazing angles; a path tracer, and a raster of the
+// best quality, take that back.
 float mx_burley_excess(float albedo)
 {
-    return option_path == 1 ? max(albedo, 1.0) : 1.0;
+    return option_path == 1 || option_quality == 2 ? max(albedo, 1.0) : 1.0;
 }
 
 // Diffuse lobe of Burley 2012, "Physically-Based Shading at Disney", section 5.3, times the cosine of L.

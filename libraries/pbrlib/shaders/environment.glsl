@@ -6,6 +6,7 @@
 const int option_environment = 2; // 0 none, 1 prefiltered, 2 importance sampling
 
 // How many of `u_envRadianceSamples` a lobe takes: a quarter (0), half (1), or all (2), and fewer if it is sharp, except for (2).
+// With (2) closures keep energy that MaterialX's rasters lose or gain.
 const int option_quality = 1;
 
 const int option_host_environment = 0; // with option_environment 1: functions of the host (docs/hosts.md) have the light

@@ -54,11 +54,11 @@ bool mx_ggx_smooth(vec2 roughness)
 
 // True if masking and albedo follow the direction.
 //
-// A raster does without for closures of MaterialX, as MaterialX does: the mean masks too little where an
-// anisotropic lobe is wide, which gains energy.
+// Below the best quality a raster does without for closures of MaterialX, as MaterialX does: the mean masks otherwise than
+// the axes do, and an anisotropic lobe loses or gains a tenth of the energy.
 bool mx_ggx_by_direction(vec2 roughness)
 {
-    return option_path == 1 && mx_ggx_oval(roughness);
+    return (option_path == 1 || option_quality == 2) && mx_ggx_oval(roughness);
 }
 
 // Roughness that the formulas can bear.
