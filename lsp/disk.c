@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#define _POSIX_C_SOURCE 200809L
 #include "lsp/disk.h"
 
+#include "lsp/system.h"
 #include "program/cli.h"
 #include "program/files.h"
 #include "program/memory.h"
 
-#include <dirent.h>
 #include <errno.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 /* Appends the folders of a path; ".." leaves one, and stays where there is none to leave. */
 static char *append(char *out, const char *begin, const char *path, size_t len)
@@ -101,7 +98,7 @@ static bool open_edited(const struct disk *disk, const char *path, mxg_blob *out
 static bool open_on_disk(const char *path, mxg_blob *out)
 {
     size_t size = 0, name_size = strlen(path) + 1;
-    char *data = files_read(path, &size);
+    char *data = system_read(path, 0, &size);
     if (!data)
         return false;
     data = memory_resize(data, size + name_size);
@@ -153,31 +150,7 @@ static bool may_list(const struct disk *disk, const char *folder)
     return !fault;
 }
 
-/* Appends a name with its end; counts also what has no room. */
-static void put_name(const char *name, const char *end, char *names, size_t capacity, size_t *size)
-{
-    size_t len = strlen(name) + strlen(end) + 1;
-    if (*size + len <= capacity)
-        snprintf(names + *size, len, "%s%s", name, end);
-    *size += len;
-}
-
-static size_t list(const char *folder, bool marks_folders, char *names, size_t capacity)
-{
-    size_t size = 0;
-    DIR *dir = opendir(*folder ? folder : ".");
-    for (const struct dirent *entry; dir && (entry = readdir(dir)) != NULL;) {
-        struct stat info;
-        char *path = marks_folders ? cli_format("%s/%s", folder, entry->d_name) : NULL;
-        bool is_folder = path && stat(path, &info) == 0 && S_ISDIR(info.st_mode);
-        free(path);
-        put_name(entry->d_name, is_folder ? "/" : "", names, capacity, &size);
-    }
-    if (dir)
-        closedir(dir);
-    return size;
-}
-
+/* A name that ends with '/' is that of no file. */
 static size_t list_folder(void *user_data, const char *from, const char *folder, char *names,
                           size_t capacity)
 {
@@ -186,7 +159,7 @@ static size_t list_folder(void *user_data, const char *from, const char *folder,
     for (int place = 0; place < 2 && !size; ++place) {
         char *path = disk_join(place ? "" : from, folder);
         if (may_list(disk, path))
-            size = list(path, false, names, capacity);
+            size = system_list(path, names, capacity);
         free(path);
     }
     return size;
@@ -210,26 +183,16 @@ bool disk_may_read(const struct disk *disk, const char *file, const char *ref)
 
 char *disk_read(const struct disk *disk, const char *path, size_t limit, size_t *out_size)
 {
-    FILE *file = fault_of(disk, path) ? NULL : fopen(path, "rb");
-    if (!file)
-        return NULL;
-    struct stat info;
-    bool is_regular = fstat(fileno(file), &info) == 0 && S_ISREG(info.st_mode);
-    size_t size = is_regular ? (size_t)info.st_size : 0;
-    size = limit && size > limit ? limit : size;
-    char *data = memory_alloc(size + 1);
-    *out_size = fread(data, 1, size, file);
-    fclose(file);
-    return data;
+    return fault_of(disk, path) ? NULL : system_read(path, limit, out_size);
 }
 
 char *disk_list(const struct disk *disk, const char *folder, size_t *out_size)
 {
     char *path = disk_join(disk->from, folder);
     bool may = may_list(disk, path);
-    size_t capacity = may ? list(path, true, NULL, 0) + 4096 : 1;
+    size_t capacity = may ? system_list(path, NULL, 0) + 4096 : 1;
     char *names = memory_alloc(capacity);
-    *out_size = may ? list(path, true, names, capacity) : 0;
+    *out_size = may ? system_list(path, names, capacity) : 0;
     *out_size = *out_size <= capacity ? *out_size : 0;
     free(path);
     return names;

@@ -5,10 +5,10 @@
 #include "lsp/handlers.h"
 #include "lsp/image_header.h"
 #include "lsp/names.h"
+#include "lsp/system.h"
 #include "lsp/wire.h"
 #include "program/cli.h"
 #include "program/file_name.h"
-#include "program/files.h"
 #include "program/memory.h"
 
 #include <stdarg.h>
@@ -82,8 +82,11 @@ static void put_picture(struct page *page, const struct lsp_query *query, const 
         return;
     char *name = file_name_of_element(node), *path = cli_format("%s/%s.png", folder, name),
          *uri = wire_uri(path);
-    if (files_is_regular(path))
+    size_t size;
+    char *begin = system_read(path, 1, &size);
+    if (begin)
         put(page, "\n\n![picture of %s](<%s>)", node, uri);
+    free(begin);
     free(uri);
     free(path);
     free(name);

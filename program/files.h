@@ -8,6 +8,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdio.h>
+#include <string.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -70,7 +71,11 @@ bool files_is_within(const char *path, size_t size);
 bool files_is_folder(const char *path);
 
 /* The part of a path after its last '/'. */
-const char *files_base_name(const char *path);
+static inline const char *files_base_name(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
 
 #ifdef __cplusplus
 }

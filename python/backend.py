@@ -2,7 +2,7 @@
 """Makes the wheel and the source archive of the Python package (PEP 517), with meson and ninja.
 
 The package calls the library through ctypes, so one wheel serves every Python: its tag names no Python, but the oldest glibc that has the
-symbols of the library. With the source of libxml2 (script/libxml2) the library needs nothing else. Equal sources give equal archives."""
+symbols of the library. With the source of libxml2 (script/sources) the library needs nothing else. Equal sources give equal archives."""
 import base64
 import gzip
 import hashlib

@@ -35,9 +35,10 @@ def components():
 
 
 def version_of(package, inside):
-    """Of an installed package. What has libxml2 inside has it from its source, which script/libxml2 brings."""
-    if inside and package == "libxml2":
-        return re.search(r"\((.*?)\)", (SOURCE / "build-libxml2/debian/changelog").read_text(encoding="utf-8"))[1]
+    """Of an installed package, or of one inside whose source script/sources brings."""
+    changelog = SOURCE / f"build-{package}/debian/changelog"
+    if inside and changelog.exists():
+        return re.search(r"\((.*?)\)", changelog.read_text(encoding="utf-8"))[1]
     return output_of("dpkg-query", "-W", "-f", "${Version}", package)
 
 

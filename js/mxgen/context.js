@@ -10,8 +10,15 @@ import { expect, Handle, kindOf, numberOf, Owner, STATUS } from "./native.js";
 import { Scene } from "./scene.js";
 import { Shader, withOptions } from "./shader.js";
 
-const LIMITS = ["maxMemory", "maxFileMib", "maxElements", "maxNodes", "maxOutputMib", "maxErrors", "maxDepth", "maxIncludeDepth", "maxIncludes"];
+export const LIMITS = ["maxMemory", "maxFileMib", "maxElements", "maxNodes", "maxOutputMib", "maxErrors", "maxDepth", "maxIncludeDepth", "maxIncludes"];
 const OPTIONS = [...LIMITS, "resolver", "listFolder", "cancel", "readTexels", "warnings", "trust", "sourcePaths"];
+
+/** Throws if an option is none of the known ones. */
+export function expectOptions(options, known) {
+    for (const name of Object.keys(options))
+        if (!known.includes(name))
+            throw new ArgumentError(`there is no option '${name}'; known are ${known.join(", ")}`);
+}
 
 function bytesOf(data, what) {
     if (typeof data === "string")
@@ -24,7 +31,7 @@ function bytesOf(data, what) {
 }
 
 /** The callbacks of a context, as C calls them. An exception in a callback waits until the call of C returns. */
-class Host {
+export class Host {
     #native;
     #lent = new Map(); // addresses to free, by the handle of a blob
     #next = 1;
@@ -103,6 +110,14 @@ class Host {
     cancel() {
         return this.#guard(1, () => this.canceller() ? 1 : 0);
     }
+
+    /** Throws the exception of a callback, after the call of C. */
+    check() {
+        const { raised } = this;
+        this.raised = null;
+        if (raised)
+            throw raised.error;
+    }
 }
 
 /**
@@ -115,9 +130,7 @@ export class Context extends Owner {
     #library = null;
 
     constructor(native, options, defaults) {
-        for (const name of Object.keys(options))
-            if (!OPTIONS.includes(name))
-                throw new ArgumentError(`there is no option '${name}'; known are ${OPTIONS.join(", ")}`);
+        expectOptions(options, OPTIONS);
         const used = options.resolver ? options : { ...options, ...defaults };
         if (used.listFolder && !used.resolver)
             throw new ArgumentError("listFolder needs a resolver");
@@ -145,10 +158,7 @@ export class Context extends Owner {
         } finally {
             this.#busy = false;
         }
-        const { raised } = this.#host;
-        this.#host.raised = null;
-        if (raised)
-            throw raised.error;
+        this.#host.check();
         return result;
     }
 
@@ -397,22 +407,32 @@ export class Context extends Owner {
     }
 }
 
+/** A mxg_context_desc without callbacks. */
+export function newContextDesc(native, options) {
+    const values = {}, { warnings = null, trust = false, sourcePaths = [], includeRoots = [] } = options;
+    for (const name of LIMITS) {
+        const limit = options[name] ?? 0;
+        if (!Number.isInteger(limit) || limit < 0 || limit > 0xffffffff)
+            throw new ArgumentError(`${name} must be an integer from 0 to 4294967295, not ${String(limit)}`);
+        values[name] = limit;
+    }
+    return native.newStruct("mxg_context_desc", {
+        ...values, trust: expect(trust, "boolean", "trust"), warnings: native.newOptionalText(warnings, "warnings"),
+        sourcePaths: native.newTexts(sourcePaths, "a source path"), numSourcePaths: sourcePaths.length,
+        includeRoots: native.newTexts(includeRoots, "an include root"), numIncludeRoots: includeRoots.length });
+}
+
+/** Why a mxg_context_desc with these options is refused; "": the status tells. */
+export function refusalOf({ warnings = null }) {
+    return warnings ? `warnings has an unknown word, or a limit is out of range: '${warnings}'` : "";
+}
+
 function makeContext(native, options, number) {
     return native.using(() => {
-        const values = {}, { warnings = null, trust = false, sourcePaths = [] } = options;
-        for (const name of LIMITS) {
-            const limit = options[name] ?? 0;
-            if (!Number.isInteger(limit) || limit < 0 || limit > 0xffffffff)
-                throw new ArgumentError(`${name} must be an integer from 0 to 4294967295, not ${String(limit)}`);
-            values[name] = limit;
-        }
-        const desc = native.newStruct("mxg_context_desc", {
-            ...values, trust: expect(trust, "boolean", "trust"), warnings: native.newOptionalText(warnings, "warnings"),
-            sourcePaths: native.newTexts(sourcePaths, "a source path"), numSourcePaths: sourcePaths.length });
-        const out = native.space(4);
+        const desc = newContextDesc(native, options), out = native.space(4);
         const status = native.lib.mxgen_js_context(desc, number, Boolean(options.listFolder), Boolean(options.cancel),
             Boolean(options.readTexels), out);
-        native.check(status, status === STATUS.errorArgument && warnings ? `warnings has an unknown word, or a limit is out of range: '${warnings}'` : "");
+        native.check(status, status === STATUS.errorArgument ? refusalOf(options) : "");
         return new Handle(native.pointer(out), pointer => {
             native.lib.mxg_context_destroy(pointer);
             native.removeHost(number);

@@ -36,6 +36,7 @@ export type OptionType = "bool" | "int" | "string" | "enum" | "list" | "float";
 export class Mxgen {
     private constructor();
     createContext(options?: ContextOptions): Context;
+    createLanguageServer(options: LanguageServerOptions): LanguageServer;
     /** The version of the library: "0.1.0". */
     readonly version: string;
     readonly targets: Target[];
@@ -142,6 +143,32 @@ export interface ContextOptions {
     trust?: boolean;
     /** Folders to search for the source files of implementations. */
     sourcePaths?: string[];
+}
+
+/** Files are read in and below the folders of documents, of the workspace, and `includeRoots`, as their paths say: a host with links resolves them itself. */
+export interface LanguageServerOptions extends Omit<ContextOptions, "resolver" | "listFolder" | "cancel" | "readTexels"> {
+    /** Takes a message for the client. */
+    send: (message: object) => void;
+    /** Reads a file that the client has not open, by its absolute path (null: there is none). The server asks again after a document was opened or saved, and after `workspace/didChangeWatchedFiles`. */
+    readFile?: (path: string) => FileContent | Promise<FileContent>;
+    /** Lists a folder (null: there is none); the names of folders end with '/'. */
+    listFolder?: (path: string) => FolderContent | Promise<FolderContent>;
+    /** By default the one that is built in. */
+    library?: Library;
+    /** Folders that documents may read besides their own and those of the workspace. */
+    includeRoots?: string[];
+    /** The page with the explanations of messages, to which their codes link. */
+    messagesUrl?: string;
+}
+export type FolderContent = Iterable<string> | null | undefined;
+
+/** A session of the Language Server Protocol 3.17 with one client (docs/lsp.md). */
+export class LanguageServer {
+    private constructor();
+    /** Takes a message of the client, an object or its text. Returns a promise that ends when nothing waits: no message, and no check of a document. */
+    handle(message: object | string): Promise<void>;
+    destroy(): void;
+    [Symbol.dispose](): void;
 }
 
 /** Loads documents and libraries. An exception in a callback ends the call and leaves it unchanged. */

@@ -3,6 +3,7 @@
 
 import { Context } from "./context.js";
 import { ArgumentError } from "./errors.js";
+import { LanguageServer } from "./language_server.js";
 import { ENUMS } from "./layout.js";
 import { Native } from "./native.js";
 import { slotText } from "./scene.js";
@@ -12,6 +13,7 @@ export { Context } from "./context.js";
 export { Diagnostics } from "./diagnostics.js";
 export { Document, Element } from "./document.js";
 export { Draft, Edit } from "./edit.js";
+export { LanguageServer } from "./language_server.js";
 export { Library } from "./library.js";
 export { Bindings, Primitive, Scene } from "./scene.js";
 export { Shader } from "./shader.js";
@@ -28,6 +30,11 @@ export class Mxgen {
 
     createContext(options = {}) {
         return new Context(this.#native, options, this.#defaults);
+    }
+
+    /** A language server (docs/lsp.md): `send` takes its messages. index.d.ts describes the options. */
+    createLanguageServer(options) {
+        return new LanguageServer(this.#native, options.library ?? this.createContext().library, options);
     }
 
     /** The version of the library. */

@@ -163,10 +163,21 @@ export class Native {
         try {
             return work();
         } finally {
-            for (const address of this.#temporary.splice(mark))
-                if (!this.#fault)
-                    this.lib.free(address);
+            this.#free(this.#temporary.splice(mark));
         }
+    }
+
+    /** In `using`: calls `work` with a function that frees what the functions below make in it, instead of the end of `using`. */
+    keeping(work) {
+        const mark = this.#temporary.length, kept = [], made = work(() => this.#free(kept));
+        kept.push(...this.#temporary.splice(mark));
+        return made;
+    }
+
+    #free(addresses) {
+        for (const address of addresses)
+            if (!this.#fault)
+                this.lib.free(address);
     }
 
     space(size) {
@@ -235,11 +246,16 @@ export class Native {
         });
     }
 
+    /** What a call of C returns, and the pieces that it writes. */
+    written(call) {
+        const status = call();
+        return { status, pieces: this.#written.splice(0) };
+    }
+
     /** The text that a call of C writes in pieces, and its status. */
     writtenText(call) {
-        const status = call(), stream = new TextDecoder();
-        const pieces = this.#written.splice(0).map(piece => stream.decode(piece, { stream: true }));
-        return { status, text: pieces.join("") + stream.decode() };
+        const { status, pieces } = this.written(call), stream = new TextDecoder();
+        return { status, text: pieces.map(piece => stream.decode(piece, { stream: true })).join("") + stream.decode() };
     }
 
     // ---- Structs ----
@@ -384,6 +400,10 @@ export class Owner {
 
     get _pointer() {
         return this._handle.pointer;
+    }
+
+    get _isDestroyed() {
+        return !this.#handle;
     }
 
     /** The handle, which the caller then owns. */

@@ -7,15 +7,29 @@
 #include "native/host.h"
 
 #include <errno.h>
+#include <limits.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
+/* The working directory is "/", and there are no links. The caller has removed "." and ".." between
+ * names. */
 char *realpath(const char *restrict path, char *restrict resolved)
 {
-    (void)path;
-    (void)resolved;
-    errno = ENOENT;
-    return NULL;
+    bool is_here = *path == '\0' || strcmp(path, ".") == 0;
+    size_t len = is_here ? 0 : strlen(path);
+    if (len + 2 > PATH_MAX) {
+        errno = ENAMETOOLONG;
+        return NULL;
+    }
+    char *real = resolved ? resolved : malloc(len + 2);
+    if (!real)
+        return NULL;
+    snprintf(real, len + 2, "%s%s", *path == '/' ? "" : "/", is_here ? "" : path);
+    for (size_t end = strlen(real); end > 1 && real[end - 1] == '/'; --end)
+        real[end - 1] = '\0';
+    return real;
 }
 
 /* Of <assert.h>. That of wasi-libc writes to a stream, which would need input and output. */

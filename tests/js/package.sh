@@ -11,7 +11,7 @@ check "npm packs the package" exits 0 npm pack "$package"
 tar -tzf mxgen-*.tgz | sort >files
 (cd "$package" && find . -type f | sed 's|^\.|package|' | sort) >expected
 check "the package has its files and no other" diff expected files
-check "the package has at most 1.25 MB" test "$(stat -c %s mxgen-*.tgz)" -le 1250000
+check "the package has at most 1.35 MB" test "$(stat -c %s mxgen-*.tgz)" -le 1350000
 mkdir app && cd app || exit 1
 echo '{ "type": "module" }' >package.json
 check "npm installs the package" exits 0 npm install --no-save ../mxgen-*.tgz
@@ -38,6 +38,8 @@ if (variable) shader.packValue(shader.pack("publicUniforms"), variable, [1]);
 const edit = context.edit();
 edit.add("noise2d", "n", "float").value("amplitude", 1, "float");
 export const text: string = edit.end().xml();
+export const server = mxgen.createLanguageServer({ send: (message: object) => void message, readFile: async (path: string) => path });
+export const idle: Promise<void> = server.handle({ method: "exit" });
 export const first = (error: DocumentError): string => error.diagnostics.items[0].id;
 END
     check "the types of a program are right" exits 0 types right.ts

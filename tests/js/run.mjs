@@ -615,6 +615,47 @@ test("limits", () => {
     }
 });
 
+test("a language server", async () => {
+    const sent = [], asked = [], uri = "file:///w/main.mtlx";
+    const files = { "/w/part.mtlx": '<materialx version="1.39"><noise2d name="Grain" type="float"/></materialx>', "/secret.mtlx": "<materialx/>" };
+    const server = mxgen.createLanguageServer({
+        send: message => sent.push(message), messagesUrl: "https://example.com/messages",
+        readFile: async path => (asked.push(path), files[path]), listFolder: async path => (asked.push(path), path === "/w" ? ["main.mtlx", "part.mtlx", "sub/"] : null) });
+    const notify = (method, params) => server.handle({ jsonrpc: "2.0", method, params });
+    const request = async (method, params) => {
+        const id = sent.length + 1;
+        await server.handle(JSON.stringify({ jsonrpc: "2.0", id, method, params }));
+        return sent.find(message => message.id === id).result;
+    };
+    const published = () => sent.findLast(({ method, params }) => method === "textDocument/publishDiagnostics" && params.uri === uri).params;
+    const at = (line, character) => ({ textDocument: { uri }, position: { line, character } });
+    const text = ['<materialx version="1.39" xmlns:xi="http://www.w3.org/2001/XInclude"><xi:include href="part.mtlx"/><xi:include href="../secret.mtlx"/>',
+                  '  <standard_surface name="SR" type="surfaceshader"><input name="bse" type="float" nodename="Grain"/></standard_surface>', "</materialx>"].join("\n");
+    assert((await request("initialize", { rootUri: "file:///w", capabilities: {} })).capabilities.hoverProvider);
+    await notify("textDocument/didOpen", { textDocument: { uri, languageId: "materialx", version: 1, text } });
+    assert.deepEqual(published().diagnostics.map(({ code }) => code), ["include-missing", "unknown-input"]);
+    assert.match(published().diagnostics[0].message, /outside the folders/);
+    assert.equal(published().diagnostics[1].codeDescription.href, "https://example.com/messages#unknown-input");
+    const [fix] = await request("textDocument/codeAction", { ...at(1, 0), range: published().diagnostics[1].range, context: { diagnostics: [published().diagnostics[1]] } });
+    assert.equal(fix.edit.changes[uri][0].newText, "base");
+    assert.match((await request("textDocument/hover", at(1, 10))).contents.value, /standard_surface/);
+    assert.equal((await request("textDocument/definition", at(1, text.split("\n")[1].indexOf("Grain") + 1))).uri, "file:///w/part.mtlx");
+    const renamed = await request("textDocument/rename", { ...at(1, text.split("\n")[1].indexOf("Grain") + 1), newName: "Dust" });
+    assert.deepEqual(Object.keys(renamed.changes).sort(), [uri, "file:///w/part.mtlx"]);
+    await notify("textDocument/didChange", { textDocument: { uri, version: 2 }, contentChanges: [{ range: { start: { line: 1, character: 2 }, end: { line: 1, character: 2 } }, text: "<" }] });
+    assert.equal(published().version, 2);
+    assert((await request("textDocument/completion", at(1, 3))).items.some(({ label }) => label === "standard_surface"));
+    delete files["/w/part.mtlx"];
+    await notify("workspace/didChangeWatchedFiles", { changes: [] });
+    await notify("textDocument/didChange", { textDocument: { uri, version: 3 }, contentChanges: [{ text }] });
+    assert.deepEqual(published().diagnostics.map(({ code }) => code), ["include-missing", "include-missing", "unknown-input"]);
+    assert.deepEqual([...new Set(asked)].sort(), ["/w", "/w/part.mtlx", "/w/sub"]);
+    server.destroy();
+    assert.throws(() => mxgen.createLanguageServer({}), TypeError);
+    assert.throws(() => mxgen.createLanguageServer({ send() {}, warnings: "no-such-id" }), /warnings has an unknown word/);
+    assert.throws(() => mxgen.createLanguageServer({ send() {}, resolver() {} }), ArgumentError);
+});
+
 test("a document of 50 MB", () => {
     const context = mxgen.createContext();
     const wide = Array.from({ length: 400_000 }, (_, i) => `<constant name="c${i}" type="float" doc="a text of some length for each of the elements, so that the file is large, as scanned ones are"/>\n`).join("");

@@ -8,7 +8,7 @@ for tool in dpkg-buildpackage dh dh_python3 npm esbuild wasm-ld; do
     command -v "$tool" >/dev/null || { echo "skip: $tool is not installed (script/packages-release.txt)"; exit 77; }
 done
 git -C "$root" rev-parse HEAD >/dev/null 2>&1 || { echo "skip: no git checkout, so no commit to release"; exit 77; }
-[ -d "$root/build-libxml2" ] || { echo "skip: script/libxml2 has not run"; exit 77; }
+[ -d "$root/build-libxml2" ] || { echo "skip: script/sources has not run"; exit 77; }
 npm ping >/dev/null 2>&1 || { echo "skip: no registry of npm, so nothing to build the extension for VS Code with"; exit 77; }
 
 check "two runs give the same bytes" "$root/script/release" --check release

@@ -7,7 +7,7 @@ root=$1 image=$(realpath "$2") program=$(realpath "$3")
 for tool in clang x86_64-w64-mingw32-ld wine meson; do
     command -v "$tool" >/dev/null || { echo "skip: $tool is not installed (script/packages-reach.txt)"; exit 77; }
 done
-[ -d "$root/build-libxml2" ] || { echo "skip: script/libxml2 has not run"; exit 77; }
+[ -d "$root/build-libxml2" ] || { echo "skip: script/sources has not run"; exit 77; }
 export WINEPREFIX=$work/wine WINEDEBUG=-all
 
 check "the build is configured" meson setup build "$root" --cross-file "$root/script/windows.ini" "-Dimage=$image" -Dwerror=true

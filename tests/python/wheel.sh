@@ -19,7 +19,7 @@ if [ -d "$root/build-libxml2" ]; then
     cp -r "$root/build-libxml2" source
     tag=manylinux_2_
 else
-    skip "script/libxml2 has not run: the wheel has no libxml2 inside"
+    skip "script/sources has not run: the wheel has no libxml2 inside"
     tag=linux_
 fi
 check "pip makes a wheel" "$python" -m pip wheel --no-index --no-deps --no-build-isolation --wheel-dir . ./source
