@@ -46,6 +46,7 @@ fs.rmSync(folder, { recursive: true, force: true });
 fs.mkdirSync(dist, { recursive: true });
 await bundle("src/desktop.ts", path.join(dist, "desktop.js"), { platform: "node", format: "cjs", external: ["vscode"] });
 await bundle("src/browser.ts", path.join(dist, "browser.js"), { platform: "browser", format: "cjs", external: ["vscode"] });
+await bundle("src/worker.ts", path.join(dist, "worker.js"), { format: "iife" });
 await bundle("view/worker.ts", path.join(folder, "worker.bundle.js"), { format: "iife" });
 await bundle("view/view.ts", path.join(dist, "view.js"), { format: "iife" });
 fs.rmSync(path.join(folder, "worker.bundle.js"));

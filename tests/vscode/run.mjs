@@ -42,7 +42,9 @@ async function openPreview(changes) {
 
 const shot = (editor, name) => editor.screenshot(path.join(work, `${name}.png`));
 const shows = name => `document.getElementById('element').options[0].text === 'At the cursor: ${name}' && document.body.dataset.whole === 'true'`;
-let editor;
+const nodeLibrary = path.join(work, "library");
+const TWO_WARNINGS = "(text => /Warnings: 2/.test(text) && !/Errors/.test(text))(document.getElementById('status.problems').outerHTML)"; // nothing uses the two nodes
+let editor, extended; // the text with nodes of a library and of an included file
 
 /** Puts the cursor into a line, until the preview shows an element: the text may move while it is clicked. */
 async function moveTo(line, name) {
@@ -136,7 +138,7 @@ test("lines of the shader lead to nodes, and nodes to lines", async () => {
 
 test("libraries of the settings, included files and their textures", async () => {
     await editor.close();
-    const library = path.join(work, "library"), added = `  <studio_tint name="tint" type="color3"/>
+    const added = `  <studio_tint name="tint" type="color3"/>
   <xi:include href="parts/part.mtlx" xmlns:xi="http://www.w3.org/2001/XInclude"/>
   <multiply name="bright" type="color3"><input name="in1" type="color3" nodename="picture"/><input name="in2" type="color3" value="1, 1, 1"/></multiply>
 `;
@@ -144,19 +146,20 @@ test("libraries of the settings, included files and their textures", async () =>
     fs.copyFileSync(path.join(root, "editors/vscode/media/icon.png"), path.join(folder, "parts/ball.png"));
     fs.writeFileSync(path.join(folder, "parts/part.mtlx"), `<materialx version="1.39"><image name="picture" type="color3">
         <input name="file" type="filename" value="ball.png"/></image></materialx>`);
-    fs.mkdirSync(library);
-    fs.writeFileSync(path.join(library, "studio.mtlx"), `<materialx version="1.39">
+    fs.mkdirSync(nodeLibrary);
+    fs.writeFileSync(path.join(nodeLibrary, "studio.mtlx"), `<materialx version="1.39">
         <nodedef name="ND_studio_tint" node="studio_tint"><input name="shade" type="color3" value="1, 0, 0"/><output name="out" type="color3"/></nodedef>
         <implementation name="IM_studio_tint" nodedef="ND_studio_tint" file="studio.glsl" function="studio_tint"/></materialx>`);
-    fs.writeFileSync(path.join(library, "studio.glsl"), "void studio_tint(vec3 shade, out vec3 result)\n{\n    result = shade * 0.5;\n}\n");
-    fs.writeFileSync(file, original.replace("  <surfacematerial", `${added}  <surfacematerial`));
-    editor = await openPreview({ "workbench.colorTheme": "Default Light Modern", "mxgen.libraries": [library] });
+    fs.writeFileSync(path.join(nodeLibrary, "studio.glsl"), "void studio_tint(vec3 shade, out vec3 result)\n{\n    result = shade * 0.5;\n}\n");
+    extended = original.replace("  <surfacematerial", `${added}  <surfacematerial`);
+    fs.writeFileSync(file, extended);
+    editor = await openPreview({ "workbench.colorTheme": "Default Light Modern", "mxgen.libraries": [nodeLibrary] });
     await editor.press("document.querySelector('.monaco-editor .view-line span span')");
     await editor.key("End", "End", 35, 2);
     await moveTo("<studio_tint", "tint");
     const [red, green] = await editor.view(MEAN);
     assert(red > 100 && green < 60, `${red} ${green}`);
-    await editor.until("(text => /Warnings: 2/.test(text) && !/Errors/.test(text))(document.getElementById('status.problems').outerHTML)"); // nothing uses the two nodes
+    await editor.until(TWO_WARNINGS);
     await moveTo('name="bright"', "bright");
     await editor.untilView(`${MEAN}[1] > 60`); // the texture of an included file; without it there is a checker without green
     assert.equal(await editor.view("document.getElementById('notice').hidden"), true);
@@ -184,6 +187,24 @@ test("without the program messages come from the extension", async () => {
     await editor.until("/Errors: 1/.test(document.getElementById('status.problems').outerHTML)");
     await editor.untilView("document.getElementById('notice').textContent.includes(\"input 'octaves'\")");
     await shot(editor, "without");
+    await editor.close();
+});
+
+test("the browser edition: the language server in a worker, and the preview", async () => {
+    fs.writeFileSync(file, extended);
+    editor = await openPreview({ "remote.extensionKind": { "mxgen.mxgen": ["web"] }, "mxgen.libraries": [nodeLibrary] });
+    await editor.until("[...document.querySelectorAll('iframe')].some(one => one.src.includes('webWorkerExtensionHostIframe'))");
+    await editor.until(TWO_WARNINGS);
+    await editor.press("document.querySelector('.monaco-editor .view-line span span')");
+    await editor.key("Home", "Home", 36, 2);
+    await editor.until("document.querySelector('.colorpicker-color-decoration')");
+    await moveTo("<fractal3d", "NG_marble/noise");
+    await editor.key("End", "End", 35);
+    await editor.type("<");
+    await editor.until("document.querySelector('.squiggly-error')");
+    await editor.type("i");
+    await editor.until("[...document.querySelectorAll('.suggest-widget .monaco-list-row')].some(row => row.textContent.includes('lacunarity'))");
+    await shot(editor, "browser");
     await editor.close();
 });
 

@@ -85,7 +85,7 @@ test("every input of every example can be edited, and nothing else changes", () 
 test("the package has what it needs and nothing else", () => {
     execFileSync(process.execPath, [path.join(folder, "build.mjs"), library, path.join(work, "extension"), path.join(work, "mxgen.vsix")], { stdio: ["ignore", "ignore", "pipe"] });
     const files = fs.readdirSync(path.join(work, "extension"), { recursive: true }).filter(name => fs.statSync(path.join(work, "extension", name)).isFile()).sort();
-    assert.deepEqual(files, ["LICENSE", "README.md", "ThirdPartyNotices.txt", "dist/browser.js", "dist/desktop.js", "dist/mxgen.wasm", "dist/view.css", "dist/view.js",
+    assert.deepEqual(files, ["LICENSE", "README.md", "ThirdPartyNotices.txt", "dist/browser.js", "dist/desktop.js", "dist/mxgen.wasm", "dist/view.css", "dist/view.js", "dist/worker.js",
         "language-configuration.json", "media/file-dark.svg", "media/file-light.svg", "media/icon.png", "package.json", "syntaxes/materialx.tmLanguage.json"]);
     const manifest = JSON.parse(fs.readFileSync(path.join(folder, "package.json"), "utf8"));
     assert.equal(manifest.version, JSON.parse(fs.readFileSync(path.join(library, "package.json"), "utf8")).version);

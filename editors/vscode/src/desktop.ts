@@ -4,52 +4,28 @@
 import { execFile } from "node:child_process";
 import { promisify } from "node:util";
 import * as vscode from "vscode";
-import type { LanguageClient } from "vscode-languageclient/node";
 
 import { startBuiltin } from "./builtin";
 import type { Compiler } from "./compiler";
 import { activeDocument, register, start } from "./extension";
+import { Language, type Stoppable } from "./language";
 import { programOptions, programPath, startServer } from "./server";
 
+async function tell(): Promise<void> {
+    const open = "Open Settings";
+    const chosen = await vscode.window.showWarningMessage(`The program "${programPath()}" does not start, so there is no completion and no hover; messages, formatting and the preview work. `
+        + "Build mxgen and set mxgen.path.", open);
+    if (chosen === open)
+        await vscode.commands.executeCommand("workbench.action.openSettings", "mxgen.path");
+}
+
 /** The language server; without it what the module of WebAssembly can do. */
-class Language implements vscode.Disposable {
-    #client: LanguageClient | null = null;
-    #builtin: vscode.Disposable | null = null;
-    #turn: Promise<void> = Promise.resolve();
-
-    constructor(private readonly compiler: Compiler) {}
-
-    /** Starts anew, after the starts before. */
-    restart(): Promise<void> {
-        return this.#turn = this.#turn.then(async () => {
-            await this.stop();
-            try {
-                this.#client = await startServer();
-            } catch {
-                this.#builtin = startBuiltin(this.compiler);
-                void this.#tell();
-            }
-        });
-    }
-
-    async #tell(): Promise<void> {
-        const open = "Open Settings";
-        const chosen = await vscode.window.showWarningMessage(`The program "${programPath()}" does not start, so there is no completion and no hover; messages, formatting and the preview work. `
-            + "Build mxgen and set mxgen.path.", open);
-        if (chosen === open)
-            await vscode.commands.executeCommand("workbench.action.openSettings", "mxgen.path");
-    }
-
-    async stop(): Promise<void> {
-        this.#builtin?.dispose();
-        this.#builtin = null;
-        const client = this.#client;
-        this.#client = null;
-        await client?.dispose();
-    }
-
-    dispose(): void {
-        void this.stop();
+async function serve(compiler: Compiler): Promise<Stoppable> {
+    try {
+        return await startServer();
+    } catch {
+        void tell();
+        return startBuiltin(compiler);
     }
 }
 
@@ -80,16 +56,10 @@ async function render(storage: vscode.Uri, document?: string, material?: string)
 let language: Language | null = null;
 
 export async function activate(context: vscode.ExtensionContext): Promise<void> {
-    const here = language = new Language(start(context)), restart = () => here.restart();
-    context.subscriptions.push(here,
-        register("mxgen.restart", restart),
-        register("mxgen.render", (document?: string, material?: string) => render(context.globalStorageUri, document, material)),
-        vscode.workspace.onDidGrantWorkspaceTrust(restart),
-        vscode.workspace.onDidChangeConfiguration(event => {
-            if (["path", "libraries", "includeRoots", "reference"].some(key => event.affectsConfiguration(`mxgen.${key}`)))
-                void restart();
-        }));
-    await restart();
+    const compiler = start(context);
+    context.subscriptions.push(register("mxgen.render", (document?: string, material?: string) => render(context.globalStorageUri, document, material)));
+    language = new Language(context, ["path", "libraries", "includeRoots", "reference"], () => serve(compiler));
+    await language.restart();
 }
 
 export const deactivate = () => language?.stop();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The messages between the extension and its preview.
+// The messages between the extension and its preview, and between it and the language server as WebAssembly.
 
 import type { LibraryFile } from "./files";
 import type { InputPlace } from "./text";
@@ -33,3 +33,13 @@ export type FromView =
     | { type: "reveal"; place: Place }
     | { type: "setInput"; place: InputPlace & { file: string }; value: string }
     | { type: "openShader"; name: string; element: string; target: string };
+
+/** The first message to the server; those of the protocol follow. */
+export interface ServerStart {
+    wasm: Uint8Array<ArrayBuffer>;
+    libraries: LibraryFile[];
+    includeRoots: string[];
+}
+
+/** Requests of the server with `{ path }`: the bytes of a file, and the names in a folder, where folders end with '/'; null: it is not there. */
+export const READ_FILE = "mxgen/readFile", LIST_FOLDER = "mxgen/listFolder";
