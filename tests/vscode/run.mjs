@@ -180,11 +180,14 @@ test("a broken text keeps the picture and tells the error", async () => {
     await editor.close();
 });
 
-test("without the program messages come from the extension", async () => {
+test("without the program the language server is that of the extension", async () => {
     fs.writeFileSync(file, original.replace('name="octaves" type="integer"', 'name="octaves" type="float"'));
     editor = await openPreview({ "mxgen.path": path.join(work, "none") });
     await editor.until("document.querySelector('.notification-toast')?.textContent.includes('does not start')");
     await editor.until("/Errors: 1/.test(document.getElementById('status.problems').outerHTML)");
+    await editor.press("document.querySelector('.monaco-editor .view-line span span')");
+    await editor.key("Home", "Home", 36, 2);
+    await editor.until("document.querySelector('.colorpicker-color-decoration')");
     await editor.untilView("document.getElementById('notice').textContent.includes(\"input 'octaves'\")");
     await shot(editor, "without");
     await editor.close();

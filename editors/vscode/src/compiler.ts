@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The library as WebAssembly, for what the extension itself does: shaders as documents, explanations, and messages and formatting
-// where there is no language server.
+// The library as WebAssembly, for what the extension itself does: shaders as documents, and explanations.
 
 import type { Context, Diagnostic, Document, Library, Mxgen } from "mxgen";
 import { DocumentError, instantiate } from "mxgen";
@@ -71,10 +70,5 @@ export class Compiler {
         } finally {
             document?.destroy();
         }
-    }
-
-    /** The text in one layout. Throws DocumentError. */
-    async format(source: vscode.TextDocument): Promise<string> {
-        return (await this.#open()).context.format(source.getText(), { name: source.uri.toString() });
     }
 }

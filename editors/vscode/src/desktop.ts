@@ -5,27 +5,25 @@ import { execFile } from "node:child_process";
 import { promisify } from "node:util";
 import * as vscode from "vscode";
 
-import { startBuiltin } from "./builtin";
-import type { Compiler } from "./compiler";
 import { activeDocument, register, start } from "./extension";
 import { Language, type Stoppable } from "./language";
-import { programOptions, programPath, startServer } from "./server";
+import { programOptions, programPath, startServer, startThread } from "./server";
 
 async function tell(): Promise<void> {
     const open = "Open Settings";
-    const chosen = await vscode.window.showWarningMessage(`The program "${programPath()}" does not start, so there is no completion and no hover; messages, formatting and the preview work. `
+    const chosen = await vscode.window.showWarningMessage(`The program "${programPath()}" does not start: a slower language server stands in for it, and nothing renders pictures. `
         + "Build mxgen and set mxgen.path.", open);
     if (chosen === open)
         await vscode.commands.executeCommand("workbench.action.openSettings", "mxgen.path");
 }
 
-/** The language server; without it what the module of WebAssembly can do. */
-async function serve(compiler: Compiler): Promise<Stoppable> {
+/** The language server of the program, or else that of the extension. */
+async function serve(extension: vscode.Uri): Promise<Stoppable> {
     try {
         return await startServer();
     } catch {
         void tell();
-        return startBuiltin(compiler);
+        return startThread(extension);
     }
 }
 
@@ -56,9 +54,9 @@ async function render(storage: vscode.Uri, document?: string, material?: string)
 let language: Language | null = null;
 
 export async function activate(context: vscode.ExtensionContext): Promise<void> {
-    const compiler = start(context);
+    start(context);
     context.subscriptions.push(register("mxgen.render", (document?: string, material?: string) => render(context.globalStorageUri, document, material)));
-    language = new Language(context, ["path", "libraries", "includeRoots", "reference"], () => serve(compiler));
+    language = new Language(context, ["path", "libraries", "includeRoots", "reference"], () => serve(context.extensionUri));
     await language.restart();
 }
 
