@@ -67,6 +67,31 @@ static const char *type_by_definition(const struct edit_change *c)
                : port_type(&view, nodedef, library_find_input(&view, nodedef, name));
 }
 
+/* A suggestion of an input of the definition, as diag_guess_text gives it. */
+static const char *suggest_input(const struct edit_change *c)
+{
+    struct library view;
+    uint32_t nodedef = edit_find_definition(c, c->element, &view);
+    struct diag_list unheard;
+    diag_list_init(&unheard, &c->edit->document->object.arena);
+    struct diag_guess guess;
+    if (nodedef == LIBRARY_NONE || !diag_guess_begin(&guess, &unheard, c->name))
+        return "";
+    int num_inputs = library_nodedef(&view, nodedef)->num_inputs;
+    for (int i = 0; i < num_inputs; i++)
+        diag_guess_add(&guess,
+                       str_text(&view.strings, library_ports(&view, nodedef, NULL)[i].name));
+    return diag_guess_text(&guess);
+}
+
+/* The name of the type of the input: that of the change, or that of the document. */
+static const char *type_name(const struct edit_change *c)
+{
+    const struct document *doc = edit_tree(c->edit);
+    elem_id input = edit_child(c->edit, c->element, c->name);
+    return c->type ? c->type : str_text(doc->strings, doc_attr_value(doc, input, STR_type));
+}
+
 /* Gives the change the type of its input. Fails if the input is new and has no type. */
 static doc_type find_type(struct edit_change *c)
 {
@@ -74,10 +99,10 @@ static doc_type find_type(struct edit_change *c)
     elem_id input = edit_child(c->edit, c->element, c->name);
     if (!c->type && !input)
         c->type = type_by_definition(c);
-    const char *type =
-        c->type ? c->type : str_text(doc->strings, doc_attr_value(doc, input, STR_type));
+    const char *type = type_name(c);
     if (!*type)
-        edit_fail(c, "no definition has the input '%s'; give its type", c->name);
+        edit_fail(c, "no definition has the input '%s'%s; give its type", c->name,
+                  suggest_input(c));
     return doc_type_of(str_find(doc->strings, type, strlen(type)));
 }
 
@@ -92,7 +117,7 @@ static void set_value(void *arg)
     if (!c->text)
         edit_fail(c, "the value of '%s' is missing", c->name);
     if (!c->failed && !doc_value_is_valid(type, c->text, strlen(c->text)))
-        edit_fail(c, "'%s' is no value of the type of the input", c->text);
+        edit_fail(c, "'%s' is no value of '%s', whose type is %s", c->text, c->name, type_name(c));
     if (c->failed)
         return;
     elem_id input = make_input(c, c->type);
@@ -132,8 +157,8 @@ static void set_numbers(void *arg)
     if (!c->numbers)
         edit_fail(c, "the numbers of '%s' are missing", c->name);
     if (!c->failed && (!num || num != c->num_numbers))
-        edit_fail(c, "the type of '%s' does not have %u component%s", c->name,
-                  (unsigned)c->num_numbers, c->num_numbers == 1 ? "" : "s");
+        edit_fail(c, "the type of '%s' is %s, which does not have %u component%s", c->name,
+                  type_name(c), (unsigned)c->num_numbers, c->num_numbers == 1 ? "" : "s");
     for (uint32_t i = 0; !c->failed && i < num; i++)
         if (!isfinite(c->numbers[i]))
             edit_fail(c, "a value of '%s' is infinite or not a number", c->name);

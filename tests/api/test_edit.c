@@ -441,18 +441,20 @@ static void test_refused(struct fixture *f)
     REFUSED(mxg_edit_set_value(e, shader, NULL, "float", "1"), "the input is missing");
     REFUSED(mxg_edit_set_value(e, shader, "coat", "float", NULL), "value of 'coat' is missing");
     REFUSED(mxg_edit_rename_element(e, shader, "NG"), "'NG' already");
-    REFUSED(mxg_edit_set_value(e, shader, "cote", NULL, "1"), "give its type");
+    REFUSED(mxg_edit_set_value(e, shader, "coat_rougness", NULL, "1"),
+            "'coat_rougness' (did you mean 'coat_roughness'?); give its type");
     REFUSED(mxg_edit_set_value(e, graph, "coat", NULL, "1"), "give its type");
-    REFUSED(mxg_edit_set_value(e, shader, "coat", NULL, "much"), "'much' is no value");
+    REFUSED(mxg_edit_set_value(e, shader, "coat", NULL, "much"),
+            "'much' is no value of 'coat', whose type is float");
     REFUSED(mxg_edit_set_value(e, shader, "coat", "float", "much"), "'much' is no value");
     REFUSED(mxg_edit_set_value(e, 0, "coat", "float", "1"), "no such element");
     REFUSED(mxg_edit_set_numbers(e, shader, "coat", "color3", numbers, 3), "not a number");
     REFUSED(mxg_edit_set_numbers(e, shader, "coat", "color3", numbers, 2),
-            "'coat' does not have 2 components");
+            "'coat' is color3, which does not have 2 components");
     REFUSED(mxg_edit_set_numbers(e, shader, "coat", "surfaceshader", numbers, 1),
-            "'coat' does not have 1 component");
+            "'coat' is surfaceshader, which does not have 1 component");
     REFUSED(mxg_edit_set_numbers(e, shader, "coat", NULL, numbers, 3),
-            "'coat' does not have 3 components");
+            "'coat' is float, which does not have 3 components");
     REFUSED(mxg_edit_set_numbers(e, shader, "coat", "color3", NULL, 3),
             "numbers of 'coat' are missing");
     REFUSED(mxg_edit_connect_input(e, shader, "coat", spots, NULL), "beside the port");
