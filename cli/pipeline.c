@@ -84,6 +84,18 @@ static bool write_all(struct cli *cli, const mxg_target *target, const char *fol
     return good;
 }
 
+/* Whether the target has passes, or the command asks for a module. */
+static bool has_files(const struct cli *cli, const mxg_target *target)
+{
+    if (target->pass_suffix[0] || args_is_given(&cli->parser, "mdl-module"))
+        return true;
+    fprintf(stderr,
+            "mxgen: '%s' has no passes (docs/deferred.md); with '--target mdl', "
+            "'--mdl-module NAME' writes the module of the materials\n",
+            target->name);
+    return false;
+}
+
 int command_pipeline(const struct command *command, int argc, char **argv)
 {
     const char *name = "vulkan";
@@ -98,7 +110,7 @@ int command_pipeline(const struct command *command, int argc, char **argv)
     if (cli_start(&cli, command, args, sizeof args / sizeof *args, CLI_NEEDS_INPUT | CLI_GENERATES,
                   argc, argv, &code)) {
         bool is_usage = cli_find_target(name, strlen(name), &target)
-                        && cli_options_apply(&cli, &target.name, 1);
+                        && cli_options_apply(&cli, &target.name, 1) && has_files(&cli, &target);
         if (cli.parser.inputs.len != 1) {
             fprintf(stderr, "mxgen: 'mxgen pipeline' takes one folder\n");
             is_usage = false;

@@ -33,6 +33,8 @@ check "the shadows are the only function" asked shaded/light_single.json mxg_sha
 check "material passes do not depend on functions of the host" eval '"$mxgen" "$examples/deferred.mtlx" -e Plain --target vulkan --role deferred -o own &&
     "$mxgen" "$examples/deferred.mtlx" -e Plain --target vulkan --role deferred --host-lights --host-environment -o other && cmp own/Plain.frag other/Plain.frag'
 check "a run without a folder is wrong usage" exits 2 "$mxgen" pipeline
+check "a target without passes is wrong usage" exits 2 "$mxgen" pipeline out --target mdl
+check "and the message has the option that the target needs" grep -q "'mdl' has no passes .*--mdl-module NAME" err
 
 # Compiles all passes of a folder with glslang's own program, where there is one.
 compiles() {
@@ -344,7 +346,7 @@ check "mixes of equal slabs are stored" exits 1 too_heavy sum a b again
 for target in essl essl310 osl; do
     check "material passes for $target are an error" reports options-clash "$mxgen" "$examples/deferred.mtlx" -e Plain --target "$target" --role deferred -o no
 done
-check "passes for ESSL are an error" reports options-clash "$mxgen" pipeline no --target essl
+check "passes for ESSL are an error" exits 2 "$mxgen" pipeline no --target essl
 check "passes for OpenGL 3.3 are an error" reports options-clash "$mxgen" pipeline no --target glsl --target-version 330
 check "passes do not light paths" reports options-clash "$mxgen" pipeline no --role scatter
 check "passes light payloads" exits 0 "$mxgen" pipeline rays_lit --role payload
