@@ -67,18 +67,16 @@ class Diagnostic:
         for name, text in ("source", source), ("line", line):
             if text is not None and not isinstance(text, str):
                 raise TypeError(f"{name} must be str, not {type(text).__name__}")
-        shown = _line_of(source, self.line) if source is not None else line
-        data = None if shown is None else shown.encode("utf-8", "surrogateescape")
-        size = 0 if data is None else len(data)
-        native = self._list._pointer
-        return sized_text(lambda out, capacity: lib.mxg_diagnostics_format(native, self._index, data, size, bool(colour), out, capacity))
+        return self._list._text(self._index, _line_of(source, self.line) if source is not None else line, bool(colour))
 
     def __str__(self) -> str:
         return self.format()
 
 
 class Diagnostics(Sequence[Diagnostic]):
-    """The diagnostics of a document, library or call, in order of discovery. Notes follow the diagnostic that they explain."""
+    """The diagnostics of a document, library or call, in order of discovery. Notes follow the diagnostic that they explain.
+
+    They can be pickled, also as part of a `DocumentError`. `format` of the copy takes no line of the source."""
 
     def __init__(self, pointer: Any, owner: Native) -> None:
         self._pointer = pointer
@@ -86,6 +84,26 @@ class Diagnostics(Sequence[Diagnostic]):
 
     def __len__(self) -> int:
         return int(lib.mxg_diagnostics_num_items(self._pointer))
+
+    def _values(self, place: int) -> dict[str, Any]:
+        """The fields of a diagnostic."""
+        values = record("mxg_diagnostic", lib.mxg_diagnostics_item, self._pointer, place)
+        assert values is not None
+        values["severity"] = Severity(values["severity"])
+        values["arguments"] = tuple(py_text(lib.mxg_diagnostics_argument(self._pointer, place, argument))
+                                    for argument in range(values.pop("num_arguments")))
+        return values
+
+    def _text(self, place: int, line: str | None, colour: bool) -> str:
+        """A diagnostic as compilers write it."""
+        data = None if line is None else line.encode("utf-8", "surrogateescape")
+        size = 0 if data is None else len(data)
+        return sized_text(lambda out, capacity: lib.mxg_diagnostics_format(self._pointer, place, data, size, colour, out, capacity))
+
+    def __reduce__(self) -> Any:
+        places = range(len(self))
+        return _Copy, (tuple(self._values(place) for place in places),
+                       tuple((self._text(place, None, False), self._text(place, None, True)) for place in places), self.errors)
 
     @overload
     def __getitem__(self, index: int) -> Diagnostic: ...
@@ -97,12 +115,7 @@ class Diagnostics(Sequence[Diagnostic]):
         if isinstance(index, slice):
             return [self[i] for i in range(*index.indices(len(self)))]
         place = range(len(self))[index]
-        values = record("mxg_diagnostic", lib.mxg_diagnostics_item, self._pointer, place)
-        assert values is not None
-        values["severity"] = Severity(values["severity"])
-        values["arguments"] = tuple(py_text(lib.mxg_diagnostics_argument(self._pointer, place, argument))
-                                    for argument in range(values.pop("num_arguments")))
-        return Diagnostic(**values, _list=self, _index=place)
+        return Diagnostic(**self._values(place), _list=self, _index=place)
 
     @property
     def errors(self) -> int:
@@ -123,6 +136,31 @@ class Diagnostics(Sequence[Diagnostic]):
 
     def __repr__(self) -> str:
         return f"<Diagnostics: {self.errors} errors, {self.warnings} warnings>"
+
+
+class _Copy(Diagnostics):
+    """Diagnostics that came from another process, or were copied: the texts without lines of the source."""
+
+    def __init__(self, values: tuple[dict[str, Any], ...], texts: tuple[tuple[str, str], ...], errors: int) -> None:
+        self._content = values, texts, errors
+
+    def __len__(self) -> int:
+        return len(self._content[0])
+
+    def _values(self, place: int) -> dict[str, Any]:
+        return self._content[0][place]
+
+    def _text(self, place: int, line: str | None, colour: bool) -> str:
+        if line is not None:
+            raise ValueError("a copied diagnostic cannot show a line of the source; the original can")
+        return self._content[1][place][colour]
+
+    def __reduce__(self) -> Any:
+        return _Copy, self._content
+
+    @property
+    def errors(self) -> int:
+        return self._content[2]
 
 
 @dataclass(frozen=True)

@@ -36,6 +36,11 @@ class Draft:
         #: the number of the element in the document that the edit makes
         self.number = number
 
+    @property
+    def element(self) -> Element:
+        """The element of the document that the edit made. Raises ArgumentError if the edit has removed it."""
+        return Element(self.edit.document, self.number)
+
     def add(self, category: str, name: str | None = None, type: str | None = None) -> Draft:
         """Appends an element below. The name must be new there."""
         return self.edit._made(lib.mxg_edit_add_element, self.number, c_text(category, "category"), optional_text(name, "name"),

@@ -34,7 +34,7 @@ class InternalError(Error):
 
 
 class DocumentError(Error):
-    """A document, library or request has errors. The text lists them."""
+    """A document, library or request has errors. The text lists them. From another process it comes without the document."""
 
     #: every diagnostic of the call
     diagnostics: Diagnostics
@@ -47,7 +47,7 @@ class DocumentError(Error):
         self.document = document
 
     def __reduce__(self) -> Any:
-        raise TypeError("a DocumentError holds a native object, which cannot be copied or pickled")
+        return type(self), (self.diagnostics,)
 
 
 class MissingFileError(DocumentError, FileNotFoundError):

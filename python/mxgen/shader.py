@@ -7,6 +7,7 @@ import enum
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from numbers import Real
 from typing import TYPE_CHECKING, Any, NamedTuple, Union
 
 from ._calls import Handle, Native, c_number, c_text, error_of, lib, py_text, record, sized_text
@@ -473,13 +474,15 @@ class Shader(Native):
             raise ArgumentError("the document has another library")
         return data
 
-    def pack_value(self, data: bytearray, variable: Variable, values: Sequence[float], element: int = 0) -> None:
-        """Writes the value of a variable to its place in such a buffer. `element` is the light or the element of an array."""
+    def pack_value(self, data: bytearray, variable: Variable, values: float | Sequence[float], element: int = 0) -> None:
+        """Writes the value of a variable, a number or its components, to its place in a buffer of `pack`. `element` is the light or the
+        element of an array."""
         if not isinstance(variable, Variable):
             raise TypeError(f"variable must be Variable, not {type(variable).__name__}")
         if variable._shader is not self:
             raise ValueError(f"'{variable.name}' is a variable of another shader")
-        numbers = (ctypes.c_float * len(values))(*values)
+        components: Any = (values,) if isinstance(values, Real) else values
+        numbers = (ctypes.c_float * len(components))(*components)
         status = lib.mxg_result_pack_value(self._handle.pointer, variable._index, c_number(element, "element"), numbers, len(numbers),
                                            (ctypes.c_char * len(data)).from_buffer(data), len(data))
         if status == lib.MXG_ERROR_ARGUMENT:
@@ -511,7 +514,7 @@ class Shader(Native):
         return py_text(text)
 
     def reflection(self) -> dict[str, Any]:
-        """The same, parsed."""
+        """`reflection_json`, parsed."""
         parsed: dict[str, Any] = json.loads(self.reflection_json)
         return parsed
 

@@ -111,6 +111,18 @@ class Values(unittest.TestCase):
         self.assertTrue("SR2" in edit and "SR3" not in edit)
         edit.cancel()
 
+    def test_elements_of_drafts(self):
+        edit = self.gold.edit()
+        added, gone = edit.add("noise2d", "N", "float"), edit.add("noise2d", "M", "float")
+        with self.assertRaisesRegex(mxgen.Error, "not made a document"):
+            _ = added.element
+        added.rename("dots")
+        gone.remove()
+        made = edit.end()
+        self.assertEqual((added.element, edit.document), (made["dots"], made))
+        with self.assertRaises(mxgen.ArgumentError):
+            _ = gone.element
+
     def test_removed_references(self):
         edit = self.gold.edit()
         edit["Spots"].remove()

@@ -193,10 +193,24 @@ class Types(unittest.TestCase):
             for attempt in copy.copy, copy.deepcopy, pickle.dumps:
                 with self.assertRaisesRegex(TypeError, "cannot be copied"):
                     attempt(thing)
-        with self.assertRaises(mxgen.DocumentError) as caught:
-            context.parse("<")
-        with self.assertRaises(TypeError):
-            pickle.dumps(caught.exception)
+
+    def test_errors_reach_another_process(self):
+        text = "<materialx version='1.39'>\n<gold name='x' type='float'/></materialx>"
+        found = mxgen.Context().parse(text, name="x.mtlx").validate()
+        one = pickle.loads(pickle.dumps(found[0]))
+        self.assertEqual((one, str(one)), (found[0], str(found[0])))
+        self.assertEqual(one.format(colour=True), found[0].format(colour=True))
+        with self.assertRaisesRegex(ValueError, "a copied diagnostic cannot show"):
+            one.format(text)
+        for original in mxgen.Context().parse, mxgen.Context().load:
+            with self.assertRaises(mxgen.DocumentError) as caught:
+                original("<")
+            again = copy.deepcopy(pickle.loads(pickle.dumps(caught.exception)))
+            self.assertIs(type(again), type(caught.exception))
+            self.assertEqual(str(again), str(caught.exception))
+            self.assertEqual(list(again.diagnostics), list(caught.exception.diagnostics))
+            self.assertEqual(again.diagnostics.errors, 1)
+            self.assertIsNone(again.document)
 
     def test_limits(self):
         with self.assertRaises(MemoryError):

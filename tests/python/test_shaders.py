@@ -143,7 +143,10 @@ class Shaders(unittest.TestCase):
         self.assertEqual(struct.unpack_from("<3f", data, stone.offset), stone.values[:3])
         shader.pack_value(data, stone, (1, 0.5, 0.25))
         self.assertEqual(struct.unpack_from("<3f", data, stone.offset), (1, 0.5, 0.25))
-        for wrong, error in (((1, 2), mxgen.ArgumentError), (("x",), TypeError)):
+        scale = shader.find_variable("NG_marble/scale")
+        shader.pack_value(data, scale, 5)
+        self.assertEqual(struct.unpack_from("<f", data, scale.offset), (5,))
+        for wrong, error in (((1, 2), mxgen.ArgumentError), (1, mxgen.ArgumentError), (("x",), TypeError), (None, TypeError)):
             with self.assertRaises(error):
                 shader.pack_value(data, stone, wrong)
         with self.assertRaises(mxgen.ArgumentError):
