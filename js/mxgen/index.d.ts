@@ -766,7 +766,7 @@ export class Shader extends Owner {
     pack(block: Block): Uint8Array;
     /** The block with the values of another document: after an edit of inputs that are uniforms. Generates nothing. */
     packFrom(document: Document, block: Block): Uint8Array;
-    packValue(data: Uint8Array, variable: Pick<Variable, "index" | "name">, values: ArrayLike<number>, element?: number): void;
+    packValue(data: Uint8Array, variable: Pick<Variable, "index" | "name">, values: number | ArrayLike<number>, element?: number): void;
     readonly lightTypes: LightType[];
     readonly reflectionJson: string;
     reflection(): any;

@@ -206,9 +206,10 @@ export class Shader extends Owner {
     packValue(data, variable, values, element = 0) {
         expect(data, Uint8Array, "data");
         const native = this._native, index = this.#index(variable);
+        const components = typeof values === "number" ? [values] : Array.from(values);
         native.using(() => {
             const copy = native.newBytes(data), status = native.lib.mxg_result_pack_value(this._pointer, index, element,
-                native.newFloats(Array.from(values)), values.length, copy, data.length);
+                native.newFloats(components), components.length, copy, data.length);
             native.check(status, status === STATUS.errorArgument
                 ? `'${variable.name}' is in no buffer, has another number of values, or has no room in the buffer` : "");
             data.set(native.bytes(copy, data.length));

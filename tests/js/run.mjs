@@ -253,6 +253,10 @@ test("reflection", () => {
     assert.equal(data.length, shader.block("publicUniforms").byteSize);
     shader.packValue(data, stone, [1, 0.5, 0.25]);
     assert.deepEqual([...new Float32Array(data.buffer, stone.offset, 3)], [1, 0.5, 0.25]);
+    const scale = shader.findVariable("NG_marble/scale");
+    shader.packValue(data, scale, 6);
+    assert.equal(new Float32Array(data.buffer, scale.offset, 1)[0], 6);
+    assert.throws(() => shader.packValue(data, stone, 1), ArgumentError);
     assert.throws(() => shader.packValue(data, stone, [1]), ArgumentError);
     assert.throws(() => shader.packValue([1], stone, [1]), TypeError);
     assert.throws(() => shader.packValue(data, { index: 1e6, name: "x" }, [1]), ArgumentError);
