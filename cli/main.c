@@ -89,16 +89,17 @@ static bool is_unknown_command(const char *word)
     return word[0] != '-' && !strpbrk(word, "./") && access(word, F_OK) != 0;
 }
 
-static int fail_unknown_command(const char *word)
+/* `kind` is what the word could be. */
+static int fail_unknown_word(const char *kind, const char *word)
 {
     const char *names[NUM_COMMANDS];
     for (size_t i = 0; i < NUM_COMMANDS; ++i)
         names[i] = commands[i].name;
     const char *near = args_closest(word, names, NUM_COMMANDS);
     if (near)
-        fprintf(stderr, "mxgen: unknown command '%s' (did you mean '%s'?)\n", word, near);
+        fprintf(stderr, "mxgen: unknown %s '%s' (did you mean '%s'?)\n", kind, word, near);
     else
-        fprintf(stderr, "mxgen: unknown command '%s'; see --help\n", word);
+        fprintf(stderr, "mxgen: unknown %s '%s'; see --help\n", kind, word);
     return EXIT_USAGE;
 }
 
@@ -150,7 +151,7 @@ static int help_command(int argc, char **argv)
     char option[] = "--help", *arguments[] = {option, option, argc > 1 ? argv[1] : NULL, NULL};
     const struct command *command = find_command(argv[0]);
     return command ? flush(command->run(command, argc > 1 ? 3 : 2, arguments))
-                   : fail_unknown_command(argv[0]);
+                   : fail_unknown_word("command", argv[0]);
 }
 
 int main(int argc, char **argv)
@@ -169,6 +170,6 @@ int main(int argc, char **argv)
     if (command)
         return flush(command->run(command, argc - 1, argv + 1));
     if (is_unknown_command(argv[1]))
-        return fail_unknown_command(argv[1]);
+        return fail_unknown_word("command or file", argv[1]);
     return flush(commands[0].run(&commands[0], argc, argv));
 }

@@ -286,7 +286,7 @@ check 'a run without an input is wrong usage' exits 2 "$mxgen" --target glsl
 check 'an unknown option is wrong usage' exits 2 "$mxgen" two.mtlx --interfase reduced
 check 'an unknown option has a suggestion' grep -q "did you mean '--interface'" err
 check 'an unknown command is wrong usage' exits 2 "$mxgen" inspec
-check 'an unknown command has a suggestion' grep -q "did you mean 'inspect'" err
+check 'an unknown command has a suggestion' grep -q "unknown command or file 'inspec' (did you mean 'inspect'" err
 check 'a bad value of an option is wrong usage' exits 2 "$mxgen" two.mtlx --interface some
 check 'the error lists the values' grep -q complete err
 check 'a missing value is wrong usage' exits 2 "$mxgen" two.mtlx --target
