@@ -108,6 +108,14 @@ class _Host:
         return True
 
 
+def _is_warning_word(word: str) -> bool:
+    """Whether a context accepts the word."""
+    out = ctypes.c_void_p()
+    lib.mxg_context_create(new("mxg_context_desc", warnings=c_text(word, "warnings")), out)
+    lib.mxg_context_destroy(out)
+    return bool(out.value)
+
+
 class Context(Native):
     """Loads documents and libraries. All arguments have defaults, and names as in mxg_context_desc:
 
@@ -145,7 +153,9 @@ class Context(Native):
         out = ctypes.c_void_p()
         status = lib.mxg_context_create(desc, out)
         if status == lib.MXG_ERROR_ARGUMENT and warnings:
-            raise ArgumentError(f"warnings has an unknown word, or a limit is out of range: '{warnings}'")
+            unknown = [word for word in warnings.split(",") if not _is_warning_word(word)]
+            raise ArgumentError(f"warnings has the unknown word '{unknown[0]}'; diagnostic_kinds() lists the ids" if unknown
+                                else "a limit is out of range")
         if status != lib.MXG_OK:
             raise error_of(status)
 

@@ -397,8 +397,8 @@ class DiagnosticObjects(unittest.TestCase):
         self.assertTrue(notes and all(note.severity == mxgen.Severity.NOTE for note in notes))
 
     def test_warnings(self):
-        with self.assertRaises(mxgen.ArgumentError):
-            mxgen.Context(warnings="no-such-word")
+        with self.assertRaisesRegex(mxgen.ArgumentError, "the unknown word 'no-such-word'"):
+            mxgen.Context(warnings="error,no-such-word,no-unused-node")
         text = '<materialx version="1.39"><noise2d name="n" type="float" typo="1"/></materialx>'
         self.assertEqual(mxgen.Context().parse(text).validate().errors, 0)
         strict = mxgen.Context(warnings="error")
