@@ -164,7 +164,7 @@ int command_bind(const struct command *command, int argc, char **argv)
     const struct arg args[] = {
         {"look", 0, ARG_TEXT, "LOOK", "a look, or a look group with a default", &bind.look},
         {"stage", 0, ARG_TEXT, "FILE",
-         "the primitives: a list of paths (.txt), a flattened .usda, glTF, OBJ, ...", &bind.stage},
+         "the primitives: a list of paths (.txt), a file of USD, glTF, OBJ, ...", &bind.stage},
         {"purpose", 0, ARG_TEXT, "full|preview",
          "also takes the bindings of the stage for this purpose", &bind.purpose},
         {"json", 0, ARG_TEXT, "FILE", "writes the layers of all primitives as JSON; '-': prints it",

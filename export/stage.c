@@ -70,13 +70,17 @@ static void tell_lost(struct stage *stage, uint32_t primitive, const struct laye
     bool is_new;
     names_add(&stage->told, key, &is_new);
     free(key);
+    char *others = layers->num_lost == 1
+                       ? cli_format("this layer is")
+                       : cli_format("%u layers and overrides are", (unsigned)layers->num_lost);
     if (is_new)
         report_warning(
             stage->site.report, "export-loss",
-            "'%s/%s' (%s:%u) is not in the file as it is: a primitive of this format has one "
-            "material, that of its base, and %u layer%s more",
+            "'%s/%s' (%s:%u) is not in the file: a primitive of this format has one material, that "
+            "of its base, and %s left out",
             path, *lost->slot ? lost->slot : lost->material, lost->file, (unsigned)lost->line,
-            (unsigned)layers->num_lost, layers->num_lost == 1 ? "" : "s");
+            others);
+    free(others);
     free(path);
 }
 

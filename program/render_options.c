@@ -24,7 +24,7 @@ size_t render_args(struct render_options *options, struct arg args[MAX_RENDER_AR
         {"mute", 0, ARG_LIST, "SLOT", "leaves out this slot, layer or override of a stage",
          &options->mute, ARG_MORE},
         {"stage", 0, ARG_TEXT, "FILE",
-         "renders a stage, each primitive with its material: a flattened .usda, glTF, OBJ, ...",
+         "renders a stage, each primitive with its material: a file of USD, glTF, OBJ, ...",
          &options->stage},
         {"list", 0, ARG_FLAG, NULL, "prints the primitives of the stage instead", &options->list,
          ARG_MORE},

@@ -112,6 +112,19 @@ static bool import(struct cli *cli, const char *path, mxg_scene *scene)
 
 /* ---- All files ---- */
 
+/* The scene of the text that usdcat wrote to `file`. Messages name the stage, and its text. */
+static mxg_status load_composed(struct cli *cli, const char *path, const char *file,
+                                const char *purpose, mxg_scene **out_scene)
+{
+    size_t size = 0;
+    char *data = files_read(file, &size), *name = cli_format("%s as composed", path);
+    mxg_status status = data ? mxg_scene_parse(cli->context, name, data, size, purpose, out_scene)
+                             : mxg_scene_load(cli->context, file, purpose, out_scene);
+    free(name);
+    free(data);
+    return status;
+}
+
 /*
  * Loads what OpenUSD makes of a stage that mxgen does not read by itself. The stage stays if there
  * is no usdcat; a sandbox starts no programs.
@@ -127,7 +140,7 @@ static void flatten(struct cli *cli, const char *path, const char *purpose, mxg_
     if (!is_missing) {
         mxg_scene_destroy(*scene);
         *scene = NULL;
-        *out_status = text ? mxg_scene_load(cli->context, text, purpose, scene) : MXG_OK;
+        *out_status = text ? load_composed(cli, path, text, purpose, scene) : MXG_OK;
     }
     free(text);
     scratch_remove(&folder);

@@ -57,28 +57,35 @@ static const char *wait_for(pid_t child, const char *out, size_t max_mib, int *o
     }
 }
 
-/* The last line that a program said; the caller frees it. */
-static char *last_line(const char *log)
+/*
+ * The last lines that a program said, of at most 1 KiB together, without empty ones: OpenUSD gives
+ * the cause of an error before the error. The caller frees the text.
+ */
+static char *last_lines(const char *log)
 {
-    char text[4096];
+    char text[1024];
     FILE *file = fopen(log, "r");
-    size_t len = 0;
+    size_t len = 0, kept = 0;
+    bool is_cut = false;
     if (file) {
-        if (fseek(file, -(long)sizeof text + 1, SEEK_END) != 0)
+        is_cut = fseek(file, -(long)sizeof text + 1, SEEK_END) == 0 && ftell(file) > 0;
+        if (!is_cut)
             rewind(file);
         len = fread(text, 1, sizeof text - 1, file);
         fclose(file);
     }
-    while (len && (text[len - 1] == '\n' || text[len - 1] == '\r'))
-        len--;
     text[len] = '\0';
-    const char *line = strrchr(text, '\n');
-    return cli_format("%s", line ? line + 1 : text);
+    char *line = is_cut ? strchr(text, '\n') : NULL; /* a cut line says nothing */
+    for (size_t i = line ? (size_t)(line - text) : 0; i < len; i++)
+        if (!strchr("\r\n", text[i]) || (kept && text[kept - 1] != '\n'))
+            text[kept++] = text[i] == '\r' ? '\n' : text[i];
+    text[kept - (kept && text[kept - 1] == '\n')] = '\0';
+    return cli_format("%s", text);
 }
 
 static void report_fault(struct cli *cli, const char *path, const char *fault, const char *log)
 {
-    char *said = last_line(log);
+    char *said = last_lines(log);
     report_error(&cli->report, "usd-flatten", "'usdcat --flatten %s' fails: %s%s%s", path,
                  fault ? fault : "", fault && *said ? "; it says: " : "",
                  *said || fault ? said : "it says nothing");

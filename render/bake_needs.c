@@ -199,7 +199,8 @@ bool bake_find_needs(struct baking *baking, struct bake_drawing *drawing)
                                                : (unsigned)BAKE_GEOMETRY | BAKE_FRAME;
     if (drawing->needs & BAKE_VIEW)
         return fail_for(baking, drawing, BAKE_VIEW, "bake-view",
-                        "depends on the view or the light, so no image can have it");
+                        "depends on the view, the light or what lies around, so no "
+                        "image can have it");
     if (drawing->needs & missing)
         return fail_for(baking, drawing, missing, "bake-mesh",
                         "reads the geometry of a surface: say which with --mesh");

@@ -26,6 +26,7 @@ struct occlusion {
     uint32_t *last_of; /* by primitive: 1 + the last object of a mesh; 0: there is none */
     uint32_t *before;  /* by object: 1 + the one before it of its mesh */
     bool *is_above;    /* by primitive: it is such a mesh, or one is below it */
+    bool *is_told;     /* by primitive: a warning said that it has no points */
     FILE *out;
     unsigned depth;
 };
@@ -203,12 +204,15 @@ static void list_drawn(struct occlusion *occlusion)
     occlusion->last_of = memory_alloc(num * sizeof *occlusion->last_of);
     occlusion->before = memory_alloc((site->num_objects + (size_t)1) * sizeof(uint32_t));
     occlusion->is_above = memory_alloc(num * sizeof *occlusion->is_above);
+    occlusion->is_told = memory_alloc(num * sizeof *occlusion->is_told);
     for (uint32_t i = 0; i < site->num_objects; ++i) {
         uint32_t mesh = mesh_of(occlusion, i);
         mxg_primitive primitive = primitive_of(occlusion, mesh);
         if (!is_type(&primitive, "Mesh")) {
-            site_warn(site, "occlusion-left-out", mesh, NULL,
-                      "has no points that could have an occlusion: it is no Mesh");
+            if (!occlusion->is_told[mesh])
+                site_warn(site, "occlusion-left-out", mesh, NULL,
+                          "has no points that could have an occlusion: it is no Mesh");
+            occlusion->is_told[mesh] = true;
             continue;
         }
         occlusion->before[i] = occlusion->last_of[mesh];
@@ -294,6 +298,7 @@ bool occlusion_bake(struct site *site, size_t num_rays, const char *path)
     free(occlusion.last_of);
     free(occlusion.before);
     free(occlusion.is_above);
+    free(occlusion.is_told);
     free(text);
     return good;
 }

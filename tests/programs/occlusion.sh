@@ -80,6 +80,18 @@ END
 check 'rasters read it' exits 0 "$mxgen" render open.mtlx --stage composed.usda --ambient-occlusion primvar -s 64 -o open.exr
 check 'where it is' eval '! grep missing-primvar err | grep -v /room/ball'
 check 'and without it they tell' eval 'exits 0 "$mxgen" render open.mtlx --stage room.usda --ambient-occlusion primvar -s 16 -o none.exr && has err missing-primvar'
+cat >row.usda <<'END'
+#usda 1.0
+def PointInstancer "row"
+{
+    int[] protoIndices = [0, 0, 0]
+    point3f[] positions = [(0, 0, 0), (3, 0, 0), (6, 0, 0)]
+    rel prototypes = </row/ball>
+    def Sphere "ball" {}
+}
+def Cube "box" {}
+END
+check 'what has no points is told once, not for each instance' eval 'exits 0 "$mxgen" render --stage row.usda --bake-occlusion row_layer.usda --paths 1 && [ "$(grep -c "^warning: .*/row/ball.*\[occlusion-left-out\]" err)" = 1 ]'
 check 'the stage is not overwritten' eval 'cp room.usda keep.usda && exits 1 "$mxgen" render --stage keep.usda --bake-occlusion keep.usda && has err "[output-clash]" && cmp room.usda keep.usda'
 check 'other options mean nothing' eval 'exits 2 "$mxgen" render --stage room.usda --bake-occlusion layer.usda -s 64 && has err "--bake-occlusion renders nothing"'
 check 'a stage is needed' exits 2 "$mxgen" render open.mtlx --bake-occlusion layer.usda

@@ -489,7 +489,7 @@ cat >bin/usdcat <<'SH'
 #!/bin/bash
 printf '%s\n' "$@" >usdcat.arguments
 case $USDCAT in
-fail) echo 'Warning: something'; echo 'cannot open layer @table.usda@' >&2; exit 1 ;;
+fail) printf 'Warning: something\n\nsyntax error on line 59\n\n'; echo 'cannot open layer @table.usda@' >&2; exit 1 ;;
 nothing) exit 0 ;;
 arcs) cat arcs.usda >"$4" ;;
 large) while :; do head -c 1000000 /dev/zero; done >"$4" ;;
@@ -506,9 +506,11 @@ check 'nothing is left behind' eval '[ -z "$(ls temp)" ]'
 check 'a binary stage goes the same way' eval 'exits 0 with good binary.usdc && row "/set/table default"'
 check 'a name is no option and no command' eval 'cp arcs.usda "a b;touch x.usda"; exits 0 with good "a b;touch x.usda" && grep -qxF "a b;touch x.usda" usdcat.arguments && [ ! -e x.usda ]'
 check 'shaders of such a stage are made' eval 'exits 0 env PATH="$PWD/bin:$PATH" "$mxgen" nothing.mtlx --stage arcs.usda --target vulkan -o arcs.d'
-check 'its errors are passed on' eval "exits 1 with fail arcs.usda && grep -F '[usd-flatten]' err | grep -qF 'cannot open layer @table.usda@'"
+check 'its errors are passed on' eval "exits 1 with fail arcs.usda && grep -qF 'cannot open layer @table.usda@ [usd-flatten]' err"
+check 'with the lines before the last one, which have the cause' grep -qx 'syntax error on line 59' err
 check 'so is its silence' eval "exits 1 with nothing arcs.usda && grep -qF '[usd-flatten]' err"
 check 'arcs in its output are errors' eval "exits 1 with arcs arcs.usda && grep -qF '[usda-arc]' err"
+check 'messages name the stage, not the file that is gone' tells usda-arc 'arcs.usda as composed:2:11' "'set' has payload"
 check 'its output has a limit' eval "exits 1 with large arcs.usda --max-file-size 2 && grep -F '[usd-flatten]' err | grep -qF -- '--max-file-size' && [ -z \"\$(ls temp)\" ]"
 check 'a sandbox starts no program' eval "rm -f usdcat.arguments; exits 1 with good arcs.usda --sandbox && grep -qF '[usda-arc]' err && [ ! -e usdcat.arguments ]"
 check 'without usdcat the arc is an error' exits 1 without arcs.usda
