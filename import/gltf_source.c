@@ -140,6 +140,11 @@ static bool fail(const struct gltf_source *source, const char *why)
 static bool parse(struct gltf_source *source, const char *text, size_t size)
 {
     json_error_t error;
+    size_t blanks = 0;
+    while (blanks < size && strchr(" \t\r\n", text[blanks]))
+        blanks++;
+    if (blanks == size || text[blanks] != '{')
+        return fail(source, "it is no glTF, the only format that import reads");
     source->root = json_loadb(text, size, 0, &error);
     if (!source->root)
         report_error(&source->cli->report, "import-file",

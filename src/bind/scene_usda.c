@@ -138,8 +138,8 @@ static bool read_target(struct reader *s, const struct usda_property *property,
     struct text_word rest = property->value, target;
     bool is_slot = begins(property->name, "material:slotBinding:");
     out->material = "";
-    /* on a plain binding it only clears what weaker layers say */
-    if (usda_is(property->value, "None") || usda_is(property->value, "[]"))
+    /* on a plain binding it only clears what weaker layers say; flattening drops the None */
+    if (!property->value.len || usda_is(property->value, "None") || usda_is(property->value, "[]"))
         return is_slot && !out_collection;
     if (out_collection && !usda_next_item(&rest, out_collection))
         return false;

@@ -387,6 +387,21 @@ check 'a member of a collection that is missing' tells pattern-unmatched odd.usd
 check 'a material may be a member' test "$(grep -c '\[pattern-unmatched\]' err)" = 1
 check 'reasons say that a collection beats a direct binding' eval "exits 0 bind --stage odd.usda --geom /s/a && grep -qF 'because at one prim a collection beats a direct binding' out"
 
+cat >removed.usda <<'USD'
+#usda 1.0
+def Xform "s" {
+    rel material:slotBinding:_050 = </m>
+    rel material:binding = </m>
+    def Cube "none" { rel material:slotBinding:_050 = None }
+    def Cube "bare" { rel material:slotBinding:_050 }
+    def Cube "plain" { rel material:binding }
+}
+def Material "m" { token outputs:surface.connect = </m/s.outputs:surface>
+    def Shader "s" { uniform token info:id = "UsdPreviewSurface" } }
+USD
+check 'None removes a slot, and a relationship without targets, which is what flattening leaves of it' eval 'exits 0 bind --stage removed.usda && [ ! -s err ] && row "/s/none (000 m) [050 removed]" && row "/s/bare (000 m) [050 removed]"'
+check 'a plain binding without targets clears nothing' row '/s/plain (000 m) (050 m)'
+
 # ---- What is drawn, and what is not ----
 
 cat >groups.usda <<'USD'
