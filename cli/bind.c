@@ -59,11 +59,13 @@ static void write_file(struct bind *bind, const mxg_bindings *bindings, const ch
         struct output output = output_of(bind, stream.out);
         mxg_status status = mxg_bindings_write(bindings, format, put, &output);
         if (status == MXG_ERROR_DOCUMENT)
-            report_warning(&bind->cli.report, "usda-loss",
-                           "'%s' lacks products of weaker assignments, variants, volumes beside "
-                           "layers, or instances, or has other names: slot bindings have no place "
-                           "for them, and names of USD have letters, digits and '_'",
-                           path);
+            report_warning(
+                &bind->cli.report, "usda-loss",
+                "'%s' lacks products of weaker assignments, variants, volumes beside "
+                "layers, or instances, which comments at its beginning name, or has other "
+                "names: slot bindings have no place for them, and names of USD have "
+                "letters, digits and '_'",
+                path);
         else
             report_status(&bind->cli.report, status);
         reason = files_end(&stream, was_enough(bind, &output));

@@ -35,6 +35,24 @@ struct usda_writer {
     uint32_t num_lost; /* items that slot bindings cannot hold */
 };
 
+static const struct look_assign *assign_of(const struct bindings *b, const struct bind_item *item)
+{
+    return &b->look.assigns.items[item->assign];
+}
+
+/* Why slot bindings cannot hold an item of a state; NULL: they hold it. */
+static const char *loss_of(const struct bindings *b, const struct bind_state *state, uint32_t index)
+{
+    const struct bind_item *items = &b->items.items[state->first_item];
+    if (items[index].kind == ITEM_PRODUCT)
+        return "a product of a weaker assignment";
+    for (uint32_t i = 0; i < index; i++)
+        if (items[i].kind != ITEM_PRODUCT
+            && assign_of(b, &items[i])->name == assign_of(b, &items[index])->name)
+            return "it stands beside a layer of its name";
+    return assign_of(b, &items[index])->num_variants ? "its variants" : NULL;
+}
+
 /* The layers, overrides and vertical layers of a state, by name. */
 static void collect(struct usda_writer *u, const struct bind_state *state, struct said_list *out)
 {
@@ -42,11 +60,11 @@ static void collect(struct usda_writer *u, const struct bind_state *state, struc
     out->len = 0;
     for (uint32_t i = 0; i < state->num_items; i++) {
         const struct bind_item *item = &b->items.items[state->first_item + i];
-        const struct look_assign *assign = &b->look.assigns.items[item->assign];
+        const struct look_assign *assign = assign_of(b, item);
         bool is_second = false;
         for (uint32_t k = 0; k < out->len; k++)
             is_second |= out->items[k].name == assign->name;
-        u->num_lost += item->kind == ITEM_PRODUCT || is_second || assign->num_variants != 0;
+        u->num_lost += loss_of(b, state, i) != NULL;
         if (item->kind != ITEM_PRODUCT && !is_second)
             vec_push(u->w->scratch, out, (struct said){assign->name, assign->target});
     }
@@ -373,6 +391,37 @@ static void close_prims(struct usda_writer *u, uint32_t open, uint32_t depth)
     }
 }
 
+/* A comment about what the layer leaves out; strings keep names of any characters inside of it. */
+static void put_loss(struct usda_writer *u, prim_id prim, uint32_t assign, const char *reason)
+{
+    struct text path, name;
+    text_init(&path, u->w->scratch);
+    text_init(&name, u->w->scratch);
+    scene_path(u->w->b->scene, prim, &path);
+    look_assign_name(&u->w->b->look, assign, &name);
+    usda_put(&u->text, "# left out: ");
+    usda_put_string(&u->text, (struct text_word){name.data, name.len});
+    usda_put(&u->text, " at ");
+    usda_put_string(&u->text, (struct text_word){path.data, path.len});
+    text_fmt(u->text.out, ": %s\n", reason);
+}
+
+/* Comments about what stands at a primitive, and slot bindings cannot hold. */
+static void put_losses(struct usda_writer *u, prim_id prim)
+{
+    const struct bindings *b = u->w->b;
+    const struct bind_state *state = bind_state_of(b, prim);
+    const bool is_instance = scene_is_instance(b->scene, prim);
+    for (uint32_t i = 0; i < state->num_items; i++) {
+        const struct bind_item *item = &b->items.items[state->first_item + i];
+        if (bind_prim_at(b, prim, item->level) != prim)
+            continue;
+        const char *loss = is_instance ? "USD has no prim for an instance" : loss_of(b, state, i);
+        if (loss)
+            put_loss(u, prim, item->assign, loss);
+    }
+}
+
 /* Finds the primitives that the layer has. */
 static void mark_prims(struct usda_writer *u)
 {
@@ -380,6 +429,7 @@ static void mark_prims(struct usda_writer *u)
     for (prim_id prim = scene_next(scene, 0); prim; prim = scene_next(scene, prim)) {
         if (!find_changes(u, prim))
             continue;
+        put_losses(u, prim);
         if (scene_is_instance(scene, prim)) {
             u->num_lost++; /* USD has no prim for it */
             continue;
@@ -437,8 +487,8 @@ uint32_t bind_write_usda(struct bind_writer *w)
     for (uint32_t i = 0; i < b->look.assigns.len; i++)
         if (b->look.assigns.items[i].binding)
             u.name_of[b->look.assigns.items[i].binding - 1] = b->look.assigns.items[i].name + 1;
-    mark_prims(&u);
     put_head(&u);
+    mark_prims(&u);
     uint32_t open = 0;
     for (prim_id prim = scene_next(scene, 0); prim; prim = scene_next(scene, prim)) {
         if (!u.says[prim])

@@ -466,6 +466,7 @@ check 'collections of the stage do not bind beside the layer' eval 'exits 0 "$mx
 check 'a slot alone comes back' eval 'exits 0 usd --solo dust --json before.json --usda round.usda && again stage.usda materials.mtlx'
 check 'a look with variants gives USD' exits 0 bind --usda lossy.usda
 check 'a warning says that variants are lost' grep -qF '[usda-loss]' err
+check 'comments say where' grep -q '^# left out: ".*" at ".*": its variants$' lossy.usda
 check 'USD in a folder that is missing fails' exits 1 bind --usda none/out.usda
 
 # The example, as docs/slots.md shows it.
