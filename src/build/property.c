@@ -71,8 +71,8 @@ static uint32_t hash_of(const struct property *property, str_id semantic)
     uint32_t hash = hash_pair(semantic, property->type);
     if (property->type == IR_TYPE_SAMPLER)
         return hash_pair(hash, property->texture ? property->texture->file : 0);
-    for (unsigned i = 0; property->value && i < ir_type_info(property->type)->components; i++)
-        hash = hash_pair(hash, property->value->w[i].u);
+    for (unsigned i = 0; i < ir_type_info(property->type)->components; i++)
+        hash = hash_pair(hash, property->value ? property->value->w[i].u : 0); /* as has_value */
     return hash;
 }
 
