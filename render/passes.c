@@ -55,22 +55,27 @@ static bool generate(struct passes *passes, const struct passes_setup *setup, ui
     return fail(passes, "render-failed", mxg_status_string(status));
 }
 
-/* Adds a pass to the device. */
-static bool add_pass(struct passes *passes, const struct passes_setup *setup,
-                     struct pass_part *part, const char *target, const char *text, int which)
+static bool compile(struct passes *passes, struct pass_part *part, const char *target,
+                    const char *text)
 {
-    if (!compile_compute(target, text, &part->compiled))
-        return fail(passes, "bad-shader",
-                    part->compiled.num_messages ? part->compiled.messages[0].text
-                                                : "the pass does not compile");
+    return compile_compute(target, text, &part->compiled)
+           || fail(passes, "bad-shader",
+                   part->compiled.num_messages ? part->compiled.messages[0].text
+                                               : "the pass does not compile");
+}
+
+/* Adds a pass that is compiled to the device. */
+static bool add_pass(struct passes *passes, const struct passes_setup *setup,
+                     const struct pass_part *part, int which)
+{
     const struct compiled_stage *code = &part->compiled.stages[MXG_STAGE_PIXEL];
     const struct stored_pass pass = {code->words, code->num_words, &part->bind.draw, which};
     return stored_add_pass(passes->stored, &pass) || fail_device(passes, setup);
 }
 
 /* The functions of the host stand behind the pass. */
-static bool add_source(struct passes *passes, const struct passes_setup *setup,
-                       struct pass_part *part, int which)
+static bool compile_with_host(struct passes *passes, const struct passes_setup *setup,
+                              struct pass_part *part)
 {
     size_t size = 0;
     const char *source = mxg_result_source(part->result, MXG_STAGE_PIXEL, &size),
@@ -82,7 +87,7 @@ static bool add_source(struct passes *passes, const struct passes_setup *setup,
         return fail(passes, "render-failed", "out of memory");
     memcpy(text, source, size);
     strcpy(text + size, host);
-    bool good = add_pass(passes, setup, part, target_of(setup), text, which);
+    bool good = compile(passes, part, target_of(setup), text);
     free(text);
     return good;
 }
@@ -109,19 +114,26 @@ static bool open_pass(struct passes *passes, const struct passes_setup *setup, u
     }
     struct pass_part *part = &passes->parts[passes->num_parts++];
     part->result = result;
-    part->bind = (struct bind){
-        .result = part->result, .scene = setup->scene, .is_opaque = true, .tints = &passes->tints};
+    if (!compile_with_host(passes, setup, part))
+        return false;
+    part->bind = (struct bind){.result = part->result,
+                               .scene = setup->scene,
+                               .is_opaque = true,
+                               .tints = &passes->tints,
+                               .places = part->compiled.places,
+                               .num_places = part->compiled.num_places};
     if (!bind_shader(&part->bind))
         return fail(passes, part->bind.id, part->bind.reason);
-    return add_source(passes, setup, part, which);
+    return add_pass(passes, setup, part, which);
 }
 
 /* text: writes payloads, in GLSL. */
 static bool open_payloads(struct passes *passes, const struct passes_setup *setup, const char *text)
 {
     passes->payloads = stored_hold_rays(passes->stored);
-    return (passes->payloads || fail_device(passes, setup))
-           && add_pass(passes, setup, &passes->parts[passes->num_parts++], "vulkan", text, -1);
+    struct pass_part *part = &passes->parts[passes->num_parts++];
+    return (passes->payloads || fail_device(passes, setup)) && compile(passes, part, "vulkan", text)
+           && add_pass(passes, setup, part, -1);
 }
 
 static bool open_tints(struct passes *passes, const struct passes_setup *setup)

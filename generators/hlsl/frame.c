@@ -8,11 +8,15 @@
  */
 #include "generators/hlsl/hlsl.h"
 
-/* "[[vk::binding(3, 0)]] ", if the option asks for it. */
+void hlsl_vulkan_binding(struct spell *spell, uint32_t binding, uint32_t set)
+{
+    text_fmt(spell->out, "[[vk::binding(%u, %u)]] ", (unsigned)binding, (unsigned)set);
+}
+
 static void write_binding(struct spell *spell, uint32_t binding, uint32_t set)
 {
     if (spell->options->vulkan_attributes)
-        text_fmt(spell->out, "[[vk::binding(%u, %u)]] ", (unsigned)binding, (unsigned)set);
+        hlsl_vulkan_binding(spell, binding, set);
 }
 
 /* ---- Buffers ---- */

@@ -32,6 +32,8 @@ extern const struct target_frame hlsl_frame;
 void hlsl_variable(struct spell *spell, const struct shader_variable *variable);
 /* "    row_major float4x4 u_m": a line of a constant buffer without its end. */
 void hlsl_member(struct spell *spell, const struct shader_variable *variable);
+/* "[[vk::binding(3, 0)]] " */
+void hlsl_vulkan_binding(struct spell *spell, uint32_t binding, uint32_t set);
 /*
  * "RWTexture2D<uint> mx_word0", "cbuffer MxFrame": an image or buffer of programs. Returns the
  * letter of its registers.

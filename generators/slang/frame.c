@@ -77,6 +77,7 @@ static void write_resources(struct spell *spell)
 {
     SPELL_EACH_RESOURCE(r, spell)
     {
+        hlsl_vulkan_binding(spell, r.binding, r.set);
         (void)hlsl_resource(spell, &r);
         hlsl_members(spell, &r);
     }

@@ -27,9 +27,9 @@ struct deferred_layout generation_storage(const struct generation *g)
         .storage =
             is_payload ? STORAGE_ROUND : (enum deferred_storage)options[OPTION_storage].number,
         .set = (uint32_t)options[OPTION_binding_set].number + 1,
-        .sets = g->result->target->caps & CAP_SETS,
-        .has_bindings =
-            g->result->target->syntax->in_images || g->result->target->caps & CAP_BINDINGS,
+        .sets = g->result->target->caps & (CAP_SETS | CAP_PROGRAM_BINDINGS),
+        .has_bindings = g->result->target->syntax->in_images
+                        || g->result->target->caps & (CAP_BINDINGS | CAP_PROGRAM_BINDINGS),
         .tests_late = g->result->target->tests_late,
         .any_format = g->result->target->any_format,
         .first = g->result->target->first_resource,

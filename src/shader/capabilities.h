@@ -58,5 +58,7 @@ enum target_caps {
 #define CAP_HOST_FUNCTIONS (UINT64_C(1) << 31)
 /* the language has modules: --mdl-module. It follows from `modules` of the target, too */
 #define CAP_MODULES (UINT64_C(1) << 32)
+/* without CAP_BINDINGS: programs say where Vulkan binds their own images and buffers */
+#define CAP_PROGRAM_BINDINGS (UINT64_C(1) << 33)
 
 #endif
