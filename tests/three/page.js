@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pictures of the test by three, in the browser: run.mjs calls the functions of `draws` and looks at the numbers and pictures that they return.
+// `kit` is webgl.js or webgpu.js.
 
 import * as THREE from "three";
 import { HDRLoader } from "three/addons/loaders/HDRLoader.js";
 import { load } from "mxgen";
-import { MaterialXLoader, MaterialXMaterial } from "mxgen/three";
+import * as kit from "kit";
 
 import { CAMERA, cameraAt, encode, pixelsOf, SIZE, SKY, sphere } from "./studio.js";
 
-const compiler = load();
-const renderer = new THREE.WebGLRenderer({ alpha: true, preserveDrawingBuffer: true, premultipliedAlpha: true });
-renderer.setPixelRatio(2);
+const { Material, MaterialXLoader, programOf, renderer, uncover } = kit, compiler = load();
 renderer.setSize(SIZE, SIZE);
 renderer.setClearColor(0, 0);
 document.body.append(renderer.domElement);
@@ -41,7 +40,7 @@ const surface = (inputs, rest = "") => `<materialx version="1.39">${rest}<standa
     <surfacematerial name="M" type="material"><input name="surfaceshader" type="surfaceshader" nodename="SR"/></surfacematerial></materialx>`;
 const input = (name, type, value) => `<input name="${name}" type="${type}" value="${value}"/>`;
 const MATTE = surface(input("base_color", "color3", "0.8, 0.4, 0.2") + input("base", "float", 1) + input("specular", "float", 0));
-const matte = async parameters => new MaterialXMaterial(await documentOf(MATTE), parameters);
+const matte = async parameters => new Material(await documentOf(MATTE), parameters);
 
 /** Loads an example with its textures. */
 async function example(name) {
@@ -81,7 +80,9 @@ const draws = {
     async example(name) {
         const { scene } = sceneOf(await example(name));
         Object.assign(renderer, { toneMapping: THREE.LinearToneMapping, toneMappingExposure: 0.6 });
+        renderer.setPixelRatio(2); // smooths edges
         const picture = shoot(scene);
+        renderer.setPixelRatio(1);
         renderer.toneMapping = THREE.NoToneMapping;
         return encode(picture);
     },
@@ -114,8 +115,8 @@ const draws = {
     /** What a flame of no coverage adds to black, with its alpha. */
     async glow() {
         const text = surface(input("base", "float", 0) + input("specular", "float", 0) + input("emission", "float", 1) + input("emission_color", "color3", "1, 1, 0"));
-        const { scene, mesh } = sceneOf(new MaterialXMaterial(await documentOf(text)), { environment: null });
-        mesh.material.fragmentShader = mesh.material.fragmentShader.replace("float covered", "shaded.alpha = 0.0; float covered");
+        const { scene, mesh } = sceneOf(new Material(await documentOf(text)), { environment: null });
+        uncover(mesh.material);
         mesh.material.transparent = true;
         scene.background = new THREE.Color(0);
         const color = at(shoot(scene));
@@ -207,7 +208,7 @@ const draws = {
         const material = await matte(), { scene } = sceneOf(material), steps = [];
         const look = () => {
             const color = at(shoot(scene));
-            steps.push({ color, programs: renderer.info.programs.length, id: renderer.properties.get(material).currentProgram.id });
+            steps.push({ color, program: programOf(material) });
         };
         const change = work => {
             const edit = material.document.edit();
@@ -236,12 +237,14 @@ const draws = {
 
     /** Materials that differ in values share a program; a clone has its own values. */
     async share() {
-        const text = MATTE.replace("0.8, 0.4, 0.2", "0, 0, 1"), one = await matte(), other = new MaterialXMaterial(await documentOf(text)), clone = other.clone();
+        const text = MATTE.replace("0.8, 0.4, 0.2", "0, 0, 1"), one = await matte(), other = new Material(await documentOf(text)), clone = other.clone();
         clone.setInput("SR/base_color", [0, 1, 0]);
-        const colors = [];
-        for (const material of [one, other, clone])
+        const colors = [], programs = [];
+        for (const material of [one, other, clone]) {
             colors.push(at(shoot(sceneOf(material).scene)));
-        return { colors, ids: [one, other, clone].map(material => renderer.properties.get(material).currentProgram.id) };
+            programs.push(programOf(material));
+        }
+        return { colors, programs };
     },
 
     /** Attributes, spaces and constants that a document reads. */
@@ -254,7 +257,7 @@ const draws = {
         plane.setAttribute("wear", constant(0.2, 0.4, 0.6));
         const front = cameraAt(0, 0, 5, 30), found = {};
         const look = async (name, nodes, { geometry = plane, move = mesh => mesh, instance = null } = {}) => {
-            const material = new MaterialXMaterial(await documentOf(emit(nodes))), { scene, mesh } = sceneOf(material, { geometry, environment: null });
+            const material = new Material(await documentOf(emit(nodes))), { scene, mesh } = sceneOf(material, { geometry, environment: null });
             if (instance) {
                 scene.remove(mesh);
                 const instances = new THREE.InstancedMesh(geometry, material, 1);
@@ -333,11 +336,47 @@ const draws = {
         return found;
     },
 
+    /** With nodes of three. */
+    async nodes() {
+        const found = {};
+        for (const [name, nodes] of Object.entries(kit.nodes)) {
+            const { scene } = sceneOf(Object.assign(await matte(), nodes), { environment: null });
+            scene.add(directional(0, 0, 1));
+            found[name] = at(shoot(scene, cameraAt(0, 0, 5, 30)));
+        }
+        return found;
+    },
+
+    /** Two point lights, with three's add-ons and without. */
+    async lightings() {
+        const material = await matte(), found = {}, { lighting } = renderer;
+        for (const [name, other] of [["plain", lighting], ...Object.entries(kit.lightings)]) {
+            renderer.lighting = other;
+            const { scene } = sceneOf(material.clone(), { environment: null });
+            scene.add(new THREE.PointLight(0xffffff, 8).translateX(2).translateZ(2), new THREE.PointLight(0xffffff, 4).translateY(2).translateZ(2));
+            found[name] = at(shoot(scene), 0.1, 0.1);
+        }
+        renderer.lighting = lighting;
+        return found;
+    },
+
+    async misuse() {
+        return kit.misuse(sceneOf(await matte()).scene, CAMERA);
+    },
+
+    /** The sky as the map of a material. */
+    async envMap() {
+        const material = await matte({ envMap: SKY, envMapIntensity: 0.5 }), own = at(shoot(sceneOf(material, { environment: null }).scene));
+        const { scene } = sceneOf(await matte());
+        scene.environmentIntensity = 0.5;
+        return [own, at(shoot(scene))];
+    },
+
     /** An orthographic camera sees all points of a mirror plane from one direction. */
     async orthographic() {
         const text = surface(input("base", "float", 0) + input("specular", "float", 0) + input("emission", "float", 1) + `<input name="emission_color" type="color3" nodename="n"/>`,
             `<viewdirection name="v" type="vector3">${input("space", "string", "world")}</viewdirection><absval name="a" type="vector3"><input name="in" type="vector3" nodename="v"/></absval><convert name="n" type="color3"><input name="in" type="vector3" nodename="a"/></convert>`);
-        const { scene } = sceneOf(new MaterialXMaterial(await documentOf(text)), { geometry: new THREE.PlaneGeometry(4, 4), environment: null });
+        const { scene } = sceneOf(new Material(await documentOf(text)), { geometry: new THREE.PlaneGeometry(4, 4), environment: null });
         const camera = new THREE.OrthographicCamera(-1, 1, 1, -1, 0.1, 10);
         camera.position.z = 3;
         const flat = shoot(scene, camera);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// mxgen/three in Chromium. Arguments: the folder of the package, Chromium, the root of the project, the program, esbuild.
+// mxgen/three in Chromium. Arguments: webgl or webgpu, the folder of the package, Chromium, the root of the project, the program, esbuild.
 
 import assert from "node:assert/strict";
 import fs from "node:fs";
@@ -7,10 +7,14 @@ import os from "node:os";
 import path from "node:path";
 
 import { run, test } from "../js/harness.mjs";
-import { Browser } from "../web/browser.mjs";
-import { bundle, difference, render, serve, writeSky } from "./server.mjs";
+import { Browser, WEBGPU } from "../web/browser.mjs";
+import { bundle, difference, pixel, render, serve, writeSky } from "./server.mjs";
 
-const [folder, chromium, root, program, esbuild] = process.argv.slice(2);
+const [kit, folder, chromium, root, program, esbuild] = process.argv.slice(2);
+const { example, options } = {
+    webgl: { example: "three.html", options: [] },
+    webgpu: { example: "three_webgpu.html", options: WEBGPU },
+}[kit];
 const work = fs.mkdtempSync(path.join(os.tmpdir(), "mxgen-three-"));
 
 const DOCUMENTS = {
@@ -85,16 +89,16 @@ test("an edit of a uniform keeps the program, another edit makes one", async () 
     const [first, edited, set, faded, noisy, fault, last] = await draw("edit");
     assert(first.color[0] > first.color[2] && edited.color[2] > edited.color[0] + 50 && set.color[1] > set.color[2] + 50, `${first.color} ${edited.color} ${set.color}`);
     for (const step of [edited, set, faded])
-        assert.deepEqual([step.id, step.programs], [first.id, first.programs]);
+        assert.equal(step.program, first.program);
     assert(faded.transparent && faded.color[3] > 120 && faded.color[3] < 135, `${faded.color}`);
-    assert.notEqual(noisy.id, first.id);
+    assert.notEqual(noisy.program, first.program);
     assert.match(fault, /Error$/);
     assert.deepEqual(last, noisy); // a document without the element changes nothing
 });
 
 test("materials share programs, not values", async () => {
-    const { colors: [one, other, clone], ids } = await draw("share");
-    assert.equal(new Set(ids).size, 1);
+    const { colors: [one, other, clone], programs } = await draw("share");
+    assert.equal(new Set(programs).size, 1);
     assert(one[0] > one[1] && other[2] > other[1] + 50 && clone[1] > clone[2] + 50, `${one} ${other} ${clone}`);
 });
 
@@ -134,26 +138,50 @@ test("an orthographic camera looks in one direction", async () => {
     assert(right[0] < 5 && perspective[0] > 60, `${right} ${perspective}`);
 });
 
-test("the example, without a bundler", async () => {
-    const example = await browser.open(`${server.address}/examples/three.html`, { width: 400, height: 300 });
-    await example.until("document.body.dataset.drawn");
-    const middle = () => example.evaluate(`(() => {
-        const context = new OffscreenCanvas(400, 300).getContext("2d");
-        context.drawImage(document.querySelector("canvas"), 0, 0);
-        return Array.from(context.getImageData(200, 150, 1, 1).data);
-    })()`);
-    const gold = await middle();
-    await example.evaluate("document.getElementById('color').value = '#0000ff', document.getElementById('color').dispatchEvent(new Event('input'))");
-    const blue = await middle();
-    await example.screenshot(path.join(work, "example.png"));
-    assert.deepEqual(example.complaints, []);
-    assert(gold[0] > gold[2] + 30 && blue[2] > blue[0] + 30, `${gold} ${blue}`);
-    await example.close();
+test("a map of the environment of a material", async () => {
+    const [own, scene] = await draw("envMap");
+    assert(own[0] > 20);
+    assert.deepEqual(own, scene);
 });
 
-bundle(work, { page: path.join(root, "tests/three/page.js"), root, folder, esbuild });
+if (kit === "webgpu") {
+    test("nodes of three", async () => {
+        const { none, outputNode, maskNode, lightsNode, positionNode } = await draw("nodes");
+        assert(none[0] > none[2] + 50 && outputNode[2] > 200 && lightsNode[0] < 5, `${none} ${outputNode} ${lightsNode}`);
+        assert.deepEqual([none[3], maskNode[3], lightsNode[3], positionNode[3]], [255, 0, 255, 0]);
+    });
+
+    test("lights of add-ons shine as three's own", async () => {
+        const { plain, ...others } = await draw("lightings");
+        assert(plain[0] > 40, `${plain}`);
+        assert.deepEqual(others, { clustered: plain, dynamic: plain });
+    });
+
+    test("other renderers tell which material they need", async () => {
+        assert.match(await draw("misuse"), /for WebGLRenderer there is MaterialXMaterial/);
+        assert(page.complaints.some(text => /needs WebGPU/.test(text)), page.complaints.join("\n"));
+        page.complaints = page.complaints.filter(text => !/needs WebGPU/.test(text));
+    });
+}
+
+test("the example, without a bundler", async () => {
+    const page = await browser.open(`${server.address}/examples/${example}`, { width: 400, height: 300 });
+    await page.until("document.body.dataset.drawn");
+    const middle = async () => {
+        await page.screenshot(path.join(work, "example.png"));
+        return pixel(page, path.join(work, "example.png"), 200, 150);
+    };
+    const gold = await middle();
+    await page.evaluate("document.getElementById('color').value = '#0000ff', document.getElementById('color').dispatchEvent(new Event('input'))");
+    const blue = await middle();
+    assert.deepEqual(page.complaints, []);
+    assert(gold[0] > gold[2] + 30 && blue[2] > blue[0] + 30, `${gold} ${blue}`);
+    await page.close();
+});
+
+bundle(work, { page: path.join(root, "tests/three/page.js"), root, folder, esbuild, aliases: { kit: path.join(root, `tests/three/${kit}.js`) } });
 writeSky(path.join(work, "sky.hdr"));
-const browser = new Browser(chromium), server = await serve([work, root], DOCUMENTS);
+const browser = new Browser(chromium, options), server = await serve([work, root], DOCUMENTS);
 try {
     page = await browser.open(`${server.address}/page.html`);
     await page.until("window.draws");
@@ -166,7 +194,7 @@ try {
     fs.writeFileSync(path.join(work, "documents/pair.hdr"), Buffer.concat([Buffer.from("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n"),
                                                                           Buffer.from([128, 0, 0, 129, 0, 128, 0, 129])]));
     test("the console has no complaints", () => assert.deepEqual(page.complaints, []));
-    await run("three");
+    await run(`three ${kit}`);
 } finally {
     await browser.close();
     server.close();

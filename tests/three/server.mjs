@@ -11,13 +11,14 @@ import { makeSky } from "../../web/scene.js";
 const TYPES = { ".html": "text/html", ".js": "text/javascript", ".wasm": "application/wasm", ".png": "image/png" };
 
 /** Puts a page with its bundle and the packages into a folder. */
-export function bundle(work, { page, root, folder, esbuild }) {
+export function bundle(work, { page, root, folder, esbuild, aliases = {} }) {
     const modules = path.join(work, "node_modules");
     fs.mkdirSync(modules);
     fs.symlinkSync(folder, path.join(modules, "mxgen"));
     fs.symlinkSync(path.join(root, "tests/npm/node_modules/three"), path.join(modules, "three"));
     fs.writeFileSync(path.join(work, "page.html"), "<!DOCTYPE html><link rel='icon' href='data:,'><body><script type='module' src='page.js'></script>");
-    execFileSync(esbuild, [page, "--bundle", "--format=esm", "--target=es2022", "--log-level=warning", `--outfile=${path.join(work, "page.js")}`],
+    execFileSync(esbuild, [page, "--bundle", "--format=esm", "--target=es2022", "--log-level=warning", `--outfile=${path.join(work, "page.js")}`,
+                           ...Object.entries(aliases).map(([name, file]) => `--alias:${name}=${file}`)],
                  { env: { ...process.env, NODE_PATH: modules }, stdio: ["ignore", "inherit", "inherit"] });
     fs.copyFileSync(path.join(folder, "mxgen.wasm"), path.join(work, "mxgen.wasm"));
 }
@@ -44,14 +45,17 @@ export function writeSky(file) {
     fs.writeFileSync(file, Buffer.concat([Buffer.from(`#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y ${height} +X ${width}\n`), bytes]));
 }
 
+// In a page: the bytes of PNG files.
+const PIXELS = files => `Promise.all(${JSON.stringify(files.map(file => fs.readFileSync(file).toString("base64")))}.map(async text => {
+    const image = await createImageBitmap(new Blob([Uint8Array.from(atob(text), letter => letter.charCodeAt(0))], { type: "image/png" }), { colorSpaceConversion: "none" });
+    const context = new OffscreenCanvas(image.width, image.height).getContext("2d");
+    context.drawImage(image, 0, 0);
+    return context.getImageData(0, 0, image.width, image.height);
+}))`;
+
 /** Mean absolute difference of two PNG files over black in the pixels that one of them covers, from 0 to 255, and the part of those that one alone covers. */
-const DIFFERENCE = (a, b) => `(async () => {
-    const [one, other] = await Promise.all(${JSON.stringify([a, b])}.map(async text => {
-        const image = await createImageBitmap(new Blob([Uint8Array.from(atob(text), letter => letter.charCodeAt(0))], { type: "image/png" }), { colorSpaceConversion: "none" });
-        const context = new OffscreenCanvas(image.width, image.height).getContext("2d");
-        context.drawImage(image, 0, 0);
-        return context.getImageData(0, 0, image.width, image.height).data;
-    }));
+export const difference = (page, ...files) => page.evaluate(`(async () => {
+    const [one, other] = (await ${PIXELS(files)}).map(({ data }) => data);
     let sum = 0, count = 0, alone = 0;
     for (let i = 0; i < one.length; i += 4) {
         alone += (one[i + 3] > 0) !== (other[i + 3] > 0);
@@ -62,13 +66,13 @@ const DIFFERENCE = (a, b) => `(async () => {
             sum += Math.abs(one[i + c] * one[i + 3] - other[i + c] * other[i + 3]) / (3 * 255);
     }
     return { mean: sum / count, alone: alone / count };
-})()`;
+})()`);
 
-
-/** The same for files. */
-export function difference(page, one, other) {
-    return page.evaluate(DIFFERENCE(fs.readFileSync(one).toString("base64"), fs.readFileSync(other).toString("base64")));
-}
+/** Red, green, blue and alpha of a PNG file at a place. */
+export const pixel = (page, file, x, y) => page.evaluate(`(async () => {
+    const [{ width, data }] = await ${PIXELS([file])};
+    return Array.from(data.subarray(4 * (width * ${y} + ${x}), 4 * (width * ${y} + ${x}) + 4));
+})()`);
 
 /** Draws a material of a document with `mxgen render`, as studio.js does. Throws what the program says. */
 export function render(program, document, sky, picture, options = []) {

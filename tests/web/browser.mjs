@@ -8,6 +8,9 @@ import path from "node:path";
 
 const TIMEOUT = 120_000; // milliseconds: of one wait, on a busy machine
 
+/** Options for WebGPU in software. */
+export const WEBGPU = ["--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader", "--enable-features=Vulkan", "--use-vulkan=swiftshader"];
+
 export class Browser {
     #process;
     #folder;

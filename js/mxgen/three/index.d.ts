@@ -18,10 +18,8 @@ export interface MaterialXParameters extends MeshStandardMaterialParameters {
     textures?: MaterialXTextures;
 }
 
-/** A material of a document for WebGLRenderer. The inputs of a standard material (`color`, `roughness`, `map`…) have no effect. */
-export class MaterialXMaterial extends MeshStandardMaterial {
-    /** Throws DocumentError. */
-    constructor(document: Document, parameters?: MaterialXParameters);
+/** What materials for both renderers have. */
+export interface MaterialXMembers {
     readonly isMaterialXMaterial: true;
     /** A new document, after an edit, changes uniforms or, where it must, the program. Throws DocumentError, and then nothing changes. */
     document: Document;
@@ -29,11 +27,19 @@ export class MaterialXMaterial extends MeshStandardMaterial {
     readonly shader: Shader;
     /** By names of variables of `shader`; also those of the host, such as `u_time`. */
     readonly uniforms: Record<string, IUniform>;
-    readonly vertexShader: string;
-    readonly fragmentShader: string;
     readonly textures: MaterialXTextures;
     /** Sets a uniform by the path of its input ("SR_gold/base_color"), or the file of a texture. false: the input is no uniform; edit the document. */
     setInput(path: string, value: number | boolean | string | ArrayLike<number> | { toArray(): number[] }): boolean;
+}
+
+export interface MaterialXMaterial extends MaterialXMembers {}
+
+/** A material of a document for WebGLRenderer. The inputs of a standard material (`color`, `roughness`, `map`…) have no effect. */
+export class MaterialXMaterial extends MeshStandardMaterial {
+    /** Throws DocumentError. */
+    constructor(document: Document, parameters?: MaterialXParameters);
+    readonly vertexShader: string;
+    readonly fragmentShader: string;
 }
 
 /** Textures of files. `dispose` of a material leaves them. */
@@ -47,21 +53,21 @@ export class MaterialXTextures {
     dispose(): void;
 }
 
-export interface MaterialXResult {
+export interface MaterialXResult<Material = MaterialXMaterial> {
     document: Document;
     /** By path: `materials.Gold`. */
-    materials: Record<string, MaterialXMaterial>;
+    materials: Record<string, Material>;
     /** Those of all materials. `load` waits for them. */
     textures: MaterialXTextures;
 }
 
 /** Loads a document and what it includes. Errors are those of three for files, and DocumentError. */
-export class MaterialXLoader extends Loader<MaterialXResult> {
+export class MaterialXLoader<Material = MaterialXMaterial> extends Loader<MaterialXResult<Material>> {
     /** Uses a compiler that is there already; otherwise the first `load` of any loader loads one. */
     setCompiler(mxgen: Mxgen): this;
     /** Each material gets these: options of generation, and parameters of three such as `side`. */
     setParameters(parameters: Omit<MaterialXParameters, "element" | "path" | "manager" | "textures">): this;
-    load(url: string, onLoad: (result: MaterialXResult) => void, onProgress?: (event: ProgressEvent) => void, onError?: (error: unknown) => void): void;
+    load(url: string, onLoad: (result: MaterialXResult<Material>) => void, onProgress?: (event: ProgressEvent) => void, onError?: (error: unknown) => void): void;
     /** The materials of a text, after `setCompiler`. `path` is that of the textures. */
-    parse(text: string, path?: string): MaterialXResult;
+    parse(text: string, path?: string): MaterialXResult<Material>;
 }

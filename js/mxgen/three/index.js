@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The entry mxgen/three: materials for three.js (docs/three.md).
+// The entry mxgen/three: materials for the WebGLRenderer of three.js (docs/three.md).
 
-export { MaterialXLoader } from "./loader.js";
-export { MaterialXMaterial } from "./material.js";
+import { loaderOf } from "./loader.js";
+import { MaterialXMaterial } from "./material.js";
+
+export const MaterialXLoader = loaderOf(MaterialXMaterial);
+export { MaterialXMaterial };
 export { MaterialXTextures } from "./textures.js";

@@ -4,7 +4,6 @@
 import { FileLoader, Loader, LoaderUtils } from "three";
 import { load } from "mxgen";
 
-import { MaterialXMaterial } from "./material.js";
 import { MaterialXTextures } from "./textures.js";
 
 let compiler = null; // that all loaders share
@@ -17,7 +16,8 @@ function sharedCompiler() {
     return compiler;
 }
 
-export class MaterialXLoader extends Loader {
+/** The loader whose materials are of a class. */
+export const loaderOf = Material => class MaterialXLoader extends Loader {
     #context = null;
     #parameters = {};
 
@@ -64,7 +64,7 @@ export class MaterialXLoader extends Loader {
     #materials(document, address) {
         const textures = new MaterialXTextures(this.resourcePath || LoaderUtils.extractUrlBase(address), this.manager);
         const materials = Object.fromEntries(document.renderables.map(
-            ({ path }) => [path, new MaterialXMaterial(document, { ...this.#parameters, element: path, textures })]));
+            ({ path }) => [path, new Material(document, { ...this.#parameters, element: path, textures })]));
         return { document, materials, textures };
     }
-}
+};

@@ -4,41 +4,28 @@
 
 import { ShaderChunk } from "three";
 
+import { hostOf } from "./following.js";
+
 const chunks = names => names.split(" ").map(name => `#include <${name}>`).join("\n");
 
 // Names of the host that the function reads, in GLSL. v_toWorld is in place of three's modelMatrix, which knows no instances.
-const HOST = {
+const HOST = hostOf({
     // An orthographic camera sees from afar.
     viewPosition: "(isOrthographic ? v_position + 1e5 * vec3(viewMatrix[0].z, viewMatrix[1].z, viewMatrix[2].z) : cameraPosition)",
     viewDirection: "(-vec3(viewMatrix[0].z, viewMatrix[1].z, viewMatrix[2].z))",
-};
-for (const [name, matrix] of Object.entries({
-    world: "v_toWorld", view: "viewMatrix", projection: "projectionMatrix", worldView: "(viewMatrix * v_toWorld)",
-    viewProjection: "(projectionMatrix * viewMatrix)", worldViewProjection: "(projectionMatrix * viewMatrix * v_toWorld)",
-}))
-    Object.assign(HOST, { [`${name}Matrix`]: matrix, [`${name}InverseMatrix`]: `inverse(${matrix})`, [`${name}TransposeMatrix`]: `transpose(${matrix})`,
-                          [`${name}InverseTransposeMatrix`]: `transpose(inverse(${matrix}))` });
-
-/** The options of generation that the stages below need. */
-export const OPTIONS = {
-    "role": "function", "names": "neutral", "host-environment": true, "texture-modes": "shared", "ambient-occlusion": "none",
-    "aovs": "none", "rename": Object.keys(HOST).map(name => `u_${name}=host_${name}`),
-};
+    matrices: {
+        world: "v_toWorld", view: "viewMatrix", projection: "projectionMatrix", worldView: "(viewMatrix * v_toWorld)",
+        viewProjection: "(projectionMatrix * viewMatrix)", worldViewProjection: "(projectionMatrix * viewMatrix * v_toWorld)",
+    },
+    inverse: matrix => `inverse(${matrix})`, transpose: matrix => `transpose(${matrix})`,
+});
 
 // The parameters of the function that every geometry has.
-const PARAMETERS = {
+export const PARAMETERS = {
     "position:world": "v_position", "position:object": "v_positionObject", "normal:world": "N", "normal:object": "v_normalObject",
     "tangent:world": "frame[0]", "bitangent:world": "frame[1]", "tangent:object": "inverse(mat3(v_toWorld)) * frame[0]",
     "bitangent:object": "inverse(mat3(v_toWorld)) * frame[1]", "texcoord:0": "v_uv", "color:0": "v_color",
 };
-
-/** The attributes of the geometry that a shader reads beside those: { name, variable }, named as GLTFLoader names them; `st` of USD is `uv`. */
-export function attributesOf(shader) {
-    return shader.variables.filter(({ block, semantic }) => block === "vertexData" && !(semantic in PARAMETERS)).map(variable => {
-        const [kind, name] = variable.semantic.split(":");
-        return { name: { texcoord: `uv${name}`, color: `color_${name}` }[kind] ?? name.replace(/\W/g, "_").replace(/^st(?=[123]?$)/, "uv"), variable };
-    });
-}
 
 // Several variables can read one attribute, as different types. What three declares has its own type.
 const DECLARED = { position: "vec4(position, 1.0)", normal: "vec4(normal, 0.0)", uv: "vec4(uv, 0.0, 1.0)", uv1: "vec4(uv1, 0.0, 1.0)",
@@ -210,7 +197,6 @@ void main()
 }
 
 /** The stages for three, which adds its own prefix. */
-export function stagesOf(shader) {
-    const attributes = attributesOf(shader);
+export function stagesOf(shader, attributes) {
     return { vertexShader: vertexShader(attributes), fragmentShader: fragmentShader(shader, attributes) };
 }

@@ -2,14 +2,14 @@
 // The textures of materials. A shader converts colours itself, so textures have no colour space.
 
 import { ClampToEdgeWrapping, DataArrayTexture, DataTexture, FloatType, LinearFilter, LinearMipmapLinearFilter, LoaderUtils, MirroredRepeatWrapping,
-         NearestFilter, NoColorSpace, RepeatWrapping, RGBAFormat, TextureLoader, UnsignedByteType } from "three";
+         NearestFilter, NearestMipmapNearestFilter, NoColorSpace, RepeatWrapping, RGBAFormat, TextureLoader, UnsignedByteType } from "three";
 
 const WRAPPINGS = { clamp: ClampToEdgeWrapping, constant: ClampToEdgeWrapping, mirror: MirroredRepeatWrapping };
 
 function modesOf({ uaddressmode, vaddressmode, filtertype }) {
-    const closest = filtertype === "closest";
+    const closest = filtertype === "closest"; // WebGPURenderer gives no sampler to NearestFilter alone
     return { colorSpace: NoColorSpace, wrapS: WRAPPINGS[uaddressmode] ?? RepeatWrapping, wrapT: WRAPPINGS[vaddressmode] ?? RepeatWrapping,
-             magFilter: closest ? NearestFilter : LinearFilter, minFilter: closest ? NearestFilter : LinearMipmapLinearFilter, generateMipmaps: !closest };
+             magFilter: closest ? NearestFilter : LinearFilter, minFilter: closest ? NearestMipmapNearestFilter : LinearMipmapLinearFilter, generateMipmaps: !closest };
 }
 
 /** The bytes of an image in another size, rows from below. */

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// What page.js draws with, for WebGLRenderer.
+
+import { WebGLRenderer } from "three";
+
+export { MaterialXLoader, MaterialXMaterial as Material } from "mxgen/three";
+
+export const renderer = new WebGLRenderer({ alpha: true, preserveDrawingBuffer: true, premultipliedAlpha: true });
+
+/** What tells one program from another, after a drawing. */
+export const programOf = material => renderer.properties.get(material).currentProgram.id;
+
+/** A surface that covers nothing. */
+export function uncover(material) {
+    material.fragmentShader = material.fragmentShader.replace("float covered", "shaded.alpha = 0.0; float covered");
+}
