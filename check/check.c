@@ -9,6 +9,7 @@
 #include "check/check.h"
 #include "check/gate.h"
 #include "check/documents.h"
+#include "program/scene_file.h"
 #include "program/json.h"
 #include "check/pool.h"
 #include "check/progress.h"
@@ -55,7 +56,8 @@ struct check {
     const char *root_folder; /* NULL: the working directory */
     const char *budget_args[NUM_MEASURES];
     const char *cache_folder, *shard, *translate, *accept;
-    uint64_t num_found; /* number of documents, including other shards */
+    struct scene_place stage; /* without a file: none */
+    uint64_t num_found;       /* number of documents, including other shards */
 
     /* a ring: limits how far workers can be ahead of the report */
     struct outputs outputs; /* the files of the reports, and the inputs of the whole run */
@@ -318,6 +320,12 @@ static void make_worker_args(struct check *check)
         add_worker_arg(check, "translate", check->translate);
     if (check->accept)
         add_worker_arg(check, "accept", check->accept);
+    if (check->stage.file)
+        add_worker_arg(check, "stage", check->stage.file);
+    if (check->stage.look)
+        add_worker_arg(check, "look", check->stage.look);
+    if (check->stage.purpose)
+        add_worker_arg(check, "purpose", check->stage.purpose);
     if (check->memory_limit)
         args_append(&check->worker_args, cli_format("--memory-limit=%zu", check->memory_limit));
     cli_forward(&check->cli, &check->worker_args);
@@ -462,6 +470,20 @@ static bool is_error(const char *text)
     return *text && !*end && value >= 0;
 }
 
+/* The reason why --stage cannot stand with the other arguments; NULL if it can. */
+static const char *find_stage_misuse(const struct check *check)
+{
+    if (!check->stage.file)
+        return check->stage.look || check->stage.purpose ? "--look and --purpose need --stage"
+                                                         : NULL;
+    if (check->render)
+        return "--render draws materials; 'mxgen render --stage' draws the scene";
+    if (check->translate)
+        return "--translate takes materials, not the stacks of --stage";
+    return check->cache_folder ? "--cache does not know the files that a stage is composed of"
+                               : NULL;
+}
+
 static const char *find_misuse(const struct check *check)
 {
     if (check->cli.parser.inputs.len == 0 && check->files_from.len == 0)
@@ -475,7 +497,8 @@ static const char *find_misuse(const struct check *check)
         has_report = has_report || check->reports.paths[i];
     if (check->reports.paths[SINK_DEPFILE] && !has_report)
         return "a depfile tells what a report depends on: write one too, --json FILE";
-    return reports_misuse(&check->reports);
+    const char *misuse = find_stage_misuse(check);
+    return misuse ? misuse : reports_misuse(&check->reports);
 }
 
 static int run_if_sensible(struct check *check)
@@ -511,6 +534,15 @@ int command_check(const struct command *command, int argc, char **argv)
          "for --translate: an element fails whose pictures before and after differ by more (mean "
          "CIEDE2000 of three views)",
          &check.accept},
+        {"stage", 0, ARG_TEXT, "FILE",
+         "a scene: checks the shader of each distinct stack of its primitives, in place of those "
+         "of materials",
+         &check.stage.file},
+        {"look", 0, ARG_TEXT, "LOOK", "the look for --stage, or a look group with a default",
+         &check.stage.look},
+        {"purpose", 0, ARG_TEXT, "WORD",
+         "for --stage: also takes the bindings of the scene for this purpose",
+         &check.stage.purpose},
         {"time-limit", 0, ARG_SIZE, "S",
          "limit in seconds for one step: one element for one target; 0: none (default: 120)",
          &check.time_limit, .high = MAX_TIME_LIMIT},

@@ -218,6 +218,28 @@ void examine_status(struct examiner *examiner, mxg_status status, struct check_s
     free(text);
 }
 
+void examine_tell(struct examiner *examiner, const char *element, mxg_severity severity,
+                  const char *id, const char *text)
+{
+    char *rendered = cli_format("%s: %s: %s [%s]\n", examiner->document->file,
+                                severity == MXG_SEVERITY_ERROR ? "error" : "warning", text, id);
+    examine_add(examiner, NULL,
+                (struct check_message){.severity = severity,
+                                       .id = id,
+                                       .text = text,
+                                       .file = examiner->document->file,
+                                       .element = element,
+                                       .rendered = rendered});
+    free(rendered);
+}
+
+void examine_fault(struct examiner *examiner, const char *element, enum check_stage stage,
+                   const char *id, const char *text)
+{
+    examine_tell(examiner, element, MXG_SEVERITY_ERROR, id, text);
+    check_fail(&examiner->document->failed, stage);
+}
+
 /* ---- Stages ---- */
 
 static mxg_document *load(struct examiner *examiner, const char *path)
@@ -252,7 +274,7 @@ static void validate(struct examiner *examiner, const mxg_document *document)
     examiner->document->validate_ms = examine_clock() - begin;
 }
 
-static void generate(struct examiner *examiner, const mxg_document *document,
+static void generate(struct examiner *examiner, const struct check_subject *subject,
                      struct check_element *element, struct check_shader *shader)
 {
     double begin = examine_clock();
@@ -260,7 +282,9 @@ static void generate(struct examiner *examiner, const mxg_document *document,
     bool reads_images = examiner->render || cli_has_budget(examiner->cli);
     mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
     desc.target = shader->target;
-    desc.element = element->path;
+    desc.element = subject->bindings ? NULL : element->path;
+    desc.bindings = subject->bindings;
+    desc.stack = subject->stack;
     desc.options = examiner->cli->options;
     /* no report needs the source */
     desc.without_source =
@@ -268,7 +292,7 @@ static void generate(struct examiner *examiner, const mxg_document *document,
     desc.only_diagnostics = desc.without_source && !reads_images;
     mxg_result *result = NULL;
     channel_mark(&examiner->channel, CHECK_GENERATE, element->path, shader->target);
-    mxg_status status = mxg_generate(examiner->cli->context, document, &desc, &result);
+    mxg_status status = mxg_generate(examiner->cli->context, subject->document, &desc, &result);
     examine_diagnostics(examiner, mxg_result_diagnostics(result), shader, element->path);
     examine_status(examiner, status, shader, element->path);
     if (status != MXG_OK)
@@ -284,8 +308,8 @@ static void generate(struct examiner *examiner, const mxg_document *document,
     mxg_result_destroy(result);
 }
 
-static void examine_element(struct examiner *examiner, const mxg_document *document,
-                            struct check_element *element)
+void examine_element(struct examiner *examiner, const struct check_subject *subject,
+                     struct check_element *element)
 {
     element->picture = element->signature = element->full = element->drawn_error = "";
     element->slabs = "";
@@ -295,12 +319,28 @@ static void examine_element(struct examiner *examiner, const mxg_document *docum
         struct check_shader *shader = &element->shaders[element->num_shaders++];
         shader->target = examiner->targets.items[i];
         shader->topology = "";
-        generate(examiner, document, element, shader);
+        generate(examiner, subject, element, shader);
     }
     if (examiner->render && element->num_shaders && element->shaders[0].failed != CHECK_GENERATE)
-        examine_picture(examiner, document, element);
+        examine_picture(examiner, subject->document, element);
     if (examiner->accept >= 0 && element->num_shaders)
         examine_likeness(examiner, element);
+}
+
+static void examine_renderables(struct examiner *examiner, const mxg_document *document)
+{
+    struct check_document *record = examiner->document;
+    const struct check_subject subject = {.document = document};
+    uint32_t count = mxg_document_num_renderables(document);
+    record->elements = store_array(&examiner->store, count, sizeof *record->elements);
+    for (uint32_t i = 0; i < count; ++i) {
+        mxg_renderable renderable = {sizeof renderable};
+        mxg_document_renderable(document, i, &renderable);
+        struct check_element *element = &record->elements[record->num_elements++];
+        element->path = copy(examiner, renderable.path);
+        element->type = copy(examiner, renderable.type);
+        examine_element(examiner, &subject, element);
+    }
 }
 
 const struct check_document *examine(struct examiner *examiner, const char *path)
@@ -316,16 +356,10 @@ const struct check_document *examine(struct examiner *examiner, const char *path
         validate(examiner, document);
     if (document && examiner->translate)
         document = examine_translated(examiner, document);
-    uint32_t count = mxg_document_num_renderables(document);
-    record->elements = store_array(&examiner->store, count, sizeof *record->elements);
-    for (uint32_t i = 0; i < count; ++i) {
-        mxg_renderable renderable = {sizeof renderable};
-        mxg_document_renderable(document, i, &renderable);
-        struct check_element *element = &record->elements[record->num_elements++];
-        element->path = copy(examiner, renderable.path);
-        element->type = copy(examiner, renderable.type);
-        examine_element(examiner, document, element);
-    }
+    if (document && examiner->stage.file)
+        examine_stage(examiner, document);
+    else
+        examine_renderables(examiner, document);
     mxg_document_destroy(document);
     return record;
 }

@@ -6,15 +6,17 @@
 #include "check/protocol.h"
 #include "program/cli.h"
 #include "program/name_table.h"
+#include "program/scene_file.h"
 #include "program/scratch.h"
 
 struct examiner {
     struct cli *cli;
     struct arg_list targets;
     bool compile, render;
-    const char *translate; /* the model to which surfaces are translated; NULL: none */
-    double accept;         /* how far they may look from before; below 0: any distance */
-    size_t memory_limit;   /* of this process, in MiB; 0: none */
+    const char *translate;    /* the model to which surfaces are translated; NULL: none */
+    double accept;            /* how far they may look from before; below 0: any distance */
+    struct scene_place stage; /* its stacks are the elements; without a file: materials are */
+    size_t memory_limit;      /* of this process, in MiB; 0: none */
     struct channel channel;
     bool is_brief;    /* no report needs measures */
     bool errors_only; /* only errors need their printed form */
@@ -31,6 +33,20 @@ struct examiner {
 /* The record lives until the next call. */
 const struct check_document *examine(struct examiner *examiner, const char *path);
 void examiner_finish(struct examiner *examiner);
+
+/* What the shaders of an element are made of. */
+struct check_subject {
+    const mxg_document *document;
+    const mxg_bindings *bindings; /* NULL: the element of the document, otherwise a stack */
+    uint32_t stack;
+};
+
+/* Makes the shaders of an element that has its path and type. */
+void examine_element(struct examiner *examiner, const struct check_subject *subject,
+                     struct check_element *element);
+
+/* examine_stage.c: binds the stage to the document, and examines the stacks. */
+void examine_stage(struct examiner *examiner, const mxg_document *document);
 
 /* examine_shader.c: measures and compiles a generated shader. */
 void examine_shader(struct examiner *examiner, const mxg_result *result,
@@ -65,7 +81,10 @@ void examine_diagnostics(struct examiner *examiner, const mxg_diagnostics *list,
 /* Adds a message for a status without a diagnostic. */
 void examine_status(struct examiner *examiner, mxg_status status, struct check_shader *shader,
                     const char *element);
-/* Adds an error of the current document about an element, and fails at a stage. */
+/* Adds a message about the current document, or an element of it. */
+void examine_tell(struct examiner *examiner, const char *element, mxg_severity severity,
+                  const char *id, const char *text);
+/* The same with an error, which fails the document at a stage. */
 void examine_fault(struct examiner *examiner, const char *element, enum check_stage stage,
                    const char *id, const char *text);
 /* The folder for pictures, which is made once; NULL: it cannot be made. */

@@ -11,20 +11,6 @@
 
 enum { FRAME = 33 }; /* of images with a frame in their names */
 
-void examine_fault(struct examiner *examiner, const char *element, enum check_stage stage,
-                   const char *id, const char *text)
-{
-    char *rendered = cli_format("%s: error: %s [%s]\n", examiner->document->file, text, id);
-    examine_add(examiner, NULL,
-                (struct check_message){.id = id,
-                                       .text = text,
-                                       .file = examiner->document->file,
-                                       .element = element,
-                                       .rendered = rendered});
-    check_fail(&examiner->document->failed, stage);
-    free(rendered);
-}
-
 const char *examine_folder(struct examiner *examiner)
 {
     if (!examiner->scratch.path)

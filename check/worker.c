@@ -91,6 +91,9 @@ int main(int argc, char **argv)
         {"render", 0, ARG_FLAG, NULL, "renders each element", &examiner.render},
         {"translate", 0, ARG_TEXT, "MODEL", "translates surfaces", &examiner.translate},
         {"accept", 0, ARG_TEXT, "ERROR", "compares pictures before and after", &accept},
+        {"stage", 0, ARG_TEXT, "FILE", "checks the stacks of a scene", &examiner.stage.file},
+        {"look", 0, ARG_TEXT, "LOOK", "the look for --stage", &examiner.stage.look},
+        {"purpose", 0, ARG_TEXT, "WORD", "the purpose for --stage", &examiner.stage.purpose},
         {"memory-limit", 0, ARG_SIZE, "MIB", "limit of this process", &memory_limit},
     };
     int code;

@@ -456,15 +456,9 @@ char *cli_option_error(const mxg_options *options)
 
 char *cli_format(const char *format, ...)
 {
-    va_list args, again;
+    va_list args;
     va_start(args, format);
-    va_copy(again, args);
-    int len = vsnprintf(NULL, 0, format, args);
-    char *text = memory_alloc(len < 0 ? 1 : (size_t)len + 1);
-    *text = '\0';
-    if (len > 0)
-        vsnprintf(text, (size_t)len + 1, format, again);
-    va_end(again);
+    char *text = memory_format(format, args);
     va_end(args);
     return text;
 }

@@ -35,3 +35,16 @@ void *memory_resize(void *memory, size_t size)
 {
     return require(realloc(memory, size ? size : 1));
 }
+
+char *memory_format(const char *format, va_list args)
+{
+    va_list again;
+    va_copy(again, args);
+    int len = vsnprintf(NULL, 0, format, args);
+    char *text = memory_alloc(len < 0 ? 1 : (size_t)len + 1);
+    *text = '\0';
+    if (len > 0)
+        vsnprintf(text, (size_t)len + 1, format, again);
+    va_end(again);
+    return text;
+}

@@ -3,6 +3,7 @@
 #ifndef MXG_PROGRAM_MEMORY_H
 #define MXG_PROGRAM_MEMORY_H
 
+#include <stdarg.h>
 #include <stddef.h>
 
 /* `tell` is called before the program ends because memory is exhausted. */
@@ -15,5 +16,12 @@ _Noreturn void memory_fail(void);
 void *memory_alloc(size_t size);
 /* Like realloc. */
 void *memory_resize(void *memory, size_t size);
+
+/* Formats into new memory. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 1, 0)))
+#endif
+char *
+memory_format(const char *format, va_list args);
 
 #endif

@@ -3,6 +3,7 @@
 #include "program/report.h"
 
 #include "program/files.h"
+#include "program/memory.h"
 #include "program/warning_groups.h"
 #include "program/warnings.h"
 
@@ -223,6 +224,11 @@ static void print_rest(struct report *report, const struct groups *groups,
 
 static void print_list(struct report *report, const mxg_diagnostics *list, bool only_errors)
 {
+    if (report->receiver) {
+        report->receiver->list(report->receiver->user_data, list);
+        report->errors += mxg_diagnostics_num_errors(list);
+        return;
+    }
     uint32_t count = mxg_diagnostics_num_items(list), open = count;
     bool shown = false; /* the message of the notes was printed */
     struct groups groups = groups_make(list, count, key_of_warning);
@@ -262,22 +268,38 @@ void report_errors(struct report *report, const mxg_diagnostics *list)
     print_list(report, list, true);
 }
 
-static void print_own(const struct report *report, const char *level, int colour, const char *id,
-                      const char *format, va_list args)
+static void print_own(const struct report *report, mxg_severity severity, const char *id,
+                      const char *text)
 {
+    bool is_error = severity == MXG_SEVERITY_ERROR;
+    const char *level = is_error ? "error" : "warning";
     if (report->colour)
-        fprintf(stderr, "\033[1;%dm%s:\033[0m ", colour, level);
+        fprintf(stderr, "\033[1;%dm%s:\033[0m ", is_error ? 31 : 35, level);
     else
         fprintf(stderr, "%s: ", level);
-    vfprintf(stderr, format, args);
-    fprintf(stderr, " [%s]\n", id);
+    fprintf(stderr, "%s [%s]\n", text, id);
+}
+
+#if defined(__GNUC__)
+__attribute__((format(printf, 4, 0)))
+#endif
+static void
+tell_own(const struct report *report, mxg_severity severity, const char *id, const char *format,
+         va_list args)
+{
+    char *text = memory_format(format, args);
+    if (report->receiver)
+        report->receiver->own(report->receiver->user_data, severity, id, text);
+    else
+        print_own(report, severity, id, text);
+    free(text);
 }
 
 void report_error(struct report *report, const char *id, const char *format, ...)
 {
     va_list args;
     va_start(args, format);
-    print_own(report, "error", 31, id, format, args);
+    tell_own(report, MXG_SEVERITY_ERROR, id, format, args);
     va_end(args);
     ++report->errors;
 }
@@ -289,9 +311,9 @@ void report_warning(struct report *report, const char *id, const char *format, .
     va_list args;
     va_start(args, format);
     if (way == WARNING_IS_ERROR)
-        print_own(report, "error", 31, id, format, args);
+        tell_own(report, MXG_SEVERITY_ERROR, id, format, args);
     else if (way == WARNING_SHOWN && !report->quiet)
-        print_own(report, "warning", 35, id, format, args);
+        tell_own(report, MXG_SEVERITY_WARNING, id, format, args);
     va_end(args);
     report->errors += way == WARNING_IS_ERROR;
 }

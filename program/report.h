@@ -12,9 +12,18 @@
 
 #include <stdio.h>
 
+/* Takes messages in place of standard error. */
+struct report_receiver {
+    void (*list)(void *user_data, const mxg_diagnostics *list);
+    /* a message of the program itself */
+    void (*own)(void *user_data, mxg_severity severity, const char *id, const char *text);
+    void *user_data;
+};
+
 struct report {
-    bool quiet;   /* errors only */
-    bool verbose; /* also reports upgrades of older documents */
+    const struct report_receiver *receiver; /* NULL: messages are printed */
+    bool quiet;                             /* errors only */
+    bool verbose;                           /* also reports upgrades of older documents */
     bool colour;
     const struct arg_list *warnings; /* words of -W, for those of the program; NULL: none */
     uint32_t errors;        /* number of errors, including repeated ones and those past the limit */

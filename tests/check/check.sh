@@ -218,6 +218,35 @@ check 'a model that nothing makes fails the run' eval 'exits 1 "$mxgen" check pa
 check 'a drawn error is that of a translation' exits 2 "$mxgen" check paint.mtlx --accept 2
 check 'a drawn error is a number' exits 2 "$mxgen" check paint.mtlx --translate gltf_pbr --accept some
 
+# The stacks of a stage
+cat >look.mtlx <<'EOF'
+<?xml version="1.0"?>
+<materialx version="1.39">
+  <standard_surface name="S" type="surfaceshader"/>
+  <standard_surface name="R" type="surfaceshader"><input name="opacity" type="color3" value="0.5, 0.5, 0.5"/></standard_surface>
+  <surfacematerial name="paint" type="material"><input name="surfaceshader" type="surfaceshader" nodename="S"/></surfacematerial>
+  <surfacematerial name="rust" type="material"><input name="surfaceshader" type="surfaceshader" nodename="R"/></surfacematerial>
+  <look name="plain"><materialassign name="a" material="paint" geom="/car"/></look>
+  <look name="rusty" inherit="plain"><materialassign name="b" material="rust" geom="/car/door" slot="050"/></look>
+  <look name="wrong"><materialassign name="c" material="paint" geom="/cat"/></look>
+</materialx>
+EOF
+printf '#usda 1.0\ndef Xform "car"\n{\n    def Cube "hood"\n    {\n    }\n    def Cube "door"\n    {\n    }\n    def Cube "lid"\n    {\n    }\n}\n' >car.usda
+stage=(check look.mtlx --stage car.usda "${quick[@]}")
+check 'stacks of a stage are elements' exits 0 "$mxgen" "${stage[@]}" --look rusty --json stacks.json
+check 'a stack has the name of its first primitive' says stacks.json '[(e["path"], e["type"]) for e in d[0]["elements"]]' \
+    "[('/car', 'stack'), ('/car/door', 'stack')]"
+check 'stacks have measures' says stacks.json '[e["shaders"][0]["closures"] for e in d[0]["elements"]]' '[9, 18]'
+check 'stacks have budgets' eval 'exits 1 "$mxgen" "${stage[@]}" --look rusty --max-closures 10 && grep -q "/car/door. for glsl has 18 closures" out'
+check 'a look that is not there fails the document' eval 'exits 1 "$mxgen" "${stage[@]}" --look rust --json wrong.json && grep -q "(load 1)" out'
+check 'the message of a look is of the document' says wrong.json '[m["id"] for m in d[0]["messages"]]' "['unknown-look']"
+check 'a binding that matches nothing is told' eval 'exits 1 "$mxgen" "${stage[@]}" --look wrong -Werror && grep -q "matches no primitive" out'
+check 'a stage that is not there fails the document' eval 'exits 1 "$mxgen" check look.mtlx --stage none.usda --look plain && grep -q "\[file-missing\]" out'
+check 'a look needs a stage' exits 2 "$mxgen" check look.mtlx --look plain
+for other in --render '--cache c' '--translate gltf_pbr'; do
+    check "a stage excludes $other" exits 2 "$mxgen" "${stage[@]}" --look plain $other
+done
+
 printf '#!/bin/sh\nexit 3\n' >programs/mxgen-check && chmod +x programs/mxgen-check
 check 'a worker that cannot begin fails the run' exits 1 programs/mxgen check tree --json nothing.json
 check 'a worker that cannot begin leaves no report' test ! -e nothing.json
