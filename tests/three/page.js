@@ -360,6 +360,10 @@ const draws = {
         return found;
     },
 
+    async isWebGpu() {
+        return Boolean(renderer.backend?.isWebGPUBackend);
+    },
+
     async misuse() {
         return kit.misuse(sceneOf(await matte()).scene, CAMERA);
     },

@@ -5,20 +5,18 @@ import { WebGLRenderer } from "three";
 import { ClusteredLighting } from "three/addons/lighting/ClusteredLighting.js";
 import { DynamicLighting } from "three/addons/lighting/DynamicLighting.js";
 import { WebGPURenderer } from "three/webgpu";
-import { bool, lights, positionLocal, vec4 } from "three/tsl";
+import { lights, positionLocal, vec4 } from "three/tsl";
 
 export { MaterialXLoader, MaterialXNodeMaterial as Material } from "mxgen/three/webgpu";
 
-export const renderer = new WebGPURenderer({ alpha: true });
+export const renderer = new WebGPURenderer({ alpha: true }); // where there is no WebGPU, it draws by WebGL 2
 await renderer.init();
-if (!renderer.backend.isWebGPUBackend)
-    throw new Error("no WebGPU here");
 
-const { device } = renderer.backend, createShaderModule = device.createShaderModule.bind(device);
+const { device, gl } = renderer.backend, [owner, name] = device ? [device, "createShaderModule"] : [gl, "createShader"], create = owner[name].bind(owner);
 let modules = 0;
-device.createShaderModule = descriptor => {
+owner[name] = (...values) => {
     modules++;
-    return createShaderModule(descriptor);
+    return create(...values);
 };
 
 /** What tells one program from another, after a drawing: programs do not go, so their number does. */
@@ -31,18 +29,15 @@ export function uncover(material) {
 
 /** Nodes of three that change a red sphere in front of nothing. */
 export const nodes = {
-    none: {}, outputNode: { outputNode: vec4(0, 0, 1, 1) }, maskNode: { maskNode: bool(false) }, lightsNode: { lightsNode: lights([]) },
+    none: {}, outputNode: { outputNode: vec4(0, 0, 1, 1) }, maskNode: { maskNode: positionLocal.x.greaterThan(9) }, lightsNode: { lightsNode: lights([]) },
     positionNode: { positionNode: positionLocal.mul(0) },
 };
 
 /** Other ways in which three draws lights. */
 export const lightings = { clustered: new ClusteredLighting(), dynamic: new DynamicLighting() };
 
-/** Draws with other renderers, and gives what they throw. */
-export async function misuse(scene, camera) {
-    const fallback = new WebGPURenderer({ forceWebGL: true });
-    await fallback.init();
-    fallback.render(scene, camera);
+/** What WebGLRenderer throws. */
+export function misuse(scene, camera) {
     try {
         new WebGLRenderer().render(scene, camera);
     } catch (error) {

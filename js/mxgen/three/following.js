@@ -84,8 +84,15 @@ export const following = (Standard, target) => class extends Standard {
             old?.destroy?.();
     }
 
-    #generate(document, request, options) {
-        return document.generate(target, { element: this.#element, ...request, options: { ...this.#options, ...OPTIONS, ...options } });
+    /** The source of its function for another target. */
+    _sourceOf(other) {
+        const shader = this.#generate(this.#document, {}, {}, other), source = shader.pixel;
+        shader.destroy();
+        return source;
+    }
+
+    #generate(document, request, options, other = target) {
+        return document.generate(other, { element: this.#element, ...request, options: { ...this.#options, ...OPTIONS, ...options } });
     }
 
     #setUniform(variable, isNew) {

@@ -26,7 +26,8 @@ export class MaterialXNodeMaterial extends following(MeshStandardNodeMaterial, "
 
     _setShader(shader) {
         this.colorNode = WHITE; // times the colours of vertices, instances and batches, which the surface reads
-        this.surfaceNode = new SurfaceNode(shader, Object.fromEntries(shader.variables.filter(({ name }) => name in this.uniforms).map(({ name }) => [name, this.uniforms[name]])));
+        const uniforms = shader.variables.filter(({ name }) => name in this.uniforms).map(({ name }) => [name, this.uniforms[name]]);
+        this.surfaceNode = new SurfaceNode(shader, Object.fromEntries(uniforms), target => this._sourceOf(target));
     }
 
     /** As three does, but the surface reads the positions before instances move them. */

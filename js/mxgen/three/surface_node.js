@@ -4,10 +4,11 @@
 
 import { LightsNode, Node } from "three/webgpu";
 import { cameraPosition, cameraProjectionMatrix, cameraViewMatrix, cameraWorldMatrix, diffuseColor, expression, Fn, inverse, lights, normalView,
-         normalWorld, normalWorldGeometry, overrideNodes, positionViewDirection, positionWorld, roughness, select, transpose, vec3, wgsl, wgslFn } from "three/tsl";
+         normalWorld, normalWorldGeometry, overrideNodes, positionViewDirection, positionWorld, roughness, select, transpose, vec3 } from "three/tsl";
 
 import { attributesOf, hostOf } from "./following.js";
 import { attributeOf, frameOf, normalObject, positionObject, toWorldOf, TYPES } from "./geometry_nodes.js";
+import { hostText, languageOf, shadeText } from "./surface_text.js";
 
 // The parameters of the function that every geometry has.
 const PARAMETERS = {
@@ -50,18 +51,18 @@ function buildLights(builder, context, nodes = null) {
 }
 
 /** The body of a function that returns the sum of lights, where other values stand for some of three's. `build` gets the sum. */
-function bodyOf(builder, overrides, build) {
+function bodyOf(builder, overrides, build, scale = 1) {
     const sum = Fn(builder => {
         const sum = vec3(0).toVar();
         build(builder, sum);
-        return sum;
+        return sum.mul(scale);
     })();
     const { vars, code, result } = builder.flowStagesNode(overrideNodes(overrides, sum), "vec3");
-    return `${vars}${code}\n\tlet sum: vec3f = ${result};`;
+    return `${vars}${code}\n\treturn ${result};`;
 }
 
 const irradianceBody = (builder, environment) => bodyOf(builder, [[normalWorld, expression("N", "vec3")]], (builder, sum) =>
-    buildLights(builder, { irradiance: sum, iblIrradiance: sum, materialLightings: environment ? [environment] : [] }));
+    buildLights(builder, { irradiance: sum, iblIrradiance: sum, materialLightings: environment }), 1 / Math.PI);
 
 /** three bends rough reflections towards the normal, which lies between L and the eye, unless L went through the surface. */
 function radianceBody(builder, environment) {
@@ -71,91 +72,60 @@ function radianceBody(builder, environment) {
     return bodyOf(builder, [
         [positionViewDirection, select(isReflected, eye, direction)], [normalView, select(isReflected, direction.add(eye).normalize(), direction)],
         [roughness, expression("roughness", "float")],
-    ], (builder, sum) => buildLights(builder, { radiance: sum }, [environment]));
+    ], (builder, sum) => buildLights(builder, { radiance: sum }, environment));
 }
-
-/** The functions that the surface calls; `count` lights are gathered before. */
-const hostText = (count, irradiance, radiance) => `
-struct MxgLight { L: vec3f, radiance: vec3f }
-var<private> mxg_lights: array<MxgLight, ${count + 1}>;
-var<private> mxg_normal: vec3f;
-
-fn mxg_light_count() -> i32
-{
-    return ${count};
-}
-
-// three's shadows and distances are those of the point that is drawn.
-fn mxg_light(i: i32, P: vec3f, L: ptr<function, vec3f>, radiance: ptr<function, vec3f>)
-{
-    *L = mxg_lights[i].L;
-    *radiance = mxg_lights[i].radiance;
-}
-
-fn mxg_irradiance(P: vec3f, N: vec3f) -> vec3f
-{
-    ${irradiance}
-    return sum / 3.14159265;
-}
-
-fn mxg_radiance(P: vec3f, L: vec3f, roughness: f32) -> vec3f
-{
-    ${radiance}
-    return sum;
-}
-`;
 
 export class SurfaceNode extends Node {
     static get type() {
         return "MaterialXSurfaceNode";
     }
 
-    /** Uniforms by their names. */
-    constructor(shader, uniforms) {
+    /** Uniforms by their names. `sourceOf` gives the source for another target. */
+    constructor(shader, uniforms, sourceOf) {
         super("vec4");
         this.uniforms = uniforms;
-        this._source = shader.pixel.replace(/^@group.*\n/gm, ""); // three declares what is bound
+        this._sourceOf = sourceOf;
+        this._sources = { wgsl: shader.pixel };
         this._info = shader.info;
         this._attributes = attributesOf(shader, PARAMETERS);
         this._variables = shader.variables.filter(({ block }) => block === "vertexData");
+        this._flags = new Set(shader.variables.filter(({ type }) => type === "u32").map(({ name }) => name));
     }
 
     /** Does it read the matrix from object space to the world? */
     get readsWorld() {
-        return /\bhost_world/.test(this._source) || this._variables.some(({ semantic }) => /tangent:object/.test(semantic));
+        return /\bhost_world/.test(this._sources.wgsl) || this._variables.some(({ semantic }) => /tangent:object/.test(semantic));
     }
 
     setup(builder) {
-        if (!builder.renderer.backend.isWebGPUBackend)
-            throw new Error("MaterialXNodeMaterial needs WebGPU, but WebGPURenderer draws by WebGL 2 here; for WebGLRenderer there is MaterialXMaterial of mxgen/three");
-        const { lightsNode, material } = builder, environment = material.setupEnvironment(builder), direct = [];
+        const language = languageOf(builder), direct = [], host = this.#host(builder, language, direct), surface = this.#parameters(builder);
+        const read = Object.entries(hostNodes(builder)).filter(([name]) => this._sources.wgsl.includes(`host_${name}`)).map(
+            ([name, node]) => [name.endsWith("Matrix") ? "mat4" : "vec3", `h_${name}`, `host_${name}`, node]);
+        const parameters = [
+            ...surface.map((node, i) => [TYPES[this._variables[i].type], `p_${i}`, null, node]),
+            ...direct.flatMap(({ L, radiance }, i) => [["vec3", `L_${i}`, `mxg_directions[${i}]`, L], ["vec3", `E_${i}`, `mxg_radiances[${i}]`, radiance]]),
+            ["vec3", "N", "mxg_normal", normalWorldGeometry], ...read,
+        ];
+        const globals = read.map(([type, , variable]) => language.global(type, variable)).join("");
+        const shade = language.native(shadeText(language, this._info, parameters), [language.code(globals + this.#named(builder, language) + host)]);
+        return shade(...parameters.map(([, , , node]) => node));
+    }
+
+    /** The functions of the host. The lights go to `direct`. */
+    #host(builder, language, direct) {
+        const { lightsNode, material } = builder, environment = [material.setupEnvironment(builder)].filter(node => node);
         builder.lightsNode = plain(material.lightsNode ?? lightsNode);
         buildLights(builder, { lightingModel: {
             direct({ lightDirection, lightColor }) {
-                direct.push([lightDirection.transformDirection(cameraWorldMatrix), lightColor]);
+                direct.push({ L: lightDirection.transformDirection(cameraWorldMatrix), radiance: lightColor });
             },
             directRectArea({ lightNode }) {
                 console.warn(`MaterialXNodeMaterial: area lights have no effect (${lightNode.light.name || "RectAreaLight"})`);
             },
         } });
-        const host = hostText(direct.length, irradianceBody(builder, environment), environment ? radianceBody(builder, environment) : "let sum = vec3f(0.0);");
+        const text = hostText(language, direct.length, irradianceBody(builder, environment), radianceBody(builder, environment));
         builder.lightsNode = lightsNode;
-        const parameters = this.#parameters(builder), read = Object.entries(hostNodes(builder)).filter(([name]) => this._source.includes(`host_${name}`));
-        const all = [
-            ...parameters.map((node, i) => [`p_${i}`, this._variables[i].type, node]),
-            ...direct.flatMap(([L, radiance], i) => [[`L_${i}`, "vec3f", L], [`E_${i}`, "vec3f", radiance]]),
-            ...read.map(([name, node]) => [`h_${name}`, name.endsWith("Matrix") ? "mat4x4f" : "vec3f", node]), ["N", "vec3f", normalWorldGeometry],
-        ];
-        const globals = read.map(([name]) => `var<private> host_${name}: ${name.endsWith("Matrix") ? "mat4x4f" : "vec3f"};\n`).join("");
-        const shade = wgslFn(`fn mxg_shade(${all.map(([name, type]) => `${name}: ${type}`).join(", ")}) -> vec4f
-{
-    ${direct.map((_, i) => `mxg_lights[${i}] = MxgLight(L_${i}, E_${i});\n`).join("")}
-    ${read.map(([name]) => `host_${name} = h_${name};\n`).join("")}
-    mxg_normal = N;
-    let shaded = ${this._info.function}(${parameters.map((_, i) => `p_${i}`).join(", ")});
-    return vec4f(shaded.color, shaded.alpha);
-}`, [wgsl(globals + this.#named(builder) + host)]);
-        return shade(...all.map(([, , node]) => node));
+        return text;
     }
 
     #parameters(builder) {
@@ -169,9 +139,9 @@ export class SurfaceNode extends Node {
         });
     }
 
-    /** The source with three's names of uniforms and textures. */
-    #named(builder) {
+    /** The source with three's names of uniforms and textures, which three declares. */
+    #named(builder, { target, bound, named }) {
         const names = Object.fromEntries(Object.entries(this.uniforms).map(([name, node]) => [name, builder.flowStagesNode(node, "property").result]));
-        return this._source.replace(/\bu_(?:pub|prv)\.(\w+)/g, (_, name) => names[name]).replace(/\bt_\d+(?=_sampler\b|\b)/g, name => names[name]);
+        return named((this._sources[target] ??= this._sourceOf(target)).replace(bound, ""), names, this._flags);
     }
 }
