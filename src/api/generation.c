@@ -109,6 +109,7 @@ static void set_build_options(struct generation *g)
         .blurs = o[OPTION_rough_refraction].number != 0,
         .mattes = o[OPTION_mattes].number != 0,
         .occlusion = (enum build_occlusion)o[OPTION_ambient_occlusion].number,
+        .asks_thickness = o[OPTION_host_thickness].number != 0,
         .codes = context->codes,
         .num_codes = context->num_codes,
         .cancel = context->cancel,

@@ -93,7 +93,8 @@ static void check_target(struct generation *g, const char *option, const char *v
 /* ---- Options ---- */
 
 static const enum option_id host_functions[] = {OPTION_host_lights, OPTION_host_shadows,
-                                                OPTION_host_occlusion, OPTION_host_environment};
+                                                OPTION_host_occlusion, OPTION_host_environment,
+                                                OPTION_host_thickness};
 
 static void check_host_functions(struct generation *g)
 {

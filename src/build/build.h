@@ -62,6 +62,7 @@ struct build_options {
     bool blurs;                /* what lies below rough interfaces is blurred */
     bool mattes;               /* each layer of a stack has an AOV of its own */
     enum build_occlusion occlusion;
+    bool asks_thickness;               /* the host tells the way of light through bodies */
     const struct mxg_node_code *codes; /* nodes in C: code.h */
     uint32_t num_codes;
     bool (*cancel)(void *user_data);

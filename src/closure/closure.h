@@ -93,6 +93,7 @@ struct closure_host {
      * and throughputs have it
      */
     bool spreads;
+    bool asks_thickness; /* the way through a body is a function of the host */
 };
 
 /*
@@ -274,6 +275,9 @@ ir_ref closure_call(struct shader *shader, const struct closure_host *host, ir_r
 
 /* The shaded point. */
 ir_ref closure_position(struct shader *shader, const struct closure_host *host);
+/* What the host says of the way through the body in a direction, in units of the world. */
+ir_ref closure_host_thickness(struct shader *shader, const struct closure_host *host,
+                              ir_ref direction);
 
 /* The fraction of light on a way through media that a closure lets through. root 0: all light. */
 ir_ref closure_throughput(struct shader *shader, const struct closure_host *host, ir_ref root,

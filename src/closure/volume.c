@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
  * A volume in a pixel stage: a homogeneous medium between the shaded point and the other side, as
- * thick as a ball of diameter u_volumeDepth, with single scattering (MaterialX PBR specification,
- * "Volume Shaders" and <anisotropic_vdf>; Pharr, Jakob, Humphreys, "Physically Based Rendering",
- * chapter 11). Back faces add nothing.
+ * thick as a ball of diameter u_volumeDepth, or as the host says, with single scattering (MaterialX
+ * PBR specification, "Volume Shaders" and <anisotropic_vdf>; Pharr, Jakob, Humphreys, "Physically
+ * Based Rendering", chapter 11). Back faces add nothing.
  *
- *     depth = u_volumeDepth · max(N · V, 0)
+ *     depth = u_volumeDepth · max(N · V, 0), or mxg_thickness(P, -V) where N · V > 0
  *     τ = (σa + σs) · depth               optical depth
  *     alpha = the mean of 1 - exp(-τ)     the attenuation of the background
  *     path = depth · (1 - exp(-τ)) / τ    the effective length: ∫ exp(-σt · x) dx over the depth
@@ -119,6 +119,29 @@ enum closure_variation closure_variation_of(struct shader *shader, const ir_ref 
     return varies;
 }
 
+ir_ref closure_host_thickness(struct shader *shader, const struct closure_host *host,
+                              ir_ref direction)
+{
+    ir_ref point = closure_position(shader, host);
+    return FORMULA(shader, "mxg_thickness", point, direction);
+}
+
+/* The way of the view through the medium. */
+static ir_ref depth_of(struct shader *shader, const struct closure_host *host)
+{
+    struct ir_graph *g = shader->graph;
+    ir_ref diameter = 0, way = 0;
+    if (!host->asks_thickness)
+        diameter = shader_read(shader,
+                               shader_private_uniform(shader, STR_u_volumeDepth, IR_TYPE_FLOAT, 0));
+    /* statements fix the order of the nodes; C leaves the order of arguments open */
+    ir_ref view = closure_view(shader, host), normal = closure_normal(shader, host);
+    if (host->asks_thickness)
+        way = closure_host_thickness(shader, host, ir_op1(g, IR_NEG, view));
+    return way ? FORMULA(shader, "mx_volume_way", way, normal, view)
+               : FORMULA(shader, "mx_volume_depth", diameter, normal, view);
+}
+
 void closure_volume(struct shader *shader, const struct closure_host *host, ir_ref root,
                     struct closure_volume *out)
 {
@@ -127,11 +150,7 @@ void closure_volume(struct shader *shader, const struct closure_host *host, ir_r
     *out = (struct closure_volume){.vdf = parts.vdf, .edf = parts.edf};
     closure_flatten(shader, host, parts.vdf, &out->scattering);
     ir_push_name(g, STR_depth);
-    ir_ref diameter =
-        shader_read(shader, shader_private_uniform(shader, STR_u_volumeDepth, IR_TYPE_FLOAT, 0));
-    /* statements fix the order of the nodes; C leaves the order of arguments open */
-    ir_ref view = closure_view(shader, host), normal = closure_normal(shader, host);
-    ir_ref depth = FORMULA(shader, "mx_volume_depth", diameter, normal, view);
+    ir_ref depth = depth_of(shader, host);
     ir_change_name(g, STR_optical_depth);
     ir_ref optical = ir_mul(g, sum_of(shader, host, &out->scattering, 2), depth);
     ir_change_name(g, STR_lost);

@@ -22,7 +22,8 @@ struct closure_host build_closure_host(struct builder *b, struct closure_point *
                                  .point = point,
                                  .leaf_functions = leaf_functions,
                                  .leaf_input = leaf_input,
-                                 .lang = build_lang_host(b)};
+                                 .lang = build_lang_host(b),
+                                 .asks_thickness = b->options->asks_thickness};
 }
 
 static ir_ref slab_lobes(void *user_data, const ir_ref *inputs, const struct slab_place *place)
@@ -71,6 +72,7 @@ static struct slabs_host walking_host(struct builder *b, const struct closure_ho
 {
     struct slabs_host host = slabs_host(b, closures);
     host.lobes = marked_lobes;
+    host.asks_thickness = b->options->asks_thickness;
     if (!role_stores(b->shader->role))
         host.blurred = blurred;
     return host;

@@ -63,6 +63,7 @@ enum role_task {
     TASK_ENVIRONMENT, /* samples of the environment */
     TASK_OPACITY,     /* what an opacity does to the pixel */
     TASK_BACKGROUND,  /* what is seen through a surface */
+    TASK_BODY,        /* the way of light through a body */
     TASK_OUTPUT,      /* the encoding of colours */
     TASK_BELOW,       /* blur of what lies below rough interfaces */
     TASK_STORAGE,     /* the form of stored slabs */

@@ -12,7 +12,7 @@ static void write_slab(const struct slab_sheet *sheet, const struct slab_tree *t
         if (row->thickness)
             slab_write_value(sheet, row->thickness, out);
         else
-            text_str(out, "u_slabThickness");
+            text_str(out, sheet->body);
     }
     for (unsigned i = 0; i < num_slab_shown; i++) {
         text_fmt(out, "; %s ", slab_shown[i].name);

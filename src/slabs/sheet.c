@@ -295,7 +295,10 @@ void slabs_fill_sheet(struct shader *shader, const struct slabs_host *host,
     const struct ir_graph *g = shader->graph;
     const struct slab_budget one = {
         .max_slabs = 1, .max_error = -1.0f, .max_steps = budget->max_steps};
-    *out = (struct slab_sheet){.shader = shader, .is_asked = slabs_is_asked(budget)};
+    *out = (struct slab_sheet){.shader = shader,
+                               .body = host->closures->asks_thickness ? "mxg_thickness"
+                                                                      : "u_slabThickness",
+                               .is_asked = slabs_is_asked(budget)};
     slabs_budget(shader, host, out->is_asked ? budget : &one, root, &out->report);
     if (out->report.is_too_much)
         return;

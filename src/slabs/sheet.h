@@ -49,6 +49,7 @@ struct slab_tree {
 
 struct slab_sheet {
     const struct shader *shader;
+    const char *body; /* what tells the thickness of a slab at the bottom of a body */
     VEC(struct slab_tree) trees;
     VEC(ir_ref) unread;        /* what the estimate knows no value of */
     bool is_recognised;        /* the slabs stand for other closures */

@@ -70,6 +70,7 @@ struct slabs_host {
     ir_ref (*blurred)(void *user_data, ir_ref value, ir_ref position, ir_ref deviation);
     const struct closure_host *closures;
     bool walks;            /* light walks through the meshes of bodies */
+    bool asks_thickness;   /* the host of the shader tells how thick bodies are */
     struct arena *scratch; /* for estimates, which leave it empty; NULL: there are none */
 };
 

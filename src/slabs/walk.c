@@ -400,10 +400,23 @@ static ir_ref walk_closure(struct walk *w, ir_ref root, struct where where)
 
 /* ---- Roots ---- */
 
+/* How far a body reaches below its surface, in centimetres. */
+static ir_ref depth_of_body(struct walk *w)
+{
+    struct ir_graph *g = w->graph;
+    if (!w->host->asks_thickness) {
+        uint32_t depth = shader_private_uniform(w->shader, STR_u_slabThickness, IR_TYPE_FLOAT, 0);
+        return shader_read(w->shader, depth);
+    }
+    const struct closure_host *closures = w->host->closures;
+    ir_ref inwards = ir_op1(g, IR_NEG, closure_normal(w->shader, closures));
+    ir_ref way = closure_host_thickness(w->shader, closures, inwards);
+    return ir_mul(g, way, unit_of_world(w));
+}
+
 static struct where body(struct walk *w)
 {
-    uint32_t thickness = shader_private_uniform(w->shader, STR_u_slabThickness, IR_TYPE_FLOAT, 0);
-    return (struct where){.thickness = shader_read(w->shader, thickness), .is_body = true};
+    return (struct where){.thickness = depth_of_body(w), .is_body = true};
 }
 
 /* The mean of the channels of what the surface does not let through. */

@@ -48,6 +48,15 @@ static const char text[] =
     "<input name='opacity' type='float' value='0.25'/></surface>"
     "<surface name='D' type='surfaceshader'><input name='bsdf' type='BSDF' nodename='white'/>"
     "</surface>"
+    "<anisotropic_vdf name='mist' type='VDF'>"
+    "<input name='absorption' type='vector3' value='0.5, 1, 2'/>"
+    "<input name='scattering' type='vector3' value='1, 0.7, 0.4'/></anisotropic_vdf>"
+    "<volume name='V' type='volumeshader'><input name='vdf' type='VDF' nodename='mist'/></volume>"
+    "<slab name='amber' type='BSDF'>"
+    "<input name='diffuse_albedo' type='color3' value='0, 0, 0'/>"
+    "<input name='mean_free_path' type='vector3' value='4, 1.2, 0.3'/></slab>"
+    "<slab_surface name='S' type='surfaceshader'><input name='bsdf' type='BSDF' nodename='amber'/>"
+    "</slab_surface>"
     "<constant name='grey' type='color3'><input name='value' type='color3' value='0.5, 0.001, 1'/>"
     "</constant><output name='Grey' type='color3' nodename='grey'/>"
     "</materialx>";
@@ -224,20 +233,30 @@ static void end(struct test *t, struct draw *draw, const char *const sources[MXG
     compiled_finish(&compiled);
 }
 
-static mxg_alpha draw_program_of(struct test *t, const char *element, const char *const *options,
-                                 float *out)
+/* With functions of the host behind the pixel stage. */
+static mxg_alpha draw_hosted(struct test *t, const char *element, const char *const *options,
+                             const char *host, float *out)
 {
     struct draw draw;
     mxg_result *result = generate(t, element, options);
-    const char *sources[] = {mxg_result_source(result, MXG_STAGE_VERTEX, NULL),
-                             mxg_result_source(result, MXG_STAGE_PIXEL, NULL)};
+    const char *pixel = mxg_result_source(result, MXG_STAGE_PIXEL, NULL);
+    char *text_of_stage = malloc(strlen(pixel) + strlen(host) + 1);
+    sprintf(text_of_stage, "%s%s", pixel, host);
+    const char *sources[] = {mxg_result_source(result, MXG_STAGE_VERTEX, NULL), text_of_stage};
     mxg_shader_info info = MXG_INIT(mxg_shader_info);
     mxg_result_info(result, &info);
     begin(&draw);
     add_interface(t, &draw, result);
     end(t, &draw, sources, out);
+    free(text_of_stage);
     mxg_result_destroy(result);
     return info.alpha;
+}
+
+static mxg_alpha draw_program_of(struct test *t, const char *element, const char *const *options,
+                                 float *out)
+{
+    return draw_hosted(t, element, options, "", out);
 }
 
 /* ---- Functions in a file of a host ---- */
@@ -400,6 +419,34 @@ static void test_occlusion(struct test *t)
     REQUIRE(holds);
 }
 
+/* A body is as thick as the host says: a ball of diameter 1 and 1 mm of amber, as by default, or
+ * more. */
+static void test_thickness(struct test *t)
+{
+    static float plain[NUM_FLOATS], asked[NUM_FLOATS], thick[NUM_FLOATS];
+    static const char *const own[] = {NULL}, *const hosted[] = {"host-thickness", "true", NULL};
+    static const struct {
+        const char *element, *same, *more;
+    } bodies[] = {{"V",
+                   "float mxg_thickness(vec3 P, vec3 D)\n{\n"
+                   "    return dot(normalize(vec3(0.5 * P.xy, 1.0)), -D);\n}\n",
+                   "float mxg_thickness(vec3 P, vec3 D) { return 9.0; }\n"},
+                  {"S", "float mxg_thickness(vec3 P, vec3 D) { return 0.1; }\n",
+                   "float mxg_thickness(vec3 P, vec3 D) { return D.z < 0.0 ? 9.0 : 0.1; }\n"}};
+    for (size_t i = 0; i < sizeof bodies / sizeof *bodies; ++i) {
+        float most, same = 0, more = 0;
+        draw_program_of(t, bodies[i].element, own, plain);
+        draw_hosted(t, bodies[i].element, hosted, bodies[i].same, asked);
+        draw_hosted(t, bodies[i].element, hosted, bodies[i].more, thick);
+        for (int half = 0; half < 2; ++half) {
+            same = fmaxf(same, difference(plain, asked, half, &most));
+            more = fmaxf(more, difference(plain, thick, half, &most));
+        }
+        if (!REQUIRE(same < 1e-4f && more > 0.02f))
+            printf("    %s: %g and %g\n", bodies[i].element, (double)same, (double)more);
+    }
+}
+
 /* IEC 61966-2-1 */
 static float encoded(float linear)
 {
@@ -492,6 +539,7 @@ int main(void)
         test_functions(&t);
         test_shadow(&t);
         test_occlusion(&t);
+        test_thickness(&t);
         test_encoding(&t);
         test_transparency(&t);
     }

@@ -69,6 +69,7 @@ static const struct setting {
     {"host_shadows", "host-shadows", {"false", "true"}},
     {"host_occlusion", "host-occlusion", {"false", "true"}},
     {"host_environment", "host-environment", {"false", "true"}},
+    {"host_thickness", "host-thickness", {"false", "true"}},
     {"quality", "quality", {"good", "reference"}},
     {"lights", "lights", {"", "point_light=2"}},
     {"max_lights", "max-lights", {"3", "8"}},
@@ -224,7 +225,8 @@ static void test_depth(const struct run *run)
         {"quality", "reference"},     {"encode", "srgb"},          {"storage", "float"},
         {"sss", "diffusion"},         {"layering", "two-sided"},   {"layering", "occluding"},
         {"rough-refraction", "blur"}, {"transmission", "opacity"}, {"host-lights", "true"},
-        {"host-shadows", "true"},     {"host-occlusion", "true"},  {"host-environment", "true"}};
+        {"host-shadows", "true"},     {"host-occlusion", "true"},  {"host-environment", "true"},
+        {"host-thickness", "true"}};
     mxg_result *plain = generate_depth(run, NULL, NULL);
     const char *text = mxg_result_source(plain, MXG_STAGE_PIXEL, NULL);
     REQUIRE(text && strstr(text, "discard"));

@@ -77,6 +77,15 @@ float mx_volume_depth(float diameter, vec3 N, vec3 V)
     return diameter * max(dot(N, V), 0.0);
 }
 
+// Function of the host (docs/hosts.md): the way through a body from P in the direction D.
+float mxg_thickness(vec3 P, vec3 D);
+
+// Way of the view through a body, behind a point of its front; 0 behind its back.
+float mx_volume_way(float way, vec3 N, vec3 V)
+{
+    return dot(N, V) > 0.0 ? way : 0.0;
+}
+
 // Part of the background that a medium takes away.
 vec3 mx_volume_lost(vec3 optical_depth)
 {
