@@ -12,5 +12,8 @@ export async function load(source = new URL("./mxgen.wasm", import.meta.url)) {
     const response = await fetch(source);
     if (!response.ok)
         throw new Error(`mxgen cannot load ${source}: ${response.status} ${response.statusText}`);
-    return instantiate(await response.arrayBuffer());
+    const bytes = await response.arrayBuffer();
+    if (String.fromCharCode(...new Uint8Array(bytes, 0, Math.min(4, bytes.byteLength))) !== "\0asm") // servers of apps give a page in place of what is not there
+        throw new Error(`mxgen cannot load ${source}: what is there is no WebAssembly. For Vite's server: optimizeDeps: { exclude: ["mxgen"] }`);
+    return instantiate(bytes);
 }

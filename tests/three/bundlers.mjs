@@ -25,13 +25,14 @@ import { MeshStandardNodeMaterial } from "three/webgpu";
 import { MaterialXLoader } from "mxgen/three";
 import { MaterialXLoader as NodeLoader } from "mxgen/three/webgpu";
 
-const found = [];
-for (const [Loader, Standard] of [[MaterialXLoader, MeshStandardMaterial], [NodeLoader, MeshStandardNodeMaterial]]) {
+async function load([Loader, Standard]) {
     const { materials: { Gold } } = await new Loader().loadAsync("gold.mtlx");
-    found.push([Gold.shader.info.target, Gold instanceof Standard, Gold.setInput("SR_gold/base_color", [1, 0, 0])].join(" "));
+    return [Gold.shader.info.target, Gold instanceof Standard, Gold.setInput("SR_gold/base_color", [1, 0, 0])].join(" ");
 }
+const found = await Promise.all([[MaterialXLoader, MeshStandardMaterial], [NodeLoader, MeshStandardNodeMaterial]].map(load)).catch(error => [error.message]);
 document.body.dataset.found = found.join("; ");
 `;
+const FOUND = "essl true true; wgsl true true";
 
 /** A new app with the packages. Returns its folder, and that of what is built. */
 function app(name, page) {
@@ -61,18 +62,38 @@ const BUNDLERS = {
     },
 };
 
+/** What Vite's server says in a page of the program, with settings for its optimizer. */
+async function served(name, optimizeDeps) {
+    const { createServer } = await import(path.join(packages, "node_modules/vite/dist/node/index.js")), { files } = app(name, "index.html");
+    fs.mkdirSync(path.join(files, "public"));
+    fs.copyFileSync(path.join(root, "examples/gold.mtlx"), path.join(files, "public/gold.mtlx"));
+    const server = await createServer({ root: files, configFile: false, logLevel: "error", optimizeDeps, server: { host: "127.0.0.1", fs: { strict: false } } });
+    await server.listen();
+    try {
+        const page = await browser.open(server.resolvedUrls.local[0]);
+        await page.until("document.body.dataset.found");
+        return await page.evaluate("document.body.dataset.found");
+    } finally {
+        await server.close();
+    }
+}
+
 const browser = new Browser(chromium);
 for (const [name, bundle] of Object.entries(BUNDLERS))
     test(`${name} bundles both entries`, async () => {
         const server = await serve([await bundle(), path.join(root, "examples")]), page = await browser.open(`${server.address}/index.html`);
         try {
             await page.until("document.body.dataset.found");
-            assert.equal(await page.evaluate("document.body.dataset.found"), "essl true true; wgsl true true");
+            assert.equal(await page.evaluate("document.body.dataset.found"), FOUND);
             assert.deepEqual(page.complaints, []);
         } finally {
             server.close();
         }
     });
+
+test("Vite's server", async () => assert.equal(await served("server", { exclude: ["mxgen"] }), FOUND));
+
+test("Vite's server without its setting tells of it", async () => assert.match(await served("optimized", {}), /mxgen\.wasm: .* optimizeDeps: \{ exclude: \["mxgen"\] \}/));
 
 try {
     await run("three-bundlers");
