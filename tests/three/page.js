@@ -310,6 +310,8 @@ const draws = {
             const picture = shoot(sceneOf(material, { geometry: plane, environment: null }).scene, front);
             found[name] = [[-0.4, -0.4], [0.1, -0.4], [-0.4, 0.1], [0.1, 0.1], [0.7, 0.7]].map(([x, y]) => at(picture, x, y).slice(0, 3).map(x => Math.round(x / 255)).join(""));
         }
+        const { type, image } = new kit.MaterialXTextures("").get(null, { values: [0.5, 0.25], tiles: [] });
+        found.texel = [type === THREE.HalfFloatType, ...Array.from(image.data, THREE.DataUtils.fromHalfFloat)];
         return found;
     },
 

@@ -119,7 +119,8 @@ test("documents read attributes and spaces of the geometry", async () => {
 
 test("tiles are an array, and other loaders read other formats", async () => {
     const found = await draw("images");
-    assert.deepEqual(found, { tiled: ["100", "010", "001", "110", "101"], repeated: ["010", "100", "010", "100", "100"] });
+    assert.deepEqual(found, { tiled: ["100", "010", "001", "110", "101"], repeated: ["010", "100", "010", "100", "100"],
+                              texel: [true, 0.5, 0.25, 0.25, 1] });
 });
 
 test("the loader", async () => {

@@ -3,7 +3,7 @@
 
 import { WebGLRenderer } from "three";
 
-export { MaterialXLoader, MaterialXMaterial as Material } from "mxgen/three";
+export { MaterialXLoader, MaterialXMaterial as Material, MaterialXTextures } from "mxgen/three";
 
 export const renderer = new WebGLRenderer({ alpha: true, preserveDrawingBuffer: true, premultipliedAlpha: true });
 

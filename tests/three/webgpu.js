@@ -7,7 +7,7 @@ import { DynamicLighting } from "three/addons/lighting/DynamicLighting.js";
 import { WebGPURenderer } from "three/webgpu";
 import { lights, positionLocal, vec4 } from "three/tsl";
 
-export { MaterialXLoader, MaterialXNodeMaterial as Material } from "mxgen/three/webgpu";
+export { MaterialXLoader, MaterialXNodeMaterial as Material, MaterialXTextures } from "mxgen/three/webgpu";
 
 export const renderer = new WebGPURenderer({ alpha: true }); // where there is no WebGPU, it draws by WebGL 2
 await renderer.init();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The textures of materials. A shader converts colours itself, so textures have no colour space.
 
-import { ClampToEdgeWrapping, DataArrayTexture, DataTexture, FloatType, LinearFilter, LinearMipmapLinearFilter, LoaderUtils, MirroredRepeatWrapping,
+import { ClampToEdgeWrapping, DataArrayTexture, DataTexture, DataUtils, HalfFloatType, LinearFilter, LinearMipmapLinearFilter, LoaderUtils, MirroredRepeatWrapping,
          NearestFilter, NearestMipmapNearestFilter, NoColorSpace, RepeatWrapping, RGBAFormat, TextureLoader, UnsignedByteType } from "three";
 
 const WRAPPINGS = { clamp: ClampToEdgeWrapping, constant: ClampToEdgeWrapping, mirror: MirroredRepeatWrapping };
@@ -59,8 +59,8 @@ export class MaterialXTextures {
 
     /** Tiles as the layers of an array. Until all are there, each has the default colour. */
     #array(tiles, values, modes) {
-        const { data } = this.#texel(values).image, array = new DataArrayTexture(Float32Array.from({ length: 4 * tiles.length }, (_, i) => data[i % 4]), 1, 1, tiles.length);
-        Object.assign(array, { type: FloatType, needsUpdate: true });
+        const { data } = this.#texel(values).image, array = new DataArrayTexture(Uint16Array.from({ length: 4 * tiles.length }, (_, i) => data[i % 4]), 1, 1, tiles.length);
+        Object.assign(array, { type: HalfFloatType, needsUpdate: true });
         this.#loading.push(Promise.all(tiles.map(({ file }) => this.#load(file, modes).loaded)).then(parts => {
             const images = parts.map(texture => texture?.image);
             if (images.some(image => !image || image.data)) {
@@ -75,8 +75,10 @@ export class MaterialXTextures {
         return array;
     }
 
+    // Many devices of WebGPU cannot filter 32-bit floats.
     #texel([r = 0, g = r, b = g, a = 1]) {
-        return Object.assign(new DataTexture(Float32Array.of(r, g, b, a), 1, 1, RGBAFormat, FloatType), { needsUpdate: true });
+        const halves = Uint16Array.from([r, g, b, a], value => DataUtils.toHalfFloat(value));
+        return Object.assign(new DataTexture(halves, 1, 1, RGBAFormat, HalfFloatType), { needsUpdate: true });
     }
 
     /** Frees the memory of the device. Textures that are drawn again go there again. */
