@@ -3,8 +3,8 @@
 """The bill of materials of a release, as SPDX 2.3: its artefacts, what they contain and what they link, with versions and licences.
 
 Arguments: the folder of the artefacts, which gets mxgen-VERSION.spdx.json; the source that they were made from. `components.txt` has the
-licences; versions come from Debian's packages of this machine, and from the notices in the extension for VS Code. SOURCE_DATE_EPOCH is the
-date."""
+licences; versions come from Debian's packages of this machine, and from the notices of archives that have packages of npm. SOURCE_DATE_EPOCH
+is the date."""
 import datetime
 import hashlib
 import json
@@ -17,7 +17,8 @@ import urllib.parse
 import zipfile
 
 FOLDER, SOURCE = map(pathlib.Path, sys.argv[1:])
-NOTICES = "ThirdPartyNotices.txt"
+# Archives with packages of npm: patterns of their names, their file of notices, where their packages are locked.
+BUNDLES = [("*.vsix", "extension/ThirdPartyNotices.txt", "editors/vscode"), ("mxgen-page-*.zip", "NOTICES.txt", "web")]
 
 
 def output_of(*command):
@@ -77,11 +78,11 @@ def needs_of(package, own):
     return [name for name in dict.fromkeys(names) if name not in own]
 
 
-def npm_packages(extension):
-    """Names, versions and licences of what is bundled."""
-    with zipfile.ZipFile(extension) as archive:
-        found = re.findall(r"(?:\A|\n-{80}\n\n)(\S+) (\S+)\n", archive.read(f"extension/{NOTICES}").decode())
-    locked = json.loads((SOURCE / "editors/vscode/package-lock.json").read_text(encoding="utf-8"))["packages"]
+def npm_packages(path, notices, folder):
+    """Names, versions and licences of what is bundled in an archive."""
+    with zipfile.ZipFile(path) as archive:
+        found = re.findall(r"(?:\A|\n-{80}\n\n)(\S+) (\S+)\n", archive.read(notices).decode())
+    locked = json.loads((SOURCE / folder / "package-lock.json").read_text(encoding="utf-8"))["packages"]
     licences = {(path.rpartition("node_modules/")[2], item["version"]): item["license"] for path, item in locked.items() if "license" in item and path}
     return [(name, version, licences.get((name, version)) or stop(f"no licence of {name} {version} in package-lock.json")) for name, version in found]
 
@@ -104,8 +105,8 @@ def main():
             if any(path.match(pattern) for pattern in where.split()):
                 bill.relate(this, "CONTAINS", bill.add_foreign("deb/debian", package, version_of(package, True), licence))
                 used.add(package)
-        if path.suffix == ".vsix":
-            for name, number, licence in npm_packages(path):
+        for _, notices, folder in [bundle for bundle in BUNDLES if path.match(bundle[0])]:
+            for name, number, licence in npm_packages(path, notices, folder):
                 bill.relate(this, "CONTAINS", bill.add_foreign("npm", name, number, licence))
         for package in needs_of(path, own) if path.suffix == ".deb" else []:
             licence = licences.get(package) or stop(f"{path.name} needs {package}: its licence is missing in script/components.txt")

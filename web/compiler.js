@@ -9,6 +9,8 @@ export class Compiler {
     #next = 1;
     #remembered = new Map();
     #source;
+    onSaid = () => {}; // what the worker says by itself
+    onStop = () => {};
 
     /** `source` is the text of the worker. */
     constructor(source) {
@@ -17,7 +19,11 @@ export class Compiler {
 
     #start() {
         this.#worker = new Worker(URL.createObjectURL(new Blob([this.#source], { type: "text/javascript" })));
-        this.#worker.onmessage = ({ data: { id, answer, error } }) => {
+        this.#worker.onmessage = ({ data: { id, answer, error, said } }) => {
+            if (id === undefined) {
+                this.onSaid(said);
+                return;
+            }
             const { resolve, reject, timer } = this.#waiting.get(id);
             clearTimeout(timer);
             this.#waiting.delete(id);
@@ -40,6 +46,7 @@ export class Compiler {
             reject(new Error(reason));
         }
         this.#waiting.clear();
+        this.onStop(reason);
     }
 
     /** The answer of the worker to a request (worker.js). */

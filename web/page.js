@@ -8,62 +8,51 @@ import fog from "../examples/fog.mtlx";
 import gold from "../examples/gold.mtlx";
 import marble from "../examples/marble.mtlx";
 import shaderx from "../examples/shaderx.mtlx";
+import { changeOfInput, offsetOf } from "./changes.js";
 import { Compiler } from "./compiler.js";
-import { showInputs, valueText } from "./inputs.js";
+import { filterInputs, showInputs, valueText } from "./inputs.js";
+import { Layout } from "./layout.js";
 import { addressOf, textOf } from "./link.js";
 import { SHAPE_NAMES } from "./scene.js";
+import { PlainText } from "./text.js";
 import { View, ViewError } from "./view.js";
 import workerSource from "worker.bundle.js";
 
 const EXAMPLES = { "Gold": gold, "Marble": marble, "Car paint": carPaint, "Displaced": displaced, "ShaderX nodes": shaderx, "Custom node": expression, "Fog": fog };
+const DOCUMENT = "document.mtlx";
 const MAX_TEXT = 4 << 20; // an editor of more is slow
 const PAUSE = 250; // milliseconds after a key before the document is compiled
 
 const $ = id => document.getElementById(id);
-const compiler = new Compiler(workerSource);
+const compiler = new Compiler(workerSource), language = new Compiler(workerSource); // a document that takes long does not hold up the editor
+const layout = new Layout();
+let text = new PlainText($("text"));
 let view = null;
 let shader = null; // of the last document without errors
+let places = {}; // of its nodes
 let element = null;
 let request = 0; // the number of the newest compilation
 let pause = 0;
-const textures = new Set(); // names of the files that were dropped
+let messages = []; // of the newest compilation
+let cures = []; // quick fixes of the editor
+const textures = new Map(); // pictures that were dropped, by the names of their files
+const originals = new Map(); // values that documents had when they were opened, by the paths of inputs
+let isOpened = false; // the text is that which was opened
 
-function tell(text) {
-    $("status").textContent = text;
-    $("status").title = text;
+function tell(sentence) {
+    $("status").textContent = sentence;
+    $("status").title = sentence;
 }
+
+function notify(lines, kind) {
+    $("notice").hidden = !lines.length;
+    $("notice").className = kind;
+    $("notice").replaceChildren(...lines.map(line => Object.assign(document.createElement("p"), { textContent: line })));
+}
+
+const count = (number, word) => `${number} ${word}${number === 1 ? "" : "s"}`;
 
 // ---- The document ----
-
-const text = $("text");
-
-function showGutter(diagnostics) {
-    const marks = new Map();
-    for (const { severity, line } of diagnostics)
-        if (severity !== "note" && marks.get(line) !== "error")
-            marks.set(line, severity);
-    const lines = text.value.split("\n").length, parts = [];
-    let plain = "";
-    for (let line = 1; line <= lines; line++) {
-        if (!marks.has(line)) {
-            plain += `${line}\n`;
-            continue;
-        }
-        parts.push(plain, Object.assign(document.createElement("span"), { className: marks.get(line), textContent: String(line) }));
-        plain = "\n";
-    }
-    $("gutter").replaceChildren(...parts, `${plain}\n\n`);
-    $("gutter").scrollTop = text.scrollTop;
-}
-
-/** Puts the caret at a place of the document; columns count characters. */
-function goTo(line, column, length) {
-    const lines = text.value.split("\n"), before = lines.slice(0, line - 1).reduce((sum, one) => sum + one.length + 1, 0);
-    const units = count => [...lines[line - 1] ?? ""].slice(0, count).join("").length;
-    text.focus();
-    text.setSelectionRange(before + units(column - 1), before + units(column - 1 + length));
-    text.scrollTop = Math.max(0, (line - 5) * 18);
-}
 
 function setText(value) {
     if (value.length > MAX_TEXT) {
@@ -71,44 +60,99 @@ function setText(value) {
         return;
     }
     text.value = value;
-    showGutter([]);
+    isOpened = true;
     if (!document.body.dataset.picture)
         preview();
     compile();
 }
 
-// ---- Results ----
-
-function showMessages(diagnostics) {
-    $("messages").replaceChildren(...diagnostics.map(({ severity, id, message, file, line, column, length }) => {
-        const item = document.createElement("li"), button = document.createElement("button"), here = file === "document.mtlx" && line > 0;
-        button.type = "button";
-        button.textContent = `${line ? `${here ? "" : `${file}:`}${line}:${column}: ` : ""}${message} [${id}]`;
-        button.disabled = !here;
-        button.addEventListener("click", () => goTo(line, column, length));
-        item.className = severity;
-        item.append(button);
-        return item;
-    }));
-    if (!diagnostics.length)
-        $("messages").append(Object.assign(document.createElement("li"), { textContent: "No errors, no warnings." }));
-    const errors = diagnostics.filter(({ severity }) => severity === "error").length;
-    document.querySelector("[data-tab=messages]").textContent = diagnostics.length ? `Messages (${diagnostics.length})` : "Messages";
-    return errors;
+/** Shows a place of the document; columns count characters. */
+function goTo(line, column, length) {
+    const start = offsetOf(text.value, line, column);
+    layout.show("document");
+    text.select(start, start + [...text.value.slice(start, start + 2 * length)].slice(0, length).join("").length);
 }
 
-function showTab(name) {
-    for (const button of document.querySelectorAll("[data-tab]")) {
-        button.setAttribute("aria-selected", String(button.dataset.tab === name));
-        $(button.dataset.tab).hidden = button.dataset.tab !== name;
+function textChanged() {
+    $("undo").disabled = !text.canUndo;
+    $("redo").disabled = !text.canRedo;
+    clearTimeout(pause);
+    pause = setTimeout(compile, PAUSE);
+}
+
+/** Goes back or forth over all changes: of keys, of controls, and of what was opened. */
+function travel(step) {
+    if (!text[step])
+        return; // the editor is not there yet
+    text[step]();
+    compile();
+}
+
+function travelByKey(event) {
+    const key = event.key.toLowerCase(), isText = event.target === $("text") || event.target.type === "search";
+    if (!(event.ctrlKey || event.metaKey) || event.altKey || isText || !["z", "y"].includes(key))
+        return;
+    event.preventDefault();
+    travel(key === "y" || event.shiftKey ? "redo" : "undo");
+}
+
+// ---- The editor ----
+
+function loadScript(name) {
+    return new Promise((resolve, reject) => {
+        const script = document.createElement("script");
+        script.src = name;
+        script.onload = resolve;
+        script.onerror = () => reject(new Error(`The page cannot load ${name}.`));
+        document.head.append(script);
+    });
+}
+
+/** Without it the text stays as it is. */
+async function openEditor(module) {
+    const loaded = new Promise(resolve => globalThis.mxgenEditor = resolve);
+    await loadScript("editor.js");
+    language.remember("begin", { name: "", letters: module }).catch(error => tell(error.message));
+    text = text.replaceBy(await loaded, { worker: language, tell, onCures: found => {
+        cures = found;
+        showMessages();
+    } });
+    text.addEventListener("input", textChanged);
+    $("format").disabled = false;
+    document.body.dataset.editor = "true";
+}
+
+// ---- Results ----
+
+function messageItem({ severity, id, message, file, line, column, length }) {
+    const item = document.createElement("li"), button = document.createElement("button"), here = file === DOCUMENT && line > 0;
+    const part = (className, textContent) => Object.assign(document.createElement("span"), { className, textContent });
+    item.className = severity;
+    button.type = "button";
+    button.disabled = !here;
+    button.append(part("place", line ? `${here ? "" : `${file}:`}${line}:${column}` : ""), part("severity", severity), part("message", message), part("id", id));
+    button.addEventListener("click", () => goTo(line, column, length));
+    item.append(button);
+    const from = here && cures.length ? offsetOf(text.value, line, column) : -1;
+    for (const cure of cures.filter(one => one.from === from && one.id === id)) {
+        const fix = Object.assign(document.createElement("button"), { type: "button", className: "fix", textContent: cure.title });
+        fix.addEventListener("click", cure.apply);
+        item.append(fix);
     }
-    if (name !== "messages")
-        inspect();
+    return item;
+}
+
+function showMessages() {
+    const list = $("messages").firstElementChild;
+    list.replaceChildren(...messages.map(messageItem));
+    if (!messages.length)
+        list.append(Object.assign(document.createElement("li"), { className: "none", textContent: "No errors, no warnings." }));
+    $("tab-messages").textContent = messages.length ? `Messages (${messages.length})` : "Messages";
+    $("tab-messages").className = messages.some(({ severity }) => severity === "error") ? "error" : "";
 }
 
 async function inspect() {
-    const shown = document.querySelector("[aria-selected=true]").dataset.tab;
-    if (shown === "messages")
+    if (layout.chosen !== "source" && layout.chosen !== "closures")
         return;
     const { source, closures } = await compiler.ask("inspect", { text: text.value, element, target: $("target").value });
     $("source").textContent = source;
@@ -116,7 +160,18 @@ async function inspect() {
 }
 
 function missingTextures() {
-    return shader.variables.filter(({ block, file }) => block === "textures" && file && !textures.has(nameOf(file))).map(({ file }) => file);
+    const wanted = shader?.variables.filter(({ block, file }) => block === "textures" && file).map(({ file }) => file) ?? [];
+    return [...new Set(wanted)].filter(file => !textures.has(nameOf(file)));
+}
+
+/** What a person who looks at the picture should know of it. */
+function showNotice(hasShader) {
+    const errors = messages.filter(({ severity }) => severity === "error"), missing = missingTextures();
+    if (errors.length)
+        notify([`${errors[0].line ? `Line ${errors[0].line}: ` : ""}${errors[0].message}`, ...(errors.length > 1 ? [`and ${errors.length - 1} more`] : []),
+            ...(hasShader || !shader || !view ? [] : ["The picture is of the last text without errors."])], "error");
+    else
+        notify(missing.length ? [`Drop the missing ${missing.length === 1 ? "texture" : "textures"} here: ${missing.join(", ")}`] : [], "warning");
 }
 
 /** While there is no picture: a coarse one, of a smaller shader. */
@@ -126,6 +181,25 @@ async function preview() {
         view?.showPreview(small);
 }
 
+function takeShader(answer) {
+    ({ shader, places } = answer);
+    view?.setShader(shader);
+    for (const { block, file, path, values } of shader.variables) {
+        if (block === "textures" && textures.has(nameOf(file)))
+            view?.setTexture(file, textures.get(nameOf(file)));
+        if (block === "publicUniforms" && (isOpened || !originals.has(path)))
+            originals.set(path, values);
+    }
+    isOpened = false;
+    showInputs($("controls"), shader.variables, setInput, originals);
+    filterInputs($("controls"), $("filter").value);
+}
+
+function statusOf(milliseconds) {
+    const { info: { numClosures }, variables } = shader, numTextures = new Set(variables.filter(({ block, file }) => block === "textures" && file).map(({ file }) => file)).size;
+    return [numClosures && count(numClosures, "closure"), numTextures && count(numTextures, "texture"), `${milliseconds} ms`].filter(Boolean).join(" · ");
+}
+
 async function compile() {
     clearTimeout(pause);
     const number = ++request, started = performance.now();
@@ -133,20 +207,16 @@ async function compile() {
         const answer = await compiler.ask("compile", { text: text.value, element });
         if (number !== request)
             return; // a newer text is on its way
-        const errors = showMessages(answer.diagnostics);
-        showGutter(answer.diagnostics);
+        messages = answer.diagnostics;
+        showMessages();
         fillSelect($("element"), answer.renderables.map(({ path }) => path), answer.element);
+        $("element-choice").hidden = answer.renderables.length < 2;
         ({ element } = answer);
-        if (answer.shader) {
-            ({ shader } = answer);
-            view?.setShader(shader);
-            nameTextures();
-            showInputs($("inputs"), shader.variables, setInput);
-            const missing = missingTextures();
-            tell(missing.length ? `Drop the missing textures here: ${missing.join(", ")}` : `${shader.info.numClosures} closures, ${Math.round(performance.now() - started)} ms`);
-        } else {
-            tell(errors ? `${errors} ${errors === 1 ? "error" : "errors"}; the picture shows the last good document` : "The document has no material.");
-        }
+        if (answer.shader)
+            takeShader(answer);
+        const errors = messages.filter(({ severity }) => severity === "error").length;
+        tell(answer.shader ? statusOf(Math.round(performance.now() - started)) : errors ? count(errors, "error") : "The document has no material.");
+        showNotice(answer.shader !== null);
         await inspect();
     } catch (error) {
         tell(error.message);
@@ -154,18 +224,11 @@ async function compile() {
     document.body.dataset.compiled = String(number);
 }
 
-/** The view knows textures by the whole name in the document. */
-const images = new Map();
-
-function nameTextures() {
-    for (const { block, file } of shader.variables)
-        if (block === "textures" && images.has(nameOf(file)))
-            view?.setTexture(file, images.get(nameOf(file)));
-}
-
 // ---- Inputs ----
 
-async function setInput(variable, values, isFinal) {
+/** Changes the picture, and when a control rests one attribute of the text. */
+function setInput(variable, values, isFinal) {
+    const slash = variable.path.lastIndexOf("/"), path = variable.path.slice(0, slash), place = places[path];
     variable.values = values;
     if (view) {
         view.hasMoved = true;
@@ -173,21 +236,24 @@ async function setInput(variable, values, isFinal) {
     }
     if (!isFinal)
         return;
-    try {
-        const before = text.value;
-        const answer = await compiler.ask("setValue", { text: before, path: variable.path, value: valueText(variable, values), type: variable.documentType });
-        if (answer?.text && text.value === before) {
-            text.value = answer.text;
-            compile();
-        }
-    } catch (error) {
-        tell(`The document keeps its value: ${error.message}`);
+    const node = path.slice(path.lastIndexOf("/") + 1), input = variable.path.slice(slash + 1);
+    const change = place?.file === DOCUMENT ? changeOfInput(text.value, { ...place, node, input, type: variable.documentType }, valueText(variable, values)) : null;
+    if (!change) {
+        tell(place && place.file !== DOCUMENT ? `The text keeps its value: ${node} is in ${place.file}.` : `The text keeps its value: ${node} is not where it was.`);
+        return;
     }
+    text.change(change, variable.path);
+    compile();
 }
 
 // ---- Files ----
 
 const nameOf = path => path.slice(path.lastIndexOf("/") + 1);
+
+async function takePicture(file) {
+    textures.set(file.name, await createImageBitmap(file, { imageOrientation: "flipY", premultiplyAlpha: "none", colorSpaceConversion: "none" }));
+    await language.remember("addFile", { name: file.name, content: new Uint8Array(await file.arrayBuffer()) });
+}
 
 /** Documents and texts that they include, and textures. */
 async function take(files) {
@@ -195,28 +261,29 @@ async function take(files) {
     let opened = null;
     for (const file of files) {
         try {
-            if (file.type.startsWith("image/")) {
-                images.set(file.name, await createImageBitmap(file, { imageOrientation: "flipY", premultiplyAlpha: "none", colorSpaceConversion: "none" }));
-                textures.add(file.name);
-            } else if (file.name.endsWith(".mtlx") && !opened) {
+            if (file.type.startsWith("image/"))
+                await takePicture(file);
+            else if (file.name.endsWith(".mtlx") && !opened)
                 opened = file;
-            } else if (file.size <= MAX_TEXT) {
+            else if (file.size <= MAX_TEXT)
                 texts.push([file.name, await file.text()]);
-            } else {
+            else
                 faults.push(file.name);
-            }
         } catch {
             faults.push(file.name);
         }
     }
     for (const [name, content] of texts)
-        await compiler.remember("addFile", { name, content });
+        await Promise.all([compiler, language].map(worker => worker.remember("addFile", { name, content })));
+    text.filesChanged();
     if (opened && opened.size > MAX_TEXT)
         setText({ length: opened.size });
     else if (opened)
         setText(await opened.text());
     else
         await compile();
+    if (opened)
+        $("example").value = "";
     if (faults.length)
         tell(`The page cannot read ${faults.join(", ")}.`);
 }
@@ -234,12 +301,15 @@ async function openAddress() {
     return shared !== null;
 }
 
-function listen() {
-    text.addEventListener("input", () => {
-        clearTimeout(pause);
-        pause = setTimeout(compile, PAUSE);
-    });
-    text.addEventListener("scroll", () => { $("gutter").scrollTop = text.scrollTop; });
+async function share() {
+    history.replaceState(null, "", await addressOf(text.value));
+    const copied = await navigator.clipboard?.writeText(location.href).then(() => true, () => false);
+    tell(copied ? "The link is in the clipboard." : "The address of the page is the link.");
+}
+
+function listenToControls() {
+    const orTell = work => () => work().catch(error => tell(error.message));
+    text.element.addEventListener("input", textChanged);
     $("example").addEventListener("change", () => setText(EXAMPLES[$("example").value]));
     $("element").addEventListener("change", () => {
         element = $("element").value;
@@ -247,21 +317,16 @@ function listen() {
     });
     $("shape").addEventListener("change", showShape);
     $("target").addEventListener("change", inspect);
+    $("filter").addEventListener("input", () => filterInputs($("controls"), $("filter").value));
     $("open").addEventListener("change", () => take($("open").files));
-    for (const button of document.querySelectorAll("[data-tab]"))
-        button.addEventListener("click", () => showTab(button.dataset.tab));
-    $("format").addEventListener("click", async () => {
-        try {
-            setText((await compiler.ask("format", { text: text.value })).text);
-        } catch (error) {
-            tell(error.message);
-        }
-    });
-    $("share").addEventListener("click", async () => {
-        history.replaceState(null, "", await addressOf(text.value));
-        const copied = await navigator.clipboard?.writeText(location.href).then(() => true, () => false);
-        tell(copied ? "The link is in the clipboard." : "The address of the page is the link.");
-    });
+    $("undo").addEventListener("click", () => travel("undo"));
+    $("redo").addEventListener("click", () => travel("redo"));
+    $("format").addEventListener("click", orTell(() => text.format()));
+    $("share").addEventListener("click", orTell(share));
+}
+
+function listenToPage() {
+    addEventListener("keydown", travelByKey);
     addEventListener("hashchange", () => openAddress().catch(error => tell(error.message)));
     addEventListener("dragover", event => {
         event.preventDefault();
@@ -280,43 +345,66 @@ function showShape() {
         view.shape = $("shape").value;
 }
 
+/** The promise ends with the first picture, or when there will be none. */
 function openView() {
-    try {
-        view = new View($("canvas"));
-        showShape(); // which may have been chosen before
-        view.onChange = () => { document.body.dataset.whole = "false"; };
-        view.onPicture = isWhole => {
-            document.body.dataset.picture ??= String(Math.round(performance.now()));
-            document.body.dataset.whole = String(isWhole);
+    return new Promise(done => {
+        const end = () => {
+            $("loading").hidden = true;
+            done();
         };
-        view.onError = fault => tell(`The driver refuses the shader, a bug in mxgen: ${fault}`);
-    } catch (error) {
-        if (!(error instanceof ViewError))
-            throw error;
-        $("no-picture").hidden = false;
-        $("no-picture").textContent = error.message;
-        $("shape").disabled = true;
-    }
+        try {
+            view = new View($("canvas"));
+            showShape(); // which may have been chosen before
+            view.onChange = () => { document.body.dataset.whole = "false"; };
+            view.onPicture = isWhole => {
+                document.body.dataset.picture ??= String(Math.round(performance.now()));
+                document.body.dataset.whole = String(isWhole);
+                end();
+            };
+            view.onError = fault => notify([`The driver refuses the shader, a bug in mxgen: ${fault}`], "error");
+        } catch (error) {
+            if (!(error instanceof ViewError))
+                throw error;
+            $("no-picture").hidden = false;
+            $("no-picture").textContent = error.message;
+            $("shape").disabled = true;
+            end();
+        }
+    });
 }
+
+/** The compiler's module comes in a file of its own (pack.py), which calls this function. */
+const module = new Promise((resolve, reject) => {
+    globalThis.mxgenModule = (size, letters) => resolve({ size, letters });
+    addEventListener("error", ({ target }) => target.tagName === "SCRIPT" && reject(new Error("The page cannot load the compiler.")), true);
+});
 
 async function begin() {
     fillSelect($("example"), Object.keys(EXAMPLES), "Gold");
+    $("example").prepend(Object.assign(new Option("Examples", ""), { disabled: true }));
     fillSelect($("shape"), SHAPE_NAMES, "ball");
-    listen();
-    showTab("messages");
-    const started = compiler.ask("started"), about = compiler.ask("about");
+    listenToControls();
+    listenToPage();
+    layout.onShow = inspect;
+    layout.show(document.body.dataset.width === "wide" ? "messages" : "inputs");
+    const started = compiler.ask("started");
+    const letters = await module, about = compiler.remember("begin", { name: "", letters }).then(() => compiler.ask("about"));
     let fault = null;
     const isShared = await openAddress().catch(error => { fault = error; });
     if (!isShared)
         setText(gold);
     // To open the view takes the page a while, in which the worker compiles; but a worker starts only while its page waits.
     await started.catch(() => {});
-    openView();
-    const { targets, version } = await about;
+    const picture = openView(), { targets, version } = await about;
     fillSelect($("target"), targets, "essl");
     document.querySelector("h1").title = `mxgen ${version}`;
     if (fault)
         tell(fault.message);
+    await picture;
+    await openEditor(letters);
 }
 
-begin().catch(error => tell(error.message));
+begin().catch(error => {
+    $("loading").hidden = true;
+    tell(error.message);
+});

@@ -40,6 +40,20 @@ export function shaderOf(document, element, found) {
     }
 }
 
+/** Where the nodes of the inputs and textures of a shader stand, by their paths. */
+export function placesOf(document, { variables }) {
+    const places = {};
+    for (const { block, path } of variables) {
+        const node = path.slice(0, path.lastIndexOf("/"));
+        if (!["publicUniforms", "textures"].includes(block) || !node || node in places)
+            continue;
+        const place = document.find(node)?.place;
+        if (place)
+            places[node] = place;
+    }
+    return places;
+}
+
 /** The same fault can stand in the diagnostics of the document and of the shader. */
 export function distinct(diagnostics) {
     return [...new Map(diagnostics.map(item => [JSON.stringify({ ...item, parent: 0 }), item])).values()];

@@ -1,28 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// The compiler of the page, in a worker, so that the page answers while it works. A message is { id, kind, … }; the answer has the same id.
+// The compiler of the page, or its language server, in a worker, so that the page answers while it works. A message is { id, kind, … }; the
+// answer has the same id. What the language server says has no id.
 
 import { DocumentError, instantiate } from "../js/mxgen/mxgen.js";
-import compressed from "mxgen.wasm.gz";
-import { distinct, generate, partsOf, REDUCED, serve, shaderOf } from "./shaders.js";
+import { moduleOf } from "./module.js";
+import { distinct, generate, partsOf, placesOf, REDUCED, serve, shaderOf } from "./shaders.js";
 
-const files = new Map(); // texts that documents include, by their last name
+const files = new Map(); // texts that documents include, and pictures, by their last name
 
 const nameOf = path => path.slice(path.lastIndexOf("/") + 1);
 
-async function begin() {
-    const wasm = new Response(new Blob([compressed]).stream().pipeThrough(new DecompressionStream("gzip")));
-    const mxgen = await instantiate(await wasm.arrayBuffer());
-    const context = mxgen.createContext({ resolver: (_, ref) => files.get(nameOf(ref)) ?? null });
-    return { mxgen, context };
-}
-
-const ready = begin();
+let begin; // with the letters of the module
+const mxgen = new Promise(resolve => begin = resolve).then(letters => moduleOf(letters)).then(wasm => instantiate(wasm));
+const context = mxgen.then(instance => instance.createContext({ resolver: (_, ref) => files.get(nameOf(ref)) ?? null }));
+let server = null;
 
 /** Calls `use` with the document of a text; diagnostics of errors go to `found`. */
-function withDocument(context, text, found, use) {
+async function withDocument(text, found, use) {
+    const parser = await context;
     let document;
     try {
-        document = context.parse(text, { name: "document.mtlx" });
+        document = parser.parse(text, { name: "document.mtlx" });
     } catch (error) {
         if (!(error instanceof DocumentError))
             throw error;
@@ -36,17 +34,33 @@ function withDocument(context, text, found, use) {
     }
 }
 
+function attempt(work, otherwise) {
+    try {
+        return work();
+    } catch (error) {
+        if (!(error instanceof DocumentError))
+            throw error;
+        return otherwise(error);
+    }
+}
+
 serve({
     /** The answer tells that the worker runs; the compiler may not be ready. */
     started() {
         return {};
     },
 
-    async about() {
-        const { mxgen } = await ready;
-        return { version: mxgen.version, targets: mxgen.targets.map(({ name }) => name) };
+    begin({ letters }) {
+        begin(letters);
+        return {};
     },
 
+    async about() {
+        const { version, targets } = await mxgen;
+        return { version, targets: targets.map(({ name }) => name) };
+    },
+
+    /** `content` is a text, or the bytes of a picture. */
     addFile({ name, content }) {
         files.set(name, content);
         return {};
@@ -54,67 +68,45 @@ serve({
 
     /** A shader with the values of the document in its code: it is smaller, so a driver compiles it earlier. null: the document has errors. */
     async preview({ text }) {
-        const { context } = await ready;
-        try {
-            return withDocument(context, text, [], document => generate(document, undefined, REDUCED, partsOf)) ?? null;
-        } catch (error) {
-            if (!(error instanceof DocumentError))
-                throw error;
-            return null;
-        }
+        const draw = document => attempt(() => generate(document, undefined, REDUCED, partsOf), () => null);
+        return await withDocument(text, [], draw) ?? null;
     },
 
     /** The shader, diagnostics and renderables of a document. Without errors, its warnings too. */
     async compile({ text, element }) {
-        const { context } = await ready, diagnostics = [];
-        const answer = withDocument(context, text, diagnostics, document => {
+        const diagnostics = [];
+        const answer = await withDocument(text, diagnostics, document => {
             const { renderables } = document, chosen = renderables.some(({ path }) => path === element) ? element : renderables[0]?.path ?? null;
             const shader = chosen === null ? null : shaderOf(document, chosen, diagnostics);
             diagnostics.push(...document.validate());
-            return { renderables, element: chosen, shader };
+            return { renderables, element: chosen, shader, places: shader ? placesOf(document, shader) : {} };
         });
-        return { renderables: [], element: null, shader: null, ...answer, diagnostics: distinct(diagnostics) };
+        return { renderables: [], element: null, shader: null, places: {}, ...answer, diagnostics: distinct(diagnostics) };
     },
 
     /** The source for a target, and the closures. */
     async inspect({ text, element, target }) {
-        const { context } = await ready, faults = [];
-        const attempt = work => {
-            try {
-                return work();
-            } catch (error) {
-                if (!(error instanceof DocumentError))
-                    throw error;
-                return error.message;
-            }
-        };
-        const answer = withDocument(context, text, faults, document => ({
+        const messageOf = error => error.message;
+        const answer = await withDocument(text, [], document => ({
             source: attempt(() => {
                 const shader = document.generate(target, { element }), source = shader.pixel ?? shader.vertex;
                 shader.destroy();
                 return source;
-            }),
-            closures: attempt(() => document.inspect("closures", { element })),
+            }, messageOf),
+            closures: attempt(() => document.inspect("closures", { element }), messageOf),
         }));
         return answer ?? { source: "", closures: "" };
     },
 
-    /** The text of the document with another value of an input. */
-    async setValue({ text, path, value, type }) {
-        const { context } = await ready, slash = path.lastIndexOf("/");
-        return withDocument(context, text, [], document => {
-            const edit = document.edit(), node = edit.find(path.slice(0, slash));
-            if (!node) {
-                edit.cancel();
-                return { text: null };
-            }
-            node.value(path.slice(slash + 1), value, type);
-            return { text: edit.end().xml() };
+    /** Takes a message for the language server, whose answers follow by themselves. */
+    async language({ message }) {
+        const instance = await mxgen;
+        server ??= instance.createLanguageServer({
+            send: said => postMessage({ said }),
+            readFile: path => files.get(nameOf(path)) ?? null,
+            listFolder: () => files.keys(),
         });
-    },
-
-    async format({ text }) {
-        const { context } = await ready;
-        return { text: context.format(text, { name: "document.mtlx" }) };
+        server.handle(message);
+        return {};
     },
 });

@@ -4,7 +4,7 @@
 # project, the program that the tests of packages compare with, Chromium or ''.
 root=$1 program=$(realpath "$2") chromium=$3
 . "$(dirname "$0")/../programs/common.sh"
-for tool in dpkg-buildpackage dh dh_python3 npm esbuild wasm-ld; do
+for tool in dpkg-buildpackage dh dh_python3 npm esbuild zopfli wasm-ld; do
     command -v "$tool" >/dev/null || { echo "skip: $tool is not installed (script/packages-release.txt)"; exit 77; }
 done
 git -C "$root" rev-parse HEAD >/dev/null 2>&1 || { echo "skip: no git checkout, so no commit to release"; exit 77; }
@@ -53,6 +53,7 @@ check "the tests pass with the installed package" node "$root/tests/js/run.mjs" 
 if [ -n "$chromium" ]; then
     check "the page unpacks" python3 -m zipfile -e release/mxgen-page-*.zip page
     check "the tests pass with the page" node "$root/tests/web/run.mjs" "$work/page" "$chromium" "$root" "$program"
+    check "the tests pass with the editor of the page" node "$root/tests/web/editor.mjs" "$work/page" "$chromium" "$root"
     check "the tests pass with the extension for VS Code" node "$root/tests/vscode/run.mjs" release/mxgen-vscode-*.vsix "$root" "$chromium" "$program"
 else
     skip "chromium is not installed: the page and the extension for VS Code were not run"

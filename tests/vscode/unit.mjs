@@ -20,13 +20,7 @@ if (!fs.existsSync(path.join(folder, "node_modules"))) {
 const work = fs.mkdtempSync(path.join(os.tmpdir(), "mxgen-extension-")), packages = createRequire(path.join(folder, "package.json"));
 const { load } = await import(pathToFileURL(path.join(library, "node.js")).href), context = (await load()).createContext();
 
-/** A module of the source that needs no editor. */
-async function source(name) {
-    const output = path.join(work, `${name}.mjs`);
-    packages("esbuild").buildSync({ entryPoints: [path.join(folder, `src/${name}.ts`)], outfile: output, format: "esm", bundle: true });
-    return import(pathToFileURL(output).href);
-}
-const { changeOfInput, offsetOf } = await source("text");
+const { changeOfInput, offsetOf } = await import(pathToFileURL(path.join(root, "web/changes.js")).href);
 
 /** The text with another value of an input; the place of the node is that which the library tells. */
 function changed(text, node, input, type, value) {

@@ -122,6 +122,27 @@ export class Page {
         }
     }
 
+    /** Letters go where the focus is. */
+    insert(text) {
+        return this.send("Input.insertText", { text });
+    }
+
+    /** A key as DOM names it; `modifiers` are the sum of 1 (Alt), 2 (Ctrl), 4 (Meta) and 8 (Shift). */
+    async key(key, modifiers = 0) {
+        const code = { Enter: 13, Escape: 27, F2: 113, F8: 119, F12: 123 }[key] ?? key.toUpperCase().charCodeAt(0);
+        const event = { key, code: key.length === 1 ? `Key${key.toUpperCase()}` : key, windowsVirtualKeyCode: code, modifiers, text: key === "Enter" ? "\r" : undefined };
+        await this.send("Input.dispatchKeyEvent", { type: event.text ? "keyDown" : "rawKeyDown", ...event });
+        await this.send("Input.dispatchKeyEvent", { type: "keyUp", ...event, text: undefined });
+    }
+
+    /** Moves the mouse to a point, from beside it, and clicks if `clicks` says so. */
+    async point([x, y], { clicks = false, modifiers = 0 } = {}) {
+        await this.send("Input.dispatchMouseEvent", { type: "mouseMoved", x: x - 3, y, modifiers });
+        await this.send("Input.dispatchMouseEvent", { type: "mouseMoved", x, y, modifiers });
+        for (const type of clicks ? ["mousePressed", "mouseReleased"] : [])
+            await this.send("Input.dispatchMouseEvent", { type, x, y, button: "left", clickCount: 1, modifiers });
+    }
+
     async screenshot(file) {
         const { data } = await this.send("Page.captureScreenshot", { format: "png" });
         fs.writeFileSync(file, Buffer.from(data, "base64"));

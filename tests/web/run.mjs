@@ -5,80 +5,21 @@
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import fs from "node:fs";
-import http from "node:http";
 import os from "node:os";
 import path from "node:path";
 import { pathToFileURL } from "node:url";
 
 import { run, test } from "../js/harness.mjs";
 import { Browser } from "./browser.mjs";
+import { change, compile, drop, MEAN, pick, RED, status, textOf, type, WHOLE, withPage as openPage, withServer } from "./page.mjs";
 
 const [folder, chromium, root, program, mode] = process.argv.slice(2);
 const work = fs.mkdtempSync(path.join(os.tmpdir(), "mxgen-page-"));
 const onDisk = pathToFileURL(path.join(folder, "index.html")).href;
 const example = name => fs.readFileSync(path.join(root, "examples", name), "utf8");
 
-const RED = `<?xml version="1.0"?>
-<materialx version="1.39">
-  <standard_surface name="SR" type="surfaceshader">
-    <input name="base_color" type="color3" value="1, 0, 0" />
-    <input name="specular" type="float" value="0" />
-  </standard_surface>
-  <surfacematerial name="Red" type="material">
-    <input name="surfaceshader" type="surfaceshader" nodename="SR" />
-  </surfacematerial>
-</materialx>
-`;
-
-// ---- The page as its users see it ----
-
-const status = page => page.evaluate("document.getElementById('status').textContent");
-const textOf = page => page.evaluate("document.getElementById('text').value");
-
-const WHOLE = "document.body.dataset.whole === 'true'";
-
-/** Does something that changes the picture at once, and waits for the whole picture. */
-async function change(page, expression) {
-    await page.evaluate(expression);
-    await page.until(WHOLE);
-}
-
-/** Does something that compiles the document, and waits for the whole picture. */
-async function compile(page, expression) {
-    await page.evaluate(`delete document.body.dataset.compiled, ${expression}`);
-    await page.until(`document.body.dataset.compiled && ${WHOLE}`);
-}
-
-const type = (page, text) => `document.getElementById("text").value = ${JSON.stringify(text)}, document.getElementById("text").dispatchEvent(new Event("input"))`;
-const pick = (id, value) => `document.getElementById(${JSON.stringify(id)}).value = ${JSON.stringify(value)}, document.getElementById(${JSON.stringify(id)}).dispatchEvent(new Event("change"))`;
-
-/** The mean colour of a part of the canvas around its centre, from 0 to 255. */
-const MEAN = `(() => {
-    const canvas = document.getElementById("canvas"), copy = new OffscreenCanvas(canvas.width, canvas.height).getContext("2d");
-    copy.drawImage(canvas, 0, 0);
-    const size = 20, { data } = copy.getImageData((canvas.width - size) / 2, (canvas.height - size) / 2 - 20, size, size);
-    return [0, 1, 2].map(c => data.reduce((sum, x, i) => i % 4 === c ? sum + x : sum, 0) / (size * size));
-})()`;
-
 let browser;
-
-async function withPage(address, work) {
-    const page = await browser.open(address, { width: 960, height: 420 });
-    try {
-        await work(page);
-        assert.deepEqual(page.complaints, []);
-    } finally {
-        await page.close();
-    }
-}
-
-/** Drops files: [name, type, text or bytes as an array]. */
-const drop = files => `(() => {
-    const data = new DataTransfer();
-    for (const [name, type, content] of ${JSON.stringify(files)})
-        data.items.add(new File([typeof content === "string" ? content : new Uint8Array(content)], name, { type }));
-    document.querySelector("main").dispatchEvent(new DragEvent("drop", { bubbles: true, cancelable: true, dataTransfer: data }));
-})()`;
+const withPage = (address, work) => openPage(browser, address, work);
 
 // ---- Tests ----
 
@@ -86,13 +27,13 @@ if (mode !== "pictures") {
     test("from a folder on disk: a picture, its inputs, and no complaints", () => withPage(onDisk, async page => {
         await page.until("document.body.dataset.picture && document.body.dataset.compiled");
         assert.equal(await textOf(page), example("gold.mtlx"));
-        assert.match(await status(page), /^1 closures, \d+ ms$/);
-        assert.deepEqual(await page.evaluate("[...document.querySelectorAll('#inputs label')].map(label => label.dataset.path).slice(0, 2)"),
+        assert.match(await status(page), /^1 closure · \d+ ms$/);
+        assert.deepEqual(await page.evaluate("[...document.querySelectorAll('#controls label')].map(label => label.dataset.path).slice(0, 2)"),
                          ["SR_gold/base", "SR_gold/base_color"]);
         assert.equal(await page.evaluate("document.getElementById('messages').textContent"), "No errors, no warnings.");
-        const size = fs.readdirSync(folder).reduce((sum, name) => sum + fs.statSync(path.join(folder, name)).size, 0);
-        assert(size < 1_700_000, `the page has ${size} bytes`);
-        console.log(`the page has ${size} bytes; first picture after ${await page.evaluate("document.body.dataset.picture")} ms`);
+        const size = ["index.html", "page.css", "page.js", "mxgen.js"].reduce((sum, name) => sum + fs.statSync(path.join(folder, name)).size, 0);
+        assert(size < 1_500_000, `the page has ${size} bytes before its editor`);
+        console.log(`the page has ${size} bytes, its editor ${fs.statSync(path.join(folder, "editor.js")).size}; first picture after ${await page.evaluate("document.body.dataset.picture")} ms`);
         await page.screenshot(path.join(work, "gold.png"));
     }));
 
@@ -120,17 +61,15 @@ if (mode !== "pictures") {
         await compile(page, type(page, RED));
         await page.evaluate(type(page, RED.replace("1, 0, 0", "red")));
         await page.until("document.querySelector('#messages .error')");
-        assert.match(await status(page), /^1 error; the picture shows the last good document$/);
-        assert.equal(await page.evaluate("document.querySelector('#gutter .error').textContent"), "4");
-        await page.evaluate("document.querySelector('#messages .error button').click()");
-        assert.match(await page.evaluate("document.getElementById('text').value.slice(0, document.getElementById('text').selectionStart).split('\\n').length.toString()"), /^4$/);
+        assert.equal(await status(page), "1 error");
+        assert.match(await page.evaluate("document.getElementById('notice').innerText"), /^Line 4: [^]*\nThe picture is of the last text without errors\.$/);
         const [red, green] = await page.evaluate(MEAN);
         assert(red > 100 && green < 90); // the picture stays
         await page.screenshot(path.join(work, "broken.png"));
         await page.evaluate(type(page, "<materialx"));
         await page.until("/truncated/.test(document.getElementById('messages').textContent)");
         await compile(page, type(page, RED));
-        await page.until("!document.querySelector('#messages .error') && !document.querySelector('#gutter .error')");
+        await page.until("!document.querySelector('#messages .error') && document.getElementById('notice').hidden");
     }));
 
     test("shader, targets, closures, elements, shapes", () => withPage(onDisk, async page => {
@@ -153,8 +92,6 @@ if (mode !== "pictures") {
             assert((await page.evaluate(MEAN))[2] > 60, shape);
         }
         await page.evaluate("document.getElementById('canvas').dispatchEvent(new KeyboardEvent('keydown', { key: 'ArrowLeft' }))");
-        await page.evaluate("document.getElementById('format').click()");
-        await page.until("document.getElementById('text').value.includes('  <standard_surface name=\"S2\"')");
     }));
 
     test("a link holds the document", () => withPage(onDisk, async page => {
@@ -188,7 +125,7 @@ if (mode !== "pictures") {
         await page.until("document.querySelector('#messages .error')"); // the include is missing
         // Includes come beside the document: the first .mtlx is the document.
         await compile(page, drop([["main.mtlx", "", main], ["part.mtlx", "", part]]));
-        await page.until("/textures\\/dot.png/.test(document.getElementById('status').textContent)");
+        await page.until("/textures\\/dot.png/.test(document.getElementById('notice').textContent)");
         const blue = await page.evaluate(`(async () => {
             const canvas = new OffscreenCanvas(4, 4), context = canvas.getContext("2d");
             context.fillStyle = "blue";
@@ -196,7 +133,8 @@ if (mode !== "pictures") {
             return [...new Uint8Array(await (await canvas.convertToBlob()).arrayBuffer())];
         })()`);
         await compile(page, drop([["dot.png", "image/png", blue]]));
-        assert.match(await status(page), /closures/);
+        assert.match(await status(page), /closure/);
+        assert.equal(await page.evaluate("document.getElementById('notice').hidden"), true);
         const [red, , b] = await page.evaluate(MEAN);
         assert(b > 100 && red < 90, `${red} ${b}`);
         await page.evaluate(drop([["bad.png", "image/png", "no picture"]]));
@@ -217,7 +155,7 @@ if (mode !== "pictures") {
         await page.evaluate(`delete document.body.dataset.compiled, ${type(page, many)}`);
         assert.equal(await page.evaluate("1 + 1"), 2);
         await page.until("document.body.dataset.compiled");
-        assert.match(await status(page), /no material|closures|error/);
+        assert.match(await status(page), /no material|closure|error/);
     }));
 
     test("the device loses its context", () => withPage(onDisk, async page => {
@@ -233,26 +171,10 @@ if (mode !== "pictures") {
         page.complaints = page.complaints.filter(text => !/context/i.test(text));
     }));
 
-    test("from a server with a strict content security policy", async () => {
-        const types = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css" };
-        const server = http.createServer(({ url }, response) => {
-            const name = path.basename(new URL(url, "http://x").pathname) || "index.html";
-            if (!fs.readdirSync(folder).includes(name))
-                return response.writeHead(404).end();
-            response.writeHead(200, { "Content-Type": types[path.extname(name)],
-                "Content-Security-Policy": "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; img-src data:; worker-src blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'" });
-            return response.end(fs.readFileSync(path.join(folder, name)));
-        });
-        await new Promise(resolve => server.listen(0, "127.0.0.1", resolve));
-        try {
-            await withPage(`http://127.0.0.1:${server.address().port}/`, async page => {
-                await page.until("document.body.dataset.picture");
-                assert.match(await status(page), /closures/);
-            });
-        } finally {
-            server.close();
-        }
-    });
+    test("from a server with a strict content security policy", () => withServer(folder, address => withPage(address, async page => {
+        await page.until("document.body.dataset.picture && document.body.dataset.editor");
+        assert.match(await status(page), /closure/);
+    })));
 }
 
 /** Mean absolute difference of two PNG files, from 0 to 255, by the browser. */
@@ -298,7 +220,7 @@ if (mode !== "pictures") {
     const before = process.exitCode;
     try {
         await withPage(onDisk, async page => {
-            await page.until("/^\\d+ closures/.test(document.getElementById('status').textContent)");
+            await page.until("/^\\d+ closure/.test(document.getElementById('status').textContent)");
             assert.match(await page.evaluate("document.getElementById('no-picture').textContent"), /has no WebGL 2/);
             assert.equal(await page.evaluate("document.getElementById('no-picture').hidden"), false);
         });

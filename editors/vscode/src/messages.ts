@@ -2,7 +2,7 @@
 // The messages between the extension and its preview, and between it and the language server as WebAssembly.
 
 import type { LibraryFile } from "./files";
-import type { InputPlace } from "./text";
+import type { InputPlace } from "@web/changes.js";
 
 /** Line and column from 1; columns count characters. */
 export interface Position {

@@ -7,7 +7,7 @@ import * as vscode from "vscode";
 import { join, readFile, readLibraries } from "./files";
 import type { FromView, Place, Position, ToView } from "./messages";
 import type { Shaders } from "./shaders";
-import { changeOfInput, offsetOf } from "./text";
+import { changeOfInput, offsetOf } from "@web/changes.js";
 
 const TYPE = "mxgen.preview";
 

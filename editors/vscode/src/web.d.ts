@@ -1,6 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 // The parts of the page (web/) that the extension uses, and the files that the build makes.
 
+declare module "@web/changes.js" {
+    /** `text` replaces what stands from `start` to `end`, in UTF-16 code units. */
+    export interface Change {
+        start: number;
+        end: number;
+        text: string;
+    }
+    /** An input of a node, and the node's place: line and column from 1; columns count characters. */
+    export interface InputPlace {
+        line: number;
+        column: number;
+        node: string;
+        input: string;
+        type: string;
+    }
+    /** The offset of a place. */
+    export function offsetOf(text: string, line: number, column: number): number;
+    /** The change that gives an input of a node a value; null: the node is not at its place, or the text is broken there. */
+    export function changeOfInput(text: string, place: InputPlace, value: string): Change | null;
+}
+
 declare module "@web/compiler.js" {
     /** A worker that answers requests, and is stopped when an answer takes too long. */
     export class Compiler {
@@ -13,6 +34,9 @@ declare module "@web/compiler.js" {
 
 declare module "@web/inputs.js" {
     import type { Variable } from "mxgen";
+    /** Shows the controls whose names have all the words of a text. */
+    export function filterInputs(panel: HTMLElement, text: string): void;
+    /** What has the focus keeps it. */
     export function showInputs(panel: HTMLElement, variables: Variable[], set: (variable: Variable, values: number[], isFinal: boolean) => void): void;
     export function valueText(variable: Variable, values: number[]): string;
 }
@@ -29,6 +53,8 @@ declare module "@web/shaders.js" {
         pixel: string;
         variables: Variable[];
     }
+    /** Where the nodes of the inputs and textures of a shader stand, by their paths. */
+    export function placesOf(document: Document, shader: Parts): Record<string, { file: string; line: number; column: number }>;
     /** The shader that the page draws; null: it has errors, which go to `found`. */
     export function shaderOf(document: Document, element: string, found: Diagnostic[]): Parts | null;
     export function distinct(diagnostics: Diagnostic[]): Diagnostic[];

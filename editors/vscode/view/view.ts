@@ -2,7 +2,7 @@
 // The preview: a picture of the node at the cursor, or of one that stays; its inputs, its graph, its shader.
 
 import { Compiler } from "@web/compiler.js";
-import { showInputs, valueText } from "@web/inputs.js";
+import { filterInputs, showInputs, valueText } from "@web/inputs.js";
 import { SHAPE_NAMES } from "@web/scene.js";
 import { View, ViewError } from "@web/view.js";
 import type { Diagnostic, Variable } from "mxgen";
@@ -181,28 +181,14 @@ async function setTexture({ name, file, content }: { name: string; file: string;
 
 // ---- Inputs ----
 
-/** Fills the panel, with the inputs of the element first; what has the focus keeps it. */
+/** Fills the panel, with the inputs of the element first. */
 function showControls({ element, shader, places }: Compilation): void {
-    const labelOf = (element: Element | null) => element?.closest<HTMLElement>("label[data-path]") ?? null;
-    const before = labelOf(document.activeElement), index = before ? [...before.querySelectorAll("input")].indexOf(document.activeElement as HTMLInputElement) : -1;
-    const scroll = page.controls.scrollTop;
     const isOwn = ({ path }: Variable) => Number(path.startsWith(`${element}/`)), variables = [...shader!.variables].sort((a, b) => isOwn(b) - isOwn(a));
     showInputs(page.controls, variables, (variable, values, isFinal) => setInput(places, variable, values, isFinal));
-    page.controls.scrollTop = scroll;
-    if (before)
-        [...page.controls.querySelectorAll<HTMLElement>("label[data-path]")].find(label => label.dataset.path === before.dataset.path)?.querySelectorAll("input")[index]?.focus();
     filterControls();
 }
 
-function filterControls(): void {
-    const words = page.filter.value.toLowerCase();
-    for (const group of page.controls.querySelectorAll("fieldset")) {
-        const labels = [...group.querySelectorAll<HTMLElement>("label[data-path]")];
-        for (const label of labels)
-            label.hidden = !`${label.dataset.path} ${label.textContent}`.toLowerCase().includes(words);
-        group.hidden = labels.every(label => label.hidden);
-    }
-}
+const filterControls = () => filterInputs(page.controls, page.filter.value);
 
 function setInput(places: Compilation["places"], variable: Variable, values: number[], isFinal: boolean): void {
     variable.values = values;

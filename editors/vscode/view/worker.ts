@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The compiler of the preview, in a worker, so that the preview answers while it works.
 
-import { distinct, serve, shaderOf, type Parts } from "@web/shaders.js";
+import { distinct, placesOf, serve, shaderOf, type Parts } from "@web/shaders.js";
 import type { CompiledModule, Context, Diagnostic, Document, Element, Library, Renderable } from "mxgen";
 import { DocumentError, instantiate } from "mxgen";
 
@@ -100,19 +100,6 @@ function candidates(element: Element | null): string[] {
     for (let at = element; at?.path; at = at.parent)
         paths.push(at.path, ...at.outputs.slice(0, 1).map(({ path }) => path));
     return paths;
-}
-
-function placesOf(document: Document, { variables }: Parts): Record<string, Place> {
-    const places: Record<string, Place> = {};
-    for (const { block, path } of variables) {
-        const node = path.slice(0, path.lastIndexOf("/"));
-        if (!["publicUniforms", "textures"].includes(block) || !node || node in places)
-            continue;
-        const place = document.find(node)?.place;
-        if (place)
-            places[node] = place;
-    }
-    return places;
 }
 
 /** The material that an element belongs to: the first whose graph has it; without one the element itself. */

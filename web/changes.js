@@ -1,33 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Edits of a document's text: one attribute, or one new input, and nothing else.
-
-/** `text` replaces what stands from `start` to `end`, in UTF-16 code units. */
-export interface Change {
-    start: number;
-    end: number;
-    text: string;
-}
-
-/** A start tag. */
-interface Tag {
-    name: string;
-    start: number;
-    end: number; // after ">"
-    isEmpty: boolean; // it ends with "/>"
-    attributes: Map<string, { start: number; end: number }>; // the values, without quotes
-}
-
-/** An input of a node, and the node's place: line and column from 1; columns count characters. */
-export interface InputPlace {
-    line: number;
-    column: number;
-    node: string;
-    input: string;
-    type: string;
-}
+// Edits of a document's text: one attribute, or one new input, and nothing else. A change { start, end, text } replaces what stands from
+// `start` to `end`, in UTF-16 code units.
 
 /** The offset of a place; columns count characters, not code units. */
-export function offsetOf(text: string, line: number, column: number): number {
+export function offsetOf(text, line, column) {
     let start = 0;
     for (let i = 1; i < line; i++) {
         const end = text.indexOf("\n", start);
@@ -39,13 +15,14 @@ export function offsetOf(text: string, line: number, column: number): number {
     return start + [...rest].slice(0, column - 1).join("").length;
 }
 
-function readTag(text: string, start: number): Tag | null {
+/** A start tag: its `end` is after ">", `isEmpty` tells that it ends with "/>", and attributes have the places of values, without quotes. */
+function readTag(text, start) {
     const head = /<([^\s/>=<]+)/y, attribute = /\s*([^\s/>=<]+)\s*=\s*(?:"([^"]*)"|'([^']*)')/y, foot = /\s*(\/?)>/y;
     head.lastIndex = start;
     const name = head.exec(text)?.[1];
     if (!name)
         return null;
-    const attributes: Tag["attributes"] = new Map();
+    const attributes = new Map();
     attribute.lastIndex = foot.lastIndex = head.lastIndex;
     for (let found; (found = attribute.exec(text)); foot.lastIndex = attribute.lastIndex) {
         const end = attribute.lastIndex - 1;
@@ -56,11 +33,11 @@ function readTag(text: string, start: number): Tag | null {
 }
 
 /** The elements directly below a tag, and where its end tag begins; null: nothing closes it. */
-function readChildren(text: string, parent: Tag): { children: Tag[]; end: number } | null {
-    const children: Tag[] = [], next = /<!--[^]*?-->|<!\[CDATA\[[^]*?\]\]>|<\?[^]*?\?>|<\/|</g;
+function readChildren(text, parent) {
+    const children = [], next = /<!--[^]*?-->|<!\[CDATA\[[^]*?\]\]>|<\?[^]*?\?>|<\/|</g;
     next.lastIndex = parent.end;
     let depth = 0;
-    for (let found; (found = next.exec(text)); ) {
+    for (let found; (found = next.exec(text));) {
         if (found[0] === "</") {
             if (depth-- === 0)
                 return { children, end: found.index };
@@ -77,18 +54,18 @@ function readChildren(text: string, parent: Tag): { children: Tag[]; end: number
     return null;
 }
 
-const valueOf = (text: string, tag: Tag, attribute: string) => {
+const valueOf = (text, tag, attribute) => {
     const span = tag.attributes.get(attribute);
     return span && text.slice(span.start, span.end);
 };
 
-const indentOf = (text: string, offset: number) => /^[ \t]*/.exec(text.slice(text.lastIndexOf("\n", offset - 1) + 1, offset))![0];
+const indentOf = (text, offset) => /^[ \t]*/.exec(text.slice(text.lastIndexOf("\n", offset - 1) + 1, offset))[0];
 
 /** The change that adds an input to a node, in the layout of what stands around it. */
-function addInput(text: string, node: Tag, children: Tag[], end: number, input: string): Change {
+function addInput(text, node, children, end, input) {
     const newline = text.includes("\r\n") ? "\r\n" : "\n", indent = indentOf(text, node.start);
     if (node.isEmpty) {
-        const slash = text.lastIndexOf("/", node.end), start = slash - /\s*$/.exec(text.slice(node.start, slash))![0].length;
+        const slash = text.lastIndexOf("/", node.end), start = slash - /\s*$/.exec(text.slice(node.start, slash))[0].length;
         return { start, end: node.end, text: `>${newline}${indent}  ${input}${newline}${indent}</${node.name}>` };
     }
     const last = children.at(-1);
@@ -96,13 +73,16 @@ function addInput(text: string, node: Tag, children: Tag[], end: number, input: 
     return { start: at, end: at, text: `${newline}${below}${input}${/\n[ \t]*$/.test(text.slice(at, end)) ? "" : newline + indent}` };
 }
 
-function endOf(text: string, tag: Tag): number {
+function endOf(text, tag) {
     const inside = tag.isEmpty ? null : readChildren(text, tag);
     return inside ? text.indexOf(">", inside.end) + 1 : tag.end;
 }
 
-/** The change that gives an input of a node a value; null: the node is not at its place, or the text is broken there. */
-export function changeOfInput(text: string, { line, column, node: name, input, type }: InputPlace, value: string): Change | null {
+/**
+ * The change that gives an input of a node a value. `line` and `column` are the node's place, from 1; columns count characters.
+ * null: the node is not at its place, or the text is broken there.
+ */
+export function changeOfInput(text, { line, column, node: name, input, type }, value) {
     const node = readTag(text, offsetOf(text, line, column));
     if (!node || valueOf(text, node, "name") !== name)
         return null;
