@@ -278,6 +278,9 @@ const draws = {
         await look("uv1", `<texcoord name="t" type="vector2">${input("index", "integer", 1)}</texcoord><convert name="v" type="vector3"><input name="in" type="vector2" nodename="t"/></convert><convert name="n" type="color3"><input name="in" type="vector3" nodename="v"/></convert>`);
         await look("wear", `<geompropvalue name="n" type="color3">${input("geomprop", "string", "wear")}${input("default", "color3", "0.5, 0.6, 0.7")}</geompropvalue>`);
         await look("noWear", `<geompropvalue name="n" type="color3">${input("geomprop", "string", "wear")}${input("default", "color3", "0.5, 0.6, 0.7")}</geompropvalue>`, { geometry: new THREE.PlaneGeometry(2, 2) });
+        if (!renderer.isWebGLRenderer) // which gives no integers where a geometry has none
+            await look("noCount", `<geompropvalue name="c" type="integer">${input("geomprop", "string", "count")}${input("default", "integer", 1)}</geompropvalue>
+                <convert name="f" type="float"><input name="in" type="integer" nodename="c"/></convert><convert name="n" type="color3"><input name="in" type="float" nodename="f"/></convert>`);
         const read = (node, type, property) => `<geompropvalue name="${node}" type="${type}">${input("geomprop", "string", property)}</geompropvalue>`;
         const toColor = name => `<convert name="n" type="color3"><input name="in" type="vector3" nodename="${name}"/></convert>`;
         await look("uvProperty", `${read("p", "vector2", "uv")}<convert name="v" type="vector3"><input name="in" type="vector2" nodename="p"/></convert>${toColor("v")}`);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a surface reads of its geometry, as nodes.
 
-import { If, Loop, abs, attribute, batch, convert, cross, dFdx, dFdy, dot, float, instancedMesh, mat4, modelWorldMatrix, normalize, normalLocal, normalWorldGeometry,
-         positionLocal, positionWorld, select, sign, tangentGeometry, tangentLocal, varyingProperty, vec2, vec3, vec4 } from "three/tsl";
+import { If, Loop, abs, attribute, batch, convert, cross, dFdx, dFdy, dot, float, instancedMesh, int, mat4, modelWorldMatrix, normalize, normalLocal,
+         normalWorldGeometry, positionLocal, positionWorld, select, sign, tangentGeometry, tangentLocal, varyingProperty, vec2, vec3, vec4 } from "three/tsl";
 
 // In object space, after bones and morphs, and the matrix of the instance. moveInstances writes them.
 export const positionObject = varyingProperty("vec3", "mxgPositionObject");
@@ -39,7 +39,7 @@ export function moveInstances(builder, needsMatrix) {
 /** Types of WGSL, as three names them. */
 export const TYPES = { f32: "float", i32: "int", u32: "uint", bool: "bool", vec2f: "vec2", vec3f: "vec3", vec4f: "vec4", mat3x3f: "mat3", mat4x4f: "mat4" };
 
-const CONSTANTS = { float, vec2, vec3, vec4 };
+const CONSTANTS = { float, int, vec2, vec3, vec4 };
 
 /** An attribute of the geometry as a type, or a constant. */
 export function attributeOf(builder, name, type, values, isFlat = false) {
@@ -59,7 +59,8 @@ export function frameOf(builder) {
         const T = normalize(modelWorldMatrix.mul(vec4(tangentLocal, 0)).xyz.toVarying()).toVar();
         return [T, cross(N, T).mul(select(tangentGeometry.w.lessThan(0), -1, 1))];
     }
-    const coordinates = attributeOf(builder, "uv", "vec2", [0, 0]).toVar(), Px = dFdx(positionWorld).toVar(), Py = dFdy(positionWorld).toVar(), x = dFdx(coordinates).toVar(), y = dFdy(coordinates).toVar();
+    const coordinates = attributeOf(builder, "uv", "vec2", [0, 0]).toVar(), x = dFdx(coordinates).toVar(), y = dFdy(coordinates).toVar();
+    const Px = dFdx(positionWorld).toVar(), Py = dFdy(positionWorld).toVar();
     const handed = sign(x.x.mul(y.y).sub(x.y.mul(y.x))).toVar();
     const along = Px.mul(y.y).sub(Py.mul(x.y)).mul(handed), B = Py.mul(x.x).sub(Px.mul(y.x)).mul(handed);
     const flat = along.sub(N.mul(dot(N, along))).toVar();
