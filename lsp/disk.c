@@ -186,14 +186,19 @@ char *disk_read(const struct disk *disk, const char *path, size_t limit, size_t 
     return fault_of(disk, path) ? NULL : system_read(path, limit, out_size);
 }
 
+enum { LIKELY_SIZE = 1 << 14 /* of the names in a folder */ };
+
 char *disk_list(const struct disk *disk, const char *folder, size_t *out_size)
 {
-    char *path = disk_join(disk->from, folder);
-    bool may = may_list(disk, path);
-    size_t capacity = may ? system_list(path, NULL, 0) + 4096 : 1;
-    char *names = memory_alloc(capacity);
-    *out_size = may ? system_list(path, names, capacity) : 0;
-    *out_size = *out_size <= capacity ? *out_size : 0;
+    char *path = disk_join(disk->from, folder), *names = memory_alloc(1);
+    size_t capacity = 0, size = may_list(disk, path) ? LIKELY_SIZE : 0;
+    /* a folder may grow meanwhile: its names are left out after a few times */
+    for (int times = 0; size > capacity && times < 3; ++times) {
+        capacity = size;
+        names = memory_resize(names, capacity);
+        size = system_list(path, names, capacity);
+    }
+    *out_size = size <= capacity ? size : 0;
     free(path);
     return names;
 }

@@ -3,6 +3,7 @@
 
 #include "lsp/check.h"
 #include "lsp/names.h"
+#include "lsp/system.h"
 #include "lsp/wire.h"
 #include "program/cli.h"
 #include "program/files.h"
@@ -11,7 +12,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_FILES = 2000, MAX_DEPTH = 16 /* of folders */ };
+/* A workspace may be a whole disk. */
+enum { MAX_FILES = 2000, MAX_FOLDERS = 4000 };
 
 /* The text of a document without a place in it. */
 static struct lsp_query query_of(struct lsp_session *session, struct lsp_document *document)
@@ -76,28 +78,41 @@ static void add_path(struct lsp_session *session, struct family *family, const c
     free(bytes);
 }
 
-/* Adds the documents in and below a folder. */
-static void add_folder(struct lsp_session *session, struct family *family, const char *folder,
-                       unsigned depth)
+/*
+ * Adds the documents in a folder, and the folders in it to the list. A link to a folder leads to
+ * files outside, or to files that the walk meets under their own names.
+ */
+static void add_folder(struct lsp_session *session, struct family *family, struct arg_list *folders,
+                       const char *folder)
 {
     static const char ending[] = ".mtlx";
     size_t size = 0;
-    char *names = depth < MAX_DEPTH && family->num_files < MAX_FILES
-                      ? disk_list(&session->disk, folder, &size)
-                      : NULL;
+    char *names = disk_list(&session->disk, folder, &size), *inside = cli_format("%s/", folder);
     for (size_t at = 0; at < size; at += strlen(names + at) + 1) {
         const char *name = names + at;
         size_t len = strlen(name);
         bool is_folder = len && name[len - 1] == '/',
              is_document = len > strlen(ending) && strcmp(name + len - strlen(ending), ending) == 0;
-        char *path = cli_format("%s/%.*s", folder, (int)(is_folder ? len - 1 : len), name);
-        if (is_folder && *name != '.')
-            add_folder(session, family, path, depth + 1);
+        char *path = disk_join(inside, name);
+        if (is_folder && *name != '.' && folders->len < MAX_FOLDERS && !system_is_link(path))
+            args_append(folders, cli_format("%s", path));
         else if (is_document)
             add_path(session, family, path);
         free(path);
     }
+    free(inside);
     free(names);
+}
+
+/* Near folders come first, so a limit cuts off the deep ones. */
+static void add_folders(struct lsp_session *session, struct family *family)
+{
+    struct arg_list folders = {0};
+    for (size_t i = 0; i < session->num_folders; ++i)
+        args_append(&folders, cli_format("%s", session->folders[i]));
+    for (size_t i = 0; i < folders.len && family->num_files < MAX_FILES; ++i)
+        add_folder(session, family, &folders, folders.items[i]);
+    args_free(&folders);
 }
 
 /* ---- Members ---- */
@@ -132,8 +147,7 @@ void family_scan(struct lsp_session *session, struct family *out)
     session->disk.from = check_origin(NULL);
     for (struct lsp_document *open = session->documents; open; open = open->next)
         add(session, out, open, false);
-    for (size_t i = 0; i < session->num_folders; ++i)
-        add_folder(session, out, session->folders[i], 0);
+    add_folders(session, out);
 }
 
 void family_find(struct lsp_session *session, struct lsp_document *document, struct family *out)

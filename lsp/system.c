@@ -54,3 +54,9 @@ size_t system_list(const char *folder, char *names, size_t capacity)
         closedir(dir);
     return size;
 }
+
+bool system_is_link(const char *path)
+{
+    struct stat info;
+    return lstat(path, &info) == 0 && S_ISLNK(info.st_mode);
+}

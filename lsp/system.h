@@ -4,6 +4,7 @@
 #ifndef MXG_LSP_SYSTEM_H
 #define MXG_LSP_SYSTEM_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 /*
@@ -17,5 +18,8 @@ char *system_read(const char *path, size_t limit, size_t *out_size);
  * bytes that all names need; `names` is undefined if they are more than `capacity`.
  */
 size_t system_list(const char *folder, char *names, size_t capacity);
+
+/* True if the path is a link, also one to nowhere. */
+bool system_is_link(const char *path);
 
 #endif

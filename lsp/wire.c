@@ -109,21 +109,45 @@ static int hex_digit(char c)
                                   : -1;
 }
 
+static bool is_word(const char *text, size_t len, const char *word)
+{
+    size_t i = 0;
+    while (i < len && word[i] && (text[i] == word[i] || text[i] + ('a' - 'A') == word[i]))
+        ++i;
+    return i == len && !word[i];
+}
+
+/* The path of an address of this machine, still with its escapes; NULL: it has none. */
+static const char *local_path(const char *uri)
+{
+    size_t scheme = strcspn(uri, ":");
+    if (!uri[scheme] || !is_word(uri, scheme, "file"))
+        return NULL;
+    const char *path = uri + scheme + 1;
+    if (strncmp(path, "//", 2) == 0) {
+        const char *host = path + 2;
+        size_t len = strcspn(host, "/");
+        if (len && !is_word(host, len, "localhost"))
+            return NULL;
+        path = host + len;
+    }
+    return *path == '/' ? path : NULL;
+}
+
 char *wire_path(const char *uri)
 {
-    static const char scheme[] = "file://";
-    if (strncmp(uri, scheme, sizeof scheme - 1) != 0)
-        return NULL;
-    const char *at = strchr(uri + sizeof scheme - 1, '/');
+    const char *at = local_path(uri);
     if (!at)
         return NULL;
+    bool has_end = false;
     char *path = memory_alloc(strlen(at) + 1), *out = path;
     for (; *at; ++at) {
         int high = *at == '%' ? hex_digit(at[1]) : -1, low = high < 0 ? -1 : hex_digit(at[2]);
-        *out++ = low < 0 ? *at : (char)(high * 16 + low);
+        *out = low < 0 ? *at : (char)(high * 16 + low);
+        has_end |= !*out++;
         at += low < 0 ? 0 : 2;
     }
-    char *clean = disk_join("", path);
+    char *clean = has_end ? NULL : disk_join("", path); /* no file has a name with a NUL */
     free(path);
     return clean;
 }

@@ -82,3 +82,9 @@ size_t system_list(const char *folder, char *names, size_t capacity)
 {
     return host_list_folder(host, "", folder, names, capacity);
 }
+
+bool system_is_link(const char *path)
+{
+    (void)path;
+    return false;
+}

@@ -336,6 +336,35 @@ def check_families(client):
     same(list(client.at("textDocument/rename", uri_of(part), inside, newName="deep")["changes"]), [uri_of(part)], "names inside of a graph are its own")
 
 
+def readers_of_c(address):
+    """The files with references, where another folder than the document's has one."""
+    folder = WORK / "roots"
+    client = Client(MXGEN, cwd=WORK, address=address)
+    uri, text = uri_of(folder / "here/a.mtlx"), (folder / "here/a.mtlx").read_text(encoding="utf-8")
+    client.open(uri, text)
+    found = client.at("textDocument/references", uri, text.index('"c"') + 1, context={"includeDeclaration": True})
+    same(client.end(), 0, f"{address}: the end")
+    return {item["uri"].rsplit("/", 1)[1] for item in found}
+
+
+def check_roots():
+    """Odd roots of a workspace."""
+    folder = WORK / "roots"
+    for name, text in ("here/a.mtlx", '<materialx version="1.39"><constant name="c" type="float"/></materialx>'), (
+            "there/b.mtlx", '<materialx version="1.39"><xi:include href="../here/a.mtlx"/><output name="o" type="float" nodename="c"/></materialx>'):
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_text(text, encoding="utf-8")
+    for link in range(5): # they lead to 5 to the power of 16 folders, if one follows them
+        (folder / f"there/link{link}").symlink_to(".")
+    path = uri_of(folder).removeprefix("file://")
+    for address in f"file://{path}", f"file://{path}/", f"file:{path}", f"FILE://LocalHost{path}", f"file://{path.replace('r', '%72')}", f"file://{path}/./here/..":
+        same(readers_of_c(address), {"a.mtlx", "b.mtlx"}, address)
+    for address in (f"file://server{path}", f"file://{path}%00x", f"file://{path}%2", f"file://{path}/here/a.mtlx", f"file://{path}/none", f"http://{path}",
+                    "file:///c%3A/Users", "file:///C:/Users", "file:", "file://", path, "", "untitled:Untitled-1", 5, None):
+        same(readers_of_c(address), {"a.mtlx"}, address)
+    check("a.mtlx" in readers_of_c("file:///"), "a whole disk is a workspace")
+
+
 def check_looks(client):
     """Names in lists, and of what looks have."""
     text = """<materialx version="1.39">
@@ -560,6 +589,7 @@ check_completion(session)
 check_hover(session)
 if IS_PROGRAM:
     check_pictures()
+    check_roots()
 check_navigation(session)
 check_families(session)
 check_looks(session)

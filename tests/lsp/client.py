@@ -48,12 +48,12 @@ class Failure(Exception):
 
 
 class Client:
-    """A session. `root` is the folder of the workspace, and the working directory unless there is `cwd`."""
+    """A session. `root` is the folder of the workspace, and the working directory unless there is `cwd`; `address` is one that no folder has."""
 
-    def __init__(self, mxgen, root=None, arguments=(), cwd=None, options=None, **capabilities):
+    def __init__(self, mxgen, root=None, arguments=(), cwd=None, options=None, address=None, **capabilities):
         self.process = subprocess.Popen([mxgen, "lsp", *arguments], stdin=subprocess.PIPE, stdout=subprocess.PIPE, cwd=cwd or root)
         self.bytes, self.next, self.published, self.versions, self.texts = bytearray(), 1, {}, {}, {}
-        self.capabilities = self.request("initialize", {"processId": None, "rootUri": uri_of(root) if root else None, "initializationOptions": options,
+        self.capabilities = self.request("initialize", {"processId": None, "rootUri": uri_of(root) if root else address, "initializationOptions": options,
                                                         "capabilities": capabilities})["capabilities"]
         self.notify("initialized", {})
 
