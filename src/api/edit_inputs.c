@@ -221,11 +221,8 @@ const char *edit_source_type(const struct edit_change *c)
     const struct document *doc = edit_tree(c->edit);
     elem_id typed = c->other;
     if (doc_element(doc, c->other)->kind == KIND_NODEGRAPH) {
-        elem_id output = c->text ? edit_child(c->edit, c->other, c->text) : 0;
-        for (elem_id e = doc_element(doc, c->other)->first_child; e && !output && !c->text;
-             e = doc_element(doc, e)->next)
-            output = doc_element(doc, e)->kind == KIND_OUTPUT ? e : 0;
-        typed = output;
+        typed = c->text ? edit_child(c->edit, c->other, c->text)
+                        : doc_outputs(doc, c->other, STR_EMPTY).first;
     }
     str_id type = typed ? doc_attr_value(doc, typed, STR_type) : STR_EMPTY;
     return doc_type_of(type) == DOC_TYPE_multioutput ? output_type(c)

@@ -83,12 +83,7 @@ static uint8_t products_of(const struct bind_look *look, elem_id material)
 static elem_id graph_of_material(const struct document *doc, str_id name)
 {
     elem_id graph = doc_top_level(doc, KIND_NODEGRAPH, name);
-    for (elem_id e = graph ? doc_element(doc, graph)->first_child : 0; e;
-         e = doc_element(doc, e)->next)
-        if (doc_element(doc, e)->kind == KIND_OUTPUT
-            && doc_attr_value(doc, e, STR_type) == STR_material)
-            return graph;
-    return 0;
+    return graph && doc_outputs(doc, graph, STR_material).first ? graph : 0;
 }
 
 /* Gives an assignment the material of this name; false: there is none. */

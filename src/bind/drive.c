@@ -106,14 +106,11 @@ elem_id bind_material_node(const struct library *lib, elem_id target, struct dia
     const struct document *doc = &lib->doc;
     if (doc_element(doc, target)->kind == KIND_NODE)
         return target;
-    for (elem_id e = doc_element(doc, target)->first_child; e; e = doc_element(doc, e)->next) {
-        if (doc_element(doc, e)->kind != KIND_OUTPUT
-            || doc_attr_value(doc, e, STR_type) != STR_material)
-            continue;
-        struct binding binding = library_resolve_connection(lib, e, DOC_TYPE_NONE, ignored);
-        return binding.kind == BIND_NODE ? binding.ref : 0;
-    }
-    return 0;
+    elem_id output = doc_outputs(doc, target, STR_material).first;
+    if (!output)
+        return 0;
+    struct binding binding = library_resolve_connection(lib, output, DOC_TYPE_NONE, ignored);
+    return binding.kind == BIND_NODE ? binding.ref : 0;
 }
 
 static void find_substance(struct driving *d, elem_id target)

@@ -121,6 +121,8 @@ struct builder {
     uint32_t *memo_table;
     uint32_t memo_mask;
     VEC(struct own_displacement) own_displacements;
+    struct ir_evaluator initial; /* build_evaluate */
+    struct ir_eval_env initial_env;
     VEC(ir_ref) geomprops; /* value per geomprop name, in pairs (name, ref) */
     /* property.c */
     struct table properties; /* by the property: indices of variables + 1 */
@@ -288,6 +290,8 @@ ir_ref build_default_geomprop(struct builder *b, elem_id element, doc_type type)
  * otherwise.
  */
 bool build_initial(struct builder *b, ir_ref value, struct ir_value *out);
+/* The same for a node that needs constants and uniforms only. */
+bool build_evaluate(struct builder *b, ir_ref value, struct ir_value *out);
 
 /*
  * color.c: converts a color3 or color4 from `space` to the working space, with the transform nodes

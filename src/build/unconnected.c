@@ -2,6 +2,8 @@
 /* Values without a connection: constants, defaults and geometric properties. */
 #include "build/build_priv.h"
 
+#include "lower/lower.h"
+
 /* The name of an enum value stands for the value at the same position of enumvalues. */
 static str_id enum_value(struct builder *b, const struct port *port, str_id text)
 {
@@ -83,6 +85,29 @@ bool build_initial(struct builder *b, ir_ref value, struct ir_value *out)
     decide_by(b, uniform);
     *out = uniform->value;
     return uniform->has_default;
+}
+
+static bool source(void *user_data, const struct ir_graph *graph, ir_ref ref, struct ir_value *out)
+{
+    (void)graph;
+    return build_initial(user_data, ref, out);
+}
+
+static uint32_t call(void *user_data, const struct ir_graph *graph, ir_ref ref,
+                     const struct ir_value *args, struct ir_value *out)
+{
+    struct builder *b = user_data;
+    return lang_eval_node(b->shader->unit, graph, ref, args, &(uint32_t){LANG_MAX_STEPS}, b->arena,
+                          out);
+}
+
+bool build_evaluate(struct builder *b, ir_ref value, struct ir_value *out)
+{
+    if (!b->initial.graph) {
+        b->initial_env = (struct ir_eval_env){.user_data = b, .source = source, .call = call};
+        ir_evaluator_init(&b->initial, b->graph, &b->initial_env, b->arena);
+    }
+    return ir_evaluate(&b->initial, value, out);
 }
 
 /* ---- defaults ---- */

@@ -10,4 +10,5 @@ void doc_complete(struct document *doc, struct diag_list *diags)
     doc_qualify_names(doc, diags);
     doc_index_names(doc, diags);
     doc_index_references(doc);
+    doc_index_outputs(doc);
 }

@@ -74,6 +74,7 @@ static struct doc_change *change_of(struct document *doc, elem_id element)
         change = doc_add_change(doc, index);
         change->element = *doc_element(doc->origin, element);
         change->link = *doc_link(doc->origin, element);
+        doc_touch_outputs(doc, element, change->element.parent);
     }
     change->is_fresh = true;
     return change;
@@ -142,6 +143,7 @@ static void link_last(struct document *doc, elem_id parent, elem_id element)
     link->last_child = element;
     own(doc, element)->parent = parent;
     own(doc, element)->next = 0;
+    doc_touch_outputs(doc, element, parent);
 }
 
 elem_id doc_add_element(struct document *doc, elem_id parent, str_id category, str_id name,
@@ -338,6 +340,7 @@ void doc_move_before(struct document *doc, elem_id element, elem_id sibling)
         own(doc, e->parent)->first_child = element;
     link_of(doc, element)->previous = previous;
     link_of(doc, sibling)->previous = element;
+    doc_touch_outputs(doc, element, e->parent);
 }
 
 uint16_t doc_add_file(struct document *doc, str_id name)

@@ -165,6 +165,13 @@ struct doc_range {
     elem_id first, end;
 };
 
+/* outputs.c: the first two outputs of a nodegraph with a type; 0: of any type. */
+struct doc_outputs {
+    elem_id graph;
+    str_id type;
+    elem_id first, second; /* 0 = none */
+};
+
 struct document {
     const struct document *base;                    /* the layer below, or NULL */
     struct strpool *strings;                        /* the pool of this layer */
@@ -208,6 +215,10 @@ struct document {
     /* who names whom, and a table (scope, name) → the last reference + 1: doc_index_references */
     VEC(struct doc_reference) references;
     struct table reference_table;
+    /* the outputs of graphs by type, but for the graphs whose outputs changed: doc_index_outputs */
+    bool has_outputs;
+    VEC(struct doc_outputs) outputs;
+    struct table output_table, touched;
 };
 
 /* Makes an empty document with a root element <materialx>. */
@@ -313,6 +324,14 @@ void doc_index_element(struct document *doc, elem_id element);
  * doc_index_names.
  */
 void doc_index_references(struct document *doc);
+
+/* outputs.c */
+void doc_index_outputs(struct document *doc);
+/* After a change, `element`, if it is an output, is or was below `parent`, if that is not 0. */
+void doc_touch_outputs(struct document *doc, elem_id element, elem_id parent);
+/* The first two outputs of a nodegraph with this type; type 0: of any type. */
+struct doc_outputs doc_outputs(const struct document *doc, elem_id graph, str_id type);
+
 /* True if a port names a node of the document beside it. */
 bool doc_is_used(const struct document *doc, elem_id node);
 /* Visits each attribute of the document that names an element. A visit may change the attribute. */

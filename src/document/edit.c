@@ -95,6 +95,14 @@ static void keep_attrs(struct document *doc, const struct document *from, struct
     }
 }
 
+static void touch_outputs(struct document *doc, const struct doc_change *change)
+{
+    elem_id element = doc->first_element + change->index;
+    doc_touch_outputs(doc, element, change->element.parent);
+    if (change->index < doc->shared.elements)
+        doc_touch_outputs(doc, element, doc_element(doc->origin, element)->parent);
+}
+
 void doc_begin_edit(struct document *doc, struct arena *arena, struct strpool *strings,
                     const struct document *from, const struct document *origin)
 {
@@ -126,6 +134,8 @@ void doc_begin_edit(struct document *doc, struct arena *arena, struct strpool *s
     }
     for (uint32_t i = 0; i < doc->changes.len; i++)
         keep_attrs(doc, from, doc->changes.items[i]);
+    for (uint32_t i = 0; i < doc->changes.len; i++)
+        touch_outputs(doc, doc->changes.items[i]);
     for (uint32_t i = 0; i < doc->changes.len; i++)
         doc_index_change(doc, doc->first_element + doc->changes.items[i]->index);
 }

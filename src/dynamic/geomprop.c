@@ -1,27 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /* geompropvalue and geompropvalueuniform: a property of the geometry, and what stands in for it. */
 #include "dynamic/dynamic.h"
-#include "lower/lower.h"
 
 static void warn(const mxg_build *build, const char *name, const char *why)
 {
     struct builder *b = build->b;
     diag_add(b->diags, DIAG_ID_geomprop_default,
              doc_place(&b->lib->doc, build->frame->node.element), name, why);
-}
-
-static bool source(void *user_data, const struct ir_graph *graph, ir_ref ref, struct ir_value *out)
-{
-    (void)graph;
-    return build_initial(user_data, ref, out);
-}
-
-static uint32_t call(void *user_data, const struct ir_graph *graph, ir_ref ref,
-                     const struct ir_value *args, struct ir_value *out)
-{
-    struct builder *b = user_data;
-    return lang_eval_node(b->shader->unit, graph, ref, args, &(uint32_t){LANG_MAX_STEPS}, b->arena,
-                          out);
 }
 
 /*
@@ -31,8 +16,7 @@ static uint32_t call(void *user_data, const struct ir_graph *graph, ir_ref ref,
 static bool find_value(const mxg_build *build, const char *name, struct ir_value *out)
 {
     ir_ref arg = dynamic_arg(build, STR_default);
-    const struct ir_eval_env env = {.user_data = build->b, .source = source, .call = call};
-    if (ir_eval(build->b->graph, arg, &env, build->b->arena, out))
+    if (build_evaluate(build->b, arg, out))
         return out->type == build->type;
     if (ir_get(build->b->graph, arg)->op != IR_POISON)
         warn(build, name, "its default varies; 0 stands in where the geometry has none");

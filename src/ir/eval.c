@@ -3,40 +3,23 @@
  * eval: the value of a node. The evaluator computes the nodes that it needs in array order. An
  * unknown value makes its users unknown, except a SELECT that does not choose it. So undefined
  * operations behind a condition do no harm. Calls of IR functions are frames on an explicit stack.
+ * An evaluator knows the values of earlier runs, so many roots take the time of their nodes once.
  */
 #include "ir/ir.h"
 
 #include <assert.h>
+#include <stdlib.h>
 
-struct frame {
-    ir_ref at, end;  /* next node, and end of the range */
-    uint8_t *needed; /* per node */
-    /*
-     * per node: index of its value in ->words, or for a call of its results in ->results;
-     * 0 = unknown
-     */
-    uint32_t *places;
-    ir_ref call; /* the node that waits for this frame; 0 in the outermost frame */
-};
-
-struct evaluator {
-    const struct ir_graph *graph;
-    const struct ir_eval_env *env;
-    struct arena *scratch;
-    VEC(struct frame) frames;
-    VEC(union ir_word) words; /* [0] unused */
-    VEC(uint32_t) results;    /* [0] unused; places in words */
-};
-
-static void push_frame(struct evaluator *e, const ir_ref *roots, uint32_t num_roots, ir_ref call)
+static void push_function(struct ir_evaluator *e, const struct ir_function *function, ir_ref call)
 {
+    const ir_ref *roots = e->graph->function_results.items + function->first_result;
     ir_ref end = 0;
-    for (uint32_t i = 0; i < num_roots; i++)
+    for (uint32_t i = 0; i < function->num_results; i++)
         end = roots[i] >= end ? roots[i] + 1 : end;
-    struct frame frame = {.at = 1, .end = end, .call = call};
+    struct ir_eval_frame frame = {.at = 1, .end = end, .call = call};
     frame.needed = ARENA_ARRAY(e->scratch, uint8_t, end);
     frame.places = ARENA_ARRAY(e->scratch, uint32_t, end);
-    for (uint32_t i = 0; i < num_roots; i++)
+    for (uint32_t i = 0; i < function->num_results; i++)
         frame.needed[roots[i]] = 1;
     for (ir_ref ref = end; --ref > 0;) {
         const ir_ref *args = ir_args(e->graph, ref);
@@ -46,7 +29,7 @@ static void push_frame(struct evaluator *e, const ir_ref *roots, uint32_t num_ro
     vec_push(e->scratch, &e->frames, frame);
 }
 
-static uint32_t store(struct evaluator *e, const struct ir_value *value)
+static uint32_t store(struct ir_evaluator *e, const struct ir_value *value)
 {
     unsigned count = ir_type_info(value->type)->components;
     uint32_t place = e->words.len;
@@ -54,7 +37,8 @@ static uint32_t store(struct evaluator *e, const struct ir_value *value)
     return place;
 }
 
-static bool load(const struct evaluator *e, uint32_t place, ir_type_id type, struct ir_value *out)
+static bool load(const struct ir_evaluator *e, uint32_t place, ir_type_id type,
+                 struct ir_value *out)
 {
     if (place == 0 || type >= IR_NUM_TYPES)
         return false;
@@ -69,7 +53,7 @@ static bool is_call(const struct ir_graph *graph, ir_ref ref)
 }
 
 /* The value of an operand that the frame has already visited. */
-static bool value_of(const struct evaluator *e, const struct frame *frame, ir_ref ref,
+static bool value_of(const struct ir_evaluator *e, const struct ir_eval_frame *frame, ir_ref ref,
                      struct ir_value *out)
 {
     if (ir_get_const(e->graph, ref, out))
@@ -80,7 +64,7 @@ static bool value_of(const struct evaluator *e, const struct frame *frame, ir_re
     return load(e, place, ir_type_of(e->graph, ref), out);
 }
 
-static bool values_of(const struct evaluator *e, const struct frame *frame, ir_ref ref,
+static bool values_of(const struct ir_evaluator *e, const struct ir_eval_frame *frame, ir_ref ref,
                       struct ir_value *out)
 {
     for (uint32_t i = 0; i < ir_get(e->graph, ref)->num_args; i++)
@@ -89,12 +73,12 @@ static bool values_of(const struct evaluator *e, const struct frame *frame, ir_r
     return true;
 }
 
-static bool eval_source(const struct evaluator *e, ir_ref ref, struct ir_value *out)
+static bool eval_source(const struct ir_evaluator *e, ir_ref ref, struct ir_value *out)
 {
-    const struct frame *frame = &vec_last(&e->frames);
+    const struct ir_eval_frame *frame = &vec_last(&e->frames);
     const struct ir_node *node = ir_get(e->graph, ref);
     if (node->op == IR_PARAM && frame->call) {
-        const struct frame *caller = frame - 1;
+        const struct ir_eval_frame *caller = frame - 1;
         assert((node->attr & 0xffff) < ir_get(e->graph, frame->call)->num_args);
         return value_of(e, caller, ir_arg(e->graph, frame->call, node->attr & 0xffff), out);
     }
@@ -102,9 +86,9 @@ static bool eval_source(const struct evaluator *e, ir_ref ref, struct ir_value *
 }
 
 /* Calls a function of the library. */
-static void eval_call(struct evaluator *e, ir_ref call)
+static void eval_call(struct ir_evaluator *e, ir_ref call)
 {
-    struct frame *frame = &vec_last(&e->frames);
+    struct ir_eval_frame *frame = &vec_last(&e->frames);
     struct ir_value results[IR_MAX_RESULTS],
         *args = ARENA_ARRAY(e->scratch, struct ir_value, ir_get(e->graph, call)->num_args);
     if (!e->env || !e->env->call || !values_of(e, frame, call, args))
@@ -116,14 +100,14 @@ static void eval_call(struct evaluator *e, ir_ref call)
     frame->places[call] = num ? first : 0;
 }
 
-static bool eval_result(const struct evaluator *e, ir_ref ref, struct ir_value *out)
+static bool eval_result(const struct ir_evaluator *e, ir_ref ref, struct ir_value *out)
 {
     const struct ir_node *node = ir_get(e->graph, ref);
     uint32_t place = vec_last(&e->frames).places[ir_arg(e->graph, ref, 0)];
     return place && load(e, e->results.items[place + node->attr], node->type, out);
 }
 
-static bool eval_texture(const struct evaluator *e, ir_ref ref, struct ir_value *out)
+static bool eval_texture(const struct ir_evaluator *e, ir_ref ref, struct ir_value *out)
 {
     struct ir_value place;
     bool is_known = value_of(e, &vec_last(&e->frames), ir_arg(e->graph, ref, 1), &place);
@@ -132,9 +116,9 @@ static bool eval_texture(const struct evaluator *e, ir_ref ref, struct ir_value 
 }
 
 /* SELECT, LAND and LOR can have a value although an operand is unknown. */
-static bool eval_choice(const struct evaluator *e, ir_ref ref, struct ir_value *out)
+static bool eval_choice(const struct ir_evaluator *e, ir_ref ref, struct ir_value *out)
 {
-    const struct frame *frame = &vec_last(&e->frames);
+    const struct ir_eval_frame *frame = &vec_last(&e->frames);
     const ir_ref *args = ir_args(e->graph, ref);
     unsigned op = ir_get(e->graph, ref)->op;
     bool first = value_of(e, frame, args[0], out);
@@ -147,7 +131,7 @@ static bool eval_choice(const struct evaluator *e, ir_ref ref, struct ir_value *
     return second && (first || out->w[0].u == decisive);
 }
 
-static bool eval_node(const struct evaluator *e, ir_ref ref, struct ir_value *out)
+static bool eval_node(const struct ir_evaluator *e, ir_ref ref, struct ir_value *out)
 {
     const struct ir_node *node = ir_get(e->graph, ref);
     struct ir_value args[16];
@@ -178,10 +162,10 @@ static bool eval_node(const struct evaluator *e, ir_ref ref, struct ir_value *ou
 }
 
 /* The frame reached the end of a function: its results go to the call, and the frame ends. */
-static void return_to_caller(struct evaluator *e)
+static void return_to_caller(struct ir_evaluator *e)
 {
-    const struct frame *frame = &vec_last(&e->frames);
-    struct frame *caller = &e->frames.items[e->frames.len - 2];
+    const struct ir_eval_frame *frame = &vec_last(&e->frames);
+    struct ir_eval_frame *caller = &e->frames.items[e->frames.len - 2];
     assert(e->frames.len >= 2 && frame->at == frame->end && caller->at > frame->call);
     const struct ir_function *function =
         &e->graph->functions.items[ir_get(e->graph, frame->call)->attr];
@@ -195,9 +179,9 @@ static void return_to_caller(struct evaluator *e)
     e->frames.len--;
 }
 
-static void step(struct evaluator *e)
+static void step(struct ir_evaluator *e)
 {
-    struct frame *frame = &vec_last(&e->frames);
+    struct ir_eval_frame *frame = &vec_last(&e->frames);
     ir_ref ref = frame->at++;
     assert(ref < frame->end);
     const struct ir_node *node = ir_get(e->graph, ref);
@@ -209,8 +193,7 @@ static void step(struct evaluator *e)
     }
     if (node->op == IR_GRAPH_CALL) {
         const struct ir_function *function = &e->graph->functions.items[node->attr];
-        push_frame(e, e->graph->function_results.items + function->first_result,
-                   function->num_results, ref);
+        push_function(e, function, ref);
         return;
     }
     struct ir_value value;
@@ -218,26 +201,87 @@ static void step(struct evaluator *e)
         frame->places[ref] = store(e, &value);
 }
 
+/* Adds a node to those that the next run visits, unless a run has visited it. */
+static void visit(struct ir_evaluator *e, ir_ref ref)
+{
+    if (e->needed.items[ref])
+        return;
+    e->needed.items[ref] = 1;
+    vec_push(e->scratch, &e->visits, ref);
+}
+
+static int in_order(const void *a, const void *b)
+{
+    ir_ref one = *(const ir_ref *)a, other = *(const ir_ref *)b;
+    return (one > other) - (one < other);
+}
+
+/* The nodes that `root` needs, in array order, but for those with a known fate. */
+static void find_visits(struct ir_evaluator *e, ir_ref root)
+{
+    uint32_t known = e->needed.len, more = root < known ? 0 : root + 1 - known;
+    if (more) {
+        memset(vec_extend(e->scratch, &e->needed, more), 0, more);
+        memset(vec_extend(e->scratch, &e->places, more), 0, more * sizeof(uint32_t));
+    }
+    e->visits.len = 0;
+    visit(e, root);
+    for (uint32_t i = 0; i < e->visits.len; i++) {
+        ir_ref ref = e->visits.items[i];
+        const ir_ref *args = ir_args(e->graph, ref);
+        for (uint32_t k = 0; k < ir_get(e->graph, ref)->num_args; k++)
+            visit(e, args[k]);
+    }
+    if (e->visits.len)
+        qsort(e->visits.items, e->visits.len, sizeof *e->visits.items, in_order);
+}
+
+static void run(struct ir_evaluator *e)
+{
+    for (;;) {
+        const struct ir_eval_frame *frame = &vec_last(&e->frames);
+        if (frame->at < frame->end)
+            step(e);
+        else if (frame->call)
+            return_to_caller(e);
+        else
+            return;
+    }
+}
+
+void ir_evaluator_init(struct ir_evaluator *e, const struct ir_graph *graph,
+                       const struct ir_eval_env *env, struct arena *scratch)
+{
+    *e = (struct ir_evaluator){.graph = graph, .env = env, .scratch = scratch};
+    vec_push(scratch, &e->words, (union ir_word){.u = 0});
+    vec_push(scratch, &e->results, 0);
+    vec_push(scratch, &e->frames, (struct ir_eval_frame){0});
+}
+
+bool ir_evaluate(struct ir_evaluator *e, ir_ref root, struct ir_value *out)
+{
+    find_visits(e, root);
+    struct ir_eval_frame *outermost = &e->frames.items[0];
+    outermost->needed = e->needed.items;
+    outermost->places = e->places.items;
+    for (uint32_t i = 0; i < e->visits.len; i++) {
+        e->frames.items[0].at = e->visits.items[i];
+        e->frames.items[0].end = e->visits.items[i] + 1;
+        run(e);
+    }
+    return value_of(e, &e->frames.items[0], root, out);
+}
+
 bool ir_eval(const struct ir_graph *graph, ir_ref root, const struct ir_eval_env *env,
              struct arena *scratch, struct ir_value *out)
 {
-    /* Many callers have a root without operands; a frame is as long as the graph. */
+    /* Many callers have a root without operands. */
     unsigned op = ir_get(graph, root)->op;
     if (ir_get_const(graph, root, out))
         return true;
     if (op == IR_UNIFORM || op == IR_STREAM)
         return env && env->source && env->source(env->user_data, graph, root, out);
-    struct evaluator e = {.graph = graph, .env = env, .scratch = scratch};
-    vec_push(scratch, &e.words, (union ir_word){.u = 0});
-    vec_push(scratch, &e.results, 0);
-    push_frame(&e, &root, 1, 0);
-    for (;;) {
-        const struct frame *frame = &vec_last(&e.frames);
-        if (frame->at < frame->end)
-            step(&e);
-        else if (frame->call)
-            return_to_caller(&e);
-        else
-            return value_of(&e, frame, root, out);
-    }
+    struct ir_evaluator e;
+    ir_evaluator_init(&e, graph, env, scratch);
+    return ir_evaluate(&e, root, out);
 }

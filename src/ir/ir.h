@@ -522,6 +522,36 @@ struct ir_eval_env {
     bool (*texture)(void *user_data, const struct ir_graph *graph, ir_ref ref,
                     const struct ir_value *place, struct ir_value *out);
 };
+struct ir_eval_frame {
+    ir_ref at, end;  /* next node, and end of the range */
+    uint8_t *needed; /* per node */
+    /*
+     * per node: index of its value in ->words, or for a call of its results in ->results;
+     * 0 = unknown
+     */
+    uint32_t *places;
+    ir_ref call; /* the node that waits for this frame; 0 in the outermost frame */
+};
+
+/*
+ * Evaluates many nodes of one graph, which may grow meanwhile. The sources keep their values. The
+ * environment and the arena live as long.
+ */
+struct ir_evaluator {
+    const struct ir_graph *graph;
+    const struct ir_eval_env *env;
+    struct arena *scratch;
+    VEC(struct ir_eval_frame) frames;
+    VEC(union ir_word) words; /* [0] unused */
+    VEC(uint32_t) results;    /* [0] unused; places in words */
+    VEC(uint8_t) needed;      /* of the outermost frame: visited in this run or before */
+    VEC(uint32_t) places;
+    VEC(ir_ref) visits;
+};
+void ir_evaluator_init(struct ir_evaluator *e, const struct ir_graph *graph,
+                       const struct ir_eval_env *env, struct arena *scratch);
+bool ir_evaluate(struct ir_evaluator *e, ir_ref root, struct ir_value *out);
+/* One node; nothing is kept. */
 bool ir_eval(const struct ir_graph *graph, ir_ref root, const struct ir_eval_env *env,
              struct arena *scratch, struct ir_value *out);
 

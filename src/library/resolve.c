@@ -4,7 +4,6 @@
 #include "library/library.h"
 
 #include <assert.h>
-#include <limits.h>
 
 static const char *text_of(const struct library *lib, str_id id)
 {
@@ -298,31 +297,21 @@ static elem_id graph_output(const struct library *lib, elem_id port, elem_id gra
     if (output)
         return library_is_unique(lib, output, port, STR_output, diags) ? output : 0;
     const char *graph_name = text_of(lib, doc_element(&lib->doc, graph)->name);
-    elem_id first = 0, fitting = 0;
-    unsigned count = 0;
-    unsigned most = name ? 2 : UINT_MAX; /* a name is ignored where there is one output */
-    for (elem_id e = doc_element(&lib->doc, graph)->first_child; e && count < most;
-         e = doc_element(&lib->doc, e)->next) {
-        if (doc_element(&lib->doc, e)->kind != KIND_OUTPUT)
-            continue;
-        count++;
-        first = first ? first : e;
-        if (!fitting && library_type(lib, doc_attr_value(&lib->doc, e, STR_type)) == type)
-            fitting = e;
-    }
-    elem_id assumed = fitting ? fitting : first;
-    if (count == 0)
+    const struct doc_outputs all = doc_outputs(&lib->doc, graph, STR_EMPTY);
+    str_id wanted = name || type == DOC_TYPE_NONE ? STR_EMPTY : library_type_name(lib, type);
+    elem_id fitting = all.second && wanted ? doc_outputs(&lib->doc, graph, wanted).first : 0;
+    elem_id assumed = fitting ? fitting : all.first;
+    if (!all.first)
         diag_add(diags, DIAG_ID_dangling_output, doc_place(&lib->doc, port), graph_name, "out",
                  "; it has none");
-    if (count == 1 && name)
-        report_ignored(lib, port, graph, doc_element(&lib->doc, first)->name, diags);
-    if (count > 1 && name) {
+    if (all.second && name) {
         report_output(lib, port, graph, name, diags);
         return 0;
     }
-    if (count > 1)
+    if (all.second)
         report_assumed(lib, port, graph_name, doc_element(&lib->doc, assumed)->name, diags);
-    assert(!assumed == (count == 0));
+    else if (all.first && name)
+        report_ignored(lib, port, graph, doc_element(&lib->doc, all.first)->name, diags);
     return assumed;
 }
 
@@ -335,10 +324,7 @@ elem_id library_inner_output(const struct library *lib, uint32_t nodedef, unsign
     elem_id named = doc_child_of_kind(doc, graph, KIND_OUTPUT, ports[output].name);
     if (named || def->num_outputs > 1)
         return named;
-    elem_id e = doc_element(doc, graph)->first_child;
-    while (e && doc_element(doc, e)->kind != KIND_OUTPUT)
-        e = doc_element(doc, e)->next;
-    return e;
+    return doc_outputs(doc, graph, STR_EMPTY).first;
 }
 
 /* The connection attributes of a port. */

@@ -11,9 +11,11 @@
 struct hider {
     struct builder *builder;
     struct ir_graph *graph;
-    uint8_t *has_misfit;  /* per node: in what is left below it */
-    ir_ref *left;         /* per node: what takes its place; 0: nothing */
-    VEC(ir_ref) deciders; /* the uniforms of the value that is asked for */
+    uint8_t *has_misfit; /* per node: in what is left below it */
+    ir_ref *left;        /* per node: what takes its place; 0: nothing */
+    struct ir_evaluator values;
+    uint8_t *is_decided; /* per node: it decided about something */
+    VEC(ir_ref) deciders;
 };
 
 /* ---- Values of the document ---- */
@@ -27,7 +29,6 @@ static bool source(void *user_data, const struct ir_graph *graph, ir_ref ref, st
     const struct shader_variable *uniform =
         &h->builder->shader->interface.variables.items[node->attr];
     *out = uniform->value;
-    vec_push(h->builder->arena, &h->deciders, ref);
     return uniform->has_default && out->type == node->type;
 }
 
@@ -39,19 +40,38 @@ static uint32_t call(void *user_data, const struct ir_graph *graph, ir_ref ref,
                           h->builder->arena, out);
 }
 
+static void decide(struct hider *h, ir_ref ref)
+{
+    if (h->is_decided[ref])
+        return;
+    h->is_decided[ref] = 1;
+    vec_push(h->builder->arena, &h->deciders, ref);
+}
+
+/* The uniforms that a value needs are compiled in. */
+static void decide_by(struct hider *h, ir_ref root)
+{
+    struct ir_value value;
+    h->deciders.len = 0;
+    decide(h, root);
+    for (uint32_t i = 0; i < h->deciders.len; i++) {
+        ir_ref ref = h->deciders.items[i];
+        build_initial(h->builder, ref, &value);
+        for (uint32_t k = 0; k < ir_get(h->graph, ref)->num_args; k++)
+            decide(h, ir_arg(h->graph, ref, k));
+    }
+}
+
 /* True if all components have a value, which then is compiled in. */
 static bool is_document_value(struct hider *h, ir_ref ref, float wanted)
 {
-    const struct ir_eval_env env = {.user_data = h, .source = source, .call = call};
     struct ir_value value;
-    h->deciders.len = 0;
-    if (!ref || !ir_eval(h->graph, ref, &env, h->builder->arena, &value))
+    if (!ref || !ir_evaluate(&h->values, ref, &value))
         return false;
     for (unsigned i = 0; i < ir_type_info(value.type)->components; i++)
         if (value.w[i].f != wanted)
             return false;
-    for (uint32_t i = 0; i < h->deciders.len; i++)
-        build_initial(h->builder, h->deciders.items[i], &value);
+    decide_by(h, ref);
     return true;
 }
 
@@ -113,6 +133,9 @@ static bool is_tree(const struct ir_graph *g, ir_ref ref)
 ir_ref build_without_hidden(struct builder *b, ir_ref root)
 {
     struct hider h = {.builder = b, .graph = b->graph};
+    const struct ir_eval_env env = {.user_data = &h, .source = source, .call = call};
+    ir_evaluator_init(&h.values, h.graph, &env, b->arena);
+    h.is_decided = ARENA_ARRAY(b->arena, uint8_t, root + 1);
     const uint8_t *needed = ir_mark(h.graph, &root, 1, b->arena);
     h.has_misfit = ARENA_ARRAY(b->arena, uint8_t, root + 1);
     h.left = ARENA_ARRAY(b->arena, ir_ref, root + 1);

@@ -193,13 +193,6 @@ static uint32_t node_of(struct builder *b, const struct frame *frame)
 
 /* ---- Inputs ---- */
 
-static bool uniform_value(void *user_data, const struct ir_graph *graph, ir_ref ref,
-                          struct ir_value *out)
-{
-    (void)graph;
-    return build_initial(user_data, ref, out);
-}
-
 static ir_ref known_source(const struct recorder *r, ir_ref value)
 {
     return value < r->num_sources ? r->source_of[value] : 0;
@@ -229,8 +222,7 @@ static struct network_input input_of(struct builder *b, ir_ref arg)
     } else if (ir_get_const(b->graph, arg, &input.value)) {
         input.kind = NETWORK_VALUE;
     } else { /* a uniform, perhaps in another unit: the host sets the converted value */
-        struct ir_eval_env env = {.user_data = b, .source = uniform_value};
-        if (ir_eval(b->graph, arg, &env, b->arena, &input.value))
+        if (build_evaluate(b, arg, &input.value))
             input.kind = NETWORK_VALUE;
         if (node->op == IR_UNIFORM)
             input.path = variable->path;

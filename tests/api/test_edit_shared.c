@@ -455,9 +455,65 @@ static void test_outputs(void)
     close_world(&w);
 }
 
+static void change_outputs(mxg_edit *edit, int step)
+{
+    mxg_element graph = edited_at(edit, "G"), added;
+    switch (step) {
+    case 0: mxg_edit_remove_element(edit, edited_at(edit, "G/two")); break;
+    case 1: mxg_edit_set_attribute(edit, edited_at(edit, "G/one"), "type", "color3"); break;
+    case 2:
+        mxg_edit_move_element(edit, edited_at(edit, "G/three"), graph, edited_at(edit, "G/a"));
+        break;
+    case 3:
+        added = mxg_edit_add_element(edit, graph, "output", "four", "color3");
+        mxg_edit_connect_input(edit, added, NULL, edited_at(edit, "G/d"), NULL);
+        mxg_edit_move_element(edit, added, graph, edited_at(edit, "G/three"));
+        break;
+    case 4: mxg_edit_set_attribute(edit, edited_at(edit, "G/four"), "type", "float"); break;
+    case 5: mxg_edit_set_attribute(edit, edited_at(edit, "G/four"), "type", "color3"); break;
+    case 6: mxg_edit_remove_element(edit, edited_at(edit, "G/four")); break;
+    case 7: mxg_edit_remove_element(edit, edited_at(edit, "G/three")); break;
+    case 8: mxg_edit_set_attribute(edit, edited_at(edit, "S1"), "uiname", "x"); break;
+    default: mxg_edit_remove_element(edit, edited_at(edit, "G/one"));
+    }
+    REQUIRE_EQ(mxg_edit_error(edit, NULL, 0), 0);
+}
+
+/* A port that names none of a graph's outputs has the first one of its type, also after edits. */
+static void test_assumed_outputs(void)
+{
+    static const char text[] =
+        "<materialx version='1.39'><nodegraph name='G'>"
+        "<position name='a' type='vector3'/><normal name='b' type='vector3'/>"
+        "<tangent name='c' type='vector3'/><bitangent name='d' type='vector3'/>"
+        "<output name='one' type='vector3' nodename='a'/>"
+        "<convert name='e' type='color3'><input name='in' type='vector3' nodename='b'/></convert>"
+        "<convert name='f' type='color3'><input name='in' type='vector3' nodename='c'/></convert>"
+        "<output name='two' type='color3' nodename='e'/>"
+        "<output name='three' type='color3' nodename='f'/></nodegraph>"
+        "<standard_surface name='S1' type='surfaceshader'><input name='base_color' type='color3' "
+        "nodegraph='G'/></standard_surface><surfacematerial name='M1' type='material'><input "
+        "name='surfaceshader' type='surfaceshader' nodename='S1'/></surfacematerial></materialx>";
+    struct world w = open_world();
+    mxg_document *document = parse(&w, text, sizeof text - 1);
+    for (int step = 0; step < 10; ++step) {
+        mxg_edit *edit = NULL;
+        mxg_document *next = NULL;
+        REQUIRE_EQ(mxg_edit_create(w.context, w.library, document, NULL, &edit), MXG_OK);
+        change_outputs(edit, step);
+        REQUIRE_EQ(commit(edit, &next), MXG_OK);
+        compare_with_text(&w, next);
+        mxg_document_destroy(document);
+        document = next;
+    }
+    mxg_document_destroy(document);
+    close_world(&w);
+}
+
 int main(void)
 {
     test_outputs();
+    test_assumed_outputs();
     test_values();
     test_memory();
     test_series();

@@ -51,6 +51,20 @@ SHAPES = [
     ),
     ("graphs", ("<nodegraph name='N#' namespace='n#'>" + GRAPH + "</nodegraph>",)),
     ("outputs of a graph", "<nodegraph name='N'><constant name='c' type='float'/>", ("<output name='o#' type='float' nodename='c'/>",), "</nodegraph>"),
+    (
+        "ports that do not name one of a graph's outputs",
+        "<nodegraph name='N'><constant name='c' type='float'/><constant name='k' type='color3'/>",
+        ("<output name='o#' type='float' nodename='c'/>",),
+        "<output name='l' type='color3' nodename='k'/></nodegraph>",
+        ("<output name='p#' type='color3' nodegraph='N'/>",),
+    ),
+    (
+        "ports that read the one output behind many nodes",
+        "<nodegraph name='N'>",
+        ("<constant name='c#' type='float'/>",),
+        "<output name='l' type='float' nodename='c0'/></nodegraph>",
+        ("<output name='p#' type='float' nodegraph='N'/>",),
+    ),
     ("tokens", "<nodegraph name='N'>", ("<token name='T#' type='string' value='a'/><image name='g#' type='float'><input name='file' type='filename' value='[T#].png'/></image>",), "</nodegraph>"),
     (
         "colour spaces",
@@ -146,6 +160,16 @@ SHAPES = [
         (
             "<geompropvalue name='p#' type='float'><input name='geomprop' type='string' value='q'/><input name='default' type='float' value='#'/>"
             "</geompropvalue><add name='n^' type='float'><input name='in1' type='float' nodename='p#'/><input name='in2' type='float' nodename='n#'/></add>",
+        ),
+        "<output name='o' type='float' nodename='n*'/>",
+    ),
+    (
+        "readers of properties, each with the sum of the one before as default",
+        "-e o",
+        "<constant name='n0' type='float'/>",
+        (
+            "<geompropvalue name='p#' type='float'><input name='geomprop' type='string' value='q#'/><input name='default' type='float' nodename='n#'/>"
+            "</geompropvalue><add name='n^' type='float'><input name='in1' type='float' nodename='p#'/><input name='in2' type='float' value='2'/></add>",
         ),
         "<output name='o' type='float' nodename='n*'/>",
     ),
