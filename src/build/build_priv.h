@@ -357,6 +357,9 @@ ir_ref build_tile_layer(struct builder *b, const struct shader_variable *texture
 
 /* filename.c: the value of a filename element with its prefix and tokens. */
 str_id build_file_name(struct builder *b, const struct instance *scope, elem_id element);
+/* The file that the definition of a node has for an input; its tokens may be those of the node. */
+str_id build_default_file_name(struct builder *b, const struct instance *scope, elem_id node,
+                               const struct port *port);
 /* True if a node sets tokens, so that its results cannot be shared. */
 bool build_has_tokens(const struct builder *b, elem_id node);
 

@@ -64,22 +64,40 @@ static elem_id find_token(const struct builder *b, const struct instance *scope,
     return 0;
 }
 
-/* Prints the value of the token "[name"; false: no such token, after a diagnostic. */
-static bool print_token(struct builder *b, const struct instance *scope, elem_id element,
-                        const char *name, size_t len, struct text *out)
+/* Where the tokens of a name are sought. */
+struct naming {
+    struct builder *b;
+    const struct instance *scope;
+    elem_id element; /* that has the name */
+    elem_id node;    /* whose definition has the element; 0: the element is no definition's */
+};
+
+static elem_id token_for(const struct naming *n, str_id name)
 {
+    const struct document *doc = build_doc(n->b);
+    elem_id token = n->node ? token_of(n->b, n->node, name) : 0;
+    str_id interface = token ? doc_attr_value(doc, token, STR_interfacename) : 0;
+    if (interface)
+        return find_token(n->b, n->scope, doc_element(doc, n->node)->parent, interface);
+    return token ? token : find_token(n->b, n->scope, n->element, name);
+}
+
+/* Prints the value of the token "[name"; false: no such token, after a diagnostic. */
+static bool print_token(const struct naming *n, const char *name, size_t len, struct text *out)
+{
+    struct builder *b = n->b;
     str_id id = str_find(b->shader->strings, name, len);
-    elem_id token = id ? find_token(b, scope, element, id) : 0;
+    elem_id token = id ? token_for(n, id) : 0;
     if (token)
         text_str(out, build_text(b, doc_attr_value(build_doc(b), token, STR_value)));
     else
-        diag_add(b->diags, DIAG_ID_unknown_token, doc_attr_place(build_doc(b), element, STR_value),
+        diag_add(b->diags, DIAG_ID_unknown_token,
+                 doc_attr_place(build_doc(b), n->element, STR_value),
                  arena_strndup(b->arena, name, len));
     return token != 0;
 }
 
-static void substitute(struct builder *b, const struct instance *scope, elem_id element,
-                       const char *from, struct text *out)
+static void substitute(const struct naming *n, const char *from, struct text *out)
 {
     static const char name_chars[] =
         "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_";
@@ -89,7 +107,7 @@ static void substitute(struct builder *b, const struct instance *scope, elem_id 
         from += plain;
         size_t len = *from ? strspn(from + 1, name_chars) : 0;
         bool is_token = len && from[1 + len] == ']';
-        if (is_token && print_token(b, scope, element, from + 1, len, out)) {
+        if (is_token && print_token(n, from + 1, len, out)) {
             from += len + 2;
         } else if (*from) {
             text_char(out, *from++);
@@ -97,15 +115,29 @@ static void substitute(struct builder *b, const struct instance *scope, elem_id 
     }
 }
 
-str_id build_file_name(struct builder *b, const struct instance *scope, elem_id element)
+static str_id name_of(const struct naming *n, str_id file)
 {
-    str_id file = doc_attr_value(build_doc(b), element, STR_value),
-           prefix = doc_inherited_attr(build_doc(b), element, STR_fileprefix);
+    struct builder *b = n->b;
+    str_id prefix = doc_inherited_attr(build_doc(b), n->element, STR_fileprefix);
     if (!file || (!prefix && !strchr(build_text(b, file), '[')))
         return file;
     struct text name;
     text_init(&name, b->arena);
-    substitute(b, scope, element, build_text(b, prefix), &name);
-    substitute(b, scope, element, build_text(b, file), &name);
+    substitute(n, build_text(b, prefix), &name);
+    substitute(n, build_text(b, file), &name);
     return str_intern(b->shader->strings, name.data, name.len);
+}
+
+str_id build_file_name(struct builder *b, const struct instance *scope, elem_id element)
+{
+    return name_of(&(struct naming){b, scope, element, 0},
+                   doc_attr_value(build_doc(b), element, STR_value));
+}
+
+str_id build_default_file_name(struct builder *b, const struct instance *scope, elem_id node,
+                               const struct port *port)
+{
+    if (!port->element)
+        return port->value;
+    return name_of(&(struct naming){b, scope, port->element, node}, port->value);
 }

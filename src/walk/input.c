@@ -7,7 +7,9 @@ static ir_ref texture(struct builder *b, const struct instance *scope, elem_id n
 {
     struct shader_variable v =
         build_describe(b, node, port, element, input, build_input_path(b, node, input, element));
-    v.file = element ? build_file_name(b, scope, element) : port->value;
+    bool has_value = element && doc_attr(build_doc(b), element, STR_value);
+    v.file = has_value ? build_file_name(b, scope, element)
+                       : build_default_file_name(b, scope, node, port);
     return build_texture(b, v, element ? element : node);
 }
 

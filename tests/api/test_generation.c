@@ -445,9 +445,11 @@ static bool has_file(const mxg_result *result, const char *name)
 /* Uses of one definition with different tokens are not the same, though their arguments are. */
 static void test_tokens(void)
 {
-    static const char *const names[] = {"maps/inner_default.png", "maps/default_7_<UDIM>.png",
-                                        "maps/inner_set.png",     "maps/set_7_<UDIM>.png",
-                                        "maps/inner_oak.png",     "maps/oak_7_<UDIM>.png"};
+    static const char *const names[] = {
+        "maps/inner_default.png", "maps/default_7_<UDIM>.png", "maps/inner_set.png",
+        "maps/set_7_<UDIM>.png", "maps/inner_oak.png", "maps/oak_7_<UDIM>.png",
+        /* defaults of the definition */
+        "maps/mask_default.png", "maps/mask_set.png", "maps/mask_oak.png"};
     struct bench b;
     bench_open(&b, "tokens.mtlx");
     mxg_result *result = generate(&b, "glsl", "G", MXG_OK);
@@ -457,6 +459,7 @@ static void test_tokens(void)
     mxg_result_destroy(result);
     result = generate(&b, "glsl", "NG_outer", MXG_OK);
     REQUIRE(has_file(result, names[0]) && has_file(result, names[1]));
+    REQUIRE(has_file(result, "maps/mask_default.png"));
     mxg_result_destroy(result);
     bench_close(&b);
 }
