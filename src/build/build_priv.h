@@ -302,6 +302,11 @@ ir_ref build_color_transform(struct builder *b, ir_ref value, doc_type type, str
 /* Reports an option with an unsupported space or unit. */
 void build_check_colorspace(struct builder *b);
 void build_check_distance_unit(struct builder *b);
+/*
+ * The factor from the unit that an element names to the unit that `declared` names, or to that of
+ * the options; 1 after a report. `declared` 0: there is no definition.
+ */
+float build_unit_factor(struct builder *b, elem_id of_unit, elem_id declared);
 /* The colour space of an element, from itself or an ancestor; 0: none, or the working space. */
 str_id build_colorspace(struct builder *b, elem_id element);
 

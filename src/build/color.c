@@ -71,35 +71,39 @@ ir_ref build_color_transform(struct builder *b, ir_ref value, doc_type type, str
 
 /* ---- units ---- */
 
-/* A value of a port in the unit that an element names, in the unit of the target. */
-static ir_ref convert_unit(struct builder *b, ir_ref value, const struct build_meaning *meaning)
+float build_unit_factor(struct builder *b, elem_id of_unit, elem_id declared)
 {
     const struct document *doc = &b->lib->doc;
-    str_id unit = doc_attr_value(doc, meaning->of_unit, STR_unit);
-    str_id type = doc_attr_value(doc, meaning->port->element, STR_unittype);
+    str_id unit = doc_attr_value(doc, of_unit, STR_unit),
+           type = declared ? doc_attr_value(doc, declared, STR_unittype) : 0;
     if (!type)
-        type = doc_attr_value(doc, meaning->of_unit, STR_unittype);
+        type = doc_attr_value(doc, of_unit, STR_unittype);
     if (!type)
         type = library_unit_type_of(b->lib, unit);
     /* The unit that the definition declares, else the option's unit (specification, "Units"). Types
      * without an option have the unit whose scale is 1. */
-    elem_id declared = meaning->port->element; /* of an <output>: itself */
-    str_id target = declared == meaning->of_unit ? 0 : doc_attr_value(doc, declared, STR_unit);
+    str_id target = !declared || declared == of_unit ? 0 : doc_attr_value(doc, declared, STR_unit);
     if (!target && type == STR_angle)
         target = b->options->angle_unit;
     if (!target && type == STR_distance)
         target = b->options->distance_unit;
     if (target && target == b->options->distance_unit && !b->has_distance_unit)
-        return value;
+        return 1.0f;
     float from, to = 1.0f;
     if (!library_unit_scale(b->lib, type, unit, &from)
         || (target && !library_unit_scale(b->lib, type, target, &to))) {
-        library_report_unit(b->lib, type, unit, doc_attr_place(doc, meaning->of_unit, STR_unit),
-                            b->diags);
-        return value;
+        library_report_unit(b->lib, type, unit, doc_attr_place(doc, of_unit, STR_unit), b->diags);
+        return 1.0f;
     }
-    return from == to ? value
-                      : ir_op2(b->graph, IR_MUL, value, ir_const_float(b->graph, from / to));
+    return from / to;
+}
+
+/* A value of a port in the unit that an element names, in the unit of the target. */
+static ir_ref convert_unit(struct builder *b, ir_ref value, const struct build_meaning *meaning)
+{
+    float factor = build_unit_factor(b, meaning->of_unit, meaning->port->element);
+    return factor == 1.0f ? value
+                          : ir_op2(b->graph, IR_MUL, value, ir_const_float(b->graph, factor));
 }
 
 /* ---- what a value means ---- */

@@ -104,7 +104,7 @@ static unsigned *last_number(struct builder *b, str_id semantic, ir_type_id type
     return &vec_last(&b->property_names).last;
 }
 
-ir_ref build_property(struct builder *b, const struct property *property)
+static ir_ref read_property(struct builder *b, const struct property *property)
 {
     bool is_stream = property->type != IR_TYPE_BOOL && property->type != IR_TYPE_SAMPLER;
     str_id semantic = semantic_of(b, property, is_stream);
@@ -131,4 +131,36 @@ ir_ref build_property(struct builder *b, const struct property *property)
         set_value(b, index, property, semantic);
         return shader_read(b->shader, index);
     }
+}
+
+/* The factor from the unit that a <geompropdef> names; 1: it names none. */
+static float unit_factor(struct builder *b, const struct property *property)
+{
+    const char *name = build_text(b, property->name);
+    str_id id = str_find(&b->lib->strings, name, strlen(name));
+    const struct geomprop *prop = id ? library_geomprop(b->lib, id) : NULL;
+    bool has_unit = prop && build_is_number(property->type) && ir_type_is_float(property->type)
+                    && doc_attr_value(&b->lib->doc, prop->element, STR_unit);
+    return has_unit ? build_unit_factor(b, prop->element, 0) : 1.0f;
+}
+
+/*
+ * The geometry has a property in its unit, and the shader in that of the options. The value that
+ * stands in is an input of a node, and has the shader's unit.
+ */
+ir_ref build_property(struct builder *b, const struct property *property)
+{
+    float factor = unit_factor(b, property);
+    struct property of_geometry = *property;
+    struct ir_value value;
+    if (factor == 1.0f)
+        return read_property(b, property);
+    if (property->value) {
+        value = *property->value;
+        for (unsigned i = 0; i < ir_type_info(value.type)->components; i++)
+            value.w[i].f /= factor;
+        of_geometry.value = &value;
+    }
+    ir_ref read = read_property(b, &of_geometry);
+    return ir_op2(b->graph, IR_MUL, read, ir_const_float(b->graph, factor));
 }
