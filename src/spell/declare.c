@@ -84,6 +84,8 @@ void spell_name_interface(struct spell *spell)
         const struct shader_variable *variable = spell_interface_variable(spell, i);
         struct spell_name name = variable_name(spell, variable);
         const char *prefix = prefixes[variable->block];
+        if (spell->shader->role->is_in_host_file && variable->block == BLOCK_VERTEX_DATA)
+            names_take(&spell->names, name.text, name.len); /* of a parameter */
         if (*prefix)
             name = prefixed(spell, prefix, name);
         spell->variables[spell->shader->interface.used.items[i]] = name;
