@@ -195,15 +195,23 @@ static void write_caller(const struct host *host, const mxg_result *result,
                          const mxg_shader_info *info, char *out, size_t capacity)
 {
     static const char of_surface[] = "host_color.xyz = s.color; host_color.w = s.alpha;",
-                      of_payload[] = "host_color.x = float(s.word_0);";
+                      of_words[] = "host_color.x = float(s.word_0);",
+                      of_decal[] = "host_color = s.decal_albedo;";
     char declared[MAX_ARGUMENTS], given[MAX_ARGUMENTS];
     mxg_storage storage = MXG_INIT(mxg_storage);
+    mxg_block_info outputs = MXG_INIT(mxg_block_info);
+    mxg_variable first = MXG_INIT(mxg_variable);
     mxg_result_storage(result, &storage);
+    mxg_result_block(result, MXG_BLOCK_OUTPUTS, &outputs);
+    mxg_result_variable(result, outputs.first_variable, &first);
+    bool is_decal = strcmp(first.name, "decal_albedo") == 0;
     write_arguments(result, true, declared, sizeof declared);
     write_arguments(result, false, given, sizeof given);
     snprintf(out, capacity, "%s%s\n{\n    %s\n    %s s = %s(%s);\n    %s\n}\n", host->output,
              host->main, declared, info->function_type, info->function, given,
-             storage.words ? of_payload : of_surface);
+             is_decal        ? of_decal
+             : storage.words ? of_words
+                             : of_surface);
 }
 
 /* Compiles a function in the file of a host. */

@@ -25,13 +25,20 @@ static bool fail_device(struct passes *passes, const struct passes_setup *setup)
 enum use { LIGHTS, SHOWS, LIGHTS_RAYS, STORES_OVER };
 static const struct {
     const char *name;
-    int which; /* -1: all tiles */
+    int which; /* as struct stored_pass has it */
     enum use use;
 } runs[] = {
-    {"classify", -1, LIGHTS},        {"compose", 0, LIGHTS},       {"light_simple", 1, LIGHTS},
-    {"light_single", 2, LIGHTS},     {"light_complex", 3, LIGHTS}, {"light_special", 4, LIGHTS},
-    {"diffuse", -1, LIGHTS},         {"blur", -1, LIGHTS},         {"show", -1, SHOWS},
-    {"light_rays", -1, LIGHTS_RAYS}, {"over", -1, STORES_OVER},
+    {"classify", STORED_ALL_TILES, LIGHTS},
+    {"compose", 0, LIGHTS},
+    {"light_simple", 1, LIGHTS},
+    {"light_single", 2, LIGHTS},
+    {"light_complex", 3, LIGHTS},
+    {"light_special", 4, LIGHTS},
+    {"diffuse", STORED_ALL_TILES, LIGHTS},
+    {"blur", STORED_ALL_TILES, LIGHTS},
+    {"show", STORED_ALL_TILES, SHOWS},
+    {"light_rays", STORED_ALL_TILES, LIGHTS_RAYS},
+    {"over", STORED_ALL_TILES, STORES_OVER},
 };
 
 static const char *target_of(const struct passes_setup *setup)
@@ -133,7 +140,7 @@ static bool open_payloads(struct passes *passes, const struct passes_setup *setu
     passes->payloads = stored_hold_rays(passes->stored);
     struct pass_part *part = &passes->parts[passes->num_parts++];
     return (passes->payloads || fail_device(passes, setup)) && compile(passes, part, "vulkan", text)
-           && add_pass(passes, setup, part, -1);
+           && add_pass(passes, setup, part, STORED_ALL_TILES);
 }
 
 static bool open_tints(struct passes *passes, const struct passes_setup *setup)
@@ -156,10 +163,22 @@ static bool open_use(struct passes *passes, const struct passes_setup *setup, en
     return good;
 }
 
+static bool open_painted(struct passes *passes, const struct passes_setup *setup)
+{
+    bool good = true;
+    for (int i = 0; good && i < PASSES_MAX_PAINTED && setup->painted[i]; ++i) {
+        struct pass_part *part = &passes->parts[passes->num_parts++];
+        good = compile(passes, part, "vulkan", setup->painted[i])
+               && add_pass(passes, setup, part, STORED_FIRST);
+    }
+    return good;
+}
+
 static bool open_passes(struct passes *passes, const struct passes_setup *setup)
 {
     const char *payloads = setup->hits ? setup->hits : setup->decals;
-    return open_tints(passes, setup) && (!payloads || open_payloads(passes, setup, payloads))
+    return open_tints(passes, setup) && open_painted(passes, setup)
+           && (!payloads || open_payloads(passes, setup, payloads))
            && (!setup->decals || open_use(passes, setup, STORES_OVER))
            && open_use(passes, setup,
                        setup->hits                  ? LIGHTS_RAYS

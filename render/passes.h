@@ -29,6 +29,8 @@ struct passes {
     char reason[512];
 };
 
+enum { PASSES_MAX_PAINTED = 2 };
+
 /* The description from which passes are made. */
 struct passes_setup {
     mxg_context *context;
@@ -43,6 +45,11 @@ struct passes_setup {
     const char *hits;
     /* the same, whose payloads are stored over the materials; NULL: nothing is */
     const char *decals;
+    /*
+     * compute shaders that put decals into images of their own, which the set of the passes has
+     * behind its resources; NULL: the images are empty
+     */
+    const char *painted[PASSES_MAX_PAINTED];
     struct bind *const *binds; /* of materials that store; the passes have their tables of tints */
     size_t num_binds;
 };

@@ -19,7 +19,9 @@ enum {
     RAYS,
     SCATTERED,
     BELOW,
-    NUM_BINDINGS
+    DECALS,
+    DECALS_TO_WRITE = DECALS + STORED_DECAL_IMAGES, /* the same images, for those who paint them */
+    NUM_BINDINGS = DECALS_TO_WRITE + STORED_DECAL_IMAGES
 };
 
 static const VkDescriptorType types[NUM_BINDINGS] = {
@@ -36,6 +38,14 @@ static const VkDescriptorType types[NUM_BINDINGS] = {
     [RAYS] = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
     [SCATTERED] = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
     [BELOW] = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
+    [DECALS] = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+    [DECALS + 1] = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+    [DECALS + 2] = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+    [DECALS + 3] = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+    [DECALS_TO_WRITE] = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
+    [DECALS_TO_WRITE + 1] = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
+    [DECALS_TO_WRITE + 2] = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
+    [DECALS_TO_WRITE + 3] = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
 };
 
 struct frame { /* as the passes declare it */
@@ -56,7 +66,8 @@ struct stored {
     bool marks; /* fills the words with `mark` first */
     uint32_t mark;
     const struct gpu_image *lit, *depth;
-    struct gpu_image color, targets[STORED_TARGETS], words, scattered, below;
+    struct gpu_image color, targets[STORED_TARGETS], words, scattered, below,
+        decals[STORED_DECAL_IMAGES];
     struct gpu_buffer tiles, frame;
     struct gpu_buffer payloads, rays; /* of stored_hold_rays */
     VkSampler sampler;
@@ -81,6 +92,11 @@ static bool create_images(struct stored *stored, uint32_t words)
     for (unsigned i = 0; good && i < STORED_TARGETS; ++i)
         good = gpu_create_image(gpu, stored_target_format(i + 1), width, height, 0, 1, target,
                                 VK_IMAGE_ASPECT_COLOR_BIT, &stored->targets[i]);
+    for (unsigned i = 0; good && i < STORED_DECAL_IMAGES; ++i)
+        good = gpu_create_image(gpu, VK_FORMAT_R16G16B16A16_SFLOAT, width, height, 0, 1,
+                                VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT
+                                    | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
+                                VK_IMAGE_ASPECT_COLOR_BIT, &stored->decals[i]);
     return good
            && gpu_create_image(gpu, VK_FORMAT_R16G16B16A16_SFLOAT, width, height, 2, 1,
                                VK_IMAGE_USAGE_STORAGE_BIT, VK_IMAGE_ASPECT_COLOR_BIT,
@@ -145,7 +161,10 @@ static VkImageView view_of(const struct stored *stored, uint32_t binding)
     case LIT: return stored->lit->view;
     case SCATTERED: return stored->scattered.view;
     case BELOW: return stored->below.view;
-    default: return stored->targets[binding - WORD_0].view;
+    case WORD_0:
+    case WORD_1:
+    case WORD_2: return stored->targets[binding - WORD_0].view;
+    default: return stored->decals[(binding - DECALS) % STORED_DECAL_IMAGES].view;
     }
 }
 
@@ -255,6 +274,8 @@ void stored_close(struct stored *stored)
     gpu_destroy_image(gpu, &stored->words);
     gpu_destroy_image(gpu, &stored->scattered);
     gpu_destroy_image(gpu, &stored->below);
+    for (unsigned i = 0; i < STORED_DECAL_IMAGES; ++i)
+        gpu_destroy_image(gpu, &stored->decals[i]);
     for (unsigned i = 0; i < STORED_TARGETS; ++i)
         gpu_destroy_image(gpu, &stored->targets[i]);
     gpu_destroy_image(gpu, &stored->color);
@@ -337,6 +358,49 @@ static void reset_tiles(const struct stored *stored)
     }
 }
 
+/* Decals leave all of the base at first. */
+static void clear_decals(const struct stored *stored, VkCommandBuffer commands)
+{
+    const VkClearColorValue nothing = {.float32 = {0, 0, 0, 1}};
+    const VkImageSubresourceRange all = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+    for (unsigned i = 0; i < STORED_DECAL_IMAGES; ++i) {
+        make_general(commands, &stored->decals[i], VK_IMAGE_ASPECT_COLOR_BIT);
+        vkCmdClearColorImage(commands, stored->decals[i].image, VK_IMAGE_LAYOUT_GENERAL, &nothing,
+                             1, &all);
+    }
+}
+
+static void run_pass(const struct stored *stored, VkCommandBuffer commands, const struct pass *pass)
+{
+    stored_barrier(commands);
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pass->pipeline);
+    inputs_bind(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pass->layout, pass->source.draw,
+                &pass->inputs, 0);
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pass->layout, 1, 1,
+                            &stored->set, 0, NULL);
+    if (pass->source.which < 0)
+        vkCmdDispatch(commands, stored->tiles_x, stored->tiles_y, 1);
+    else
+        vkCmdDispatchIndirect(commands, stored->tiles.buffer,
+                              (VkDeviceSize)pass->source.which * 4 * sizeof(uint32_t));
+}
+
+static void run_passes(const struct stored *stored, VkCommandBuffer commands, bool are_first)
+{
+    for (uint32_t i = 0; i < stored->num_passes; ++i)
+        if ((stored->passes[i].source.which == STORED_FIRST) == are_first)
+            run_pass(stored, commands, &stored->passes[i]);
+    stored_barrier(commands);
+}
+
+static void mark_words(const struct stored *stored, VkCommandBuffer commands)
+{
+    const VkClearColorValue mark = {.uint32 = {stored->mark}};
+    const VkImageSubresourceRange all = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0,
+                                         VK_REMAINING_ARRAY_LAYERS};
+    vkCmdClearColorImage(commands, stored->words.image, VK_IMAGE_LAYOUT_GENERAL, &mark, 1, &all);
+}
+
 void stored_begin(const struct stored *stored, VkCommandBuffer commands)
 {
     reset_tiles(stored);
@@ -346,13 +410,10 @@ void stored_begin(const struct stored *stored, VkCommandBuffer commands)
     make_general(commands, &stored->words, VK_IMAGE_ASPECT_COLOR_BIT);
     make_general(commands, &stored->scattered, VK_IMAGE_ASPECT_COLOR_BIT);
     make_general(commands, &stored->below, VK_IMAGE_ASPECT_COLOR_BIT);
-    if (!stored->marks)
-        return;
-    const VkClearColorValue mark = {.uint32 = {stored->mark}};
-    const VkImageSubresourceRange all = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0,
-                                         VK_REMAINING_ARRAY_LAYERS};
-    vkCmdClearColorImage(commands, stored->words.image, VK_IMAGE_LAYOUT_GENERAL, &mark, 1, &all);
-    stored_barrier(commands);
+    clear_decals(stored, commands);
+    if (stored->marks)
+        mark_words(stored, commands);
+    run_passes(stored, commands, true);
 }
 
 void stored_barrier(VkCommandBuffer commands)
@@ -367,21 +428,7 @@ void stored_barrier(VkCommandBuffer commands)
 
 void stored_run(const struct stored *stored, VkCommandBuffer commands)
 {
-    for (uint32_t i = 0; i < stored->num_passes; ++i) {
-        const struct pass *pass = &stored->passes[i];
-        stored_barrier(commands);
-        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pass->pipeline);
-        inputs_bind(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pass->layout, pass->source.draw,
-                    &pass->inputs, 0);
-        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pass->layout, 1, 1,
-                                &stored->set, 0, NULL);
-        if (pass->source.which < 0)
-            vkCmdDispatch(commands, stored->tiles_x, stored->tiles_y, 1);
-        else
-            vkCmdDispatchIndirect(commands, stored->tiles.buffer,
-                                  (VkDeviceSize)pass->source.which * 4 * sizeof(uint32_t));
-    }
-    stored_barrier(commands);
+    run_passes(stored, commands, false);
 }
 
 /* ---- Tests ---- */

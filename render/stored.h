@@ -9,15 +9,26 @@
 #include "render/draw.h"
 #include "render/descriptors.h"
 
-enum { STORED_TARGETS = 3, STORED_CLASSES = 5, STORED_TILE = 8, STORED_MAX_PASSES = 12 };
+enum {
+    STORED_TARGETS = 3,
+    STORED_DECAL_IMAGES = 4,
+    STORED_CLASSES = 5,
+    STORED_TILE = 8,
+    STORED_MAX_PASSES = 12
+};
 enum { STORED_PAYLOAD_SIZE = 64 }; /* bytes of a ray */
+
+enum {
+    STORED_ALL_TILES = -1,
+    STORED_FIRST = -2 /* all tiles, before the materials: decals in images of their own */
+};
 
 /* A compute pass. Its draw has no code. */
 struct stored_pass {
     const uint32_t *code;
     size_t code_words;
     const struct draw *draw; /* blocks and textures; outlives the pass */
-    int which;               /* the class of its tiles; -1: it covers all tiles */
+    int which;               /* the class of its tiles, or: */
 };
 
 struct stored;
@@ -54,9 +65,12 @@ void stored_mark(struct stored *stored, uint32_t mark);
 bool stored_read(struct stored *stored, uint32_t x, uint32_t y, uint32_t *out, uint32_t count);
 
 void stored_update(struct stored *stored, const struct stored_frame *frame);
-/* Makes images and lists of tiles ready to be written, except the images of the caller. */
+/*
+ * Makes images and lists of tiles ready to be written, except the images of the caller, and runs
+ * the first passes.
+ */
 void stored_begin(const struct stored *stored, VkCommandBuffer commands);
-/* Runs the passes in the order in which they were added. */
+/* Runs the other passes. All run in the order in which they were added. */
 void stored_run(const struct stored *stored, VkCommandBuffer commands);
 /* Writes before the barrier are visible to reads after it. */
 void stored_barrier(VkCommandBuffer commands);

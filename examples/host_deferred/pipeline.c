@@ -77,9 +77,11 @@ static void make_resources(struct pipeline *p, uint32_t num_words)
         r->info = (mxg_pass_resource)MXG_INIT(mxg_pass_resource);
         mxg_catalogue_pass_resource(i, &r->info);
         r->type = type_of(r->info.kind);
-        if (strncmp(r->info.kind, "image", 5) == 0 || strcmp(r->info.name, "color") == 0)
+        bool is_sampled = r->type == VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+        if (strncmp(r->info.kind, "image", 5) == 0
+            || (is_sampled && strcmp(r->info.name, "depth") != 0))
             r->image = make_image(p, r, num_words);
-        else if (r->type != VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER)
+        else if (!is_sampled)
             r->buffer = device_make_buffer(p->device, buffer_size(p, i));
     }
     p->depth =

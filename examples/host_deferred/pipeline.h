@@ -8,7 +8,7 @@
 #include <mxgen/passes.h>
 #include <mxgen/storage.h>
 
-enum { MAX_RESOURCES = 16, MAX_PASSES = 24, MAX_SETS = 2 * MAX_PASSES };
+enum { MAX_RESOURCES = 24, MAX_PASSES = 24, MAX_SETS = 2 * MAX_PASSES };
 
 /* A resource that the passes share; `image` or `buffer`, as its kind says. */
 struct resource {

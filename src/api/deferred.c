@@ -39,6 +39,7 @@ struct deferred_layout generation_storage(const struct generation *g)
         .diffuses = options[OPTION_sss].number != 0,
         .blurs = !is_payload && options[OPTION_rough_refraction].number,
         .has_occlusion = !is_payload && options[OPTION_occlusion_map].number,
+        .has_decals = role_stores(g->role) && options[OPTION_decals].number,
     };
 }
 
@@ -53,6 +54,9 @@ void generation_defer(struct generation *g)
         g->closure_host.store = deferred_store;
         g->closure_host.has_room = deferred_has_room;
         g->closure_host.store_data = &g->result->storage;
+    }
+    if (role_packs_pixel(g->role) && g->result->storage.has_decals) {
+        g->closure_host.painted = deferred_painted;
     }
 }
 
@@ -116,6 +120,21 @@ const char *generation_why_not_stored(struct generation *g)
         &why, "its part '%s' is no slab",
         str_text(shader->strings, graph->origins.items[ir_get(graph, g->misfit)->origin].name));
     return text_cstr(&why);
+}
+
+void generation_tell_lost(struct generation *g)
+{
+    const struct shader *shader = &g->result->shader;
+    const struct document *doc = &g->document->layer.doc;
+    for (uint32_t i = 0; i < shader->reflection.lost.len; i++) {
+        const struct shader_lost *lost = &shader->reflection.lost.items[i];
+        elem_id node = element_of(g, lost->origin);
+        str_id name = str_find(doc->strings, lost->part, strlen(lost->part));
+        elem_id input = name ? doc_child(doc, node, name) : 0;
+        diag_add(&g->result->object.diagnostics.list, DIAG_ID_slab_left_out,
+                 doc_place(doc, input ? input : node), lost->part,
+                 str_text(doc->strings, doc_element(doc, node)->category), lost->why);
+    }
 }
 
 void generation_tell_forward(struct generation *g)

@@ -458,6 +458,7 @@ bool generation_emit(struct generation *g)
         generation_report_not_renderable(g, why_not_emitted(g));
     if (is_emitted) {
         generation_tell_forward(g);
+        generation_tell_lost(g);
         generation_tell_media(g);
     }
     return is_good(g) && generation_effects_are_defined(g, &g->result->shader, g->element);

@@ -133,6 +133,8 @@ bool generation_make_network(struct generation *g); /* network.c */
 struct deferred_layout generation_storage(const struct generation *g);
 /* Sets the hooks of the closures' host. */
 void generation_defer(struct generation *g);
+/* Tells of parts of slabs that the role has no room for. */
+void generation_tell_lost(struct generation *g);
 /* Why a pixel cannot store the material. */
 const char *generation_why_not_stored(struct generation *g);
 /* Warns about a material whose shader lights itself; reports one with too many closures. */

@@ -192,15 +192,18 @@ static void put_resources(const mxg_result *result, struct json *json)
     json_close(json, ']');
 }
 
-/* The resources that are targets of a material, by location. */
-static void put_targets(struct json *json)
+/* The resources that are targets, by location: of a material, or of the host's stage of a decal. */
+static void put_targets(bool is_decal, struct json *json)
 {
-    static const enum deferred_binding stored[] = {RESOURCE_COLOR, RESOURCE_WORD0, RESOURCE_WORD1,
-                                                   RESOURCE_WORD2};
+    enum { NUM = 4 };
+    static const enum deferred_binding sets[2][NUM] = {
+        {RESOURCE_COLOR, RESOURCE_WORD0, RESOURCE_WORD1, RESOURCE_WORD2},
+        {RESOURCE_DECAL_ALBEDO, RESOURCE_DECAL_F0, RESOURCE_DECAL_NORMAL,
+         RESOURCE_DECAL_ROUGHNESS}};
     json_key(json, "targets");
     json_open(json, '[');
-    for (uint32_t i = 0; i < sizeof stored / sizeof *stored; i++) {
-        const struct deferred_resource *r = deferred_resource(stored[i]);
+    for (uint32_t i = 0; i < NUM; i++) {
+        const struct deferred_resource *r = deferred_resource(sets[is_decal][i]);
         json_item(json);
         json_open_flat(json, '{');
         json_put_text(json, "name", r->name);
@@ -223,10 +226,22 @@ static void put_pass(enum deferred_pass pass, struct json *json)
     json_put_number(json, "dispatchOffset", deferred_dispatch_offset(pass));
 }
 
+/* A decal for images stores no words, and reads nothing. */
+static void put_decal(struct json *json)
+{
+    json_key(json, "deferred");
+    json_open(json, '{');
+    json_put_text(json, "pass", "decal");
+    put_targets(true, json);
+    json_close(json, '}');
+}
+
 void result_storage(void *user_data, struct json *json)
 {
     const mxg_result *result = user_data;
     uint32_t words = result->shader.reflection.stored_words;
+    if (!is_pass(result) && deferred_is_decal(&result->storage))
+        put_decal(json);
     if (!is_pass(result) && !words)
         return;
     json_key(json, "deferred");
@@ -239,7 +254,7 @@ void result_storage(void *user_data, struct json *json)
     if (!is_pass(result) && !result->storage.is_payload) {
         put_classes(result->shader.reflection.stored_classes, json);
         if (!result->storage.is_function)
-            put_targets(json);
+            put_targets(false, json);
     }
     put_resources(result, json);
     json_close(json, '}');

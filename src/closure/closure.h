@@ -66,6 +66,8 @@ struct closure_host {
     void (*store)(struct shader *shader, const struct closure_host *host,
                   const struct closure_stored *surface);
     const void *store_data;
+    /* Where decals change it: a slab with its mark, below which nothing lies. NULL: nothing does */
+    ir_ref (*painted)(struct shader *shader, const struct closure_host *host, ir_ref base);
     struct closure_point *point;
     /*
      * the question that throughputs answer, and the direction to the light for

@@ -41,7 +41,14 @@ struct deferred_layout {
     bool diffuses;      /* the option `sss`: the pass "diffuse" spreads the light of bodies */
     bool blurs;         /* the option `rough-refraction`: the pass "blur" */
     bool has_occlusion; /* the option `occlusion-map`: the alpha of target 0 */
+    bool has_decals;    /* the option `decals`: images of their own */
 };
+
+/* True for a payload that returns values for images of decals, in place of words. */
+static inline bool deferred_is_decal(const struct deferred_layout *layout)
+{
+    return layout->is_payload && layout->has_decals;
+}
 
 /* A hash of the storage: materials and passes with equal ones fit together. */
 uint32_t deferred_layout_number(const struct deferred_layout *layout);
@@ -57,6 +64,12 @@ bool deferred_has_room(const struct shader *shader, const struct closure_list *l
  */
 void deferred_store(struct shader *shader, const struct closure_host *host,
                     const struct closure_stored *surface);
+
+/*
+ * closure_host.painted of roles that pack pixels, with has_decals: a base with what decals change
+ * of it.
+ */
+ir_ref deferred_painted(struct shader *shader, const struct closure_host *host, ir_ref base);
 
 /* A closure that is no slab below a root, before the walk; 0: there is none. */
 ir_ref deferred_misfit(const struct shader *shader, ir_ref root);
@@ -116,7 +129,12 @@ enum deferred_binding {
     RESOURCE_RAYS,
     RESOURCE_SCATTERED,
     RESOURCE_BELOW,
-    NUM_RESOURCES
+    RESOURCE_DECAL_ALBEDO,
+    RESOURCE_DECAL_F0,
+    RESOURCE_DECAL_NORMAL,
+    RESOURCE_DECAL_ROUGHNESS,
+    NUM_RESOURCES,
+    NUM_DECAL_IMAGES = NUM_RESOURCES - RESOURCE_DECAL_ALBEDO
 };
 
 #define DEFERRED_ANY_FORMAT "any"

@@ -7,6 +7,61 @@
 
 #include "shader/verbatim.h"
 
+enum {
+    DEFERRED_DECAL_IMAGES = 0xf << RESOURCE_DECAL_ALBEDO, /* bits by binding */
+};
+
+/* Operands of a mark: its weight, then the inputs of slab_mark_bsdf. */
+enum mark_operand {
+    MARK_weight,
+#define CLOSURE_VALUE(type, name, from, doc) OPERAND_##from(name)
+#define OPERAND_MARK(name) MARK_##name,
+#define OPERAND_ABOVE(name)
+#define OPERAND_PIXEL(name)
+#include "deferred/closure.def"
+#undef OPERAND_MARK
+#undef OPERAND_ABOVE
+#undef OPERAND_PIXEL
+#undef CLOSURE_VALUE
+    NUM_MARK_OPERANDS
+};
+
+/* ---- store.c ---- */
+
+/* True for the mark of a slab. */
+bool deferred_is_mark(const struct shader *shader, ir_ref leaf);
+/* Adds a text of passes in the language of the target. Returns its source. */
+uint32_t deferred_add_source(struct shader *shader, const struct deferred_layout *layout,
+                             const struct source_resources *resources, struct text *text);
+/* The callee of a function of such a source, for IR_VERBATIM. */
+uint32_t deferred_callee(struct shader *shader, str_id function, uint32_t source);
+/* A value that the caller of a function gives. */
+ir_ref deferred_given(struct shader *shader, str_id name, ir_type_id type);
+/* An effect of the pixel stage. */
+void deferred_assign(struct shader *shader, enum effect_kind kind, uint32_t index, ir_ref value);
+
+/* ---- decals.c ---- */
+
+/* The light of a material, of which decals in images leave a part. emission 0: there is none. */
+ir_ref deferred_painted_light(struct shader *shader, const struct deferred_layout *layout,
+                              ir_ref emission);
+/*
+ * The outputs of a decal for images: the slab of a mark with its weight, vec3; mark 0: nothing but
+ * opacity. A slab with the usual normal has no normal of its own, and leaves that of the base.
+ */
+void deferred_put_decal(struct shader *shader, ir_ref mark, ir_ref weight, ir_ref opacity,
+                        ir_ref usual_normal);
+
+/* ---- lost.c ---- */
+
+/* Notes what the form has no room for. */
+void deferred_note_lost(struct shader *shader, const struct deferred_layout *layout,
+                        const struct closure_list *marks);
+/* The same of the light of a decal for images; 0: it has none. */
+void deferred_note_lost_light(struct shader *shader, ir_ref emission);
+
+/* ---- passes.c and others ---- */
+
 /*
  * passes.c: writes lines of texts.h. Lines that begin with '@' are for texts with functions of the
  * host, for its passes, and for storage outside of a pixel stage (is_hosts), those that begin with

@@ -83,6 +83,11 @@ static const struct deferred_member rays[] = {
      .is_nested = true},
 };
 
+#define DECAL_IMAGE(parameter, what) \
+    { \
+        .name = "decal_" parameter, .kind = "sampler2D", .format = "", \
+        .doc = "with the option 'decals' images: " what "; alpha is what they leave of the base" \
+    }
 #define MEMBERS(list) .members = list, .num_members = sizeof(list) / sizeof *(list)
 
 static const struct deferred_resource resources[NUM_RESOURCES] = {
@@ -151,6 +156,11 @@ static const struct deferred_resource resources[NUM_RESOURCES] = {
          .layers = 2,
          .doc = "with the option 'rough-refraction' blur: light from below rough interfaces "
                 "with the width of its blur, and other light of the same pixels"},
+    [RESOURCE_DECAL_ALBEDO] = DECAL_IMAGE("albedo", "diffuse albedo of decals"),
+    [RESOURCE_DECAL_F0] = DECAL_IMAGE("f0", "f0 of decals"),
+    [RESOURCE_DECAL_NORMAL] =
+        DECAL_IMAGE("normal", "normals of decals in the world, -1 to 1 as 0 to 1"),
+    [RESOURCE_DECAL_ROUGHNESS] = DECAL_IMAGE("roughness", "roughness of decals in red"),
 };
 
 const struct deferred_resource *deferred_resource(enum deferred_binding binding)

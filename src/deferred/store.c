@@ -22,8 +22,10 @@
 
 static const char mark_family[] = "mx_slab_mark_bsdf";
 
-static bool is_mark(const struct shader *shader, ir_ref leaf)
+bool deferred_is_mark(const struct shader *shader, ir_ref leaf)
 {
+    if (ir_get(shader->graph, leaf)->op != IR_LEAF)
+        return false;
     str_id name = shader->graph->callees.items[ir_get(shader->graph, leaf)->attr].name;
     return strcmp(str_text(shader->strings, name), mark_family) == 0;
 }
@@ -40,23 +42,27 @@ ir_ref deferred_misfit(const struct shader *shader, ir_ref root)
     return 0;
 }
 
-/* A call of a function of write.glsl: the number of closures that are stored after it. */
-static ir_ref call(struct shader *shader, const char *name, ir_type_id type, uint32_t source,
-                   const ir_ref *args, unsigned n)
+uint32_t deferred_callee(struct shader *shader, str_id function, uint32_t source)
 {
     uint32_t first = shader->sources.refs.len;
     vec_push(shader->arena, &shader->sources.refs, source);
     struct shader_verbatim verbatim = {
-        .first_source = first, .num_sources = 1, .function = str_intern_z(shader->strings, name)};
+        .first_source = first, .num_sources = 1, .function = function};
     vec_push(shader->arena, &shader->sources.calls, verbatim);
-    uint32_t callee =
-        ir_add_callee(shader->graph, (struct ir_callee){.kind = IR_CALLEE_VERBATIM,
-                                                        .index = shader->sources.calls.len - 1,
-                                                        .name = verbatim.function});
+    return ir_add_callee(shader->graph, (struct ir_callee){.kind = IR_CALLEE_VERBATIM,
+                                                           .index = shader->sources.calls.len - 1,
+                                                           .name = function});
+}
+
+/* A call of a function of write.glsl: the number of closures that are stored after it. */
+static ir_ref call(struct shader *shader, const char *name, ir_type_id type, uint32_t source,
+                   const ir_ref *args, unsigned n)
+{
+    uint32_t callee = deferred_callee(shader, str_intern_z(shader->strings, name), source);
     return ir_build(shader->graph, IR_VERBATIM, type, callee, args, n);
 }
 
-static void assign(struct shader *shader, enum effect_kind kind, uint32_t index, ir_ref value)
+void deferred_assign(struct shader *shader, enum effect_kind kind, uint32_t index, ir_ref value)
 {
     shader_effect(shader, STAGE_PIXEL,
                   (struct effect){.kind = (uint8_t)kind, .index = index, .value = value});
@@ -94,21 +100,6 @@ static bool is_spread(const struct closure_list *spread, const struct closure_le
     return false;
 }
 
-/* Operands of a mark: its weight, then the inputs of slab_mark_bsdf. */
-enum mark_operand {
-    MARK_weight,
-#define CLOSURE_VALUE(type, name, from, doc) OPERAND_##from(name)
-#define OPERAND_MARK(name) MARK_##name,
-#define OPERAND_ABOVE(name)
-#define OPERAND_PIXEL(name)
-#include "deferred/closure.def"
-#undef OPERAND_MARK
-#undef OPERAND_ABOVE
-#undef OPERAND_PIXEL
-#undef CLOSURE_VALUE
-    NUM_MARK_OPERANDS
-};
-
 /* ---- Order ---- */
 
 /* The order of a walk from a closure to its operands, tops before bases: from 1; 0: no part. */
@@ -143,7 +134,7 @@ static struct closure_list marks_of(const struct shader *shader, ir_ref bsdf,
     visit_operands(shader, bsdf, order);
     for (uint32_t i = 0; i < list->leaves.len; i++) {
         struct closure_leaf leaf = list->leaves.items[i];
-        if (!is_mark(shader, leaf.leaf))
+        if (!deferred_is_mark(shader, leaf.leaf))
             continue;
         assert(leaf.leaf <= bsdf && order[leaf.leaf]);
         vec_push(shader->arena, &marks.leaves, leaf);
@@ -290,8 +281,8 @@ static void store_leaf(struct shader *shader, const struct closure_leaf *leaf, b
     for (unsigned i = MARK_weight + 1; i < NUM_MARK_OPERANDS; i++)
         args[n++] = value_of(shader, leaf->leaf, i, is_whole);
     find_weights(shader, leaf, spreads, args + n);
-    assign(shader, EFFECT_ASSIGN, local,
-           call(shader, "mx_store_closure", IR_TYPE_INT, source, args, n + NUM_WEIGHTS));
+    deferred_assign(shader, EFFECT_ASSIGN, local,
+                    call(shader, "mx_store_closure", IR_TYPE_INT, source, args, n + NUM_WEIGHTS));
     shader_add_closure(shader, leaf->leaf);
 }
 
@@ -311,21 +302,53 @@ static void write_keeper(const struct deferred_layout *layout, struct text *out)
         deferred_write_lines(deferred_words_end, false, out);
 }
 
-struct source_resources deferred_of_material(const struct deferred_layout *layout, uint32_t words)
+static bool is_pixel_stage(const struct deferred_layout *layout)
 {
-    bool has_layers = !layout->is_payload && !layout->is_function && words > DEFERRED_TARGET_WORDS;
+    return !layout->is_payload && !layout->is_function;
+}
+
+static struct source_resources resources_of_words(const struct deferred_layout *layout,
+                                                  uint32_t words)
+{
+    bool has_layers = is_pixel_stage(layout) && words > DEFERRED_TARGET_WORDS;
     return (struct source_resources){
         .reads = has_layers && layout->tests_late ? 1u << RESOURCE_DEPTH : 0,
         .writes = has_layers ? 1u << RESOURCE_WORDS : 0,
         .set = layout->set};
 }
 
+struct source_resources deferred_of_material(const struct deferred_layout *layout, uint32_t words)
+{
+    struct source_resources resources = resources_of_words(layout, words);
+    if (layout->has_decals && is_pixel_stage(layout) && words)
+        resources.reads |= DEFERRED_DECAL_IMAGES;
+    return resources;
+}
+
+uint32_t deferred_add_source(struct shader *shader, const struct deferred_layout *layout,
+                             const struct source_resources *resources, struct text *text)
+{
+    struct source_fault fault;
+    struct text program;
+    if (!layout->parse) {
+        uint32_t source = shader_add_source(
+            shader, str_intern(shader->strings, text->data, text->len), NULL, 0, &fault);
+        assert(source != UINT32_MAX);
+        return source;
+    }
+    text_init(&program, shader->arena);
+    deferred_make_program(text_cstr(text), resources, &program);
+    return shader_add_program(shader, str_intern(shader->strings, program.data, program.len),
+                              layout->parse(shader, &program), *resources);
+}
+
 static uint32_t add_source(struct shader *shader, const struct deferred_layout *layout)
 {
-    bool is_pixel = !layout->is_payload && !layout->is_function,
+    bool is_pixel = is_pixel_stage(layout),
          has_more = !layout->is_payload && shader->reflection.stored_words > DEFERRED_TARGET_WORDS;
+    const struct source_resources resources =
+        resources_of_words(layout, shader->reflection.stored_words);
     struct text text;
-    struct source_fault fault;
     text_init(&text, shader->arena);
     deferred_write_storage(layout, &text);
     text_fmt(&text, "#define MX_WORDS %u\n", (unsigned)shader->reflection.stored_words);
@@ -336,20 +359,8 @@ static uint32_t add_source(struct shader *shader, const struct deferred_layout *
         deferred_write_put(&text);
     deferred_write_lines(deferred_store_closure, false, &text);
     deferred_write_store(&text);
-    if (layout->parse) {
-        struct source_resources resources =
-            deferred_of_material(layout, shader->reflection.stored_words);
-        struct text program;
-        text_init(&program, shader->arena);
-        text_str(&text, is_pixel ? stored_word : "");
-        deferred_make_program(text_cstr(&text), &resources, &program);
-        return shader_add_program(shader, str_intern(shader->strings, program.data, program.len),
-                                  layout->parse(shader, &program), resources);
-    }
-    uint32_t source = shader_add_source(shader, str_intern(shader->strings, text.data, text.len),
-                                        NULL, 0, &fault);
-    assert(source != UINT32_MAX);
-    return source;
+    text_str(&text, layout->parse && is_pixel ? stored_word : "");
+    return deferred_add_source(shader, layout, &resources, &text);
 }
 
 /* open: the part of the environment that arrives; 0: all. */
@@ -362,7 +373,7 @@ static void write_color(struct shader *shader, ir_ref emission, ir_ref open)
     uint32_t out = shader_add_variable(
         shader,
         &(struct shader_variable){.name = STR_out1, .block = BLOCK_OUTPUTS, .type = IR_TYPE_VEC4});
-    assign(shader, EFFECT_OUTPUT, out, ir_construct(g, IR_TYPE_VEC4, parts, 2));
+    deferred_assign(shader, EFFECT_OUTPUT, out, ir_construct(g, IR_TYPE_VEC4, parts, 2));
 }
 
 /* Outputs of words, by the function of the program that has them by number. */
@@ -375,24 +386,37 @@ static void write_words(struct shader *shader, const char *function, const char 
         text_fmt(&text, name, i);
         str_id word = str_intern(shader->strings, text.data, text.len);
         ir_ref place[2] = {stored, ir_const_int(shader->graph, i)};
-        assign(shader, EFFECT_OUTPUT, shader_output(shader, word, IR_TYPE_UINT),
-               call(shader, function, IR_TYPE_UINT, source, place, 2));
+        deferred_assign(shader, EFFECT_OUTPUT, shader_output(shader, word, IR_TYPE_UINT),
+                        call(shader, function, IR_TYPE_UINT, source, place, 2));
     }
 }
 
 /* The end of a material pass. */
 static void finish_pass(struct shader *shader, const struct deferred_layout *layout,
-                        uint32_t source, uint32_t local, const struct closure_stored *surface)
+                        uint32_t source, uint32_t local, const struct closure_stored *surface,
+                        ir_ref emission)
 {
     ir_ref stored = ir_build(shader->graph, IR_LOCAL, IR_TYPE_INT, local, NULL, 0);
-    assign(shader, EFFECT_ASSIGN, local,
-           call(shader, "mx_finish_closures", IR_TYPE_INT, source, &stored, 1));
-    write_color(shader, surface->emission, surface->open);
+    deferred_assign(shader, EFFECT_ASSIGN, local,
+                    call(shader, "mx_finish_closures", IR_TYPE_INT, source, &stored, 1));
+    write_color(shader, emission, surface->open);
     if (layout->parse)
         write_words(shader, "mx_stored_word", "word%d", source, stored, DEFERRED_TARGET_WORDS);
 }
 
 /* ---- Functions ---- */
+
+ir_ref deferred_given(struct shader *shader, str_id name, ir_type_id type)
+{
+    const struct shader_variable given = {
+        .name = name, .block = BLOCK_VERTEX_DATA, .type = type, .semantic = name};
+    for (uint32_t i = 0; i < shader->interface.variables.len; i++) {
+        const struct shader_variable *known = &shader->interface.variables.items[i];
+        if (known->block == BLOCK_VERTEX_DATA && known->semantic == name)
+            return shader_read(shader, i);
+    }
+    return shader_read(shader, shader_add_variable(shader, &given));
+}
 
 /* The number of stored closures at first. A function of a pixel begins with its place, for noise.
  */
@@ -402,33 +426,28 @@ static ir_ref begin(struct shader *shader, const struct deferred_layout *layout,
     if (!layout->is_function)
         return ir_const_int(g, 0);
     ir_ref place = ir_const_splat(g, IR_TYPE_VEC2, 0.0f);
-    if (layout->storage == STORAGE_DITHER) {
-        const struct shader_variable pixel = {.name = str_intern_z(shader->strings, "pixel"),
-                                              .block = BLOCK_VERTEX_DATA,
-                                              .type = IR_TYPE_VEC2,
-                                              .semantic = str_intern_z(shader->strings, "pixel")};
-        place = shader_read(shader, shader_add_variable(shader, &pixel));
-    }
+    if (layout->storage == STORAGE_DITHER)
+        place = deferred_given(shader, str_intern_z(shader->strings, "pixel"), IR_TYPE_VEC2);
     return call(shader, "mx_begin_words", IR_TYPE_INT, source, &place, 1);
 }
 
 /* The end of a function of a pixel: the light of the surface, its opacity, an output per word. */
 static void finish_words(struct shader *shader, uint32_t source, uint32_t local,
-                         const struct closure_stored *surface)
+                         const struct closure_stored *surface, ir_ref emission)
 {
-    ir_ref emission = surface->emission, alpha = surface->alpha;
+    ir_ref alpha = surface->alpha;
     struct ir_graph *g = shader->graph;
     ir_ref stored = ir_build(g, IR_LOCAL, IR_TYPE_INT, local, NULL, 0);
     uint32_t num = shader->reflection.stored_words;
-    assign(shader, EFFECT_ASSIGN, local,
-           call(shader, "mx_finish_closures", IR_TYPE_INT, source, &stored, 1));
-    assign(shader, EFFECT_OUTPUT, shader_output(shader, STR_color, IR_TYPE_VEC3),
-           emission ? ir_convert(g, IR_TYPE_VEC3, emission) : ir_black(g));
-    assign(shader, EFFECT_OUTPUT, shader_output(shader, STR_alpha, IR_TYPE_FLOAT),
-           alpha ? alpha : ir_const_float(g, 1.0f));
+    deferred_assign(shader, EFFECT_ASSIGN, local,
+                    call(shader, "mx_finish_closures", IR_TYPE_INT, source, &stored, 1));
+    deferred_assign(shader, EFFECT_OUTPUT, shader_output(shader, STR_color, IR_TYPE_VEC3),
+                    emission ? ir_convert(g, IR_TYPE_VEC3, emission) : ir_black(g));
+    deferred_assign(shader, EFFECT_OUTPUT, shader_output(shader, STR_alpha, IR_TYPE_FLOAT),
+                    alpha ? alpha : ir_const_float(g, 1.0f));
     if (surface->open)
-        assign(shader, EFFECT_OUTPUT, shader_output(shader, STR_occlusion, IR_TYPE_FLOAT),
-               surface->open);
+        deferred_assign(shader, EFFECT_OUTPUT, shader_output(shader, STR_occlusion, IR_TYPE_FLOAT),
+                        surface->open);
     write_words(shader, "mx_packed_word", "word_%d", source, stored, (int)num);
 }
 
@@ -460,9 +479,24 @@ static void finish_payload(struct shader *shader, uint32_t source, uint32_t loca
         args[1] = ir_const_splat(g, IR_TYPE_VEC3, 0.0f);
     if (!alpha)
         args[2] = ir_const_float(g, 1.0f);
-    assign(shader, EFFECT_ASSIGN, local,
-           call(shader, "mx_finish_payload", IR_TYPE_INT, source, args, 3));
+    deferred_assign(shader, EFFECT_ASSIGN, local,
+                    call(shader, "mx_finish_payload", IR_TYPE_INT, source, args, 3));
     write_words(shader, "mx_payload_word", "word_%d", source, stored, DEFERRED_PAYLOAD_WORDS);
+}
+
+/* The values of a decal, one pixel of each image. marks: of its only slab, or none. */
+static void put_decal(struct shader *shader, const struct closure_host *host,
+                      const struct closure_list *marks, ir_ref alpha)
+{
+    struct ir_graph *g = shader->graph;
+    ir_ref usual_normal = closure_normal(shader, host);
+    const struct closure_leaf *leaf = marks->leaves.items;
+    ir_ref opacity = alpha ? alpha : ir_const_float(g, 1.0f);
+    for (uint32_t i = 0; i < marks->leaves.len; i++)
+        shader_add_closure(shader, leaf[i].leaf);
+    deferred_put_decal(shader, marks->leaves.len ? leaf->leaf : 0,
+                       marks->leaves.len ? times(g, leaf->color, leaf->scalar) : 0, opacity,
+                       usual_normal);
 }
 
 /* ---- Entry ---- */
@@ -471,7 +505,7 @@ bool deferred_has_room(const struct shader *shader, const struct closure_list *l
 {
     const float rounding = 1e-4f;
     for (uint32_t i = 0; i < list->leaves.len; i++)
-        if (is_mark(shader, list->leaves.items[i].leaf)
+        if (deferred_is_mark(shader, list->leaves.items[i].leaf)
             && closure_most_weight(shader->graph, &list->leaves.items[i]) > 1.0f + rounding)
             return false;
     return true;
@@ -483,17 +517,23 @@ void deferred_store(struct shader *shader, const struct closure_host *host,
     struct closure_list spread = {0};
     struct closure_host spreading = *host;
     const struct deferred_layout *layout = host->store_data;
-    ir_ref emission = surface->emission;
     spreading.spreads = true;
     closure_flatten(shader, &spreading, surface->bsdf, &spread);
-    uint32_t local = shader_add_local(shader, str_intern_z(shader->strings, "stored"), IR_TYPE_INT);
     struct closure_list marks = marks_of(shader, surface->bsdf, surface->list);
-    measure(shader, &marks, layout);
-    uint32_t source = add_source(shader, layout);
-    assign(shader, EFFECT_VAR, local, begin(shader, layout, source));
+    ir_ref emission = deferred_painted_light(shader, layout, surface->emission);
     if (layout->is_payload)
         premultiply(shader, surface, &marks, &emission);
     shader->reflection.closures.len = 0; /* lights of slabs are no closures of their own here */
+    deferred_note_lost(shader, layout, &marks);
+    if (deferred_is_decal(layout)) {
+        deferred_note_lost_light(shader, emission);
+        put_decal(shader, host, &marks, surface->alpha);
+        return;
+    }
+    uint32_t local = shader_add_local(shader, str_intern_z(shader->strings, "stored"), IR_TYPE_INT);
+    measure(shader, &marks, layout);
+    uint32_t source = add_source(shader, layout);
+    deferred_assign(shader, EFFECT_VAR, local, begin(shader, layout, source));
     for (uint32_t i = 0; i < marks.leaves.len; i++) {
         const struct closure_leaf *leaf = &marks.leaves.items[i];
         store_leaf(shader, leaf, is_spread(&spread, leaf), local, source,
@@ -502,7 +542,7 @@ void deferred_store(struct shader *shader, const struct closure_host *host,
     if (layout->is_payload)
         finish_payload(shader, source, local, emission, surface->alpha);
     else if (layout->is_function)
-        finish_words(shader, source, local, surface);
+        finish_words(shader, source, local, surface, emission);
     else
-        finish_pass(shader, layout, source, local, surface);
+        finish_pass(shader, layout, source, local, surface, emission);
 }

@@ -26,6 +26,7 @@ extern const char *const deferred_words_end[];
 extern const char *const deferred_group[];
 extern const char *const deferred_main[];
 extern const char *const deferred_buffers[];
+extern const char *const deferred_decals[];
 extern const char *const deferred_closures[];
 
 #endif

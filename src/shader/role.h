@@ -68,6 +68,7 @@ enum role_task {
     TASK_BELOW,       /* blur of what lies below rough interfaces */
     TASK_STORAGE,     /* the form of stored slabs */
     TASK_DIFFUSION,   /* light that spreads over the picture */
+    TASK_DECALS,      /* what decals change of a surface that is stored */
     NUM_TASKS
 };
 

@@ -323,6 +323,12 @@ struct shader_sources {
     } pass;
 };
 
+/* A part of a slab that the role has no room for: an input of the slab. */
+struct shader_lost {
+    uint32_t origin;
+    const char *part, *why;
+};
+
 /* Facts of the whole, which a host is told: api/reflection.c. */
 struct shader_reflection {
     str_id name;         /* of the element: "Gold" */
@@ -340,6 +346,7 @@ struct shader_reflection {
     bool displaced;         /* the vertex stage moves the surface */
     const char *not_walked; /* on paths: why its media are tables; NULL: they are not */
     const char *not_traced; /* on paths: why a volume is not drawn; NULL: it is */
+    VEC(struct shader_lost) lost;
     const char *not_stored; /* where pixels store slabs: why it lights itself; NULL: it does not */
     /* words that it stores per pixel, at most, or in a payload; 0: it lights itself */
     uint32_t stored_words;

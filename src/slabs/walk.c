@@ -288,6 +288,8 @@ static ir_ref slab_at(struct walk *w, ir_ref slab, const struct where *where)
     if (where->below && may_bounce(w, inputs))
         place.below = albedo_of(w, where->below);
     ir_ref lobes = w->host->lobes(w->host->user_data, inputs, &place);
+    if (!where->below && w->host->closures->painted)
+        lobes = w->host->closures->painted(w->shader, w->host->closures, lobes);
     if (ir_const_is(g, inputs[SLAB_coverage], 1.0f))
         return lobes;
     ir_ref args[3] = {0, lobes, inputs[SLAB_coverage]};

@@ -134,6 +134,7 @@ static bool open_passes(struct bench *b, struct drawing *d, uint32_t shown)
     const struct passes_setup stores = {.words = d->stored_words + b->words,
                                         .classes = b->decals ? all : d->stored_classes,
                                         .decals = b->decals,
+                                        .painted = {b->painted[0], b->painted[1]},
                                         .binds = binds,
                                         .num_binds = 1,
                                         .shown = shown};

@@ -20,6 +20,7 @@ struct bench {
     char path[1024];        /* of the document */
     const char *host;       /* NULL, or the functions that the passes ask their host for */
     const char *decals;     /* NULL, or a compute shader whose payloads are stored over materials */
+    const char *painted[2]; /* NULL, or compute shaders that put decals into images */
     uint32_t words;         /* more words per pixel than the materials store */
     mxg_bindings *bindings; /* NULL, or the stack 0 of these takes the place of elements */
 };

@@ -3,6 +3,7 @@
  * Payloads of rays: one slab in 64 bytes draws what forward draws with one slab. Argument: the root
  * of the sources.
  */
+#include "deferred/hits.h"
 #include "deferred/pictures.h"
 #include "unit/test.h"
 
@@ -24,103 +25,15 @@ enum { CENTER = PIXELS / 2 + SIZE / 2 }; /* a pixel whose ray hits */
 
 /* ---- Rays ---- */
 
-/*
- * A ray per pixel to the ball, without a mesh. OF_WORLD and TO_WORLD: matrices
- * of the object. The text of the payload function stands before.
- */
-static const char hits_source[] =
-    "layout(local_size_x = 8, local_size_y = 8) in;\n"
-    "layout(set = 1, binding = 8, std140) uniform Frame { mat4 to_world; uvec4 "
-    "size; };\n"
-    "layout(set = 1, binding = 9, std430) buffer Payloads { Surface "
-    "payloads[]; };\n"
-    "struct Ray { vec4 point, view; };\n"
-    "layout(set = 1, binding = 10, std430) buffer Rays { Ray rays[]; };\n"
-    "bool hit(vec2 at, out vec3 point, out vec3 way)\n"
-    "{\n"
-    "    vec4 a = to_world * vec4(at, 0.0, 1.0), b = to_world * vec4(at, 1.0, "
-    "1.0);\n"
-    "    vec3 from = a.xyz / a.w, out_of = from - OF_OBJECT[3].xyz;\n"
-    "    way = normalize(b.xyz / b.w - from);\n"
-    "    float along = dot(out_of, way), inside = along * along - dot(out_of, "
-    "out_of) + 1.0;\n"
-    "    point = from - (along + sqrt(max(inside, 0.0))) * way;\n"
-    "    return inside >= 0.0;\n"
-    "}\n"
-    "void main()\n"
-    "{\n"
-    "    vec2 at = vec2(gl_GlobalInvocationID.xy) + 0.5;\n"
-    "    vec3 point, way, dx, dy, ignored;\n"
-    "    if (!hit(at, point, way))\n"
-    "        return;\n"
-    "    dx = hit(at + vec2(1.0, 0.0), dx, ignored) ? dx - point : vec3(0.0);\n"
-    "    dy = hit(at + vec2(0.0, 1.0), dy, ignored) ? dy - point : vec3(0.0);\n"
-    "    vec3 normal = point - OF_OBJECT[3].xyz, local = normal * "
-    "mat3(OF_OBJECT);\n" /* rotates */
-    "    vec3 tangent = mat3(OF_OBJECT) * normalize(vec3(local.z, 0.0, "
-    "-local.x));\n"
-    "    uint pixel = gl_GlobalInvocationID.y * size.x + "
-    "gl_GlobalInvocationID.x;\n"
-    "    rays[pixel] = Ray(vec4(point, 0.0), vec4(-way, 0.0));\n"
-    "    payloads[pixel] = surface(";
-
-/* Vertex data of a hit. */
-static const char *hit_value(const char *name)
-{
-    static const char *const values[][2] = {{"positionWorld", "point"},
-                                            {"normalWorld", "normal"},
-                                            {"tangentWorld", "tangent"},
-                                            {"viewWorld", "-way"},
-                                            {"positionObject", "local"},
-                                            {"dx_positionWorld", "dx"},
-                                            {"dx_normalWorld", "dx"},
-                                            {"dy_positionWorld", "dy"},
-                                            {"dy_normalWorld", "dy"},
-                                            {"pixel", "at"},
-                                            {"texcoord_0",
-                                             "vec2(fract(atan(local.x, local.z) / 6.2831853), "
-                                             "acos(-local.y) / 3.1415927)"}};
-    for (size_t i = 0; i < sizeof values / sizeof *values; ++i)
-        if (strcmp(values[i][0], name) == 0)
-            return values[i][1];
-    return NULL;
-}
-
-static bool write_hits(struct bench *b, const mxg_result *result, char *out, size_t room)
-{
-    size_t len = (size_t)snprintf(out, room, "#version 450\n%s\nconst mat4 OF_OBJECT = mat4(",
-                                  mxg_result_source(result, MXG_STAGE_PIXEL, NULL));
-    for (size_t i = 0; i < 16 && len < room; ++i)
-        len += (size_t)snprintf(out + len, room - len, "%s%.9g", i ? ", " : "",
-                                b->scene.object.world.m[i / 4][i % 4]);
-    if (len < room)
-        len += (size_t)snprintf(out + len, room - len, ");\n%s", hits_source);
-    const char *between = "";
-    for (uint32_t i = 0; i < mxg_result_num_variables(result) && len < room; ++i) {
-        mxg_variable variable = {sizeof variable};
-        mxg_result_variable(result, i, &variable);
-        if (variable.block != MXG_BLOCK_VERTEX_DATA)
-            continue;
-        const char *value = hit_value(variable.name);
-        if (!REQUIRE(value))
-            printf("    a hit has no %s\n", variable.name);
-        len += (size_t)snprintf(out + len, room - len, "%s%s", between, value ? value : "vec3(0)");
-        between = ", ";
-    }
-    if (len < room)
-        len += (size_t)snprintf(out + len, room - len, ");\n}\n");
-    return REQUIRE(len < room);
-}
-
 /* Draws an element by payloads alone: no mesh, no lights but those of the pass
  * over them. */
 static bool draw_rays(struct bench *b, const char *element, struct drawing *d)
 {
-    static char text[1 << 17];
+    static char text[HITS_ROOM];
     *d = (struct drawing){.pixels = malloc(PIXELS * 4 * sizeof(float)), .count = 1};
     d->canvas = draw_open_canvas(&b->gpu, SIZE, SIZE);
     bool good = drawing_generate(b, element, "payload", "dither", &d->results[0]);
-    if (!good || !write_hits(b, d->results[0], text, sizeof text))
+    if (!good || !hits_write(b, d->results[0], HITS_STORED, text, sizeof text))
         return false;
     good = drawing_open_passes(b, d, &(struct passes_setup){.shown = UINT32_MAX, .hits = text});
     for (size_t i = 0; good && i < PIXELS * PAYLOAD_WORDS; ++i) /* empty: a ray may hit nothing */
@@ -129,13 +42,6 @@ static bool draw_rays(struct bench *b, const char *element, struct drawing *d)
 }
 
 /* ---- Payloads ---- */
-
-/* Pixels that face the viewer: edges differ, because a mesh has corners. */
-static bool faces(size_t pixel)
-{
-    double x = (double)(pixel % SIZE) + 0.5 - SIZE / 2, y = (double)(pixel / SIZE) + 0.5 - SIZE / 2;
-    return hypot(x, y) < 0.36 * SIZE;
-}
 
 /* All words of a payload are written, and none where no ray hits. */
 static void check_payload(const struct drawing *d)
@@ -165,9 +71,9 @@ static void test_payload(struct bench *b, const char *element, int expected)
         for (size_t i = 0; i < PIXELS; ++i) {
             /* forward shows the inside of the ball through holes */
             bool is_hole = rays.pixels[4 * i + 3] < 0.5f;
-            bool differs = faces(i) && !is_hole && forward.pixels[4 * i + 3] < 0.5f;
+            bool differs = hits_faces(i) && !is_hole && forward.pixels[4 * i + 3] < 0.5f;
             differing += differs;
-            for (size_t c = 0; (differs || is_hole || !faces(i)) && c < 4; ++c)
+            for (size_t c = 0; (differs || is_hole || !hits_faces(i)) && c < 4; ++c)
                 forward.pixels[4 * i + c] = rays.pixels[4 * i + c] = 0;
         }
         if (!REQUIRE(differing < 4)) /* edges of holes */
@@ -186,11 +92,11 @@ static void test_payload(struct bench *b, const char *element, int expected)
 /* The words of a material by the function of the role `pack`, of all pixels of rays. */
 static bool pack_rays(struct bench *b, const char *element, struct drawing *d)
 {
-    static char text[1 << 17];
+    static char text[HITS_ROOM];
     *d = (struct drawing){.pixels = malloc(PIXELS * 4 * sizeof(float)), .count = 1};
     d->canvas = draw_open_canvas(&b->gpu, SIZE, SIZE);
     return drawing_generate(b, element, "pack", "dither", &d->results[0])
-           && write_hits(b, d->results[0], text, sizeof text)
+           && hits_write(b, d->results[0], HITS_STORED, text, sizeof text)
            && drawing_open_passes(b, d, &(struct passes_setup){.shown = UINT32_MAX, .hits = text})
            && REQUIRE(render_frame(d->renders, 0, d->canvas, d->pixels));
 }
@@ -218,7 +124,7 @@ static void test_pack(struct bench *b, const char *element, uint32_t num, double
         for (size_t i = 0; i < PIXELS; i += 7) {
             uint32_t words[MAX_WORDS] = {0};
             const uint32_t *made = packed.passes.payloads + i * stride + head;
-            if (!faces(i)
+            if (!hits_faces(i)
                 || !REQUIRE(stored_read(drawn.passes.stored, (uint32_t)(i % SIZE),
                                         (uint32_t)(i / SIZE), words, num)))
                 continue;
@@ -272,17 +178,17 @@ static const char decals[] = "<materialx version='1.39'>" SLAB("paint", "0.1, 0.
 static void test_decal(struct bench *b, const char *decal, const char *base, const char *both,
                        const char *storage, uint32_t words, int least)
 {
-    static char text[1 << 17];
+    static char text[HITS_ROOM];
     struct drawing expected = {0}, stored = {0};
     mxg_result *result = NULL;
     bool good = drawing_generate(b, decal, "payload", "dither", &result)
-                && write_hits(b, result, text, sizeof text)
+                && hits_write(b, result, HITS_STORED, text, sizeof text)
                 && drawing_open(b, both, storage, UINT32_MAX, &expected);
     b->decals = text;
     b->words = words;
     if (good && drawing_open(b, base, storage, UINT32_MAX, &stored)) {
         for (size_t i = 0; i < PIXELS * 4; ++i)
-            if (!faces(i / 4))
+            if (!hits_faces(i / 4))
                 expected.pixels[i] = stored.pixels[i] = 0;
         double db = picture_psnr(expected.pixels, stored.pixels);
         printf("%s over %s, %s, %u words: %.1f dB\n", decal, base, storage, (unsigned)words, db);

@@ -60,6 +60,12 @@ for role in path scatter function deferred depth payload pack; do
     [[ ,$lacking, == *,$role,* ]] ||
         check "role $role" compiles gold.mtlx coat.mtlx --interfaces complete,reduced --role "$role" "${options[@]}"
 done
+for role in deferred pack payload; do
+    options=()
+    [ "$role" = payload ] || options=(--slabs --transparency opaque)
+    [[ ,$lacking, == *,$role,* ]] ||
+        check "decals in images, role $role" compiles gold.mtlx coat.mtlx --interfaces reduced --role "$role" --decals images "${options[@]}"
+done
 case $target in
     msl | wgsl | slang)
         for role in raster function payload; do

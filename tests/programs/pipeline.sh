@@ -309,6 +309,31 @@ check "17 slabs are an error" reports closures-not-stored "$mxgen" seventeen.mtl
 check "16 slabs are stored" "$mxgen" sixteen.mtlx -e SR --target vulkan --role deferred -o many
 warns() { "$mxgen" "$examples/slabs.mtlx" -e MilkySheet --target vulkan --role deferred -o milky 2>&1 | grep -q drawn-forward; }
 check "a message says that a transparent surface is drawn forward" warns
+cat >rich.mtlx <<'X'
+<materialx version="1.39">
+  <slab name="rich" type="BSDF">
+    <input name="glint_density" type="float" value="12"/>
+    <input name="specular_lut" type="filename" value="tint.png"/>
+    <input name="specular_lut_weight" type="float" value="0.5"/>
+    <input name="fuzz_amount" type="float" value="0.5"/>
+    <input name="emission" type="color3" value="1, 1, 1"/>
+  </slab>
+  <slab_surface name="SR" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="rich"/></slab_surface>
+</materialx>
+X
+# lost OPTION...: the lines of the inputs that a role leaves out, in order
+lost() { "$mxgen" rich.mtlx -e SR --target vulkan --reflect -o rich "$@" 2>&1 | sed -n 's/^rich.mtlx:\([0-9]*\):.*slab-left-out.*/\1/p' | sort -n | tr '\n' ' '; }
+check "a payload tells of glints and tints" eval '[ "$(lost --role payload)" = "3 4 " ]'
+check "a function of a pixel tells of glints" eval '[ "$(lost --role pack)" = "3 " ]'
+check "a decal for images tells of all that they lack" eval '[ "$(lost --role payload --decals images)" = "3 4 6 7 " ]'
+check "its reflection has the images" python3 -c 'import json
+deferred = json.load(open("rich/SR.json"))["deferred"]
+assert deferred["pass"] == "decal" and [t["name"] for t in deferred["targets"]] == ["decal_albedo", "decal_f0", "decal_normal", "decal_roughness"], deferred'
+check "a material that is stored tells of nothing" eval '[ -z "$(lost --role deferred --decals images)" ]'
+check "its reflection has the images that it reads" python3 -c 'import json
+read = {r["name"] for r in json.load(open("rich/SR.json"))["deferred"]["resources"] if r["access"] == "read"}
+assert read == {"decal_albedo", "decal_f0", "decal_normal", "decal_roughness"}, read'
+check "a forward shader has no decals in images" reports option-without-effect "$mxgen" rich.mtlx -e SR --decals images -o rich
 cat >aov.mtlx <<'X'
 <materialx version="1.39">
   <slab name="matter" type="BSDF"/>

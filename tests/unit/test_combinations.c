@@ -56,6 +56,7 @@ static const struct setting {
      "role",
      {"raster", "function", "path", "scatter", "deferred", "depth", "payload", "pack"}},
     {"storage", "storage", {"dither", "round", "float"}},
+    {"decals", "decals", {"over", "images"}},
     {"sss", "sss", {"wrap", "diffusion"}},
     {"rough_refraction", "rough-refraction", {"sharp", "blur"}},
     {"slots", "slots", {"blend", "stochastic"}},
@@ -141,6 +142,7 @@ static bool is_of_storage(struct choice choice)
 {
     return choice.value > 0
            && (strcmp(choice.setting->id, "storage") == 0
+               || strcmp(choice.setting->id, "decals") == 0
                || strcmp(choice.setting->id, "sss") == 0);
 }
 

@@ -8,9 +8,9 @@
 
 enum { MAX_ARGS = 6 };
 
-struct number { /* one component, or two or three */
+struct number { /* one component, or two to four */
     unsigned num;
-    float at[3];
+    float at[4];
 };
 #define ONE(x) \
     { \
@@ -33,6 +33,13 @@ struct number { /* one component, or two or three */
             x, y, z \
         } \
     }
+#define FOUR(x, y, z, w) \
+    { \
+        4, \
+        { \
+            x, y, z, w \
+        } \
+    }
 
 static const struct row {
     const char *name;
@@ -49,6 +56,16 @@ static const struct row {
     {"mx_medium_evened",
      {THREE(0.8f, 1, 0), THREE(0.25f, 0, 0.5f), THREE(0.5f, 0.5f, 0.5f)},
      THREE(0.75f, 1, 0.5f)},
+    {"mx_decal_over",
+     {THREE(0.8f, 0.4f, 0), FOUR(0.1f, 0.2f, 0.3f, 0.5f)},
+     THREE(0.5f, 0.4f, 0.3f)},
+    {"mx_decal_over", {ONE(0.8f), FOUR(0.1f, 0, 0, 0.5f)}, ONE(0.5f)},
+    {"mx_decal_left", {ONE(0.8f), FOUR(0.1f, 0, 0, 0.5f)}, ONE(0.4f)},
+    {"mx_decal_hue", {THREE(1, 0.5f, 0), FOUR(0, 0, 0, 0.5f)}, THREE(1, 0.75f, 0.5f)},
+    {"mx_decal_glints", {ONE(9), FOUR(0, 0, 0, 0.4f)}, ONE(0)},
+    {"mx_decal_normal", {THREE(0, 0, 1), FOUR(0, 0, 0, 1)}, THREE(0, 0, 1)},
+    {"mx_decal_normal", {THREE(0, 0, 1), FOUR(1, 0.5f, 0.5f, 0)}, THREE(1, 0, 0)},
+    {"mx_decal_pixel_of_normal", {THREE(1, 0, 0), ONE(0.5f)}, FOUR(0.5f, 0.25f, 0.25f, 0.5f)},
     {"mx_blend_share", {ONE(1), ONE(3)}, ONE(0.75f)},
     {"mx_blend_share", {ONE(0), ONE(0)}, ONE(0)},
     {"mx_blend_share", {THREE(1, 1, 1), THREE(0, 3, 6)}, ONE(0.75f)},
@@ -113,7 +130,8 @@ static ir_ref constant(struct fixture *f, const struct number *number)
 {
     struct ir_value value = {.type = number->num == 1   ? IR_TYPE_FLOAT
                                      : number->num == 2 ? IR_TYPE_VEC2
-                                                        : IR_TYPE_VEC3};
+                                     : number->num == 3 ? IR_TYPE_VEC3
+                                                        : IR_TYPE_VEC4};
     for (unsigned i = 0; i < number->num; i++)
         value.w[i].f = number->at[i];
     return ir_const(&f->graph, &value);

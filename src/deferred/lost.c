@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+/* What a payload or a function has no room for, for messages: nothing goes silently. */
+#include "deferred/deferred_priv.h"
+
+enum form { PAYLOAD = 1, DECAL = 2, PACK = 4 };
+
+static const struct {
+    enum mark_operand operand;
+    float none; /* its value where a slab has no such part */
+    unsigned forms;
+    const char *part; /* the input of a slab */
+} parts[] = {
+    {MARK_glint_density, 0.0f, PAYLOAD | DECAL | PACK, "glint_density"},
+    {MARK_tint_weight, 0.0f, PAYLOAD | DECAL, "specular_lut"},
+    {MARK_fuzz_amount, 0.0f, DECAL, "fuzz_amount"},
+    {MARK_anisotropy, 0.0f, DECAL, "anisotropy"},
+    {MARK_second_roughness_weight, 0.0f, DECAL, "second_roughness_weight"},
+    {MARK_free_path, 0.0f, DECAL, "mean_free_path"},
+    {MARK_f90, 1.0f, DECAL, "f90"},
+};
+
+static const char why_decal[] = "images of decals have diffuse_albedo, f0, normal and roughness";
+
+static const char *why(enum form form, enum mark_operand operand)
+{
+    bool are_glints = operand == MARK_glint_density;
+    return form == DECAL ? why_decal
+           : form == PACK
+               ? "a function does not know the neighbours of its pixel, so its glints are "
+                 "their mean"
+           : are_glints ? "a ray does not know its neighbours, so its glints are their mean"
+                        : "a payload has no room for it";
+}
+
+void deferred_note_lost(struct shader *shader, const struct deferred_layout *layout,
+                        const struct closure_list *marks)
+{
+    const struct ir_graph *g = shader->graph;
+    enum form form = deferred_is_decal(layout) ? DECAL : layout->is_payload ? PAYLOAD : PACK;
+    if (!layout->is_payload && !layout->is_function)
+        return;
+    for (uint32_t i = 0; i < marks->leaves.len; i++)
+        for (size_t k = 0; k < sizeof parts / sizeof *parts; k++) {
+            ir_ref mark = marks->leaves.items[i].leaf, value = ir_arg(g, mark, parts[k].operand);
+            if (!(parts[k].forms & form) || ir_const_is(g, value, parts[k].none))
+                continue;
+            struct shader_lost lost = {ir_get(g, mark)->origin, parts[k].part,
+                                       why(form, parts[k].operand)};
+            vec_push(shader->arena, &shader->reflection.lost, lost);
+        }
+}
+
+void deferred_note_lost_light(struct shader *shader, ir_ref emission)
+{
+    if (!emission || ir_const_is(shader->graph, emission, 0.0f))
+        return;
+    struct shader_lost lost = {ir_get(shader->graph, emission)->origin, "emission", why_decal};
+    vec_push(shader->arena, &shader->reflection.lost, lost);
+}
