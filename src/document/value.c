@@ -4,7 +4,6 @@
 #include "document/document.h"
 
 #include <assert.h>
-#include <math.h>
 
 static bool is_space(char c)
 {
@@ -33,10 +32,8 @@ static size_t skip_separator(const char *text, size_t len, size_t at)
 
 static size_t parse_number(bool integer, const char *text, size_t len, union ir_word *out)
 {
-    if (!integer) {
-        size_t digits = num_parse_float(text, len, &out->f);
-        return digits && isinf(out->f) ? 0 : digits; /* too large */
-    }
+    if (!integer)
+        return num_parse_float(text, len, &out->f);
     int64_t value;
     size_t read = num_parse_int(text, len, &value);
     if (read == 0 || value < INT32_MIN || value > INT32_MAX)
@@ -223,21 +220,6 @@ bool doc_value_is_valid(doc_type type, const char *text, size_t len)
     return count >= 0 && count % group[type - DOC_TYPE_integerarray] == 0;
 }
 
-/* Of a word that is a number, but not one of the type. */
-static const char *number_fault(bool integer, const char *word, size_t len, struct arena *arena)
-{
-    struct text message;
-    bool is_whole = true;
-    for (size_t i = 0; i < len; i++)
-        is_whole &= word[i] != '.' && word[i] != 'e' && word[i] != 'E';
-    if (integer && !is_whole)
-        return ": an integer has no fraction and no exponent";
-    text_init(&message, arena);
-    text_fmt(&message, ": '%.*s' is too large: the largest %s is %s", (int)len, word,
-             integer ? "integer" : "number", integer ? "2147483647" : "3.4e38");
-    return text_cstr(&message);
-}
-
 const char *doc_value_fault(doc_type type, const char *text, size_t len, struct arena *arena)
 {
     struct text message;
@@ -261,14 +243,11 @@ const char *doc_value_fault(doc_type type, const char *text, size_t len, struct 
     if (end == fault)
         return ": a number is missing after a comma";
     float number;
-    if (num_parse_float(text + fault, end - fault, &number) == end - fault)
-        return number_fault(integer, text + fault, end - fault, arena);
+    if (integer && num_parse_float(text + fault, end - fault, &number) == end - fault)
+        return ": an integer has no fraction and no exponent";
     unsigned components = doc_type_components(type);
     if (!fault && end == len && components) { /* the message has the word already */
-        text_fmt(&message,
-                 components > 1 ? ": it is %u numbers with commas between them"
-                                : ": it is one number, such as 1",
-                 components);
+        text_fmt(&message, components > 1 ? ": it is %u numbers" : ": it is a number", components);
         return text_cstr(&message);
     }
     text_fmt(&message, ": '%.*s' is not a valid %s", (int)(end - fault), text + fault,
