@@ -55,9 +55,8 @@ void generation_defer(struct generation *g)
         g->closure_host.has_room = deferred_has_room;
         g->closure_host.store_data = &g->result->storage;
     }
-    if (role_packs_pixel(g->role) && g->result->storage.has_decals) {
+    if (role_packs_pixel(g->role) && g->result->storage.has_decals)
         g->closure_host.painted = deferred_painted;
-    }
 }
 
 void generation_hide_misfits(struct generation *g)

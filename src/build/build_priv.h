@@ -290,7 +290,7 @@ ir_ref build_default_geomprop(struct builder *b, elem_id element, doc_type type)
  * otherwise.
  */
 bool build_initial(struct builder *b, ir_ref value, struct ir_value *out);
-/* The same for a node that needs constants and uniforms only. */
+/* The value of a node that needs constants and uniforms only, by their initial values. */
 bool build_evaluate(struct builder *b, ir_ref value, struct ir_value *out);
 
 /*

@@ -129,17 +129,17 @@ ir_ref closure_host_thickness(struct shader *shader, const struct closure_host *
 /* The way of the view through the medium. */
 static ir_ref depth_of(struct shader *shader, const struct closure_host *host)
 {
-    struct ir_graph *g = shader->graph;
-    ir_ref diameter = 0, way = 0;
-    if (!host->asks_thickness)
-        diameter = shader_read(shader,
-                               shader_private_uniform(shader, STR_u_volumeDepth, IR_TYPE_FLOAT, 0));
     /* statements fix the order of the nodes; C leaves the order of arguments open */
+    if (host->asks_thickness) {
+        ir_ref view = closure_view(shader, host), normal = closure_normal(shader, host);
+        ir_ref inwards = ir_op1(shader->graph, IR_NEG, view);
+        ir_ref way = closure_host_thickness(shader, host, inwards);
+        return FORMULA(shader, "mx_volume_way", way, normal, view);
+    }
+    uint32_t ball = shader_private_uniform(shader, STR_u_volumeDepth, IR_TYPE_FLOAT, 0);
+    ir_ref diameter = shader_read(shader, ball);
     ir_ref view = closure_view(shader, host), normal = closure_normal(shader, host);
-    if (host->asks_thickness)
-        way = closure_host_thickness(shader, host, ir_op1(g, IR_NEG, view));
-    return way ? FORMULA(shader, "mx_volume_way", way, normal, view)
-               : FORMULA(shader, "mx_volume_depth", diameter, normal, view);
+    return FORMULA(shader, "mx_volume_depth", diameter, normal, view);
 }
 
 void closure_volume(struct shader *shader, const struct closure_host *host, ir_ref root,

@@ -37,50 +37,50 @@ static uint32_t callee(struct shader *shader, const struct deferred_layout *layo
     return deferred_callee(shader, name, add_source(shader, layout));
 }
 
-/* A function has no pixel to read at: the caller gives it the values. */
-static ir_ref given(struct shader *shader, enum decal_image image)
+static str_id name_of(const struct shader *shader, enum decal_image image)
 {
     enum deferred_binding binding = (enum deferred_binding)(RESOURCE_DECAL_ALBEDO + image);
-    str_id name = str_intern_z(shader->strings, deferred_resource(binding)->name);
-    return deferred_given(shader, name, IR_TYPE_VEC4);
+    return str_intern_z(shader->strings, deferred_resource(binding)->name);
 }
 
+/* A function has no pixel to read at: the caller gives it the values. */
 static ir_ref decal_at(struct shader *shader, const struct deferred_layout *layout,
                        enum decal_image image)
 {
-    ir_ref number = ir_const_int(shader->graph, (int)image);
+    struct ir_graph *g = shader->graph;
+    str_id name = name_of(shader, image);
     if (layout->is_function)
-        return given(shader, image);
-    return ir_build(shader->graph, IR_VERBATIM, IR_TYPE_VEC4, callee(shader, layout), &number, 1);
+        return deferred_given(shader, name, IR_TYPE_VEC4);
+    const char *value = str_text(shader->strings, name) + strlen("decal_");
+    ir_ref number = ir_const_int(g, (int)image);
+    ir_push_name(g, str_intern_z(shader->strings, value)); /* "f0_decal" */
+    ir_ref pixel = ir_build(g, IR_VERBATIM, IR_TYPE_VEC4, callee(shader, layout), &number, 1);
+    ir_pop_origin(g);
+    return pixel;
 }
 
 /* ---- Bases ---- */
 
-/* What decals change of a mark: by which formula, and the image that says how much. */
+/* Decals change operands of a mark by a formula and an image, which may have such a value itself.
+ */
 static const struct {
     enum mark_operand operand;
     enum decal_image image;
+    bool is_in_image;
     const char *formula;
 } changes[] = {
-    {MARK_diffuse_albedo, ALBEDO, "mx_decal_over"},
-    {MARK_f0, F0, "mx_decal_over"},
-    {MARK_normal, NORMAL, "mx_decal_normal"},
-    {MARK_roughness, ROUGHNESS, "mx_decal_over"},
-    {MARK_free_path, ALBEDO, "mx_decal_left"},
-    {MARK_fuzz_amount, ALBEDO, "mx_decal_left"},
-    {MARK_f90, F0, "mx_decal_hue"},
-    {MARK_tint_weight, F0, "mx_decal_left"},
-    {MARK_anisotropy, ROUGHNESS, "mx_decal_left"},
-    {MARK_second_roughness_weight, ROUGHNESS, "mx_decal_left"},
-    {MARK_glint_density, ROUGHNESS, "mx_decal_glints"},
+    {MARK_diffuse_albedo, ALBEDO, true, "mx_decal_over"},
+    {MARK_f0, F0, true, "mx_decal_over"},
+    {MARK_normal, NORMAL, true, "mx_decal_normal"},
+    {MARK_roughness, ROUGHNESS, true, "mx_decal_over"},
+    {MARK_free_path, ALBEDO, false, "mx_decal_left"},
+    {MARK_fuzz_amount, ALBEDO, false, "mx_decal_left"},
+    {MARK_f90, F0, false, "mx_decal_hue"},
+    {MARK_tint_weight, F0, false, "mx_decal_left"},
+    {MARK_anisotropy, ROUGHNESS, false, "mx_decal_left"},
+    {MARK_second_roughness_weight, ROUGHNESS, false, "mx_decal_left"},
+    {MARK_glint_density, ROUGHNESS, false, "mx_decal_glints"},
 };
-
-/* True for what a base lacks, and decals do not have either. */
-static bool is_absent(const struct ir_graph *g, const char *formula, ir_ref value)
-{
-    bool is_hue = strcmp(formula, "mx_decal_hue") == 0;
-    return strcmp(formula, "mx_decal_over") != 0 && ir_const_is(g, value, is_hue ? 1.0f : 0.0f);
-}
 
 static ir_ref painted_mark(struct shader *shader, const struct deferred_layout *layout, ir_ref mark)
 {
@@ -91,7 +91,7 @@ static ir_ref painted_mark(struct shader *shader, const struct deferred_layout *
     memcpy(args, ir_args(g, mark), sizeof args);
     for (size_t i = 0; i < sizeof changes / sizeof *changes; i++) {
         ir_ref *value = &args[changes[i].operand];
-        if (!is_absent(g, changes[i].formula, *value))
+        if (changes[i].is_in_image || deferred_has_part(g, mark, changes[i].operand))
             *value = FORMULA(shader, changes[i].formula, *value,
                              decal_at(shader, layout, changes[i].image));
     }
@@ -123,23 +123,32 @@ ir_ref deferred_painted_light(struct shader *shader, const struct deferred_layou
 
 static void put(struct shader *shader, enum decal_image image, ir_ref pixel)
 {
-    enum deferred_binding binding = (enum deferred_binding)(RESOURCE_DECAL_ALBEDO + image);
-    str_id name = str_intern_z(shader->strings, deferred_resource(binding)->name);
-    deferred_assign(shader, EFFECT_OUTPUT, shader_output(shader, name, IR_TYPE_VEC4), pixel);
+    uint32_t output = shader_output(shader, name_of(shader, image), IR_TYPE_VEC4);
+    deferred_assign(shader, EFFECT_OUTPUT, output, pixel);
+}
+
+/* A decal without a slab is black, and leaves normals and roughness as they are. */
+static void put_black(struct shader *shader, ir_ref opacity)
+{
+    struct ir_graph *g = shader->graph;
+    ir_ref parts[2] = {ir_black(g), opacity}, black = ir_construct(g, IR_TYPE_VEC4, parts, 2),
+           nothing = ir_const_splat(g, IR_TYPE_VEC4, 0.0f);
+    put(shader, ALBEDO, black);
+    put(shader, F0, black);
+    put(shader, NORMAL, nothing);
+    put(shader, ROUGHNESS, nothing);
 }
 
 void deferred_put_decal(struct shader *shader, ir_ref mark, ir_ref weight, ir_ref opacity,
                         ir_ref usual_normal)
 {
     struct ir_graph *g = shader->graph;
-    ir_ref none = ir_const_float(g, 0.0f), empty[2] = {ir_black(g), opacity};
-    ir_ref args[NUM_MARK_OPERANDS] = {0}, nothing = ir_construct(g, IR_TYPE_VEC4, empty, 2);
-    if (mark)
-        memcpy(args, ir_args(g, mark), sizeof args);
-    for (enum decal_image i = ALBEDO; !mark && i <= ROUGHNESS; i++)
-        put(shader, i, i == ALBEDO || i == F0 ? nothing : ir_const_splat(g, IR_TYPE_VEC4, 0.0f));
-    if (!mark)
+    if (!mark) {
+        put_black(shader, opacity);
         return;
+    }
+    ir_ref args[NUM_MARK_OPERANDS], none = ir_const_float(g, 0.0f);
+    memcpy(args, ir_args(g, mark), sizeof args);
     ir_ref rough[4] = {ir_mul(g, args[MARK_roughness], opacity), none, none, opacity};
     ir_ref of_normal = args[MARK_normal] == usual_normal ? none : opacity;
     put(shader, ALBEDO,

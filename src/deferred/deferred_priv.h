@@ -54,10 +54,12 @@ void deferred_put_decal(struct shader *shader, ir_ref mark, ir_ref weight, ir_re
 
 /* ---- lost.c ---- */
 
+/* False where a slab lacks what an operand is the amount of; for f90, the hue. */
+bool deferred_has_part(const struct ir_graph *g, ir_ref mark, enum mark_operand operand);
 /* Notes what the form has no room for. */
 void deferred_note_lost(struct shader *shader, const struct deferred_layout *layout,
                         const struct closure_list *marks);
-/* The same of the light of a decal for images; 0: it has none. */
+/* Notes the light of a decal, which its images have no room for; 0: it has none. */
 void deferred_note_lost_light(struct shader *shader, ir_ref emission);
 
 /* ---- passes.c and others ---- */

@@ -6,18 +6,22 @@ enum form { PAYLOAD = 1, DECAL = 2, PACK = 4 };
 
 static const struct {
     enum mark_operand operand;
-    float none; /* its value where a slab has no such part */
     unsigned forms;
     const char *part; /* the input of a slab */
 } parts[] = {
-    {MARK_glint_density, 0.0f, PAYLOAD | DECAL | PACK, "glint_density"},
-    {MARK_tint_weight, 0.0f, PAYLOAD | DECAL, "specular_lut"},
-    {MARK_fuzz_amount, 0.0f, DECAL, "fuzz_amount"},
-    {MARK_anisotropy, 0.0f, DECAL, "anisotropy"},
-    {MARK_second_roughness_weight, 0.0f, DECAL, "second_roughness_weight"},
-    {MARK_free_path, 0.0f, DECAL, "mean_free_path"},
-    {MARK_f90, 1.0f, DECAL, "f90"},
+    {MARK_glint_density, PAYLOAD | DECAL | PACK, "glint_density"},
+    {MARK_tint_weight, PAYLOAD | DECAL, "specular_lut"},
+    {MARK_fuzz_amount, DECAL, "fuzz_amount"},
+    {MARK_anisotropy, DECAL, "anisotropy"},
+    {MARK_second_roughness_weight, DECAL, "second_roughness_weight"},
+    {MARK_free_path, DECAL, "mean_free_path"},
+    {MARK_f90, DECAL, "f90"},
 };
+
+bool deferred_has_part(const struct ir_graph *g, ir_ref mark, enum mark_operand operand)
+{
+    return !ir_const_is(g, ir_arg(g, mark, operand), operand == MARK_f90 ? 1.0f : 0.0f);
+}
 
 static const char why_decal[] = "images of decals have diffuse_albedo, f0, normal and roughness";
 
@@ -41,8 +45,8 @@ void deferred_note_lost(struct shader *shader, const struct deferred_layout *lay
         return;
     for (uint32_t i = 0; i < marks->leaves.len; i++)
         for (size_t k = 0; k < sizeof parts / sizeof *parts; k++) {
-            ir_ref mark = marks->leaves.items[i].leaf, value = ir_arg(g, mark, parts[k].operand);
-            if (!(parts[k].forms & form) || ir_const_is(g, value, parts[k].none))
+            ir_ref mark = marks->leaves.items[i].leaf;
+            if (!(parts[k].forms & form) || !deferred_has_part(g, mark, parts[k].operand))
                 continue;
             struct shader_lost lost = {ir_get(g, mark)->origin, parts[k].part,
                                        why(form, parts[k].operand)};

@@ -251,8 +251,8 @@ static ir_ref table_of(struct shader *shader, ir_ref texture, ir_ref weight)
 /* True for a tangent and coordinates that nobody reads: they need no vertex attribute. */
 static bool is_unread(const struct ir_graph *g, ir_ref mark, unsigned operand, bool is_whole)
 {
-    bool has_glints = !ir_const_is(g, ir_arg(g, mark, MARK_glint_density), 0.0f);
-    bool is_turned = is_whole || !ir_const_is(g, ir_arg(g, mark, MARK_anisotropy), 0.0f);
+    bool has_glints = deferred_has_part(g, mark, MARK_glint_density);
+    bool is_turned = is_whole || deferred_has_part(g, mark, MARK_anisotropy);
     if (operand == MARK_tangent)
         return !has_glints && !is_turned;
     return operand == MARK_glint_uv && !has_glints;

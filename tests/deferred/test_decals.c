@@ -93,7 +93,7 @@ static void test_empty(struct bench *b)
     drawing_close(&plain);
 }
 
-/* The same decal stored over the base. */
+/* The decal stored over the base draws alike. */
 static void test_over(struct bench *b)
 {
     static char over[HITS_ROOM], texts[2][HITS_ROOM];

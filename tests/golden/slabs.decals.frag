@@ -664,15 +664,15 @@ void main()
     stored = mx_store_closure(stored, vec3(0.8, 0.9, 0.95), vec3(0.04), vec3(1.0), 0.5007194, 0.0, N, vec3(0.0), 0.5,
         0.0, 0.0, vec3(1.0), 0.5007194, vec3(5.0), 0.0, 0.0, 0.0, vec2(0.0), 0.0, 0.0, 0.0, drops_throughput - decaying,
         decaying, milk_mark_decay, 0.0);
-    vec4 metal_decal = mx_decal(0);
-    vec3 metal_decal_over = metal_decal.w * vec3(0.700394, 0.2554791, 0.0776317) + metal_decal.xyz;
-    vec4 metal_decal_2 = mx_decal(1);
-    vec3 metal_decal_over_2 = metal_decal_2.w * vec3(0.66622823, 0.46274176, 0.24108408) + metal_decal_2.xyz;
-    vec4 metal_decal_3 = mx_decal(3);
-    float metal_decal_over_3 = metal_decal_3.w * 0.54668933 + metal_decal_3.x;
-    vec4 metal_decal_4 = mx_decal(2);
-    vec3 metal_direction = normalize(N * (metal_decal_4.w + 1e-6) + metal_decal_4.xyz * 2.0 - (1.0 - metal_decal_4.w));
-    vec3 decal_normal = metal_decal_4.w >= 1.0 ? N : metal_direction;
+    vec4 decal = mx_decal(0);
+    vec3 metal_decal_over = decal.w * vec3(0.700394, 0.2554791, 0.0776317) + decal.xyz;
+    vec4 f0_decal = mx_decal(1);
+    vec3 metal_decal_over_2 = f0_decal.w * vec3(0.66622823, 0.46274176, 0.24108408) + f0_decal.xyz;
+    vec4 roughness_decal = mx_decal(3);
+    float metal_decal_over_3 = roughness_decal.w * 0.54668933 + roughness_decal.x;
+    vec4 normal_decal = mx_decal(2);
+    vec3 metal_direction = normalize(N * (normal_decal.w + 1e-6) + normal_decal.xyz * 2.0 - (1.0 - normal_decal.w));
+    vec3 decal_normal = normal_decal.w >= 1.0 ? N : metal_direction;
     vec2 milk_reflection_albedo = mx_ggx_albedo_fit(0.25071993, cos_v);
     float milk_reflection_ggx_compensation = (1.0 / milk_reflection_albedo.x - 1.0) * 0.08571428 + 1.0;
     float milk_reflection_throughput = max(1.0 - mix(0.04, 1.0, milk_reflection_albedo.y) * milk_reflection_albedo.x
@@ -698,5 +698,5 @@ void main()
         decal_normal, vec3(0.0), 0.5, 0.0, 0.0, vec3(1.0), 0.54668933, vec3(0.0), 0.0, 0.0, 0.0, vec2(0.0), 0.0, 0.0,
         0.0, milky_metal_weight - decaying_2, decaying_2, metal_decay, 0.0);
     stored = mx_finish_closures(stored);
-    out1 = vec4(metal_decal.w * ((decaying + (drops_throughput - decaying)) * vec3(0.0, 0.1, 0.0)), 1.0);
+    out1 = vec4(decal.w * ((decaying + (drops_throughput - decaying)) * vec3(0.0, 0.1, 0.0)), 1.0);
 }

@@ -588,16 +588,16 @@ fn main(vd_in: VertexData) -> PixelOutputs
     stored = mx_store_closure(stored, vec3f(0.8, 0.9, 0.95), vec3f(0.04), vec3f(1.0), 0.5007194, 0.0, N, vec3f(0.0),
         0.5, 0.0, 0.0, vec3f(1.0), 0.5007194, vec3f(5.0), 0.0, 0.0, 0.0, vec2f(0.0), 0.0, 0.0, 0.0, drops_throughput
         - decaying, decaying, milk_mark_decay, 0.0);
-    let metal_decal: vec4f = mx_decal(0);
-    let metal_decal_over: vec3f = metal_decal.w * vec3f(0.700394, 0.2554791, 0.0776317) + metal_decal.xyz;
-    let metal_decal_2: vec4f = mx_decal(1);
-    let metal_decal_over_2: vec3f = metal_decal_2.w * vec3f(0.66622823, 0.46274176, 0.24108408) + metal_decal_2.xyz;
-    let metal_decal_3: vec4f = mx_decal(3);
-    let metal_decal_over_3: f32 = metal_decal_3.w * 0.54668933 + metal_decal_3.x;
-    let metal_decal_4: vec4f = mx_decal(2);
-    let metal_direction: vec3f = normalize(N * (metal_decal_4.w + 1e-6) + metal_decal_4.xyz * 2.0
-        - (1.0 - metal_decal_4.w));
-    let decal_normal: vec3f = select(metal_direction, N, metal_decal_4.w >= 1.0);
+    let decal: vec4f = mx_decal(0);
+    let metal_decal_over: vec3f = decal.w * vec3f(0.700394, 0.2554791, 0.0776317) + decal.xyz;
+    let f0_decal: vec4f = mx_decal(1);
+    let metal_decal_over_2: vec3f = f0_decal.w * vec3f(0.66622823, 0.46274176, 0.24108408) + f0_decal.xyz;
+    let roughness_decal: vec4f = mx_decal(3);
+    let metal_decal_over_3: f32 = roughness_decal.w * 0.54668933 + roughness_decal.x;
+    let normal_decal: vec4f = mx_decal(2);
+    let metal_direction: vec3f = normalize(N * (normal_decal.w + 1e-6) + normal_decal.xyz * 2.0
+        - (1.0 - normal_decal.w));
+    let decal_normal: vec3f = select(metal_direction, N, normal_decal.w >= 1.0);
     let milk_reflection_albedo: vec2f = mx_ggx_albedo_fit(0.25071993, cos_v);
     let milk_reflection_ggx_compensation: f32 = (1.0 / milk_reflection_albedo.x - 1.0) * 0.08571428 + 1.0;
     let milk_reflection_throughput: f32 = max(1.0 - mix(0.04, 1.0, milk_reflection_albedo.y) * milk_reflection_albedo.x
@@ -624,7 +624,7 @@ fn main(vd_in: VertexData) -> PixelOutputs
         decal_normal, vec3f(0.0), 0.5, 0.0, 0.0, vec3f(1.0), 0.54668933, vec3f(0.0), 0.0, 0.0, 0.0, vec2f(0.0), 0.0,
         0.0, 0.0, milky_metal_weight - decaying_2, decaying_2, metal_decay, 0.0);
     stored = mx_finish_closures(stored);
-    out1 = vec4f(metal_decal.w * ((decaying + (drops_throughput - decaying)) * vec3f(0.0, 0.1, 0.0)), 1.0);
+    out1 = vec4f(decal.w * ((decaying + (drops_throughput - decaying)) * vec3f(0.0, 0.1, 0.0)), 1.0);
     word0 = mx_stored_word(stored, 0);
     word1 = mx_stored_word(stored, 1);
     word2 = mx_stored_word(stored, 2);
