@@ -12,16 +12,6 @@ static const char *text_of(const struct library *lib, str_id id)
     return str_text(&lib->strings, id);
 }
 
-static bool has_type(struct indexer *ix, elem_id element, doc_type *out_type)
-{
-    str_id name = index_attr(ix, element, STR_type);
-    *out_type = library_type(ix->lib, name);
-    if (*out_type)
-        return true;
-    doc_report_type(&ix->lib->doc, element, ix->diags);
-    return false;
-}
-
 /* Stores the index of an element in the table of its kind. */
 static void set_info(struct indexer *ix, elem_id element, uint32_t own)
 {
@@ -46,7 +36,7 @@ static ir_type_id struct_type(struct indexer *ix, elem_id element, str_id name)
     for (elem_id e = doc_element(&lib->doc, element)->first_child; e;
          e = doc_element(&lib->doc, e)->next) {
         doc_type type;
-        if (doc_element(&lib->doc, e)->kind != KIND_MEMBER || !has_type(ix, e, &type))
+        if (doc_element(&lib->doc, e)->kind != KIND_MEMBER || !index_type(ix, e, &type))
             continue;
         vec_push(ix->arena, &lib->unit.members,
                  (struct ir_member){.name = doc_element(&lib->doc, e)->name,
@@ -78,84 +68,6 @@ static void add_typedef(struct indexer *ix, elem_id element)
 }
 
 /* ---- definitions ---- */
-
-static void add_port(struct indexer *ix, elem_id element, bool input)
-{
-    struct document *doc = &ix->lib->doc;
-    struct port port = {.name = doc_element(doc, element)->name, .element = element};
-    if (!has_type(ix, element, &port.type))
-        return;
-    const struct attribute *value = doc_attr(doc, element, input ? STR_value : STR_default);
-    port.value = value ? value->value : 0;
-    port.flags = (uint16_t)((value ? PORT_HAS_VALUE : 0)
-                            | (doc_attr_is_true(doc, element, STR_uniform) ? PORT_UNIFORM : 0)
-                            | (index_attr(ix, element, STR_enum) ? PORT_ENUM : 0));
-    port.geomprop = index_attr(ix, element, input ? STR_defaultgeomprop : STR_defaultinput);
-    vec_push(ix->arena, &ix->lib->ports, port);
-}
-
-static bool port_exists(const struct library *lib, uint32_t first, str_id name)
-{
-    for (uint32_t i = first; i < lib->ports.len; i++)
-        if (lib->ports.items[i].name == name)
-            return true;
-    return false;
-}
-
-static void add_ports_of(struct indexer *ix, elem_id nodedef, enum element_kind kind,
-                         uint32_t first)
-{
-    struct library *lib = ix->lib;
-    uint32_t max_ports = kind == KIND_INPUT ? INDEX_MAX_PORTS : LIBRARY_MAX_OUTPUTS;
-    assert(lib->ports.len - first <= max_ports);
-    for (elem_id e = doc_element(&lib->doc, nodedef)->first_child; e;
-         e = doc_element(&lib->doc, e)->next) {
-        if (doc_element(&lib->doc, e)->kind != kind
-            || port_exists(lib, first, doc_element(&lib->doc, e)->name))
-            continue;
-        if (lib->ports.len - first == max_ports) {
-            diag_add(ix->diags, DIAG_ID_too_many_ports, doc_place(&lib->doc, e),
-                     text_of(lib, doc_element(&lib->doc, nodedef)->name), (unsigned)max_ports);
-            return;
-        }
-        add_port(ix, e, kind == KIND_INPUT);
-    }
-}
-
-enum { MAX_INHERIT = 256 };
-
-/*
- * Adds own ports first, then inherited ports without a redeclaration (specification, "NodeDef
- * Inheritance").
- */
-static uint16_t add_ports(struct indexer *ix, elem_id nodedef, enum element_kind kind)
-{
-    struct library *lib = ix->lib;
-    uint32_t first = lib->ports.len;
-    elem_id at = nodedef, mark = nodedef; /* Brent: a cycle comes back to one of the marks */
-    for (unsigned depth = 1; at; depth++) {
-        add_ports_of(ix, at, kind, first);
-        str_id inherit = index_attr(ix, at, STR_inherit);
-        if (!inherit)
-            break;
-        elem_id parent = 0;
-        for (const struct library *layer = lib; !parent && layer; layer = layer->base)
-            parent = doc_child_of_kind(&layer->doc, layer->doc.root, KIND_NODEDEF, inherit);
-        if (parent == mark || depth == MAX_INHERIT || !parent) {
-            diag_add(ix->diags,
-                     !parent          ? DIAG_ID_inherit_missing
-                     : parent == mark ? DIAG_ID_inherit_cycle
-                                      : DIAG_ID_inherit_depth,
-                     doc_attr_place(&lib->doc, at, STR_inherit),
-                     text_of(lib, doc_element(&lib->doc, at)->name), text_of(lib, inherit));
-            break;
-        }
-        at = parent;
-        if ((depth & (depth - 1)) == 0)
-            mark = at;
-    }
-    return (uint16_t)(lib->ports.len - first);
-}
 
 static void link_by_node(struct indexer *ix, uint32_t own)
 {
@@ -209,7 +121,6 @@ static void add_nodedef(struct indexer *ix, elem_id element)
         .target = index_attr(ix, element, STR_target),
         .is_default_version = doc_attr_is_true(&lib->doc, element, STR_isdefaultversion),
         .element = element,
-        .first_port = lib->ports.len,
         .first_impl = LIBRARY_NONE,
         .next_same_node = LIBRARY_NONE,
     };
@@ -218,11 +129,10 @@ static void add_nodedef(struct indexer *ix, elem_id element)
                  doc_attr_place(&lib->doc, element, STR_nodename));
     if (!def.node)
         return; /* nodedefs without a node, for example of options */
-    def.num_inputs = add_ports(ix, element, KIND_INPUT);
-    uint32_t before = lib->ports.len;
-    add_ports(ix, element, KIND_OUTPUT);
-    def.num_outputs = (uint16_t)(lib->ports.len - before);
-    assert(def.first_port + def.num_inputs + def.num_outputs == lib->ports.len);
+    const struct port_list *ports = index_ports(ix, element);
+    def.first_port = ports->first;
+    def.num_inputs = ports->num_inputs;
+    def.num_outputs = ports->num_outputs;
     vec_push(ix->arena, &lib->nodedefs, def);
     set_info(ix, element, lib->nodedefs.len - 1);
 }
@@ -252,7 +162,7 @@ static void add_geomprop(struct indexer *ix, elem_id element)
         .element = element,
         .nodedef = LIBRARY_NONE,
     };
-    if (!has_type(ix, element, &prop.type))
+    if (!index_type(ix, element, &prop.type))
         return;
     str_id index = index_attr(ix, element, STR_index);
     struct ir_value value;

@@ -8,12 +8,23 @@
 
 #include <assert.h>
 
+/* The ports of a nodedef in the layer's list, with those that it inherits: inputs, then outputs. */
+struct port_list {
+    elem_id nodedef;
+    uint32_t first;
+    uint16_t num_inputs, num_outputs;
+    uint16_t depth; /* nodedefs in its chain of inheritance, which the first one ends */
+    bool is_open;   /* what it inherits is not known yet */
+};
+
 struct indexer {
     struct library *lib;
     struct arena *arena;
     const struct lang_reader *reader;
     struct diag_list *diags;
     struct table claims; /* definition and target -> index of an implementation + 1 */
+    VEC(struct port_list) port_lists;
+    struct table port_table; /* nodedef -> index of its list + 1 */
 };
 
 enum {
@@ -38,6 +49,15 @@ static inline const char *index_file(const struct indexer *ix, elem_id element)
     const char *name = doc_place(&ix->lib->doc, element).file;
     return name ? name : "";
 }
+
+/* The type of an element; false after a diagnostic. */
+bool index_type(struct indexer *ix, elem_id element, doc_type *out_type);
+
+/*
+ * ports.c: the ports of a nodedef of this layer or a lower one; those of the nodedefs that it
+ * inherits come first into the layer's list. The result is valid until the next call.
+ */
+const struct port_list *index_ports(struct indexer *ix, elem_id nodedef);
 
 /* implement.c: adds the implementation of an <implementation>, or of a functional <nodegraph>. */
 void index_implementation(struct indexer *ix, elem_id element);

@@ -219,6 +219,11 @@ SHAPES = [
         "<output name='o' type='float' nodegraph='G*'/>",
     ),
     (
+        "definitions that inherit from the one behind them",
+        ("<nodedef name='D#' node='g#' inherit='D^'><input name='i#' type='float' value='0'/></nodedef>",),
+        "<nodedef name='D*' node='g*'>" + VALUE + "</nodedef>",
+    ),
+    (
         "looks",
         ("<look name='l#'><materialassign name='a' material='x#' geom='/g'/></look>",),
         "<surface name='s' type='surfaceshader'/>",
