@@ -312,8 +312,30 @@ static void take_property(struct flattening *f, elem_id port, const struct port 
     }
 }
 
-/* Gives a port, which names no source any more, what an input of the definition has here. */
-static void take(struct flattening *f, elem_id port, str_id name)
+/*
+ * A string that names a file: its text has no prefix, and the file has the colour space of the
+ * port.
+ */
+static void take_name(struct flattening *f, elem_id port, elem_id original, elem_id from,
+                      const struct port *input)
+{
+    struct document *doc = tree_of(f);
+    if (from && has_source(doc, from)) {
+        copy_attrs(f, port, from, doc_connections, DOC_NUM_CONNECTIONS);
+    } else {
+        const struct attribute *value = from ? doc_attr(doc, from, STR_value) : NULL;
+        doc_set_attr(doc, port, STR_value, value ? value->value : input->value);
+        keep_inherited(f, port, STR_fileprefix, STR_EMPTY, STR_EMPTY);
+    }
+    keep_inherited(f, port, STR_colorspace, doc_inherited_attr(doc, original, STR_colorspace),
+                   STR_none);
+}
+
+/*
+ * Gives a port, which names no source any more, what an input of the definition has here; it is the
+ * copy of `original`.
+ */
+static void take(struct flattening *f, elem_id port, elem_id original, str_id name)
 {
     const struct document *doc = tree_of(f);
     int index = library_find_input(view_of(f), f->nodedef, name);
@@ -323,7 +345,9 @@ static void take(struct flattening *f, elem_id port, str_id name)
     bool has_value = from && doc_attr(doc, from, STR_value);
     if (!input)
         return;
-    if (from && (has_source(doc, from) || (has_value && !input->geomprop)))
+    if (input->type == DOC_TYPE_string && doc_attr_value(doc, port, STR_type) == STR_filename)
+        take_name(f, port, original, from, input);
+    else if (from && (has_source(doc, from) || (has_value && !input->geomprop)))
         take_input(f, port, from, input);
     else if (input->geomprop)
         take_property(f, port, input);
@@ -344,7 +368,7 @@ static void connect(struct flattening *f, elem_id port, elem_id original)
     doc_disconnect(doc, port);
     doc_remove_attr(doc, port, STR_value);
     if (interface)
-        take(f, port, interface);
+        take(f, port, original, interface);
     else
         copy_attrs(f, port, original, values, sizeof values / sizeof *values);
     if (node || graph)

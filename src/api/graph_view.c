@@ -65,7 +65,7 @@ static struct binding resolve_output(struct graph_view *view, elem_id output)
 {
     struct diag_list ignored;
     diag_list_init(&ignored, &view->g->scratch);
-    return library_resolve_connection(view->layer, output, DOC_TYPE_NONE, &ignored);
+    return library_resolve_port(view->layer, output, DOC_TYPE_NONE, &view->resolved, &ignored);
 }
 
 /* ---- Text ---- */

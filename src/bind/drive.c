@@ -34,6 +34,7 @@ struct driving {
     struct library_drives *out;
     struct drive_notes *notes; /* NULL: silent */
     struct diag_list ignored;
+    struct resolve_out resolved;
     VEC(elem_id) open; /* nodes to visit */
     struct table met;  /* elements that were visited, in `order` */
     VEC(elem_id) order;
@@ -71,13 +72,18 @@ static void meet_graph(struct driving *d, elem_id graph)
         vec_push(d->arena, &d->substance.graphs, graph);
 }
 
+static struct binding resolve(struct driving *d, elem_id port)
+{
+    return library_resolve_port(d->lib, port, DOC_TYPE_NONE, &d->resolved, &d->ignored);
+}
+
 /* Follows the connection of an input to its node, and notes the nodegraph that it names. */
 static void follow(struct driving *d, elem_id input)
 {
     str_id graph = doc_attr_value(d->doc, input, STR_nodegraph);
     if (graph)
         meet_graph(d, doc_top_level(d->doc, KIND_NODEGRAPH, graph));
-    struct binding binding = library_resolve_connection(d->lib, input, DOC_TYPE_NONE, &d->ignored);
+    struct binding binding = resolve(d, input);
     if (binding.kind == BIND_NODE && meet(d, binding.ref))
         vec_push(d->arena, &d->open, binding.ref);
 }
@@ -109,7 +115,8 @@ elem_id bind_material_node(const struct library *lib, elem_id target, struct dia
     elem_id output = doc_outputs(doc, target, STR_material).first;
     if (!output)
         return 0;
-    struct binding binding = library_resolve_connection(lib, output, DOC_TYPE_NONE, ignored);
+    struct resolve_out out = {.arena = ignored->arena};
+    struct binding binding = library_resolve_port(lib, output, DOC_TYPE_NONE, &out, ignored);
     return binding.kind == BIND_NODE ? binding.ref : 0;
 }
 
@@ -184,7 +191,7 @@ static elem_id holder_of(struct driving *d, elem_id source, const struct binding
         is_constant ? doc_child_of_kind(d->doc, binding->ref, KIND_INPUT, STR_value) : 0;
     if (!value)
         return 0;
-    struct binding end = library_resolve_connection(d->lib, value, DOC_TYPE_NONE, &d->ignored);
+    struct binding end = resolve(d, value);
     return end.kind == BIND_VALUE ? end.element : 0;
 }
 
@@ -206,7 +213,7 @@ static void drive(struct driving *d, elem_id source, const struct driver *driver
                   const struct driven *driven)
 {
     str_id type = doc_attr_value(d->doc, source, STR_type);
-    struct binding binding = library_resolve_connection(d->lib, source, DOC_TYPE_NONE, &d->ignored);
+    struct binding binding = resolve(d, source);
     elem_id holder = holder_of(d, source, &binding);
     if (d->notes)
         d->notes->seen[source - d->doc->first_element] |= DRIVE_MATCHED;
@@ -332,7 +339,7 @@ static void add_material(struct driving *d, elem_id target, const struct driver 
             drive_output(d, e, driver);
             continue;
         }
-        struct binding binding = library_resolve_connection(d->lib, e, DOC_TYPE_NONE, &d->ignored);
+        struct binding binding = resolve(d, e);
         if (binding.kind == BIND_NODE)
             add_inputs(d, binding.ref, driver);
     }
@@ -364,8 +371,13 @@ void bind_drives(const struct bindings *b, const struct library *lib, const stru
                  uint32_t num, struct drive_notes *notes, struct arena *arena,
                  struct library_drives *out)
 {
-    struct driving d = {
-        .b = b, .lib = lib, .doc = &lib->doc, .arena = arena, .out = out, .notes = notes};
+    struct driving d = {.b = b,
+                        .lib = lib,
+                        .doc = &lib->doc,
+                        .arena = arena,
+                        .out = out,
+                        .notes = notes,
+                        .resolved.arena = arena};
     assert(num > 0
            && (items->kind == ITEM_LAYER || items->kind == ITEM_VERTICAL
                || items->kind == ITEM_VOLUME));
@@ -422,7 +434,11 @@ static const char *nearest(const struct bindings *b, const struct library *lib, 
         const char *own = b->look.names.items[a->name].text;
         if (a->kind != ASSIGN_LAYER || strlen(own) != len || memcmp(own, slot, len) != 0)
             continue;
-        struct driving d = {.b = b, .lib = lib, .doc = &lib->doc, .arena = notes->arena};
+        struct driving d = {.b = b,
+                            .lib = lib,
+                            .doc = &lib->doc,
+                            .arena = notes->arena,
+                            .resolved.arena = notes->arena};
         diag_list_init(&d.ignored, notes->arena);
         find_substance(&d, a->target);
         guess_inputs(&d, &guess);

@@ -157,14 +157,19 @@ struct build_meaning build_meaning_of_default(struct builder *b, const struct po
 /* The element that names the file of an argument; 0: it is not known here. */
 static elem_id file_holder(const struct builder *b, const struct frame *frame, uint32_t input)
 {
+    const struct port *port = library_ports(b->lib, frame->node.nodedef, NULL) + input;
     const struct binding *binding = &frame->bindings[input];
+    elem_id own = doc_child_of_kind(&b->lib->doc, frame->node.element, KIND_INPUT, port->name);
     ir_ref file = frame->args[input];
-    if (binding->kind == BIND_VALUE)
-        return binding->element;
-    if (!file || ir_get(b->graph, file)->op != IR_TEXTURE)
-        return 0;
+    bool is_texture = file && ir_get(b->graph, file)->op == IR_TEXTURE;
+    if (!is_texture)
+        return binding->kind == BIND_VALUE ? binding->element : 0;
     const struct shader_variable *texture =
         &b->shader->interface.variables.items[ir_get(b->graph, file)->attr];
+    if (own && texture->element == own) /* also where a string names the file */
+        return own;
+    if (binding->kind == BIND_VALUE)
+        return binding->element;
     if (binding->kind == BIND_NODE)
         return texture->element;
     /* a functional graph without a node that uses it has the defaults of its definition */

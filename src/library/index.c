@@ -268,6 +268,7 @@ static void settle_graph(struct library *lib, uint32_t own, struct resolve_out *
     struct diag_list faults;
     diag_list_init(&faults, lib->doc.arena);
     faults.policy = diags->policy;
+    out->chains = (struct library_chains){0};
     resolve_graph(lib, impl, out, &faults);
     if (faults.num_errors)
         index_break(lib, impl, &faults);

@@ -128,8 +128,10 @@ int library_resolve_interface(const struct library *lib, elem_id asker, uint32_t
         report_dangling(lib, asker, nodedef, name, diags);
         return -1;
     }
-    if (port->type != DOC_TYPE_NONE && ports[index].type != port->type) {
-        bool is_output = doc_element(&lib->doc, asker)->kind == KIND_OUTPUT;
+    bool is_output = doc_element(&lib->doc, asker)->kind == KIND_OUTPUT,
+         is_fitting = port->type == DOC_TYPE_NONE || ports[index].type == port->type
+                      || (!is_output && library_accepts(port->type, ports[index].type));
+    if (!is_fitting) {
         diag_add(diags, DIAG_ID_type_mismatch, place, is_output ? "output" : "input",
                  text_of(lib, port->name), text_of(lib, library_type_name(lib, port->type)),
                  text_of(lib, library_type_name(lib, ports[index].type)));

@@ -353,6 +353,30 @@ void library_drive(struct library_drives *drives, struct arena *arena, struct li
 elem_id library_driver(const struct library_drives *drives, elem_id owner, str_id input);
 
 /*
+ * True if an input of one type takes what has another: they are equal, or a string is the name of a
+ * file (specification, "Inputs").
+ */
+static inline bool library_accepts(doc_type input, doc_type have)
+{
+    return input == have || (input == DOC_TYPE_filename && have == DOC_TYPE_string);
+}
+
+/*
+ * The ends of chains of ports, so that each port is followed once, however many chains go through
+ * it. They hold for one set of drives, and faults of a chain are reported once: empty it for other
+ * drives and for another list of diagnostics.
+ */
+struct library_chain {
+    elem_id port;
+    doc_type type; /* that is wanted */
+    struct binding end;
+};
+struct library_chains {
+    VEC(struct library_chain) items;
+    struct table table;
+};
+
+/*
  * Resolves the definition and the bindings of a node. `bindings` needs room for the inputs of the
  * definition.
  */
@@ -360,6 +384,7 @@ struct resolve_out {
     struct arena *arena;
     VEC(struct binding) bindings;
     const struct library_drives *drives; /* NULL: nothing is driven */
+    struct library_chains chains;
 };
 struct graph_node library_resolve_node(const struct library *lib, elem_id node,
                                        struct resolve_out *out, struct diag_list *diags);
@@ -376,11 +401,8 @@ elem_id library_inner_output(const struct library *lib, uint32_t nodedef, unsign
  * The source of the value of an <input> or <output> element. Looks through outputs and interface
  * inputs of nodegraphs without a nodedef. `type` is the type of the port.
  */
-struct binding library_resolve_driven(const struct library *lib, elem_id port, doc_type type,
-                                      const struct library_drives *drives, struct diag_list *diags);
-/* Resolves a connection without drives. */
-struct binding library_resolve_connection(const struct library *lib, elem_id port, doc_type type,
-                                          struct diag_list *diags);
+struct binding library_resolve_port(const struct library *lib, elem_id port, doc_type type,
+                                    struct resolve_out *out, struct diag_list *diags);
 
 /* Reports the unknown name of a definition in the attribute `nodedef` of an element. */
 void library_report_nodedef(const struct library *lib, elem_id element, str_id name,

@@ -256,6 +256,13 @@ static str_id name_of_output(const struct library *lib, elem_id port, elem_id no
     return 0;
 }
 
+/* True if a port of this type, or of any, may be connected to what has another type. */
+static bool is_fitting(const struct library *lib, elem_id port, doc_type type, doc_type have)
+{
+    bool is_input = doc_element(&lib->doc, port)->kind == KIND_INPUT;
+    return type == DOC_TYPE_NONE || have == type || (is_input && library_accepts(type, have));
+}
+
 static struct binding bind_node(const struct library *lib, elem_id port, elem_id node,
                                 doc_type type, struct diag_list *diags)
 {
@@ -264,7 +271,7 @@ static struct binding bind_node(const struct library *lib, elem_id port, elem_id
     str_id have = output >= 0 ? output_type(lib, node, output, diags) : 0;
     if (!have)
         return bind_error;
-    if (type != DOC_TYPE_NONE && library_type(lib, have) != type) {
+    if (!is_fitting(lib, port, type, library_type(lib, have))) {
         report_type(lib, port, type, have, node, diags);
         return bind_error;
     }
@@ -300,6 +307,8 @@ static elem_id graph_output(const struct library *lib, elem_id port, elem_id gra
     const struct doc_outputs all = doc_outputs(&lib->doc, graph, STR_EMPTY);
     str_id wanted = name || type == DOC_TYPE_NONE ? STR_EMPTY : library_type_name(lib, type);
     elem_id fitting = all.second && wanted ? doc_outputs(&lib->doc, graph, wanted).first : 0;
+    if (all.second && !fitting && wanted == STR_filename)
+        fitting = doc_outputs(&lib->doc, graph, STR_string).first;
     elem_id assumed = fitting ? fitting : all.first;
     if (!all.first)
         diag_add(diags, DIAG_ID_dangling_output, doc_place(&lib->doc, port), graph_name, "out",
@@ -480,12 +489,6 @@ static elem_id driven(const struct library *lib, const struct library_drives *dr
     return source ? source : port;
 }
 
-struct binding library_resolve_connection(const struct library *lib, elem_id port, doc_type type,
-                                          struct diag_list *diags)
-{
-    return library_resolve_driven(lib, port, type, NULL, diags);
-}
-
 /*
  * The nodes of a nodegraph that implements a definition see each other and the inputs of the
  * definition. Reports a source elsewhere, to which the chain of a port leads.
@@ -510,53 +513,85 @@ static bool is_in_reach(const struct library *lib, elem_id port, elem_id source,
     return true;
 }
 
-struct binding library_resolve_driven(const struct library *lib, elem_id port, doc_type type,
-                                      const struct library_drives *drives, struct diag_list *diags)
+/* LIBRARY_NONE: the end is not known yet. */
+static uint32_t find_chain(const struct library_chains *chains, elem_id port, doc_type type)
 {
-    struct binding result = bind_error;
-    elem_id asker = port;
-    /* Outputs and interface inputs may chain; a longer chain is a cycle. */
-    for (uint32_t steps = 0; port && steps < 10000; steps++) {
-        elem_id next = driven(lib, drives, follow(lib, port, type, &result, diags));
-        if (next && type != DOC_TYPE_NONE) {
-            str_id have = doc_attr_value(&lib->doc, next, STR_type);
-            if (have && library_type(lib, have) != type) {
-                report_type(lib, port, type, have, next, diags);
-                return bind_error;
-            }
-        }
-        port = next;
+    uint32_t hash = hash_pair(port, type);
+    for (uint32_t at = hash, found; (found = table_next(&chains->table, hash, &at));)
+        if (chains->items.items[found - 1].port == port
+            && chains->items.items[found - 1].type == type)
+            return found - 1;
+    return LIBRARY_NONE;
+}
+
+/*
+ * The next port of the chain, of which the type *type is wanted; 0 with *end at its end. Behind a
+ * string a string is wanted.
+ */
+static elem_id next_port(const struct library *lib, elem_id port, doc_type *type,
+                         const struct library_drives *drives, struct binding *end,
+                         struct diag_list *diags)
+{
+    elem_id next = driven(lib, drives, follow(lib, port, *type, end, diags));
+    str_id name = next && *type != DOC_TYPE_NONE ? doc_attr_value(&lib->doc, next, STR_type) : 0;
+    doc_type have = name ? library_type(lib, name) : *type;
+    if (is_fitting(lib, port, *type, have)) {
+        *type = have;
+        return next;
     }
-    if (port)
-        diag_add(diags, DIAG_ID_cycle, doc_place(&lib->doc, asker),
-                 text_of(lib, doc_element(&lib->doc, port)->name));
-    bool has_scope = result.kind == BIND_NODE || result.kind == BIND_INTERFACE;
-    elem_id source = result.kind == BIND_NODE ? result.ref : result.element;
-    return !has_scope || is_in_reach(lib, asker, source, diags) ? result : bind_error;
+    report_type(lib, port, *type, name, next, diags);
+    *end = bind_error;
+    return 0;
+}
+
+struct binding library_resolve_port(const struct library *lib, elem_id port, doc_type type,
+                                    struct resolve_out *out, struct diag_list *diags)
+{
+    struct library_chains *chains = &out->chains;
+    struct binding end = bind_error;
+    uint32_t first = chains->items.len, found = LIBRARY_NONE;
+    for (elem_id at = port; found == LIBRARY_NONE
+                            && (at = next_port(lib, at, &type, out->drives, &end, diags)) != 0;) {
+        found = find_chain(chains, at, type);
+        if (found == LIBRARY_NONE) {
+            vec_push(out->arena, &chains->items, (struct library_chain){at, type, bind_error});
+            table_add(&chains->table, out->arena, hash_pair(at, type), chains->items.len);
+        }
+    }
+    if (found != LIBRARY_NONE)
+        end = chains->items.items[found].end;
+    if (found != LIBRARY_NONE && found >= first) /* this chain comes back to itself */
+        diag_add(diags, DIAG_ID_cycle, doc_place(&lib->doc, port),
+                 text_of(lib, doc_element(&lib->doc, chains->items.items[found].port)->name));
+    for (uint32_t i = first; i < chains->items.len; i++)
+        chains->items.items[i].end = end;
+    bool has_scope = end.kind == BIND_NODE || end.kind == BIND_INTERFACE;
+    elem_id source = end.kind == BIND_NODE ? end.ref : end.element;
+    return !has_scope || is_in_reach(lib, port, source, diags) ? end : bind_error;
 }
 
 /* An input of another type is reported; whether its source exists is another question. */
 static struct binding resolve_input(const struct library *lib, elem_id input, doc_type type,
-                                    const struct library_drives *drives, struct diag_list *diags)
+                                    struct resolve_out *out, struct diag_list *diags)
 {
     doc_type said = library_type(lib, doc_attr_value(&lib->doc, input, STR_type));
     bool is_wrong = said && said != type;
     struct binding b =
-        library_resolve_driven(lib, input, is_wrong ? DOC_TYPE_NONE : type, drives, diags);
+        library_resolve_port(lib, input, is_wrong ? DOC_TYPE_NONE : type, out, diags);
     return is_wrong ? bind_error : b;
 }
 
 /* Replaces the bindings of the driven inputs. */
 static void drive_node(const struct library *lib, const struct graph_node *node,
-                       const struct library_drives *drives, struct binding *bindings,
-                       struct diag_list *diags)
+                       struct resolve_out *out, struct diag_list *diags)
 {
     const struct nodedef *def = library_nodedef(lib, node->nodedef);
     const struct port *ports = library_ports(lib, node->nodedef, NULL);
     for (unsigned i = 0; i < def->num_inputs; i++) {
-        elem_id source = library_driver(drives, node->element, ports[i].name);
+        elem_id source = library_driver(out->drives, node->element, ports[i].name);
         if (source)
-            bindings[i] = resolve_input(lib, source, ports[i].type, drives, diags);
+            out->bindings.items[node->first_binding + i] =
+                resolve_input(lib, source, ports[i].type, out, diags);
     }
 }
 
@@ -583,11 +618,11 @@ struct graph_node library_resolve_node(const struct library *lib, elem_id node,
         assert((unsigned)port < def->num_inputs);
         if (library_driver(out->drives, node, input->name))
             continue;
-        struct binding b = resolve_input(lib, e, ports[port].type, out->drives, diags);
+        struct binding b = resolve_input(lib, e, ports[port].type, out, diags);
         out->bindings.items[result.first_binding + (unsigned)port] = b;
     }
     if (out->drives)
-        drive_node(lib, &result, out->drives, out->bindings.items + result.first_binding, diags);
+        drive_node(lib, &result, out, diags);
     assert(out->bindings.len == result.first_binding + def->num_inputs);
     return result;
 }

@@ -44,7 +44,8 @@ static void check_connection(struct validate *v, elem_id element, doc_type type)
 {
     struct port port = {
         .name = doc_element(v->doc, element)->name, .type = type, .element = element};
-    struct binding binding = library_resolve_connection(v->lib, element, port.type, v->diags);
+    struct binding binding =
+        library_resolve_port(v->lib, element, port.type, &v->resolved, v->diags);
     check_binding(v, &port, &binding);
 }
 

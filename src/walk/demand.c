@@ -341,7 +341,7 @@ static void leave_graph(struct builder *b)
         elem_id output = inner_output(b, frame, i);
         struct binding binding = {.kind = BIND_ERROR};
         if (output)
-            binding = library_resolve_connection(b->lib, output, outputs[i].type, b->diags);
+            binding = library_resolve_port(b->lib, output, outputs[i].type, &b->resolved, b->diags);
         else
             diag_add(b->diags, DIAG_ID_dangling_output,
                      doc_place(build_doc(b), frame->inner->graph), name_of(b, frame->inner->graph),
@@ -379,13 +379,14 @@ static void step_outputs(struct builder *b)
     struct frame *frame = &vec_last(&b->frames);
     const struct nodedef *def = library_nodedef(b->lib, frame->node.nodedef);
     struct diag_list ignored; /* the exit from the graph reports faults of the connection */
+    struct resolve_out out = {.arena = b->arena};
     diag_list_init(&ignored, b->arena);
     while (frame->next < def->num_outputs) {
         elem_id output = inner_output(b, frame, frame->next++);
         if (!output)
             continue;
         struct binding binding =
-            library_resolve_connection(b->lib, output, DOC_TYPE_NONE, &ignored);
+            library_resolve_port(b->lib, output, DOC_TYPE_NONE, &out, &ignored);
         if (binding.kind == BIND_NODE && *build_slot(frame->inner, binding.ref) == SLOT_EMPTY) {
             uint32_t before = b->frames.len;
             push(b, frame->inner, binding.ref);
@@ -442,7 +443,7 @@ void build_apply_definition(struct builder *b, uint32_t nodedef, elem_id where, 
         elem_id output = library_inner_output(b->lib, nodedef, i, build_doc(b), inner->graph);
         struct binding binding = {.kind = BIND_ERROR};
         if (output)
-            binding = library_resolve_connection(b->lib, output, outputs[i].type, b->diags);
+            binding = library_resolve_port(b->lib, output, outputs[i].type, &b->resolved, b->diags);
         if (binding.kind == BIND_NODE)
             build_demand(b, inner, binding.ref);
         results[i] = build_input(b, inner, inner->graph, &outputs[i], &binding);

@@ -145,9 +145,9 @@ static elem_id shader_port(const struct builder *b, elem_id node, elem_id input)
 static void publish_shader(struct builder *b, elem_id port)
 {
     struct diag_list ignored; /* the resolution of the node itself reports them */
+    struct resolve_out out = {.arena = b->arena, .drives = b->resolved.drives};
     diag_list_init(&ignored, b->arena);
-    struct binding binding =
-        library_resolve_driven(b->lib, port, DOC_TYPE_NONE, b->resolved.drives, &ignored);
+    struct binding binding = library_resolve_port(b->lib, port, DOC_TYPE_NONE, &out, &ignored);
     if (binding.kind == BIND_NODE)
         vec_push(b->arena, &b->public_nodes, binding.ref);
 }
@@ -182,7 +182,7 @@ static ir_ref build_node_element(struct builder *b, elem_id node, unsigned outpu
 static ir_ref build_output_element(struct builder *b, elem_id output)
 {
     doc_type type = library_type(b->lib, doc_attr_value(build_doc(b), output, STR_type));
-    struct binding binding = library_resolve_connection(b->lib, output, type, b->diags);
+    struct binding binding = library_resolve_port(b->lib, output, type, &b->resolved, b->diags);
     if (binding.kind == BIND_NODE) {
         if (ir_type_is_shader(library_type_ir(b->lib, type)))
             return build_node_element(b, binding.ref, binding.output);

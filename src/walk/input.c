@@ -151,8 +151,8 @@ static ir_ref end_of_chain(struct builder *b, struct instance *scope, elem_id no
     return value;
 }
 
-ir_ref build_input(struct builder *b, struct instance *scope, elem_id node, const struct port *port,
-                   const struct binding *binding)
+static ir_ref source_value(struct builder *b, struct instance *scope, elem_id node,
+                           const struct port *port, const struct binding *binding)
 {
     struct build_meaning meaning;
     switch ((enum binding_kind)binding->kind) {
@@ -170,4 +170,48 @@ ir_ref build_input(struct builder *b, struct instance *scope, elem_id node, cons
     case BIND_DEFAULT: break;
     }
     return end_of_chain(b, scope, node, port, binding, NULL);
+}
+
+/* ---- Strings as names of files ---- */
+
+/* True if a value is written for a string. */
+static bool is_string(const struct builder *b, const struct binding *binding)
+{
+    bool is_written = binding->kind == BIND_VALUE || binding->kind == BIND_DEFAULT;
+    return is_written && binding->element
+           && doc_attr_value(build_doc(b), binding->element, STR_type) == STR_string;
+}
+
+/*
+ * The file that a string names, as it is: prefixes and tokens are for values of the type filename.
+ * It belongs to the input, because a string may have other readers.
+ */
+static ir_ref file_of(struct builder *b, elem_id node, const struct port *port, ir_ref string)
+{
+    elem_id own = doc_child_of_kind(build_doc(b), node, KIND_INPUT, port->name);
+    struct ir_value name;
+    if (ir_get(b->graph, string)->op == IR_POISON)
+        return ir_poison(b->graph, IR_TYPE_SAMPLER);
+    if (!ir_get_const(b->graph, string, &name)) {
+        diag_add(b->diags, DIAG_ID_input_must_be_constant,
+                 doc_place(build_doc(b), own ? own : node), build_text(b, port->name),
+                 build_text(b, doc_element(build_doc(b), node)->category));
+        return ir_poison(b->graph, IR_TYPE_SAMPLER);
+    }
+    struct shader_variable v =
+        build_describe(b, node, port, own, port->name, build_input_path(b, node, port->name, own));
+    v.file = name.w[0].u;
+    return build_texture(b, v, own ? own : node);
+}
+
+ir_ref build_input(struct builder *b, struct instance *scope, elem_id node, const struct port *port,
+                   const struct binding *binding)
+{
+    bool is_file = port->type == DOC_TYPE_filename;
+    struct port as_string = *port;
+    as_string.type = DOC_TYPE_string;
+    ir_ref value =
+        source_value(b, scope, node, is_file && is_string(b, binding) ? &as_string : port, binding);
+    bool is_named = is_file && value && ir_type_of(b->graph, value) == IR_TYPE_STRING;
+    return is_named ? file_of(b, node, port, value) : value;
 }

@@ -15,8 +15,7 @@ static ir_ref virtual_input(struct builder *b, elem_id material, str_id name, do
     const struct port port = {.name = name, .type = type};
     if (!source)
         return 0;
-    struct binding binding =
-        library_resolve_driven(b->lib, source, type, b->resolved.drives, b->diags);
+    struct binding binding = library_resolve_port(b->lib, source, type, &b->resolved, b->diags);
     if (binding.kind == BIND_NODE)
         build_demand(b, b->document, binding.ref);
     return build_input(b, b->document, material, &port, &binding);
@@ -63,6 +62,7 @@ static void begin_layer(struct builder *b, const char *slot, const struct librar
     memset(b->document->slots, 0, b->document->num_slots * sizeof *b->document->slots);
     b->public_nodes.len = 0;
     b->resolved.drives = drives->items.len ? drives : NULL;
+    b->resolved.chains = (struct library_chains){0};
     b->slot = b->graph->slot = str_intern_z(b->shader->strings, slot);
     publish_drives(b, drives);
 }
@@ -98,6 +98,7 @@ static ir_ref build_layer(struct builder *b, const struct bindings *bindings,
     material = with_virtual_inputs(b, node, material);
     ir_pop_origin(b->graph);
     b->resolved.drives = NULL;
+    b->resolved.chains = (struct library_chains){0};
     return material;
 }
 

@@ -220,6 +220,41 @@ static void test_files(struct fixture *f)
     mxg_document_destroy(after);
 }
 
+/* A string that names a file has no prefix, and the file has the space of the definition. */
+static void test_named_files(struct fixture *f)
+{
+    mxg_document *before = parse(
+        f, DOCUMENT(" fileprefix='here/' colorspace='lin_rec709'",
+                    "<nodedef name='ND_t' node='named'>"
+                    "<input name='a' type='string' value='none.png'/>"
+                    "<output name='out' type='color3'/></nodedef>"
+                    "<nodegraph name='NG_t' nodedef='ND_t' colorspace='srgb_texture'>"
+                    "<image name='i' type='color3'>"
+                    "<input name='file' type='filename' interfacename='a'/></image>"
+                    "<output name='out' type='color3' nodename='i'/></nodegraph>"
+                    "<constant name='c' type='string'>"
+                    "<input name='value' type='string' value='wood.png'/></constant>"
+                    "<named name='P' type='color3'>"
+                    "<input name='a' type='string' value='rust.png'/></named>"
+                    "<named name='Q' type='color3'/>"
+                    "<named name='R' type='color3'>"
+                    "<input name='a' type='string' nodename='c'/></named>"
+                    "<add name='sum' type='color3'><input name='in1' type='color3' nodename='P'/>"
+                    "<input name='in2' type='color3' nodename='Q'/></add>"
+                    "<add name='all' type='color3'><input name='in1' type='color3' nodename='sum'/>"
+                    "<input name='in2' type='color3' nodename='R'/></add>" SURFACE(
+                        "<input name='base_color' type='color3' nodename='all'/>")));
+    mxg_document *after = flatten(f, before, (const char *const[]){"P", "Q", "R", NULL});
+    expect_attribute(after, "P/file", "value", "rust.png");
+    expect_attribute(after, "P/file", "colorspace", "srgb_texture");
+    expect_attribute(after, "Q/file", "value", "none.png");
+    expect_attribute(after, "R/file", "nodename", "c");
+    expect_attribute(after, "R/file", "colorspace", "srgb_texture");
+    REQUIRE(draws_the_same(f->context, before, after, "S"));
+    mxg_document_destroy(before);
+    mxg_document_destroy(after);
+}
+
 /* ---- Definitions inside of others, and those of the library ---- */
 
 static void test_levels(struct fixture *f)
@@ -301,7 +336,8 @@ static void test_failures(void)
 }
 
 static void (*const tests[])(struct fixture *f) = {
-    test_values, test_defaults, test_outputs, test_files, test_levels, test_library,
+    test_values,      test_defaults, test_outputs, test_files,
+    test_named_files, test_levels,   test_library,
 };
 
 int main(void)

@@ -367,6 +367,102 @@ static void test_two_ways(void)
     finish(&shot);
 }
 
+#define NAME(type, value) "<input name='" type "' type='string' value='" value "'/>"
+#define CONSTANT(value) "<constant name='c' type='string'>" NAME("value", value) "</constant>"
+#define READ(name, from) \
+    "<image name='" name "' type='color3'><input name='file' type='filename' " from "/></image>"
+#define SHOW(from) "<output name='o' type='color3' " from "/>"
+#define NAMED(input) \
+    "<nodedef name='ND_n' node='named'>" input "<output name='out' type='color3'/></nodedef>" \
+    "<nodegraph name='NG_n' nodedef='ND_n'>" READ( \
+        "i", "interfacename='name'") "<output name='out' type='color3' nodename='i'/></nodegraph>"
+
+/* A string that is the name of a file (specification, "Inputs"): as it stands, without prefix. */
+static void test_strings(void)
+{
+    static const struct {
+        const char *body, *path, *file;
+    } cases[] = {
+        {SHOW("nodename='i'") CONSTANT("a.png") READ("i", "nodename='c'"), "i/file", "a.png"},
+        {SHOW("nodename='i'") CONSTANT(
+             "[T].png") "<dot name='d' type='string'><input name='in' type='string' "
+                        "nodename='c'/></dot>"
+                        "<token name='T' type='string' value='t'/>" READ("i", "nodename='d'"),
+         "i/file", "[T].png"},
+        {"<nodegraph name='G'>" NAME("name", "b.png") READ("i", "interfacename='name'")
+             SHOW("nodename='i'") "</nodegraph>",
+         "G/i/file", "b.png"},
+        {CONSTANT("c.png") "<nodegraph name='G'><input name='name' type='string' "
+                           "nodename='c'/>" READ("i", "interfacename='name'")
+                               SHOW("nodename='i'") "</nodegraph>",
+         "G/i/file", "c.png"},
+        {SHOW("nodename='i'") "<nodegraph name='G'>" CONSTANT(
+             "d.png") "<output name='p' type='string' nodename='c'/>"
+                      "</nodegraph>" READ("i", "nodegraph='G'"),
+         "i/file", "d.png"},
+        {SHOW("nodename='i'") "<nodegraph name='G'>" CONSTANT(
+             "d.png") "<constant name='n' type='float'/>"
+                      "<output name='l' type='float' nodename='n'/>"
+                      "<output name='p' type='string' nodename='c'/></nodegraph>" READ(
+                          "i", "nodegraph='G'"),
+         "i/file", "d.png"},
+        {SHOW("nodename='n'") NAMED(NAME("name", "e.png")) "<named name='n' type='color3'/>",
+         "NG_n/i/file", "e.png"},
+        {SHOW("nodename='n'") NAMED(NAME("name", "e.png")) "<named name='n' type='color3'>" NAME(
+             "name", "f.png") "</named>",
+         "NG_n/i/file", "f.png"},
+        {SHOW("nodename='n'") NAMED("<input name='name' type='filename' value='e.png'/>")
+             CONSTANT("g.png") "<named name='n' type='color3'><input name='name' type='filename' "
+                               "nodename='c'/></named>",
+         "n/name", "g.png"},
+        {SHOW("nodename='i'") "<geompropvalueuniform name='p' type='string'>" NAME("geomprop",
+                                                                                   "map")
+             NAME("default", "h.png") "</geompropvalueuniform>" READ("i", "nodename='p'"),
+         "i/file", "h.png"},
+        {SHOW("nodename='i'") "<nodedef name='ND_pick' node='pick'><input name='a' type='string' "
+                              "value='k.png'/>"
+                              "<output name='out' type='string'/></nodedef><implementation "
+                              "name='IM_pick' "
+                              "nodedef='ND_pick' sourcecode='{{a}}'/><pick name='p' "
+                              "type='string'/>" READ("i", "nodename='p'"),
+         "i/file", "k.png"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct shot shot;
+        mxg_variable v;
+        shoot(&shot, cases[i].body, false, NULL, NULL, MXG_OK);
+        find(&shot, cases[i].path, &v);
+        if (!REQUIRE_STR(v.file, cases[i].file))
+            printf("    %s\n", cases[i].body);
+        REQUIRE_STR(v.document_type, "filename");
+        finish(&shot);
+    }
+}
+
+/* The text of a string may be an address and a file's name at once. */
+static void test_string_of_two_readers(void)
+{
+    static const char body[] = "<nodegraph name='G'>" NAME("name", "mirror") READ(
+        "i", "interfacename='name'") "<image name='j' type='color3'><input name='file' "
+                                     "type='filename' interfacename='name'/>"
+                                     "<input name='uaddressmode' type='string' "
+                                     "interfacename='name'/></image>"
+                                     "<add name='s' type='color3'><input name='in1' type='color3' "
+                                     "nodename='i'/>"
+                                     "<input name='in2' type='color3' nodename='j'/></add>" SHOW(
+                                         "nodename='s'") "</nodegraph>";
+    struct shot shot;
+    mxg_variable v;
+    shoot(&shot, body, false, NULL, NULL, MXG_OK);
+    find(&shot, "G/i/file", &v);
+    REQUIRE_STR(v.file, "mirror");
+    REQUIRE_STR(v.uaddressmode, "periodic");
+    find(&shot, "G/j/file", &v);
+    REQUIRE_STR(v.file, "mirror");
+    REQUIRE_STR(v.uaddressmode, "mirror");
+    finish(&shot);
+}
+
 #define LAMP(file) \
     "<measured_edf name=\"light\" type=\"EDF\"><input name=\"file\" type=\"filename\" " \
     "fileprefix=\"\" value=\"" file "\"/></measured_edf>" \
@@ -458,5 +554,7 @@ int main(void)
     test_frame_names();
     test_texels_of_budgets();
     test_two_ways();
+    test_strings();
+    test_string_of_two_readers();
     return test_report("api-textures");
 }

@@ -224,6 +224,34 @@ SHAPES = [
         "<nodedef name='D*' node='g*'>" + VALUE + "</nodedef>",
     ),
     (
+        "chains of graphs without nodes",
+        "<nodegraph name='G0'><input name='in' type='float' value='1'/><output name='out' type='float' interfacename='in'/></nodegraph>",
+        ("<nodegraph name='G^'><input name='in' type='float' nodegraph='G#'/><output name='out' type='float' interfacename='in'/></nodegraph>",),
+    ),
+    (
+        "chains of graphs without nodes that lead nowhere",
+        "<nodegraph name='G0'><input name='in' type='float' nodename='x'/><output name='out' type='float' interfacename='in'/></nodegraph>",
+        ("<nodegraph name='G^'><input name='in' type='float' nodegraph='G#'/><output name='out' type='float' interfacename='in'/></nodegraph>",),
+    ),
+    (
+        "a cycle of graphs without nodes",
+        "<nodegraph name='G0'><input name='in' type='float' nodegraph='G*'/><output name='out' type='float' interfacename='in'/></nodegraph>",
+        ("<nodegraph name='G^'><input name='in' type='float' nodegraph='G#'/><output name='out' type='float' interfacename='in'/></nodegraph>",),
+    ),
+    (
+        "chains of graphs, each read by a node",
+        "-e o",
+        "<nodegraph name='G0'><input name='in' type='float' value='1'/><output name='out' type='float' interfacename='in'/></nodegraph>"
+        "<constant name='n0' type='float'/>",
+        (
+            "<nodegraph name='G^'><input name='in' type='float' nodegraph='G#' output='out'/><sin name='d' type='float'><input name='in' "
+            "type='float' interfacename='in'/></sin><output name='out' type='float' interfacename='in'/><output name='s' type='float' "
+            "nodename='d'/></nodegraph><add name='n^' type='float'><input name='in1' type='float' nodegraph='G^' output='s'/>"
+            "<input name='in2' type='float' nodename='n#'/></add>",
+        ),
+        "<output name='o' type='float' nodename='n*'/>",
+    ),
+    (
         "looks",
         ("<look name='l#'><materialassign name='a' material='x#' geom='/g'/></look>",),
         "<surface name='s' type='surfaceshader'/>",

@@ -266,7 +266,8 @@ static void require_binding(const char *document, const char *path, doc_type typ
 {
     struct layers l;
     layers_open(&l, files, standard, document);
-    struct binding b = library_resolve_connection(&l.lib, layers_element(&l, path), type, &l.diags);
+    struct resolve_out out = {.arena = l.diags.arena};
+    struct binding b = library_resolve_port(&l.lib, layers_element(&l, path), type, &out, &l.diags);
     test_same_text(describe_binding(&l, &b), expected, file, line, document);
     test_same_text(layers_messages(&l), messages, file, line, document);
     layers_close(&l);
@@ -319,7 +320,8 @@ static void test_interfaces(void)
     struct layers l;
     layers_open(&l, files, standard, document);
     elem_id in = layers_element(&l, "NG/a/in"), graph = layers_element(&l, "NG");
-    struct binding b = library_resolve_connection(&l.lib, in, DOC_TYPE_float, &l.diags);
+    struct resolve_out out = {.arena = l.diags.arena};
+    struct binding b = library_resolve_port(&l.lib, in, DOC_TYPE_float, &out, &l.diags);
     REQUIRE_STR(describe_binding(&l, &b), "interface y/0");
     REQUIRE_EQ(library_graph_around(&l.lib, in), graph);
     uint32_t nodedef = library_implemented_nodedef(&l.lib, graph);
