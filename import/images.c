@@ -41,28 +41,33 @@ static char *write_image(struct importing *importing, const char *name, const ui
     return NULL;
 }
 
-/* "wood" of an image that has a name, or else "FILE_image3". */
-static char *name_of(const struct importing *importing, const json_t *image, size_t index)
+static bool has_file(void *user_data, const char *name)
 {
-    const char *own = json_text_of(image, "name"), *base = strrchr(importing->output, '/');
+    const struct importing *importing = user_data;
+    char *path = cli_format("%s%s.png", importing->folder, name),
+         *other = cli_format("%s%s.jpg", importing->folder, name);
+    bool has = outputs_has(&importing->outputs, path) || outputs_has(&importing->outputs, other);
+    free(path);
+    free(other);
+    return has;
+}
+
+/* "wood" of an image that has a name, or else "FILE_image3". */
+static char *name_of(struct importing *importing, const json_t *image, size_t index)
+{
+    const char *own = json_text_of(image, "name"), *base = files_base_name(importing->output);
     char *wanted;
-    base = base ? base + 1 : importing->output;
     if (*own)
         wanted = cli_format("%s", own);
     else
         wanted = cli_format("%.*s_image%zu", (int)strcspn(base, "."), base, index);
     for (char *at = wanted; *at; ++at)
         *at = *at == '/' || *at == '.' ? '_' : *at;
-    char *name = file_name_clean(wanted), *path = cli_format("%s%s.png", importing->folder, name),
-         *other = cli_format("%s%s.jpg", importing->folder, name);
-    bool is_taken =
-        outputs_has(&importing->outputs, path) || outputs_has(&importing->outputs, other);
-    char *unique = is_taken ? cli_format("%s_%zu", name, index) : cli_format("%s", name);
+    char *clean = file_name_clean(wanted),
+         *name = import_free_name(importing, "images", clean, has_file, importing);
     free(wanted);
-    free(name);
-    free(path);
-    free(other);
-    return unique;
+    free(clean);
+    return name;
 }
 
 static char *find_image(struct importing *importing, const json_t *image, size_t index)

@@ -23,16 +23,42 @@ void import_tell_loss(struct importing *importing, const char *of, const char *f
                    text);
 }
 
-char *import_name(const struct importing *importing, mxg_element parent, const char *wanted)
+char *import_free_name(struct importing *importing, const char *scope, const char *wanted,
+                       bool (*is_taken)(void *user_data, const char *name), void *user_data)
 {
-    char *valid = cli_format("%s%s", isdigit((unsigned char)*wanted) ? "_" : "", wanted);
+    char *key = cli_format("%s/%s", scope, wanted), *name = cli_format("%s", wanted);
+    bool is_new;
+    struct name_entry *last = names_add(&importing->numbers, key, &is_new);
+    last->value += is_new;
+    while (is_taken(user_data, name)) {
+        free(name);
+        name = cli_format("%s_%llu", wanted, (unsigned long long)++last->value);
+    }
+    free(key);
+    return name;
+}
+
+struct place {
+    const mxg_edit *edit;
+    mxg_element parent;
+};
+
+static bool has_element(void *user_data, const char *name)
+{
+    const struct place *place = user_data;
+    return mxg_edit_find_element(place->edit, place->parent, name) != 0;
+}
+
+char *import_name(struct importing *importing, mxg_element parent, const char *wanted)
+{
+    struct place place = {importing->edit, parent};
+    char *valid =
+             cli_format("%s%s", isdigit((unsigned char)*wanted) || !*wanted ? "_" : "", wanted),
+         *scope = cli_format("%llu", (unsigned long long)parent);
     for (char *at = valid; *at; ++at)
         *at = isalnum((unsigned char)*at) && (unsigned char)*at < 0x80 ? *at : '_';
-    char *name = cli_format("%s", *valid ? valid : "_");
-    for (unsigned i = 2; mxg_edit_find_element(importing->edit, parent, name); ++i) {
-        free(name);
-        name = cli_format("%s_%u", valid, i);
-    }
+    char *name = import_free_name(importing, scope, valid, has_element, &place);
+    free(scope);
     free(valid);
     return name;
 }
@@ -40,7 +66,13 @@ char *import_name(const struct importing *importing, mxg_element parent, const c
 bool import_write_file(struct importing *importing, const char *name, const void *data, size_t size)
 {
     struct report *report = &importing->source.cli->report;
-    char *path = cli_format("%s%s", importing->folder, name);
+    bool is_printed = strcmp(importing->output, "-") == 0;
+    if (is_printed && strcmp(name, "-") != 0) {
+        report_error(report, "output-failed",
+                     "cannot write '%s': '-o -' prints the document alone; name a file", name);
+        return false;
+    }
+    char *path = is_printed ? cli_format("-") : cli_format("%s%s", importing->folder, name);
     bool is_free = outputs_write(&importing->outputs, report, path, "a file beside the document");
     const char *reason = is_free ? batch_write(&importing->files, path, data, size) : NULL;
     if (reason)
@@ -126,4 +158,5 @@ void import_document(struct cli *cli, const char *path, const char *output)
         free(importing.materials[i]);
     free(importing.materials);
     free(importing.folder);
+    names_finish(&importing.numbers);
 }

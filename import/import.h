@@ -11,6 +11,7 @@
 #include "import/gltf_source.h"
 #include "program/batch.h"
 #include "program/gltf_inputs.h"
+#include "program/name_table.h"
 #include "program/outputs.h"
 
 #include <mxgen/document.h>
@@ -29,6 +30,7 @@ struct importing {
     size_t num_images;
     char **materials; /* names of their elements, by index */
     size_t num_materials;
+    struct name_table numbers; /* the last number behind each name that is wanted more than once */
 };
 
 /* A material while it is made. */
@@ -51,8 +53,14 @@ __attribute__((format(printf, 3, 4)))
 #endif
 void import_tell_loss(struct importing *importing, const char *of, const char *format, ...);
 
+/*
+ * `wanted`, or with a number behind it, as long as that is taken. Names of one `scope` are taken
+ * together. The next of many equal names continues with the next number. The caller frees it.
+ */
+char *import_free_name(struct importing *importing, const char *scope, const char *wanted,
+                       bool (*is_taken)(void *user_data, const char *name), void *user_data);
 /* A valid name that no element below `parent` has. The caller frees it. */
-char *import_name(const struct importing *importing, mxg_element parent, const char *wanted);
+char *import_name(struct importing *importing, mxg_element parent, const char *wanted);
 
 /* Writes a file of the folder. false after reporting an error. */
 bool import_write_file(struct importing *importing, const char *name, const void *data,

@@ -12,24 +12,61 @@
 
 static const char extension[] = "KHR_materials_variants";
 
-/* Paths with commas between them. */
-struct geom {
-    char *text;
+/* A primitive has a material in a look. */
+struct assigned {
+    size_t look, material, order;
+    const char *path;
+};
+
+/* A node to visit, with the path of its parent and the nodes above it. */
+struct visit {
+    size_t node;
+    const char *parent;
+    unsigned depth;
+};
+
+struct visits {
+    struct visit *items;
     size_t len, capacity;
 };
 
 struct walk {
-    const struct gltf_source *source;
-    struct name_table paths;
-    struct geom *geoms; /* of a look by material, then of the next one */
-    size_t num_looks, num_materials;
+    struct importing *importing;
+    struct name_table known; /* paths */
+    char **paths;            /* of nodes and primitives, until the end */
+    size_t num_paths;
+    struct assigned *items;
+    size_t num_items;
+    size_t *mapped_by; /* by look: the number of the last primitive that maps it */
+    size_t num_primitives, num_looks, num_materials;
+    size_t left; /* bytes of paths and assignments that the document may still have */
+    bool is_full;
 };
 
-/* A node to visit, with the path of its parent. */
-struct visit {
-    size_t node;
-    char *parent;
-};
+/* ---- Limits ---- */
+
+/* False: the looks are too large, because each may assign to all primitives. */
+static bool spend(struct walk *walk, size_t size)
+{
+    walk->is_full = walk->is_full || size > walk->left;
+    walk->left -= walk->is_full ? 0 : size;
+    return !walk->is_full;
+}
+
+/* Room for one more item of `size` bytes behind `num`; the capacity doubles at powers of two. */
+static void *grow(void *items, size_t num, size_t size)
+{
+    return num & (num - 1) ? items : memory_resize(items, (num ? num * 2 : 1) * size);
+}
+
+/* A path of its own below another one; NULL: the limit is reached. */
+static const char *add_path(struct walk *walk, const char *parent, const char *name)
+{
+    if (!spend(walk, strlen(parent) + strlen(name) + 1))
+        return NULL;
+    walk->paths = grow(walk->paths, walk->num_paths, sizeof *walk->paths);
+    return walk->paths[walk->num_paths++] = node_path_add(&walk->known, parent, name);
+}
 
 /* Names as Assimp has them. */
 static char *name_of(const json_t *object, const char *array, size_t index)
@@ -38,76 +75,63 @@ static char *name_of(const json_t *object, const char *array, size_t index)
     return *name ? cli_format("%s", name) : cli_format("%s[%zu]", array, index);
 }
 
-/* ---- Materials ---- */
+/* ---- Primitives ---- */
 
-/* True if the mapping of a material is for the variant of a look. */
-static bool is_mapped(const json_t *mapping, size_t look)
+static void assign(struct walk *walk, size_t look, size_t material, const char *path)
 {
-    const json_t *variants = json_object_get(mapping, "variants");
-    for (size_t i = 0; i < json_array_size(variants); ++i) {
-        const json_t *variant = json_array_get(variants, i);
-        if (json_is_integer(variant) && json_integer_value(variant) == (json_int_t)look)
-            return true;
-    }
-    return false;
+    if (material >= walk->num_materials || !spend(walk, strlen(path) + sizeof *walk->items))
+        return;
+    walk->items = grow(walk->items, walk->num_items, sizeof *walk->items);
+    walk->items[walk->num_items] = (struct assigned){look, material, walk->num_items, path};
+    ++walk->num_items;
 }
 
-/* The material of a primitive in a look; SIZE_MAX: none. */
-static size_t material_of(const json_t *primitive, size_t look)
-{
-    const json_t *mappings = json_object_get(
-        json_object_get(json_object_get(primitive, "extensions"), extension), "mappings");
-    for (size_t i = 0; i < json_array_size(mappings); ++i)
-        if (is_mapped(json_array_get(mappings, i), look))
-            return gltf_index_of(json_array_get(mappings, i), "material");
-    return gltf_index_of(primitive, "material");
-}
-
-static void append(struct geom *geom, const char *path)
-{
-    size_t len = strlen(path);
-    if (geom->len + len + 3 > geom->capacity) {
-        geom->capacity = 2 * geom->capacity + len + 3;
-        geom->text = memory_resize(geom->text, geom->capacity);
-    }
-    geom->len += (size_t)sprintf(geom->text + geom->len, "%s%s", geom->len ? ", " : "", path);
-}
-
+/* The first mapping of a variant counts; a look without one has the primitive's own material. */
 static void add_primitive(struct walk *walk, const json_t *primitive, const char *path)
 {
-    for (size_t look = 0; look < walk->num_looks; ++look) {
-        size_t material = material_of(primitive, look);
-        if (material < walk->num_materials)
-            append(&walk->geoms[look * walk->num_materials + material], path);
+    const json_t *own = json_object_get(json_object_get(primitive, "extensions"), extension),
+                 *mappings = json_object_get(own, "mappings");
+    ++walk->num_primitives;
+    for (size_t m = 0; m < json_array_size(mappings); ++m) {
+        const json_t *mapping = json_array_get(mappings, m),
+                     *variants = json_object_get(mapping, "variants");
+        size_t material = gltf_index_of(mapping, "material");
+        for (size_t i = 0; i < json_array_size(variants); ++i) {
+            const json_t *variant = json_array_get(variants, i);
+            size_t look = json_is_integer(variant) ? (size_t)json_integer_value(variant) : SIZE_MAX;
+            if (look >= walk->num_looks || walk->mapped_by[look] == walk->num_primitives)
+                continue;
+            walk->mapped_by[look] = walk->num_primitives;
+            assign(walk, look, material, path);
+        }
     }
+    size_t material = gltf_index_of(primitive, "material");
+    for (size_t look = 0; look < walk->num_looks && material < walk->num_materials; ++look)
+        if (walk->mapped_by[look] != walk->num_primitives && !walk->is_full)
+            assign(walk, look, material, path);
 }
 
 /* A mesh with one primitive is that of its node; others have one below it for each. */
 static void add_mesh(struct walk *walk, size_t index, const char *path)
 {
-    const json_t *mesh = gltf_source_item(walk->source, "meshes", index),
+    const json_t *mesh = gltf_source_item(&walk->importing->source, "meshes", index),
                  *primitives = json_object_get(mesh, "primitives");
     size_t num = json_array_size(primitives);
     char *name = name_of(mesh, "meshes", index);
-    for (size_t i = 0; i < num; ++i) {
-        char *part = cli_format("%s-%zu", name, i),
-             *below = num > 1 ? node_path_add(&walk->paths, path, part) : NULL;
-        add_primitive(walk, json_array_get(primitives, i), below ? below : path);
+    for (size_t i = 0; i < num && !walk->is_full; ++i) {
+        char *part = cli_format("%s-%zu", name, i);
+        const char *below = num > 1 ? add_path(walk, path, part) : path;
+        if (below)
+            add_primitive(walk, json_array_get(primitives, i), below);
         free(part);
-        free(below);
     }
     free(name);
 }
 
 /* ---- Nodes ---- */
 
-struct visits {
-    struct visit *items;
-    size_t len, capacity;
-};
-
 /* Adds a list of nodes, the first of which is visited first. */
-static void push(struct visits *visits, const json_t *nodes, const char *parent)
+static void push(struct visits *visits, const json_t *nodes, const char *parent, unsigned depth)
 {
     for (size_t i = json_array_size(nodes); i-- > 0;) {
         const json_t *node = json_array_get(nodes, i);
@@ -118,33 +142,45 @@ static void push(struct visits *visits, const json_t *nodes, const char *parent)
             visits->items = memory_resize(visits->items, visits->capacity * sizeof *visits->items);
         }
         visits->items[visits->len++] =
-            (struct visit){(size_t)json_integer_value(node), cli_format("%s", parent)};
+            (struct visit){(size_t)json_integer_value(node), parent, depth};
     }
+}
+
+static void visit_node(struct walk *walk, const struct visit *visit, struct visits *visits)
+{
+    const json_t *node = gltf_source_item(&walk->importing->source, "nodes", visit->node);
+    char *name = name_of(node, "nodes", visit->node);
+    const char *path = add_path(walk, visit->parent, name);
+    if (path) {
+        add_mesh(walk, gltf_index_of(node, "mesh"), path);
+        push(visits, json_object_get(node, "children"), path, visit->depth + 1);
+    }
+    free(name);
 }
 
 /* A node has one parent, so it is visited once. */
 static void visit_nodes(struct walk *walk)
 {
-    const json_t *root = walk->source->root;
-    const size_t num = json_array_size(json_object_get(root, "nodes"));
+    enum { MAX_DEPTH = 1000 }; /* as in stages */
+    const struct gltf_source *source = &walk->importing->source;
+    const size_t num = json_array_size(json_object_get(source->root, "nodes"));
     const json_t *scene =
-        gltf_source_item(walk->source, "scenes", (size_t)json_count_of(root, "scene"));
+        gltf_source_item(source, "scenes", (size_t)json_count_of(source->root, "scene"));
     bool *are_visited = memory_alloc(num + 1);
     struct visits visits = {0};
-    push(&visits, json_object_get(scene, "nodes"), "");
-    while (visits.len) {
+    push(&visits, json_object_get(scene, "nodes"), "", 1);
+    while (visits.len && !walk->is_full) {
         struct visit visit = visits.items[--visits.len];
-        if (visit.node < num && !are_visited[visit.node]) {
-            const json_t *node = gltf_source_item(walk->source, "nodes", visit.node);
-            char *name = name_of(node, "nodes", visit.node),
-                 *path = node_path_add(&walk->paths, visit.parent, name);
-            are_visited[visit.node] = true;
-            add_mesh(walk, gltf_index_of(node, "mesh"), path);
-            push(&visits, json_object_get(node, "children"), path);
-            free(name);
-            free(path);
+        if (visit.depth > MAX_DEPTH) {
+            report_error(&source->cli->report, "import-file",
+                         "cannot read '%s': its nodes are nested more than %d deep", source->path,
+                         MAX_DEPTH);
+            break;
         }
-        free(visit.parent);
+        if (visit.node < num && !are_visited[visit.node]) {
+            are_visited[visit.node] = true;
+            visit_node(walk, &visit, &visits);
+        }
     }
     free(visits.items);
     free(are_visited);
@@ -152,42 +188,83 @@ static void visit_nodes(struct walk *walk)
 
 /* ---- Looks ---- */
 
-static void add_look(struct importing *importing, const struct walk *walk, size_t index,
-                     const char *wanted)
+static int compare(const void *a, const void *b)
 {
+    const struct assigned *one = a, *other = b;
+    return one->look != other->look           ? (one->look < other->look ? -1 : 1)
+           : one->material != other->material ? (one->material < other->material ? -1 : 1)
+           : one->order < other->order        ? -1
+                                              : one->order > other->order;
+}
+
+/* Assigns a material to the primitives of some items, which differ in their paths alone. */
+static void add_assign(struct importing *importing, mxg_element look, const struct assigned *items,
+                       size_t num)
+{
+    const char *material = importing->materials[items->material];
+    char *name = import_name(importing, look, material);
+    mxg_element element = mxg_edit_add_element(importing->edit, look, "materialassign", name, NULL);
+    size_t size = 1, len = 0;
+    for (size_t i = 0; i < num; ++i)
+        size += strlen(items[i].path) + 2;
+    char *geom = memory_alloc(size);
+    for (size_t i = 0; i < num; ++i)
+        len += (size_t)sprintf(geom + len, "%s%s", i ? ", " : "", items[i].path);
+    mxg_edit_set_attribute(importing->edit, element, "material", material);
+    mxg_edit_set_attribute(importing->edit, element, "geom", geom);
+    free(geom);
+    free(name);
+}
+
+/* Adds a look with the items from `first` on. Returns the first item of the next look. */
+static size_t add_look(const struct walk *walk, size_t index, const char *wanted, size_t first)
+{
+    struct importing *importing = walk->importing;
     char *name = import_name(importing, 0, *wanted ? wanted : "look");
     mxg_element look = mxg_edit_add_element(importing->edit, 0, "look", name, NULL);
-    for (size_t i = 0; i < walk->num_materials; ++i) {
-        const struct geom *geom = &walk->geoms[index * walk->num_materials + i];
-        if (!geom->len)
-            continue;
-        char *assign = import_name(importing, look, importing->materials[i]);
-        mxg_element element =
-            mxg_edit_add_element(importing->edit, look, "materialassign", assign, NULL);
-        mxg_edit_set_attribute(importing->edit, element, "material", importing->materials[i]);
-        mxg_edit_set_attribute(importing->edit, element, "geom", geom->text);
-        free(assign);
+    while (first < walk->num_items && walk->items[first].look == index) {
+        size_t end = first;
+        while (end < walk->num_items && walk->items[end].look == index
+               && walk->items[end].material == walk->items[first].material)
+            ++end;
+        add_assign(importing, look, walk->items + first, end - first);
+        first = end;
     }
     free(name);
+    return first;
+}
+
+static void finish(struct walk *walk)
+{
+    for (size_t i = 0; i < walk->num_paths; ++i)
+        free(walk->paths[i]);
+    free(walk->paths);
+    free(walk->items);
+    free(walk->mapped_by);
+    names_finish(&walk->known);
 }
 
 void import_add_looks(struct importing *importing)
 {
-    const struct gltf_source *source = &importing->source;
-    const json_t *variants = json_object_get(
-        json_object_get(json_object_get(source->root, "extensions"), extension), "variants");
-    struct walk walk = {.source = source,
+    struct cli *cli = importing->source.cli;
+    const json_t *own = json_object_get(importing->source.root, "extensions"),
+                 *variants = json_object_get(json_object_get(own, extension), "variants");
+    struct walk walk = {.importing = importing,
                         .num_looks = json_array_size(variants),
-                        .num_materials = importing->num_materials};
-    const size_t num = walk.num_looks * walk.num_materials;
-    if (!num)
+                        .num_materials = importing->num_materials,
+                        .left = cli_max_output_size(cli) << 20};
+    if (!walk.num_looks || !walk.num_materials)
         return;
-    walk.geoms = memory_alloc(num * sizeof *walk.geoms);
+    walk.mapped_by = memory_alloc(walk.num_looks * sizeof *walk.mapped_by);
     visit_nodes(&walk);
-    for (size_t i = 0; i < walk.num_looks; ++i)
-        add_look(importing, &walk, i, json_text_of(json_array_get(variants, i), "name"));
-    for (size_t i = 0; i < num; ++i)
-        free(walk.geoms[i].text);
-    free(walk.geoms);
-    names_finish(&walk.paths);
+    if (walk.is_full)
+        report_error(&cli->report, "output-limit",
+                     "the looks have more than %zu MiB; raise the limit 'max-output-size' if this "
+                     "is intended",
+                     cli_max_output_size(cli));
+    else if (walk.num_items)
+        qsort(walk.items, walk.num_items, sizeof *walk.items, compare);
+    for (size_t i = 0, first = 0; i < walk.num_looks && !cli->report.errors; ++i)
+        first = add_look(&walk, i, json_text_of(json_array_get(variants, i), "name"), first);
+    finish(&walk);
 }

@@ -21,6 +21,7 @@ MOST = 10.5  # times the work for FACTOR times the elements; what is quadratic c
 # 0, '^' for the one behind it.
 VALUE = "<output name='out' type='float'/>"
 GRAPH = "<constant name='c' type='float'/><output name='out' type='float' nodename='c'/>"
+GLTF = '{"asset": {"version": "2.0"}, '
 SHAPES = [
     ("nodes", ("<constant name='c#' type='float'/>",), ("<output name='o#' type='float' nodename='c#'/>",)),
     ("equal names", ("<constant name='c' type='float'/>",)),
@@ -333,6 +334,25 @@ SHAPES = [
         "'/></geominfo><image name='i' type='color3'><input name='file' type='filename' value='a.&lt;UDIM&gt;.png'/></image>"
         "<output name='o' type='color3' nodename='i'/>",
     ),
+    ("materials of glTF", "import", GLTF + '"materials": [', ('{"name": "m#"},',), "{}]}"),
+    ("materials of glTF with one name", "import", GLTF + '"materials": [', ('{"name": "m"},',), "{}]}"),
+    (
+        "variants of glTF with one name",
+        "import",
+        GLTF + '"materials": [{}], "extensions": {"KHR_materials_variants": {"variants": [',
+        ('{"name": "v"},',),
+        "{}]}}}",
+    ),
+    (
+        "nodes of glTF with one name",
+        "import",
+        GLTF + '"materials": [{}], "extensions": {"KHR_materials_variants": {"variants": [{}]}}, "meshes": [{"primitives": [{"material": 0}]}],'
+        '"scenes": [{"nodes": [',
+        ("^,",),
+        '0]}], "nodes": [',
+        ('{"name": "n", "mesh": 0},',),
+        '{"mesh": 0}]}',
+    ),
     (
         "tiles that are none",
         "-e o",
@@ -349,9 +369,12 @@ def document(shape, count):
     command, version, parts = ["validate"], "1.39", list(shape[1:])
     if isinstance(parts[0], str) and parts[0].startswith("-"):
         command = parts.pop(0).split() + ["--stdout"]
+    elif parts[0] == "import":
+        command = [parts.pop(0)]
     elif isinstance(parts[0], str) and parts[0].startswith("1."):
         version = parts.pop(0)
-    text = [f"<materialx version='{version}'>"]
+    is_document = command != ["import"]
+    text = [f"<materialx version='{version}'>"] if is_document else []
     for part in parts:
         if isinstance(part, str):
             text.append(part.replace("*", str(count)) if "geom=" not in part else part)
@@ -359,17 +382,20 @@ def document(shape, count):
         for i in range(count):
             text.append(part[0].replace("####", str(1001 + i)).replace("#", str(i)).replace("^", str(i + 1)).replace("%", f"{(i + 2) % 1000:03}"))
     line = "" if "on one line" in shape[0] else "\n"
-    return command, line.join(text) + "</materialx>\n"
+    return command, line.join(text) + ("</materialx>\n" if is_document else "")
 
 
 def work(mxgen, folder, shape, count):
     """Instructions, in millions."""
     command, text = document(shape, count)
-    name = os.path.join(folder, f"{shape[0].replace(' ', '_')}_{count}.mtlx".replace("'", ""))
+    is_gltf = command == ["import"]
+    name = os.path.join(folder, f"{shape[0].replace(' ', '_')}_{count}.{'gltf' if is_gltf else 'mtlx'}".replace("'", ""))
     with open(name, "w", encoding="utf-8") as file:
         file.write(text)
     counter = ["valgrind", "--tool=cachegrind", "--cache-sim=no", "--cachegrind-out-file=/dev/null"]
-    arguments = [mxgen, "validate", name] if command == ["validate"] else [mxgen, name] + command
+    own = command[0] in ("validate", "import")
+    arguments = [mxgen, command[0], name] if own else [mxgen, name] + command
+    arguments += ["-o", name + ".mtlx"] if is_gltf else []
     run = subprocess.run(counter + arguments + ["--max-errors", "0"], capture_output=True, check=False)
     found = re.findall(rb"I +refs: +([\d,]+)", run.stderr)
     checks.check(run.returncode in (0, 1) and found, f"{shape[0]}: ends with {run.returncode}")

@@ -31,6 +31,7 @@ END
 check 'values are read' imports values.gltf -o values.mtlx
 check 'what gltf_pbr has not is told' has err "'Other' of 'values.gltf' is not in the document as it is: gltf_pbr has nothing like the extension 'EXT_other' [import-loss]"
 check 'the document is valid' clean values.mtlx
+check 'the document can be printed' eval 'exits 0 "$mxgen" import values.gltf -o - && sed -n "/<materialx/,\$p" out >a && sed -n "/<materialx/,\$p" values.mtlx >b && cmp a b && [ ! -e ./- ]'
 check 'names become valid and differ' has values.mtlx 'name="_1_Plain_metal"' 'name="All"' 'name="All_2"' 'name="material_3"'
 has_values() { # NAME VALUE...: pairs of inputs of a surface
     python3 - values.mtlx "$@" <<'END'
@@ -147,6 +148,7 @@ fi
 
 python3 make.py 0 0 0 1 1
 check 'an image inside of the file becomes a file' eval 'imports placed.gltf -o placed.mtlx && has placed.mtlx "value=\"dots.png\"" && test -s dots.png'
+check 'beside a printed document there is no place for it' eval 'exits 1 "$mxgen" import placed.gltf -o - && has err "[output-failed]" "dots.png" && [ ! -s out ] && [ ! -e ./- ]'
 mkdir -p deep/'a folder' other
 python3 - <<'END'
 import base64, json
@@ -197,6 +199,23 @@ fails() { # FILE WORDS...
 }
 check 'a fault of JSON has its place' fails broken.gltf 'line 2, column 16'
 check 'glTF 1.0 is not read' fails old.gltf '2.0'
+python3 - <<'END'
+import json
+extension = lambda value: {"KHR_materials_variants": value}
+def write(name, nodes, scene, variants, primitives):
+    json.dump({"asset": {"version": "2.0"}, "materials": [{"name": "m"}, {"name": "k"}], "extensions": extension({"variants": variants}),
+               "meshes": [{"primitives": primitives}], "nodes": nodes, "scenes": [{"nodes": scene}]}, open(name, "w"))
+write("deep.gltf", [{"children": [i + 1]} for i in range(1000)] + [{"mesh": 0}], [0], [{}], [{"material": 0}])
+write("many.gltf", [{"mesh": 0, "name": "n"} for i in range(2000)], list(range(2000)), [{}] * 2000, [{"material": 0}])
+mapping = extension({"mappings": [{"material": 1, "variants": [1, 1, -1, 7, "x"]}, {"material": 0, "variants": [1]}, {"material": 9, "variants": [2]}]})
+write("mapped.gltf", [{"mesh": 0, "name": "n"}], [0], [{"name": "a"}, {"name": "b"}, {"name": "c"}], [{"material": 0, "extensions": mapping}])
+END
+check 'nodes may be nested 1,000 deep' fails deep.gltf 'nested more than 1000 deep'
+check 'looks have a limit' eval 'exits 1 "$mxgen" import many.gltf -o none.mtlx --max-output-size 64 && has err "[output-limit]" "the looks have more than 64 MiB" && [ ! -e none.mtlx ]'
+check 'the first mapping of a variant counts' eval 'imports mapped.gltf -o mapped.mtlx && python3 -c "
+import xml.etree.ElementTree as tree
+looks = {look.get(\"name\"): [assign.get(\"material\") for assign in look] for look in tree.parse(\"mapped.mtlx\").getroot().findall(\"look\")}
+assert looks == {\"a\": [\"m\"], \"b\": [\"k\"], \"c\": []}, looks"'
 check 'a file without materials is an error' fails empty.gltf 'it has no materials'
 check 'a broken binary file is an error' fails broken.glb 'no binary glTF 2.0'
 check 'a missing file is an error' fails missing.gltf 'No such file'
