@@ -141,6 +141,11 @@ static void flatten(struct cli *cli, const char *path, const char *purpose, mxg_
         mxg_scene_destroy(*scene);
         *scene = NULL;
         *out_status = text ? load_composed(cli, path, text, purpose, scene) : MXG_OK;
+    } else if (!cli->quiet) {
+        fprintf(stderr,
+                "note: with the program usdcat of OpenUSD on the path, mxgen composes '%s' by "
+                "itself\n",
+                path);
     }
     free(text);
     scratch_remove(&folder);

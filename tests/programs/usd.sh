@@ -527,9 +527,9 @@ check 'so is its silence' eval "exits 1 with nothing arcs.usda && grep -qF '[usd
 check 'arcs in its output are errors' eval "exits 1 with arcs arcs.usda && grep -qF '[usda-arc]' err"
 check 'messages name the stage, not the file that is gone' tells usda-arc 'arcs.usda as composed:2:11' "'set' has payload"
 check 'its output has a limit' eval "exits 1 with large arcs.usda --max-file-size 2 && grep -F '[usd-flatten]' err | grep -qF -- '--max-file-size' && [ -z \"\$(ls temp)\" ]"
-check 'a sandbox starts no program' eval "rm -f usdcat.arguments; exits 1 with good arcs.usda --sandbox && grep -qF '[usda-arc]' err && [ ! -e usdcat.arguments ]"
+check 'a sandbox starts no program' eval "rm -f usdcat.arguments; exits 1 with good arcs.usda --sandbox && grep -qF '[usda-arc]' err && ! grep -qF 'on the path' err && [ ! -e usdcat.arguments ]"
 check 'without usdcat the arc is an error' exits 1 without arcs.usda
-check 'it names the arc and its place, and a cure' eval "tells usda-arc arcs.usda:2:11 \"'set' has payload\" && grep -qF 'put its program usdcat on the path' err"
+check 'it names the arc and its place, and a cure' eval "tells usda-arc arcs.usda:2:11 \"'set' has payload\" && grep -qF \"flatten the file with 'usdcat --flatten'\" err && grep -qF 'with the program usdcat of OpenUSD on the path' err"
 check 'without usdcat a binary stage is an error' eval 'exits 1 without binary.usdc && grep -qF "[usda-syntax]" err'
 check 'a stage of text alone starts no program' eval 'rm -f usdcat.arguments; exits 0 with good composed.usda && [ ! -e usdcat.arguments ]'
 
