@@ -548,7 +548,7 @@ int command_check(const struct command *command, int argc, char **argv)
          &check.time_limit, .high = MAX_TIME_LIMIT},
         {"memory-limit", 0, ARG_SIZE, "MIB",
          "limit of the memory of a worker; 0: none (default: 4096)", &check.memory_limit},
-        {"cache", 0, ARG_TEXT, "DIR", "keeps results, and checks only changed documents again",
+        {"cache", 0, ARG_PATH, "DIR", "keeps results, and checks only changed documents again",
          &check.cache_folder},
         {"shard", 0, ARG_TEXT, "K/N",
          "checks part K of N; 'mxgen check merge' joins the JSON reports", &check.shard},

@@ -68,7 +68,7 @@ int command_explain(const struct command *command, int argc, char **argv)
     const char *folder = NULL;
     bool markdown = false;
     const struct arg args[] = {
-        {"output", 'o', ARG_TEXT, "DIR",
+        {"output", 'o', ARG_PATH, "DIR",
          "writes the examples instead, to DIR/ID/wrong and DIR/ID/right", &folder},
         {"markdown", 0, ARG_FLAG, NULL,
          "prints Markdown; without an ID, the document of all messages", &markdown},

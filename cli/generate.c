@@ -474,12 +474,15 @@ static bool prepare_output(struct generate *gen)
     gen->is_network = args_has_setting(&gen->cli.parser, "osl-network", "true");
     gen->is_deferred = args_has_setting(&gen->cli.parser, "role", "deferred");
     gen->module = args_setting(&gen->cli.parser, "mdl-module");
-    if (gen->to_stdout && (args_is_given(&gen->cli.parser, "output") || gen->depfile)) {
-        fprintf(stderr, "mxgen: option '--%s' does not apply: --stdout writes no file\n",
-                gen->depfile ? "depfile" : "output");
+    bool is_printed = strcmp(gen->output, "-") == 0;
+    bool has_output = args_is_given(&gen->cli.parser, "output") && !is_printed;
+    gen->to_stdout = gen->to_stdout || is_printed;
+    if (gen->to_stdout && (has_output || gen->depfile)) {
+        fprintf(stderr, "mxgen: option '--%s' does not apply: %s writes no file\n",
+                gen->depfile ? "depfile" : "output", is_printed ? "-o -" : "--stdout");
         return false;
     }
-    if (files_is_folder(gen->output))
+    if (gen->to_stdout || files_is_folder(gen->output))
         return true;
     for (uint32_t i = 0; i < mxg_catalogue_num_targets() && !gen->is_file; ++i) {
         mxg_target target = {sizeof target};
@@ -509,7 +512,8 @@ int command_generate(const struct command *command, int argc, char **argv)
          "as gold.frag",
          &gen.output},
         {"reflect", 0, ARG_FLAG, NULL, "also writes the reflection as JSON", &gen.reflect},
-        {"stdout", 0, ARG_FLAG, NULL, "prints the files instead of writing them", &gen.to_stdout},
+        {"stdout", 0, ARG_FLAG, NULL, "prints the files instead of writing them, as '-o -' does",
+         &gen.to_stdout},
         {"stage", 0, ARG_TEXT, "FILE",
          "a scene; writes a shader for each distinct stack of its primitives, and bindings.json "
          "(docs/slots.md)",

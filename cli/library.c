@@ -46,7 +46,8 @@ static void pack(struct cli *cli, const struct library_args *args)
 {
     const void *data;
     size_t size;
-    if (!args->output && isatty(STDOUT_FILENO))
+    bool is_printed = !args->output || strcmp(args->output, "-") == 0;
+    if (is_printed && isatty(STDOUT_FILENO))
         report_error(&cli->report, "output-failed",
                      "cannot write an image, which is no text, to a terminal; say -o FILE");
     else if (mxg_library_image(cli->library, &data, &size) == MXG_ERROR_DOCUMENT)
@@ -119,8 +120,9 @@ static const struct action *find_action(const char *name)
     return NULL;
 }
 
-/* False after a message about an option that the action does not take. */
-static bool check_options(const struct cli *cli, const struct action *action)
+/* False after a message about an option that the action does not take, or its value. */
+static bool check_options(const struct cli *cli, const struct action *action,
+                          const struct library_args *args)
 {
     static const char *const names[] = {"output", "html", "markdown", "pictures"};
     for (size_t i = 0; i < sizeof names / sizeof *names; ++i) {
@@ -131,7 +133,7 @@ static bool check_options(const struct cli *cli, const struct action *action)
                 action->name);
         return false;
     }
-    return true;
+    return !action->has_pages || !args->output || args_check_path("--output", "DIR", args->output);
 }
 
 /* Loads the library from the paths; without paths the built-in one. */
@@ -180,7 +182,7 @@ int command_library(const struct command *command, int argc, char **argv)
     if (cli_start(&cli, command, args, sizeof args / sizeof *args,
                   CLI_NEEDS_INPUT | CLI_LIBRARY_IS_INPUT, argc, argv, &code)) {
         const struct action *action = find_action(cli.parser.inputs.items[0]);
-        bool is_sane = action && check_options(&cli, action);
+        bool is_sane = action && check_options(&cli, action, &values);
         if (is_sane && load(&cli, action))
             action->run(&cli, &values);
         code = !is_sane ? EXIT_USAGE : cli.report.errors ? EXIT_FAULT : EXIT_DONE;

@@ -39,6 +39,7 @@ void args_forward(const struct arg *arg, struct arg_list *out)
             args_append(out, cli_format("--%s", arg->name));
         break;
     case ARG_TEXT:
+    case ARG_PATH:
         if (*(const char *const *)arg->out)
             args_append(out, cli_format("--%s=%s", arg->name, *(const char *const *)arg->out));
         break;
@@ -219,6 +220,17 @@ static bool store_size(const struct arg *arg, const struct written *option, cons
     return true;
 }
 
+bool args_check_path(const char *option, const char *what, const char *path)
+{
+    bool is_good = strcmp(path, "-") != 0;
+    if (!is_good)
+        fprintf(stderr,
+                "mxgen: option '%s' cannot be standard output, which '-' names, because it takes "
+                "%s; './-' names a file or folder\n",
+                option, what);
+    return is_good;
+}
+
 static bool store(struct arg_parser *parser, const struct arg *arg, const struct written *option,
                   const char *value)
 {
@@ -227,6 +239,9 @@ static bool store(struct arg_parser *parser, const struct arg *arg, const struct
     case ARG_FLAG: break;
     case ARG_HELP:
     case ARG_TEXT: *(const char **)arg->out = value; break;
+    case ARG_PATH:
+        *(const char **)arg->out = value;
+        return args_check_path(option->text, arg->value, value);
     case ARG_SIZE: return store_size(arg, option, value);
     case ARG_LIST: args_append(arg->out, value); break;
     }

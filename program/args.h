@@ -20,6 +20,7 @@ struct arg_list {
 enum arg_kind {
     ARG_FLAG, /* out: bool * */
     ARG_TEXT, /* out: const char ** */
+    ARG_PATH, /* out: const char **; what the command cannot print, so '-' is an error */
     ARG_SIZE, /* out: size_t *; a count */
     ARG_LIST, /* out: struct arg_list *; may appear several times */
     ARG_HELP, /* out: const char **; "", or "all" if this word follows */
@@ -58,6 +59,12 @@ struct arg_parser {
 /* Prints an error and returns false for an unknown option or a missing value. */
 bool args_parse(struct arg_parser *parser, int argc, char **argv);
 void args_finish(struct arg_parser *parser);
+
+/*
+ * False after an error: the value of an option that names a file or a folder ("FILE", "DIR") is
+ * '-', which is standard output for what is a single text.
+ */
+bool args_check_path(const char *option, const char *what, const char *path);
 
 /* True if the command line has this option, also if it repeats the default. */
 bool args_is_given(const struct arg_parser *parser, const char *name);

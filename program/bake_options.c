@@ -7,7 +7,7 @@
 size_t bake_args(struct bake_options *options, struct arg args[MAX_BAKE_ARGS])
 {
     const struct arg table[] = {
-        {"output", 'o', ARG_TEXT, "DIR", "folder for the document and its images",
+        {"output", 'o', ARG_PATH, "DIR", "folder for the document and its images",
          &options->output},
         {"element", 'e', ARG_TEXT, "PATH", "path of the material to bake (default: all materials)",
          &options->element},

@@ -16,7 +16,7 @@ size_t export_args(struct export_options *options, struct arg args[MAX_EXPORT_AR
     struct arg of_bake[MAX_BAKE_ARGS];
     size_t num_of_bake = bake_args(&options->bake, of_bake), num = 0;
     args[num++] = (struct arg){
-        "output", 'o', ARG_TEXT, "FILE", "the file: .glb, .gltf, .usda or .usdz", &options->output};
+        "output", 'o', ARG_PATH, "FILE", "the file: .glb, .gltf, .usda or .usdz", &options->output};
     args[num++] = (struct arg){
         "stage",
         0,

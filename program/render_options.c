@@ -7,9 +7,9 @@
 size_t render_args(struct render_options *options, struct arg args[MAX_RENDER_ARGS])
 {
     const struct arg table[] = {
-        {"output", 'o', ARG_TEXT, "FILE", "output picture; the extension selects the format",
+        {"output", 'o', ARG_PATH, "FILE", "output picture; the extension selects the format",
          &options->output},
-        {"copy", 0, ARG_TEXT, "FILE",
+        {"copy", 0, ARG_PATH, "FILE",
          "also writes a single picture to this file, in the format of its extension",
          &options->copy, ARG_MORE},
         {"size", 's', ARG_TEXT, "W[xH]",
@@ -44,7 +44,7 @@ size_t render_args(struct render_options *options, struct arg args[MAX_RENDER_AR
         {"bake-environment", 0, ARG_TEXT, "FILE",
          "prefilters a map, or the built-in map 'sky', into the folder of -o", &options->baked,
          ARG_MORE},
-        {"bake-occlusion", 0, ARG_TEXT, "FILE.usda",
+        {"bake-occlusion", 0, ARG_PATH, "FILE.usda",
          "writes the ambient occlusion of the meshes of --stage as a layer of USD, and draws "
          "nothing; --paths is the rays of each corner (default: 64)",
          &options->occlusion, ARG_MORE},

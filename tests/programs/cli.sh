@@ -57,6 +57,19 @@ check '--stdout with a folder is wrong usage' exits 2 "$mxgen" two.mtlx --stdout
 check 'the error says that --output does not apply to --stdout' grep -q "'--output' does not apply: --stdout" err
 check '--stdout with a depfile is wrong usage' exits 2 "$mxgen" two.mtlx --stdout --depfile d
 check 'the error says that --depfile does not apply to --stdout' grep -q "'--depfile' does not apply: --stdout" err
+check '-o - prints as --stdout does' eval '(cd nowhere && "$mxgen" ../two.mtlx --stdout >../printed && "$mxgen" ../two.mtlx -o - >../dashed) && cmp printed dashed && none_in nowhere'
+check '-o - with a depfile is wrong usage' exits 2 "$mxgen" two.mtlx -o - --depfile d
+for command in format upgrade 'translate --to gltf_pbr'; do
+    check "$command -o - prints" eval '"$mxgen" $command two.mtlx >printed && "$mxgen" $command two.mtlx -o - >dashed && cmp printed dashed && [ ! -e ./- ]'
+done
+check 'library expand -o - prints' eval '"$mxgen" library expand -o - -q 2>err | grep -q "</materialx>" && [ ! -e ./- ]'
+commands=('explain cycle' 'library doc')
+[ -x "$(dirname "$mxgen")/mxgen-render" ] && commands+=('bake two.mtlx' 'export two.mtlx' 'render two.mtlx')
+for command in "${commands[@]}"; do
+    check "$command does not print" eval "exits 2 '$mxgen' $command -o - && has err \"cannot be standard output, which '-' names\" && [ ! -e ./- ]"
+done
+check 'a folder of results does not print' eval 'exits 2 "$mxgen" check two.mtlx --cache - && grep -qF -- "--cache" err'
+check 'a folder may have the name -' eval 'exits 0 "$mxgen" two.mtlx -e A -o ./- && test -f ./-/A.frag && rm -r ./-'
 check '--depfile writes a depfile' exits 0 "$mxgen" 'with space.mtlx' -e A -o dep --depfile dep.d
 check 'a depfile escapes spaces' grep -qF 'dep/A.vert dep/A.frag: with\ space.mtlx' dep.d
 check 'files go to the current folder without -o' eval '(mkdir -p cwd && cd cwd && "$mxgen" ../two.mtlx -e A && test -f A.frag)'
