@@ -2,6 +2,7 @@
 #include "check/record_json.h"
 
 #include "program/json.h"
+#include "program/utf8.h"
 
 #include <math.h>
 #include <string.h>
@@ -280,22 +281,11 @@ char *record_to_text(const struct check_document *document, size_t *out_size)
 static void read_object(struct store *store, json_t *object, const struct record_type *type,
                         char *out);
 
-/*
- * A copy with '?' for control characters but line ends and tabs: records come from other machines,
- * and texts of them go to terminals. C1 in UTF-8 is 0xc2 and the byte itself.
- */
+/* A copy: records come from other machines. */
 static const char *keep_text(struct store *store, const char *from)
 {
     char *text = store_text(store, from, strlen(from));
-    for (char *at = text; *at; ++at) {
-        unsigned char byte = (unsigned char)*at, next = (unsigned char)at[1];
-        bool is_c0 = (byte < 0x20 && byte != '\n' && byte != '\t') || byte == 0x7f,
-             is_c1 = byte == 0xc2 && next >= 0x80 && next < 0xa0;
-        if (is_c0 || is_c1)
-            *at = '?';
-        if (is_c1)
-            *++at = '?';
-    }
+    utf8_clean(text);
     return text;
 }
 

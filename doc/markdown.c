@@ -4,23 +4,51 @@
 
 #include <string.h>
 
+/* A character of a text; the end of a line would end a cell. */
+static void put_character(FILE *out, char c)
+{
+    putc(c == '\n' || c == '\r' ? ' ' : c, out);
+}
+
 /* Plain text, with markup characters escaped. */
 static void put(FILE *out, const char *text)
 {
     for (; *text; ++text) {
-        if (strchr("\\`*_[]<>|#", *text))
+        if (strchr("\\`*_[]<>|#&", *text))
             putc('\\', out);
-        putc(*text == '\n' ? ' ' : *text, out);
+        put_character(out, *text);
     }
 }
 
-/* Code keeps every character except the bar, which ends a cell even in code. */
+/* The most backquotes of a text that follow each other. */
+static size_t longest_quotes(const char *text)
+{
+    size_t longest = 0;
+    for (; *text; text += *text != '\0') {
+        size_t len = strspn(text, "`");
+        longest = len > longest ? len : longest;
+        text += len;
+    }
+    return longest;
+}
+
+/*
+ * Code keeps every character except the bar, which ends a cell even in code. As many backquotes as
+ * the text does not have surround it, with a space if it has any (CommonMark 0.31, section 6.1).
+ */
 static void put_code(FILE *out, const char *text)
 {
-    putc('`', out);
-    for (; *text; ++text)
-        fputs(*text == '|' ? "\\|" : (const char[]){*text, '\0'}, out);
-    putc('`', out);
+    const size_t quotes = longest_quotes(text);
+    for (size_t i = 0; i <= quotes; ++i)
+        putc('`', out);
+    fputs(quotes ? " " : "", out);
+    for (; *text; ++text) {
+        fputs(*text == '|' ? "\\" : "", out);
+        put_character(out, *text);
+    }
+    fputs(quotes ? " " : "", out);
+    for (size_t i = 0; i <= quotes; ++i)
+        putc('`', out);
 }
 
 static void put_cell(FILE *out, const struct manual_texts *texts, bool is_code)

@@ -4,6 +4,7 @@
 
 #include "program/files.h"
 #include "program/memory.h"
+#include "program/utf8.h"
 #include "program/warning_groups.h"
 #include "program/warnings.h"
 
@@ -288,6 +289,7 @@ tell_own(const struct report *report, mxg_severity severity, const char *id, con
          va_list args)
 {
     char *text = memory_format(format, args);
+    utf8_clean(text);
     if (report->receiver)
         report->receiver->own(report->receiver->user_data, severity, id, text);
     else

@@ -32,6 +32,19 @@ size_t utf8_length(const char *bytes)
     return len;
 }
 
+void utf8_clean(char *text)
+{
+    char *out = text;
+    for (const char *at = text; *at; ++at) {
+        unsigned char byte = (unsigned char)*at, next = (unsigned char)at[1];
+        bool is_c0 = (byte < 0x20 && byte != '\n' && byte != '\t') || byte == 0x7f,
+             is_c1 = byte == 0xc2 && next >= 0x80 && next < 0xa0; /* two bytes in UTF-8 */
+        *out++ = is_c0 || is_c1 ? '?' : *at;
+        at += is_c1;
+    }
+    *out = '\0';
+}
+
 char *utf8_repair(const char *text)
 {
     static const char replacement[] = "\xef\xbf\xbd";

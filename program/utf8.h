@@ -12,6 +12,11 @@
 size_t utf8_length(const char *bytes);
 
 /*
+ * Makes '?' of control characters but line ends and tabs, because texts of files go to terminals.
+ */
+void utf8_clean(char *text);
+
+/*
  * The text with U+FFFD for each invalid byte, which the caller frees; ends the program if memory is
  * exhausted.
  */

@@ -23,16 +23,23 @@ static void paint(struct text *out, bool colour, const char *escape)
         text_str(out, escape);
 }
 
-static bool is_control(char c)
+/* The bytes of a control character: one of ASCII, or one of C1, which UTF-8 begins with 0xc2. */
+static size_t control_at(const char *bytes, size_t len)
 {
-    return (unsigned char)c < 0x20 || c == 0x7f;
+    unsigned char first = (unsigned char)*bytes, next = len > 1 ? (unsigned char)bytes[1] : 0;
+    bool is_c0 = first < 0x20 || first == 0x7f,
+         is_c1 = first == 0xc2 && next >= 0x80 && next < 0xa0;
+    return is_c1 ? 2 : is_c0;
 }
 
 /* Text of a document may contain anything, including terminal escapes. */
 static void put_clean(struct text *out, const char *bytes, size_t len)
 {
-    for (size_t i = 0; i < len; i++)
-        text_char(out, is_control(bytes[i]) && bytes[i] != '\t' ? '?' : bytes[i]);
+    for (size_t i = 0; i < len;) {
+        size_t control = bytes[i] == '\t' ? 0 : control_at(bytes + i, len - i);
+        text_char(out, control ? '?' : bytes[i]);
+        i += control ? control : 1;
+    }
 }
 
 struct line {

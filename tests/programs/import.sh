@@ -216,6 +216,8 @@ check 'the first mapping of a variant counts' eval 'imports mapped.gltf -o mappe
 import xml.etree.ElementTree as tree
 looks = {look.get(\"name\"): [assign.get(\"material\") for assign in look] for look in tree.parse(\"mapped.mtlx\").getroot().findall(\"look\")}
 assert looks == {\"a\": [\"m\"], \"b\": [\"k\"], \"c\": []}, looks"'
+printf '{"asset": {"version": "2.0"}, "materials": [{"name": "m", "extensions": {"EXT_\\u001b[31m\\u009b31m": {}}}]}' >escape.gltf
+check 'no control character goes to a terminal' eval 'imports escape.gltf -o escape.mtlx && has err "EXT_?[31m?31m" && ! LC_ALL=C grep -q "$(printf "\\033\\|\\302\\233")" err'
 check 'a file without materials is an error' fails empty.gltf 'it has no materials'
 check 'a broken binary file is an error' fails broken.glb 'no binary glTF 2.0'
 check 'a missing file is an error' fails missing.gltf 'No such file'

@@ -54,6 +54,28 @@ X_
 check 'a library of a user has a reference' exits 0 "$mxgen" library doc own.mtlx -o own
 check 'the reference has the nodes of that library only' eval '[ "$(grep -c "^### " own/index.md)" -eq 3 ]'
 check 'text is escaped' eval 'grep -qF "Less &lt; more | &quot;all&quot;." own/index.html && grep -qF "Less \\< more \\| " own/index.md'
+cat >hostile.py <<'X_'
+# Texts that end their place in Markdown and HTML; what a reader of CommonMark takes for code is left out.
+import html.parser, re, subprocess, sys
+from xml.sax.saxutils import quoteattr
+class Page(html.parser.HTMLParser):
+    def handle_starttag(self, tag, attributes):
+        assert tag != "mark" and not any(name.startswith("on") for name, value in attributes), (tag, attributes)
+for number, text in enumerate(["`<mark>`", "a`` ``<mark>", "x\n\n<mark>\n", "x\r\r<mark>\r", '" onload="mark()', "--><mark>", "]]><mark>", "|<mark>|"]):
+    word = quoteattr(text, {"\n": "&#10;", "\r": "&#13;", '"': "&quot;"})
+    with open("hostile.mtlx", "w") as file:
+        file.write(f"""<materialx version="1.39"><nodedef name={word} node={word} nodegroup={word} doc={word} version={word}>
+            <input name={word} type="string" value={word} doc={word} uiname={word} enum={word}/><output name="out" type="float"/></nodedef>
+            <nodegraph name="G" nodedef={word}><constant name="c" type="float"/><output name="out" type="float" nodename="c"/></nodegraph></materialx>""")
+    subprocess.run([sys.argv[1], "library", "doc", "hostile.mtlx", "-o", "hostile"], check=True, capture_output=True)
+    lines = open("hostile/index.md").read().split("\n")
+    for line in lines:
+        plain = re.sub(r"\\.", "", re.sub(r"(?<![`\\])(`+)(?!`)(.*?[^`])\1(?!`)", "", line))
+        assert "<mark" not in plain and not line.startswith("<"), line
+    assert sum(line.startswith(("| `", "| \u2192")) for line in lines) == 2, lines
+    Page().feed(open("hostile/index.html").read())
+X_
+check 'hostile texts stay in their place' python3 hostile.py "$mxgen"
 check 'the library of a user has its ranges' grep -q '| `count` | float | `4` | 1 to 9 |' own/index.md
 check 'the reference marks a node without implementation' eval 'grep -A3 "^### orphan" own/index.md | grep -q "not implemented"'
 check 'the reference marks a node of one target' eval 'grep -A3 "^### only" own/index.md | grep -q "only essl"'

@@ -185,9 +185,9 @@ static void test_text(void)
 static void test_columns(void)
 {
     struct diag diag = {
-        .id = DIAG_ID_unknown_node, .message = "evil \x1b[2J", .place = at(1, 7, 2)};
+        .id = DIAG_ID_unknown_node, .message = "evil \x1b[2J\xc2\x9b", .place = at(1, 7, 2)};
     REQUIRE_STR(render(&diag, "\t\xc3\xa4\xe2\x82\xac\t<\x1bxy", false),
-                "wood.mtlx:1:7: error: evil ?[2J [unknown-node]\n"
+                "wood.mtlx:1:7: error: evil ?[2J? [unknown-node]\n"
                 "    \t\xc3\xa4\xe2\x82\xac\t<?xy\n"
                 "    \t  \t  ^~\n");
     char line[400];
