@@ -168,7 +168,7 @@ static struct error error_of(struct bench *b)
     return error;
 }
 
-/* What the shader counts, mean over the pixels of the ball. */
+/* The count of the shader, mean over the pixels of the ball. */
 static double mean_count(const struct bench *b)
 {
     double sum = 0;

@@ -34,7 +34,7 @@ struct examiner {
 const struct check_document *examine(struct examiner *examiner, const char *path);
 void examiner_finish(struct examiner *examiner);
 
-/* What the shaders of an element are made of. */
+/* The shaders of an element are made of this. */
 struct check_subject {
     const mxg_document *document;
     const mxg_bindings *bindings; /* NULL: the element of the document, otherwise a stack */

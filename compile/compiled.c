@@ -241,9 +241,10 @@ static bool compile_function(const char *target, const mxg_result *result,
 }
 
 /*
- * What a host adds behind the last line of a source, so that the lines of messages stay: functions
- * that it calls, and, for the function scatter() of a path tracer (role=scatter), a main where a
- * compiler asks for a program. NULL if it needs nothing; otherwise the caller frees the source.
+ * Adds behind the last line of a source, so that the lines of messages stay, what its host would:
+ * functions that it calls, and, for the function scatter() of a path tracer (role=scatter), a main
+ * where a compiler asks for a program. NULL if it needs nothing; otherwise the caller frees the
+ * source.
  */
 static char *with_host(const char *source, const char *target)
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What documents can name: definitions of the library and of a document, types, units, geometric
- * properties, colour spaces.
+ * The names that documents can use: definitions of the library and of a document, types, units,
+ * geometric properties, colour spaces.
  */
 #ifndef MXG_LSP_CATALOGUE_H
 #define MXG_LSP_CATALOGUE_H

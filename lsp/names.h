@@ -32,7 +32,7 @@ const struct model_attribute *names_file(const struct lsp_query *query, uint32_t
  */
 uint32_t names_target_of(const struct lsp_query *query, uint32_t element,
                          const struct model_attribute *attribute, struct span name);
-/* Of the whole value. */
+/* names_target_of for the whole value. */
 uint32_t names_target(const struct lsp_query *query, uint32_t element,
                       const struct model_attribute *attribute);
 /*

@@ -32,7 +32,8 @@ char *realpath(const char *restrict path, char *restrict resolved)
     return real;
 }
 
-/* Of <assert.h>. That of wasi-libc writes to a stream, which would need input and output. */
+/* Stands in for <assert.h>. That of wasi-libc writes to a stream, which would need input and
+ * output. */
 _Noreturn void __assert_fail(const char *condition, const char *file, int line,
                              const char *function);
 

@@ -73,7 +73,7 @@ vec3 mx_slab_medium_bsdf_environment(vec3 color, float roughness, vec3 mean_free
     return mx_is_black(color) ? vec3(0.0) : light; // without a branch, which would stand in the loop over samples
 }
 
-// Of light to the viewer, with what bounces between the medium and what lies below: 1 / (1 - below R).
+// Throughput of light to the viewer, with what bounces between the medium and what lies below: 1 / (1 - below R).
 vec3 mx_slab_medium_bsdf_throughput(vec3 color, float roughness, vec3 mean_free_path, float phase_anisotropy, float thickness, vec3 below,
                                     vec3 N, vec3 V)
 {
@@ -83,7 +83,7 @@ vec3 mx_slab_medium_bsdf_throughput(vec3 color, float roughness, vec3 mean_free_
     return mx_medium_through(color, mean_free_path, phase_anisotropy, thickness, mx_way(N, V)) / (1.0 - min(below * reflected, 0.999));
 }
 
-// Of light that comes in: its power with the exponent x is what a way x lets through, exact in the mean over cosine-weighted directions.
+// Transmittance of light that comes in: its power with the exponent x is what a way x lets through, exact in the mean over cosine-weighted directions.
 vec3 mx_slab_medium_bsdf_transmittance(vec3 color, float roughness, vec3 mean_free_path, float phase_anisotropy, float thickness, vec3 below,
                                        vec3 N)
 {

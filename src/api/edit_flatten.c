@@ -212,7 +212,7 @@ static bool has_source(const struct document *doc, elem_id port)
            || (doc_element(doc, port)->kind == KIND_INPUT && doc_attr_value(doc, port, STR_output));
 }
 
-/* What an input of the node has: the port has the same. */
+/* A port takes over what the input of the node has. */
 static void take_input(struct flattening *f, elem_id port, elem_id from, const struct port *input)
 {
     static const str_id values[] = {STR_value, STR_unit, STR_unittype};
@@ -230,8 +230,8 @@ static void take_input(struct flattening *f, elem_id port, elem_id from, const s
     if (!scale_value(f, port, from, input->element))
         copy_attrs(f, port, from, values, sizeof values / sizeof *values);
     /*
-     * What the input says itself goes before what the port says, except of a file, and that before
-     * its ancestors.
+     * An attribute of the input goes before one of the port, except of a file, and that before
+     * those of its ancestors.
      */
     if (!port_says || (!is_file && doc_attr(doc, from, STR_colorspace)))
         keep_meaning(f, port, from);
@@ -300,7 +300,7 @@ static const struct geomprop *own_property(struct flattening *f, elem_id port)
     return name ? library_geomprop(&view, name) : NULL;
 }
 
-/* What the geometry gives. A port that has it by itself is left out. */
+/* Takes the default property of the geometry. A port that has it by itself is left out. */
 static void take_property(struct flattening *f, elem_id port, const struct port *input)
 {
     const struct geomprop *property = library_geomprop(view_of(f), input->geomprop);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What passes over the surfaces of a document share: which elements are surfaces, the edit that a
+ * Passes over the surfaces of a document share this: which elements are surfaces, the edit that a
  * pass makes, the values of new inputs, and messages.
  */
 #include "api/translate.h"

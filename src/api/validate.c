@@ -129,8 +129,8 @@ static void check_textures(struct generation *g)
 /* ---- Looks ---- */
 
 /*
- * What has been told, so that a look and those that inherit it say everything once, and nothing
- * where the elements themselves have a fault.
+ * Messages that have been told, so that a look and those that inherit it say everything once, and
+ * nothing where the elements themselves have a fault.
  */
 struct told {
     struct table table; /* by place: indices of items + 1 */

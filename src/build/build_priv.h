@@ -282,7 +282,7 @@ ir_ref build_property(struct builder *b, const struct property *property);
 
 /* The value of a geometric property. */
 ir_ref build_geomprop(struct builder *b, const struct geomprop *prop);
-/* The same for the attribute `defaultgeomprop` of an input of a type; poison after a report. */
+/* The value of `defaultgeomprop`, an attribute of an input of a type; poison after a report. */
 ir_ref build_default_geomprop(struct builder *b, elem_id element, doc_type type);
 /*
  * The value of a constant, or the initial value of a uniform, for compile-time decisions; false for
@@ -326,7 +326,7 @@ struct build_meaning build_meaning_of(struct builder *b, elem_id node, const str
 /* The default of a definition: in the space that its input, or the user's document, says. */
 struct build_meaning build_meaning_of_default(struct builder *b, const struct port *port);
 /*
- * The same for what a file contains, which a node reads through an input of its definition: the
+ * The meaning of what a file contains, which a node reads through an input of its definition: the
  * element that names the file says it, also where the file comes from another node.
  */
 struct build_meaning build_meaning_of_file(struct builder *b, const struct frame *frame,

@@ -277,7 +277,7 @@ ir_ref closure_call(struct shader *shader, const struct closure_host *host, ir_r
 
 /* The shaded point. */
 ir_ref closure_position(struct shader *shader, const struct closure_host *host);
-/* What the host says of the way through the body in a direction, in units of the world. */
+/* The way through the body in a direction, in units of the world, as the host says it. */
 ir_ref closure_host_thickness(struct shader *shader, const struct closure_host *host,
                               ir_ref direction);
 

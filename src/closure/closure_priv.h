@@ -143,7 +143,7 @@ bool closure_find_pile(struct shader *shader, const struct closure_host *host,
 
 /* flatten.c: two volumes in one place; a may be 0. */
 ir_ref closure_joined(struct ir_graph *graph, ir_ref a, ir_ref b);
-/* Of a VDF, over a unit of length: exp(-absorption), Beer's law; 0: 1. */
+/* The transmittance of a VDF over a unit of length: exp(-absorption), Beer's law; 0: 1. */
 ir_ref closure_transmittance(struct shader *shader, const struct closure_host *host, ir_ref volume);
 
 /* volume.c: a volume behind the shaded point. */

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* What a payload or a function has no room for, for messages: nothing goes silently. */
+/* Tells what a payload or a function has no room for: nothing goes silently. */
 #include "deferred/deferred_priv.h"
 
 enum form { PAYLOAD = 1, DECAL = 2, PACK = 4 };

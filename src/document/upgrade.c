@@ -413,7 +413,7 @@ static void upgrade_subsurface(struct upgrade *u, elem_id node)
     doc_set_attr(u->doc, radius, STR_type, STR_color3);
 }
 
-/* The same in the definition of a library. */
+/* A definition of a library changes its input as a node does. */
 static void upgrade_subsurface_definition(struct upgrade *u, elem_id nodedef)
 {
     elem_id radius = upgrade_child(u, nodedef, "radius");

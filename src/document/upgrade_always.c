@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* What documents of every version still contain: spellings of other programs, and removed types. */
+/* Upgrades that documents of every version need: spellings of other programs, and removed types. */
 #include "document/upgrade.h"
 
 /* "True" and "FALSE" are what Python and Houdini write. */

@@ -104,7 +104,7 @@ static void reach(struct spell_program *program, str_id name, bool all)
     }
 }
 
-/* Of a pass, the stage calls the function that runs it, or its host may call all. */
+/* The stage of a pass calls the function that runs it, or its host may call all. */
 static void find_pass(struct spell *spell)
 {
     const struct source_pass *pass = &spell->shader->sources.pass;

@@ -222,7 +222,7 @@ const char *spell_program_type(struct spell *spell, ir_type_id type);
 
 /* Gives a struct of the stage a maker with a name at file scope: "make_Outer". */
 void spell_name_maker(struct spell *spell, ir_type_id type);
-/* The same for a struct of a unit, whose name in the output is known. */
+/* Gives a maker to a struct of a unit, whose name in the output is known. */
 void spell_add_maker(struct spell *spell, const struct lang_unit *unit, ir_type_id type,
                      const char *type_name);
 /* The maker of a struct, by the struct's name in the output; NULL: it has none. */
@@ -249,7 +249,7 @@ void spell_expand(struct spell *spell, const struct lang_use *use, const char *f
  * must live as long as the stage is written.
  */
 void spell_helper(struct spell *spell, const char *text);
-/* The same for a text with the marks of spell_expand. */
+/* Declares a helper whose text has the marks of spell_expand. */
 void spell_add_helper(struct spell *spell, const struct lang_use *use, const char *declaration);
 /*
  * Hook `maker` of a target whose structs have no constructors: a helper builds the struct. User
@@ -296,7 +296,7 @@ void spell_take_source_names(struct spell *spell);
 
 /* Writes "// …", the first sentence of the library's comment above a function, if there is one. */
 void spell_function_doc(struct spell *spell, uint32_t function);
-/* The same for a function of a program with this comment. */
+/* Writes the first sentence of `doc`, the comment of a function of a program. */
 void spell_doc(struct spell *spell, str_id doc);
 
 /*

@@ -37,7 +37,7 @@ struct usda_prim {
     bool is_instance;  /* instanceable = true */
 };
 
-/* What a prim has under a name. */
+/* The property and the attribute that a prim has under a name. */
 struct usda_named {
     usda_prim_id prim;
     uint32_t first;     /* property of this name; 0: it has samples alone */
@@ -73,7 +73,7 @@ usda_prim_id usda_index_prim(struct usda_layer *layer, usda_prim_id id);
 void usda_index_property(struct usda_layer *layer, usda_prim_id prim, uint32_t property);
 /* Puts the properties of each prim in a row; `prims` has the prim of each property. */
 void usda_index_rows(struct usda_layer *layer, const usda_prim_id *prims, struct arena *scratch);
-/* What a prim has under a name; NULL: nothing. */
+/* Finds what a prim has under a name; NULL: nothing. */
 const struct usda_named *usda_find_named(const struct usda_layer *layer, usda_prim_id prim,
                                          struct text_word name);
 

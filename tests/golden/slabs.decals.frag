@@ -584,7 +584,7 @@ layout(set = 1, binding = 13) uniform sampler2D mx_decal_albedo;
 layout(set = 1, binding = 14) uniform sampler2D mx_decal_f0;
 layout(set = 1, binding = 15) uniform sampler2D mx_decal_normal;
 layout(set = 1, binding = 16) uniform sampler2D mx_decal_roughness;
-// What decals put at this pixel, and in w the part of the base that they leave.
+// The value that decals put at this pixel, and in w the part of the base that they leave.
 vec4 mx_decal(int image)
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);

@@ -495,7 +495,7 @@ fn mx_decal_roughness_fetch(at: vec2i, level: i32) -> vec4f
     return textureLoad(mx_decal_roughness, at, level);
 }
 
-// What decals put at this pixel, and in w the part of the base that they leave.
+// The value that decals put at this pixel, and in w the part of the base that they leave.
 fn mx_decal(image: i32) -> vec4f
 {
     let pixel: vec2i = vec2i(vd.position.xy);

@@ -65,6 +65,8 @@ PATH = re.compile(rf"(?<![\w./<>$*{{}}-])((?:{'|'.join(FOLDERS + ROOMS)})/[\w./-
 OLD_PATH = re.compile(r"(?<![\w./<>$*{}%@\"-])((?:\w+/)+\w+\.(?:c|h|cpp|def|sh|py|md))\b")
 FILE = re.compile(r"(?<![\w./<>$*%@\"-])(\w+\.(?:c|h|def))\b(?!\.)")
 COMMENT = re.compile(r"/\*.*?\*/|//[^\n]*", re.DOTALL)
+# The first comment line of a block without a subject: what does "the same" mean to someone who reads it alone?
+FRAGMENT = re.compile(r"(?:^|\n)[ \t]*(?:/\*[\s*]*|//\s*)((?:What|The same|Of) [^\n]*)")
 TEXTS = (".c", ".h", ".cpp", ".def", ".glsl", ".mtlx", ".py", ".sh", ".build", ".md", ".txt", "")
 # Where a path of a comment may begin, beside the folder of the file itself.
 PLACES = [ROOT, ROOT / "src", ROOT / "include", ROOT / "tests", ROOT / "libraries"]
@@ -91,6 +93,9 @@ def check_references():
         prose = [text] if path.suffix == ".md" else COMMENT.findall(text) if path.suffix in (".c", ".h", ".cpp", ".def") else []
         for found in OLD_PATH.findall("\n".join(prose)):
             check(any((place / found).exists() for place in [*PLACES, path.parent]), f"{where}: there is no {found}")
+        if path.suffix in (".c", ".h", ".cpp", ".def", ".glsl") and where.parts[0] != "tests":
+            for found in FRAGMENT.findall(re.sub(r"(//[^\n]*)\n(?=[ \t]*//)", r"\1 ", text)): # lines of one comment
+                check(False, f"{where}: a comment without a subject: {found}")
         if path.suffix in (".c", ".h", ".cpp", ".def"):
             for comment in COMMENT.finditer(text):
                 for name in FILE.findall(comment[0]):

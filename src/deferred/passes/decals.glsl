@@ -1,4 +1,4 @@
-// What decals put at this pixel, and in w the part of the base that they leave.
+// The value that decals put at this pixel, and in w the part of the base that they leave.
 vec4 mx_decal(int image)
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
