@@ -79,6 +79,9 @@ void compiled_finish(struct compiled *compiled);
  * each by itself.
  */
 bool compile_result(const char *target, const mxg_result *result, struct compiled *out);
+/* Compiles several into `outs`: faster than one by one where compilers start slowly (command.h). */
+void compile_results(const char *target, const mxg_result *const *results, size_t count,
+                     struct compiled *outs);
 
 /*
  * Compiles the source of a compute shader in the language of "vulkan", "hlsl" or a target of

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /* The results of all compilers have one form. */
+#include "compile/command.h"
 #include "compile/compile.h"
 
 #include <stdio.h>
@@ -292,4 +293,20 @@ bool compile_result(const char *target, const mxg_result *result, struct compile
         compile_part(target, &part, out);
     }
     return out->errors == 0;
+}
+
+void compile_results(const char *target, const mxg_result *const *results, size_t count,
+                     struct compiled *outs)
+{
+    const char **sources = command_takes_modules(target) ? calloc(count, sizeof *sources) : NULL;
+    for (size_t i = 0; i < count; ++i) {
+        outs[i] = (struct compiled){0};
+        if (sources)
+            sources[i] = mxg_result_source(results[i], MXG_STAGE_PIXEL, NULL);
+        else
+            compile_result(target, results[i], &outs[i]);
+    }
+    if (sources)
+        command_compile_modules(target, sources, count, outs);
+    free(sources);
 }

@@ -12,6 +12,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum { MAX_WAITING = 64 }; /* results, so that their memory stays small */
+
 struct check {
     struct cli cli;
     const char *targets, *interfaces; /* lists with commas */
@@ -20,6 +22,8 @@ struct check {
     const char *input;
     const char *stage, *look; /* of a scene */
     mxg_bindings *bindings;   /* NULL without a scene */
+    mxg_result *waiting[MAX_WAITING];
+    size_t num_waiting;
 };
 
 /* The next word of a list with commas; false behind the last. */
@@ -88,18 +92,29 @@ static void print_sizes(const struct check *check, const char *element, const ch
            compiled->stages[MXG_STAGE_VERTEX].body_instructions);
 }
 
-static void check_result(struct check *check, const char *target, const char *interface,
-                         const mxg_result *result)
+static void print_result(struct check *check, const char *target, const char *interface,
+                         const mxg_result *result, const struct compiled *compiled)
 {
     mxg_shader_info info = {sizeof info};
     mxg_result_info(result, &info);
-    struct compiled compiled = {0};
+    for (size_t i = 0; i < compiled->num_messages; ++i)
+        print_message(check, result, info.path, target, &compiled->messages[i]);
+    print_sizes(check, info.path, target, interface, result, compiled);
+}
+
+/* Compiles the results that wait, together, and prints them. */
+static void check_waiting(struct check *check, const char *target, const char *interface)
+{
+    struct compiled compiled[MAX_WAITING] = {0};
     if (!check->no_compile && compile_knows_target(target))
-        compile_result(target, result, &compiled);
-    for (size_t i = 0; i < compiled.num_messages; ++i)
-        print_message(check, result, info.path, target, &compiled.messages[i]);
-    print_sizes(check, info.path, target, interface, result, &compiled);
-    compiled_finish(&compiled);
+        compile_results(target, (const mxg_result *const *)check->waiting, check->num_waiting,
+                        compiled);
+    for (size_t i = 0; i < check->num_waiting; ++i) {
+        print_result(check, target, interface, check->waiting[i], &compiled[i]);
+        compiled_finish(&compiled[i]);
+        mxg_result_destroy(check->waiting[i]);
+    }
+    check->num_waiting = 0;
 }
 
 static void check_one(struct check *check, const mxg_document *document, mxg_generate_desc desc,
@@ -111,9 +126,13 @@ static void check_one(struct check *check, const mxg_document *document, mxg_gen
     mxg_status status = mxg_generate(check->cli.context, document, &desc, &result);
     if (result)
         report_list(&check->cli.report, mxg_result_diagnostics(result));
-    if (report_status(&check->cli.report, status))
-        check_result(check, target, interface, result);
-    mxg_result_destroy(result);
+    if (!report_status(&check->cli.report, status)) {
+        mxg_result_destroy(result);
+        return;
+    }
+    check->waiting[check->num_waiting++] = result;
+    if (check->num_waiting == MAX_WAITING)
+        check_waiting(check, target, interface);
 }
 
 static void check_element(struct check *check, const mxg_document *document, const char *element,
@@ -189,6 +208,7 @@ static void check_document(struct check *check)
              next_word(&interfaces, interface, sizeof interface);) {
             if (mxg_options_set(check->cli.options, "interface", interface) == MXG_OK) {
                 check_elements(check, document, target, interface);
+                check_waiting(check, target, interface);
                 continue;
             }
             char *reason = cli_option_error(check->cli.options);

@@ -3,6 +3,7 @@
  * The judge of shaders must itself be right: it accepts what is valid, and tells stage and line of
  * what is not.
  */
+#include "compile/command.h"
 #include "compile/compile.h"
 
 #include "unit/test.h"
@@ -99,6 +100,31 @@ static void test_installed(void)
     }
 }
 
+/* Modules that one process compiles: a message is told of the shader that it is in. */
+static void test_modules(void)
+{
+    enum { COUNT = 40, WRONG = 35 }; /* more than one process takes */
+    static const char good[] = "mdl 1.8;\nexport float f() { return 1.0; }\n";
+    const char *sources[COUNT];
+    struct compiled compiled[COUNT] = {0};
+    if (!command_takes_modules("mdl")) {
+        printf("skip: mdlc is not installed\n");
+        return;
+    }
+    for (int i = 0; i < COUNT; ++i)
+        sources[i] = good;
+    sources[WRONG] = "mdl 1.8;\n\nexport float f() { return missing; }\n";
+    command_compile_modules("mdl", sources, COUNT, compiled);
+    for (int i = 0; i < COUNT; ++i)
+        REQUIRE_EQ(compiled[i].errors, i == WRONG ? 1 : 0);
+    if (REQUIRE(compiled[WRONG].num_messages == 1)) {
+        REQUIRE_EQ(compiled[WRONG].messages[0].line, 3);
+        REQUIRE(strstr(compiled[WRONG].messages[0].text, "missing"));
+    }
+    for (int i = 0; i < COUNT; ++i)
+        compiled_finish(&compiled[i]);
+}
+
 int main(void)
 {
     compile_begin();
@@ -119,6 +145,7 @@ int main(void)
     REQUIRE(compile_knows_target("essl") && compile_knows_target("hlsl"));
     REQUIRE(!compile_knows_target("metal"));
     test_installed();
+    test_modules();
     compile_end();
     return test_report("compile");
 }
