@@ -149,7 +149,7 @@ static elem_id base_of(struct indexer *ix, elem_id nodedef)
     return base;
 }
 
-/* What a list may inherit from another one; NULL: nothing, or after a diagnostic. */
+/* The list that another may inherit from; NULL: none, or after a diagnostic. */
 static const struct port_list *usable(struct indexer *ix, const struct port_list *list,
                                       const struct port_list *base)
 {
