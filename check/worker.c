@@ -13,7 +13,6 @@
 #include "program/memory.h"
 #include "compile/compile.h"
 
-#include <malloc.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -26,17 +25,6 @@ static int take_output(void)
     int fd = dup(STDOUT_FILENO);
     dup2(STDERR_FILENO, STDOUT_FILENO);
     return fd;
-}
-
-/*
- * Keeps freed memory in the process: the next document needs it again, and the system need not
- * clear it.
- */
-static void keep_memory(void)
-{
-    mallopt(M_MMAP_THRESHOLD, 4 << 20);
-    mallopt(M_TRIM_THRESHOLD, 16 << 20);
-    mallopt(M_TOP_PAD, 256 << 10);
 }
 
 /* The worker's desk, for a handler; NULL: the worker has none yet. */
@@ -84,7 +72,6 @@ int main(int argc, char **argv)
     int output = take_output();
     parent_follow();
     size_t memory_limit = 0;
-    keep_memory();
     const struct arg args[] = {
         {"target", 't', ARG_LIST, "T", "a target", &examiner.targets},
         {"no-compile", 0, ARG_FLAG, NULL, "does not compile the shaders", &no_compile},
