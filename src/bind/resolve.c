@@ -140,14 +140,43 @@ static void warn(struct resolver *r)
 
 /* ---- The whole ---- */
 
-static void add_to_stack(struct resolver *r, prim_id prim, bool is_drawn)
+/* The primitives of a state: those that are drawn, and groups. */
+struct tally {
+    uint32_t num[2];
+};
+
+/* States by the first primitive that has them, which is any, drawn, or a group. */
+struct met_states {
+    VEC(uint32_t) all, by_kind[2];
+};
+
+static void count_primitives(struct resolver *r, struct tally *tallies, struct met_states *met)
 {
     struct bindings *b = r->b;
-    struct bind_state *state = &b->states.items[b->state_of[prim]];
+    const uint8_t *kinds = b->scene->kinds.items;
+    for (prim_id prim = 1; prim < b->num_prims; prim++) {
+        unsigned kind = kinds[prim];
+        if (kind == PRIM_GONE)
+            continue;
+        uint32_t number = b->state_of[prim];
+        struct tally *tally = &tallies[number];
+        if (!tally->num[PRIM_DRAWN] && !tally->num[PRIM_GROUP]) {
+            b->states.items[number].first_prim = prim;
+            vec_push(r->scratch, &met->all, number);
+        }
+        if (!tally->num[kind]++)
+            vec_push(r->scratch, &met->by_kind[kind], number);
+    }
+}
+
+static void add_to_stack(struct resolver *r, uint32_t number, bool is_drawn, uint32_t num)
+{
+    struct bindings *b = r->b;
+    struct bind_state *state = &b->states.items[number];
     if (state->stack == STACK_NONE)
-        bind_stack(b, b->state_of[prim], is_drawn, r->scratch);
+        bind_stack(b, number, is_drawn, r->scratch);
     if (state->stack != STACK_NONE)
-        b->stacks.items[state->stack].num_prims++;
+        b->stacks.items[state->stack].num_prims += num;
 }
 
 /*
@@ -159,24 +188,18 @@ static void make_layers(struct resolver *r)
 {
     struct bindings *b = r->b;
     struct stands stands = {.scratch = r->scratch};
-    VEC(prim_id) groups = {0};
+    struct met_states met = {0};
+    struct tally *tallies = ARENA_ARRAY(r->scratch, struct tally, b->states.len);
     r->notes.sleeps_at = ARENA_ARRAY(r->scratch, uint32_t, b->look.names.len);
     r->notes.has_layer = ARENA_ARRAY(r->scratch, bool, b->look.names.len);
-    for (prim_id prim = 1; prim < b->num_prims; prim++) {
-        uint32_t number = b->state_of[prim];
-        if (!scene_has(b->scene, prim))
-            continue;
-        if (!b->states.items[number].first_prim) {
-            b->states.items[number].first_prim = prim;
-            bind_layers(b, number, &stands, &r->notes);
+    count_primitives(r, tallies, &met);
+    for (uint32_t i = 0; i < met.all.len; i++)
+        bind_layers(b, met.all.items[i], &stands, &r->notes);
+    for (unsigned kind = PRIM_DRAWN; kind <= PRIM_GROUP; kind++)
+        for (uint32_t i = 0; i < met.by_kind[kind].len; i++) {
+            uint32_t number = met.by_kind[kind].items[i];
+            add_to_stack(r, number, kind == PRIM_DRAWN, tallies[number].num[kind]);
         }
-        if (scene_is_group(b->scene, prim))
-            vec_push(r->scratch, &groups, prim);
-        else
-            add_to_stack(r, prim, true);
-    }
-    for (uint32_t i = 0; i < groups.len; i++)
-        add_to_stack(r, groups.items[i], false);
 }
 
 void bind_resolve(struct bindings *b, const struct document *doc, elem_id look,

@@ -9,6 +9,7 @@ void scene_init(struct scene *scene, uint32_t max_prims, struct arena *arena)
 {
     *scene = (struct scene){.arena = arena, .max_prims = max_prims, .purpose = ""};
     vec_push(arena, &scene->prims, (struct scene_prim){.name = ""});
+    vec_push(arena, &scene->kinds, PRIM_DRAWN);
     vec_push(arena, &scene->words, "");
     text_init(&scene->written, arena);
 }
@@ -59,7 +60,9 @@ prim_id scene_child(struct scene *scene, prim_id parent, const char *name, size_
                               .name_len = (uint32_t)len,
                               .parent = parent,
                               .depth = scene->prims.items[parent].depth + 1};
+    vec_reserve(scene->arena, &scene->kinds, 1); /* so that both have a primitive or none */
     vec_push(scene->arena, &scene->prims, prim);
+    vec_push(scene->arena, &scene->kinds, PRIM_DRAWN);
     struct scene_prim *above = &scene->prims.items[parent];
     if (above->last_child)
         scene->prims.items[above->last_child].next = added;
@@ -161,6 +164,7 @@ void scene_set_type(struct scene *scene, prim_id prim, struct text_word type)
     while (scene->types.len <= prim)
         vec_push(scene->arena, &scene->types, 0);
     scene->types.items[prim] = number;
+    scene_find_kind(scene, prim);
 }
 
 /* NULL: the host gives none. */
@@ -180,7 +184,7 @@ struct text_word scene_type(const struct scene *scene, prim_id prim)
     return type;
 }
 
-bool scene_is_group(const struct scene *scene, prim_id prim)
+static bool is_group(const struct scene *scene, prim_id prim)
 {
     const struct host_type *given = host_type_of(scene, prim);
     if (given)
@@ -188,6 +192,11 @@ bool scene_is_group(const struct scene *scene, prim_id prim)
     struct text_word type = scene_type(scene, prim);
     /* USD has types, lists of paths have none */
     return type.len ? is_group_type(type) : scene_source(scene, prim) != 0;
+}
+
+void scene_find_kind(struct scene *scene, prim_id prim)
+{
+    scene->kinds.items[prim] = is_group(scene, prim) ? PRIM_GROUP : PRIM_DRAWN;
 }
 
 /* ---- Removal ---- */
@@ -203,6 +212,7 @@ static void sweep_children(struct scene *scene, prim_id parent)
         prims[child].next = 0;
         if (!prims[child].name) {
             prims[child].parent = PRIM_REMOVED;
+            scene->kinds.items[child] = PRIM_GONE;
             continue;
         }
         if (above->last_child)
@@ -219,6 +229,7 @@ static void sweep_children(struct scene *scene, prim_id parent)
 static void forget(struct scene *scene, prim_id prim)
 {
     scene->prims.items[prim] = (struct scene_prim){.name = "", .parent = PRIM_REMOVED};
+    scene->kinds.items[prim] = PRIM_GONE;
     scene_unbind_all(scene, prim);
     if (prim < scene->first_source.len)
         scene->first_source.items[prim] = 0;

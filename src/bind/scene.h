@@ -19,6 +19,7 @@ struct scene_prim {
     uint32_t depth;                                /* 0 of the root */
 };
 enum { SCENE_MAX_DEPTH = 1000 };
+enum prim_kind { PRIM_DRAWN, PRIM_GROUP, PRIM_GONE };
 #define PRIM_REMOVED UINT32_MAX /* as a parent: the primitive is gone; its number stays unused */
 
 /* A type that a host gives to primitives. */
@@ -92,6 +93,7 @@ struct scene {
     struct arena *arena;          /* owns everything */
     uint32_t max_prims;           /* a limit of the context; readers report more */
     VEC(struct scene_prim) prims; /* a parent stands before its children */
+    VEC(uint8_t) kinds;           /* enum prim_kind, by primitive: few bytes for loops over all */
     struct table table;           /* (parent, name) → primitive */
     VEC(prim_id) last; /* the levels of the path that was added last; the next often shares some */
     VEC(struct scene_binding) bindings;
@@ -144,7 +146,7 @@ const char *scene_keep_word(struct scene *scene, struct text_word word);
 /* True if a number is that of a primitive, or of the root. */
 static inline bool scene_has(const struct scene *scene, prim_id prim)
 {
-    return prim < scene->prims.len && scene->prims.items[prim].parent != PRIM_REMOVED;
+    return prim < scene->kinds.len && scene->kinds.items[prim] != PRIM_GONE;
 }
 /*
  * Removes primitives of the scene, with all below them and their bindings. A number may come twice,
@@ -244,7 +246,12 @@ static inline uint32_t scene_source(const struct scene *scene, prim_id prim)
 /* Its type, "Mesh"; empty: unknown, or none. */
 struct text_word scene_type(const struct scene *scene, prim_id prim);
 /* True for what is never drawn itself: a group, a camera, a light. Its layers are for others. */
-bool scene_is_group(const struct scene *scene, prim_id prim);
+static inline bool scene_is_group(const struct scene *scene, prim_id prim)
+{
+    return scene->kinds.items[prim] == PRIM_GROUP;
+}
+/* After a change of what the type of a primitive follows from. */
+void scene_find_kind(struct scene *scene, prim_id prim);
 /*
  * The strongest property of a name (usda_find_attribute), and its source in *out_source, which may
  * be NULL; NULL: none.

@@ -345,6 +345,7 @@ static void add_source(struct reader *s, prim_id prim, struct scene_source sourc
     source.next = scene->first_source.items[prim];
     vec_push(scene->arena, &scene->sources, source);
     scene->first_source.items[prim] = scene->sources.len;
+    scene_find_kind(scene, prim);
     add_bindings(s, prim, &s->layer->prims.items[source.prim]);
 }
 
