@@ -300,6 +300,7 @@ static bool compile(struct kernel *kernel, const struct trace_options *options, 
     append(&source, bind_has_semantic(result, "matter") ? "#define MATTER\n" : "");
     append(&source, kernel->is_volume ? "#define VOLUME\n" : "");
     append(&source, has_output(result, "out13") ? "#define INTERIOR\n" : "");
+    append(&source, bind_has_semantic(result, "varies") ? "#define VARIES\n" : "");
     snprintf(line, sizeof line, "const uint PARTS = %zuu;\n",
              1 + aovs_num_scattered(options->aovs));
     append(&source, line);

@@ -108,8 +108,8 @@ bool wait(inout Path path, Hit hit)
 bool pass_surface(inout Shadow ray, uint number, Hit hit); // body.glsl
 bool rests(inout Path path, uint body);
 float draw_tentative(float majorant);
-#ifdef VOLUME
-void pass_collision(inout Shadow ray); // volume.glsl
+#ifdef VARIES
+void pass_collision(inout Shadow ray); // varying.glsl
 #endif
 
 // Follows the ray to a light to its end, or false where it has to wait.
@@ -127,7 +127,7 @@ bool follow_shadow(inout Path path)
         if (what == NOTHING && way < ray.limit) {
             ray.origin += ray.direction * way;
             ray.limit -= way;
-#ifdef VOLUME
+#ifdef VARIES
             pass_collision(ray);
 #endif
             continue;
@@ -173,6 +173,8 @@ void meet_surface(inout Path path, Hit hit);
 #ifdef VOLUME
 void scatter_in_volume(inout Path path); // volume.glsl
 void begin_in_volume(inout Path path, uint body);
+#elif defined VARIES
+void scatter_in_solid(inout Path path); // varying.glsl
 #endif
 #ifdef MATTER
 void pass_hole(inout Path path, Hit hit);
@@ -200,13 +202,15 @@ bool follow_matter(inout Path path)
     return true;
 }
 
-// A collision in a volume; false where the path has to wait for the shader of that.
+// A collision in a volume, or in what varies in a solid; false where the path has to wait for the shader of that.
 bool follow_collision(inout Path path)
 {
     if (!has_kernel_of(path, path.medium.body / 4u - 1u))
         return false;
 #ifdef VOLUME
     scatter_in_volume(path);
+#elif defined VARIES
+    scatter_in_solid(path);
 #endif
     return true;
 }
@@ -237,6 +241,8 @@ void cross_surface(inout Path path, Point point, vec3 inside)
     solid.extinction = out14.rgb;
     solid.scattering = out13.rgb;
     solid.anisotropy = out13.a;
+    if (majorant_of(solid.body) > 0.0) // each collision asks for those of its place
+        solid.extinction = solid.scattering = vec3(0.0);
 #endif
     if (AS_DRAWN) {
         path.phase = CROSSING;
@@ -405,7 +411,11 @@ void main()
     if (at >= side * side * side)
         return;
     shade_inside(camera.frame.w, mix(camera.eye.xyz, camera.right.xyz, place), vec3(0.0, 0.0, 1.0), vec4(0.0));
+#ifdef VOLUME
     film[at] = out10;
+#else
+    film[at] = out14;
+#endif
 }
 #else
 // The path of sample number `number` through the pixel; a draw of random numbers per path.

@@ -29,36 +29,6 @@ void begin_in_volume(inout Path path, uint body)
     enter_medium(path, medium_here(body));
 }
 
-// Ends ways through nothing, which have no end where a mesh is open: one collision in about a thousand is one of goes_on().
-bool is_due()
-{
-    return next_random().x < 1.0 / 1024.0;
-}
-
-// A collision with the majorant is one with the medium, or with nothing, which fills the medium up to the majorant: both have weights, so that the
-// mean is right where the extinction is above the majorant, too (Kutz, Habel, Li, Novak 2017, "Spectral and Decomposition Tracking for Rendering
-// Heterogeneous Volumes"). scatter() has run at the place, and out3 and out5 have the scattering.
-bool is_real(inout Path path, float majorant)
-{
-    path.light += path.through * out1.rgb / majorant;
-    vec3 part = max(out10.rgb, 0.0) / majorant, rest = 1.0 - part;
-    bool scatters = out9.r + out9.g + out9.b > 0.0;
-    float real = scatters ? dot(abs(path.through), part) : 0.0, none = dot(abs(path.through), abs(rest));
-    float chance = real / max(real + none, 1e-30);
-    bool collides = next_random().x < chance;
-    path.through *= collides ? vec3(1.0 / (majorant * chance)) : rest / max(1.0 - chance, 1e-30);
-    return collides;
-}
-
-// A tentative collision takes light from a ray to a light (Novak, Selle, Jarosz 2014, "Residual Ratio Tracking").
-void pass_collision(inout Shadow ray)
-{
-    uint object = ray.body / 4u - 1u;
-    shade_inside(object, ray.origin, ray.direction, vec4(0.0));
-    ray.through *= 1.0 - max(out10.rgb, 0.0) / objects[object].majorant;
-    survives(ray.through, is_due());
-}
-
 // Through the mesh. A path that leaves a medium in which it is not began inside of it.
 void meet_surface(inout Path path, Hit hit)
 {
@@ -81,10 +51,13 @@ void scatter_in_volume(inout Path path)
     at_level = vec2(-1.0, next_random().x);
     Point point = shade_inside(path.medium.body / 4u - 1u, path.origin, path.direction, towards);
     float majorant = majorant_of(path.medium.body);
-    if (majorant > 0.0 && !is_real(path, majorant)) {
-        path.phase = survives(path.through, is_due()) ? GOING : ENDED;
-        return;
+#ifdef VARIES
+    if (majorant > 0.0) { // out3 and out5 have the scattering
+        path.light += path.through * out1.rgb / majorant;
+        if (!is_real(path, majorant))
+            return;
     }
+#endif
     if (path.turns == 0u)
         keep_light(pixel_number(), vec3(0.0)); // no AOV has this light
     if (path.medium.collisions++ == 0u)

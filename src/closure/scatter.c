@@ -158,16 +158,6 @@ ir_ref scatter_is_in_front(struct closure_scatter *s, ir_ref direction)
     return FORMULA(s->shader, "mx_is_in_front", normal, view, direction);
 }
 
-/* The leaf in the first part where it has a medium behind it; NULL: in none. */
-static const struct closure_leaf *before_medium(const struct closure_scatter *s,
-                                                const struct scattering *leaf)
-{
-    for (uint32_t p = 0; p < s->num_parts; p++)
-        if (leaf->in[p] && leaf->in[p]->interior)
-            return leaf->in[p];
-    return NULL;
-}
-
 /* The weights of a sample in all parts that have the leaf. */
 static void weigh(struct closure_scatter *s, const struct scattering *leaf, ir_ref direction,
                   ir_ref response)
@@ -181,16 +171,6 @@ static void weigh(struct closure_scatter *s, const struct scattering *leaf, ir_r
     }
 }
 
-/* Writes how the medium of a solid scatters. */
-static void take_interior(struct closure_scatter *s, ir_ref interior)
-{
-    struct closure_medium medium;
-    closure_medium(s->shader, s->host, interior, &medium);
-    ir_ref parts[2] = {medium.scattering, medium.anisotropy};
-    scatter_effect(s, EFFECT_ASSIGN, s->scattering, ir_construct(s->graph, IR_TYPE_VEC4, parts, 2));
-    scatter_effect(s, EFFECT_ASSIGN, s->extinction, medium.extinction);
-}
-
 void scatter_take_side(struct closure_scatter *s, ir_ref direction, ir_ref medium, ir_ref interior,
                        ir_ref *density)
 {
@@ -201,8 +181,7 @@ void scatter_take_side(struct closure_scatter *s, ir_ref direction, ir_ref mediu
     scatter_effect(s, EFFECT_ASSIGN, s->is_inside, is_inside);
     if (medium)
         scatter_effect(s, EFFECT_ASSIGN, s->medium, ir_convert(s->graph, IR_TYPE_VEC3, medium));
-    if (interior && s->scattering != UINT32_MAX)
-        take_interior(s, interior);
+    interior_take(s, interior);
 }
 
 static void sample(struct closure_scatter *s, const struct scattering *leaf)
@@ -217,7 +196,7 @@ static void sample(struct closure_scatter *s, const struct scattering *leaf)
     weigh(s, leaf, results[0], results[1]);
     ir_ref density =
         scatter_op2(s, IR_MUL, results[2], scatter_op2(s, IR_DIV, leaf->share, s->total));
-    const struct closure_leaf *solid = before_medium(s, leaf);
+    const struct closure_leaf *solid = interior_behind(s, leaf);
     if (has(s, leaf->leaf, LEAF_REFRACTION))
         scatter_take_side(s, results[0], solid ? solid->medium : 0, solid ? solid->interior : 0,
                           &density);
@@ -272,39 +251,6 @@ ir_ref scatter_random_number(struct shader *shader)
     return ir_component(shader->graph, shader_stream(shader, STR_random, IR_TYPE_VEC4), 3);
 }
 
-static bool scatters(struct closure_scatter *s, ir_ref interior)
-{
-    struct closure_medium medium = {0};
-    if (interior)
-        closure_medium(s->shader, s->host, interior, &medium);
-    return interior && !ir_const_is(s->graph, medium.scattering, 0.0f);
-}
-
-/* True if the graph has a volume inside a surface. */
-static bool has_interior(const struct ir_graph *g)
-{
-    bool any = false;
-    for (ir_ref ref = 1; ref < g->nodes.len && !any; ref++) {
-        ir_ref base = ir_get(g, ref)->op == IR_LAYER ? ir_arg(g, ref, 1) : 0;
-        any = base && ir_type_of(g, base) == IR_TYPE_VDF;
-    }
-    return any;
-}
-
-/* True if a medium inside the surface may scatter. Of a stack the layers are not known yet. */
-static bool any_interior_scatters(struct closure_scatter *s)
-{
-    bool any = s->is_stack && has_interior(s->graph);
-    for (uint32_t i = 0; s->pile && i < s->pile->levels.len; i++)
-        any = any || scatters(s, s->pile->levels.items[i].interior);
-    for (uint32_t i = 0; !s->pile && i < s->leaves.len; i++) {
-        const struct scattering *leaf = &s->leaves.items[i];
-        const struct closure_leaf *solid = before_medium(s, leaf);
-        any = any || (leaf->share && solid && scatters(s, solid->interior));
-    }
-    return any;
-}
-
 void scatter_declare_locals(struct closure_scatter *s, ir_ref pick)
 {
     s->pick = scatter_local(s, STR_pick, pick);
@@ -314,11 +260,7 @@ void scatter_declare_locals(struct closure_scatter *s, ir_ref pick)
         s->parts[p].weight = scatter_local(s, STR_weight, scatter_grey(s, 0.0f));
     s->density = scatter_local(s, STR_density, scatter_number(s, 0.0f));
     s->medium = scatter_local(s, STR_medium, scatter_grey(s, 1.0f));
-    if (!any_interior_scatters(s))
-        return;
-    ir_ref black = ir_const_splat(s->graph, IR_TYPE_VEC4, 0.0f);
-    s->scattering = scatter_local(s, STR_scattering, black);
-    s->extinction = scatter_local(s, STR_extinction, scatter_grey(s, 0.0f));
+    interior_declare(s);
 }
 
 static void sample_leaves(struct closure_scatter *s)
@@ -615,14 +557,6 @@ static void write_lit(struct closure_scatter *s)
     scatter_write_output(s, STR_out7, s->parts[0].lit, scatter_number(s, 0.0f));
 }
 
-static void write_interior(struct closure_scatter *s)
-{
-    uint32_t out = shader_output(s->shader, STR_out13, IR_TYPE_VEC4);
-    scatter_effect(s, EFFECT_OUTPUT, out, scatter_read(s, s->scattering));
-    ir_ref extinction = scatter_read(s, s->extinction), nothing = scatter_number(s, 0.0f);
-    scatter_write_output(s, STR_out14, extinction, nothing);
-}
-
 void closure_scatter_medium(struct closure_scatter *s, const struct closure_medium *medium,
                             bool varies)
 {
@@ -653,8 +587,7 @@ void closure_scatter_end(struct closure_scatter *s, ir_ref alpha)
     scatter_write_output(s, STR_out4, medium, inside);
     ir_ref seen = s->is_stack ? scatter_read(s, s->parts[0].seen_local) : seen_of(s, 0);
     scatter_write_output(s, STR_out5, seen, nothing);
-    if (s->scattering != UINT32_MAX)
-        write_interior(s);
+    interior_write(s);
     if (s->lighting->lights && !s->is_stack)
         light_up(s);
     for (uint32_t p = 0; s->lighting->lights && s->is_stack && p < s->num_parts; p++)

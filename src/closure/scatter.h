@@ -35,6 +35,7 @@ struct closure_scatter {
     uint32_t pick, direction, is_inside, density, medium; /* locals */
     /* locals of the medium inside a surface; UINT32_MAX: no medium of the shader scatters there */
     uint32_t scattering, extinction;
+    ir_ref everywhere; /* VDF of the medium inside that differs from place to place; 0: none */
     ir_ref total;
     /* 1 / alpha, where the weights have the alpha that the tracer applies by chance; 0 = 1 */
     ir_ref scale;
@@ -91,6 +92,16 @@ void scatter_take_side(struct closure_scatter *s, ir_ref direction, ir_ref mediu
 /* The locals of the outputs 2 to 4; pick: the initial value of the local of this name. */
 void scatter_declare_locals(struct closure_scatter *s, ir_ref pick);
 void scatter_write_output(struct closure_scatter *s, str_id name, ir_ref rgb, ir_ref a);
+
+/* ---- interior.c ---- */
+
+/* The leaf in the first part where it has a medium behind it; NULL: in none. */
+const struct closure_leaf *interior_behind(const struct closure_scatter *s,
+                                           const struct scattering *leaf);
+void interior_declare(struct closure_scatter *s); /* after the leaves are known */
+/* Light goes into the medium of the VDF; 0: there is none. */
+void interior_take(struct closure_scatter *s, ir_ref interior);
+void interior_write(struct closure_scatter *s);
 
 /* ---- matter.c ---- */
 

@@ -63,6 +63,7 @@ assign() { echo "<materialassign material='$1' geom='//$2'/>"; } # MATERIAL PRIM
       <add name='height' type='float'><input name='in1' type='float' nodename='xyz' output='outz'/><input name='in2' type='float' value='1'/></add>"
     varying fog '0.5, 1, 2' '0, 0, 0' 0
     varying cloud '0, 0, 0' '2, 3, 4' 0.4
+    varying broth '1, 1, 1' '2, 2, 2' 0.4
     varying haze '0.498, 0.996, 1.992' '0.002, 0.004, 0.008' 0.5
     rising hot '0.2, 0.5, 1'
     echo "<convert name='color' type='color3'><input name='in' type='vector3' nodename='hot'/></convert>
@@ -82,6 +83,12 @@ assign() { echo "<materialassign material='$1' geom='//$2'/>"; } # MATERIAL PRIM
     volume Flame gas "<input name='edf' type='EDF' nodename='heat'/>"
     filled Milk thick 1.5
     filled Soup soup 1.00001
+    filled Inner fog 1.00001
+    echo "<surfacematerial name='Inner' type='material'><input name='surfaceshader' type='surfaceshader' nodename='SInner'/></surfacematerial>
+      <look name='within'>$(assign Inner ball)</look>"
+    filled Fumes cloud 1.5
+    volume Broth broth
+    filled Broth broth 1.00001
     echo "<look name='inside'>$(assign Ink outer)$(assign Tea inner)</look><look name='paper'>$(assign Both outer)$(assign Paper inner)</look>
       <look name='bulb'>$(assign Lamp ball)</look><look name='beam'>$(assign Faint ball)</look>
       <look name='foggy'>$(assign Fog ball)</look><look name='burning'>$(assign Fire ball)</look><look name='glowing'>$(assign Embers ball)</look>
@@ -176,6 +183,16 @@ for row in 'R 0.002 0.5' 'G 0.004 1' 'B 0.008 2'; do
         "$(of "$(channel haze.exr "$name") / $(rising_once "$scattering" "$extinction")")" 1 0.04
 done
 
+# The same inside a surface that bends nothing: what is seen through it is the light of the sky behind.
+# shellcheck disable=SC2086
+check 'a medium that varies inside a surface is traced' stage within.exr ball.usda within $even --size 4 --paths 4096
+for row in 'R 1' 'G 2' 'B 4'; do
+    read -r name depth <<<"$row"
+    check "a medium that varies inside a surface absorbs by its integral: $name" near "$(channel within.exr "$name")" "$(of "exp(-$depth)")" 0.012
+done
+check 'glass with a white medium inside that varies is traced' trace fumes.exr SFumes --size 16 --paths 256
+check 'glass with a white medium inside that varies loses no light' near "$(all fumes.exr)" 1 0.01
+
 # The eye inside: 1 to the front of the ball through one medium; through two, half of the way in each.
 usd 0.0004 0 "$(sphere ball 1)" >eye.usda
 usd 0.0004 0 "$(sphere outer 1)" "$(sphere inner 0.5)" >eyes.usda
@@ -232,6 +249,9 @@ if [ "$extent" = all ]; then
     check 'a medium that absorbs and scatters is traced' trace soup.exr VSoup --size 16 --paths 96
     check 'a surface around it is traced' trace around.exr SSoup --size 16 --paths 96
     check 'a surface that bends nothing changes nothing' near "$(all around.exr)" "$(all soup.exr)" 0.01
+    check 'a medium that varies, absorbs and scatters is traced' trace broth.exr VBroth --size 16 --paths 256
+    check 'a surface around it is traced, too' trace bowl.exr SBroth --size 16 --paths 256
+    check 'a surface that bends nothing changes nothing of what varies' near "$(all bowl.exr)" "$(all broth.exr)" 0.01
     usd 0.04 60 "$(sphere outer 1)" "$(sphere inner 0.5)" >paper.usda
     # shellcheck disable=SC2086
     check 'white paper in a white medium is traced' stage paper.exr paper.usda paper $even --size 12 --paths 128
