@@ -37,11 +37,12 @@ static ir_ref light(struct osl_tree *t, ir_ref edf, ir_ref intensity, ir_ref exp
 
 /*
  * True for the parts of slabs. Light of matter itself is no layer of OSL, either; nor is an
- * interface with a tint, because what the tint takes does not reach the base.
+ * interface with a tint, because what the tint takes does not reach the base. A BSDF that a sum of
+ * closures stands for lets through what its own function says.
  */
 static bool is_of_slab(const struct osl_tree *t, ir_ref ref)
 {
-    return closure_has(t->shader, t->host, ref, LEAF_TINT)
+    return osl_is_fitted(t, ref) || closure_has(t->shader, t->host, ref, LEAF_TINT)
            || closure_has(t->shader, t->host, ref, LEAF_TRANSMITTANCE)
            || (ir_type_of(t->graph, ref) == IR_TYPE_BSDF
                && closure_has(t->shader, t->host, ref, LEAF_EMISSION));

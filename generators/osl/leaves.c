@@ -156,6 +156,22 @@ static const struct row *find_row(const char *family)
     return NULL;
 }
 
+bool osl_has_closure(const char *family)
+{
+    return find_row(family) != NULL;
+}
+
+bool osl_is_fitted(const struct osl_tree *t, ir_ref ref)
+{
+    const struct ir_node *node = ir_get(t->graph, ref);
+    if (node->op != IR_LEAF || node->type != IR_TYPE_BSDF || closure_source(t->shader, ref))
+        return false;
+    const uint32_t *functions = t->host->leaf_functions(t->host->user_data, node->attr);
+    return functions[LEAF_FACTOR] == LANG_NONE && functions[LEAF_EMISSION] == LANG_NONE
+           && !osl_has_closure(
+               str_text(t->shader->strings, t->graph->callees.items[node->attr].name));
+}
+
 /* ---- Inputs of the current leaf ---- */
 
 enum side { BOTH_SIDES, REFLECTED, TRANSMITTED };
@@ -544,11 +560,7 @@ ir_ref osl_leaf(struct osl_tree *t, ir_ref ref)
     } else if (node.type == IR_TYPE_VDF) {
         result = medium(t, ref);
     } else {
-        struct text lacks;
-        text_init(&lacks, t->shader->arena);
-        text_fmt(&lacks, "no closure for '%s', and a function cannot replace it",
-                 str_text(t->shader->strings, family));
-        t->lacks = text_cstr(&lacks);
+        result = osl_fitted(t, ref);
     }
     return osl_scaled(t, result, ir_arg(t->graph, ref, 0));
 }

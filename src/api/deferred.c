@@ -67,7 +67,7 @@ void generation_hide_misfits(struct generation *g)
 }
 
 /* The innermost element of the document itself that an origin comes from. */
-static elem_id element_of(const struct generation *g, uint32_t origin)
+elem_id generation_element_of(const struct generation *g, uint32_t origin)
 {
     const struct ir_origin *origins = g->result->graph.origins.items;
     while (origin && origins[origin].element < g->document->layer.doc.first_element)
@@ -80,7 +80,7 @@ static void report_misfit(struct generation *g, ir_ref misfit)
     const struct shader *shader = &g->result->shader;
     const struct document *doc = &g->document->layer.doc;
     uint32_t origin = ir_get(shader->graph, misfit)->origin;
-    elem_id element = element_of(g, origin);
+    elem_id element = generation_element_of(g, origin);
     diag_add(&g->result->object.diagnostics.list, DIAG_ID_closure_not_stored,
              doc_place(doc, element),
              str_text(shader->strings, shader->graph->origins.items[origin].name),
@@ -127,7 +127,7 @@ void generation_tell_lost(struct generation *g)
     const struct document *doc = &g->document->layer.doc;
     for (uint32_t i = 0; i < shader->reflection.lost.len; i++) {
         const struct shader_lost *lost = &shader->reflection.lost.items[i];
-        elem_id node = element_of(g, lost->origin);
+        elem_id node = generation_element_of(g, lost->origin);
         str_id name = str_find(doc->strings, lost->part, strlen(lost->part));
         elem_id input = name ? doc_child(doc, node, name) : 0;
         diag_add(&g->result->object.diagnostics.list, DIAG_ID_slab_left_out,

@@ -303,8 +303,8 @@ bool generation_build(struct generation *g)
         build_list_aovs(g->builder, g->options[OPTION_aovs].list.items,
                         g->options[OPTION_aovs].list.len);
     if (g->options[OPTION_network].number)
-        build_record_network(g->builder, &g->result->network,
-                             g->result->target->network->end_layer);
+        build_record_network(g->builder, &g->result->network, g->result->target->network->end_layer,
+                             g->result->target->network->has_closure);
     g->root = g->desc.bindings ? build_stack(g->builder, &g->desc.bindings->bindings, g->desc.stack)
                                : build_element(g->builder, g->element, g->output);
     assert(g->root < g->result->graph.nodes.len);
@@ -359,6 +359,7 @@ void generation_start_closures(struct generation *g)
     if (g->result->shader.lights == LIGHTS_IN_SHADER)
         build_lights(g->builder, lights->list.items, lights->list.len, lights->is_set);
     g->closure_host = build_closure_host(g->builder, &g->point);
+    g->closure_host.scratch = &g->estimates;
     if (g->result->target->closures && g->result->target->closures->lacks_view)
         g->point.view = closure_normal(&g->result->shader, &g->closure_host);
     g->lighting = (struct closure_lighting){
@@ -460,6 +461,7 @@ bool generation_emit(struct generation *g)
         generation_tell_forward(g);
         generation_tell_lost(g);
         generation_tell_media(g);
+        generation_tell_stand_ins(g);
     }
     return is_good(g) && generation_effects_are_defined(g, &g->result->shader, g->element);
 }

@@ -203,6 +203,10 @@ bool generation_is_defined(struct generation *g, const struct ir_graph *graph, c
 bool generation_effects_are_defined(struct generation *g, const struct shader *shader,
                                     elem_id where);
 
+/* deferred.c: the innermost element of the document itself that an origin comes from. */
+elem_id generation_element_of(const struct generation *g, uint32_t origin);
+/* network.c: tells closures that stand for leaves which the language has no closure for. */
+void generation_tell_stand_ins(struct generation *g);
 /* capacity.c: warns about AOVs that a payload has no room for. */
 void generation_tell_lost_aovs(struct generation *g);
 /* False, after a diagnostic, if a stack has more textures than the target can read. */

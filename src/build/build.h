@@ -91,9 +91,11 @@ ir_ref build_stack(struct builder *builder, const struct bindings *bindings, uin
 
 /*
  * network.c: makes the builder record layers in `network`. The value of build_element or
- * build_stack then depends on sources that stand for the layers.
+ * build_stack then depends on sources that stand for the layers. A BSDF of a family without a
+ * closure of the language has no layer of its own.
  */
-void build_record_network(struct builder *builder, struct network *network, const char *end_layer);
+void build_record_network(struct builder *builder, struct network *network, const char *end_layer,
+                          bool (*has_closure)(const char *family));
 /*
  * Fills network->results for the root that was built, or sets network->is_whole. `type` is the type
  * of a plain value; false: the library has no node for a constant of this type. The builder records

@@ -7,8 +7,9 @@
 
 struct recorder {
     struct network *network;
-    struct name_set names; /* of layers */
-    uint32_t *layer_of;    /* by variable of the shader: the layer with this output, + 1 */
+    bool (*has_closure)(const char *family); /* of leaves */
+    struct name_set names;                   /* of layers */
+    uint32_t *layer_of; /* by variable of the shader: the layer with this output, + 1 */
     uint32_t num_layers_of;
     VEC(uint8_t) output_of; /* by variable of the shader: the output of the layer */
     ir_ref *source_of;      /* by node: the layer's output that stands for it */

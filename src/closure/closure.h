@@ -83,6 +83,7 @@ struct closure_host {
     /* The input name of operand `index` + 1 of a LEAF node; NULL after the last. */
     const char *(*leaf_input)(void *user_data, uint32_t callee, unsigned index);
     const struct lang_host *lang;
+    struct arena *scratch; /* for evaluations; empty between them */
     /*
      * the direction to the light, for the throughput of layers under two-sided layering; NULL:
      * throughput depends only on the view direction

@@ -17,12 +17,14 @@
 
 #include "base/hash.h"
 
-void build_record_network(struct builder *b, struct network *network, const char *end_layer)
+void build_record_network(struct builder *b, struct network *network, const char *end_layer,
+                          bool (*has_closure)(const char *family))
 {
     struct recorder *r = ARENA_NEW(b->arena, struct recorder);
     *network =
         (struct network){.arena = b->arena, .strings = b->shader->strings, .end_layer = end_layer};
     r->network = network;
+    r->has_closure = has_closure;
     names_init(&r->names, b->arena, b->shader->style->syntax);
     names_take_frame(&r->names, b->shader);
     names_take(&r->names, end_layer, strlen(end_layer));
@@ -384,11 +386,25 @@ static void add_layer(struct builder *b, const struct frame *frame)
     vec_push(b->arena, &network->layers, made);
 }
 
+/* True for a BSDF that the language has no closure for: what stands for it needs its values. */
+static bool lacks_closure(const struct builder *b, const struct implementation *impl)
+{
+    if (impl->kind != IMPL_FAMILY)
+        return false;
+    const struct family *family = library_family(b->lib, impl->ref);
+    const struct port *ports = library_ports(b->lib, impl->nodedef, NULL);
+    ir_type_id type =
+        library_type_ir(b->lib, ports[library_nodedef(b->lib, impl->nodedef)->num_inputs].type);
+    return type == IR_TYPE_BSDF && family->functions[FAMILY_FACTOR] == LANG_NONE
+           && family->functions[FAMILY_EMISSION] == LANG_NONE
+           && !b->recorder->has_closure(build_text(b, family->name));
+}
+
 /* True if the closures that the node gives are no outputs of a layer. */
 static bool is_changed(struct builder *b, const struct frame *frame)
 {
     unsigned num_inputs = library_nodedef(b->lib, frame->node.nodedef)->num_inputs;
-    bool is_changed = b->recorder->is_changed;
+    bool is_changed = b->recorder->is_changed || lacks_closure(b, frame->impl);
     b->recorder->is_changed = false;
     for (unsigned i = 0; i < num_inputs; i++)
         is_changed |= !has_layer(b, without_unasked(b, frame->args[i]));

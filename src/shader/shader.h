@@ -329,6 +329,13 @@ struct shader_lost {
     const char *part, *why;
 };
 
+/* Closures of the language that stand for a leaf without one. */
+struct shader_stand_in {
+    uint32_t origin; /* of the leaf */
+    unsigned num_closures;
+    double error; /* the share of the leaf's light that they send elsewhere */
+};
+
 /* Facts of the whole, which a host is told: api/reflection.c. */
 struct shader_reflection {
     str_id name;         /* of the element: "Gold" */
@@ -347,6 +354,7 @@ struct shader_reflection {
     const char *not_walked; /* on paths: why its media are tables; NULL: they are not */
     const char *not_traced; /* on paths: why a volume is not drawn; NULL: it is */
     VEC(struct shader_lost) lost;
+    VEC(struct shader_stand_in) stand_ins;
     const char *not_stored; /* where pixels store slabs: why it lights itself; NULL: it does not */
     /* words that it stores per pixel, at most, or in a payload; 0: it lights itself */
     uint32_t stored_words;

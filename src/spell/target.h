@@ -31,6 +31,8 @@ struct reflect; /* shader/reflect.h */
 struct target_network {
     const char
         *end_layer; /* name of the last layer of a group, unless the group ends with a value */
+    /* False for a family of leaves that one layer alone cannot give. */
+    bool (*has_closure)(const char *family);
     /* Decides the kind of program and the required nodes, from network->results. */
     void (*plan)(struct network *network);
     /*

@@ -20,8 +20,8 @@ MXGEN, EXAMPLES, *NAMES = sys.argv[1:]
 HERE = pathlib.Path(__file__).resolve().parent
 SKY, SIZE, TOLERANCE, SAME = 0.5, 32, 0.03, 0.005
 DISTANCE, FIELD = 4.0, math.radians(30)
-NETWORKS = {"varnished", "slabs_lacquered", "slab_tinted", "slab_glints", "StandardSurface/standard_surface_gold.mtlx", "OpenPbr/open_pbr_default.mtlx"}
-LAMPS = {"slab_tinted", "slab_tinted_rough", "slab_tinted_glints"}
+NETWORKS = {"varnished", "fitted_layer", "slabs_lacquered", "slab_tinted", "slab_glints", "StandardSurface/standard_surface_gold.mtlx", "OpenPbr/open_pbr_default.mtlx"}
+LAMPS = {"fitted_phong", "fitted_velvet", "slab_tinted", "slab_tinted_rough", "slab_tinted_glints"}
 counts = {"passed": 0, "failed": 0, "skipped": 0}
 
 
@@ -109,7 +109,8 @@ def by_osl(document, options, folder, is_lamp=False):
 
 def traced(document, options, folder, is_lamp=False):
     write_sky(folder / "sky.hdr", is_lamp)
-    if document.parent == HERE: # a texture lies beside its document
+    if document.parent == HERE: # textures and functions lie beside their document
+        shutil.copy(HERE / "fitted.glsl", folder)
         document = pathlib.Path(shutil.copy(document, folder))
         write_tint(folder)
     fault = run(MXGEN, "render", document, "-q", "-m", "sphere", "--camera", f"0,0,{DISTANCE:g},30", "--lights", "none", "--environment",

@@ -216,10 +216,40 @@ cat >leaf.mtlx <<'X'
 X
 echo 'vec3 matte_eval(vec3 N, vec3 L) { return vec3(0.3 * max(dot(N, L), 0.0)); }' >matte.glsl
 check "a leaf of a document is generated" exits 0 "$mxgen" leaf.mtlx -o leaf
-check 'a leaf of a document has no closure in OSL' exits 1 "$mxgen" leaf.mtlx -t osl -o leaf
-check 'the error names the leaf' grep -q "osl has no closure for 'matte'.*\[not-renderable\]" err
-check 'a leaf of a document has no closure in networks of OSL' exits 1 "$mxgen" leaf.mtlx -t osl --osl-network -o leaf
-check 'the error of the network names the leaf' grep -q "osl has no closure for 'matte'.*\[not-renderable\]" err
+check 'a leaf of a document is fitted in OSL' exits 0 "$mxgen" leaf.mtlx -t osl -o leaf
+check 'the warning tells the closures' grep -q 'no closure for this <matte>: a sum of 1 closure stands for it.*\[closure-fitted\]' err
+check 'the light is that of the leaf' grep -Fq 'oren_nayar_diffuse_bsdf(N, color(1.0), 0.0) * 0.942' leaf/S.osl # 0.3 pi
+check 'a leaf of a document is fitted in networks of OSL' exits 0 "$mxgen" leaf.mtlx -t osl --osl-network -o net
+check 'the warning of the network tells the closures' grep -q 'closure-fitted' err
+cat >gloss.mtlx <<'X'
+<materialx version="1.39">
+  <nodedef name="ND_gloss" node="gloss"><input name="power" type="float" value="3"/><output name="out" type="BSDF"/></nodedef>
+  <implementation name="IM_gloss" nodedef="ND_gloss" file="gloss.glsl" function="gloss"/>
+  <nodedef name="ND_bent" node="bent"><output name="out" type="BSDF"/></nodedef>
+  <implementation name="IM_bent" nodedef="ND_bent" file="gloss.glsl" function="bent"/>
+  <nodedef name="ND_read" node="read"><output name="out" type="BSDF"/></nodedef>
+  <implementation name="IM_read" nodedef="ND_read" file="gloss.glsl" function="read"/>
+  <noise2d name="n" type="float"/>
+  <gloss name="g" type="BSDF"><input name="power" type="float" value="2"/></gloss>
+  <gloss name="v" type="BSDF"><input name="power" type="float" nodename="n"/></gloss>
+  <bent name="b" type="BSDF"/>
+  <read name="r" type="BSDF"/>
+</materialx>
+X
+cat >gloss.glsl <<'X'
+in vec3 positionWorld;
+vec3 gloss_eval(float power, vec3 N, vec3 L) { return vec3(pow(max(dot(N, L), 0.0), power)); }
+vec3 bent_eval(vec3 N, vec3 V, vec3 L) { return vec3(pow(max(dot(N, L), 0.0), 50.0) * max(dot(N, L), 0.0)); }
+vec3 read_eval(vec3 N, vec3 L) { return positionWorld * max(dot(N, L), 0.0); }
+X
+check 'an input of a leaf is compiled in' exits 0 "$mxgen" gloss.mtlx -e g -t osl --uniform '**' --reflect -o leaf
+check 'the reflection tells it' grep -q '"path": "g/power"' leaf/g.json
+check 'an input that varies is an error' exits 1 "$mxgen" gloss.mtlx -e v -t osl -o leaf
+check 'the error names the input' grep -q "osl has no closure for 'gloss'.*'power' varies.*\[not-renderable\]" err
+check 'light that no closures send is an error' exits 1 "$mxgen" gloss.mtlx -e b -t osl -o leaf
+check 'the error tells how much' grep -q "for 'bent'.*sends [0-9]* % of its light elsewhere.*\[not-renderable\]" err
+check 'functions that read the shader are an error' exits 1 "$mxgen" gloss.mtlx -e r -t osl -o leaf
+check 'the error tells why' grep -q "for 'read'.*cannot be evaluated.*\[not-renderable\]" err
 check 'an unknown element fails the run' exits 1 "$mxgen" two.mtlx --element B
 check 'the error of an unknown element is unknown-element' grep -q '\[unknown-element\]' err
 check 'a run with -q fails as without' exits 1 "$mxgen" bad.mtlx -q -o bad

@@ -13,6 +13,13 @@ float mx_brightness(vec3 light)
     return max(mx_mean(light), 0.0);
 }
 
+// Value of a table of eight numbers at x, with straight lines between them from x = 0 to 1.
+float mx_between(float x, float a, float b, float c, float d, float e, float f, float g, float h)
+{
+    vec3 near = clamp(x * 7.0 - vec3(0.0, 1.0, 2.0), 0.0, 1.0), far = clamp(x * 7.0 - vec3(3.0, 4.0, 5.0), 0.0, 1.0);
+    return a + dot(near, vec3(b - a, c - b, d - c)) + dot(far, vec3(e - d, f - e, g - f)) + clamp(x * 7.0 - 6.0, 0.0, 1.0) * (h - g);
+}
+
 // ---- throughput ------------------------------------------------------------------------------------------------------
 
 // Light that passes a closure which is there with a weight.
