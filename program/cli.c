@@ -200,7 +200,7 @@ static bool apply_settings(struct cli *cli)
 static void keep_memory(void)
 {
 #ifdef __GLIBC__
-    mallopt(M_MMAP_THRESHOLD, 4 << 20);
+    mallopt(M_MMAP_THRESHOLD, 256 << 10); /* arrays that grow leave no holes */
     mallopt(M_TRIM_THRESHOLD, 16 << 20);
     mallopt(M_TOP_PAD, 256 << 10);
 #endif
