@@ -102,18 +102,6 @@ static void set_camera(struct host *h)
 
 /* ---- Materials ---- */
 
-static void print_errors(const mxg_diagnostics *list)
-{
-    for (uint32_t i = 0; i < mxg_diagnostics_num_items(list); ++i) {
-        char text[1024];
-        mxg_diagnostic item = MXG_INIT(mxg_diagnostic);
-        mxg_diagnostics_item(list, i, &item);
-        if (item.severity == MXG_SEVERITY_ERROR
-            && mxg_diagnostics_format(list, i, NULL, 0, false, text, sizeof text))
-            fprintf(stderr, "%s\n", text);
-    }
-}
-
 /* NULL after an error, which is printed. */
 static mxg_result *generate(const struct host *h, const mxg_document *document, const char *element,
                             const char *role)
@@ -126,7 +114,7 @@ static mxg_result *generate(const struct host *h, const mxg_document *document, 
     mxg_options_set(h->options, "role", role);
     if (mxg_generate(h->context, document, &desc, &result) == MXG_OK)
         return result;
-    print_errors(mxg_result_diagnostics(result));
+    program_print(mxg_result_diagnostics(result), MXG_SEVERITY_ERROR);
     mxg_result_destroy(result);
     return NULL;
 }
@@ -136,7 +124,7 @@ static mxg_document *load(const struct host *h, const char *path)
     mxg_document *document = NULL;
     mxg_status status =
         mxg_document_load(h->context, mxg_library_builtin(h->context), path, &document);
-    print_errors(mxg_document_diagnostics(document));
+    program_print(mxg_document_diagnostics(document), MXG_SEVERITY_ERROR);
     check(status == MXG_OK, path);
     return document;
 }
@@ -240,15 +228,11 @@ static void make_ball(struct host *h, uint32_t index)
         program_fill_block(result, uniform_blocks[i], value_of, &of,
                            ball->uniforms.bytes + ball->offsets[i]);
     program_write_constants(result, ball->uniforms.bytes + size);
-    const VkDescriptorSetLayout layouts[2] = {ball->material->depth.set_layout,
-                                              ball->material->program.set_layout};
-    VkDescriptorSetAllocateInfo info = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
-                                        .descriptorPool = h->pool,
-                                        .descriptorSetCount = 2,
-                                        .pSetLayouts = layouts};
-    VK(vkAllocateDescriptorSets(h->device.device, &info, ball->sets));
-    for (int i = 0; i < 2; ++i)
+    for (int i = 0; i < 2; ++i) {
+        const struct program *p = i ? &ball->material->program : &ball->material->depth;
+        ball->sets[i] = device_make_set(&h->device, h->pool, p->set_layout);
         program_bind(&h->device, result, ball->uniforms.buffer, ball->offsets, ball->sets[i]);
+    }
 }
 
 static void make_balls(struct host *h)
@@ -257,11 +241,7 @@ static void make_balls(struct host *h)
     const VkDescriptorPoolSize sizes[] = {
         {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, NUM_SETS * NUM_UNIFORM_BLOCKS},
         {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, NUM_SETS * 16}};
-    VkDescriptorPoolCreateInfo pool = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
-                                       .maxSets = NUM_SETS,
-                                       .poolSizeCount = 2,
-                                       .pPoolSizes = sizes};
-    VK(vkCreateDescriptorPool(h->device.device, &pool, NULL, &h->pool));
+    h->pool = device_make_pool(&h->device, NUM_SETS, sizes, 2);
     for (uint32_t i = 0; i <= NUM_BALLS; ++i)
         make_ball(h, i);
 }
@@ -283,14 +263,9 @@ static void draw_balls(const struct host *h, VkCommandBuffer commands, bool is_d
         const struct ball *ball = &h->balls[i];
         const struct program *program =
             is_depth ? &ball->material->depth : &ball->material->program;
-        const VkBuffer buffers[] = {h->device.mesh.buffer, ball->uniforms.buffer};
-        const VkDeviceSize offsets[] = {0, ball->offsets[NUM_UNIFORM_BLOCKS]};
         const VkDescriptorSet sets[] = {ball->sets[!is_depth], p->resource_set};
-        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, program->pipeline);
-        vkCmdBindVertexBuffers(commands, 0, 2, buffers, offsets);
-        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, program->layout, 0, 2,
-                                sets, 0, NULL);
-        device_draw_ball(&h->device, commands);
+        program_draw_ball(&h->device, commands, program, sets, 2, ball->uniforms.buffer,
+                          ball->offsets[NUM_UNIFORM_BLOCKS]);
     }
     vkCmdEndRenderPass(commands);
     device_wait(commands);

@@ -117,17 +117,6 @@ static VkDescriptorSetLayout make_set_layout(const struct pipeline *p,
     return layout;
 }
 
-static VkDescriptorSet make_set(const struct pipeline *p, VkDescriptorSetLayout layout)
-{
-    VkDescriptorSet set;
-    VkDescriptorSetAllocateInfo info = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
-                                        .descriptorPool = p->pool,
-                                        .descriptorSetCount = 1,
-                                        .pSetLayouts = &layout};
-    VK(vkAllocateDescriptorSets(p->device->device, &info, &set));
-    return set;
-}
-
 static void write_set(const struct pipeline *p, VkDescriptorSet set, uint32_t binding,
                       VkDescriptorType type, VkImageView view, const struct buffer *buffer)
 {
@@ -151,17 +140,13 @@ static void make_sets(struct pipeline *p)
         {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, MAX_RESOURCES},
         {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, MAX_RESOURCES},
         {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 8 * MAX_SETS}};
-    VkDescriptorPoolCreateInfo pool = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
-                                       .maxSets = MAX_SETS,
-                                       .poolSizeCount = 4,
-                                       .pPoolSizes = sizes};
-    VK(vkCreateDescriptorPool(p->device->device, &pool, NULL, &p->pool));
+    p->pool = device_make_pool(p->device, MAX_SETS, sizes, 4);
     for (uint32_t i = 0; i < p->num_resources; ++i)
         types[i] = p->resources[i].type;
     p->sets[0] = make_set_layout(p, types, p->num_resources);
     p->sets[1] = make_set_layout(p, &host, 1);
-    p->resource_set = make_set(p, p->sets[0]);
-    p->host_set = make_set(p, p->sets[1]);
+    p->resource_set = device_make_set(p->device, p->pool, p->sets[0]);
+    p->host_set = device_make_set(p->device, p->pool, p->sets[1]);
     for (uint32_t i = 0; i < p->num_resources; ++i) {
         const struct resource *r = &p->resources[i];
         bool is_array = strcmp(r->info.kind, "image2DArray") == 0;
@@ -285,7 +270,7 @@ static void make_stage(struct pipeline *p, mxg_result *result, const char *const
                                 &out->program.pipeline));
     vkDestroyShaderModule(p->device->device, info.stage.module, NULL);
     free(source);
-    out->set = make_set(p, out->program.set_layout);
+    out->set = device_make_set(p->device, p->pool, out->program.set_layout);
 }
 
 static void free_stage(struct pipeline *p, struct stage *s)

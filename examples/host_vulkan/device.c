@@ -244,6 +244,30 @@ static void make_checkerboard(struct device *d)
                        NULL, &d->sampler));
 }
 
+VkDescriptorPool device_make_pool(const struct device *d, uint32_t num_sets,
+                                  const VkDescriptorPoolSize *sizes, uint32_t num_sizes)
+{
+    VkDescriptorPool pool;
+    VkDescriptorPoolCreateInfo info = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
+                                       .maxSets = num_sets,
+                                       .poolSizeCount = num_sizes,
+                                       .pPoolSizes = sizes};
+    VK(vkCreateDescriptorPool(d->device, &info, NULL, &pool));
+    return pool;
+}
+
+VkDescriptorSet device_make_set(const struct device *d, VkDescriptorPool pool,
+                                VkDescriptorSetLayout layout)
+{
+    VkDescriptorSet set;
+    VkDescriptorSetAllocateInfo info = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
+                                        .descriptorPool = pool,
+                                        .descriptorSetCount = 1,
+                                        .pSetLayouts = &layout};
+    VK(vkAllocateDescriptorSets(d->device, &info, &set));
+    return set;
+}
+
 void device_draw_ball(const struct device *d, VkCommandBuffer commands)
 {
     vkCmdBindIndexBuffer(commands, d->indices.buffer, 0, VK_INDEX_TYPE_UINT32);

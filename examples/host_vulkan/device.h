@@ -63,6 +63,11 @@ void device_run(const struct device *d, VkCommandBuffer commands);
 void device_wait(VkCommandBuffer commands);
 void device_change_layout(VkCommandBuffer commands, const struct image *image, VkImageLayout from,
                           VkImageLayout to);
+/* Pools of descriptor sets: for so many sets, of these types. */
+VkDescriptorPool device_make_pool(const struct device *d, uint32_t num_sets,
+                                  const VkDescriptorPoolSize *sizes, uint32_t num_sizes);
+VkDescriptorSet device_make_set(const struct device *d, VkDescriptorPool pool,
+                                VkDescriptorSetLayout layout);
 void device_draw_ball(const struct device *d, VkCommandBuffer commands);
 
 #endif

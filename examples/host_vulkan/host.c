@@ -49,15 +49,6 @@ struct host {
     VkDescriptorPool sets;
 };
 
-static void print_diagnostics(const mxg_diagnostics *list)
-{
-    for (uint32_t i = 0; i < mxg_diagnostics_num_items(list); ++i) {
-        char text[1024];
-        mxg_diagnostics_format(list, i, NULL, 0, false, text, sizeof text);
-        fprintf(stderr, "%s\n", text);
-    }
-}
-
 /* ---- Results and programs ---- */
 
 /* NULL after an error. `without_source` is fast, and enough to compare and to fill uniforms. */
@@ -75,7 +66,7 @@ static mxg_result *generate(struct host *h, const mxg_document *document, uint32
     mxg_status status = mxg_generate(h->context, document, &desc, &result);
     if (status == MXG_OK)
         return result;
-    print_diagnostics(mxg_result_diagnostics(result));
+    program_print(mxg_result_diagnostics(result), MXG_SEVERITY_NOTE);
     mxg_result_destroy(result);
     return NULL;
 }
@@ -200,19 +191,11 @@ static void make_sets(struct host *h)
     const VkDescriptorPoolSize sizes[] = {
         {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, h->num_balls * NUM_UNIFORM_BLOCKS},
         {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, h->num_balls * 16}};
-    VkDescriptorPoolCreateInfo pool = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
-                                       .maxSets = h->num_balls,
-                                       .poolSizeCount = 2,
-                                       .pPoolSizes = sizes};
     vkDestroyDescriptorPool(h->gpu.device.device, h->sets, NULL);
-    VK(vkCreateDescriptorPool(h->gpu.device.device, &pool, NULL, &h->sets));
+    h->sets = device_make_pool(&h->gpu.device, h->num_balls, sizes, 2);
     for (uint32_t i = 0; i < h->num_balls; ++i) {
         struct ball *ball = &h->balls[i];
-        VkDescriptorSetAllocateInfo info = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
-                                            .descriptorPool = h->sets,
-                                            .descriptorSetCount = 1,
-                                            .pSetLayouts = &h->programs[ball->program].set_layout};
-        VK(vkAllocateDescriptorSets(h->gpu.device.device, &info, &ball->set));
+        ball->set = device_make_set(&h->gpu.device, h->sets, h->programs[ball->program].set_layout);
         program_bind(&h->gpu.device, ball->result, h->uniforms.buffer, ball->offsets, ball->set);
     }
 }
@@ -293,7 +276,7 @@ static bool load(struct host *h)
 {
     mxg_document *next;
     mxg_status status = mxg_document_load(h->context, h->library, h->path, &next);
-    print_diagnostics(mxg_document_diagnostics(next));
+    program_print(mxg_document_diagnostics(next), MXG_SEVERITY_NOTE);
     if (status == MXG_OK)
         return follow(h, next);
     mxg_document_destroy(next);
@@ -355,7 +338,7 @@ static bool end_edit(struct host *h, mxg_edit *edit, bool only_uniforms)
     }
     mxg_status status = mxg_edit_commit(edit, &next);
     mxg_edit_destroy(edit);
-    print_diagnostics(mxg_document_diagnostics(next));
+    program_print(mxg_document_diagnostics(next), MXG_SEVERITY_NOTE);
     if (status != MXG_OK) {
         mxg_document_destroy(next);
         return false;
@@ -410,14 +393,8 @@ static void draw(struct host *h, const char *path)
     vkCmdBeginRenderPass(commands, &pass, VK_SUBPASS_CONTENTS_INLINE);
     for (uint32_t i = 0; i < h->num_balls; ++i) {
         const struct ball *ball = &h->balls[i];
-        const struct program *program = &h->programs[ball->program];
-        const VkBuffer buffers[] = {h->gpu.device.mesh.buffer, h->uniforms.buffer};
-        const VkDeviceSize offsets[] = {0, ball->offsets[NUM_UNIFORM_BLOCKS]};
-        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, program->pipeline);
-        vkCmdBindVertexBuffers(commands, 0, 2, buffers, offsets);
-        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, program->layout, 0, 1,
-                                &ball->set, 0, NULL);
-        device_draw_ball(&h->gpu.device, commands);
+        program_draw_ball(&h->gpu.device, commands, &h->programs[ball->program], &ball->set, 1,
+                          h->uniforms.buffer, ball->offsets[NUM_UNIFORM_BLOCKS]);
     }
     vkCmdEndRenderPass(commands);
     gpu_write_picture(&h->gpu, commands, path);

@@ -317,3 +317,28 @@ void program_bind(const struct device *d, const mxg_result *result, VkBuffer uni
         vkUpdateDescriptorSets(d->device, 1, &write, 0, NULL);
     }
 }
+
+void program_draw_ball(const struct device *d, VkCommandBuffer commands, const struct program *p,
+                       const VkDescriptorSet *sets, uint32_t num_sets, VkBuffer uniforms,
+                       VkDeviceSize constants)
+{
+    const VkBuffer buffers[] = {d->mesh.buffer, uniforms};
+    const VkDeviceSize offsets[] = {0, constants};
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, p->pipeline);
+    vkCmdBindVertexBuffers(commands, 0, 2, buffers, offsets);
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, p->layout, 0, num_sets, sets,
+                            0, NULL);
+    device_draw_ball(d, commands);
+}
+
+void program_print(const mxg_diagnostics *list, mxg_severity least)
+{
+    for (uint32_t i = 0; i < mxg_diagnostics_num_items(list); ++i) {
+        char text[1024];
+        mxg_diagnostic item = MXG_INIT(mxg_diagnostic);
+        mxg_diagnostics_item(list, i, &item);
+        if (item.severity <= least
+            && mxg_diagnostics_format(list, i, NULL, 0, false, text, sizeof text))
+            fprintf(stderr, "%s\n", text);
+    }
+}

@@ -59,5 +59,12 @@ void program_write_constants(const mxg_result *result, unsigned char *out);
 /* Fills a descriptor set: blocks at `offsets` of a buffer, the checkerboard for textures. */
 void program_bind(const struct device *d, const mxg_result *result, VkBuffer uniforms,
                   const uint32_t *offsets, VkDescriptorSet set);
+/* Draws a ball. The buffer of its uniforms has its constant attributes at this offset. */
+void program_draw_ball(const struct device *d, VkCommandBuffer commands, const struct program *p,
+                       const VkDescriptorSet *sets, uint32_t num_sets, VkBuffer uniforms,
+                       VkDeviceSize constants);
+
+/* Prints diagnostics that are at least so severe. */
+void program_print(const mxg_diagnostics *list, mxg_severity least);
 
 #endif

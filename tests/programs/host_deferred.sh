@@ -58,5 +58,6 @@ assert 4 <= len(colors) <= 5, len(colors)
 END
 check 'a view that does not exist is an error' exits 1 "$host" --show nothing none.ppm "$examples/host_deferred" "$examples/deferred.mtlx"
 check 'no file is wrong usage' exits 2 "$host" none.ppm "$examples/host_deferred"
+check 'the host has less than 900 lines of C' eval '[ "$(cat "$examples"/host_deferred/*.[ch] | wc -l)" -lt 900 ]'
 
 finish host-deferred
