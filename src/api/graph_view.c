@@ -118,22 +118,44 @@ static void write_output(struct graph_view *view, elem_id output)
 
 /* ---- Graphviz ---- */
 
+/* A name inside of a quoted string, where a backslash begins an escape (Graphviz, escString). */
+static void put_label(struct graph_view *view, const char *name)
+{
+    for (; *name; name++) {
+        if (*name == '"' || *name == '\\')
+            text_char(view->out, '\\');
+        text_char(view->out, (unsigned char)*name < 0x20 ? ' ' : *name);
+    }
+}
+
+static void put_path_label(struct graph_view *view, elem_id element)
+{
+    struct text path;
+    text_init(&path, &view->g->scratch);
+    doc_path(view->doc, element, '/', &path);
+    put_label(view, text_cstr(&path));
+}
+
 static void write_edge(struct graph_view *view, elem_id to, const char *input,
                        const struct binding *binding)
 {
     assert(binding->kind != BIND_NODE
            || binding->ref - view->doc->first_element < doc_num_elements(view->doc));
-    if (binding->kind == BIND_NODE)
-        text_fmt(view->out, "    n%u -> n%u [label=\"%s\"]\n", (unsigned)binding->ref, (unsigned)to,
-                 input);
+    if (binding->kind != BIND_NODE)
+        return;
+    text_fmt(view->out, "    n%u -> n%u [label=\"", (unsigned)binding->ref, (unsigned)to);
+    put_label(view, input);
+    text_str(view->out, "\"]\n");
 }
 
 static void draw_node(struct graph_view *view, elem_id node)
 {
     struct graph_node resolved = resolve(view, node);
     text_fmt(view->out, "    n%u [label=\"", (unsigned)node);
-    write_path(view, node);
-    text_fmt(view->out, "\\n%s\"]\n", text_of(view, doc_element(view->doc, node)->category));
+    put_path_label(view, node);
+    text_str(view->out, "\\n");
+    put_label(view, text_of(view, doc_element(view->doc, node)->category));
+    text_str(view->out, "\"]\n");
     if (resolved.nodedef == LIBRARY_NONE)
         return;
     const struct port *ports = library_ports(view->layer, resolved.nodedef, NULL);
@@ -146,7 +168,7 @@ static void draw_output(struct graph_view *view, elem_id output)
 {
     struct binding binding = resolve_output(view, output);
     text_fmt(view->out, "    n%u [shape=ellipse, label=\"", (unsigned)output);
-    write_path(view, output);
+    put_path_label(view, output);
     text_str(view->out, "\"]\n");
     write_edge(view, output, "", &binding);
 }

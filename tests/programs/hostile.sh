@@ -27,6 +27,14 @@ echo "$two" >two.mtlx
 check 'names that differ in control characters give different files' eval '"$mxgen" two.mtlx -o different && [ "$(find different -name "*.frag" | wc -l)" -eq 2 ]'
 check 'a printed file has a name in one line' eval '"$mxgen" two.mtlx --stdout | grep "^// a_b" | wc -l | grep -qx 4'
 
+# Names become labels of Graphviz.
+for name in '&quot; URL=&quot;x' '\&quot; URL=&quot;x' 'x\' 'x&#10;&quot; URL=&quot;x'; do
+    echo "<materialx version=\"1.39\"><nodedef name=\"D\" node=\"g\"><input name=\"$name\" type=\"float\" value=\"0\"/><output name=\"out\" type=\"float\"/></nodedef>
+<constant name=\"$name\" type=\"float\"/><g name=\"g\" type=\"float\"><input name=\"$name\" type=\"float\" nodename=\"$name\"/></g><output name=\"o$name\" type=\"float\" nodename=\"g\"/></materialx>" >dot.mtlx
+    "$mxgen" inspect dot.mtlx --dot >dot 2>err
+    check "'$name' stays in its label" eval '[ "$(grep -c label= dot)" -eq 5 ] && ! grep -Evx "digraph \{|    rankdir=LR|    node \[shape=box\]|\}|    n[0-9]+( -> n[0-9]+)? \[(shape=ellipse, )?label=\"([^\"\\\\]|\\\\.)*\"\]" dot'
+done
+
 # Files of an attacker stand in a folder.
 mkdir folder && cp two.mtlx folder/$'a\nb.mtlx' && cp two.mtlx 'folder/x;touch pwned;y.mtlx'
 check 'folders of outputs have no control characters' eval '"$mxgen" folder -o tree && [ -z "$(find tree | LC_ALL=C grep "[^ -~]")" ]'
