@@ -5,6 +5,7 @@
 #include "program/cli.h"
 #include "program/files.h"
 #include "program/name_table.h"
+#include "program/toml.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -114,9 +115,10 @@ static void load_file(struct budget *budget, struct budget_file *file)
     char *text = path ? files_read(path, &size) : NULL;
     if (path)
         file->path = store_text(&file->store, path, strlen(path));
-    if (path && !text)
-        budget_refuse_toml(&file->store, file->path, strerror(errno), &file->fault);
-    if (text)
+    const char *reason = text ? toml_fault(text, size) : path ? strerror(errno) : NULL;
+    if (reason)
+        budget_refuse_toml(&file->store, file->path, reason, &file->fault);
+    else if (text)
         budget_read_toml(&file->store, file->path, text, &file->rules, &file->fault);
     free(text);
 }

@@ -11,6 +11,7 @@
 #include "program/args.h"
 #include "program/cli.h"
 #include "program/toml.h"
+#include "program/utf8.h"
 
 #include <ctype.h>
 #include <stdlib.h>
@@ -63,6 +64,7 @@ static void set_fault(struct reader *reader, const char *what, size_t column, si
                       ? cli_format("%s:%u:%zu", reader->path, reader->toml.number, column)
                       : cli_format("%s", reader->path);
     char *rendered = cli_format("%s: error: %s [budget-invalid]\n%s", place, what, shown);
+    utf8_clean(rendered);
     *reader->fault = (struct check_message){
         .id = "budget-invalid",
         .text = store_text(reader->toml.store, what, strlen(what)),

@@ -4,34 +4,49 @@
 #include "program/args.h"
 #include "program/cli.h"
 #include "program/files.h"
+#include "program/name_table.h"
 #include "program/toml.h"
+#include "program/utf8.h"
 
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-static bool complain(const char *name, const struct toml *toml, const char *what)
+/* Frees the message. */
+static bool complain(const char *name, const struct toml *toml, char *what)
 {
+    utf8_clean(what);
     fprintf(stderr, "mxgen: %s:%u: error: %s\n", name, (unsigned)toml->number, what);
+    free(what);
     return false;
+}
+
+/* Sets the option of a line. False after a message. */
+static bool read_line(mxg_options *options, const char *name, const struct toml *toml,
+                      struct name_table *known)
+{
+    bool is_new = true;
+    const char *value = toml->kind == TOML_PAIR ? toml_text(toml->store, toml->value) : NULL;
+    if (!value)
+        return complain(name, toml,
+                        cli_format("a line is a comment, or an option, '=' and a value"));
+    names_add(known, toml->name.text, &is_new);
+    if (!is_new)
+        return complain(name, toml, cli_format("'%s' stands above already", toml->name.text));
+    return mxg_options_set(options, toml->name.text, value) == MXG_OK
+           || complain(name, toml, cli_option_error(options));
 }
 
 static bool read_lines(mxg_options *options, const char *name, const char *text)
 {
     struct store store = {0};
+    struct name_table known = {0};
     struct toml toml = {.store = &store, .rest = text};
     bool good = true;
-    while (good && toml_next(&toml)) {
-        const char *value = toml.kind == TOML_PAIR ? toml_text(&store, toml.value) : NULL;
-        if (!value) {
-            good = complain(name, &toml, "a line is a comment, or an option, '=' and a value");
-        } else if (mxg_options_set(options, toml.name.text, value) != MXG_OK) {
-            char *reason = cli_option_error(options);
-            good = complain(name, &toml, reason);
-            free(reason);
-        }
-    }
+    while (good && toml_next(&toml))
+        good = read_line(options, name, &toml, &known);
+    names_finish(&known);
     store_finish(&store);
     return good;
 }
@@ -44,7 +59,10 @@ static bool read_file(mxg_options *options, const char *name)
         fprintf(stderr, "mxgen: cannot read the profile '%s': %s\n", name, strerror(errno));
         return false;
     }
-    bool good = read_lines(options, name, text);
+    const char *fault = toml_fault(text, size);
+    if (fault)
+        fprintf(stderr, "mxgen: cannot read the profile '%s': %s\n", name, fault);
+    bool good = !fault && read_lines(options, name, text);
     free(text);
     return good;
 }

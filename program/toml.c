@@ -78,6 +78,11 @@ static void read_pair(struct toml *toml, const char *at)
         toml->value = read_value(skip_space(at + 1));
 }
 
+const char *toml_fault(const char *text, size_t size)
+{
+    return strlen(text) < size ? "it has the character NUL, behind which nothing is read" : NULL;
+}
+
 bool toml_next(struct toml *toml)
 {
     while (*toml->rest) {
@@ -167,14 +172,18 @@ const char *toml_type(struct toml_part value)
     return NULL;
 }
 
-/* Appends the text of a value that is no array, and moves behind it. False: there is none. */
-static bool read_item(const char **at, char *out)
+/*
+ * Writes the text of a value that is no array, and moves behind both. False: there is none.
+ */
+static bool read_item(const char **at, char **out)
 {
     bool is_quoted = is_quote(**at);
     size_t len = is_quoted ? quoted_length(*at) : strcspn(*at, " \t,[]{}#=");
     if (!len || (is_quoted && (len < 2 || (*at)[len - 1] != **at)))
         return false;
-    strncat(out, *at + is_quoted, is_quoted ? len - 2 : len);
+    size_t text_len = is_quoted ? len - 2 : len;
+    memcpy(*out, *at + is_quoted, text_len);
+    *out += text_len;
     *at += len;
     return true;
 }
@@ -182,13 +191,13 @@ static bool read_item(const char **at, char *out)
 const char *toml_text(struct store *store, struct toml_part value)
 {
     const char *at = value.at, *end = at + value.len;
-    char *out = store_alloc(store, value.len + 1);
+    char *text = store_alloc(store, value.len + 1), *out = text;
     if (*at != '[')
-        return value.len && read_item(&at, out) && at == end ? out : NULL;
+        return value.len && read_item(&at, &out) && at == end ? text : NULL;
     for (at = skip_space(at + 1); *at != ']'; at = skip_space(at)) {
-        if (*out)
-            strcat(out, ",");
-        if (!read_item(&at, out))
+        if (out > text)
+            *out++ = ',';
+        if (!read_item(&at, &out))
             return NULL;
         at = skip_space(at);
         if (*at == ',')
@@ -196,5 +205,5 @@ const char *toml_text(struct store *store, struct toml_part value)
         else if (*at != ']')
             return NULL;
     }
-    return at + 1 == end ? out : NULL;
+    return at + 1 == end ? text : NULL;
 }

@@ -37,6 +37,9 @@ struct toml {
     struct toml_part value;     /* of a pair, without spaces and comment around it */
 };
 
+/* Why the bytes of a file are no text of TOML; NULL: they are. */
+const char *toml_fault(const char *text, size_t size);
+
 /* Reads the next line that is not empty. False: there is none. */
 bool toml_next(struct toml *toml);
 

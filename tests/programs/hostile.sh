@@ -47,6 +47,24 @@ for name in $'a\nb' 'x;touch pwned;y' 'a=b' 'a|b'; do
     rm -r "in"
 done
 
+# Files of TOML.
+mkdir show && material M >show/m.mtlx
+no_control() { ! LC_ALL=C grep -q "$(printf '\033\\|\302\233')" "$@"; }
+profile() { exits 2 "$mxgen" show/m.mtlx --profile p.toml -o made && no_control err && has err "$@"; }
+budget() { exits 1 "$mxgen" check show --no-compile && no_control out err && has out '[budget-invalid]' "$@"; }
+printf 'max-slabs = 1\n\0max-bytes = x\n' >p.toml
+check 'nothing of a profile is left out behind a NUL' profile 'NUL'
+printf 'max-slabs = 1\n"max-slabs" = 2\n' >p.toml
+check 'an option stands once in a profile' profile "p.toml:2: error: 'max-slabs' stands above already"
+printf '"\033[31m\302\23331m" = 1\n' >p.toml
+check 'a message about a profile has no control characters' profile "unknown option '?[31m?31m'"
+printf '[budget]\n\0max-closures = x\n' >show/mxgen.toml
+check 'nothing of budgets is left out behind a NUL' budget 'NUL'
+printf '[budget]\n"\033[31m\302\23331m" = 1\n' >show/mxgen.toml
+check 'a message about budgets has no control characters' budget "there is no budget '?[31m?31m'"
+python3 -c 'print("features = [" + ", ".join(["\"-glints\""] * 200000) + "]")' >p.toml
+check 'a long array takes no long time' exits 0 timeout 10 "$mxgen" show/m.mtlx --profile p.toml -o made
+
 # Scenes that multiply.
 material M | sed 's|</materialx>|<look name="L"><materialassign name="a" material="M" geom="/"/></look>&|' >scene.mtlx
 stage() { printf '#usda 1.0\n%s\n' "$1" >stage.usda; }
