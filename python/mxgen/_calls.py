@@ -59,11 +59,12 @@ def optional_text(value: str | None, what: str) -> bytes | None:
     return None if value is None else c_text(value, what)
 
 
-def c_number(value: int, what: str, bits: int = 32) -> int:
-    """A number without a sign for C, which would cut it."""
+def c_number(value: int, what: str, bits: int = 32, *, signed: bool = False) -> int:
+    """A number for C, which would cut it."""
+    low = -(1 << bits - 1) if signed else 0
     if not isinstance(value, int):
         raise TypeError(f"{what} must be int, not {type(value).__name__}")
-    if not 0 <= value < 1 << bits:
+    if not low <= value < low + (1 << bits):
         raise OverflowError(f"{what} is out of range: {value}")
     return value
 

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any, overload
 
-from ._calls import Native, lib, py_text, record, sized_text
+from ._calls import Handle, Native, lib, py_text, record, sized_text
 
 
 class Severity(enum.IntEnum):
@@ -73,6 +73,13 @@ class Diagnostic:
         return self.format()
 
 
+class _Share(Native):
+    """Holds a native object as long as its diagnostics are used, also after its `close`."""
+
+    def __init__(self, owner: Native) -> None:
+        self._handle = Handle(None, lambda pointer: None, (owner._handle,))
+
+
 class Diagnostics(Sequence[Diagnostic]):
     """The diagnostics of a document, library or call, in order of discovery. Notes follow the diagnostic that they explain.
 
@@ -80,7 +87,7 @@ class Diagnostics(Sequence[Diagnostic]):
 
     def __init__(self, pointer: Any, owner: Native) -> None:
         self._pointer = pointer
-        self._owner = owner
+        self._share = _Share(owner)
 
     def __len__(self) -> int:
         return int(lib.mxg_diagnostics_num_items(self._pointer))

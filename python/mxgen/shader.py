@@ -148,8 +148,9 @@ class Variable(UserInterface):
 
     def texture_file(self, frame: int = 0, tile: int = 0) -> str | None:
         """The file of a texture, or of one of its tiles, at a frame; None: the host shows the default colour."""
-        pointer = self._shader._handle.pointer
-        text = sized_text(lambda out, capacity: lib.mxg_result_texture_file(pointer, self._index, c_number(tile, "tile"), frame, out, capacity))
+        pointer, place = self._shader._handle.pointer, c_number(tile, "tile")
+        at = c_number(frame, "frame", signed=True)
+        text = sized_text(lambda out, capacity: lib.mxg_result_texture_file(pointer, self._index, place, at, out, capacity))
         return text or None
 
 

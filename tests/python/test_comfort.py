@@ -78,6 +78,23 @@ class Containers(unittest.TestCase):
         with self.assertRaises(AttributeError):
             document.nothing
 
+    def test_diagnostics_stay(self):
+        context = mxgen.Context()
+        document = context.parse(common.GOLD.replace("<standard_surface ", '<standard_surface typo="1" ', 1))
+        found = document.validate()
+        with self.assertRaises(mxgen.DocumentError) as caught:
+            context.parse("<materialx").close()
+        error = caught.exception
+        texts = str(found), str(error.diagnostics)
+        self.assertIn("typo", texts[0])
+        for ended in document, error.document, context:
+            if ended is not None:
+                ended.close()
+        del document, context
+        others = [mxgen.Context().parse(common.GOLD) for _ in range(20)]  # their memory may be that of what has ended
+        self.assertEqual((str(found), str(error.diagnostics)), texts)
+        self.assertTrue(all(others))
+
 
 class Values(unittest.TestCase):
     def setUp(self):

@@ -75,6 +75,9 @@ class Shaders(unittest.TestCase):
         self.assertTrue(paint.texture_file(tile=2).endswith("hull_paint.1011.exr"))
         self.assertEqual(paint.texture_file(tile=2), paint.tiles[2].file)
         self.assertTrue(foam.texture_file(frame=49).endswith("foam.0001.exr"))
+        for wrong, error in ("1", TypeError), (1.5, TypeError), (1 << 31, OverflowError), (-(1 << 31) - 1, OverflowError):
+            with self.assertRaisesRegex(error, "frame"):
+                foam.texture_file(frame=wrong)
 
     def test_options(self):
         document = self.context.load(common.EXAMPLES / "marble.mtlx")
