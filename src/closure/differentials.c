@@ -9,8 +9,8 @@
  *
  * The host gives the change of each stream over a pixel (Igehy 1999, "Tracing Ray Differentials").
  * Derivatives inside of e stay unchanged. Functions with derivatives become nodes
- * (inlines_derivatives of lang_host); in those that cannot, because they have loops, screen
- * derivatives are 0.
+ * (inlines_derivatives of lang_host), and so do their loops, round by round; in those that cannot,
+ * because the rounds of a loop vary, screen derivatives are 0.
  */
 #include "closure/closure_priv.h"
 

@@ -181,6 +181,40 @@ static bool lower_if(struct lower *lo, const struct lang_node *node)
     return lower_body(lo, known->u ? node->b : node->c) || lower_statements(lo, node->next);
 }
 
+/* False if the loop ends here. */
+static bool goes_round(struct lower *lo, lang_ref condition)
+{
+    ir_ref value = condition ? lower_single(lo, lower_node(lo, condition)) : 0;
+    const union ir_word *known = value ? ir_constant_words(lo->graph, value) : NULL;
+    lo->failed |= condition && !known;
+    return !lo->failed && (!known || known->u);
+}
+
+/*
+ * A loop round by round, for what derives nodes; constants decide the rounds. Elsewhere a function
+ * with a loop stays a call.
+ */
+static bool lower_loop(struct lower *lo, const struct lang_node *node)
+{
+    enum { MAX_ROUNDS = 64 };
+    lang_ref step = ast_step(lo->frame->layer, node);
+    bool may_run =
+        lo->host->inlines_derivatives && (lo->frame->fn->flags & LANG_FN_DERIVATIVE) != 0;
+    bool returned = false;
+    lo->failed |= !may_run;
+    if (!lo->failed && node->kind == LANG_FOR && node->a)
+        lower_statements(lo, node->a);
+    for (unsigned round = 0; !lo->failed && !returned; round++) {
+        if ((round || node->kind != LANG_DO) && !goes_round(lo, node->b))
+            break;
+        lo->failed |= round == MAX_ROUNDS;
+        returned = lower_body(lo, node->c);
+        if (step && !returned)
+            lower_statements(lo, step);
+    }
+    return returned || lo->failed;
+}
+
 bool lower_statements(struct lower *lo, lang_ref first)
 {
     const struct lang_node *node;
@@ -201,7 +235,13 @@ bool lower_statements(struct lower *lo, lang_ref first)
                 lower_expression(lo, lower_node(lo, node->a),
                                  lo->frame->leaves + lo->frame->offsets[lo->frame->fn->num_slots]);
             return true;
-        default: /* a loop */ lo->failed = true;
+        case LANG_FOR:
+        case LANG_WHILE:
+        case LANG_DO:
+            if (lower_loop(lo, node))
+                return true;
+            break;
+        default: lo->failed = true;
         }
     }
     return lo->failed;

@@ -144,6 +144,34 @@ check "a forward shader is generated for blur" "$mxgen" "$examples/frosted.mtlx"
 check "a forward shader blurs values by derivatives" grep -q 'dFdx(vd.positionWorld)' forward/Frosted.frag
 check "a path tracer is generated for blur" "$mxgen" "$examples/frosted.mtlx" --target vulkan --role scatter --rough-refraction blur -o traced
 check "a path tracer blurs values by ray differentials" grep -q 'vd.dx_texcoord_0' traced/Frosted.frag
+cat >ridges.mtlx <<'X'
+<materialx version="1.39">
+  <nodedef name="ND_ridges" node="ridges">
+    <input name="st" type="vector2" defaultgeomprop="UV0"/><input name="rounds" type="integer" value="3"/><output name="out" type="float"/>
+  </nodedef>
+  <implementation name="IM_ridges" nodedef="ND_ridges" file="ridges.glsl" function="ridges"/>
+  <ridges name="few" type="float"/>
+  <surface_unlit name="S" type="surfaceshader"><input name="emission" type="float" nodename="few"/></surface_unlit>
+  <cellnoise2d name="random" type="float"/>
+  <floor name="any" type="integer"><input name="in" type="float" nodename="random"/></floor>
+  <ridges name="many" type="float"><input name="rounds" type="integer" nodename="any"/></ridges>
+  <surface_unlit name="V" type="surfaceshader"><input name="emission" type="float" nodename="many"/></surface_unlit>
+</materialx>
+X
+cat >ridges.glsl <<'X'
+float ridges(vec2 st, int rounds)
+{
+    float sum = 0.0;
+    for (int i = 0; i < rounds; ++i)
+        sum += dFdx(st.x * float(i + 1)) * float(i + 1);
+    return sum;
+}
+X
+check "a loop with derivatives is generated for paths" "$mxgen" ridges.mtlx -e S --target vulkan --role scatter -o ridges
+check "its rounds are differences of rays, one after the other" grep -q 'dx_texcoord_0' ridges/S.frag
+check "of the loop nothing is left" eval '! grep -q "for (int i = 0" ridges/S.frag'
+check "a loop with rounds that vary is generated for paths" "$mxgen" ridges.mtlx -e V --target vulkan --role scatter -o ridges
+check "it stays a loop" eval 'grep -q "for (int i = 0" ridges/V.frag && ! grep -q "dx_texcoord_0" ridges/V.frag'
 check "nothing is blurred without the option" eval '"$mxgen" "$examples/frosted.mtlx" --target vulkan -o sharp && ! grep -q "dFdx" sharp/Frosted.frag'
 check "blur has another layout" eval '[ "$(number blurred/show.json layout)" != "$(number passes/show.json layout)" ]'
 check "diffusion has another layout" eval '[ "$(number spread/show.json layout)" != "$(number passes/show.json layout)" ]'
