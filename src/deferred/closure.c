@@ -4,13 +4,10 @@
 
 #include "base/hash.h"
 
-enum source { MARK, ABOVE, PIXEL };
-
 static const struct {
     const char *type, *name, *doc;
-    enum source from;
 } values[] = {
-#define CLOSURE_VALUE(type, name, from, doc) {#type, #name, doc, from},
+#define CLOSURE_VALUE(type, name, from, doc) {#type, #name, doc},
 #include "deferred/closure.def"
 #undef CLOSURE_VALUE
 };
@@ -71,11 +68,9 @@ void deferred_write_store(struct text *out)
                   "int mx_store_closure(int before");
     size_t line_begin = out->len;
     for (size_t i = 0; i < NUM_VALUES; i++)
-        if (values[i].from != PIXEL)
-            add_param(out, &line_begin, values[i].type, values[i].name);
+        add_param(out, &line_begin, values[i].type, values[i].name);
     text_str(out, ")\n{\n    MxClosure c;\n");
     for (size_t i = 0; i < NUM_VALUES; i++)
-        if (values[i].from != PIXEL)
-            text_fmt(out, "    c.%s = %s;\n", values[i].name, values[i].name);
+        text_fmt(out, "    c.%s = %s;\n", values[i].name, values[i].name);
     text_str(out, "    return mx_store(before, c);\n}\n");
 }

@@ -17,11 +17,9 @@ enum mark_operand {
 #define CLOSURE_VALUE(type, name, from, doc) OPERAND_##from(name)
 #define OPERAND_MARK(name) MARK_##name,
 #define OPERAND_ABOVE(name)
-#define OPERAND_PIXEL(name)
 #include "deferred/closure.def"
 #undef OPERAND_MARK
 #undef OPERAND_ABOVE
-#undef OPERAND_PIXEL
 #undef CLOSURE_VALUE
     NUM_MARK_OPERANDS
 };

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Tells what a payload or a function has no room for: nothing goes silently. */
+/* Tells what a payload or a decal has no room for: nothing goes silently. */
 #include "deferred/deferred_priv.h"
 
-enum form { PAYLOAD = 1, DECAL = 2, PACK = 4 };
+enum form { PAYLOAD = 1, DECAL = 2 };
 
 static const struct {
     enum mark_operand operand;
     unsigned forms;
     const char *part; /* the input of a slab */
 } parts[] = {
-    {MARK_glint_density, PAYLOAD | DECAL | PACK, "glint_density"},
+    {MARK_glint_density, PAYLOAD | DECAL, "glint_density"},
     {MARK_tint_weight, PAYLOAD | DECAL, "specular_lut"},
     {MARK_fuzz_amount, DECAL, "fuzz_amount"},
     {MARK_anisotropy, DECAL, "anisotropy"},
@@ -25,31 +25,20 @@ bool deferred_has_part(const struct ir_graph *g, ir_ref mark, enum mark_operand 
 
 static const char why_decal[] = "images of decals have diffuse_albedo, f0, normal and roughness";
 
-static const char *why(enum form form, enum mark_operand operand)
-{
-    bool are_glints = operand == MARK_glint_density;
-    return form == DECAL ? why_decal
-           : form == PACK
-               ? "a function does not know the neighbours of its pixel, so its glints are "
-                 "their mean"
-           : are_glints ? "a ray does not know its neighbours, so its glints are their mean"
-                        : "a payload has no room for it";
-}
-
 void deferred_note_lost(struct shader *shader, const struct deferred_layout *layout,
                         const struct closure_list *marks)
 {
     const struct ir_graph *g = shader->graph;
-    enum form form = deferred_is_decal(layout) ? DECAL : layout->is_payload ? PAYLOAD : PACK;
-    if (!layout->is_payload && !layout->is_function)
+    enum form form = deferred_is_decal(layout) ? DECAL : PAYLOAD;
+    const char *why = form == DECAL ? why_decal : "a payload has no room for it";
+    if (!layout->is_payload)
         return;
     for (uint32_t i = 0; i < marks->leaves.len; i++)
         for (size_t k = 0; k < sizeof parts / sizeof *parts; k++) {
             ir_ref mark = marks->leaves.items[i].leaf;
             if (!(parts[k].forms & form) || !deferred_has_part(g, mark, parts[k].operand))
                 continue;
-            struct shader_lost lost = {ir_get(g, mark)->origin, parts[k].part,
-                                       why(form, parts[k].operand)};
+            struct shader_lost lost = {ir_get(g, mark)->origin, parts[k].part, why};
             vec_push(shader->arena, &shader->reflection.lost, lost);
         }
 }

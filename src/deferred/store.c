@@ -248,29 +248,35 @@ static ir_ref table_of(struct shader *shader, ir_ref texture, ir_ref weight)
     return ir_convert(g, IR_TYPE_FLOAT, shader_read(shader, index));
 }
 
-/* True for a tangent and coordinates that nobody reads: they need no vertex attribute. */
-static bool is_unread(const struct ir_graph *g, ir_ref mark, unsigned operand, bool is_whole)
+/*
+ * True for a tangent, and coordinates with their extent, that nobody reads: they need no vertex
+ * attribute.
+ */
+static bool is_unread(const struct ir_graph *g, ir_ref mark, unsigned operand,
+                      const struct deferred_layout *layout)
 {
-    bool has_glints = deferred_has_part(g, mark, MARK_glint_density);
-    bool is_turned = is_whole || deferred_has_part(g, mark, MARK_anisotropy);
+    bool has_glints = !layout->is_payload && deferred_has_part(g, mark, MARK_glint_density);
+    bool is_turned =
+        layout->storage == STORAGE_FLOAT || deferred_has_part(g, mark, MARK_anisotropy);
     if (operand == MARK_tangent)
         return !has_glints && !is_turned;
-    return operand == MARK_glint_uv && !has_glints;
+    return (operand == MARK_glint_uv || operand == MARK_glint_extent) && !has_glints;
 }
 
 /* Whole storage has the tangent, because the samples of the environment lie along it. */
-static ir_ref value_of(struct shader *shader, ir_ref mark, unsigned operand, bool is_whole)
+static ir_ref value_of(struct shader *shader, ir_ref mark, unsigned operand,
+                       const struct deferred_layout *layout)
 {
     struct ir_graph *g = shader->graph;
     ir_ref value = ir_arg(g, mark, operand);
     if (operand == MARK_tint_index)
         return table_of(shader, value, ir_arg(g, mark, MARK_tint_weight));
-    return is_unread(g, mark, operand, is_whole) ? ir_const_splat(g, ir_type_of(g, value), 0.0f)
-                                                 : value;
+    return is_unread(g, mark, operand, layout) ? ir_const_splat(g, ir_type_of(g, value), 0.0f)
+                                               : value;
 }
 
 static void store_leaf(struct shader *shader, const struct closure_leaf *leaf, bool spreads,
-                       uint32_t local, uint32_t source, bool is_whole)
+                       uint32_t local, uint32_t source, const struct deferred_layout *layout)
 {
     enum { NUM_WEIGHTS = 4 };
     struct ir_graph *g = shader->graph;
@@ -279,7 +285,7 @@ static void store_leaf(struct shader *shader, const struct closure_leaf *leaf, b
     assert(ir_get(g, leaf->leaf)->num_args == NUM_MARK_OPERANDS);
     args[n++] = ir_build(g, IR_LOCAL, IR_TYPE_INT, local, NULL, 0);
     for (unsigned i = MARK_weight + 1; i < NUM_MARK_OPERANDS; i++)
-        args[n++] = value_of(shader, leaf->leaf, i, is_whole);
+        args[n++] = value_of(shader, leaf->leaf, i, layout);
     find_weights(shader, leaf, spreads, args + n);
     deferred_assign(shader, EFFECT_ASSIGN, local,
                     call(shader, "mx_store_closure", IR_TYPE_INT, source, args, n + NUM_WEIGHTS));
@@ -536,8 +542,7 @@ void deferred_store(struct shader *shader, const struct closure_host *host,
     deferred_assign(shader, EFFECT_VAR, local, begin(shader, layout, source));
     for (uint32_t i = 0; i < marks.leaves.len; i++) {
         const struct closure_leaf *leaf = &marks.leaves.items[i];
-        store_leaf(shader, leaf, is_spread(&spread, leaf), local, source,
-                   layout->storage == STORAGE_FLOAT);
+        store_leaf(shader, leaf, is_spread(&spread, leaf), local, source, layout);
     }
     if (layout->is_payload)
         finish_payload(shader, source, local, emission, surface->alpha);

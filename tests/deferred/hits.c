@@ -17,6 +17,10 @@ static const char rays[] =
     "    float along = dot(out_of, way), inside = along * along - dot(out_of, out_of) + 1.0;\n"
     "    point = from - (along + sqrt(max(inside, 0.0))) * way;\n"
     "    return inside >= 0.0;\n"
+    "}\n"
+    "vec2 unwrapped(vec3 local)\n"
+    "{\n"
+    "    return vec2(fract(atan(local.x, local.z) / 6.2831853), acos(-local.y) / 3.1415927);\n"
     "}\n";
 
 /* What the function takes. */
@@ -67,19 +71,20 @@ static const char *const keepers[] = {
 /* Vertex data of a hit. */
 static const char *hit_value(const char *name)
 {
-    static const char *const values[][2] = {{"positionWorld", "point"},
-                                            {"normalWorld", "normal"},
-                                            {"tangentWorld", "tangent"},
-                                            {"viewWorld", "-way"},
-                                            {"positionObject", "local"},
-                                            {"dx_positionWorld", "dx"},
-                                            {"dx_normalWorld", "dx"},
-                                            {"dy_positionWorld", "dy"},
-                                            {"dy_normalWorld", "dy"},
-                                            {"pixel", "at"},
-                                            {"texcoord_0",
-                                             "vec2(fract(atan(local.x, local.z) / 6.2831853), "
-                                             "acos(-local.y) / 3.1415927)"}};
+    static const char *const values[][2] = {
+        {"positionWorld", "point"},
+        {"normalWorld", "normal"},
+        {"tangentWorld", "tangent"},
+        {"viewWorld", "-way"},
+        {"positionObject", "local"},
+        {"dx_positionWorld", "dx"},
+        {"dx_normalWorld", "dx"},
+        {"dx_texcoord_0", "unwrapped(local + dx * mat3(OF_OBJECT)) - unwrapped(local)"},
+        {"dy_positionWorld", "dy"},
+        {"dy_normalWorld", "dy"},
+        {"dy_texcoord_0", "unwrapped(local + dy * mat3(OF_OBJECT)) - unwrapped(local)"},
+        {"pixel", "at"},
+        {"texcoord_0", "unwrapped(local)"}};
     for (size_t i = 0; i < sizeof values / sizeof *values; ++i)
         if (strcmp(values[i][0], name) == 0)
             return values[i][1];

@@ -385,11 +385,6 @@ layout(location = 1) out uint mx_word0;
 layout(location = 2) out uint mx_word1;
 layout(location = 3) out uint mx_word2;
 
-vec2 mx_glint_extent(vec2 uv)
-{
-    return max(abs(dFdx(uv)), abs(dFdy(uv)));
-}
-
 #if MX_WORDS > 3
 MxRecord mx_pending;            // the last closure, which is written when the next one or the end comes
 vec3 mx_normals[3];             // of the top, and the last two with words of their own
@@ -537,7 +532,6 @@ int mx_finish_closures(int stored)
 // Keeps a slab unless nothing of it is seen. Returns how many closures there are.
 int mx_store(int before, MxClosure c)
 {
-    c.glint_extent = mx_glint_extent(c.glint_uv); // before a branch: neighbours differ
     vec3 light = c.steady + c.color;
     if (max(light.x, max(light.y, light.z)) <= 0.0)
         return before;
@@ -549,8 +543,9 @@ int mx_store(int before, MxClosure c)
 int mx_store_closure(int before, vec3 diffuse_albedo, vec3 f0, vec3 f90, float roughness, float anisotropy, vec3 normal, vec3 tangent,
                      float second_roughness, float second_roughness_weight, float fuzz_amount,
                      vec3 fuzz_color, float fuzz_roughness, vec3 free_path, float phase_anisotropy,
-                     float is_thick, float glint_density, vec2 glint_uv, float tint_index,
-                     float tint_weight, float blur, vec3 steady, vec3 color, vec3 decay, float spreads)
+                     float is_thick, float glint_density, vec2 glint_uv, vec2 glint_extent,
+                     float tint_index, float tint_weight, float blur, vec3 steady, vec3 color,
+                     vec3 decay, float spreads)
 {
     MxClosure c;
     c.diffuse_albedo = diffuse_albedo;
@@ -570,6 +565,7 @@ int mx_store_closure(int before, vec3 diffuse_albedo, vec3 f0, vec3 f90, float r
     c.is_thick = is_thick;
     c.glint_density = glint_density;
     c.glint_uv = glint_uv;
+    c.glint_extent = glint_extent;
     c.tint_index = tint_index;
     c.tint_weight = tint_weight;
     c.blur = blur;
@@ -640,8 +636,8 @@ void main()
     int stored = 0;
     vec3 N = normalize(vd.normalWorld);
     stored = mx_store_closure(stored, vec3(0.0), vec3(0.04), vec3(1.0), 0.1, 0.0, N, vec3(0.0), 0.5, 0.0, 0.0,
-        vec3(1.0), 0.1, vec3(19.999998, 30.0, 39.999996), 0.0, 0.0, 0.0, vec2(0.0), 0.0, 0.0, 0.0, vec3(0.5), vec3(0.0),
-        vec3(0.0), 0.0);
+        vec3(1.0), 0.1, vec3(19.999998, 30.0, 39.999996), 0.0, 0.0, 0.0, vec2(0.0), vec2(0.0), 0.0, 0.0, 0.0, vec3(0.5),
+        vec3(0.0), vec3(0.0), 0.0);
     // metal
     float c = dot(N, normalize(u_viewPosition - vd.positionWorld));
     float cos_v = max(abs(c), 1e-8);
@@ -662,8 +658,8 @@ void main()
         / max(drops_throughput - drops_throughput_2, 1e-6), 0.0, 0.999);
     vec3 decaying = (drops_throughput - drops_throughput_2) / (vec3(1.0) - milk_mark_decay);
     stored = mx_store_closure(stored, vec3(0.8, 0.9, 0.95), vec3(0.04), vec3(1.0), 0.5007194, 0.0, N, vec3(0.0), 0.5,
-        0.0, 0.0, vec3(1.0), 0.5007194, vec3(5.0), 0.0, 0.0, 0.0, vec2(0.0), 0.0, 0.0, 0.0, drops_throughput - decaying,
-        decaying, milk_mark_decay, 0.0);
+        0.0, 0.0, vec3(1.0), 0.5007194, vec3(5.0), 0.0, 0.0, 0.0, vec2(0.0), vec2(0.0), 0.0, 0.0, 0.0, drops_throughput
+        - decaying, decaying, milk_mark_decay, 0.0);
     vec4 decal = mx_decal(0);
     vec3 metal_decal_over = decal.w * vec3(0.700394, 0.2554791, 0.0776317) + decal.xyz;
     vec4 f0_decal = mx_decal(1);
@@ -695,8 +691,8 @@ void main()
     vec3 metal_decay = clamp(difference / max(milky_metal_weight - milky_metal_weight_2, 1e-6), 0.0, 0.999);
     vec3 decaying_2 = (milky_metal_weight - milky_metal_weight_2) / (vec3(1.0) - metal_decay);
     stored = mx_store_closure(stored, metal_decal_over, metal_decal_over_2, vec3(1.0), metal_decal_over_3, 0.0,
-        decal_normal, vec3(0.0), 0.5, 0.0, 0.0, vec3(1.0), 0.54668933, vec3(0.0), 0.0, 0.0, 0.0, vec2(0.0), 0.0, 0.0,
-        0.0, milky_metal_weight - decaying_2, decaying_2, metal_decay, 0.0);
+        decal_normal, vec3(0.0), 0.5, 0.0, 0.0, vec3(1.0), 0.54668933, vec3(0.0), 0.0, 0.0, 0.0, vec2(0.0), vec2(0.0),
+        0.0, 0.0, 0.0, milky_metal_weight - decaying_2, decaying_2, metal_decay, 0.0);
     stored = mx_finish_closures(stored);
     out1 = vec4(decal.w * ((decaying + (drops_throughput - decaying)) * vec3(0.0, 0.1, 0.0)), 1.0);
 }

@@ -90,11 +90,6 @@ var<private> mx_is_special: bool = false;
 var<private> mx_word0: u32;
 var<private> mx_word1: u32;
 
-fn mx_glint_extent(uv: vec2f) -> vec2f
-{
-    return max(abs(dpdx(uv)), abs(dpdy(uv)));
-}
-
 // From 0 to below 1. Jimenez 2014, "Next Generation Post Processing in Call of Duty: Advanced Warfare": interleaved
 // gradient noise.
 fn mx_gradient_noise(pixel: vec2f) -> f32
@@ -400,10 +395,8 @@ fn mx_keep(c: MxClosure)
 }
 
 // Keeps a slab unless nothing of it is seen. Returns how many closures there are.
-fn mx_store(before: i32, c_in: MxClosure) -> i32
+fn mx_store(before: i32, c: MxClosure) -> i32
 {
-    var c: MxClosure = c_in;
-    c.glint_extent = mx_glint_extent(c.glint_uv);
     let light: vec3f = c.steady + c.color;
     if (max(light.x, max(light.y, light.z)) <= 0.0) {
         return before;
@@ -416,8 +409,8 @@ fn mx_store(before: i32, c_in: MxClosure) -> i32
 fn mx_store_closure(before: i32, diffuse_albedo: vec3f, f0: vec3f, f90: vec3f, roughness: f32, anisotropy: f32,
     normal: vec3f, tangent: vec3f, second_roughness: f32, second_roughness_weight: f32, fuzz_amount: f32,
     fuzz_color: vec3f, fuzz_roughness: f32, free_path: vec3f, phase_anisotropy: f32, is_thick: f32, glint_density: f32,
-    glint_uv: vec2f, tint_index: f32, tint_weight: f32, blur: f32, steady: vec3f, color: vec3f, decay: vec3f,
-    spreads: f32) -> i32
+    glint_uv: vec2f, glint_extent: vec2f, tint_index: f32, tint_weight: f32, blur: f32, steady: vec3f, color: vec3f,
+    decay: vec3f, spreads: f32) -> i32
 {
     var c: MxClosure;
     c.diffuse_albedo = diffuse_albedo;
@@ -437,6 +430,7 @@ fn mx_store_closure(before: i32, diffuse_albedo: vec3f, f0: vec3f, f90: vec3f, r
     c.is_thick = is_thick;
     c.glint_density = glint_density;
     c.glint_uv = glint_uv;
+    c.glint_extent = glint_extent;
     c.tint_index = tint_index;
     c.tint_weight = tint_weight;
     c.blur = blur;
@@ -564,8 +558,8 @@ fn main(vd_in: VertexData) -> PixelOutputs
     var stored: i32 = 0;
     let N: vec3f = normalize(vd.normalWorld);
     stored = mx_store_closure(stored, vec3f(0.0), vec3f(0.04), vec3f(1.0), 0.1, 0.0, N, vec3f(0.0), 0.5, 0.0, 0.0,
-        vec3f(1.0), 0.1, vec3f(19.999998, 30.0, 39.999996), 0.0, 0.0, 0.0, vec2f(0.0), 0.0, 0.0, 0.0, vec3f(0.5),
-        vec3f(0.0), vec3f(0.0), 0.0);
+        vec3f(1.0), 0.1, vec3f(19.999998, 30.0, 39.999996), 0.0, 0.0, 0.0, vec2f(0.0), vec2f(0.0), 0.0, 0.0, 0.0,
+        vec3f(0.5), vec3f(0.0), vec3f(0.0), 0.0);
     // metal
     let c: f32 = dot(N, normalize(u_prv.u_viewPosition - vd.positionWorld));
     let cos_v: f32 = max(abs(c), 1e-8);
@@ -586,8 +580,8 @@ fn main(vd_in: VertexData) -> PixelOutputs
         / max(drops_throughput - drops_throughput_2, vec3f(1e-6)), vec3f(0.0), vec3f(0.999));
     let decaying: vec3f = (drops_throughput - drops_throughput_2) / (vec3f(1.0) - milk_mark_decay);
     stored = mx_store_closure(stored, vec3f(0.8, 0.9, 0.95), vec3f(0.04), vec3f(1.0), 0.5007194, 0.0, N, vec3f(0.0),
-        0.5, 0.0, 0.0, vec3f(1.0), 0.5007194, vec3f(5.0), 0.0, 0.0, 0.0, vec2f(0.0), 0.0, 0.0, 0.0, drops_throughput
-        - decaying, decaying, milk_mark_decay, 0.0);
+        0.5, 0.0, 0.0, vec3f(1.0), 0.5007194, vec3f(5.0), 0.0, 0.0, 0.0, vec2f(0.0), vec2f(0.0), 0.0, 0.0, 0.0,
+        drops_throughput - decaying, decaying, milk_mark_decay, 0.0);
     let decal: vec4f = mx_decal(0);
     let metal_decal_over: vec3f = decal.w * vec3f(0.700394, 0.2554791, 0.0776317) + decal.xyz;
     let f0_decal: vec4f = mx_decal(1);
@@ -621,8 +615,8 @@ fn main(vd_in: VertexData) -> PixelOutputs
         vec3f(0.999));
     let decaying_2: vec3f = (milky_metal_weight - milky_metal_weight_2) / (vec3f(1.0) - metal_decay);
     stored = mx_store_closure(stored, metal_decal_over, metal_decal_over_2, vec3f(1.0), metal_decal_over_3, 0.0,
-        decal_normal, vec3f(0.0), 0.5, 0.0, 0.0, vec3f(1.0), 0.54668933, vec3f(0.0), 0.0, 0.0, 0.0, vec2f(0.0), 0.0,
-        0.0, 0.0, milky_metal_weight - decaying_2, decaying_2, metal_decay, 0.0);
+        decal_normal, vec3f(0.0), 0.5, 0.0, 0.0, vec3f(1.0), 0.54668933, vec3f(0.0), 0.0, 0.0, 0.0, vec2f(0.0),
+        vec2f(0.0), 0.0, 0.0, 0.0, milky_metal_weight - decaying_2, decaying_2, metal_decay, 0.0);
     stored = mx_finish_closures(stored);
     out1 = vec4f(decal.w * ((decaying + (drops_throughput - decaying)) * vec3f(0.0, 0.1, 0.0)), 1.0);
     word0 = mx_stored_word(stored, 0);

@@ -89,11 +89,6 @@ static bool mx_is_special = false;
 static uint mx_word0;
 static uint mx_word1;
 
-float2 mx_glint_extent(float2 uv)
-{
-    return max(abs(ddx(uv)), abs(ddy(uv)));
-}
-
 // From 0 to below 1. Jimenez 2014, "Next Generation Post Processing in Call of Duty: Advanced Warfare": interleaved
 // gradient noise.
 float mx_gradient_noise(float2 pixel)
@@ -390,7 +385,6 @@ void mx_keep(MxClosure c)
 // Keeps a slab unless nothing of it is seen. Returns how many closures there are.
 int mx_store(int before, MxClosure c)
 {
-    c.glint_extent = mx_glint_extent(c.glint_uv);
     float3 light = c.steady + c.color;
     if (max(light.x, max(light.y, light.z)) <= 0.0)
         return before;
@@ -402,8 +396,8 @@ int mx_store(int before, MxClosure c)
 int mx_store_closure(int before, float3 diffuse_albedo, float3 f0, float3 f90, float roughness, float anisotropy,
     float3 normal, float3 tangent, float second_roughness, float second_roughness_weight, float fuzz_amount,
     float3 fuzz_color, float fuzz_roughness, float3 free_path, float phase_anisotropy, float is_thick,
-    float glint_density, float2 glint_uv, float tint_index, float tint_weight, float blur, float3 steady, float3 color,
-    float3 decay, float spreads)
+    float glint_density, float2 glint_uv, float2 glint_extent, float tint_index, float tint_weight, float blur,
+    float3 steady, float3 color, float3 decay, float spreads)
 {
     MxClosure c;
     c.diffuse_albedo = diffuse_albedo;
@@ -423,6 +417,7 @@ int mx_store_closure(int before, float3 diffuse_albedo, float3 f0, float3 f90, f
     c.is_thick = is_thick;
     c.glint_density = glint_density;
     c.glint_uv = glint_uv;
+    c.glint_extent = glint_extent;
     c.tint_index = tint_index;
     c.tint_weight = tint_weight;
     c.blur = blur;
@@ -511,8 +506,8 @@ void main(
     float3 N = normalize(vd.normalWorld);
     stored = mx_store_closure(stored, float3(0.0, 0.0, 0.0), float3(0.04, 0.04, 0.04), float3(1.0, 1.0, 1.0), 0.1, 0.0,
         N, float3(0.0, 0.0, 0.0), 0.5, 0.0, 0.0, float3(1.0, 1.0, 1.0), 0.1, float3(19.999998, 30.0, 39.999996), 0.0,
-        0.0, 0.0, float2(0.0, 0.0), 0.0, 0.0, 0.0, float3(0.5, 0.5, 0.5), float3(0.0, 0.0, 0.0), float3(0.0, 0.0, 0.0),
-        0.0);
+        0.0, 0.0, float2(0.0, 0.0), float2(0.0, 0.0), 0.0, 0.0, 0.0, float3(0.5, 0.5, 0.5), float3(0.0, 0.0, 0.0),
+        float3(0.0, 0.0, 0.0), 0.0);
     // metal
     float c = dot(N, normalize(u_viewPosition - vd.positionWorld));
     float cos_v = max(abs(c), 1e-8);
@@ -534,8 +529,8 @@ void main(
     float3 decaying = (drops_throughput - drops_throughput_2) / (float3(1.0, 1.0, 1.0) - milk_mark_decay);
     stored = mx_store_closure(stored, float3(0.8, 0.9, 0.95), float3(0.04, 0.04, 0.04), float3(1.0, 1.0, 1.0),
         0.5007194, 0.0, N, float3(0.0, 0.0, 0.0), 0.5, 0.0, 0.0, float3(1.0, 1.0, 1.0), 0.5007194,
-        float3(5.0, 5.0, 5.0), 0.0, 0.0, 0.0, float2(0.0, 0.0), 0.0, 0.0, 0.0, drops_throughput - decaying, decaying,
-        milk_mark_decay, 0.0);
+        float3(5.0, 5.0, 5.0), 0.0, 0.0, 0.0, float2(0.0, 0.0), float2(0.0, 0.0), 0.0, 0.0, 0.0, drops_throughput
+        - decaying, decaying, milk_mark_decay, 0.0);
     float2 milk_reflection_albedo = mx_ggx_albedo_fit(0.25071993, cos_v);
     float milk_reflection_ggx_compensation = (1.0 / milk_reflection_albedo.x - 1.0) * 0.08571428 + 1.0;
     float milk_reflection_throughput = max(1.0 - lerp(0.04, 1.0, milk_reflection_albedo.y) * milk_reflection_albedo.x
@@ -560,8 +555,8 @@ void main(
     float3 decaying_2 = (milky_metal_weight - milky_metal_weight_2) / (float3(1.0, 1.0, 1.0) - metal_mark_decay);
     stored = mx_store_closure(stored, float3(0.700394, 0.2554791, 0.0776317),
         float3(0.66622823, 0.46274176, 0.24108408), float3(1.0, 1.0, 1.0), 0.54668933, 0.0, N, float3(0.0, 0.0, 0.0),
-        0.5, 0.0, 0.0, float3(1.0, 1.0, 1.0), 0.54668933, float3(0.0, 0.0, 0.0), 0.0, 0.0, 0.0, float2(0.0, 0.0), 0.0,
-        0.0, 0.0, milky_metal_weight - decaying_2, decaying_2, metal_mark_decay, 0.0);
+        0.5, 0.0, 0.0, float3(1.0, 1.0, 1.0), 0.54668933, float3(0.0, 0.0, 0.0), 0.0, 0.0, 0.0, float2(0.0, 0.0),
+        float2(0.0, 0.0), 0.0, 0.0, 0.0, milky_metal_weight - decaying_2, decaying_2, metal_mark_decay, 0.0);
     stored = mx_finish_closures(stored);
     out1 = float4((decaying + (drops_throughput - decaying)) * float3(0.0, 0.1, 0.0), 1.0);
     word0 = mx_stored_word(stored, 0);

@@ -23,8 +23,8 @@ struct Surface {
     uint word_15;
 };
 
-#ifndef MXG_f00a9c7eb91477a7
-#define MXG_f00a9c7eb91477a7
+#ifndef MXG_f3ad9dbee72bfd5b
+#define MXG_f3ad9dbee72bfd5b
 #define MX_STORAGE 1
 #define MX_BLUR 0
 #define MX_PAYLOAD_WORDS 16
@@ -391,17 +391,12 @@ MxClosure mx_unpack(MxRecord r, vec3 normal, float roughness)
 
 uint mx_payload_words[MX_PAYLOAD_WORDS];
 
-// A ray has no pixel, so its glints are their mean.
-vec2 mx_glint_extent(vec2 uv)
-{
-    return vec2(0.0);
-}
-
-// There is one closure. A payload has no room for its tint.
+// There is one closure. A payload has no room for its tint and its glints, which are their mean.
 void mx_keep(MxClosure c)
 {
     uint word = mx_cut_normal(c.normal, 16u);
     c.tint_weight = 0.0;
+    c.glint_density = 0.0;
     MxRecord r = mx_pack(c, mx_uncut_normal(word, 16u));
     mx_payload_words = uint[MX_PAYLOAD_WORDS](r.core | mx_class_of(r.core >> 20u) << 28u, r.body, r.weights[0], r.weights[1], r.medium,
                                               r.lobes, r.fuzz, r.anisotropy, word, 0u, 0u, 0u, 0u, 0u, 0u, 0u);
@@ -426,7 +421,6 @@ uint mx_payload_word(int finished, int index)
 // Keeps a slab unless nothing of it is seen. Returns how many closures there are.
 int mx_store(int before, MxClosure c)
 {
-    c.glint_extent = mx_glint_extent(c.glint_uv); // before a branch: neighbours differ
     vec3 light = c.steady + c.color;
     if (max(light.x, max(light.y, light.z)) <= 0.0)
         return before;
@@ -438,8 +432,9 @@ int mx_store(int before, MxClosure c)
 int mx_store_closure(int before, vec3 diffuse_albedo, vec3 f0, vec3 f90, float roughness, float anisotropy, vec3 normal, vec3 tangent,
                      float second_roughness, float second_roughness_weight, float fuzz_amount,
                      vec3 fuzz_color, float fuzz_roughness, vec3 free_path, float phase_anisotropy,
-                     float is_thick, float glint_density, vec2 glint_uv, float tint_index,
-                     float tint_weight, float blur, vec3 steady, vec3 color, vec3 decay, float spreads)
+                     float is_thick, float glint_density, vec2 glint_uv, vec2 glint_extent,
+                     float tint_index, float tint_weight, float blur, vec3 steady, vec3 color,
+                     vec3 decay, float spreads)
 {
     MxClosure c;
     c.diffuse_albedo = diffuse_albedo;
@@ -459,6 +454,7 @@ int mx_store_closure(int before, vec3 diffuse_albedo, vec3 f0, vec3 f90, float r
     c.is_thick = is_thick;
     c.glint_density = glint_density;
     c.glint_uv = glint_uv;
+    c.glint_extent = glint_extent;
     c.tint_index = tint_index;
     c.tint_weight = tint_weight;
     c.blur = blur;
@@ -477,7 +473,7 @@ Surface surface(vec3 normalWorld)
     int stored = 0;
     stored = mx_store_closure(stored, vec3(0.6579555, 0.3332806, 0.17180733), vec3(0.5916348, 0.4240101, 0.24454294),
         vec3(1.0), 0.5423652, 0.0, normalize(vd.normalWorld), vec3(0.0), 0.1, 0.04761195, 0.0, vec3(1.0), 0.5423652,
-        vec3(0.0), 0.0, 0.0, 0.0, vec2(0.0), 0.0, 0.0, 0.0, vec3(1.0), vec3(0.0), vec3(0.0), 0.0);
+        vec3(0.0), 0.0, 0.0, 0.0, vec2(0.0), vec2(0.0), 0.0, 0.0, 0.0, vec3(1.0), vec3(0.0), vec3(0.0), 0.0);
     stored = mx_finish_payload(stored, vec3(0.0, 0.09642637, 0.0), 1.0);
     result.word_0 = mx_payload_word(stored, 0);
     result.word_1 = mx_payload_word(stored, 1);

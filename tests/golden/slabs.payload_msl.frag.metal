@@ -377,17 +377,12 @@ MxClosure mx_unpack(MxRecord r, float3 normal, float roughness)
     return c;
 }
 
-// A ray has no pixel, so its glints are their mean.
-float2 mx_glint_extent(float2 uv)
-{
-    return float2(0.0);
-}
-
-// There is one closure. A payload has no room for its tint.
+// There is one closure. A payload has no room for its tint and its glints, which are their mean.
 void mx_keep(MxClosure c)
 {
     uint word = mx_cut_normal(c.normal, 16u);
     c.tint_weight = 0.0;
+    c.glint_density = 0.0;
     MxRecord r = mx_pack(c, mx_uncut_normal(word, 16u));
     mx_payload_words = array<uint, 16>{r.core | mx_class_of(r.core >> 20u) << 28u, r.body, r.weights[0], r.weights[1],
         r.medium, r.lobes, r.fuzz, r.anisotropy, word, 0u, 0u, 0u, 0u, 0u, 0u, 0u};
@@ -419,7 +414,6 @@ uint mx_payload_word(int finished, int index)
 // Keeps a slab unless nothing of it is seen. Returns how many closures there are.
 int mx_store(int before, MxClosure c)
 {
-    c.glint_extent = mx_glint_extent(c.glint_uv);
     float3 light = c.steady + c.color;
     if (max(light.x, max(light.y, light.z)) <= 0.0)
         return before;
@@ -431,8 +425,8 @@ int mx_store(int before, MxClosure c)
 int mx_store_closure(int before, float3 diffuse_albedo, float3 f0, float3 f90, float roughness, float anisotropy,
     float3 normal, float3 tangent, float second_roughness, float second_roughness_weight, float fuzz_amount,
     float3 fuzz_color, float fuzz_roughness, float3 free_path, float phase_anisotropy, float is_thick,
-    float glint_density, float2 glint_uv, float tint_index, float tint_weight, float blur, float3 steady, float3 color,
-    float3 decay, float spreads)
+    float glint_density, float2 glint_uv, float2 glint_extent, float tint_index, float tint_weight, float blur,
+    float3 steady, float3 color, float3 decay, float spreads)
 {
     MxClosure c;
     c.diffuse_albedo = diffuse_albedo;
@@ -452,6 +446,7 @@ int mx_store_closure(int before, float3 diffuse_albedo, float3 f0, float3 f90, f
     c.is_thick = is_thick;
     c.glint_density = glint_density;
     c.glint_uv = glint_uv;
+    c.glint_extent = glint_extent;
     c.tint_index = tint_index;
     c.tint_weight = tint_weight;
     c.blur = blur;
@@ -469,8 +464,8 @@ Surface surface(float3 normalWorld)
     int stored = 0;
     stored = mx_store_closure(stored, float3(0.6579555, 0.3332806, 0.17180733),
         float3(0.5916348, 0.4240101, 0.24454294), float3(1.0), 0.5423652, 0.0, normalize(vd.normalWorld), float3(0.0),
-        0.1, 0.04761195, 0.0, float3(1.0), 0.5423652, float3(0.0), 0.0, 0.0, 0.0, float2(0.0), 0.0, 0.0, 0.0,
-        float3(1.0), float3(0.0), float3(0.0), 0.0);
+        0.1, 0.04761195, 0.0, float3(1.0), 0.5423652, float3(0.0), 0.0, 0.0, 0.0, float2(0.0), float2(0.0), 0.0, 0.0,
+        0.0, float3(1.0), float3(0.0), float3(0.0), 0.0);
     stored = mx_finish_payload(stored, float3(0.0, 0.09642637, 0.0), 1.0);
     result.word_0 = mx_payload_word(stored, 0);
     result.word_1 = mx_payload_word(stored, 1);

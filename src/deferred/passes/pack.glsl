@@ -2,17 +2,12 @@
 
 uint mx_payload_words[MX_PAYLOAD_WORDS];
 
-// A ray has no pixel, so its glints are their mean.
-vec2 mx_glint_extent(vec2 uv)
-{
-    return vec2(0.0);
-}
-
-// There is one closure. A payload has no room for its tint.
+// There is one closure. A payload has no room for its tint and its glints, which are their mean.
 void mx_keep(MxClosure c)
 {
     uint word = mx_cut_normal(c.normal, 16u);
     c.tint_weight = 0.0;
+    c.glint_density = 0.0;
     MxRecord r = mx_pack(c, mx_uncut_normal(word, 16u));
     mx_payload_words = uint[MX_PAYLOAD_WORDS](r.core | mx_class_of(r.core >> 20u) << 28u, r.body, r.weights[0], r.weights[1], r.medium,
                                               r.lobes, r.fuzz, r.anisotropy, word, 0u, 0u, 0u, 0u, 0u, 0u, 0u);

@@ -1,7 +1,6 @@
 // Keeps a slab unless nothing of it is seen. Returns how many closures there are.
 int mx_store(int before, MxClosure c)
 {
-    c.glint_extent = mx_glint_extent(c.glint_uv); // before a branch: neighbours differ
     vec3 light = c.steady + c.color;
     if (max(light.x, max(light.y, light.z)) <= 0.0)
         return before;

@@ -7,11 +7,6 @@
 %layout(location = 2) out uint mx_word1;
 %layout(location = 3) out uint mx_word2;
 %
-%vec2 mx_glint_extent(vec2 uv)
-%{
-%    return max(abs(dFdx(uv)), abs(dFdy(uv)));
-%}
-%
 @uint mx_word0;
 @uint mx_word1;
 @uint mx_word2;
