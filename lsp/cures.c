@@ -377,14 +377,37 @@ static void suggest_connection(struct cure *cure, const char *argument)
     free(node);
 }
 
+/* False if the name of an input is taken in its node, or stands for a value of another type. */
+static bool can_take_name(const struct cure *cure, const char *name)
+{
+    const struct lsp_query *query = &cure->query;
+    uint32_t input = cure->place.element;
+    if (input == MODEL_NONE || !query_is(query, input, "input"))
+        return true;
+    uint32_t node = query->model->elements[input].parent;
+    char other[QUERY_NAME], type[QUERY_NAME];
+    mxg_port port;
+    uint32_t child = model_first(query->model, node);
+    for (; child != MODEL_NONE; child = model_next(query->model, child))
+        if (strcmp(query_text(query, child, "name", other, sizeof other), name) == 0)
+            return false;
+    if (!query_is_node(query, node)
+        || !catalogue_find_port(query, catalogue_resolve(query, node), name, false, &port))
+        return true;
+    query_text(query, input, "type", type, sizeof type);
+    return !*type || strcmp(type, port.type) == 0;
+}
+
 static void suggest(struct cure *cure)
 {
     if (strcmp(cure->finding->id, "excess-numbers") == 0)
         return; /* it suggests another input, whose type the text does not have */
+    bool is_input = strcmp(cure->finding->id, "unknown-input") == 0;
     for (size_t i = 0; i < cure->finding->num_arguments; ++i) {
         char *suggestion = between(cure_argument(cure, i), "(did you mean '", "'?)");
         char *title = suggestion ? cli_format("Change to '%s'", suggestion) : NULL;
-        if (suggestion && replace_word(cure, suggestion))
+        if (suggestion && (!is_input || can_take_name(cure, suggestion))
+            && replace_word(cure, suggestion))
             cure_finish(cure, title, true);
         else
             suggest_connection(cure, cure_argument(cure, i));

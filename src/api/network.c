@@ -37,7 +37,7 @@ void generation_tell_stand_ins(struct generation *g)
         const struct shader_stand_in *made = &shader->reflection.stand_ins.items[i];
         elem_id node = generation_element_of(g, made->origin);
         char share[16];
-        snprintf(share, sizeof share, "%.2g", 100.0 * made->error);
+        snprintf(share, sizeof share, "%.2g %%", 100.0 * made->error);
         diag_add(diags_of(g), DIAG_ID_closure_fitted, doc_place(doc, node), g->result->target->name,
                  str_text(doc->strings, doc_element(doc, node)->category), made->num_closures,
                  made->num_closures == 1 ? "" : "s", share);
