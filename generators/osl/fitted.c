@@ -11,6 +11,7 @@
 #include "shader/formula.h"
 
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 
 /* A sum that sends more of the light elsewhere is another material. */
@@ -69,18 +70,6 @@ static bool evaluate(struct subject *s, ir_ref value, struct ir_value *out)
     return good;
 }
 
-/* Functions as path tracers call them, which agree with physics (docs/library.md). */
-static ir_ref global(void *user_data, struct ir_graph *g, const struct lang_unit *unit,
-                     uint32_t global_id)
-{
-    const struct subject *s = user_data;
-    const struct lang_host *lang = s->tree->host->lang;
-    const struct lang_global *known = lang_global(unit, global_id, NULL);
-    if (strcmp(str_text(unit->strings, known->name), "option_path") == 0)
-        return ir_const_int(g, 1);
-    return lang->global(lang->user_data, g, unit, global_id);
-}
-
 /* The leaf with numbers as inputs. */
 static ir_ref leaf_of_values(struct subject *s)
 {
@@ -105,19 +94,13 @@ static void look(struct subject *s)
     struct osl_tree *t = s->tree;
     struct ir_graph *g = t->graph;
     struct ir_value up = vector(0.0, 0.0, 1.0), here = vector(0.0, 0.0, 0.0);
-    struct closure_point point = {.view = s->view};
-    struct closure_host host = *t->host;
-    struct lang_host lang = {.user_data = s,
-                             .global = global,
-                             .max_outer_nodes = t->host->lang->max_outer_nodes,
-                             .max_inline_nodes = t->host->lang->max_inline_nodes};
-    point.normal = ir_const(g, &up);
-    point.position = ir_const(g, &here);
-    host.point = &point;
-    host.lang = &lang;
+    struct closure_probe probe;
+    closure_probe(t->host, s->view, &probe);
+    probe.point.normal = ir_const(g, &up);
+    probe.point.position = ir_const(g, &here);
     ir_ref leaf = leaf_of_values(s);
-    s->value = closure_call(t->shader, &host, leaf, LEAF_EVAL, &s->light);
-    s->passed = closure_call(t->shader, &host, leaf, LEAF_REFRACTION, &s->light);
+    s->value = closure_call(t->shader, &probe.host, leaf, LEAF_EVAL, &s->light);
+    s->passed = closure_call(t->shader, &probe.host, leaf, LEAF_REFRACTION, &s->light);
 }
 
 static bool value(void *user_data, const double v[3], const double l[3], unsigned turn,
@@ -145,19 +128,13 @@ static struct ir_value all(ir_type_id type, float number)
                              .w = {{.f = number}, {.f = number}, {.f = number}, {.f = number}}};
 }
 
-static ir_ref stand_in(const struct osl_tree *t, uint32_t number)
-{
-    /* a variable that no shader has: only the evaluator reads it */
-    return ir_build(t->graph, IR_LOCAL, IR_TYPE_VEC3, UINT32_MAX - number, NULL, 0);
-}
-
 static void open_subject(struct osl_tree *t, ir_ref leaf, struct subject *s)
 {
     const struct ir_node node = *ir_get(t->graph, leaf);
     *s = (struct subject){.tree = t, .leaf = leaf};
-    s->view = stand_in(t, 0);
-    s->light = stand_in(t, 1);
-    s->turned = stand_in(t, 2);
+    s->view = closure_probe_direction(t->graph, 0);
+    s->light = closure_probe_direction(t->graph, 1);
+    s->turned = closure_probe_direction(t->graph, 2);
     s->num_inputs = node.num_args - 1;
     for (unsigned i = 0; i < s->num_inputs && i < MAX_OPERANDS; i++) {
         ir_ref own = ir_arg(t->graph, leaf, i + 1);
@@ -228,14 +205,17 @@ static void compile_in(struct osl_tree *t, ir_ref below)
 }
 
 /* Notes what keeps the leaf from having closures. */
-static void lack(struct subject *s, const char *why, const char *input)
+static void lack(struct subject *s, const char *format, ...)
 {
     struct osl_tree *t = s->tree;
     str_id family = t->graph->callees.items[ir_get(t->graph, s->leaf)->attr].name;
     struct text text;
     text_init(&text, t->shader->arena);
     text_fmt(&text, "no closure for '%s', and ", str_text(t->shader->strings, family));
-    text_fmt(&text, why, input);
+    va_list args;
+    va_start(args, format);
+    text_vfmt(&text, format, args);
+    va_end(args);
     t->lacks = text_cstr(&text);
 }
 
@@ -336,7 +316,7 @@ ir_ref osl_fitted(struct osl_tree *t, ir_ref leaf)
                                 .num_turns = s.tangent ? OSL_MAX_TURNS : 1,
                                 .passes = s.passed && !ir_const_is(t->graph, s.passed, 0.0f)};
     if (!osl_fit(&target, t->shader->arena, &fit)) {
-        lack(&s, "its functions cannot be evaluated without a %s", "shader");
+        lack(&s, "its functions cannot be evaluated without a shader");
         return 0;
     }
     if (fit.error > MOST_ERROR) {

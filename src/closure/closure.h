@@ -295,6 +295,20 @@ ir_ref closure_way(struct shader *shader, const struct closure_host *host, ir_re
 /* The mean over cosine-weighted directions: 4.5 - 1.5 sqrt(5). */
 #define CLOSURE_MEAN_WAY 1.1458980f
 
+/* ---- probe.c: for the evaluator ---- */
+
+/* A host at a point of its own, whose functions the evaluator computes. It must stay in its place.
+ */
+struct closure_probe {
+    struct closure_host host;
+    struct closure_point point;
+    struct lang_host lang;
+};
+void closure_probe(const struct closure_host *host, ir_ref view, struct closure_probe *out);
+/* A variable that no shader has, for the evaluator alone: a vec3; equal numbers give one variable.
+ */
+ir_ref closure_probe_direction(struct ir_graph *graph, uint32_t number);
+
 /* The source of a LEAF; NULL: its functions are portable. */
 const struct source_leaf *closure_source(const struct shader *shader, ir_ref leaf);
 

@@ -111,23 +111,6 @@ static uint32_t call(void *user_data, const struct ir_graph *graph, ir_ref ref,
     return num;
 }
 
-/* ---- Functions ---- */
-
-/*
- * Lobes as a path tracer evaluates them: a raster shares structs between lobes, which the graph's
- * evaluator does not compute.
- */
-static ir_ref global(void *user_data, struct ir_graph *g, const struct lang_unit *unit,
-                     uint32_t global_id)
-{
-    const struct eye *eye = user_data;
-    const struct lang_host *lang = eye->host->closures->lang;
-    const struct lang_global *known = lang_global(unit, global_id, NULL);
-    if (strcmp(str_text(unit->strings, known->name), "option_path") == 0)
-        return ir_const_int(g, 1);
-    return lang->global(lang->user_data, g, unit, global_id);
-}
-
 /* ---- Light ---- */
 
 /* Returns what one lobe sends to the viewer: of the environment, of the light, and its own. */
@@ -155,41 +138,21 @@ static ir_ref light_of(struct eye *eye, const struct closure_host *host,
     return ir_convert(g, IR_TYPE_VEC3, sum);
 }
 
-/* The host of the closures, with the eye's view and functions. */
-struct seen {
-    struct closure_host host;
-    struct closure_point point;
-    struct lang_host lang;
-};
-
-static void see(struct eye *eye, struct seen *out)
-{
-    const struct lang_host *lang = eye->host->closures->lang;
-    out->point = (struct closure_point){.view = eye->view};
-    out->lang = (struct lang_host){.user_data = eye,
-                                   .global = global,
-                                   .max_outer_nodes = lang->max_outer_nodes,
-                                   .max_inline_nodes = lang->max_inline_nodes};
-    out->host = *eye->host->closures;
-    out->host.point = &out->point;
-    out->host.lang = &out->lang;
-}
-
 /* The colour of a closure; where it shows what is behind, before a grey background. */
 static ir_ref color_of(struct eye *eye, ir_ref lobes, bool shows_behind)
 {
     struct ir_graph *g = eye->shader->graph;
-    struct seen seen;
+    struct closure_probe probe;
     struct closure_list list;
-    see(eye, &seen);
+    closure_probe(eye->host->closures, eye->view, &probe);
     ir_ref none = ir_const_float(g, 0.0f), sum = ir_black(g);
     if (shows_behind) {
-        sum = closure_throughput(eye->shader, &seen.host, lobes, none);
+        sum = closure_throughput(eye->shader, &probe.host, lobes, none);
         sum = ir_scaled(g, sum, BACKGROUND);
     }
-    closure_flatten(eye->shader, &seen.host, lobes, &list);
+    closure_flatten(eye->shader, &probe.host, lobes, &list);
     for (uint32_t i = 0; i < list.leaves.len; i++)
-        sum = ir_add(g, sum, light_of(eye, &seen.host, &list.leaves.items[i]));
+        sum = ir_add(g, sum, light_of(eye, &probe.host, &list.leaves.items[i]));
     return sum;
 }
 
@@ -296,17 +259,11 @@ static bool find_glances(struct eye *eye, ir_ref root, struct slab_glances *out)
     return true;
 }
 
-static ir_ref direction(const struct eye *eye, uint32_t number)
-{
-    /* a variable that no shader has: only the evaluator reads it */
-    return ir_build(eye->shader->graph, IR_LOCAL, IR_TYPE_VEC3, UINT32_MAX - number, NULL, 0);
-}
-
 static struct eye open_eye(struct shader *shader, const struct slabs_host *host)
 {
     struct eye eye = {.shader = shader, .host = host};
-    eye.view = direction(&eye, 0);
-    eye.light = direction(&eye, 1);
+    eye.view = closure_probe_direction(shader->graph, 0);
+    eye.light = closure_probe_direction(shader->graph, 1);
     return eye;
 }
 
@@ -360,12 +317,12 @@ ir_ref slabs_through(struct shader *shader, const struct slabs_host *host, ir_re
 {
     struct ir_graph *g = shader->graph;
     struct eye eye = open_eye(shader, host);
-    struct seen seen;
-    see(&eye, &seen);
+    struct closure_probe probe;
+    closure_probe(host->closures, eye.view, &probe);
     ir_ref args[3] = {top, ir_const_bool(g, true), thickness};
     ir_ref sheet = ir_build(g, IR_SLAB_SURFACE, IR_TYPE_SURFACE, 0, args, 3);
     ir_ref walked = slabs_walk(shader, host, sheet), mean = ir_const_float(g, CLOSURE_MEAN_WAY);
-    return closure_throughput(shader, &seen.host, ir_arg(g, walked, 0), mean);
+    return closure_throughput(shader, &probe.host, ir_arg(g, walked, 0), mean);
 }
 
 float slabs_brightness(struct shader *shader, const struct slabs_host *host, ir_ref color)
