@@ -66,15 +66,6 @@ void generation_hide_misfits(struct generation *g)
         g->root = build_without_hidden(g->builder, g->root);
 }
 
-/* The innermost element of the document itself that an origin comes from. */
-elem_id generation_element_of(const struct generation *g, uint32_t origin)
-{
-    const struct ir_origin *origins = g->result->graph.origins.items;
-    while (origin && origins[origin].element < g->document->layer.doc.first_element)
-        origin = origins[origin].parent;
-    return origin ? origins[origin].element : g->element;
-}
-
 static void report_misfit(struct generation *g, ir_ref misfit)
 {
     const struct shader *shader = &g->result->shader;
@@ -119,21 +110,6 @@ const char *generation_why_not_stored(struct generation *g)
         &why, "its part '%s' is no slab",
         str_text(shader->strings, graph->origins.items[ir_get(graph, g->misfit)->origin].name));
     return text_cstr(&why);
-}
-
-void generation_tell_lost(struct generation *g)
-{
-    const struct shader *shader = &g->result->shader;
-    const struct document *doc = &g->document->layer.doc;
-    for (uint32_t i = 0; i < shader->reflection.lost.len; i++) {
-        const struct shader_lost *lost = &shader->reflection.lost.items[i];
-        elem_id node = generation_element_of(g, lost->origin);
-        str_id name = str_find(doc->strings, lost->part, strlen(lost->part));
-        elem_id input = name ? doc_child(doc, node, name) : 0;
-        diag_add(&g->result->object.diagnostics.list, DIAG_ID_slab_left_out,
-                 doc_place(doc, input ? input : node), lost->part,
-                 str_text(doc->strings, doc_element(doc, node)->category), lost->why);
-    }
 }
 
 void generation_tell_forward(struct generation *g)

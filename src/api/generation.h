@@ -28,6 +28,8 @@ struct stage_source {
 };
 
 void source_find_lines(struct stage_source *source, struct arena *arena); /* source_map.c */
+/* source_map.c: the innermost element of the document itself that an origin comes from; 0: none. */
+elem_id result_element_of(const mxg_result *result, uint32_t origin);
 
 struct mxg_result {
     struct object object; /* keeps the document alive */
@@ -133,8 +135,6 @@ bool generation_make_network(struct generation *g); /* network.c */
 struct deferred_layout generation_storage(const struct generation *g);
 /* Sets the hooks of the closures' host. */
 void generation_defer(struct generation *g);
-/* Tells of parts of slabs that the role has no room for. */
-void generation_tell_lost(struct generation *g);
 /* Why a pixel cannot store the material. */
 const char *generation_why_not_stored(struct generation *g);
 /* Warns about a material whose shader lights itself; reports one with too many closures. */
@@ -203,9 +203,11 @@ bool generation_is_defined(struct generation *g, const struct ir_graph *graph, c
 bool generation_effects_are_defined(struct generation *g, const struct shader *shader,
                                     elem_id where);
 
-/* deferred.c: the innermost element of the document itself that an origin comes from. */
+/* losses.c: this element; where there is none, the one that the shader is for. */
 elem_id generation_element_of(const struct generation *g, uint32_t origin);
-/* network.c: tells closures that stand for leaves which the language has no closure for. */
+/* Tells of parts of slabs that the role has no room for. */
+void generation_tell_lost(struct generation *g);
+/* Tells closures that stand for leaves which the language has no closure for. */
 void generation_tell_stand_ins(struct generation *g);
 /* capacity.c: warns about AOVs that a payload has no room for. */
 void generation_tell_lost_aovs(struct generation *g);

@@ -8,7 +8,6 @@
 #include "base/hash.h"
 
 #include <assert.h>
-#include <stdio.h>
 
 /* ---- Shaders of nodes ---- */
 
@@ -27,21 +26,6 @@ static struct shader *new_shader(struct generation *g, const struct network_node
     shader->sources.language = result->shader.sources.language;
     shader->reflection.name = node->definition_name;
     return shader;
-}
-
-void generation_tell_stand_ins(struct generation *g)
-{
-    const struct shader *shader = &g->result->shader;
-    const struct document *doc = &g->document->layer.doc;
-    for (uint32_t i = 0; i < shader->reflection.stand_ins.len; i++) {
-        const struct shader_stand_in *made = &shader->reflection.stand_ins.items[i];
-        elem_id node = generation_element_of(g, made->origin);
-        char share[16];
-        snprintf(share, sizeof share, "%.2g %%", 100.0 * made->error);
-        diag_add(diags_of(g), DIAG_ID_closure_fitted, doc_place(doc, node), g->result->target->name,
-                 str_text(doc->strings, doc_element(doc, node)->category), made->num_closures,
-                 made->num_closures == 1 ? "" : "s", share);
-    }
 }
 
 /*

@@ -55,8 +55,7 @@ static uint32_t origin_of_line(const mxg_result *result, mxg_stage stage, uint32
     return low < source->num_marks && source->marks[low].at < end ? source->marks[low].origin : 0;
 }
 
-/* The innermost element of the document itself for an origin; 0: none. */
-static elem_id document_element(const mxg_result *result, uint32_t origin)
+elem_id result_element_of(const mxg_result *result, uint32_t origin)
 {
     assert(origin < result->graph.origins.len || origin == 0);
     const struct ir_origin *origins = result->graph.origins.items;
@@ -70,7 +69,7 @@ mxg_status mxg_result_source_place(const mxg_result *result, mxg_stage stage, ui
 {
     uint32_t origin =
         result && (unsigned)stage < NUM_STAGES ? origin_of_line(result, stage, line) : 0;
-    elem_id element = origin ? document_element(result, origin) : 0;
+    elem_id element = origin ? result_element_of(result, origin) : 0;
     if (!element)
         return MXG_ERROR_ARGUMENT;
     struct diag_place place = doc_place(&result->document->layer.doc, element);
