@@ -119,7 +119,7 @@ static const char *argument(const char *text, const struct work *work)
 }
 
 /* Returns what waitpid tells of it; -1 where it did not run. */
-static int run(const struct command *command, struct work *work)
+static int run(const struct command *command, const struct work *work)
 {
     posix_spawn_file_actions_t actions;
     if (posix_spawn_file_actions_init(&actions) != 0)

@@ -138,7 +138,7 @@ static void write_network(const struct network *network, enum shader_stage_id st
 
 const struct target_network osl_network = {
     .end_layer = "root",
-    .has_closure = osl_has_closure,
+    .fits_family = osl_fits_family,
     .plan = osl_plan_network,
     .emit_node = osl_emit_node,
     .add_parts = osl_add_network_parts,

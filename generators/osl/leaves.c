@@ -156,9 +156,10 @@ static const struct row *find_row(const char *family)
     return NULL;
 }
 
-bool osl_has_closure(const char *family)
+bool osl_fits_family(const char *family, const uint32_t *functions)
 {
-    return find_row(family) != NULL;
+    return functions[LEAF_FACTOR] == LANG_NONE && functions[LEAF_EMISSION] == LANG_NONE
+           && !find_row(family);
 }
 
 bool osl_is_fitted(const struct osl_tree *t, ir_ref ref)
@@ -166,10 +167,8 @@ bool osl_is_fitted(const struct osl_tree *t, ir_ref ref)
     const struct ir_node *node = ir_get(t->graph, ref);
     if (node->op != IR_LEAF || node->type != IR_TYPE_BSDF || closure_source(t->shader, ref))
         return false;
-    const uint32_t *functions = t->host->leaf_functions(t->host->user_data, node->attr);
-    return functions[LEAF_FACTOR] == LANG_NONE && functions[LEAF_EMISSION] == LANG_NONE
-           && !osl_has_closure(
-               str_text(t->shader->strings, t->graph->callees.items[node->attr].name));
+    return osl_fits_family(str_text(t->shader->strings, t->graph->callees.items[node->attr].name),
+                           t->host->leaf_functions(t->host->user_data, node->attr));
 }
 
 /* ---- Inputs of the current leaf ---- */

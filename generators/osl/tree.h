@@ -39,8 +39,9 @@ ir_ref osl_layered(struct osl_tree *tree, ir_ref top, ir_ref base);
 /* leaves.c: the closure of a LEAF node; 0, and tree->lacks, if it has none. */
 ir_ref osl_leaf(struct osl_tree *tree, ir_ref leaf);
 
-/* True if a row of closures.def is for leaves of this family. */
-bool osl_has_closure(const char *family);
+/* True if closures stand for BSDFs of a family with these functions, which has no row of
+ * closures.def. */
+bool osl_fits_family(const char *family, const uint32_t *functions);
 /* True for a BSDF whose value is known, but no closure: fitted.c makes closures for it. */
 bool osl_is_fitted(const struct osl_tree *tree, ir_ref leaf);
 /* fitted.c: the sum of closures that is closest to such a leaf; 0, and tree->lacks, if none is. */

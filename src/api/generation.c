@@ -304,7 +304,7 @@ bool generation_build(struct generation *g)
                         g->options[OPTION_aovs].list.len);
     if (g->options[OPTION_network].number)
         build_record_network(g->builder, &g->result->network, g->result->target->network->end_layer,
-                             g->result->target->network->has_closure);
+                             g->result->target->network->fits_family);
     g->root = g->desc.bindings ? build_stack(g->builder, &g->desc.bindings->bindings, g->desc.stack)
                                : build_element(g->builder, g->element, g->output);
     assert(g->root < g->result->graph.nodes.len);

@@ -91,11 +91,10 @@ ir_ref build_stack(struct builder *builder, const struct bindings *bindings, uin
 
 /*
  * network.c: makes the builder record layers in `network`. The value of build_element or
- * build_stack then depends on sources that stand for the layers. A BSDF of a family without a
- * closure of the language has no layer of its own.
+ * build_stack then depends on sources that stand for the layers. fits_family: as in target_network.
  */
 void build_record_network(struct builder *builder, struct network *network, const char *end_layer,
-                          bool (*has_closure)(const char *family));
+                          bool (*fits_family)(const char *family, const uint32_t *functions));
 /*
  * Fills network->results for the root that was built, or sets network->is_whole. `type` is the type
  * of a plain value; false: the library has no node for a constant of this type. The builder records

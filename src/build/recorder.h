@@ -7,8 +7,8 @@
 
 struct recorder {
     struct network *network;
-    bool (*has_closure)(const char *family); /* of leaves */
-    struct name_set names;                   /* of layers */
+    bool (*fits_family)(const char *family, const uint32_t *functions); /* target_network */
+    struct name_set names;                                              /* of layers */
     uint32_t *layer_of; /* by variable of the shader: the layer with this output, + 1 */
     uint32_t num_layers_of;
     VEC(uint8_t) output_of; /* by variable of the shader: the output of the layer */

@@ -18,13 +18,13 @@
 #include "base/hash.h"
 
 void build_record_network(struct builder *b, struct network *network, const char *end_layer,
-                          bool (*has_closure)(const char *family))
+                          bool (*fits_family)(const char *family, const uint32_t *functions))
 {
     struct recorder *r = ARENA_NEW(b->arena, struct recorder);
     *network =
         (struct network){.arena = b->arena, .strings = b->shader->strings, .end_layer = end_layer};
     r->network = network;
-    r->has_closure = has_closure;
+    r->fits_family = fits_family;
     names_init(&r->names, b->arena, b->shader->style->syntax);
     names_take_frame(&r->names, b->shader);
     names_take(&r->names, end_layer, strlen(end_layer));
@@ -395,9 +395,8 @@ static bool lacks_closure(const struct builder *b, const struct implementation *
     const struct port *ports = library_ports(b->lib, impl->nodedef, NULL);
     ir_type_id type =
         library_type_ir(b->lib, ports[library_nodedef(b->lib, impl->nodedef)->num_inputs].type);
-    return type == IR_TYPE_BSDF && family->functions[FAMILY_FACTOR] == LANG_NONE
-           && family->functions[FAMILY_EMISSION] == LANG_NONE
-           && !b->recorder->has_closure(build_text(b, family->name));
+    return type == IR_TYPE_BSDF
+           && b->recorder->fits_family(build_text(b, family->name), family->functions);
 }
 
 /* True if the closures that the node gives are no outputs of a layer. */

@@ -31,8 +31,11 @@ struct reflect; /* shader/reflect.h */
 struct target_network {
     const char
         *end_layer; /* name of the last layer of a group, unless the group ends with a value */
-    /* False for a family of leaves that one layer alone cannot give. */
-    bool (*has_closure)(const char *family);
+    /*
+     * True for BSDFs of a family, by its name and functions (enum leaf_function), that have no
+     * layer of their own: what stands for them needs their values.
+     */
+    bool (*fits_family)(const char *family, const uint32_t *functions);
     /* Decides the kind of program and the required nodes, from network->results. */
     void (*plan)(struct network *network);
     /*
