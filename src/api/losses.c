@@ -20,9 +20,8 @@ void generation_tell_lost(struct generation *g)
         elem_id node = generation_element_of(g, lost->origin);
         str_id name = str_find(doc->strings, lost->part, strlen(lost->part));
         elem_id input = name ? doc_child(doc, node, name) : 0;
-        diag_add(diags_of(g), DIAG_ID_slab_left_out,
-                 doc_place(doc, input ? input : node), lost->part,
-                 str_text(doc->strings, doc_element(doc, node)->category), lost->why);
+        diag_add(diags_of(g), DIAG_ID_slab_left_out, doc_place(doc, input ? input : node),
+                 lost->part, str_text(doc->strings, doc_element(doc, node)->category), lost->why);
     }
 }
 
