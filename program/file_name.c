@@ -6,41 +6,15 @@
 #include "program/name_table.h"
 #include "program/utf8.h"
 
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* Code points that display as nothing, or that change the direction of text. */
-static const struct {
-    uint32_t first, last;
-} controls[] = {{0x01, 0x1f},     {0x7f, 0x9f},     {0x200e, 0x200f}, {0x2028, 0x202e},
-                {0x2066, 0x2069}, {0xfeff, 0xfeff}, {0xfff9, 0xfffb}};
-
-static uint32_t decode(const char *text, size_t len)
-{
-    static const unsigned char lead_bits[] = {0, 0x7f, 0x1f, 0x0f, 0x07};
-    uint32_t code = (unsigned char)text[0] & lead_bits[len];
-    for (size_t i = 1; i < len; ++i)
-        code = code << 6 | ((unsigned char)text[i] & 0x3f);
-    return code;
-}
-
-/* `len` 0: the byte is no UTF-8. */
-static bool is_control(const char *text, size_t len)
-{
-    uint32_t code = len ? decode(text, len) : 1;
-    for (size_t i = 0; i < sizeof controls / sizeof *controls; ++i)
-        if (code >= controls[i].first && code <= controls[i].last)
-            return true;
-    return false;
-}
 
 /*
  * make ends a rule at ';', reads an assignment at '=', and has no escape for '|' and a last '\'.
  */
 static bool is_unfit(const char *text, size_t len)
 {
-    return is_control(text, len) || strchr(";=|\\", *text);
+    return utf8_is_hidden(text, len) || strchr(";=|\\", *text);
 }
 
 static unsigned hash_of(const char *name)

@@ -3,6 +3,7 @@
 
 #include "program/memory.h"
 
+#include <stdint.h>
 #include <string.h>
 
 size_t utf8_length(const char *bytes)
@@ -32,15 +33,44 @@ size_t utf8_length(const char *bytes)
     return len;
 }
 
+/* `len` 1 to 4. */
+static uint32_t decode(const char *text, size_t len)
+{
+    static const unsigned char lead_bits[] = {0, 0x7f, 0x1f, 0x0f, 0x07};
+    uint32_t code = (unsigned char)text[0] & lead_bits[len];
+    for (size_t i = 1; i < len; ++i)
+        code = code << 6 | ((unsigned char)text[i] & 0x3f);
+    return code;
+}
+
+bool utf8_is_hidden(const char *text, size_t len)
+{
+    static const struct {
+        uint32_t first, last;
+    } hidden[] = {
+#define HIDDEN(first, last) {first, last},
+#include "src/base/hidden.def"
+#undef HIDDEN
+    };
+    uint32_t code = len ? decode(text, len) : 0;
+    size_t i = 0;
+    while (i < sizeof hidden / sizeof *hidden && code > hidden[i].last)
+        ++i;
+    return i < sizeof hidden / sizeof *hidden && code >= hidden[i].first;
+}
+
 void utf8_clean(char *text)
 {
     char *out = text;
-    for (const char *at = text; *at; ++at) {
-        unsigned char byte = (unsigned char)*at, next = (unsigned char)at[1];
-        bool is_c0 = (byte < 0x20 && byte != '\n' && byte != '\t') || byte == 0x7f,
-             is_c1 = byte == 0xc2 && next >= 0x80 && next < 0xa0; /* two bytes in UTF-8 */
-        *out++ = is_c0 || is_c1 ? '?' : *at;
-        at += is_c1;
+    for (size_t len, step; *text; text += step) {
+        len = utf8_length(text);
+        step = len ? len : 1;
+        bool is_hidden = utf8_is_hidden(text, len) && *text != '\n' && *text != '\t';
+        if (is_hidden)
+            *out++ = '?';
+        else
+            memmove(out, text, step);
+        out += is_hidden ? 0 : step;
     }
     *out = '\0';
 }

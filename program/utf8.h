@@ -12,8 +12,12 @@
 size_t utf8_length(const char *bytes);
 
 /*
- * Makes '?' of control characters but line ends and tabs, because texts of files go to terminals.
+ * True for a character that people do not see and that terminals act on (src/base/hidden.def), and
+ * for a byte that is no UTF-8. `len`: utf8_length of the text.
  */
+bool utf8_is_hidden(const char *text, size_t len);
+
+/* Makes '?' of hidden characters but line ends and tabs, because texts of files go to terminals. */
 void utf8_clean(char *text);
 
 /*

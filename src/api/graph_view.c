@@ -32,7 +32,9 @@ static bool is_shown(const struct graph_view *view, elem_id element)
 
 static void write_path(const struct graph_view *view, elem_id element)
 {
+    size_t begin = view->out->len;
     doc_path(view->doc, element, '/', view->out);
+    text_show(view->out, begin);
 }
 
 /* The name of a node's output if the node has several; else NULL. */
@@ -74,6 +76,7 @@ static void write_binding(struct graph_view *view, const char *name, const struc
 {
     if (binding->kind == BIND_DEFAULT)
         return;
+    size_t begin = view->out->len;
     text_fmt(view->out, "    %s = ", name);
     if (binding->kind == BIND_NODE) {
         const char *output = output_name(view, binding);
@@ -88,6 +91,7 @@ static void write_binding(struct graph_view *view, const char *name, const struc
     } else {
         text_str(view->out, "?");
     }
+    text_show(view->out, begin);
     text_char(view->out, '\n');
 }
 
@@ -121,11 +125,13 @@ static void write_output(struct graph_view *view, elem_id output)
 /* A name inside of a quoted string, where a backslash begins an escape (Graphviz, escString). */
 static void put_label(struct graph_view *view, const char *name)
 {
+    size_t begin = view->out->len;
     for (; *name; name++) {
         if (*name == '"' || *name == '\\')
             text_char(view->out, '\\');
-        text_char(view->out, (unsigned char)*name < 0x20 ? ' ' : *name);
+        text_char(view->out, *name);
     }
+    text_show(view->out, begin);
 }
 
 static void put_path_label(struct graph_view *view, elem_id element)

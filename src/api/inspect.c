@@ -19,6 +19,7 @@ static void write_element(struct generation *g, elem_id element, unsigned depth,
     const struct document *doc = &g->document->layer.doc;
     const struct element *e = doc_element(doc, element);
     str_id type = doc_attr_value(doc, element, STR_type);
+    size_t begin = out->len;
     text_fmt(out, "%*s%s", (int)(2 * depth), "", str_text(doc->strings, e->category));
     if (e->name)
         text_fmt(out, " %s", str_text(doc->strings, e->name));
@@ -32,6 +33,7 @@ static void write_element(struct generation *g, elem_id element, unsigned depth,
             text_fmt(out, " %s=\"%s\"", str_text(doc->strings, shown[i]),
                      str_text(doc->strings, value));
     }
+    text_show(out, begin);
     text_str(out, is_renderable(g->document, element) ? "  [renderable]\n" : "\n");
 }
 

@@ -126,6 +126,49 @@ bool text_is_utf8(const char *bytes, size_t len)
     return true;
 }
 
+static bool is_hidden(uint32_t code)
+{
+    static const struct {
+        uint32_t first, last;
+    } hidden[] = {
+#define HIDDEN(first, last) {first, last},
+#include "base/hidden.def"
+#undef HIDDEN
+    };
+    if (code >= ' ' && code < 0x7f)
+        return false;
+    size_t i = 0;
+    while (i < sizeof hidden / sizeof *hidden && code > hidden[i].last)
+        i++;
+    return i < sizeof hidden / sizeof *hidden && code >= hidden[i].first;
+}
+
+void text_show(struct text *text, size_t begin)
+{
+    char *out = text->data + begin;
+    for (size_t i = begin, n; i < text->len; i += n ? n : 1) {
+        uint32_t code;
+        n = utf8_read((const unsigned char *)text->data + i, text->len - i, &code);
+        if (n == 0 || (is_hidden(code) && code != '\t')) {
+            *out++ = '?';
+            continue;
+        }
+        memmove(out, text->data + i, n);
+        out += n;
+    }
+    text->len = (size_t)(out - text->data);
+}
+
+/* A code point in a JSON string, beyond 16 bits as two surrogates (RFC 8259, section 7). */
+static void put_escape(struct text *text, uint32_t code)
+{
+    if (code >= 0x10000) {
+        text_fmt(text, "\\u%04x", (unsigned)(0xd800 + ((code - 0x10000) >> 10)));
+        code = 0xdc00 + ((code - 0x10000) & 0x3ff);
+    }
+    text_fmt(text, "\\u%04x", (unsigned)code);
+}
+
 void text_json_string(struct text *text, const char *bytes, size_t len)
 {
     const unsigned char *p = (const unsigned char *)bytes, *end = p + len;
@@ -135,8 +178,8 @@ void text_json_string(struct text *text, const char *bytes, size_t len)
         if (*p == '"' || *p == '\\') {
             text_char(text, '\\');
             text_char(text, (char)*p);
-        } else if (*p < 0x20) {
-            text_fmt(text, "\\u%04x", *p);
+        } else if (n && is_hidden(code)) {
+            put_escape(text, code);
         } else if (n == 0) {
             text_str(text, "\xef\xbf\xbd");
         } else {
@@ -168,8 +211,8 @@ size_t text_width(const char *bytes, size_t len)
     for (size_t i = 0, n; i < len; i += n ? n : 1) {
         uint32_t point;
         n = utf8_read((const unsigned char *)bytes + i, len - i, &point);
-        size_t one = n || (point & 0xc0) != 0x80; /* 0: the rest of a broken sequence */
-        for (size_t k = 0; n && k < sizeof ranges / sizeof *ranges; k++)
+        size_t one = 1;
+        for (size_t k = 0; n && !is_hidden(point) && k < sizeof ranges / sizeof *ranges; k++)
             if (point >= ranges[k].first && point <= ranges[k].last)
                 one = ranges[k].width;
         width += one;

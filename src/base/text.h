@@ -81,11 +81,20 @@ bool text_is_utf8(const char *bytes, size_t len);
 
 /*
  * The columns of a terminal that a text in UTF-8 takes: 2 for wide characters of East Asia and
- * pictures, 0 for marks on others (Unicode, UAX #11), 1 otherwise.
+ * pictures, 0 for marks on others (Unicode, UAX #11), 1 otherwise, as for a hidden character.
  */
 size_t text_width(const char *bytes, size_t len);
 
-/* A JSON string literal with its quotes; invalid UTF-8 becomes U+FFFD. */
+/*
+ * Makes fit for people what was appended from `begin`: '?' stands for hidden characters
+ * (hidden.def) but tabs, for line ends, and for bytes that are no UTF-8.
+ */
+void text_show(struct text *text, size_t begin);
+
+/*
+ * A JSON string literal with its quotes; invalid UTF-8 becomes U+FFFD, hidden characters are
+ * escaped.
+ */
 void text_json_string(struct text *text, const char *bytes, size_t len);
 
 /* The text with a NUL; valid until the next append. */

@@ -11,12 +11,16 @@ struct explanation {
 
 static void put_path(const struct explanation *e, uint32_t level)
 {
+    size_t begin = e->out->len;
     scene_path(e->b->scene, bind_prim_at(e->b, e->prim, level), e->out);
+    text_show(e->out, begin);
 }
 
 static void put_assign(const struct explanation *e, uint32_t assign)
 {
+    size_t begin = e->out->len;
     look_assign_name(&e->b->look, assign, e->out);
+    text_show(e->out, begin);
 }
 
 /* Writes what the assignment assigns: "material Dust", "nodegraph NG", "nothing". */
@@ -35,6 +39,7 @@ static void put_head(const struct explanation *e, uint32_t assign, uint32_t leve
     const struct bind_look *look = &e->b->look;
     const struct look_assign *a = &look->assigns.items[assign];
     struct diag_place place = look_assign_place(look, a);
+    size_t begin = e->out->len;
     text_fmt(e->out, "  %s  ", look->names.items[a->name].text);
     put_target(e, a);
     text_str(e->out, ", ");
@@ -44,6 +49,7 @@ static void put_head(const struct explanation *e, uint32_t assign, uint32_t leve
         text_str(e->out, " at ");
         put_path(e, level);
     }
+    text_show(e->out, begin);
     text_str(e->out, "\n      ");
 }
 

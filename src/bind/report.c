@@ -81,6 +81,7 @@ static void put_cell(struct bind_writer *w, const struct place *place, const str
     const struct look_assign *a = assign_of(w, item);
     bool is_here = item->level == place->level;
     put_open(w, is_here);
+    size_t begin = w->out->len;
     if (item->kind == ITEM_PRODUCT)
         text_fmt(w->out, "%s of", bind_product_names[item->product]);
     else if (item->kind == ITEM_VOLUME || item->kind == ITEM_LIGHT)
@@ -88,6 +89,7 @@ static void put_cell(struct bind_writer *w, const struct place *place, const str
     else
         text_str(w->out, short_name(w, item));
     text_fmt(w->out, " %s", name_of(w, a->target));
+    text_show(w->out, begin);
     put_close(w, is_here);
 }
 
@@ -110,11 +112,13 @@ static void put_idle_cells(struct bind_writer *w, const struct place *place)
         bool is_here = item->level == place->level;
         text_str(w->out, "  ");
         put_open(w, is_here);
+        size_t begin = w->out->len;
         text_str(w->out, slot_of(w, item));
         if (idle->items[i].is_removed)
             text_str(w->out, " removed");
         else
             text_fmt(w->out, " %s asleep", name_of(w, assign_of(w, item)->target));
+        text_show(w->out, begin);
         put_close(w, is_here);
     }
 }
@@ -124,6 +128,7 @@ static void put_row(struct bind_writer *w, prim_id prim, size_t width)
     struct place place = place_of(w, prim);
     size_t begin = w->out->len;
     scene_path(w->b->scene, prim, w->out);
+    text_show(w->out, begin);
     size_t len = text_width(w->out->data + begin, w->out->len - begin);
     text_fmt(w->out, "%*s", (int)(width > len ? width - len : 0) + 2, "");
     for (uint32_t i = 0; i < place.num_items; i++) {

@@ -191,9 +191,11 @@ static void describe_list(struct shader *shader, const struct closure_host *host
     for (uint32_t i = 0; i < list.leaves.len; i++) {
         const struct ir_node *node = ir_get(shader->graph, list.leaves.items[i].leaf);
         const struct ir_origin *origin = &shader->graph->origins.items[node->origin];
+        size_t begin = out->len;
         text_fmt(out, "  %-24s %-32s weight ", str_text(shader->strings, origin->name),
                  str_text(shader->strings, shader->graph->callees.items[node->attr].name));
         closure_describe_weight(shader, &list.leaves.items[i], out);
+        text_show(out, begin);
         text_char(out, '\n');
     }
 }

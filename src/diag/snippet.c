@@ -23,23 +23,12 @@ static void paint(struct text *out, bool colour, const char *escape)
         text_str(out, escape);
 }
 
-/* The bytes of a control character: one of ASCII, or one of C1, which UTF-8 begins with 0xc2. */
-static size_t control_at(const char *bytes, size_t len)
-{
-    unsigned char first = (unsigned char)*bytes, next = len > 1 ? (unsigned char)bytes[1] : 0;
-    bool is_c0 = first < 0x20 || first == 0x7f,
-         is_c1 = first == 0xc2 && next >= 0x80 && next < 0xa0;
-    return is_c1 ? 2 : is_c0;
-}
-
 /* Text of a document may contain anything, including terminal escapes. */
 static void put_clean(struct text *out, const char *bytes, size_t len)
 {
-    for (size_t i = 0; i < len;) {
-        size_t control = bytes[i] == '\t' ? 0 : control_at(bytes + i, len - i);
-        text_char(out, control ? '?' : bytes[i]);
-        i += control ? control : 1;
-    }
+    size_t begin = out->len;
+    text_mem(out, bytes, len);
+    text_show(out, begin);
 }
 
 struct line {
@@ -143,8 +132,11 @@ static void render_place(const struct diag_place *place, struct text *out)
     text_char(out, ':');
     if (place->line)
         text_fmt(out, "%u:", (unsigned)place->line);
-    else if (place->path && *place->path)
-        text_fmt(out, " %s:", place->path);
+    else if (place->path && *place->path) {
+        text_char(out, ' ');
+        put_clean(out, place->path, strlen(place->path));
+        text_char(out, ':');
+    }
     if (place->line && place->column)
         text_fmt(out, "%u:", (unsigned)place->column);
     text_char(out, ' ');

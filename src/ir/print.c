@@ -134,9 +134,9 @@ static void print_origin(struct printer *p, const struct ir_node *node)
     str_id name = p->graph->origins.items[node->origin].name;
     if (!name)
         return;
-    text_str(p->out, " ; ");
-    for (const char *c = str_text(p->graph->strings, name); *c; c++)
-        text_char(p->out, *c == '\n' || *c == '\r' ? ' ' : *c);
+    size_t begin = p->out->len;
+    text_fmt(p->out, " ; %s", str_text(p->graph->strings, name));
+    text_show(p->out, begin);
 }
 
 static void print_node(struct printer *p, ir_ref ref)

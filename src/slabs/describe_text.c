@@ -2,6 +2,13 @@
 /* The sheet as text: operators are indented below each other. */
 #include "slabs/sheet.h"
 
+static void put_name(const struct slab_sheet *sheet, ir_ref ref, struct text *out)
+{
+    size_t begin = out->len;
+    text_str(out, slabs_name(sheet->shader, ref));
+    text_show(out, begin);
+}
+
 static void write_slab(const struct slab_sheet *sheet, const struct slab_tree *tree,
                        const struct slab_row *row, struct text *out)
 {
@@ -57,6 +64,7 @@ static void write_row(const struct slab_sheet *sheet, const struct slab_tree *tr
 {
     for (uint32_t i = 0; i < row->depth; i++)
         text_str(out, "  ");
+    size_t begin = out->len;
     if (*row->role)
         text_fmt(out, "%s: ", row->role);
     if (row->is_repeated)
@@ -65,20 +73,25 @@ static void write_row(const struct slab_sheet *sheet, const struct slab_tree *tr
         write_slab(sheet, tree, row, out);
     else
         write_operator(sheet, row, out);
+    text_show(out, begin);
     text_char(out, '\n');
 }
 
 static void write_tree(const struct slab_sheet *sheet, const struct slab_tree *tree,
                        struct text *out)
 {
-    text_fmt(out, "%s, %s%s\n", slabs_name(sheet->shader, tree->root),
-             tree->is_sheet ? "a sheet" : "a body", sheet->is_recognised ? ", as slabs" : "");
+    put_name(sheet, tree->root, out);
+    text_fmt(out, ", %s%s\n", tree->is_sheet ? "a sheet" : "a body",
+             sheet->is_recognised ? ", as slabs" : "");
     for (uint32_t i = 0; i < tree->rows.len; i++)
         write_row(sheet, tree, &tree->rows.items[i], out);
-    for (uint32_t i = 0; i < tree->shared.len; i++)
-        text_fmt(out, "  %s and %s share a mask, but count as independent\n",
-                 slabs_name(sheet->shader, tree->shared.items[i].first),
-                 slabs_name(sheet->shader, tree->shared.items[i].second));
+    for (uint32_t i = 0; i < tree->shared.len; i++) {
+        text_str(out, "  ");
+        put_name(sheet, tree->shared.items[i].first, out);
+        text_str(out, " and ");
+        put_name(sheet, tree->shared.items[i].second, out);
+        text_str(out, " share a mask, but count as independent\n");
+    }
     text_fmt(out, "  %u slabs, %u tangent bases, %u closures, %u bytes\n",
              (unsigned)tree->num_slabs, (unsigned)tree->num_bases, (unsigned)tree->cost.closures,
              (unsigned)tree->cost.bytes);
@@ -100,7 +113,9 @@ static void write_steps(const struct slab_sheet *sheet, struct text *out)
     for (uint32_t i = 0; i < report->steps.len; i++) {
         const struct slab_step *step = &report->steps.items[i];
         text_str(out, "  ");
+        size_t begin = out->len;
         slabs_describe_step(sheet->shader, step, out);
+        text_show(out, begin);
         text_fmt(out, ": slabs %u to %u, bytes %u to %u, estimated error ",
                  (unsigned)step->before.closures, (unsigned)step->after.closures,
                  (unsigned)step->before.bytes, (unsigned)step->after.bytes);
@@ -112,7 +127,7 @@ static void write_steps(const struct slab_sheet *sheet, struct text *out)
                  (unsigned)report->after.closures, (unsigned)report->after.bytes);
     for (uint32_t i = 0; i < sheet->unread.len; i++) {
         text_str(out, i ? ", " : "  the estimate does not read ");
-        text_str(out, slabs_name(sheet->shader, sheet->unread.items[i]));
+        put_name(sheet, sheet->unread.items[i], out);
         text_str(out, i + 1 == sheet->unread.len ? "\n" : "");
     }
 }

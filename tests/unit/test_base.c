@@ -484,6 +484,8 @@ static void test_json_strings(struct arena *arena)
         {"\xc0\xaf", "\"" BAD BAD "\""},         /* longer than need be */
         {"\xed\xa0\x80", "\"" BAD BAD BAD "\""}, /* a surrogate */
         {"\xf5\x80\x80\x80", "\"" BAD BAD BAD BAD "\""},
+        /* what terminals act on and people do not see: DEL, C1, RIGHT-TO-LEFT OVERRIDE, a tag */
+        {"\x7f\xc2\x9b\xe2\x80\xae\xf3\xa0\x81\x81", "\"\\u007f\\u009b\\u202e\\udb40\\udc41\""},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct text text;
@@ -491,6 +493,38 @@ static void test_json_strings(struct arena *arena)
         text_json_string(&text, cases[i][0], strlen(cases[i][0]));
         REQUIRE_STR(text_cstr(&text), cases[i][1]);
     }
+}
+
+/*
+ * Texts for people: each hidden character is one '?', and so is a byte that is no UTF-8; joiners,
+ * marks and tabs stay (hidden.def).
+ */
+static void test_shown_texts(struct arena *arena)
+{
+    static const char *const cases[][2] = {
+        {"", ""},
+        {"a\tb \xc3\xa4\xe2\x82\xac\xf0\x9f\x98\x80", "a\tb \xc3\xa4\xe2\x82\xac\xf0\x9f\x98\x80"},
+        {"a\n\r\x1b[31m\x7f", "a???[31m?"},
+        {"\xc2\x80\xc2\x9b\xc2\x9f\xc2\xa0", "???\xc2\xa0"},
+        {"\xc2\xad\xd8\x9c\xe1\xa0\x8e\xef\xbb\xbf", "????"},
+        {"\xe2\x80\x8b\xe2\x80\x8e\xe2\x80\x8f\xe2\x80\xa8\xe2\x80\xae\xe2\x80\xaf",
+         "?????\xe2\x80\xaf"},
+        {"\xe2\x81\x9f\xe2\x81\xa0\xe2\x81\xa9\xe2\x81\xaf", "\xe2\x81\x9f???"},
+        {"\xf3\xa0\x80\x81\xf3\xa0\x81\xbf\xf3\xa0\x84\x80", "??\xf3\xa0\x84\x80"},
+        {"x\xcc\x82\xe2\x80\x8c\xe2\x80\x8d\xef\xb8\x8f",
+         "x\xcc\x82\xe2\x80\x8c\xe2\x80\x8d\xef\xb8\x8f"},
+        {"\x80\x9b\xe2\x80", "????"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct text text;
+        text_init(&text, arena);
+        text_str(&text, "\n");
+        text_str(&text, cases[i][0]);
+        text_show(&text, 1);
+        REQUIRE_STR(text_cstr(&text) + 1, cases[i][1]);
+        REQUIRE_EQ(text.data[0], '\n');
+    }
+    REQUIRE_EQ(text_width("a\xe2\x80\x8b\xe2\x80\x8d\xc2\x9b\x80", 10), 4);
 }
 
 /* An item on each line, but for what is flat; what says nothing is left out where that is asked
@@ -597,6 +631,7 @@ int main(void)
     test_integers();
     test_text(&arena);
     test_json_strings(&arena);
+    test_shown_texts(&arena);
     test_json(&arena);
     test_hashes();
     arena_finish(&arena);
