@@ -227,7 +227,7 @@ typedef struct mxg_layer {
     bool is_nodegraph;
     const char *product;       /* MXG_LAYER_PRODUCT: "mask"; else "" */
     uint32_t from;             /* the primitive where the assignment stands; MXG_NONE: "/" */
-    const char *look, *assign; /* the assignment; "" if it has no name */
+    const char *look, *assign; /* the assignment ("" if it has no name), or the scene's property */
     const char *file;          /* of the assignment */
     uint32_t line;
 } mxg_layer;

@@ -154,7 +154,7 @@ static mxg_layer describe(const struct bindings *b, prim_id prim, const struct b
         .product = item->kind == ITEM_PRODUCT ? bind_product_names[item->product] : "",
         .from = from ? from - 1 : MXG_NONE,
         .look = a->look ? str_text(doc->strings, doc_element(doc, a->look)->name) : "",
-        .assign = a->binding ? b->scene->bindings.items[a->binding - 1].label
+        .assign = a->binding ? b->scene->bindings.items[a->binding - 1].property
                              : str_text(doc->strings, doc_element(doc, a->element)->name),
         .file = place.file ? place.file : "",
         .line = place.line,

@@ -302,10 +302,10 @@ static uint32_t add_matcher(struct bind_look *look, uint32_t owner, enum matcher
 /* The last matcher matches at the path of a primitive. */
 static void match_prim(struct bind_look *look, prim_id prim)
 {
-    struct text path;
-    text_init(&path, look->arena);
-    scene_path(look->scene, prim, &path);
-    pattern_add_path(&look->patterns, path.data, path.len, look->matchers.len - 1);
+    struct text *path = &look->written;
+    path->len = 0;
+    scene_path(look->scene, prim, path);
+    pattern_add_path(&look->patterns, path->data, path->len, look->matchers.len - 1);
     vec_push(look->arena, &look->matched, prim);
     vec_last(&look->matchers).num_prims++;
 }

@@ -195,6 +195,7 @@ void look_begin(struct bind_look *look, const struct document *doc, elem_id elem
     *look = (struct bind_look){
         .doc = doc, .arena = arena, .diags = diags, .element = element, .scene = scene};
     pattern_set_init(&look->patterns, arena);
+    text_init(&look->written, arena);
 }
 
 void look_each_ancestor(struct bind_look *look,

@@ -35,7 +35,7 @@ void look_assign_name(const struct bind_look *look, uint32_t assign, struct text
     const struct look_assign *a = &look->assigns.items[assign];
     const struct document *doc = look->doc;
     if (a->binding) {
-        text_str(out, look->scene->bindings.items[a->binding - 1].label);
+        scene_write_binding(look->scene, &look->scene->bindings.items[a->binding - 1], out);
         return;
     }
     str_id name = doc_element(doc, a->element)->name;

@@ -49,15 +49,12 @@ static const char *keep_name(struct scene *scene, const char *name, size_t len)
     return kept;
 }
 
-prim_id scene_child(struct scene *scene, prim_id parent, const char *name, size_t len)
+/* Adds a child, whose name lives as long as the scene. */
+static prim_id add_child(struct scene *scene, prim_id parent, uint32_t hash, struct text_word name)
 {
-    uint32_t hash = child_hash(parent, name, len);
-    prim_id found = find_hashed(scene, parent, hash, name, len);
-    if (found)
-        return found;
     prim_id added = scene->prims.len;
-    struct scene_prim prim = {.name = keep_name(scene, name, len),
-                              .name_len = (uint32_t)len,
+    struct scene_prim prim = {.name = name.bytes,
+                              .name_len = (uint32_t)name.len,
                               .parent = parent,
                               .depth = scene->prims.items[parent].depth + 1};
     vec_reserve(scene->arena, &scene->kinds, 1); /* so that both have a primitive or none */
@@ -71,6 +68,24 @@ prim_id scene_child(struct scene *scene, prim_id parent, const char *name, size_
     above->last_child = added;
     table_add(&scene->table, scene->arena, hash, added);
     return added;
+}
+
+prim_id scene_child(struct scene *scene, prim_id parent, const char *name, size_t len)
+{
+    uint32_t hash = child_hash(parent, name, len);
+    prim_id found = find_hashed(scene, parent, hash, name, len);
+    return found ? found : add_child(scene, parent, hash, (struct text_word){name, len});
+}
+
+/* Like scene_child, but copies the name. */
+static prim_id copied_child(struct scene *scene, prim_id parent, const char *name, size_t len)
+{
+    uint32_t hash = child_hash(parent, name, len);
+    prim_id found = find_hashed(scene, parent, hash, name, len);
+    if (found)
+        return found;
+    struct text_word kept = {keep_name(scene, name, len), len};
+    return add_child(scene, parent, hash, kept);
 }
 
 prim_id scene_find_below(const struct scene *scene, prim_id prim, const char *path, size_t len)
@@ -99,7 +114,7 @@ prim_id scene_add_below(struct scene *scene, prim_id prim, const char *path, siz
     while (path < end) {
         const char *slash = memchr(path, '/', (size_t)(end - path));
         size_t name = (size_t)((slash ? slash : end) - path);
-        prim = scene_child(scene, prim, path, name);
+        prim = copied_child(scene, prim, path, name);
         path += name + (slash != NULL);
     }
     return prim;
@@ -374,7 +389,7 @@ static void add_path(struct scene *scene, const char *path, const char *end)
         }
         if (!is_shared) {
             scene->last.len = level;
-            vec_push(scene->arena, &scene->last, scene_child(scene, prim, name, len));
+            vec_push(scene->arena, &scene->last, copied_child(scene, prim, name, len));
         }
         prim = scene->last.items[level++];
         path = name + len;

@@ -34,7 +34,7 @@ struct scene_binding {
     const char *name;     /* of the slot */
     const char *material; /* "": a removal */
     const char *leaf;     /* the name of the material's prim, which a document may have; or NULL */
-    const char *label;    /* "/set/table.material:binding" */
+    const char *property; /* of the primitive: "material:binding" */
     struct diag_place place;
     bool is_strong;     /* it beats the bindings of the scene below it */
     bool is_purpose;    /* it is for the asked purpose, and beats those for all purposes */
@@ -203,6 +203,9 @@ bool scene_is_leaf(const struct scene *scene, prim_id prim);
 
 /* Adds a binding behind the others of its primitive: its index. */
 uint32_t scene_add_binding(struct scene *scene, struct scene_binding binding);
+/* "/set/table.material:binding" */
+void scene_write_binding(const struct scene *scene, const struct scene_binding *binding,
+                         struct text *out);
 /*
  * Removes the direct bindings of a slot from a primitive, and adds one of this material ("" removes
  * the slot there). Copies the material.

@@ -81,12 +81,18 @@ static struct text_word write_name(struct scene *scene, const struct slot_name *
     return (struct text_word){scene->written.data, scene->written.len};
 }
 
-/* "/set/table.material:slotBinding:_050", as in a file. */
-static struct text_word write_label(struct scene *scene, prim_id prim, const struct slot_name *slot)
+void scene_write_binding(const struct scene *scene, const struct scene_binding *binding,
+                         struct text *out)
+{
+    scene_path(scene, binding->prim, out);
+    text_fmt(out, ".%s", binding->property);
+}
+
+/* "material:slotBinding:_050", as in a file. */
+static struct text_word write_property(struct scene *scene, const struct slot_name *slot)
 {
     scene->written.len = 0;
-    scene_path(scene, prim, &scene->written);
-    text_str(&scene->written, ".material:slotBinding:");
+    text_str(&scene->written, "material:slotBinding:");
     slot_encode(slot, &scene->written);
     return (struct text_word){scene->written.data, scene->written.len};
 }
@@ -97,7 +103,7 @@ void scene_bind(struct scene *scene, prim_id prim, const struct slot_name *slot,
     struct text_word given = {material, strlen(material)};
     struct scene_binding added = {.prim = prim};
     added.material = scene_keep_word(scene, given);
-    added.label = scene_keep_word(scene, write_label(scene, prim, slot));
+    added.property = scene_keep_word(scene, write_property(scene, slot));
     added.name = scene_keep_word(scene, write_name(scene, slot));
     remove_bindings(scene, prim, write_name(scene, slot));
     scene_add_binding(scene, added);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /* The primitives and bindings of a USD text layer (docs/slots.md, "In USD"). */
+#include "base/hash.h"
 #include "bind/name.h"
 #include "bind/scene.h"
 #include "usda/usda.h"
@@ -35,11 +36,12 @@ struct reader {
     VEC(struct visit) visits;
     VEC(struct open_prim) open;
     VEC(struct pending) pending;
-    uint32_t num_instanced; /* prims that were visited as parts of instances */
+    uint64_t work; /* of instances: WORK_OF_PRIM for each prim, 1 for each text and step beside */
 };
 
-/* Nested instances multiply, so both have a limit. */
-enum { MAX_REFERENCES = 64, MAX_INSTANCED = 1 << 22 };
+/* Nested instances multiply whatever their prims have, so both have a limit. */
+enum { MAX_REFERENCES = 64, MAX_INSTANCED = 1 << 22, WORK_OF_PRIM = 64 };
+#define MAX_WORK ((uint64_t)MAX_INSTANCED * WORK_OF_PRIM)
 
 static struct diag_place place_of(const struct reader *s, uint32_t line, uint32_t column)
 {
@@ -104,10 +106,10 @@ static bool read_binding_name(struct reader *s, const struct usda_property *prop
                            "material:slotBinding:_050:_:_010");
             return false;
         }
-        struct text text;
-        text_init(&text, s->scene->arena);
-        slot_write(&name, &text);
-        *out_slot = text_cstr(&text);
+        struct text *text = &s->scene->written;
+        text->len = 0;
+        slot_write(&name, text);
+        *out_slot = scene_keep_word(s->scene, (struct text_word){text->data, text->len});
     } else if (begins(property->name, plain)) {
         rest = property->name.bytes + strlen(plain);
         *out_slot = SLOT_DEFAULT;
@@ -119,16 +121,6 @@ static bool read_binding_name(struct reader *s, const struct usda_property *prop
     rest += rest < end;
     *out_rest = (struct text_word){rest, (size_t)(end - rest)};
     return true;
-}
-
-static const char *label_of(struct reader *s, prim_id prim, const struct usda_property *property)
-{
-    struct text label;
-    text_init(&label, s->scene->arena);
-    scene_path(s->scene, prim, &label);
-    text_char(&label, '.');
-    text_put(&label, property->name);
-    return text_cstr(&label);
 }
 
 /* The material that a relationship names; false: it names none, or the binding does not count. */
@@ -149,7 +141,7 @@ static bool read_target(struct reader *s, const struct usda_property *property,
         return false;
     }
     const struct scene_material *material = scene_material_at(s->scene, target);
-    out->leaf = text_of(s, last_name(target));
+    out->leaf = scene_keep_word(s->scene, last_name(target));
     out->material = material ? material->name : out->leaf;
     if (usda_next_item(&rest, &target))
         report_binding(s, property, "names several materials; expected one");
@@ -223,6 +215,18 @@ static void check_name(struct reader *s, const struct usda_property *property)
                        "as '_050'");
 }
 
+/* The work of a binding in an instance, which is told and found by a path of its own. */
+static uint64_t work_of_path(const struct reader *s, prim_id prim)
+{
+    const struct scene *scene = s->scene;
+    if (!scene->sources.items[scene_source(scene, prim) - 1].from)
+        return 0;
+    uint64_t work = WORK_OF_PRIM;
+    for (; prim; prim = scene->prims.items[prim].parent)
+        work += scene->prims.items[prim].name_len + 1;
+    return work;
+}
+
 static void add_binding(struct reader *s, prim_id prim, const struct usda_property *property,
                         bool with_collections)
 {
@@ -237,7 +241,7 @@ static void add_binding(struct reader *s, prim_id prim, const struct usda_proper
         || !has_purpose(s, said.purpose.bytes, said.purpose.len, &added.is_purpose)
         || !read_target(s, property, said.is_collection ? &collection : NULL, &added))
         return;
-    added.label = label_of(s, prim, property);
+    added.property = scene_keep_word(s->scene, property->name);
     added.place = place_of(s, property->line, property->column);
     added.is_strong = usda_is(property->bind_as, "strongerThanDescendants");
     added.is_collection = said.is_collection;
@@ -259,6 +263,7 @@ static void add_bindings(struct reader *s, prim_id prim, const struct usda_prim 
         if (begins(properties[i].name, "material:")) {
             vec_push(s->scratch, &bindings, i);
             check_name(s, &properties[i]);
+            s->work += work_of_path(s, prim);
         }
     for (unsigned with_slots = 0; with_slots < 2; with_slots++)
         for (unsigned with_collections = 0; with_collections < 2; with_collections++)
@@ -293,9 +298,9 @@ static bool is_primitive(const struct reader *s, const struct usda_prim *prim, p
 }
 
 /* True if a prim is open already: its reference leads to itself. */
-static bool is_open(const struct reader *s, uint32_t above, usda_prim_id prim)
+static bool is_open(struct reader *s, uint32_t above, usda_prim_id prim)
 {
-    for (; above; above = s->open.items[above - 1].above)
+    for (; above; above = s->open.items[above - 1].above, s->work++)
         if (s->open.items[above - 1].prim == prim)
             return true;
     return false;
@@ -340,6 +345,7 @@ static void push_children(struct reader *s, usda_prim_id source, struct visit be
 static void add_source(struct reader *s, prim_id prim, struct scene_source source)
 {
     struct scene *scene = s->scene;
+    s->work += source.from ? s->layer->prims.items[source.prim].num_properties : 0;
     while (scene->first_source.len <= prim)
         vec_push(scene->arena, &scene->first_source, 0);
     source.next = scene->first_source.items[prim];
@@ -355,7 +361,7 @@ static void visit(struct reader *s, struct visit at)
     const struct usda_prim *prim = &s->layer->prims.items[at.prim];
     struct open_prim chain[MAX_CHAIN];
     uint32_t num = 0, depth = at.above ? s->open.items[at.above - 1].depth + 1 : 1;
-    s->num_instanced += at.above != 0;
+    s->work += at.above ? WORK_OF_PRIM + prim->name.len + prim->references.len : 0;
     if (!is_primitive(s, prim, at.parent))
         return;
     if (s->scene->prims.items[at.parent].depth == SCENE_MAX_DEPTH) {
@@ -466,6 +472,7 @@ static void add_paths(struct reader *s, prim_id prim, const char *name, const ch
         collection_property(s, prim, name, property_name, &source);
     struct text_word rest = property ? property->value : (struct text_word){0}, path;
     bool is_excluded = *property_name == 'e';
+    s->work += property && s->scene->sources.items[source - 1].from ? rest.len : 0;
     while (property && !usda_is(property->value, "None") && usda_next_item(&rest, &path)) {
         if (memchr(path.bytes, '.', path.len)) {
             if (*num < MAX_COLLECTIONS && !is_excluded) {
@@ -513,7 +520,10 @@ static void read_members(struct reader *s, const struct pending *pending)
         if (root && (usda_is(root->value, "true") || usda_is(root->value, "1")))
             add_member(s, 0, false);
         if (!is_named || !prim || (!root && !has_includes(s, prim, name))) {
-            diag_add(s->diags, DIAG_ID_bad_binding, binding->place, binding->label,
+            struct text label;
+            text_init(&label, s->scratch);
+            scene_write_binding(s->scene, binding, &label);
+            diag_add(s->diags, DIAG_ID_bad_binding, binding->place, text_cstr(&label),
                      "names a collection that the stage does not have");
             break;
         }
@@ -524,6 +534,41 @@ static void read_members(struct reader *s, const struct pending *pending)
         add_paths(s, prim, name, "excludes", is_explicit, todo, sources, &num);
     }
     binding->num_members = s->scene->members.len - binding->first_member;
+}
+
+/* True if two bindings name a collection of one prim. */
+static bool is_same_collection(const struct reader *s, const struct pending *a,
+                               const struct pending *b)
+{
+    const struct scene_source *sources = s->scene->sources.items;
+    return a->collection.len == b->collection.len
+           && memcmp(a->collection.bytes, b->collection.bytes, a->collection.len) == 0
+           && sources[a->source - 1].from == sources[b->source - 1].from
+           && sources[a->source - 1].to == sources[b->source - 1].to;
+}
+
+/* Many primitives may name one collection: its members are read once. */
+static void read_collections(struct reader *s)
+{
+    struct table known = {0};
+    for (uint32_t i = 0; i < s->pending.len && s->work <= MAX_WORK; i++) {
+        const struct pending *pending = &s->pending.items[i];
+        struct scene_binding *bindings = s->scene->bindings.items;
+        uint32_t hash = hash_pair(s->scene->sources.items[pending->source - 1].to,
+                                  hash_bytes(pending->collection.bytes, pending->collection.len));
+        uint32_t at = hash, found;
+        while ((found = table_next(&known, hash, &at))
+               && !is_same_collection(s, pending, &s->pending.items[found - 1]))
+            continue;
+        if (found) {
+            const struct scene_binding *same = &bindings[s->pending.items[found - 1].binding];
+            bindings[pending->binding].first_member = same->first_member;
+            bindings[pending->binding].num_members = same->num_members;
+            continue;
+        }
+        table_add(&known, s->scratch, hash, i + 1);
+        read_members(s, pending);
+    }
 }
 
 /* uniform token[] material:slotOrder on the default prim. */
@@ -562,15 +607,13 @@ void scene_read_usda(struct scene *scene, const char *file, const char *text, si
     scene_name_materials(scene);
     read_slot_order(&s);
     push_children(&s, 0, (struct visit){0});
-    while (s.visits.len && scene->prims.len <= scene->max_prims
-           && s.num_instanced <= MAX_INSTANCED) {
+    while (s.visits.len && scene->prims.len <= scene->max_prims && s.work <= MAX_WORK) {
         struct visit at = vec_pop(&s.visits);
         visit(&s, at);
     }
-    if (s.num_instanced > MAX_INSTANCED)
+    read_collections(&s);
+    if (s.work > MAX_WORK)
         diag_add(diags, DIAG_ID_usda_size, place_of(&s, 0, 0), file, (unsigned)MAX_INSTANCED);
     else if (s.visits.len)
         diag_add(diags, DIAG_ID_scene_size, place_of(&s, 0, 0), (unsigned)scene->max_prims);
-    for (uint32_t i = 0; i < s.pending.len; i++)
-        read_members(&s, &s.pending.items[i]);
 }

@@ -270,12 +270,6 @@ static const char *property_of(struct usda_writer *u, struct said said)
     return text_cstr(&text);
 }
 
-/* The name of a binding's property: what stands behind the path in "/a.material:binding". */
-static const char *bound_property(const struct scene_binding *binding)
-{
-    return strrchr(binding->label, '.') + 1;
-}
-
 /* Says a name, in its property and in those that the stage has for it. */
 static void put_change(struct usda_writer *u, prim_id prim, uint32_t depth, struct said said)
 {
@@ -288,8 +282,8 @@ static void put_change(struct usda_writer *u, prim_id prim, uint32_t depth, stru
         if (binding->is_collection || !is_replaced(u, binding)
             || u->name_of[at - 1] != said.name + 1)
             continue;
-        put_relation(u, depth, bound_property(binding), said.target, binding->is_strong);
-        is_said |= strcmp(bound_property(binding), property) == 0;
+        put_relation(u, depth, binding->property, said.target, binding->is_strong);
+        is_said |= strcmp(binding->property, property) == 0;
     }
     if (!is_said)
         put_relation(u, depth, property, said.target, false);
@@ -302,7 +296,7 @@ static void put_collections(struct usda_writer *u, prim_id prim, uint32_t depth)
     for (uint32_t at = scene_first_binding(scene, prim); at;) {
         const struct scene_binding *binding = &scene->bindings.items[at - 1];
         if (binding->is_collection && is_replaced(u, binding))
-            put_relation(u, depth, bound_property(binding), 0, false);
+            put_relation(u, depth, binding->property, 0, false);
         at = binding->next;
     }
 }

@@ -254,7 +254,7 @@ static void test_scene_changes(mxg_context *context, bool with_leaves)
     REQUIRE_EQ(mxg_bindings_layer(bindings, leaf, 0, &layer), MXG_OK);
     REQUIRE_STR(layer.material, "A");
     REQUIRE_EQ(layer.from, root);
-    REQUIRE_STR(layer.assign, "/p3.material:slotBinding:_000");
+    REQUIRE_STR(layer.assign, "material:slotBinding:_000");
     REQUIRE_EQ(mxg_scene_set_binding(scene, root, "000", "B"), MXG_OK);
     REQUIRE_EQ(bind_again(context, document, scene, &bindings), 0);
     REQUIRE_EQ(mxg_bindings_layer(bindings, leaf, 0, &layer), MXG_OK);
