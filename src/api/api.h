@@ -226,7 +226,8 @@ bool file_source_read(struct file_source *source, const char *path, const char *
 mxg_resolver stdio_resolver(struct mxg_context *context);
 /*
  * build_options.texture_fault: with the default resolver a sandbox refuses textures outside,
- * whether they exist or not. `context` is a struct mxg_context.
+ * whether they exist or not, also for hosts that read names as URLs. `context` is a struct
+ * mxg_context.
  */
 const char *stdio_texture_fault(void *context, const char *from, const char *file);
 /* True if the context has this resolver. */
@@ -244,6 +245,7 @@ bool sandbox_admit_file(struct mxg_context *context, const char *file);
 bool sandbox_admit_folder(struct mxg_context *context, const char *folder);
 /* The reason why a document may not read a file; NULL if it may. */
 const char *sandbox_fault(const struct mxg_context *context, const char *path);
+extern const char sandbox_outside[]; /* this reason for a file outside */
 /* Judges a file that a host reads later, so it may be missing, or a pattern of names. */
 const char *sandbox_texture_fault(const struct mxg_context *context, const char *path);
 void sandbox_finish(struct mxg_context *context);

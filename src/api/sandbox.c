@@ -99,12 +99,12 @@ static bool is_inside(const struct mxg_context *context, const char *from, const
     return is_known(context, real) || (from && is_beside(from, real));
 }
 
-static const char outside[] = "it is outside the folders that documents may read";
+const char sandbox_outside[] = "it is outside the folders that documents may read";
 static const char irregular[] = "it is not a regular file";
 
 const char *sandbox_texture_fault(const struct mxg_context *context, const char *path)
 {
-    return context->sandbox && !is_inside(context, NULL, path) ? outside : NULL;
+    return context->sandbox && !is_inside(context, NULL, path) ? sandbox_outside : NULL;
 }
 
 const char *sandbox_fault(const struct mxg_context *context, const char *path)
@@ -119,7 +119,7 @@ const char *mxg_context_file_fault(const mxg_context *context, const char *from,
     if (!context || !from || !path)
         return "it has no name";
     if (context->sandbox && !is_inside(context, from, path))
-        return outside;
+        return sandbox_outside;
     struct file_facts facts = file_facts(path);
     if (facts.kind == FILE_MISSING)
         return NULL;

@@ -207,14 +207,90 @@ static size_t list_folder(void *user_data, const char *from, const char *folder,
     return size;
 }
 
+static const char *fault_of_path(struct mxg_context *context, const char *from, const char *file)
+{
+    struct block *name = join(context, from, file);
+    const char *fault = name ? sandbox_texture_fault(context, name->bytes) : stdio_no_memory;
+    release(context, name);
+    return fault;
+}
+
+static unsigned digit_of(char c)
+{
+    const char *digits = "0123456789abcdef0123456789ABCDEF", *found = c ? strchr(digits, c) : NULL;
+    return found ? (unsigned)(found - digits) % 16 : 16;
+}
+
+/* "a/../b" becomes "b" in place, whether there is a folder "a" or not. */
+static void leave_folders(char *path)
+{
+    char *out = path + (*path == '/'), *least = out;
+    const char *at = out;
+    for (size_t len, step; *at; at += step) {
+        len = strcspn(at, "/");
+        step = len + (at[len] == '/');
+        bool is_up = len == 2 && memcmp(at, "..", 2) == 0;
+        if (is_up && out > least) {
+            out--;
+            while (out > least && out[-1] != '/')
+                out--;
+        } else if (len != 1 || *at != '.') {
+            memmove(out, at, step);
+            out += step;
+            least = is_up ? out : least;
+        }
+    }
+    *out = '\0';
+}
+
+/*
+ * The path that a reader of URLs finds in a name, in place: it leaves line ends and tabs out, reads
+ * '\\' as '/', decodes, and leaves folders (https://url.spec.whatwg.org, "URL parsing").
+ */
+static void read_as_url(char *name)
+{
+    char *first = name, *out = name;
+    for (; *name; name++) {
+        unsigned high = *name == '%' ? digit_of(name[1]) : 16,
+                 low = high < 16 ? digit_of(name[2]) : 16;
+        bool is_blank = *name == '\t' || *name == '\n' || *name == '\r';
+        if (low < 16 && (high | low)) {
+            *out++ = (char)(high << 4 | low);
+            name += 2;
+        } else if (!is_blank) {
+            *out++ = *name;
+        }
+    }
+    *out = '\0';
+    for (char *at = first; (at = strchr(at, '\\')) != NULL;)
+        *at = '/';
+    leave_folders(first);
+}
+
+/* "file:", "https:"; one letter is a drive of Windows. */
+static bool has_scheme(const char *name)
+{
+    static const char characters[] =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789+-.";
+    size_t len = strspn(name += strspn(name, " "), characters);
+    return len > 1 && name[len] == ':';
+}
+
 const char *stdio_texture_fault(void *user_data, const char *from, const char *file)
 {
     struct mxg_context *context = user_data;
     if (!context->sandbox || !stdio_is_resolver(context))
         return NULL;
-    struct block *name = join(context, from, file);
-    const char *fault = name ? sandbox_texture_fault(context, name->bytes) : stdio_no_memory;
-    release(context, name);
+    size_t size = strlen(file) + 1;
+    struct block *url = resize(context, NULL, size);
+    if (!url)
+        return stdio_no_memory;
+    memcpy(url->bytes, file, size);
+    read_as_url(url->bytes);
+    const char *fault = fault_of_path(context, from, file);
+    if (!fault)
+        fault = has_scheme(url->bytes) ? sandbox_outside : fault_of_path(context, from, url->bytes);
+    release(context, url);
     return fault;
 }
 

@@ -35,6 +35,39 @@ for name in '&quot; URL=&quot;x' '\&quot; URL=&quot;x' 'x\' 'x&#10;&quot; URL=&q
     check "'$name' stays in its label" eval '[ "$(grep -c label= dot)" -eq 5 ] && ! grep -Evx "digraph \{|    rankdir=LR|    node \[shape=box\]|\}|    n[0-9]+( -> n[0-9]+)? \[(shape=ellipse, )?label=\"([^\"\\\\]|\\\\.)*\"\]" dot'
 done
 
+# Names become lines of tables and views: nothing in them moves a cursor, ends a line, or hides or turns text.
+name='x&#10;&#13;&#x7f;&#x9b;&#xad;&#x61c;&#x200b;&#x200e;&#x2028;&#x202e;&#x2060;&#x2066;&#xfeff;&#xe0041;y&#x302;'
+echo "<materialx version=\"1.39\"><nodedef name=\"D\" node=\"g\"><input name=\"in\" type=\"float\" value=\"0\"/><output name=\"out\" type=\"float\"/></nodedef>
+<nodegraph name=\"G\" nodedef=\"D\"><sin name=\"$name\" type=\"float\"><input name=\"in\" type=\"float\" interfacename=\"in\"/></sin><output name=\"out\" type=\"float\" nodename=\"$name\"/></nodegraph>
+<noise2d name=\"n$name\" type=\"float\"/><g name=\"g$name\" type=\"float\"><input name=\"in\" type=\"float\" nodename=\"n$name\"/></g>
+<dielectric_bsdf name=\"d$name\" type=\"BSDF\"><input name=\"weight\" type=\"float\" nodename=\"g$name\"/></dielectric_bsdf><oren_nayar_diffuse_bsdf name=\"o$name\" type=\"BSDF\"/>
+<layer name=\"l$name\" type=\"BSDF\"><input name=\"top\" type=\"BSDF\" nodename=\"d$name\"/><input name=\"base\" type=\"BSDF\" nodename=\"o$name\"/></layer>
+<surface name=\"s$name\" type=\"surfaceshader\"><input name=\"bsdf\" type=\"BSDF\" nodename=\"l$name\"/></surface>
+<surfacematerial name=\"m$name\" type=\"material\"><input name=\"surfaceshader\" type=\"surfaceshader\" nodename=\"s$name\"/></surfacematerial>
+<look name=\"L$name\"><materialassign name=\"a$name\" material=\"m$name\" geom=\"/\"/><materialassign name=\"b$name\" material=\"m$name\" geom=\"/x\"/></look></materialx>" >shown.mtlx
+printf '/x\302\233\342\200\256\377y\n/x\n' >shown.txt
+shown() { # FILE...: some '?', and a mark that belongs to its letter
+    LC_ALL=C.UTF-8 grep -qP '\?{13}y\x{302}' "$@" && ! LC_ALL=C.UTF-8 grep -qP '[\x{7f}-\x{9f}\x{ad}\x{61c}\x{200b}\x{200e}\x{2028}-\x{202e}\x{2060}-\x{206f}\x{feff}\x{e0041}]' "$@"
+}
+for view in elements graph dot ir closures slabs; do
+    check "inspect --$view shows names" eval '"$mxgen" inspect shown.mtlx --$view -q >view && shown view'
+done
+check 'bind shows names' eval '"$mxgen" bind shown.mtlx --stage shown.txt -q >view && shown view && [ "$(wc -l <view)" -eq 3 ] && grep -q "^/x???y" view'
+check 'bind --geom shows names' eval '"$mxgen" bind shown.mtlx --stage shown.txt --geom /x -q >view && shown view && grep -q loses view'
+check 'bind --json escapes names' eval '"$mxgen" bind shown.mtlx --stage shown.txt --json - -q >view && ! LC_ALL=C grep -qP "\x7f|\xc2[\x80-\x9f]|\xe2\x80\xae|\xf3" view && grep -qF "\u009b" view && grep -qF "\u202e" view && grep -qF "\udb40\udc41" view'
+check 'messages show names' eval '"$mxgen" validate shown.mtlx 2>view; shown view'
+
+# Names of textures that hosts read as URLs.
+mkdir web
+for name in 'https://example.org/a.png' 'file:../secret.png' '&#9;https:x' 'h&#10;ttps:x' '..\secret.png' '%2e%2E/secret.png' 'a/..%2f..%5csecret.png' '\\host\a.png' '%2ftmp/a.png' 'none/../../secret.png' './none/.././../secret.png' 'url.mtlx/../../secret.png'; do
+    echo "<materialx version=\"1.39\"><image name=\"i\" type=\"color3\"><input name=\"file\" type=\"filename\" value=\"$name\"/></image><output name=\"o\" type=\"color3\" nodename=\"i\"/></materialx>" >web/url.mtlx
+    check "a sandbox refuses '$name'" eval 'exits 1 "$mxgen" --sandbox web/url.mtlx -o web/out && has err "[texture-refused]" && exits 1 "$mxgen" validate --sandbox web/url.mtlx'
+done
+for name in 'a%20b.png' 'a/../b.png' 'a\..\b.png' '100%.png'; do
+    sed "s|value=\"[^\"]*\"|value=\"$(printf %s "$name" | sed 's/\\/\\\\/g')\"|" web/url.mtlx >web/good.mtlx
+    check "a sandbox admits '$name'" exits 0 "$mxgen" --sandbox web/good.mtlx -o web/out
+done
+
 # Files of an attacker stand in a folder.
 mkdir folder && cp two.mtlx folder/$'a\nb.mtlx' && cp two.mtlx 'folder/x;touch pwned;y.mtlx'
 check 'folders of outputs have no control characters' eval '"$mxgen" folder -o tree && [ -z "$(find tree | LC_ALL=C grep "[^ -~]")" ]'
@@ -73,9 +106,22 @@ refused() { # ID OPTION...
     shift
     (ulimit -v 4000000; exits 1 timeout 60 "$mxgen" bind scene.mtlx --stage stage.usda "$@") && grep -q "\[$id\]" err
 }
-stage "$(echo 'class "c0" { def Mesh "m" {} }'; for i in $(seq 40); do echo "class \"c$i\" { def \"a\" (references = </c$((i - 1))>) {}
-def \"b\" (references = </c$((i - 1))>) {} }"; done; echo 'def "r" (references = </c40>) {}')"
-check 'references that multiply are an error' refused usda-size
+multiply() { # A B: names of prims; stdin: what is multiplied
+    stage "$(echo 'class "c0" {'; cat; echo '}'; for i in $(seq 40); do echo "class \"c$i\" { def \"$1\" (references = </c$((i - 1))>) {}
+def \"$2\" (references = </c$((i - 1))>) {} }"; done; echo 'def "r" (references = </c40>) {}')"
+}
+soon() { (ulimit -t 10; refused usda-size); }
+long=$(printf 'x%.0s' $(seq 5000))
+multiply a b <<<'def Mesh "m" {}'
+check 'references that multiply are an error' soon
+(echo 'def Mesh "m" {'; printf 'int p%s = 1\n' $(seq 20000); echo '}') | multiply a b
+check 'properties that multiply are an error' soon
+multiply "a$long" "b$long" <<<'def Mesh "m" { rel material:binding = </M> }'
+check 'long names that multiply are an error' soon
+multiply a b <<<'def Mesh "m" { rel material:bindng = </M> }'
+check 'faults that multiply are an error' soon
+(echo 'def Mesh "m" { rel material:binding:collection:c = [</c0.collection:c>, </M>] } rel collection:c:includes = ['; printf '</c0/m%s>,\n' $(seq 2000); echo '</c0/m>]') | multiply a b
+check 'members of collections that multiply are an error' soon
 stage "$(for _ in $(seq 1001); do printf 'def Xform "d"\n{\n'; done; for _ in $(seq 1001); do echo '}'; done)"
 check 'deep prims are an error' refused usda-syntax
 stage "$(for i in $(seq 100); do echo "def Mesh \"m$i\" { float p = 1 }"; done)"
