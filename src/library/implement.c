@@ -291,13 +291,15 @@ static bool are_in_one_file(const struct indexer *ix, elem_id a, elem_id b)
 
 /*
  * The implementation of another file for the same definition, target and format; NULL: there is
- * none. Two implementations of one file are a matter of validation.
+ * none. Two implementations of one file are a matter of validation. *out_num: how many there are
+ * for the definition and the target.
  */
 static struct implementation *find_rival(const struct indexer *ix,
-                                         const struct implementation *impl)
+                                         const struct implementation *impl, uint32_t *out_num)
 {
     uint32_t hash = hash_pair(impl->nodedef, impl->target);
-    for (uint32_t at = hash, found; (found = table_next(&ix->claims, hash, &at));) {
+    *out_num = 0;
+    for (uint32_t at = hash, found; (found = table_next(&ix->claims, hash, &at)); ++*out_num) {
         struct implementation *other = &ix->lib->impls.items[found - 1];
         if (other->nodedef == impl->nodedef && other->target == impl->target
             && index_attr(ix, other->element, STR_format)
@@ -323,14 +325,17 @@ static void replace_impl(struct indexer *ix, struct implementation *old,
 
 static void add_impl(struct indexer *ix, struct implementation impl)
 {
+    enum { MAX_CLAIMS = 16 }; /* of one definition and target, each of which a further one asks */
     struct library *lib = ix->lib;
-    struct implementation *rival = find_rival(ix, &impl);
+    uint32_t num;
+    struct implementation *rival = find_rival(ix, &impl, &num);
     uint32_t own = rival ? (uint32_t)(rival - lib->impls.items) : lib->impls.len;
     if (rival) {
         replace_impl(ix, rival, &impl);
     } else {
         vec_push(ix->arena, &lib->impls, impl);
-        table_add(&ix->claims, ix->arena, hash_pair(impl.nodedef, impl.target), lib->impls.len);
+        if (num < MAX_CLAIMS)
+            table_add(&ix->claims, ix->arena, hash_pair(impl.nodedef, impl.target), lib->impls.len);
     }
     if (impl.kind == IMPL_GRAPH)
         index_note_graph(ix, impl.ref, own);

@@ -16,6 +16,25 @@ bool index_type(struct indexer *ix, elem_id element, doc_type *out_type)
     return false;
 }
 
+/* True if the element has a list of words; reports one beyond the limit, which each use would
+ * search. */
+static bool has_words(struct indexer *ix, elem_id element)
+{
+    enum { MAX_SIZE = 1 << 14 };
+    static const str_id lists[] = {STR_enum, STR_enumvalues};
+    const struct document *doc = &ix->lib->doc;
+    for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) {
+        str_id list = index_attr(ix, element, lists[i]);
+        if (!list || str_len(&ix->lib->strings, list) <= MAX_SIZE)
+            continue;
+        diag_add(ix->diags, DIAG_ID_too_many_variants, doc_attr_place(doc, element, lists[i]),
+                 index_text(ix, doc_element(doc, element)->name), (unsigned)MAX_SIZE,
+                 "bytes in a list of words");
+        return false;
+    }
+    return index_attr(ix, element, STR_enum) != 0;
+}
+
 static void add_port(struct indexer *ix, elem_id element, bool input)
 {
     struct document *doc = &ix->lib->doc;
@@ -26,7 +45,7 @@ static void add_port(struct indexer *ix, elem_id element, bool input)
     port.value = value ? value->value : 0;
     port.flags = (uint16_t)((value ? PORT_HAS_VALUE : 0)
                             | (doc_attr_is_true(doc, element, STR_uniform) ? PORT_UNIFORM : 0)
-                            | (index_attr(ix, element, STR_enum) ? PORT_ENUM : 0));
+                            | (has_words(ix, element) ? PORT_ENUM : 0));
     port.geomprop = index_attr(ix, element, input ? STR_defaultgeomprop : STR_defaultinput);
     vec_push(ix->arena, &ix->lib->ports, port);
 }

@@ -33,6 +33,13 @@ SHAPES = [
     ("warnings on one line", ("<constant name='c#' type='float' typo#='1'/> ",)),
     ("warnings on one line that is long", ("<constant name='c#' type='float' typo#='1' doc='" + "x" * 2000 + "'/> ",)),
     ("declared attributes", ("<attributedef name='A#' attrname='a#' type='string'/>",), ("<constant name='c#' type='float' a#='1'/>",)),
+    (
+        "words that an input accepts, all used",
+        "<nodedef name='D' node='g'><input name='i' type='string' value='' enum='w",
+        (",w#" + "x" * 50,),
+        "'/>" + VALUE + "</nodedef>",
+        ("<g name='g#' type='float'><input name='i' type='string' value='y#'/></g>",),
+    ),
     ("unknown inputs", "<constant name='c' type='float'>", ("<input name='i#' type='float' value='0'/>",), "</constant>"),
     ("dangling nodes", ("<add name='a#' type='float'><input name='in1' type='float' nodename='xa#'/></add>",)),
     (
@@ -106,6 +113,12 @@ SHAPES = [
         "implementations",
         "<nodedef name='D' node='g'>" + VALUE + "</nodedef>",
         ("<implementation name='I#' nodedef='D' target='t#' nodegraph='G'/>",),
+        "<nodegraph name='G'>" + GRAPH + "</nodegraph>",
+    ),
+    (
+        "implementations for one target",
+        "<nodedef name='D' node='g'>" + VALUE + "</nodedef>",
+        ("<implementation name='I#' nodedef='D' target='t' nodegraph='G'/>",),
         "<nodegraph name='G'>" + GRAPH + "</nodegraph>",
     ),
     (
