@@ -45,6 +45,12 @@ lib = _Library()
 
 # ---- Texts ----
 
+def check_type(value: object, kind: type, what: str) -> None:
+    """Refuses an argument of another type."""
+    if not isinstance(value, kind):
+        raise TypeError(f"{what} must be {kind.__name__}, not {type(value).__name__}")
+
+
 def c_text(value: str, what: str) -> bytes:
     """A text for C. `what` names the argument in the TypeError."""
     if not isinstance(value, str):

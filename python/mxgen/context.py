@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any, Union
 
-from ._calls import Handle, Native, c_number, c_path, c_text, c_texts, error_of, guarded, lib, new, optional_text, py_text
+from ._calls import Handle, Native, c_number, c_path, c_text, c_texts, check_type, error_of, guarded, lib, new, optional_text, py_text
 from .definition import Library
 from .diagnostic import Diagnostics
 from .document import Document, Rewritten, rewritten
@@ -357,8 +357,7 @@ class Context(Native):
 
     def scene_materials(self, scene: Scene, *, library: Library | None = None) -> Document:
         """The materials in a USD scene as a document. `Document.with_materials` adds them to one. Raises DocumentError."""
-        if not isinstance(scene, Scene):
-            raise TypeError(f"scene must be Scene, not {type(scene).__name__}")
+        check_type(scene, Scene, "scene")
         return self._document(self._library_for(library), lib.mxg_document_import, None, scene._handle.pointer)
 
     # ---- Texts ----

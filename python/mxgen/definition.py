@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
-from ._calls import Handle, Native, c_text, error_of, lib, py_text, record
+from ._calls import Handle, Native, c_text, check_type, error_of, lib, py_text, record
 from .diagnostic import Diagnostics
 
 
@@ -172,8 +172,7 @@ class Library(Native):
 
     def supports(self, nodedef: NodeDef, target: str) -> bool:
         """Whether a definition of this library has an implementation for a target."""
-        if not isinstance(nodedef, NodeDef):
-            raise TypeError(f"nodedef must be NodeDef, not {type(nodedef).__name__}")
+        check_type(nodedef, NodeDef, "nodedef")
         if nodedef._owner is not self:
             raise ValueError(f"'{nodedef.name}' is not a definition of this library")
         return bool(lib.mxg_library_has_implementation(self._handle.pointer, nodedef._index, c_text(target, "target")))

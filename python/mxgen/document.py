@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from itertools import zip_longest
 from typing import TYPE_CHECKING, Any, NamedTuple, Union
 
-from ._calls import Handle, Native, c_number, c_text, error_of, lib, new, py_text, record, sized_text
+from ._calls import Handle, Native, c_number, c_text, check_type, error_of, lib, new, py_text, record, sized_text
 from .definition import OF_DOCUMENT, Library, NodeDef, read_nodedef, read_nodedefs
 from .diagnostic import Diagnostics
 from .error import ArgumentError, OutOfMemoryError, document_error
@@ -92,8 +92,7 @@ class Element:
     __slots__ = ("document", "number")
 
     def __init__(self, document: Document, number: int) -> None:
-        if not isinstance(document, Document):
-            raise TypeError(f"document must be Document, not {type(document).__name__}")
+        check_type(document, Document, "document")
         self.document = document
         #: documents made by edits keep the number
         self.number = c_number(number, "number")
@@ -189,6 +188,7 @@ class Element:
 
     def children_of(self, category: str) -> tuple[Element, ...]:
         """The elements of a category directly below."""
+        check_type(category, str, "category")
         return tuple(child for child in self.children if child.category == category)
 
     def input(self, name: str) -> Element | None:
@@ -436,8 +436,7 @@ class Document(Native):
 
     def with_materials(self, scene: Scene) -> Document:
         """A copy with the materials of a USD scene that the document lacks. Raises DocumentError."""
-        if not isinstance(scene, Scene):
-            raise TypeError(f"scene must be Scene, not {type(scene).__name__}")
+        check_type(scene, Scene, "scene")
         return self.context._document(self.library, lib.mxg_document_import, self._handle.pointer, scene._handle.pointer)
 
     def bind(self, scene: Scene, look: str | None = None, *, solo: Sequence[str] = (), mute: Sequence[str] = (),
@@ -446,8 +445,7 @@ class Document(Native):
         just the bindings of the scene if the document has none. `solo` has the slots that alone count, `mute` those that do not.
         `previous` are bindings of the scene before it or the document changed: the result is the same, and only primitives at or below a
         difference are resolved again. Raises DocumentError."""
-        if not isinstance(scene, Scene):
-            raise TypeError(f"scene must be Scene, not {type(scene).__name__}")
+        check_type(scene, Scene, "scene")
         handle, status = self.context._make(lib.mxg_bindings_create, lib.mxg_bindings_destroy, (self._handle, scene._handle),
                                             self._handle.pointer, scene._handle.pointer, make_bind_desc(look, solo, mute, previous))
         bindings = Bindings(self, scene, handle)
@@ -530,6 +528,8 @@ def equal(one: Document | Element, other: Document | Element) -> bool:
     """Whether two trees have the same elements in the same order, with the same attributes."""
 
     def contents(part: Document | Element) -> Iterator[tuple[object, ...]]:
+        if not isinstance(part, (Document, Element)):
+            raise TypeError(f"a tree must be Document or Element, not {type(part).__name__}")
         # The number of children at each element determines the shape of the tree.
         for element in part.walk():
             yield element.category, element.name, element.attributes, sum(1 for _ in element.children)

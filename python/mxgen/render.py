@@ -9,6 +9,7 @@ import tempfile
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
+from ._calls import check_type
 from .error import Error
 
 if TYPE_CHECKING:
@@ -39,6 +40,9 @@ def _path_of(element: Item | None) -> str | None:
 
 def _with_whole_paths(document: Document) -> Document:
     """The document as one that reads its textures from any folder."""
+    from .document import Document # pylint: disable=import-outside-toplevel,redefined-outer-name
+
+    check_type(document, Document, "document")
     folder = os.path.abspath(os.path.dirname(document.files[0]))
     with document.edit() as edit:
         for element in document.walk():
@@ -79,8 +83,9 @@ def bake(document: Document, folder: str | os.PathLike[str], element: Item | Non
     None: all materials. `options` are those of `mxgen bake --help`: ["--size", "1024"]. Raises RenderError; the folder is then as it was."""
     path = _path_of(element)
     with tempfile.TemporaryDirectory() as place:
+        whole = _with_whole_paths(document)
         source = pathlib.Path(place) / pathlib.Path(document.files[0]).name
-        _with_whole_paths(document).save(source)
+        whole.save(source)
         _run(program, "bake", [str(source), "-o", os.fspath(folder), "--quiet", *options,
                               *(["--element", path] if path is not None else [])], document)
     return pathlib.Path(folder) / source.with_suffix(".mtlx").name

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from ._calls import Handle, Native, c_number, c_text, c_texts, error_of, guarded, lib, new, optional_text, py_text, record, sized_text
+from ._calls import Handle, Native, c_number, c_text, c_texts, check_type, error_of, guarded, lib, new, optional_text, py_text, record, sized_text
 from .diagnostic import Diagnostics
 from .error import ArgumentError, document_error
 
@@ -67,8 +67,7 @@ class Primitive:
     __slots__ = ("scene", "number")
 
     def __init__(self, scene: Scene, number: int) -> None:
-        if not isinstance(scene, Scene):
-            raise TypeError(f"scene must be Scene, not {type(scene).__name__}")
+        check_type(scene, Scene, "scene")
         self.scene = scene
         #: a parent has a lower number than its children
         self.number = c_number(number, "number")
@@ -399,7 +398,7 @@ class Layer:
     product: str
     #: the primitive where the assignment stands; None: the whole scene, "/"
     source: Primitive | None
-    #: the look and the name of the assignment; "" if it has none
+    #: the look and the name of the assignment ("" if it has none), or the property of the scene
     look: str
     assign: str
     #: the place of the assignment
@@ -564,8 +563,7 @@ def make_bind_desc(look: str | None, solo: Sequence[str], mute: Sequence[str], p
     """A mxg_bindings_desc."""
     desc = new("mxg_bindings_desc", look=optional_text(look, "look"))
     if previous is not None:
-        if not isinstance(previous, Bindings):
-            raise TypeError(f"previous must be Bindings, not {type(previous).__name__}")
+        check_type(previous, Bindings, "previous")
         desc.previous = previous._handle.pointer
     for name, slots in ("solo", solo), ("mute", mute):
         if isinstance(slots, str):

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from numbers import Real
 from typing import TYPE_CHECKING, Any, NamedTuple, Union
 
-from ._calls import Handle, Native, c_number, c_text, error_of, lib, py_text, record, sized_text
+from ._calls import Handle, Native, c_number, c_text, check_type, error_of, lib, py_text, record, sized_text
 from .definition import UserInterface
 from .diagnostic import Diagnostics
 from .error import ArgumentError, OutOfMemoryError
@@ -435,8 +435,7 @@ class Shader(Native):
 
     def change(self, after: Shader) -> tuple[Change, tuple[Variable, ...]]:
         """What a host changes to draw `after` in place of this shader, and the variables of `after` with other values."""
-        if not isinstance(after, Shader):
-            raise TypeError(f"after must be Shader, not {type(after).__name__}")
+        check_type(after, Shader, "after")
         capacity = lib.mxg_result_num_variables(after._handle.pointer)
         indices, count = (ctypes.c_uint32 * capacity)(), ctypes.c_uint32()
         change = Change(lib.mxg_result_change(self._handle.pointer, after._handle.pointer, indices, capacity, count))
@@ -468,6 +467,9 @@ class Shader(Native):
 
         Generates nothing. Raises ValueError if an input of the block has no value there, for example because it is connected.
         """
+        from .document import Document # pylint: disable=import-outside-toplevel,redefined-outer-name
+
+        check_type(document, Document, "document")
         data, status = self._packed(document._handle.pointer, block)
         if status == lib.MXG_ERROR_DOCUMENT:
             raise ValueError("an input of the block has no value in the document")
@@ -478,8 +480,7 @@ class Shader(Native):
     def pack_value(self, data: bytearray, variable: Variable, values: float | Sequence[float], element: int = 0) -> None:
         """Writes the value of a variable, a number or its components, to its place in a buffer of `pack`. `element` is the light or the
         element of an array."""
-        if not isinstance(variable, Variable):
-            raise TypeError(f"variable must be Variable, not {type(variable).__name__}")
+        check_type(variable, Variable, "variable")
         if variable._shader is not self:
             raise ValueError(f"'{variable.name}' is a variable of another shader")
         components: Any = (values,) if isinstance(values, Real) else values
