@@ -108,7 +108,8 @@ struct bind_look {
     uint32_t num_look_variants;
     elem_id order; /* the look whose slotorder counts; 0: none */
     VEC(struct text_word) order_parts;
-    struct text written; /* a path at hand */
+    struct table order_table; /* part → 1 + its rank in order_parts */
+    struct text written;      /* a path at hand */
 };
 
 /*

@@ -22,9 +22,10 @@ static int compare_bytes(struct text_word a, struct text_word b)
 
 static uint32_t rank_of(const struct bind_look *look, struct text_word part)
 {
-    for (uint32_t i = 0; i < look->order_parts.len; i++)
-        if (compare_bytes(look->order_parts.items[i], part) == 0)
-            return i;
+    uint32_t hash = hash_bytes(part.bytes, part.len);
+    for (uint32_t at = hash, found; (found = table_next(&look->order_table, hash, &at));)
+        if (compare_bytes(look->order_parts.items[found - 1], part) == 0)
+            return found - 1;
     return UINT32_MAX;
 }
 
@@ -54,18 +55,21 @@ static void read_part(struct bind_look *look, const char *text, size_t len)
     bool is_part = !fault && name.parts[SLOT_SLOT].len == len;
     struct text_word part = {text, len};
     const char *shown = arena_strndup(look->arena, text, len);
-    if (!is_part)
+    if (!is_part) {
         report_order(look, shown, "is no part of a name");
-    else if (rank_of(look, part) != UINT32_MAX)
+    } else if (rank_of(look, part) != UINT32_MAX) {
         report_order(look, shown, "is listed twice");
-    else
+    } else {
         vec_push(look->arena, &look->order_parts, part);
+        table_add(&look->order_table, look->arena, hash_bytes(text, len), look->order_parts.len);
+    }
 }
 
 void look_read_order(struct bind_look *look)
 {
     const char *text = order_of(look);
     look->order_parts.len = 0;
+    look->order_table = (struct table){0};
     while (text && *text) {
         const char *end = text + strcspn(text, ","), *last = end;
         while (text < last && *text == ' ')
@@ -133,17 +137,12 @@ static unsigned last_part(const struct look_name *name)
                                                  : SLOT_SLOT;
 }
 
-/* The place of a name: that of its first assignment. */
-static struct diag_place place_of_name(const struct bind_look *look, uint32_t name)
-{
-    uint32_t i = 0;
-    while (look->assigns.items[i].name != name)
-        i++;
-    return look_slot_place(look, &look->assigns.items[i]);
-}
-
-/* Numbers whose order is not the order of their bytes: the number before, `below`, is greater. */
-static void check_numbers(struct bind_look *look, uint32_t below, uint32_t above)
+/*
+ * Numbers whose order is not the order of their bytes: the number before, `below`, is greater.
+ * `first`: the first assignment of each name, which is its place.
+ */
+static void check_numbers(struct bind_look *look, const uint32_t *first, uint32_t below,
+                          uint32_t above)
 {
     const struct look_name *a = &look->names.items[below], *b = &look->names.items[above];
     unsigned part = last_part(b);
@@ -152,7 +151,8 @@ static void check_numbers(struct bind_look *look, uint32_t below, uint32_t above
     if (!are_siblings || a->ranks[part] != UINT32_MAX || b->ranks[part] != UINT32_MAX
         || !is_number(x) || !is_number(y) || compare_values(x, y) <= 0)
         return;
-    diag_add(look->diags, DIAG_ID_uneven_slots, place_of_name(look, above), b->text, a->text);
+    struct diag_place place = look_slot_place(look, &look->assigns.items[first[above]]);
+    diag_add(look->diags, DIAG_ID_uneven_slots, place, b->text, a->text);
 }
 
 /*
@@ -161,8 +161,10 @@ static void check_numbers(struct bind_look *look, uint32_t below, uint32_t above
  */
 static void check_all_numbers(struct bind_look *look)
 {
-    uint32_t greatest[NUM_SLOT_PARTS];
+    uint32_t greatest[NUM_SLOT_PARTS], *first = ARENA_ARRAY(look->arena, uint32_t, look->names.len);
     memset(greatest, 0xff, sizeof greatest);
+    for (uint32_t i = look->assigns.len; i-- > 0;)
+        first[look->assigns.items[i].name] = i;
     for (uint32_t i = 0; i < look->names.len; i++) {
         const struct look_name *name = &look->names.items[i];
         unsigned part = last_part(name);
@@ -171,7 +173,7 @@ static void check_all_numbers(struct bind_look *look)
         if (!is_number(name->name.parts[part]) || name->ranks[part] != UINT32_MAX)
             continue;
         if (!is_first)
-            check_numbers(look, *best, i);
+            check_numbers(look, first, *best, i);
         if (is_first
             || compare_values(look->names.items[*best].name.parts[part], name->name.parts[part])
                    < 0)
@@ -194,23 +196,20 @@ static void check_unlisted(struct bind_look *look)
         diag_add(look->diags, DIAG_ID_unlisted_slots, place_of_order(look), text_cstr(&list));
 }
 
-static bool has_part(const struct bind_look *look, struct text_word part)
-{
-    for (uint32_t i = 0; i < look->names.len; i++)
-        for (unsigned k = 0; k < NUM_SLOT_PARTS; k++)
-            if (compare_bytes(look->names.items[i].name.parts[k], part) == 0)
-                return true;
-    return false;
-}
-
 /* Parts that are listed and that nothing has. */
 static void check_unused(struct bind_look *look)
 {
+    bool *is_used = ARENA_ARRAY(look->arena, bool, look->order_parts.len);
     struct text list;
     text_init(&list, look->arena);
+    for (uint32_t i = 0; i < look->names.len; i++)
+        for (unsigned k = 0; k < NUM_SLOT_PARTS; k++)
+            if (look->names.items[i].name.parts[k].len
+                && look->names.items[i].ranks[k] != UINT32_MAX)
+                is_used[look->names.items[i].ranks[k]] = true;
     for (uint32_t i = 0; i < look->order_parts.len; i++) {
         struct text_word part = look->order_parts.items[i];
-        if (!has_part(look, part))
+        if (!is_used[i])
             text_fmt(&list, "%s'%.*s'", list.len ? ", " : "", (int)part.len, part.bytes);
     }
     if (list.len)

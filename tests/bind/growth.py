@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """A stage of twice the size takes at most 2.2 times the instructions to bind, whatever it consists of: members of a collection,
-collections, references, siblings, properties, slots, networks, prims of equal names.
+collections, references, siblings, properties, slots, order, networks, prims of equal names.
 
 Arguments: mxgen, the smaller number of things."""
 import os
@@ -51,6 +51,12 @@ def properties(count):
 
 def slots(count):
     return 'def Mesh "m" {\n' + each(count, "rel material:slotBinding:_s{i} = </M{i}>\n") + "}\n" + each(count, 'def Material "M{i}" {{}}\n')
+
+
+def order(count):
+    """Names that are not in the order of their numbers, beside an order that lists others."""
+    return ('(\n    defaultPrim = "m"\n)\ndef Mesh "m" { uniform token[] material:slotOrder = [' + ", ".join(f'"s{i}"' for i in range(count)) + "]\n"
+            + each(count, "rel material:slotBinding:_{next} = </M>\n") + '}\ndef Material "M" {}\n')
 
 
 def networks(count):
@@ -125,7 +131,7 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         start = work(folder, 'def Mesh "m" {}\n')
-        for make in members, collections, references, siblings, properties, slots, networks, equal_names, overrides, instances:
+        for make in members, collections, references, siblings, properties, slots, order, networks, equal_names, overrides, instances:
             look = look_at_instances if make is instances else lambda count: LOOK
             few, many = (work(folder, make(n), look(n)) - start for n in (COUNT, 2 * COUNT))
             print(f"{make.__name__}: {few:.0f} M instructions, {many / few:.2f} times as many for twice the size")
