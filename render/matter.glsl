@@ -84,7 +84,7 @@ void leave_matter(inout Path path, Point point, vec4 towards, bool is_even)
 {
     bool down = (path.goes & DOWN) != 0u, has_inside = down && out12.w > -1.5;
     path.phase = GOING;
-    if (!sees_behind(path) || (AS_DRAWN && down && path.turns > 0u)) { // a drawn picture has no light from there
+    if (!sees_behind(path) || (AS_DRAWN && has_inside && path.turns > 0u)) { // a drawn body has no light from there
         path.phase = ENDED;
         return;
     }

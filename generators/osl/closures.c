@@ -70,17 +70,12 @@ static ir_ref layered(struct osl_tree *t, ir_ref top, ir_ref base)
     return osl_sum(t, t->of[top], osl_scaled(t, t->of[base], through));
 }
 
-/*
- * The opacity is already in the closure of matter. It is a mean of what `bsdf` lets through, which
- * OSL has as a colour.
- */
-static ir_ref surface(struct osl_tree *t, ir_ref bsdf, ir_ref closure, ir_ref opacity,
-                      bool is_matter)
+/* The opacity is already in the closure of matter, which has what it lets through. */
+static ir_ref matter(struct osl_tree *t, ir_ref closure, ir_ref through)
 {
-    if (!is_matter || ir_const_is(t->graph, opacity, 1.0f))
-        return seen_through(t, closure, opacity);
+    if (ir_const_is(t->graph, through, 0.0f))
+        return closure;
     t->shader->reflection.transparent = true;
-    ir_ref through = closure_throughput(t->shader, t->host, bsdf, ir_const_float(t->graph, 0.0f));
     return osl_sum(t, closure, osl_scaled(t, osl_transparent(t), through));
 }
 
@@ -98,8 +93,10 @@ static ir_ref rewrite(struct osl_tree *t, ir_ref ref)
     case IR_SHADER_MIX: return osl_mixed(t, t->of[a[0]], t->of[a[1]], a[2]);
     case IR_CLOSURE_ADD: return osl_sum(t, t->of[a[0]], t->of[a[1]]);
     case IR_CLOSURE_SCALE: return osl_scaled(t, t->of[a[0]], a[1]);
-    case IR_SURFACE_SHADER:
-        return surface(t, a[0], osl_sum(t, t->of[a[0]], t->of[a[1]]), a[2], is_matter);
+    case IR_SURFACE_SHADER: {
+        ir_ref closure = osl_sum(t, t->of[a[0]], t->of[a[1]]);
+        return is_matter ? matter(t, closure, a[2]) : seen_through(t, closure, a[2]);
+    }
     case IR_SURFACE_UNLIT: return unlit(t, a[0], a[1], a[2]);
     case IR_AOV: return t->of[a[0]];
     case IR_VOLUME_SHADER: return osl_sum(t, t->of[a[0]], t->of[a[1]]);
@@ -118,7 +115,8 @@ static void set_shell(struct osl_tree *t, ir_ref surface)
     ir_ref opacity = is_surface ? ir_arg(t->graph, surface, 2) : 0,
            thin = is_surface ? ir_arg(t->graph, surface, 3) : 0;
     t->thin = osl_is_false(t, thin) ? 0 : thin;
-    t->seen_through = opacity && !ir_const_is(t->graph, opacity, 1.0f);
+    float all = is_surface && ir_get(t->graph, surface)->attr ? 0.0f : 1.0f;
+    t->seen_through = opacity && !ir_const_is(t->graph, opacity, all);
 }
 
 /* The closure of a closure or shader. */

@@ -52,7 +52,7 @@ void generation_defer(struct generation *g)
     }
     if (role_stores(g->role)) {
         g->closure_host.store = deferred_store;
-        g->closure_host.has_room = deferred_has_room;
+        g->closure_host.why_no_room = deferred_why_no_room;
         g->closure_host.store_data = &g->result->storage;
     }
     if (role_packs_pixel(g->role) && g->result->storage.has_decals)

@@ -466,6 +466,9 @@ const struct ir_origin *build_element_origin(const struct ir_graph *graph);
 uint32_t build_slab_lacks(const struct builder *b);
 /* The definition of this name; LIBRARY_NONE: the library has none. */
 uint32_t build_definition_named(const struct builder *b, const char *name);
+/* A closure by the definition of this name, with defaults but its colour; 0: the library has none.
+ */
+ir_ref build_leaf_of_color(struct builder *b, const char *definition, ir_ref color);
 /* The definition of the lobes of slabs; LIBRARY_NONE: the library has none. */
 uint32_t build_slab_definition(const struct builder *b);
 

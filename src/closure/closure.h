@@ -60,8 +60,8 @@ struct closure_stored {
 struct closure_host {
     void *user_data;
     const struct closure_above *above; /* NULL: nothing */
-    /* For roles that store; otherwise NULL: false if the weights of leaves have no room. */
-    bool (*has_room)(const struct shader *shader, const struct closure_list *list);
+    /* For roles that store; otherwise NULL: why leaves have no room in a pixel. NULL: they have. */
+    const char *(*why_no_room)(const struct shader *shader, const struct closure_list *list);
     /* Takes a surface instead of lighting it. */
     void (*store)(struct shader *shader, const struct closure_host *host,
                   const struct closure_stored *surface);

@@ -9,6 +9,8 @@
  */
 #include "closure/closure_priv.h"
 
+#include "shader/formula.h"
+
 #include <assert.h>
 
 struct surfaces {
@@ -261,6 +263,15 @@ static struct closure_surface with_aov(const struct surfaces *s, ir_ref ref)
     return out;
 }
 
+/* The alpha of a SURFACE_SHADER: matter has what it lets through in its place. */
+static ir_ref alpha_of_leaf(struct shader *shader, ir_ref ref)
+{
+    ir_ref alpha = ir_arg(shader->graph, ref, 2);
+    return ir_get(shader->graph, ref)->attr
+               ? ir_one_minus(shader->graph, FORMULA(shader, "mx_mean", alpha))
+               : alpha;
+}
+
 /* Returns what a surface without other surfaces lets through, if that is a colour; 0: 1 - alpha. */
 static ir_ref through_of_leaf(const struct surfaces *s, ir_ref ref,
                               const struct closure_surface *surface)
@@ -270,8 +281,7 @@ static ir_ref through_of_leaf(const struct surfaces *s, ir_ref ref,
     if (!s->shader->has_two_sources)
         return 0;
     if (surface->is_matter)
-        return surface->bsdf ? throughput_of(s, surface->bsdf)
-                             : ir_const_splat(g, IR_TYPE_VEC3, 1.0f);
+        return args[2];
     if (ir_get(g, ref)->op != IR_SURFACE_UNLIT)
         return 0;
     ir_ref opacity = args[2], held = ir_one_minus(g, color_of(g, args[1]));
@@ -282,16 +292,16 @@ static ir_ref through_of_leaf(const struct surfaces *s, ir_ref ref,
 static struct closure_surface leaf_of(const struct surfaces *s, ir_ref ref)
 {
     const ir_ref *args = ir_args(s->graph, ref);
-    bool has_opacity = ir_get(s->graph, ref)->attr != 0;
+    bool is_matter = ir_get(s->graph, ref)->attr != 0;
     struct closure_surface out = {0};
     if (ir_get(s->graph, ref)->op == IR_SURFACE_UNLIT)
         out = unlit_surface(s->graph, args[0], args[1], args[2]);
     else
         out = (struct closure_surface){.bsdf = args[0],
                                        .edf = args[1],
-                                       .alpha = args[2],
-                                       .premultiplied = has_opacity,
-                                       .is_matter = has_opacity};
+                                       .alpha = alpha_of_leaf(s->shader, ref),
+                                       .premultiplied = is_matter,
+                                       .is_matter = is_matter};
     out.through = through_of_leaf(s, ref, &out);
     out.aovs = closure_aovs_weighing(s->graph, closure_aovs_of(s->shader),
                                      out.premultiplied ? out.alpha : 0);
@@ -373,13 +383,14 @@ ir_ref closure_without_aovs(const struct ir_graph *g, ir_ref surface)
  * The alpha of a surface; `alphas`: of its operands. 0: 1, as of slabs, which are always there, and
  * of what stands for a surface after an error.
  */
-static ir_ref alpha_of(struct ir_graph *g, ir_ref ref, const ir_ref *alphas)
+static ir_ref alpha_of(struct shader *shader, ir_ref ref, const ir_ref *alphas)
 {
+    struct ir_graph *g = shader->graph;
     const struct ir_node node = *ir_get(g, ref);
     ir_ref args[3] = {0};
     memcpy(args, ir_args(g, ref), (node.num_args < 3 ? node.num_args : 3) * sizeof *args);
     switch (node.op) {
-    case IR_SURFACE_SHADER: return args[2];
+    case IR_SURFACE_SHADER: return alpha_of_leaf(shader, ref);
     case IR_SURFACE_UNLIT: return unlit_surface(g, args[0], args[1], args[2]).alpha;
     case IR_AOV: return alphas[args[0]];
     case IR_SHADER_MIX: return mixed_alpha(g, alphas[args[0]], alphas[args[1]], args[2]);
@@ -399,8 +410,8 @@ ir_ref closure_surface_alpha(struct shader *shader, ir_ref root)
         alphas = ARENA_ARRAY(shader->arena, ir_ref, root);
         for (ir_ref ref = 1; ref < root; ref++)
             if (needed[ref] && ir_type_of(g, ref) == IR_TYPE_SURFACE)
-                alphas[ref] = alpha_of(g, ref, alphas);
+                alphas[ref] = alpha_of(shader, ref, alphas);
     }
-    ir_ref alpha = alpha_of(g, root, alphas);
+    ir_ref alpha = alpha_of(shader, root, alphas);
     return alpha ? alpha : ir_const_float(g, 1.0f);
 }

@@ -286,10 +286,9 @@ static void store_surface(struct emitter *e, const struct closure_surface *s,
 static const char *why_not_stored(const struct emitter *e, const struct closure_list *list,
                                   bool is_whole)
 {
-    return !is_whole                             ? "its opacity may be between 0 and 1"
-           : has_aov_outputs(e)                  ? "it has AOVs"
-           : !e->host->has_room(e->shader, list) ? "a sum of equal slabs may weigh more than 1"
-                                                 : NULL;
+    return !is_whole            ? "its opacity may be between 0 and 1"
+           : has_aov_outputs(e) ? "it has AOVs"
+                                : e->host->why_no_room(e->shader, list);
 }
 
 /* A payload stores every surface, and none of its AOVs. */

@@ -53,9 +53,11 @@ static inline bool deferred_is_decal(const struct deferred_layout *layout)
 /* A hash of the storage: materials and passes with equal ones fit together. */
 uint32_t deferred_layout_number(const struct deferred_layout *layout);
 
-/* False if a slab may weigh more than the 1 that a pixel has room for, as in a sum of equal slabs.
+/*
+ * closure_host.why_no_room: a slab may weigh more than the 1 that a pixel has room for, as in a sum
+ * of equal slabs; or a sheet is lit from behind.
  */
-bool deferred_has_room(const struct shader *shader, const struct closure_list *list);
+const char *deferred_why_no_room(const struct shader *shader, const struct closure_list *list);
 
 /*
  * closure_host.store, whose store_data is a deferred_layout: the effects that write the closures of

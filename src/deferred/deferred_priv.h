@@ -28,6 +28,8 @@ enum mark_operand {
 
 /* True for the mark of a slab. */
 bool deferred_is_mark(const struct shader *shader, ir_ref leaf);
+/* The leaf of a sheet's light from behind (slabs_host.lit_from_behind); 0: there is none. */
+ir_ref deferred_backlight(const struct shader *shader, const struct closure_list *list);
 /* Adds a text of passes in the language of the target. Returns its source. */
 uint32_t deferred_add_source(struct shader *shader, const struct deferred_layout *layout,
                              const struct source_resources *resources, struct text *text);
@@ -54,9 +56,9 @@ void deferred_put_decal(struct shader *shader, ir_ref mark, ir_ref weight, ir_re
 
 /* False where a slab lacks what an operand is the amount of; for f90, the hue. */
 bool deferred_has_part(const struct ir_graph *g, ir_ref mark, enum mark_operand operand);
-/* Notes what the form has no room for. */
+/* Notes what the form has no room for, of a list and its marks. */
 void deferred_note_lost(struct shader *shader, const struct deferred_layout *layout,
-                        const struct closure_list *marks);
+                        const struct closure_list *all, const struct closure_list *marks);
 /* Notes the light of a decal, which its images have no room for; 0: it has none. */
 void deferred_note_lost_light(struct shader *shader, ir_ref emission);
 

@@ -25,28 +25,34 @@ bool deferred_has_part(const struct ir_graph *g, ir_ref mark, enum mark_operand 
 
 static const char why_decal[] = "images of decals have diffuse_albedo, f0, normal and roughness";
 
+static void note(struct shader *shader, ir_ref at, const char *part, const char *why)
+{
+    struct shader_lost lost = {ir_get(shader->graph, at)->origin, part, why};
+    vec_push(shader->arena, &shader->reflection.lost, lost);
+}
+
 void deferred_note_lost(struct shader *shader, const struct deferred_layout *layout,
-                        const struct closure_list *marks)
+                        const struct closure_list *all, const struct closure_list *marks)
 {
     const struct ir_graph *g = shader->graph;
     enum form form = deferred_is_decal(layout) ? DECAL : PAYLOAD;
     const char *why = form == DECAL ? why_decal : "a payload has no room for it";
+    ir_ref backlight = deferred_backlight(shader, all);
     if (!layout->is_payload)
         return;
+    if (backlight)
+        note(shader, backlight, "thin", "no light comes from behind what is stored");
     for (uint32_t i = 0; i < marks->leaves.len; i++)
         for (size_t k = 0; k < sizeof parts / sizeof *parts; k++) {
             ir_ref mark = marks->leaves.items[i].leaf;
             if (!(parts[k].forms & form) || !deferred_has_part(g, mark, parts[k].operand))
                 continue;
-            struct shader_lost lost = {ir_get(g, mark)->origin, parts[k].part, why};
-            vec_push(shader->arena, &shader->reflection.lost, lost);
+            note(shader, mark, parts[k].part, why);
         }
 }
 
 void deferred_note_lost_light(struct shader *shader, ir_ref emission)
 {
-    if (!emission || ir_const_is(shader->graph, emission, 0.0f))
-        return;
-    struct shader_lost lost = {ir_get(shader->graph, emission)->origin, "emission", why_decal};
-    vec_push(shader->arena, &shader->reflection.lost, lost);
+    if (emission && !ir_const_is(shader->graph, emission, 0.0f))
+        note(shader, emission, "emission", why_decal);
 }

@@ -20,14 +20,25 @@
 
 #include <assert.h>
 
-static const char mark_family[] = "mx_slab_mark_bsdf";
-
-bool deferred_is_mark(const struct shader *shader, ir_ref leaf)
+static bool is_of_family(const struct shader *shader, ir_ref leaf, const char *family)
 {
     if (ir_get(shader->graph, leaf)->op != IR_LEAF)
         return false;
     str_id name = shader->graph->callees.items[ir_get(shader->graph, leaf)->attr].name;
-    return strcmp(str_text(shader->strings, name), mark_family) == 0;
+    return strcmp(str_text(shader->strings, name), family) == 0;
+}
+
+bool deferred_is_mark(const struct shader *shader, ir_ref leaf)
+{
+    return is_of_family(shader, leaf, "mx_slab_mark_bsdf");
+}
+
+ir_ref deferred_backlight(const struct shader *shader, const struct closure_list *list)
+{
+    for (uint32_t i = 0; i < list->leaves.len; i++)
+        if (is_of_family(shader, list->leaves.items[i].leaf, "mx_translucent_bsdf"))
+            return list->leaves.items[i].leaf;
+    return 0;
 }
 
 ir_ref deferred_misfit(const struct shader *shader, ir_ref root)
@@ -507,14 +518,14 @@ static void put_decal(struct shader *shader, const struct closure_host *host,
 
 /* ---- Entry ---- */
 
-bool deferred_has_room(const struct shader *shader, const struct closure_list *list)
+const char *deferred_why_no_room(const struct shader *shader, const struct closure_list *list)
 {
     const float rounding = 1e-4f;
     for (uint32_t i = 0; i < list->leaves.len; i++)
         if (deferred_is_mark(shader, list->leaves.items[i].leaf)
             && closure_most_weight(shader->graph, &list->leaves.items[i]) > 1.0f + rounding)
-            return false;
-    return true;
+            return "a sum of equal slabs may weigh more than 1";
+    return deferred_backlight(shader, list) ? "no word has the light from behind a sheet" : NULL;
 }
 
 void deferred_store(struct shader *shader, const struct closure_host *host,
@@ -530,7 +541,7 @@ void deferred_store(struct shader *shader, const struct closure_host *host,
     if (layout->is_payload)
         premultiply(shader, surface, &marks, &emission);
     shader->reflection.closures.len = 0; /* lights of slabs are no closures of their own here */
-    deferred_note_lost(shader, layout, &marks);
+    deferred_note_lost(shader, layout, surface->list, &marks);
     if (deferred_is_decal(layout)) {
         deferred_note_lost_light(shader, emission);
         put_decal(shader, host, &marks, surface->alpha);

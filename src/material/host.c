@@ -46,6 +46,11 @@ static ir_ref slab_like(void *user_data, ir_ref leaf, ir_ref albedo)
     return build_slab_like(user_data, leaf, albedo);
 }
 
+static ir_ref lit_from_behind(void *user_data, ir_ref color)
+{
+    return build_leaf_of_color(user_data, "ND_translucent_bsdf", color);
+}
+
 static const float *texels(void *user_data, uint32_t variable)
 {
     return build_texels(user_data, variable);
@@ -62,6 +67,7 @@ static struct slabs_host slabs_host(struct builder *b, const struct closure_host
                                .lobes = slab_lobes,
                                .slab_of = slab_of,
                                .slab_like = slab_like,
+                               .lit_from_behind = lit_from_behind,
                                .texels = texels,
                                .closures = closures,
                                .walks = b->shader->role->returns == RETURNS_PATH};
@@ -103,11 +109,13 @@ void build_fill_sheet(struct builder *b, const struct closure_host *closures, st
     slabs_fill_sheet(b->shader, &host, budget, root, out);
 }
 
+/* The root is a layer of a stack. */
 static ir_ref without_slabs(struct builder *b, ir_ref root)
 {
     struct closure_point point = {0};
     struct closure_host closures = build_closure_host(b, &point);
     struct slabs_host host = walking_host(b, &closures);
+    host.is_on_matter = true;
     return slabs_walk(b->shader, &host, root);
 }
 

@@ -8,6 +8,20 @@ uint32_t build_definition_named(const struct builder *b, const char *name)
     return id ? library_nodedef_by_name(b->lib, id) : LIBRARY_NONE;
 }
 
+ir_ref build_leaf_of_color(struct builder *b, const char *definition, ir_ref color)
+{
+    uint32_t id = build_definition_named(b, definition);
+    if (id == LIBRARY_NONE)
+        return 0;
+    const struct port *ports = library_ports(b->lib, id, NULL);
+    unsigned num = library_nodedef(b->lib, id)->num_inputs;
+    ir_ref *args = ARENA_ARRAY(b->arena, ir_ref, num), results[LIBRARY_MAX_OUTPUTS] = {0};
+    for (unsigned i = 0; i < num; i++)
+        args[i] = ports[i].name == STR_color ? color : build_default(b, &ports[i]);
+    build_apply(b, id, build_doc(b)->root, args, results);
+    return results[0];
+}
+
 uint32_t build_slab_definition(const struct builder *b)
 {
     return build_definition_named(b, "ND_slab_lobes");

@@ -321,7 +321,10 @@ ir_ref slabs_through(struct shader *shader, const struct slabs_host *host, ir_re
     closure_probe(host->closures, eye.view, &probe);
     ir_ref args[3] = {top, ir_const_bool(g, true), thickness};
     ir_ref sheet = ir_build(g, IR_SLAB_SURFACE, IR_TYPE_SURFACE, 0, args, 3);
-    ir_ref walked = slabs_walk(shader, host, sheet), mean = ir_const_float(g, CLOSURE_MEAN_WAY);
+    struct slabs_host on_matter = *host;
+    on_matter.is_on_matter = true;
+    ir_ref walked = slabs_walk(shader, &on_matter, sheet),
+           mean = ir_const_float(g, CLOSURE_MEAN_WAY);
     return closure_throughput(shader, &probe.host, ir_arg(g, walked, 0), mean);
 }
 

@@ -315,7 +315,7 @@ static struct piece joined(struct joiner *j, ir_ref root)
 static bool is_opaque(const struct joiner *j, ir_ref slabs)
 {
     ir_ref walked = slabs_walk(j->shader, j->host, slabs);
-    return ir_const_is(j->graph, ir_arg(j->graph, walked, 2), 1.0f);
+    return ir_const_is(j->graph, ir_arg(j->graph, walked, 2), 0.0f);
 }
 
 static bool is_layer(const struct joiner *j, const struct ir_slot *slot)

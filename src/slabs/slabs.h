@@ -58,6 +58,8 @@ struct slabs_host {
     ir_ref (*slab_of)(void *user_data, ir_ref leaf, bool is_top, bool loosely);
     /* An opaque SLAB without an interface, with the mean roughness of a leaf; 0: of none. */
     ir_ref (*slab_like)(void *user_data, ir_ref leaf, ir_ref albedo);
+    /* The closure of a sheet that light from behind leaves evenly; 0: the library has none. */
+    ir_ref (*lit_from_behind)(void *user_data, ir_ref color);
     /*
      * Means of a texture by its variable: SLABS_TEXELS rows from the top, as many RGBA each. NULL:
      * it cannot be read.
@@ -70,6 +72,7 @@ struct slabs_host {
     ir_ref (*blurred)(void *user_data, ir_ref value, ir_ref position, ir_ref deviation);
     const struct closure_host *closures;
     bool walks;            /* light walks through the meshes of bodies */
+    bool is_on_matter;     /* surfaces lie on others, so no light comes from behind */
     bool asks_thickness;   /* the host of the shader tells how thick bodies are */
     struct arena *scratch; /* for estimates, which leave it empty; NULL: there are none */
 };

@@ -24,6 +24,9 @@
 
 #include <assert.h>
 
+/* Thicknesses over the mean free path, from which on nothing is seen through: exp(-7) is 1/1097. */
+#define MOST_STRAIGHT 7.0f
+
 /*
  * The way of the view behind rough interfaces: covariance of its slope and its place along an axis
  * of the surface, floats; all 0: the interfaces above are smooth, or nobody blurs.
@@ -39,6 +42,7 @@ struct where {
     ir_ref depth;     /* vec3: optical, of what scatters light above; 0: nothing does */
     struct way way;
     uint32_t is_body;
+    uint32_t is_straight; /* for light that nothing scatters: media only absorb */
 };
 
 struct visit {
@@ -260,6 +264,21 @@ static bool has_mean(enum slab_operand operand)
            && operand != SLAB_specular_lut;
 }
 
+/* The medium as light sees it that goes straight on: each collision takes it away. */
+static void take_scattered(const struct walk *w, const struct where *where, ir_ref *inputs)
+{
+    struct ir_graph *g = w->graph;
+    struct ir_value path, thickness;
+    bool is_known = ir_get_const(g, inputs[SLAB_mean_free_path], &path)
+                    && ir_get_const(g, where->thickness, &thickness);
+    bool is_deep = is_known;
+    for (unsigned c = 0; c < 3 && is_deep; c++)
+        is_deep = thickness.w[0].f > MOST_STRAIGHT * path.w[c].f;
+    inputs[SLAB_diffuse_albedo] = ir_const_splat(g, IR_TYPE_VEC3, 0.0f);
+    if (is_deep)
+        inputs[SLAB_mean_free_path] = inputs[SLAB_diffuse_albedo];
+}
+
 static ir_ref slab_at(struct walk *w, ir_ref slab, const struct where *where)
 {
     struct ir_graph *g = w->graph;
@@ -274,6 +293,8 @@ static ir_ref slab_at(struct walk *w, ir_ref slab, const struct where *where)
     slab_even(w->shader, where->depth, inputs);
     inputs[SLAB_diffuse_albedo] =
         slab_regime_albedo(g, attr, inputs[SLAB_mean_free_path], inputs[SLAB_diffuse_albedo]);
+    if (where->is_straight)
+        take_scattered(w, where, inputs);
     bool never_clear = attr & SLAB_NEVER_CLEAR;
     bool walks = where->is_body && w->host->walks;
     struct slab_place place = {
@@ -339,8 +360,9 @@ static bool visit_layer(struct walk *w, ir_ref ref, struct where where, ir_ref *
     below.way = way_below(g, where.way, top ? w->slopes[top] : 0, thickness);
     if (!visited(w, base, below, &base))
         return false;
-    struct where above = {
-        .thickness = thickness, .spread = where.spread, .depth = where.depth, .way = where.way};
+    struct where above = where;
+    above.thickness = thickness;
+    above.is_body = false;
     bool is_surface = base && ir_type_of(g, base) == IR_TYPE_BSDF;
     above.below = is_surface ? layered(w, base, where.below) : where.below;
     if (!visited(w, top, above, &top))
@@ -421,15 +443,6 @@ static struct where body(struct walk *w)
     return (struct where){.thickness = depth_of_body(w), .is_body = true};
 }
 
-/* The mean of the channels of what the surface does not let through. */
-static ir_ref opacity_of(struct walk *w, ir_ref lobes)
-{
-    struct ir_graph *g = w->graph;
-    ir_ref through =
-        closure_throughput(w->shader, w->host->closures, lobes, ir_const_float(g, 0.0f));
-    return ir_one_minus(g, FORMULA(w->shader, "mx_mean", through));
-}
-
 /* Where the closures of a surface lie. */
 static struct where place_of(struct walk *w, ir_ref surface)
 {
@@ -437,23 +450,54 @@ static struct where place_of(struct walk *w, ir_ref surface)
     return thickness ? (struct where){.thickness = thickness} : body(w);
 }
 
-static ir_ref slab_surface(struct walk *w, ir_ref ref)
+/* Returns what lobes let through towards the viewer, of light that comes from behind them. */
+static ir_ref light_through(struct walk *w, ir_ref lobes)
+{
+    ir_ref at_rest = ir_const_float(w->graph, 0.0f);
+    return closure_throughput(w->shader, w->host->closures, lobes, at_rest);
+}
+
+/*
+ * A sheet is seen through as far as light goes straight through it. What its media scatter of even
+ * light from behind is one more lobe: evenly, as light leaves them. A path tracer walks through the
+ * sheet instead. *through: what goes through at all, then what goes straight.
+ */
+static ir_ref lit_from_behind(struct walk *w, ir_ref slabs, struct where where, ir_ref lobes,
+                              ir_ref *through)
 {
     struct ir_graph *g = w->graph;
-    ir_ref bsdf = ir_arg(g, ref, 0), thin = ir_arg(g, ref, 1);
-    if (has_slabs(w, bsdf))
-        bsdf = walk_closure(w, bsdf, place_of(w, ref));
-    ir_ref args[4] = {bsdf, 0, opacity_of(w, bsdf), thin};
+    where.is_straight = true;
+    ir_ref straight = light_through(w, walk_closure(w, slabs, where)), all = *through;
+    *through = straight;
+    if (straight == all)
+        return lobes;
+    ir_ref scattered = ir_op2(g, IR_MAX, ir_sub(g, all, straight), ir_black(g));
+    ir_suggest_name(g, scattered, str_intern_z(w->shader->strings, "backlight"), IR_NAME_ROLE);
+    ir_ref args[2] = {lobes, w->host->lit_from_behind(w->host->user_data, scattered)};
+    return args[1] ? ir_build(g, IR_CLOSURE_ADD, IR_TYPE_BSDF, 0, args, 2) : lobes;
+}
+
+static ir_ref slab_surface(struct walk *w, ir_ref ref, bool is_on_matter)
+{
+    struct ir_graph *g = w->graph;
+    ir_ref slabs = ir_arg(g, ref, 0), thin = ir_arg(g, ref, 1), lobes = slabs;
+    struct where where = place_of(w, ref);
+    if (has_slabs(w, slabs))
+        lobes = walk_closure(w, slabs, where);
+    ir_ref through = light_through(w, lobes);
+    if (!where.is_body && !is_on_matter && !w->host->walks && has_slabs(w, slabs))
+        lobes = lit_from_behind(w, slabs, where, lobes, &through);
+    ir_ref args[4] = {lobes, 0, through, thin};
     return ir_build(g, IR_SURFACE_SHADER, IR_TYPE_SURFACE, 1, args, 4);
 }
 
 /* replaced: by surface below the root. */
-static ir_ref rewrite_root(struct walk *w, ir_ref ref, const ir_ref *replaced)
+static ir_ref rewrite_root(struct walk *w, ir_ref ref, bool is_on_matter, const ir_ref *replaced)
 {
     struct ir_graph *g = w->graph;
     const struct ir_node node = *ir_get(g, ref);
     if (node.op == IR_SLAB_SURFACE)
-        return slab_surface(w, ref);
+        return slab_surface(w, ref, is_on_matter);
     ir_ref *args = ARENA_ARRAY(w->shader->arena, ir_ref, node.num_args);
     for (uint32_t i = 0; i < node.num_args; i++) {
         args[i] = ir_arg(g, ref, i);
@@ -463,6 +507,20 @@ static ir_ref rewrite_root(struct walk *w, ir_ref ref, const ir_ref *replaced)
             args[i] = replaced[args[i]];
     }
     return ir_build(g, (enum ir_op)node.op, node.type, node.attr, args, node.num_args);
+}
+
+/* Marks surfaces that lie on others: all layers of stacks, because light goes on to those below. */
+static uint8_t *find_layers(const struct walk *w, ir_ref root)
+{
+    uint8_t *is_layer = ARENA_ARRAY(w->shader->arena, uint8_t, root + 1);
+    is_layer[root] = w->host->is_on_matter;
+    for (ir_ref ref = root; ref > 0; ref--) {
+        const struct ir_node *node = ir_get(w->graph, ref);
+        bool holds = w->has_slabs[ref] && (node->op == IR_SLOTS || is_layer[ref]);
+        for (uint32_t i = 0; holds && i < node->num_args; i++)
+            is_layer[ir_arg(w->graph, ref, i)] = true;
+    }
+    return is_layer;
 }
 
 /* Marks the nodes below the root that depend on a slab. */
@@ -575,11 +633,12 @@ ir_ref slabs_walk(struct shader *shader, const struct slabs_host *host, ir_ref r
     if (ir_type_is_closure(ir_type_of(g, root)))
         return walk_closure(&w, root, body(&w));
     ir_ref *replaced = ARENA_ARRAY(shader->arena, ir_ref, w.num_nodes);
+    const uint8_t *is_layer = find_layers(&w, root);
     for (ir_ref ref = 1; ref <= root; ref++) {
         if (!w.has_slabs[ref] || !ir_type_is_shader(ir_type_of(g, ref)))
             continue;
         ir_push_origin_of(g, ref);
-        replaced[ref] = rewrite_root(&w, ref, replaced);
+        replaced[ref] = rewrite_root(&w, ref, is_layer[ref], replaced);
         ir_pop_origin(g);
     }
     return replaced[root];

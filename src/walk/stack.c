@@ -107,18 +107,10 @@ static ir_ref build_layer(struct builder *b, const struct bindings *bindings,
 /* White, 0.8, and matt: the substance of a primitive without layers (ASH paper, section 6.1). */
 static ir_ref default_substance(struct builder *b)
 {
-    str_id name = str_intern_z(b->shader->strings, "ND_oren_nayar_diffuse_bsdf"),
-           color = str_intern_z(b->shader->strings, "color");
-    uint32_t nodedef = library_nodedef_by_name(b->lib, name);
-    if (nodedef == LIBRARY_NONE)
+    ir_ref grey = ir_const_splat(b->graph, IR_TYPE_VEC3, 0.8f);
+    ir_ref bsdf = build_leaf_of_color(b, "ND_oren_nayar_diffuse_bsdf", grey);
+    if (!bsdf)
         return 0;
-    const struct nodedef *def = library_nodedef(b->lib, nodedef);
-    const struct port *ports = library_ports(b->lib, nodedef, NULL);
-    ir_ref *args = ARENA_ARRAY(b->arena, ir_ref, def->num_inputs), bsdf = 0;
-    for (unsigned i = 0; i < def->num_inputs; i++)
-        args[i] = ports[i].name == color ? ir_const_splat(b->graph, IR_TYPE_VEC3, 0.8f)
-                                         : build_default(b, &ports[i]);
-    build_apply(b, nodedef, build_doc(b)->root, args, &bsdf);
     ir_ref surface[4] = {bsdf, 0, ir_const_float(b->graph, 1.0f), ir_const_bool(b->graph, false)};
     ir_ref material[4] = {ir_build(b->graph, IR_SURFACE_SHADER, IR_TYPE_SURFACE, 0, surface, 4), 0,
                           0, 0};

@@ -337,6 +337,10 @@ check "17 slabs are an error" reports closures-not-stored "$mxgen" seventeen.mtl
 check "16 slabs are stored" "$mxgen" sixteen.mtlx -e SR --target vulkan --role deferred -o many
 warns() { "$mxgen" "$examples/slabs.mtlx" -e MilkySheet --target vulkan --role deferred -o milky 2>&1 | grep -q drawn-forward; }
 check "a message says that a transparent surface is drawn forward" warns
+# told WORDS ARGUMENT...: a sheet that scatters, with its message
+told() { "$mxgen" "$examples/slabs.mtlx" -e MilkySheet --target vulkan "${@:2}" -o milky 2>&1 | grep -qF -- "$1"; }
+check "a sheet that is opaque by an option is drawn forward for its light from behind" told 'no word has the light from behind a sheet [drawn-forward]' --role deferred --transparency opaque
+check "a payload tells that it has no light from behind" told 'no light comes from behind what is stored [slab-left-out]' --role payload
 cat >rich.mtlx <<'X'
 <materialx version="1.39">
   <slab name="rich" type="BSDF">

@@ -34,7 +34,30 @@ compare "$examples/slab_blends.mtlx" MetalToPlastic sphere
 compare "$examples/slab_helpers.mtlx" AmberOnOak sphere
 compare "$examples/slab_helpers.mtlx" DustyLacquer sphere
 compare "$examples/slab_helpers.mtlx" AmberOnOak plane
-compare "$examples/slabs.mtlx" MilkySheet plane --as-drawn # a drawn sheet has no light from behind
+compare "$examples/slabs.mtlx" MilkySheet plane --as-drawn
+
+# A leaf in a lamp behind it, drawn and traced, in each channel.
+cat >leaf.mtlx <<'XML'
+<?xml version="1.0"?>
+<materialx version="1.39">
+  <slab name="leaf" type="BSDF"><input name="diffuse_albedo" type="color3" value="0.15, 0.35, 0.05"/><input name="f0" type="color3" value="0.045, 0.045, 0.045"/>
+    <input name="roughness" type="float" value="0.4"/><input name="mean_free_path" type="vector3" value="0.02, 0.03, 0.012"/></slab>
+  <slab_surface name="Leaf" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="leaf"/><input name="thin" type="boolean" value="true"/>
+    <input name="surface_thickness" type="float" value="0.02"/></slab_surface>
+</materialx>
+XML
+backlit='--camera 30,20 --environment none --lights directional_light --set u_lightData[0].direction=0.28,0.19,0.94 --set u_lightData[1].color=0,0,0'
+# shellcheck disable=SC2086 # arguments, divided by spaces
+{
+    check 'a leaf before a lamp is drawn' exits 0 "$render" leaf.mtlx -e Leaf -q -m plane --size 16 $backlit -o drawn.exr
+    check 'a leaf before a lamp is traced' trace traced.exr leaf.mtlx Leaf -m plane --size 16 --paths 256 $backlit
+}
+check 'a leaf has as much light from behind drawn and traced' near "$("$mean_ratio" traced.exr drawn.exr)" 1 0.04
+for channel in R G; do # blue has less than the error of the fit
+    check "a leaf has as much light from behind drawn and traced: $channel" \
+        near "$(ratio "$(channel traced.exr $channel)" "$(channel drawn.exr $channel)")" 1 0.05
+done
+check 'a leaf is as opaque drawn as traced' near "$(ratio "$(channel traced.exr A)" "$(channel drawn.exr A)")" 1 0.02
 
 # metal below media that scatter, which mirrors a part of the light
 cat >milk.mtlx <<'XML'

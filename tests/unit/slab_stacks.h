@@ -291,12 +291,18 @@ static inline void stack_draw(const struct stack *stack, int at, double thicknes
     }
 }
 
-/* What comes back of light from the viewer through one pile. down: the cosine inside. */
-static inline double stack_follow(const struct stack_pile *pile, double down)
+/* Where light from the viewer goes, as shares: through is what a medium scattered. */
+struct stack_light {
+    double back, through, straight;
+};
+
+/* Adds the light of one path through a pile. down: the cosine inside. */
+static inline void stack_follow(const struct stack_pile *pile, double down, struct stack_light *sum)
 {
     int at = 0;
     double depth = 0.0, carried = 1.0; /* depth: from the top of slab `at` */
-    while (at >= 0) {
+    double *below = &sum->straight;
+    while (at >= 0 && at < pile->num) {
         if (isinf(pile->depth[at])) { /* reflects evenly into what is outside */
             carried *= pile->albedo[at];
             down = -1.0 / stack_way(sqrt(stack_random()));
@@ -313,23 +319,25 @@ static inline double stack_follow(const struct stack_pile *pile, double down)
         } else {
             carried *= pile->albedo[at];
             down = 2.0 * stack_random() - 1.0;
+            below = &sum->through;
         }
         if (carried < 1e-6)
-            return 0.0;
+            return;
     }
-    return carried;
+    *(at < 0 ? &sum->back : below) += carried;
 }
 
-/* What the stack reflects of even light towards a viewer. */
-static inline double stack_walk(const struct stack *stack, double cosine, int num_paths)
+/* Where even light goes, seen from a viewer: the stack reflects it, or it comes from behind. */
+static inline struct stack_light stack_walk(const struct stack *stack, double cosine, int num_paths)
 {
-    double sum = 0.0;
+    struct stack_light sum = {0.0, 0.0, 0.0};
     for (int i = 0; i < num_paths; ++i) {
         struct stack_pile pile = {.num = 0};
         stack_draw(stack, stack->num_nodes - 1, 0.01, &pile);
-        sum += stack_follow(&pile, 1.0 / stack_way(cosine));
+        stack_follow(&pile, 1.0 / stack_way(cosine), &sum);
     }
-    return sum / num_paths;
+    return (struct stack_light){sum.back / num_paths, sum.through / num_paths,
+                                sum.straight / num_paths};
 }
 
 #endif
