@@ -79,9 +79,13 @@ void compiled_finish(struct compiled *compiled);
  * each by itself.
  */
 bool compile_result(const char *target, const mxg_result *result, struct compiled *out);
-/* Compiles several into `outs`: faster than one by one where compilers start slowly (command.h). */
+enum { COMPILE_MAX_RESULTS = 64 };
+/*
+ * Compiles several, which is faster than one by one where compilers start slowly (command.h). Equal
+ * code is compiled once (known.h), so `outs` may lack SPIR-V.
+ */
 void compile_results(const char *target, const mxg_result *const *results, size_t count,
-                     struct compiled *outs);
+                     struct compiled outs[COMPILE_MAX_RESULTS]);
 
 /*
  * Compiles the source of a compute shader in the language of "vulkan", "hlsl" or a target of

@@ -2,6 +2,7 @@
 /* The results of all compilers have one form. */
 #include "compile/command.h"
 #include "compile/compile.h"
+#include "compile/known.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -295,12 +296,12 @@ bool compile_result(const char *target, const mxg_result *result, struct compile
     return out->errors == 0;
 }
 
-void compile_results(const char *target, const mxg_result *const *results, size_t count,
-                     struct compiled *outs)
+/* Results whose code was not compiled yet. */
+static void compile_new_results(const char *target, const mxg_result *const *results, size_t count,
+                                struct compiled *outs)
 {
     const char **sources = command_takes_modules(target) ? calloc(count, sizeof *sources) : NULL;
     for (size_t i = 0; i < count; ++i) {
-        outs[i] = (struct compiled){0};
         if (sources)
             sources[i] = mxg_result_source(results[i], MXG_STAGE_PIXEL, NULL);
         else
@@ -309,4 +310,27 @@ void compile_results(const char *target, const mxg_result *const *results, size_
     if (sources)
         command_compile_modules(target, sources, count, outs);
     free(sources);
+}
+
+void compile_results(const char *target, const mxg_result *const *results, size_t count,
+                     struct compiled outs[COMPILE_MAX_RESULTS])
+{
+    const mxg_result *fresh[COMPILE_MAX_RESULTS];
+    struct compiled compiled[COMPILE_MAX_RESULTS] = {0};
+    uint64_t keys[COMPILE_MAX_RESULTS];
+    size_t places[COMPILE_MAX_RESULTS], num_fresh = 0;
+    for (size_t i = 0; i < count; ++i) {
+        outs[i] = (struct compiled){0};
+        keys[num_fresh] = known_key(target, results[i]);
+        if (known_find(keys[num_fresh], &outs[i]))
+            continue;
+        places[num_fresh] = i;
+        fresh[num_fresh++] = results[i];
+    }
+    compile_new_results(target, fresh, num_fresh, compiled);
+    for (size_t i = 0; i < num_fresh; ++i) {
+        outs[places[i]] = compiled[i];
+        if (compiled[i].num_messages == 0)
+            known_add(keys[i], &compiled[i]);
+    }
 }

@@ -12,8 +12,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_WAITING = 64 }; /* results, so that their memory stays small */
-
 struct check {
     struct cli cli;
     const char *targets, *interfaces; /* lists with commas */
@@ -22,7 +20,7 @@ struct check {
     const char *input;
     const char *stage, *look; /* of a scene */
     mxg_bindings *bindings;   /* NULL without a scene */
-    mxg_result *waiting[MAX_WAITING];
+    mxg_result *waiting[COMPILE_MAX_RESULTS];
     size_t num_waiting;
 };
 
@@ -105,7 +103,7 @@ static void print_result(struct check *check, const char *target, const char *in
 /* Compiles the results that wait, together, and prints them. */
 static void check_waiting(struct check *check, const char *target, const char *interface)
 {
-    struct compiled compiled[MAX_WAITING] = {0};
+    struct compiled compiled[COMPILE_MAX_RESULTS] = {0};
     if (!check->no_compile && compile_knows_target(target))
         compile_results(target, (const mxg_result *const *)check->waiting, check->num_waiting,
                         compiled);
@@ -131,7 +129,7 @@ static void check_one(struct check *check, const mxg_document *document, mxg_gen
         return;
     }
     check->waiting[check->num_waiting++] = result;
-    if (check->num_waiting == MAX_WAITING)
+    if (check->num_waiting == COMPILE_MAX_RESULTS)
         check_waiting(check, target, interface);
 }
 

@@ -13,19 +13,17 @@ done
 compile_osl=$compile
 command -v oslc >/dev/null || { compile_osl= && skip 'without oslc no OSL is compiled'; }
 
-# short FILE...: no line has more than 140 columns.
-short() { awk 'length($0) > 140 { print FILENAME ":" FNR ": " length($0) " columns"; long = 1 } END { exit long }' "$@"; }
-
+# All documents go to one process: each start of glslang makes its tables of built-in functions again.
+for target in vulkan osl hlsl; do
+    check "the documents are generated for $target" exits 0 "$mxgen" "$examples"/*.mtlx --target $target -o $target.d
+    check "they give no warning" test ! -s err
+done
+check 'no line is long' eval 'find vulkan.d osl.d hlsl.d -type f -exec awk "length(\$0) > 140 { print FILENAME \":\" FNR; long = 1 } END { exit long }" {} +'
+[ -z "$compile" ] || check 'they compile' exits 0 "$compile" "$examples"/*.mtlx
+[ -z "$compile_osl" ] || check 'they compile as OSL' exits 0 "$compile" "$examples"/*.mtlx --targets osl
 for document in "$examples"/*.mtlx; do
-    rm -rf out.d osl.d hlsl.d
-    check "${document##*/} is generated" exits 0 "$mxgen" "$document" --target vulkan -o out.d
-    check "${document##*/} gives no warning" test ! -s err
-    [ -z "$compile" ] || check "${document##*/} compiles" exits 0 "$compile" "$document"
-    check "${document##*/} is generated as OSL" exits 0 "$mxgen" "$document" --target osl -o osl.d
-    check "${document##*/} is generated as HLSL" exits 0 "$mxgen" "$document" --target hlsl -o hlsl.d
-    check "${document##*/} has short lines" short out.d/* osl.d/* hlsl.d/*
-    [ -z "$compile_osl" ] || check "${document##*/} compiles as OSL" exits 0 "$compile" "$document" --targets osl
     check "${document##*/} is in the list of examples" grep -qF "\`${document##*/}\`" "$examples/README.md"
+    check "${document##*/} has shaders" test -d "vulkan.d/$(basename "$document" .mtlx)"
 done
 # Materials of MDL with one module of functions, as docs/mdl.md has them.
 check 'examples are generated as MDL' exits 0 "$mxgen" "$examples"/{gold,marble,textured,slabs}.mtlx --target mdl --mdl-module studio -o mdl.d
