@@ -8,7 +8,7 @@
 
 #include "compile/compile.h"
 
-/* Of the code of all stages and parts, without comments, and of what a host adds to it. */
+/* A number for the code of all stages and parts, without comments, and what a host adds to it. */
 uint64_t known_key(const char *target, const mxg_result *result);
 
 /* Fills in the sizes of `out`, which is empty; it has no SPIR-V. False if the code is not known. */
