@@ -17,7 +17,7 @@ struct gpu {
     VkQueue queue;
     VkCommandPool pool;
     VkPhysicalDeviceMemoryProperties memory;
-    bool can_store;    /* pixel stages may write images: stored.h */
+    bool can_store;    /* pixel stages may write images and buffers: stored.h, each.h */
     bool blends_twice; /* pixel stages may have a second source for blending */
     uint32_t max_size; /* of pictures and textures, in pixels */
     double tick;       /* of the device's clock, in seconds; 0: it has none */

@@ -3,6 +3,7 @@
 #include "render/trace.h"
 
 #include "compile/spirv.h"
+#include "render/each.h"
 
 #include <inttypes.h>
 #include <stdio.h>
@@ -308,7 +309,7 @@ static bool compile(struct kernel *kernel, const struct trace_options *options, 
     append(&source, line);
     for (const char *const *piece = trace_source; *piece; ++piece)
         append(&source, *piece);
-    bool good = source.text && compile_compute("vulkan", source.text, out);
+    bool good = source.text && each_compile(source.text, out);
     free(source.text);
     if (good)
         return true;
@@ -329,8 +330,7 @@ static bool create_pipeline(struct gpu *gpu, const struct kernel *kernel,
                                                    VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
                                                .setLayoutCount = kernel->inputs.num_sets + 1,
                                                .pSetLayouts = layouts};
-    return gpu_create_compute(gpu, &layout, code->words, code->num_words, &program->layout,
-                              &program->pipeline);
+    return each_create(gpu, &layout, &program->compiled, &program->layout, &program->pipeline);
 }
 
 /* True if the pixel stage reads uniforms that differ between objects. */
@@ -358,6 +358,10 @@ bool kernel_open(struct gpu *gpu, struct bind *bind, uint32_t first_shader, stru
     out->prepared = out->info.displaced                         ? "DISPLACES"
                     : bind_has_semantic(bind->result, "varies") ? "MEASURES"
                                                                 : "";
+    if (!gpu->can_store)
+        return kernel_fail(
+            out, "no-device",
+            "the device cannot write buffers in pixel stages, as '--path-trace' needs");
     if (!bind_shader(bind))
         return false;
     out->num_shaders = differs_by_object(bind) ? bind->num_objects : 1;

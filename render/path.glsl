@@ -386,8 +386,8 @@ bool follow(inout Path path)
 // How far a vertex moves: the film has the number of one of its corners.
 void main()
 {
-    uint at = gl_GlobalInvocationID.y * camera.frame.x + gl_GlobalInvocationID.x;
-    if (gl_GlobalInvocationID.x >= camera.frame.x || at >= camera.frame.y)
+    uint at = pixel_number();
+    if (this_pixel().x >= camera.frame.x || at >= camera.frame.y)
         return;
     uint i = floatBitsToUint(film[at].w);
     Corner c = corners[i];
@@ -405,7 +405,7 @@ void main()
 // number `frame.w`.
 void main()
 {
-    uint at = gl_GlobalInvocationID.y * camera.frame.x + gl_GlobalInvocationID.x, side = camera.frame.z;
+    uint at = pixel_number(), side = camera.frame.z;
     random_state = uvec4(at, camera.frame.w, 0u, 0u);
     vec3 place = (vec3(at % side, at / side % side, at / (side * side)) + next_random().xyz) / float(side);
     if (at >= side * side * side)
@@ -439,7 +439,7 @@ Path begin(uvec2 pixel, uint number)
 
 void main()
 {
-    uvec2 pixel = gl_GlobalInvocationID.xy;
+    uvec2 pixel = this_pixel();
     if (pixel.x >= camera.frame.x || pixel.y >= camera.frame.y)
         return;
     uint index = pixel.y * camera.frame.x + pixel.x, end = camera.frame.z + camera.frame.w;

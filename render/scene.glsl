@@ -26,14 +26,14 @@ layout(set = TRACER_SET, binding = 7, std430) buffer Waiting { uint waiting[]; }
 layout(set = TRACER_SET, binding = 9, std430) buffer Media { Medium media[]; };
 layout(set = TRACER_SET, binding = 10, std430) readonly buffer TheCamera { Camera camera; };
 layout(set = TRACER_SET, binding = 11) uniform sampler2D environment_map;
-layout(local_size_x = 8, local_size_y = 8) in;
 
 #define NEAR camera.environment[0].w
 const float FAR = 1e29;
 const float PI = 3.14159265;
 const int MAX_HITS = 64; // those that a path goes straight through, too
 
-uint pixel_number() { return gl_GlobalInvocationID.y * camera.frame.x + gl_GlobalInvocationID.x; }
+uvec2 this_pixel() { return uvec2(gl_FragCoord.xy); }
+uint pixel_number() { return this_pixel().y * camera.frame.x + this_pixel().x; }
 uint this_shader() { return uint(camera.environment[1].w); }
 
 // ---- Random numbers: Jarzynski and Olano 2020, "Hash Functions for GPU Rendering", pcg4d ----

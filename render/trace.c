@@ -2,6 +2,7 @@
 #include "render/trace.h"
 
 #include "render/bvh.h"
+#include "render/each.h"
 #include "render/importance.h"
 #include "render/inside.h"
 
@@ -25,9 +26,8 @@ enum {
     CAMERA,
     NUM_BUFFERS,
     NUM_BINDINGS = NUM_BUFFERS + 1,
-    MOST_AROUND = 4, /* media around one */
-    GROUP = 8,
-    ROW = 1024,         /* invocations of programs that prepare, side by side */
+    MOST_AROUND = 4,    /* media around one */
+    ROW = 4096,         /* invocations of programs that prepare, side by side */
     MEASURED_SIDE = 32, /* cells along each edge of a volume's box */
     MEASURED = MEASURED_SIDE * MEASURED_SIDE * MEASURED_SIDE,
     SAMPLES_AT_ONCE = 16
@@ -218,7 +218,7 @@ static bool create_set(struct tracer *tracer)
             i,
             i < NUM_BUFFERS ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
                             : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-            1, VK_SHADER_STAGE_COMPUTE_BIT, NULL};
+            1, VK_SHADER_STAGE_FRAGMENT_BIT, NULL};
     const VkDescriptorSetLayoutCreateInfo layout = {
         .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
         .bindingCount = NUM_BINDINGS,
@@ -305,13 +305,13 @@ static bool run(struct tracer *tracer, uint32_t shader, bool is_first, struct Ca
     if (!commands)
         return false;
     camera->environment[1][3] = (float)shader;
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, program->pipeline);
-    inputs_bind(commands, VK_PIPELINE_BIND_POINT_COMPUTE, program->layout, &kernel->bind->draw,
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, program->pipeline);
+    inputs_bind(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, program->layout, &kernel->bind->draw,
                 &kernel->inputs, shader - kernel->first_shader);
-    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, program->layout,
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, program->layout,
                             kernel->inputs.num_sets, 1, &tracer->set, 0, NULL);
     memcpy(tracer->buffers[CAMERA].mapped, camera, sizeof *camera);
-    vkCmdDispatch(commands, (width + GROUP - 1) / GROUP, (height + GROUP - 1) / GROUP, 1);
+    each_run(commands, width, height);
     return gpu_end(tracer->gpu, commands);
 }
 
