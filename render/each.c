@@ -33,7 +33,7 @@ static VkPipelineShaderStageCreateInfo stage_of(VkShaderStageFlagBits stage, VkS
         .pName = "main"};
 }
 
-/* What a triangle without vertices, targets and depth asks for. */
+/* The state of a triangle without vertices, targets and depth. */
 static const VkPipelineVertexInputStateCreateInfo no_vertices = {
     .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
 static const VkPipelineInputAssemblyStateCreateInfo assembly = {
