@@ -89,11 +89,12 @@ static bool eval_source(const struct ir_evaluator *e, ir_ref ref, struct ir_valu
 static void eval_call(struct ir_evaluator *e, ir_ref call)
 {
     struct ir_eval_frame *frame = &vec_last(&e->frames);
-    struct ir_value results[IR_MAX_RESULTS],
-        *args = ARENA_ARRAY(e->scratch, struct ir_value, ir_get(e->graph, call)->num_args);
-    if (!e->env || !e->env->call || !values_of(e, frame, call, args))
+    struct ir_value results[IR_MAX_RESULTS];
+    e->args.len = 0;
+    vec_extend(e->scratch, &e->args, ir_get(e->graph, call)->num_args + 1u);
+    if (!e->env || !e->env->call || !values_of(e, frame, call, e->args.items))
         return;
-    uint32_t num = e->env->call(e->env->user_data, e->graph, call, args, results),
+    uint32_t num = e->env->call(e->env->user_data, e->graph, call, e->args.items, results),
              first = e->results.len;
     for (uint32_t i = 0; i < num; i++)
         vec_push(e->scratch, &e->results, store(e, &results[i]));
@@ -176,6 +177,8 @@ static void return_to_caller(struct ir_evaluator *e)
         vec_push(e->scratch, &e->results,
                  value_of(e, frame, result, &value) ? store(e, &value) : 0);
     }
+    arena_release(e->scratch, frame->needed, frame->end * sizeof *frame->needed);
+    arena_release(e->scratch, frame->places, frame->end * sizeof *frame->places);
     e->frames.len--;
 }
 
@@ -185,6 +188,7 @@ static void step(struct ir_evaluator *e)
     ir_ref ref = frame->at++;
     assert(ref < frame->end);
     const struct ir_node *node = ir_get(e->graph, ref);
+    e->num_steps++;
     if (!frame->needed[ref] || node->op == IR_CONST)
         return;
     if (node->op == IR_CALL) {
@@ -256,6 +260,12 @@ void ir_evaluator_init(struct ir_evaluator *e, const struct ir_graph *graph,
     vec_push(scratch, &e->words, (union ir_word){.u = 0});
     vec_push(scratch, &e->results, 0);
     vec_push(scratch, &e->frames, (struct ir_eval_frame){0});
+}
+
+void ir_evaluator_forget(struct ir_evaluator *e)
+{
+    e->words.len = e->results.len = 1;
+    e->needed.len = e->places.len = 0;
 }
 
 bool ir_evaluate(struct ir_evaluator *e, ir_ref root, struct ir_value *out)

@@ -547,10 +547,14 @@ struct ir_evaluator {
     VEC(uint8_t) needed;      /* of the outermost frame: visited in this run or before */
     VEC(uint32_t) places;
     VEC(ir_ref) visits;
+    VEC(struct ir_value) args; /* of a call */
+    uint64_t num_steps;        /* of all runs: nodes, also those in functions */
 };
 void ir_evaluator_init(struct ir_evaluator *e, const struct ir_graph *graph,
                        const struct ir_eval_env *env, struct arena *scratch);
 bool ir_evaluate(struct ir_evaluator *e, ir_ref root, struct ir_value *out);
+/* All values, because sources have others now. */
+void ir_evaluator_forget(struct ir_evaluator *e);
 /* One node; nothing is kept. */
 bool ir_eval(const struct ir_graph *graph, ir_ref root, const struct ir_eval_env *env,
              struct arena *scratch, struct ir_value *out);

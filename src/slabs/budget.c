@@ -87,7 +87,7 @@ static void take_within_error(struct spender *s)
 /* The order of steps matters: for an error, and for bytes that features or blends may save. */
 static bool searches(const struct spender *s)
 {
-    return s->saver.host->scratch && (s->budget->max_error >= 0.0f || !keeps_bytes(s));
+    return s->saver.eye && (s->budget->max_error >= 0.0f || !keeps_bytes(s));
 }
 
 static void take_best(struct spender *s)
@@ -167,7 +167,7 @@ ir_ref slabs_budget(struct shader *shader, const struct slabs_host *host,
     out->is_met = !goes_on(&s) || (keeps_slabs(&s) && keeps_bytes(&s) && keeps_error(&s));
     out->unblended = goes_on(&s) ? slab_find_asked(&s.saver) : 0;
     out->after = s.saver.cost;
-    out->num_steps = s.saver.num_steps;
+    out->num_steps = s.saver.eye ? slabs_num_steps(s.saver.eye) : 0;
     return s.saver.root;
 }
 

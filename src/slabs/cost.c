@@ -120,11 +120,13 @@ bool slab_is_choice(const struct ir_graph *g, ir_ref share)
 static ir_ref find_condition(const struct shader *shader, ir_ref root)
 {
     const struct ir_graph *g = shader->graph;
-    const uint8_t *needed = ir_mark(g, &root, 1, shader->arena);
-    for (ir_ref ref = root; ref; ref--)
-        if (needed[ref] && ir_get(g, ref)->op == IR_CLOSURE_MIX
-            && slab_is_choice(g, ir_arg(g, ref, 2)))
+    struct slab_nodes nodes;
+    slabs_find_nodes(shader, root, &nodes);
+    for (uint32_t i = nodes.items.len; --i > 0;) {
+        ir_ref ref = nodes.items.items[i];
+        if (ir_get(g, ref)->op == IR_CLOSURE_MIX && slab_is_choice(g, ir_arg(g, ref, 2)))
             return ir_arg(g, ir_arg(g, ref, 2), 0);
+    }
     return 0;
 }
 

@@ -5,6 +5,8 @@
 
 #include "lower/lower.h"
 #include "slabs/difference.h"
+#include "slabs/nodes.h"
+#include "slabs/places.h"
 
 #include <math.h>
 
@@ -24,13 +26,30 @@ static const float light_weights[NUM_LIGHTS] = {0.1f, 0.1f, 0.3f};
 #define RADIANCE 1.5f
 #define BACKGROUND 0.5f
 
-struct eye {
+/* The eye from one side, at one place of the ball. */
+struct sight {
+    struct slab_eye *eye;
+    unsigned at;
+    struct ir_value view, lights[NUM_LIGHTS];
+    struct ir_eval_env env;        /* of the evaluator */
+    struct ir_evaluator evaluator; /* trees share most nodes, so it keeps their values */
+};
+
+/* The colours of a tree, in threes: surfaces, of each the glances, of each the lights. */
+struct look {
+    VEC(float) colors;
+    bool is_known; /* false: the evaluator cannot compute a value */
+};
+
+struct slab_eye {
     struct shader *shader;
     const struct slabs_host *host;
-    ir_ref view, light; /* vec3: stand for directions */
-    unsigned at;        /* a place of the ball */
-    uint64_t num_steps; /* of the evaluator so far */
-    struct ir_value view_value, light_value;
+    ir_ref first;                    /* the tree that others are compared with */
+    ir_ref view, lights[NUM_LIGHTS]; /* vec3: stand for directions */
+    struct slab_glances glances;     /* that show all that varies in the first tree */
+    struct sight *sights;            /* of the glances; NULL: nobody has looked yet */
+    struct look whole;               /* of the first tree */
+    uint64_t num_steps;
 };
 
 /* ---- Sources ---- */
@@ -66,9 +85,9 @@ static size_t texel_at(const union ir_word *place)
 static bool texture(void *user_data, const struct ir_graph *graph, ir_ref ref,
                     const struct ir_value *place, struct ir_value *out)
 {
-    const struct eye *eye = user_data;
-    const float *texels = texels_of(eye->host, ir_get(graph, ir_arg(graph, ref, 0))),
-                *texel = fixed_texels[eye->at % NUM_TEXELS];
+    const struct sight *sight = user_data;
+    const float *texels = texels_of(sight->eye->host, ir_get(graph, ir_arg(graph, ref, 0))),
+                *texel = fixed_texels[sight->at % NUM_TEXELS];
     *out = (struct ir_value){.type = ir_type_of(graph, ref)};
     if (texels && place && ir_type_is_float(place->type))
         texel = texels + texel_at(place->w) * 4;
@@ -77,21 +96,35 @@ static bool texture(void *user_data, const struct ir_graph *graph, ir_ref ref,
     return true;
 }
 
-static bool source(void *user_data, const struct ir_graph *graph, ir_ref ref, struct ir_value *out)
+static bool direction(const struct sight *sight, ir_ref ref, struct ir_value *out)
 {
-    const struct eye *eye = user_data;
-    const struct ir_node *node = ir_get(graph, ref);
-    *out = (struct ir_value){.type = node->type};
-    if (ref == eye->view || ref == eye->light) {
-        *out = ref == eye->view ? eye->view_value : eye->light_value;
+    const struct slab_eye *eye = sight->eye;
+    if (ref == eye->view) {
+        *out = sight->view;
         return true;
     }
+    for (unsigned i = 0; i < NUM_LIGHTS; i++)
+        if (ref == eye->lights[i]) {
+            *out = sight->lights[i];
+            return true;
+        }
+    return false;
+}
+
+static bool source(void *user_data, const struct ir_graph *graph, ir_ref ref, struct ir_value *out)
+{
+    const struct sight *sight = user_data;
+    const struct slab_eye *eye = sight->eye;
+    const struct ir_node *node = ir_get(graph, ref);
+    *out = (struct ir_value){.type = node->type};
+    if (direction(sight, ref, out))
+        return true;
     switch (node->op) {
     case IR_UNIFORM:
         *out = eye->shader->interface.variables.items[node->attr].value;
         return out->type == node->type;
     case IR_STREAM:
-        slabs_place_stream(eye->at, eye->shader->interface.variables.items[node->attr].name, out);
+        slabs_place_stream(sight->at, eye->shader->interface.variables.items[node->attr].name, out);
         return ir_type_is_float(node->type);
     case IR_DFDX:
     case IR_DFDY:
@@ -103,57 +136,64 @@ static bool source(void *user_data, const struct ir_graph *graph, ir_ref ref, st
 static uint32_t call(void *user_data, const struct ir_graph *graph, ir_ref ref,
                      const struct ir_value *args, struct ir_value *out)
 {
-    struct eye *eye = user_data;
+    struct slab_eye *eye = ((struct sight *)user_data)->eye;
     uint32_t steps_left = LANG_MAX_STEPS;
     uint32_t num =
         lang_eval_node(eye->shader->unit, graph, ref, args, &steps_left, eye->host->scratch, out);
     eye->num_steps += LANG_MAX_STEPS - steps_left;
+    arena_finish(eye->host->scratch);
     return num;
 }
 
 /* ---- Light ---- */
 
-/* Returns what one lobe sends to the viewer: of the environment, of the light, and its own. */
-static ir_ref light_of(struct eye *eye, const struct closure_host *host,
-                       const struct closure_leaf *leaf)
+/* Adds what one lobe sends to the viewer: of the environment, of each light, and its own. */
+static void add_lobe(const struct slab_eye *eye, const struct closure_host *host,
+                     const struct closure_leaf *leaf, ir_ref sums[NUM_LIGHTS])
 {
     struct shader *shader = eye->shader;
     struct ir_graph *g = shader->graph;
     ir_ref zero = ir_const_float(g, 0.0f), mean = ir_const_float(g, CLOSURE_MEAN_WAY);
-    ir_ref sum = ir_black(g);
+    ir_ref even = ir_black(g);
     ir_ref albedo = closure_call(shader, host, leaf->leaf, LEAF_ALBEDO, NULL),
-           value = closure_call(shader, host, leaf->leaf, LEAF_EVAL, &eye->light),
            glow = closure_call(shader, host, leaf->leaf, LEAF_EMISSION, NULL);
     if (albedo) {
-        ir_ref even = ir_mul(g, albedo, closure_weight(shader, leaf, mean));
-        sum = ir_add(g, sum, ir_scaled(g, even, AMBIENT));
-    }
-    if (value) {
-        ir_ref way = closure_way(shader, host, eye->light);
-        ir_ref lit = ir_mul(g, value, closure_weight(shader, leaf, way));
-        sum = ir_add(g, sum, ir_scaled(g, lit, RADIANCE));
+        albedo = ir_mul(g, albedo, closure_weight(shader, leaf, mean));
+        even = ir_add(g, even, ir_scaled(g, albedo, AMBIENT));
     }
     if (glow)
-        sum = ir_add(g, sum, ir_mul(g, glow, closure_weight(shader, leaf, zero)));
-    return ir_convert(g, IR_TYPE_VEC3, sum);
+        glow = ir_mul(g, glow, closure_weight(shader, leaf, zero));
+    for (unsigned i = 0; i < NUM_LIGHTS; i++) {
+        ir_ref sum = even,
+               value = closure_call(shader, host, leaf->leaf, LEAF_EVAL, &eye->lights[i]);
+        if (value) {
+            ir_ref way = closure_way(shader, host, eye->lights[i]);
+            ir_ref lit = ir_mul(g, value, closure_weight(shader, leaf, way));
+            sum = ir_add(g, sum, ir_scaled(g, lit, RADIANCE));
+        }
+        sum = glow ? ir_add(g, sum, glow) : sum;
+        sums[i] = ir_add(g, sums[i], ir_convert(g, IR_TYPE_VEC3, sum));
+    }
 }
 
-/* The colour of a closure; where it shows what is behind, before a grey background. */
-static ir_ref color_of(struct eye *eye, ir_ref lobes, bool shows_behind)
+/* The colours of a closure by light; where it shows what is behind, before a grey background. */
+static void colors_of(const struct slab_eye *eye, ir_ref lobes, bool shows_behind,
+                      ir_ref out[NUM_LIGHTS])
 {
     struct ir_graph *g = eye->shader->graph;
     struct closure_probe probe;
     struct closure_list list;
     closure_probe(eye->host->closures, eye->view, &probe);
-    ir_ref none = ir_const_float(g, 0.0f), sum = ir_black(g);
+    ir_ref none = ir_const_float(g, 0.0f), behind = ir_black(g);
     if (shows_behind) {
-        sum = closure_throughput(eye->shader, &probe.host, lobes, none);
-        sum = ir_scaled(g, sum, BACKGROUND);
+        behind = closure_throughput(eye->shader, &probe.host, lobes, none);
+        behind = ir_scaled(g, behind, BACKGROUND);
     }
+    for (unsigned i = 0; i < NUM_LIGHTS; i++)
+        out[i] = behind;
     closure_flatten(eye->shader, &probe.host, lobes, &list);
     for (uint32_t i = 0; i < list.leaves.len; i++)
-        sum = ir_add(g, sum, light_of(eye, &probe.host, &list.leaves.items[i]));
-    return sum;
+        add_lobe(eye, &probe.host, &list.leaves.items[i], out);
 }
 
 /* ---- Colours ---- */
@@ -179,30 +219,20 @@ static struct ir_value light_for(const struct ir_value *view, unsigned point, un
                           along * half[2] - view->w[2].f);
 }
 
-static bool evaluate(struct eye *eye, ir_ref color, struct ir_value *out)
+static void open_sight(struct slab_eye *eye, struct sight *out)
 {
-    const struct ir_eval_env env = {
-        .user_data = eye, .source = source, .call = call, .texture = texture};
-    bool good = ir_eval(eye->shader->graph, color, &env, eye->host->scratch, out);
-    eye->num_steps += color;
-    arena_finish(eye->host->scratch);
-    return good;
+    *out = (struct sight){.eye = eye, .view = value_of_three(0.0f, 0.0f, 1.0f)};
+    out->env =
+        (struct ir_eval_env){.user_data = out, .source = source, .call = call, .texture = texture};
+    ir_evaluator_init(&out->evaluator, eye->shader->graph, &out->env, eye->shader->arena);
 }
 
-static bool look_at(struct eye *eye, ir_ref color, const struct slab_glance *glance,
-                    struct slab_look *out)
+static bool evaluate(struct sight *sight, ir_ref color, struct ir_value *out)
 {
-    eye->at = glance->at;
-    eye->view_value = view_of(glance->view);
-    for (unsigned i = 0; i < NUM_LIGHTS; i++) {
-        struct ir_value value;
-        eye->light_value = light_for(&eye->view_value, glance->view, i);
-        if (!evaluate(eye, color, &value))
-            return false;
-        for (unsigned c = 0; c < 3; c++)
-            vec_push(eye->shader->arena, &out->colors, value.w[c].f);
-    }
-    return true;
+    uint64_t before = sight->evaluator.num_steps;
+    bool is_known = ir_evaluate(&sight->evaluator, color, out);
+    sight->eye->num_steps += sight->evaluator.num_steps - before;
+    return is_known;
 }
 
 /* ---- Places ---- */
@@ -219,16 +249,16 @@ static ir_ref weight_of(struct ir_graph *g, unsigned number)
 }
 
 /* A vec3 that tells unlike places apart: a sum of all operands of closures. 0: nothing varies. */
-static ir_ref signature_of(const struct eye *eye, const uint8_t *needed, ir_ref root)
+static ir_ref signature_of(const struct slab_eye *eye, ir_ref root)
 {
     struct ir_graph *g = eye->shader->graph;
+    struct slab_nodes nodes;
+    slabs_find_nodes(eye->shader, root, &nodes);
     ir_ref sum = 0, least = ir_const_splat(g, IR_TYPE_VEC3, -1.0f), most = ir_white(g);
     unsigned number = 0;
-    for (ir_ref ref = 1; ref <= root; ref++) {
-        bool is_matter =
-            needed[ref]
-            && (ir_type_is_closure(ir_type_of(g, ref)) || ir_type_is_shader(ir_type_of(g, ref)));
-        uint32_t num_args = is_matter ? ir_get(g, ref)->num_args : 0;
+    for (uint32_t at = 1; at < nodes.items.len; at++) {
+        ir_ref ref = nodes.items.items[at];
+        uint32_t num_args = ir_get(g, ref)->num_args;
         for (uint32_t i = 0; i < num_args; i++) {
             ir_ref arg = ir_arg(g, ref, i);
             ir_type_id type = arg ? ir_type_of(g, arg) : IR_TYPE_VOID;
@@ -241,83 +271,133 @@ static ir_ref signature_of(const struct eye *eye, const uint8_t *needed, ir_ref 
     return sum;
 }
 
-/* Glances that show all that varies. */
-static bool find_glances(struct eye *eye, ir_ref root, struct slab_glances *out)
+/* False: some values are unknown. */
+static bool find_glances(struct slab_eye *eye)
 {
     const struct shader *shader = eye->shader;
     float values[SLAB_NUM_PLACES * 3];
-    ir_ref signature = signature_of(eye, ir_mark(shader->graph, &root, 1, shader->arena), root);
-    eye->view_value = eye->light_value = value_of_three(0.0f, 0.0f, 1.0f);
-    for (eye->at = 0; signature && eye->at < SLAB_NUM_PLACES; eye->at++) {
+    ir_ref signature = signature_of(eye, eye->first);
+    struct sight sight;
+    open_sight(eye, &sight);
+    for (sight.at = 0; signature && sight.at < SLAB_NUM_PLACES; sight.at++) {
         struct ir_value value;
-        if (!evaluate(eye, signature, &value))
+        ir_evaluator_forget(&sight.evaluator);
+        if (!evaluate(&sight, signature, &value))
             return false;
         for (unsigned c = 0; c < 3; c++)
-            values[eye->at * 3 + c] = value.w[c].f;
+            values[sight.at * 3 + c] = value.w[c].f;
     }
-    slabs_choose_glances(signature ? values : NULL, shader->arena, out);
+    slabs_choose_glances(signature ? values : NULL, shader->arena, &eye->glances);
     return true;
 }
 
-static struct eye open_eye(struct shader *shader, const struct slabs_host *host)
+/* ---- Looks ---- */
+
+/* Stand-ins for its directions; an eye without them adds no nodes to the graph. */
+static void name_directions(struct slab_eye *eye)
 {
-    struct eye eye = {.shader = shader, .host = host};
-    eye.view = closure_probe_direction(shader->graph, 0);
-    eye.light = closure_probe_direction(shader->graph, 1);
-    return eye;
+    struct ir_graph *g = eye->shader->graph;
+    eye->view = closure_probe_direction(g, 0);
+    for (unsigned i = 0; i < NUM_LIGHTS; i++)
+        eye->lights[i] = closure_probe_direction(g, 1 + i);
+}
+
+static void look_at(struct slab_eye *eye, const ir_ref colors[NUM_LIGHTS], struct look *out)
+{
+    for (uint32_t i = 0; i < eye->glances.items.len * NUM_LIGHTS && out->is_known; i++) {
+        struct ir_value value = {.type = IR_TYPE_VOID};
+        out->is_known = evaluate(&eye->sights[i / NUM_LIGHTS], colors[i % NUM_LIGHTS], &value);
+        for (unsigned c = 0; c < 3; c++)
+            vec_push(eye->shader->arena, &out->colors, value.w[c].f);
+    }
 }
 
 /* The colours of a surface, or of a closure that is the root; other nodes have none. */
-static bool look_at_node(struct eye *eye, ir_ref ref, ir_ref root, struct slab_look *out)
+static void look_at_node(struct slab_eye *eye, ir_ref ref, ir_ref root, struct look *out)
 {
     struct ir_graph *g = eye->shader->graph;
     uint8_t op = ir_get(g, ref)->op;
     bool is_surface = op == IR_SLAB_SURFACE || op == IR_SURFACE_SHADER,
-         is_closure = ref == root && ir_type_of(g, ref) == IR_TYPE_BSDF, good = true;
+         is_closure = ref == root && ir_type_of(g, ref) == IR_TYPE_BSDF;
     if ((!is_surface && !is_closure) || (is_surface && !ir_arg(g, ref, 0)))
-        return true;
-    ir_ref walked = slabs_walk(eye->shader, eye->host, ref);
-    ir_ref color = color_of(eye, is_surface ? ir_arg(g, walked, 0) : walked,
-                            op != IR_SURFACE_SHADER); /* <surface> has its own opacity */
-    for (uint32_t i = 0; i < out->glances.items.len && good; i++)
-        good = look_at(eye, color, &out->glances.items.items[i], out);
-    return good;
+        return;
+    ir_ref walked = slabs_walk(eye->shader, eye->host, ref), colors[NUM_LIGHTS];
+    colors_of(eye, is_surface ? ir_arg(g, walked, 0) : walked,
+              op != IR_SURFACE_SHADER, /* <surface> has its own opacity */
+              colors);
+    look_at(eye, colors, out);
 }
 
-void slabs_look(struct shader *shader, const struct slabs_host *host, ir_ref root,
-                const struct slab_look *like, struct slab_look *out)
+/* All surfaces below a root. */
+static void look(struct slab_eye *eye, ir_ref root, struct look *out)
 {
-    struct eye eye = open_eye(shader, host);
-    *out = (struct slab_look){.is_known = true};
-    if (like)
-        out->glances = like->glances;
-    else
-        out->is_known = find_glances(&eye, root, &out->glances);
-    const uint8_t *needed = ir_mark(shader->graph, &root, 1, shader->arena);
-    for (ir_ref ref = 1; ref <= root && out->is_known; ref++)
-        out->is_known = !needed[ref] || look_at_node(&eye, ref, root, out);
-    out->num_steps = eye.num_steps;
+    struct slab_nodes nodes;
+    *out = (struct look){.is_known = true};
+    slabs_find_nodes(eye->shader, root, &nodes);
+    for (uint32_t i = 1; i < nodes.items.len && out->is_known; i++)
+        look_at_node(eye, nodes.items.items[i], root, out);
+    eye->num_steps += root; /* building the colours takes about as long */
 }
 
-float slabs_difference(const struct slab_look *a, const struct slab_look *b)
+struct slab_eye *slabs_open_eye(struct shader *shader, const struct slabs_host *host, ir_ref first)
 {
+    struct slab_eye *eye = ARENA_NEW(shader->arena, struct slab_eye);
+    *eye = (struct slab_eye){.shader = shader, .host = host, .first = first};
+    return eye;
+}
+
+static void open_sights(struct slab_eye *eye)
+{
+    name_directions(eye);
+    eye->whole.is_known = find_glances(eye);
+    const struct slab_glances *glances = &eye->glances;
+    eye->sights = ARENA_ARRAY(eye->shader->arena, struct sight, glances->items.len);
+    for (uint32_t i = 0; i < glances->items.len; i++) {
+        struct sight *sight = &eye->sights[i];
+        const struct slab_glance *glance = &glances->items.items[i];
+        open_sight(eye, sight);
+        sight->at = glance->at;
+        sight->view = view_of(glance->view);
+        for (unsigned k = 0; k < NUM_LIGHTS; k++)
+            sight->lights[k] = light_for(&sight->view, glance->view, k);
+    }
+    if (eye->whole.is_known)
+        look(eye, eye->first, &eye->whole);
+}
+
+float slabs_estimate(struct slab_eye *eye, ir_ref root)
+{
+    if (!eye->sights)
+        open_sights(eye);
+    const struct look *a = &eye->whole;
+    struct look b = {0};
+    if (a->is_known)
+        look(eye, root, &b);
     double sum = 0.0;
-    uint32_t num = a->colors.len / 3, num_glances = a->glances.items.len;
-    if (!a->is_known || !b->is_known || a->colors.len != b->colors.len || num == 0)
+    uint32_t num = a->colors.len / 3, num_glances = eye->glances.items.len;
+    if (!a->is_known || !b.is_known || a->colors.len != b.colors.len || num == 0)
         return -1.0f;
     for (uint32_t i = 0; i < num; i++)
         sum += light_weights[i % NUM_LIGHTS]
-               * a->glances.items.items[i / NUM_LIGHTS % num_glances].weight
-               * color_difference(a->colors.items + i * 3, b->colors.items + i * 3);
+               * eye->glances.items.items[i / NUM_LIGHTS % num_glances].weight
+               * color_difference(a->colors.items + i * 3, b.colors.items + i * 3);
     return (float)(sum * num_glances * NUM_LIGHTS / num); /* the mean of several surfaces */
 }
+
+uint64_t slabs_num_steps(const struct slab_eye *eye)
+{
+    return eye->num_steps;
+}
+
+/* ---- Single values ---- */
 
 ir_ref slabs_through(struct shader *shader, const struct slabs_host *host, ir_ref top,
                      ir_ref thickness)
 {
     struct ir_graph *g = shader->graph;
-    struct eye eye = open_eye(shader, host);
+    struct slab_eye eye = {.shader = shader, .host = host};
     struct closure_probe probe;
+    name_directions(&eye);
     closure_probe(host->closures, eye.view, &probe);
     ir_ref args[3] = {top, ir_const_bool(g, true), thickness};
     ir_ref sheet = ir_build(g, IR_SLAB_SURFACE, IR_TYPE_SURFACE, 0, args, 3);
@@ -330,10 +410,12 @@ ir_ref slabs_through(struct shader *shader, const struct slabs_host *host, ir_re
 
 float slabs_brightness(struct shader *shader, const struct slabs_host *host, ir_ref color)
 {
-    struct eye eye = open_eye(shader, host);
+    struct slab_eye eye = {.shader = shader, .host = host};
+    struct sight sight;
     struct ir_value value;
-    eye.view_value = value_of_three(0.0f, 0.0f, 1.0f);
-    if (!evaluate(&eye, color, &value))
+    name_directions(&eye);
+    open_sight(&eye, &sight);
+    if (!evaluate(&sight, color, &value))
         return -1.0f;
     return (value.w[0].f + value.w[1].f + value.w[2].f) / 3.0f;
 }

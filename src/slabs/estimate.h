@@ -7,22 +7,20 @@
 #ifndef MXG_SLABS_ESTIMATE_H
 #define MXG_SLABS_ESTIMATE_H
 
-#include "slabs/places.h"
 #include "slabs/slabs.h"
 
-struct slab_look {
-    VEC(float) colors; /* in threes */
-    struct slab_glances glances;
-    bool is_known;      /* false: the evaluator cannot compute a value */
-    uint64_t num_steps; /* that the evaluator took */
-};
+/* Compares trees of one document. */
+struct slab_eye;
 
+/* For trees that are to look like the first one. It lives as long as the shader. */
+struct slab_eye *slabs_open_eye(struct shader *shader, const struct slabs_host *host, ir_ref first);
 /*
- * Looks at all surfaces below a root, with the glances of `like`; NULL: as the root needs. The
- * arena host->scratch is empty after the call.
+ * The estimated error of a tree: the mean CIEDE2000 of all surfaces below its root, and those of
+ * the first tree. -1: unknown, because the evaluator cannot compute a value.
  */
-void slabs_look(struct shader *shader, const struct slabs_host *host, ir_ref root,
-                const struct slab_look *like, struct slab_look *out);
+float slabs_estimate(struct slab_eye *eye, ir_ref root);
+/* Returns the steps of all estimates: the evaluator's, and for each the nodes up to its root. */
+uint64_t slabs_num_steps(const struct slab_eye *eye);
 
 /*
  * Returns what a closure lets through as a layer of this thickness, of light on the mean way
@@ -32,8 +30,5 @@ ir_ref slabs_through(struct shader *shader, const struct slabs_host *host, ir_re
                      ir_ref thickness);
 /* The mean of the channels, seen along the normal; below 0: unknown. */
 float slabs_brightness(struct shader *shader, const struct slabs_host *host, ir_ref color);
-
-/* The mean CIEDE2000 of two looks of one document. -1: unknown. */
-float slabs_difference(const struct slab_look *a, const struct slab_look *b);
 
 #endif

@@ -2,7 +2,8 @@
 /*
  * A beam search: of the trees after n steps, those with the least errors go on. Errors need not
  * grow from step to step, so a tree beyond the limit may lead to one within it; MARGIN says how far
- * beyond. Steps in another order often lead to the same tree, which the graph has once.
+ * beyond. Steps in another order often lead to the same tree, which the graph has once. A blend may
+ * make a second lobe, which takes a word, so a second pass begins anew with blends that make none.
  */
 #include "slabs/search.h"
 
@@ -25,6 +26,7 @@ struct search {
     struct slab_saver saver; /* at any tree */
     const struct slab_budget *limits;
     VEC(struct state) states;
+    uint32_t pass; /* its first state after the tree before all steps */
 };
 
 /* ---- Ends ---- */
@@ -78,6 +80,11 @@ static struct state *state_of(const struct search *s, ir_ref root)
     return NULL;
 }
 
+static bool is_of_pass(const struct search *s, const struct state *state)
+{
+    return state == s->states.items || state >= s->states.items + s->pass;
+}
+
 /* A tree that a level left behind goes on from the next one, where another way leads to it. */
 static void take_up(struct search *s, struct state *state)
 {
@@ -94,7 +101,7 @@ static bool is_useful(const struct search *s, struct slab_cost cost)
 
 static bool is_affordable(const struct search *s)
 {
-    return s->saver.num_steps < SLAB_SEARCH_STEPS;
+    return slabs_num_steps(s->saver.eye) < SLAB_SEARCH_STEPS;
 }
 
 /* end: of the level */
@@ -106,11 +113,13 @@ static void expand(struct search *s, uint32_t from, uint32_t end)
     for (uint32_t i = 0; i < steps.items.len && is_affordable(s); i++) {
         struct state next = {.by = steps.items.items[i], .parent = from, .is_open = true};
         struct state *known = state_of(s, next.by.root);
-        if (known && known->is_open && known < s->states.items + end)
+        bool is_there = known && is_of_pass(s, known);
+        if (is_there && known->is_open && known < s->states.items + end)
             take_up(s, known);
-        if (known)
+        if (is_there)
             continue;
-        next.error = next.by.step.error = slab_saver_error(&s->saver, next.by.root);
+        next.error = known ? known->error : slab_saver_error(&s->saver, next.by.root);
+        next.by.step.error = next.error;
         next.cost = slab_saver_cost(&s->saver, next.by.root);
         if (next.error >= 0.0f && is_useful(s, next.cost))
             vec_push(s->saver.shader->arena, &s->states, next);
@@ -142,10 +151,15 @@ static uint32_t next_open(const struct search *s, uint32_t first, uint32_t end)
     return best;
 }
 
-static void search_levels(struct search *s)
+/* From the tree before all steps. off: features that blends do not make. */
+static void search_levels(struct search *s, uint32_t off)
 {
-    int width = s->saver.cost.closures > LARGE ? WIDTH_OF_LARGE : WIDTH;
-    for (uint32_t first = 0, end = s->states.len; first < end;) {
+    int width = s->states.items[0].cost.closures > LARGE ? WIDTH_OF_LARGE : WIDTH;
+    s->saver.blend.off = off;
+    s->states.items[0].is_open = true;
+    s->pass = s->states.len;
+    for (uint32_t first = 0, end = 1; first < end;) {
+        uint32_t next = s->states.len;
         for (int i = 0; i < width; i++) {
             uint32_t at = next_open(s, first, end);
             if (at == end)
@@ -153,12 +167,12 @@ static void search_levels(struct search *s)
             s->states.items[at].is_open = false;
             expand(s, at, end);
         }
-        first = end;
+        first = next;
         end = s->states.len;
     }
 }
 
-bool slabs_search(struct slab_saver *saver, const struct slab_budget *limits,
+bool slabs_search(const struct slab_saver *saver, const struct slab_budget *limits,
                   struct slab_candidates *out)
 {
     struct search s = {.saver = *saver, .limits = limits};
@@ -166,7 +180,10 @@ bool slabs_search(struct slab_saver *saver, const struct slab_budget *limits,
     struct state start = {.by.root = saver->root, .cost = saver->cost, .is_open = true};
     start.error = slab_saver_error(&s.saver, saver->root);
     vec_push(arena, &s.states, start);
-    search_levels(&s);
+    uint32_t off = saver->blend.off, one_lobe = off | 1u << SLAB_SECOND_LOBE;
+    search_levels(&s, off);
+    if (one_lobe != off)
+        search_levels(&s, one_lobe);
     uint32_t best = 0, num = 0;
     for (uint32_t i = 1; i < s.states.len; i++)
         if (is_better(&s, &s.states.items[i], &s.states.items[best]))
@@ -178,6 +195,5 @@ bool slabs_search(struct slab_saver *saver, const struct slab_budget *limits,
         out->items.items[num - 1 - i] = out->items.items[i];
         out->items.items[i] = last;
     }
-    saver->num_steps = s.saver.num_steps;
     return is_affordable(&s);
 }

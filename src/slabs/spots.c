@@ -25,18 +25,17 @@ static uint32_t pile_of(const struct shader *shader, struct slab_spots *spots, i
     return spots->piles.len;
 }
 
-static void find_spreading(const struct shader *shader, ir_ref root, const uint8_t *needed,
-                           uint8_t *out)
+static void find_spreading(const struct ir_graph *g, const struct slab_nodes *nodes, uint8_t *out)
 {
-    const struct ir_graph *g = shader->graph;
-    for (ir_ref ref = 1; ref <= root; ref++) {
+    for (uint32_t at = 1; at < nodes->items.len; at++) {
+        ir_ref ref = nodes->items.items[at];
         const struct ir_node *node = ir_get(g, ref);
-        if (!needed[ref] || node->type != IR_TYPE_BSDF)
+        if (node->type != IR_TYPE_BSDF)
             continue;
         if (node->op == IR_SLAB)
-            out[ref] = SLAB_FEATURES_BELOW & ~node->attr && slab_spreads(g, ir_args(g, ref));
+            out[at] = SLAB_FEATURES_BELOW & ~node->attr && slab_spreads(g, ir_args(g, ref));
         for (uint32_t i = 0; node->op != IR_SLAB && i < node->num_args; i++)
-            out[ref] |= out[ir_arg(g, ref, i)];
+            out[at] |= out[slab_node_at(nodes, ir_arg(g, ref, i))];
     }
 }
 
@@ -52,7 +51,8 @@ static void add_spot(const struct shader *shader, struct slab_spots *spots, stru
 {
     if (!is_bsdf(shader->graph, spot.ref))
         return;
-    spot.next = spots->first[spot.ref];
+    uint32_t at = slab_node_at(&spots->nodes, spot.ref);
+    spot.next = spots->first[at];
     for (uint32_t i = spot.next; i; i = spots->items.items[i - 1].next) {
         const struct slab_spot *known = &spots->items.items[i - 1];
         bool is_there = known->thickness == spot.thickness && known->is_sheet == spot.is_sheet
@@ -63,7 +63,12 @@ static void add_spot(const struct shader *shader, struct slab_spots *spots, stru
             return;
     }
     vec_push(shader->arena, &spots->items, spot);
-    spots->first[spot.ref] = spots->items.len;
+    spots->first[at] = spots->items.len;
+}
+
+static bool spreads(const struct slab_spots *spots, ir_ref ref)
+{
+    return spots->spreads[slab_node_at(&spots->nodes, ref)];
 }
 
 /* The operands of an operator lie where it lies, but the top of a layer has its thickness. */
@@ -71,7 +76,8 @@ static void spread(const struct shader *shader, struct slab_spots *spots, ir_ref
                    const struct slab_spot *spot)
 {
     struct ir_graph *g = shader->graph;
-    uint32_t num_args = ir_get(g, ref)->num_args;
+    uint32_t num_args = ir_get(g, ref)->num_args,
+             depth = spots->depth[slab_node_at(&spots->nodes, ref)];
     for (uint32_t i = 0; i < num_args; i++) {
         struct slab_spot at = *spot;
         at.ref = ir_arg(g, ref, i);
@@ -82,11 +88,12 @@ static void spread(const struct shader *shader, struct slab_spots *spots, ir_ref
             at.thickness = slabs_layer_thickness(g, ref);
             at.is_sheet = false;
             at.below = is_bsdf(g, base) ? pile_of(shader, spots, base, spot->below) : spot->below;
-        } else if (i == 1 && slabs_is_layer(g, ref) && spots->spreads[ir_arg(g, ref, 0)]) {
+        } else if (i == 1 && slabs_is_layer(g, ref) && spreads(spots, ir_arg(g, ref, 0))) {
             at.above = pile_of(shader, spots, ir_arg(g, ref, 0), spot->above);
         }
-        if (spots->depth[at.ref] <= spots->depth[ref])
-            spots->depth[at.ref] = spots->depth[ref] + 1;
+        uint32_t *depth_of_arg = &spots->depth[slab_node_at(&spots->nodes, at.ref)];
+        if (*depth_of_arg <= depth)
+            *depth_of_arg = depth + 1;
         add_spot(shader, spots, at);
     }
 }
@@ -94,18 +101,18 @@ static void spread(const struct shader *shader, struct slab_spots *spots, ir_ref
 void slabs_find_spots(const struct shader *shader, ir_ref root, struct slab_spots *out)
 {
     struct ir_graph *g = shader->graph;
-    *out = (struct slab_spots){.num_nodes = root + 1};
-    out->first = ARENA_ARRAY(shader->arena, uint32_t, root + 1);
-    out->depth = ARENA_ARRAY(shader->arena, uint32_t, root + 1);
-    if (!root)
-        return;
-    const uint8_t *needed = ir_mark(g, &root, 1, shader->arena);
-    out->spreads = ARENA_ARRAY(shader->arena, uint8_t, root + 1);
-    find_spreading(shader, root, needed, out->spreads);
+    *out = (struct slab_spots){0};
+    slabs_find_nodes(shader, root, &out->nodes);
+    uint32_t num = out->nodes.items.len;
+    out->first = ARENA_ARRAY(shader->arena, uint32_t, num);
+    out->depth = ARENA_ARRAY(shader->arena, uint32_t, num);
+    out->spreads = ARENA_ARRAY(shader->arena, uint8_t, num);
+    find_spreading(g, &out->nodes, out->spreads);
     add_spot(shader, out, (struct slab_spot){.ref = root, .root = root});
-    for (ir_ref ref = root; ref; ref--) {
+    for (uint32_t at = num; --at > 0;) {
+        ir_ref ref = out->nodes.items.items[at];
         uint8_t op = ir_get(g, ref)->op;
-        if (needed[ref] && (op == IR_SLAB_SURFACE || op == IR_SURFACE_SHADER)) {
+        if (op == IR_SLAB_SURFACE || op == IR_SURFACE_SHADER) {
             ir_ref thickness = slabs_sheet_thickness(g, ref);
             add_spot(shader, out,
                      (struct slab_spot){.ref = ir_arg(g, ref, 0),
@@ -113,7 +120,7 @@ void slabs_find_spots(const struct shader *shader, ir_ref root, struct slab_spot
                                         .is_sheet = thickness != 0,
                                         .root = ref});
         }
-        for (uint32_t i = out->first[ref]; i; i = out->items.items[i - 1].next) {
+        for (uint32_t i = out->first[at]; i; i = out->items.items[i - 1].next) {
             const struct slab_spot spot = out->items.items[i - 1];
             spread(shader, out, ref, &spot);
         }
@@ -122,7 +129,8 @@ void slabs_find_spots(const struct shader *shader, ir_ref root, struct slab_spot
 
 const struct slab_spot *slab_spot_at(const struct slab_spots *spots, ir_ref ref, ir_ref thickness)
 {
-    for (uint32_t i = spots->first[ref]; i; i = spots->items.items[i - 1].next)
+    uint32_t first = spots->first[slab_node_at(&spots->nodes, ref)];
+    for (uint32_t i = first; i; i = spots->items.items[i - 1].next)
         if (spots->items.items[i - 1].thickness == thickness)
             return &spots->items.items[i - 1];
     return NULL;

@@ -7,6 +7,7 @@
 #define MXG_SLABS_SPOTS_H
 
 #include "base/table.h"
+#include "slabs/nodes.h"
 #include "slabs/slabs.h"
 
 struct slab_spot {
@@ -27,12 +28,12 @@ struct slab_pile {
 
 struct slab_spots {
     VEC(struct slab_spot) items; /* operators before their operands */
-    uint32_t *first;             /* per node up to the root: index in items + 1; 0: none */
+    struct slab_nodes nodes;
+    uint32_t *first;             /* per node: index in items + 1; 0: none */
     uint32_t *depth;             /* per node: operators above it, at most */
     uint8_t *spreads;            /* per node: what lies below it looks rougher, or blurred */
     VEC(struct slab_pile) piles; /* each once */
     struct table known_piles;    /* their indices + 1 */
-    ir_ref num_nodes;
 };
 
 /* All closures below a root of any type. root 0: none. */
@@ -41,7 +42,7 @@ void slabs_find_spots(const struct shader *shader, ir_ref root, struct slab_spot
 /* The first spot of a closure below the root. */
 static inline const struct slab_spot *slab_spot_of(const struct slab_spots *spots, ir_ref ref)
 {
-    return &spots->items.items[spots->first[ref] - 1];
+    return &spots->items.items[spots->first[slab_node_at(&spots->nodes, ref)] - 1];
 }
 
 /* The first one at a thickness; NULL: there is none. */

@@ -22,7 +22,7 @@ struct slab_saver slab_saver_of(struct shader *shader, const struct slabs_host *
                            .graph = shader->graph,
                            .host = host,
                            .blend = {shader, host, off},
-                           .first = root};
+                           .eye = host->scratch ? slabs_open_eye(shader, host, root) : NULL};
     slab_saver_set_root(&s, root);
     s.unseen = s.cost.features & UNSEEN;
     return s;
@@ -33,16 +33,11 @@ struct slab_cost slab_saver_cost(const struct slab_saver *s, ir_ref root)
     return slabs_cost(s->shader, root);
 }
 
-float slab_saver_error(struct slab_saver *s, ir_ref root)
+float slab_saver_error(const struct slab_saver *s, ir_ref root)
 {
-    struct slab_look look;
-    if (!s->host->scratch || (s->unseen && s->unseen & ~slab_saver_cost(s, root).features))
+    if (!s->eye || (s->unseen && s->unseen & ~slab_saver_cost(s, root).features))
         return -1.0f;
-    if (!s->whole.glances.items.len)
-        slabs_look(s->shader, s->host, s->first, NULL, &s->whole);
-    slabs_look(s->shader, s->host, root, &s->whole, &look);
-    s->num_steps += look.num_steps;
-    return slabs_difference(&s->whole, &look);
+    return slabs_estimate(s->eye, root);
 }
 
 bool slab_keeps_slabs(const struct slab_budget *budget, struct slab_cost cost)
@@ -94,13 +89,18 @@ ir_ref slab_find_asked(const struct slab_saver *s)
     return 0;
 }
 
+static uint32_t depth_of(const struct slab_saver *s, ir_ref ref)
+{
+    return s->spots.depth[slab_node_at(&s->spots.nodes, ref)];
+}
+
 static struct slab_candidate blend_at(const struct slab_saver *s, const struct slab_spot *spot)
 {
-    struct slab_candidate c = {.depth = s->spots.depth[spot->ref]};
+    struct slab_candidate c = {.depth = depth_of(s, spot->ref)};
     c.step.kind = kind_of(s->graph, spot->ref);
     c.step.node = spot->ref;
     ir_ref slab = slab_blended(&s->blend, spot);
-    c.root = ir_replace(s->graph, s->root, spot->ref, slab, s->shader->arena);
+    c.root = slabs_replace(s->shader, s->root, spot->ref, slab);
     return c;
 }
 
@@ -123,7 +123,7 @@ static struct slab_candidate deepest_of(const struct slab_saver *s, enum slab_ch
         const struct slab_spot spot = s->spots.items.items[i];
         if (!slab_can_blend(s->graph, spot.ref)
             || (choice == SLAB_ASKED && !is_asked(s->graph, spot.ref))
-            || (best.root && s->spots.depth[spot.ref] <= best.depth))
+            || (best.root && depth_of(s, spot.ref) <= best.depth))
             continue;
         struct slab_candidate c = blend_at(s, &spot);
         if (at_any_cost || is_worth(choice, slab_saver_cost(s, c.root), s->cost))
@@ -157,7 +157,7 @@ struct slab_candidate slab_feature_step(const struct slab_saver *s, enum slab_fe
         const struct slab_spot *spot = &s->spots.items.items[i];
         if (slab_features(s->graph, spot) & 1u << feature) {
             ir_ref slab = slab_without(s->graph, spot, 1u << feature);
-            root = ir_replace(s->graph, root, spot->ref, slab, s->shader->arena);
+            root = slabs_replace(s->shader, root, spot->ref, slab);
         }
     }
     c.root = root == s->root ? 0 : root;

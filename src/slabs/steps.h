@@ -16,10 +16,8 @@ struct slab_saver {
     struct ir_graph *graph;
     const struct slabs_host *host;
     struct slab_blend blend;
-    ir_ref first;           /* the tree before all steps */
-    struct slab_look whole; /* of that tree, from the first estimate on */
-    uint32_t unseen;        /* features of that tree that estimates do not see */
-    uint64_t num_steps;     /* that the evaluator took for estimates */
+    struct slab_eye *eye; /* sees the tree before all steps; NULL: nobody estimates */
+    uint32_t unseen;      /* features of that tree that estimates do not see */
     ir_ref root;
     struct slab_spots spots; /* of the root */
     struct slab_cost cost;   /* of the root */
@@ -40,7 +38,7 @@ void slab_saver_set_root(struct slab_saver *saver, ir_ref root);
 /* Returns what another tree costs. */
 struct slab_cost slab_saver_cost(const struct slab_saver *saver, ir_ref root);
 /* The estimated error of a tree against the one before all steps; below 0: unknown. */
-float slab_saver_error(struct slab_saver *saver, ir_ref root);
+float slab_saver_error(const struct slab_saver *saver, ir_ref root);
 
 /* True if a tree keeps to the most closures of a budget, and to the most bytes. */
 bool slab_keeps_slabs(const struct slab_budget *budget, struct slab_cost cost);

@@ -16,6 +16,7 @@
 
 #include "ir/arithmetic.h"
 #include "shader/formula.h"
+#include "slabs/nodes.h"
 #include "slabs/regime.h"
 #include "slabs/spread.h"
 
@@ -60,14 +61,14 @@ struct walk {
     struct shader *shader;
     struct ir_graph *graph;
     const struct slabs_host *host;
-    uint8_t *has_slabs; /* per node below the root */
-    ir_ref num_nodes;
+    struct slab_nodes nodes; /* below the root */
+    uint8_t *has_slabs;      /* per node */
     VEC(struct visit) visits;
     struct table known; /* visits by hash */
     VEC(uint32_t) open;
     VEC(struct known_albedo) albedos;
     struct table albedos_by_lobes; /* by hash */
-    /* per node below the root, of a closure, a float; 0: none */
+    /* per node, of a closure, a float; 0: none */
     ir_ref *spreads, *slopes;
     /*
      * per node, vec3, 0: none: optical depth for scattering of the layers in it, and of a
@@ -83,7 +84,13 @@ static bool is_closure(const struct walk *w, ir_ref ref)
 
 static bool has_slabs(const struct walk *w, ir_ref ref)
 {
-    return ref && ref < w->num_nodes && w->has_slabs[ref];
+    return w->has_slabs[slab_node_at(&w->nodes, ref)];
+}
+
+/* Returns what an array of the walk has for a node. */
+static ir_ref known_for(const struct walk *w, const ir_ref *values, ir_ref ref)
+{
+    return values[slab_node_at(&w->nodes, ref)];
 }
 
 /* ---- Visits ---- */
@@ -344,8 +351,8 @@ static struct way way_below(struct ir_graph *g, struct way way, ir_ref slope, ir
  */
 static ir_ref depth_at(struct walk *w, ir_ref ref, ir_ref thickness)
 {
-    ir_ref rest = w->scattering[ref];
-    return ir_sum(w->graph, w->depths[ref], rest ? ir_op2(w->graph, IR_MUL, rest, thickness) : 0);
+    ir_ref rest = known_for(w, w->scattering, ref), depth = known_for(w, w->depths, ref);
+    return ir_sum(w->graph, depth, rest ? ir_op2(w->graph, IR_MUL, rest, thickness) : 0);
 }
 
 /* A layer. False: an operand is open. */
@@ -355,9 +362,9 @@ static bool visit_layer(struct walk *w, ir_ref ref, struct where where, ir_ref *
     ir_ref top = ir_arg(g, ref, 0), base = ir_arg(g, ref, 1);
     ir_ref thickness = seen_at(w, slabs_layer_thickness(g, ref), &where);
     struct where below = where;
-    below.spread = ir_sum(g, where.spread, top ? w->spreads[top] : 0);
-    below.depth = ir_sum(g, where.depth, top && w->depths ? depth_at(w, top, thickness) : 0);
-    below.way = way_below(g, where.way, top ? w->slopes[top] : 0, thickness);
+    below.spread = ir_sum(g, where.spread, known_for(w, w->spreads, top));
+    below.depth = ir_sum(g, where.depth, w->depths ? depth_at(w, top, thickness) : 0);
+    below.way = way_below(g, where.way, known_for(w, w->slopes, top), thickness);
     if (!visited(w, base, below, &base))
         return false;
     struct where above = where;
@@ -491,7 +498,7 @@ static ir_ref slab_surface(struct walk *w, ir_ref ref, bool is_on_matter)
     return ir_build(g, IR_SURFACE_SHADER, IR_TYPE_SURFACE, 1, args, 4);
 }
 
-/* replaced: by surface below the root. */
+/* replaced: per node. */
 static ir_ref rewrite_root(struct walk *w, ir_ref ref, bool is_on_matter, const ir_ref *replaced)
 {
     struct ir_graph *g = w->graph;
@@ -503,40 +510,39 @@ static ir_ref rewrite_root(struct walk *w, ir_ref ref, bool is_on_matter, const 
         args[i] = ir_arg(g, ref, i);
         if (is_closure(w, args[i]) && has_slabs(w, args[i]))
             args[i] = walk_closure(w, args[i], place_of(w, ref));
-        else if (args[i] && replaced[args[i]])
-            args[i] = replaced[args[i]];
+        else if (known_for(w, replaced, args[i]))
+            args[i] = known_for(w, replaced, args[i]);
     }
     return ir_build(g, (enum ir_op)node.op, node.type, node.attr, args, node.num_args);
 }
 
 /* Marks surfaces that lie on others: all layers of stacks, because light goes on to those below. */
-static uint8_t *find_layers(const struct walk *w, ir_ref root)
+static uint8_t *find_layers(const struct walk *w)
 {
-    uint8_t *is_layer = ARENA_ARRAY(w->shader->arena, uint8_t, root + 1);
-    is_layer[root] = w->host->is_on_matter;
-    for (ir_ref ref = root; ref > 0; ref--) {
+    uint32_t num = w->nodes.items.len;
+    uint8_t *is_layer = ARENA_ARRAY(w->shader->arena, uint8_t, num);
+    is_layer[num - 1] = w->host->is_on_matter;
+    for (uint32_t at = num; --at > 0;) {
+        ir_ref ref = w->nodes.items.items[at];
         const struct ir_node *node = ir_get(w->graph, ref);
-        bool holds = w->has_slabs[ref] && (node->op == IR_SLOTS || is_layer[ref]);
+        bool holds = w->has_slabs[at] && (node->op == IR_SLOTS || is_layer[at]);
         for (uint32_t i = 0; holds && i < node->num_args; i++)
-            is_layer[ir_arg(w->graph, ref, i)] = true;
+            is_layer[slab_node_at(&w->nodes, ir_arg(w->graph, ref, i))] = true;
     }
     return is_layer;
 }
 
-/* Marks the nodes below the root that depend on a slab. */
-static uint8_t *find_slabs(const struct shader *shader, ir_ref root)
+/* Marks the nodes that depend on a slab. */
+static uint8_t *find_slabs(const struct shader *shader, const struct slab_nodes *nodes)
 {
     const struct ir_graph *g = shader->graph;
-    const uint8_t *needed = ir_mark(g, &root, 1, shader->arena);
-    uint8_t *has = ARENA_ARRAY(shader->arena, uint8_t, root + 1);
-    for (ir_ref ref = 1; ref <= root; ref++) {
-        if (!needed[ref])
-            continue;
+    uint8_t *has = ARENA_ARRAY(shader->arena, uint8_t, nodes->items.len);
+    for (uint32_t at = 1; at < nodes->items.len; at++) {
+        ir_ref ref = nodes->items.items[at];
         const struct ir_node *node = ir_get(g, ref);
-        has[ref] = node->op == IR_SLAB || node->op == IR_SLAB_LAYER || node->op == IR_SLAB_SURFACE;
-        bool is_tree = ir_type_is_closure(node->type) || ir_type_is_shader(node->type);
-        for (uint32_t i = 0; is_tree && i < node->num_args; i++)
-            has[ref] |= has[ir_arg(g, ref, i)];
+        has[at] = node->op == IR_SLAB || node->op == IR_SLAB_LAYER || node->op == IR_SLAB_SURFACE;
+        for (uint32_t i = 0; i < node->num_args; i++)
+            has[at] |= has[slab_node_at(nodes, ir_arg(g, ref, i))];
     }
     return has;
 }
@@ -546,10 +552,10 @@ static ir_ref variance_of_operator(struct walk *w, ir_ref ref, const ir_ref *var
 {
     struct ir_graph *g = w->graph;
     const struct ir_node node = *ir_get(g, ref);
-    ir_ref a = ir_arg(g, ref, 0) ? variances[ir_arg(g, ref, 0)] : 0;
+    ir_ref a = known_for(w, variances, ir_arg(g, ref, 0));
     if (node.op == IR_CLOSURE_SCALE)
         return a;
-    ir_ref b = ir_arg(g, ref, 1) ? variances[ir_arg(g, ref, 1)] : 0;
+    ir_ref b = known_for(w, variances, ir_arg(g, ref, 1));
     if (node.op != IR_CLOSURE_MIX || (!a && !b))
         return ir_sum(g, a, b);
     ir_ref nothing = ir_const_splat(g, ir_type_of(g, a ? a : b), 0.0f);
@@ -560,18 +566,19 @@ static ir_ref variance_of_operator(struct walk *w, ir_ref ref, const ir_ref *var
 static ir_ref *find_variances(struct walk *w, enum slab_feature feature,
                               ir_ref (*of_slab)(struct shader *shader, const ir_ref *inputs))
 {
-    ir_ref *variances = ARENA_ARRAY(w->shader->arena, ir_ref, w->num_nodes);
-    for (ir_ref ref = 1; ref < w->num_nodes; ref++) {
-        if (!w->has_slabs[ref])
+    ir_ref *variances = ARENA_ARRAY(w->shader->arena, ir_ref, w->nodes.items.len);
+    for (uint32_t at = 1; at < w->nodes.items.len; at++) {
+        ir_ref ref = w->nodes.items.items[at];
+        if (!w->has_slabs[at])
             continue;
         const struct ir_node node = *ir_get(w->graph, ref);
         bool is_layer = slabs_is_layer(w->graph, ref);
         if (node.op == IR_SLAB && !(node.attr & 1u << feature)) {
             ir_ref in[NUM_SLAB_OPERANDS];
             memcpy(in, ir_args(w->graph, ref), sizeof in);
-            variances[ref] = of_slab(w->shader, in);
+            variances[at] = of_slab(w->shader, in);
         } else if (node.type == IR_TYPE_BSDF && (is_layer || is_operator(&node))) {
-            variances[ref] = variance_of_operator(w, ref, variances);
+            variances[at] = variance_of_operator(w, ref, variances);
         }
     }
     return variances;
@@ -581,50 +588,57 @@ static ir_ref *find_variances(struct walk *w, enum slab_feature feature,
 static void find_scattering(struct walk *w)
 {
     struct ir_graph *g = w->graph;
-    w->depths = ARENA_ARRAY(w->shader->arena, ir_ref, w->num_nodes);
-    w->scattering = ARENA_ARRAY(w->shader->arena, ir_ref, w->num_nodes);
-    for (ir_ref ref = 1; ref < w->num_nodes; ref++) {
+    w->depths = ARENA_ARRAY(w->shader->arena, ir_ref, w->nodes.items.len);
+    w->scattering = ARENA_ARRAY(w->shader->arena, ir_ref, w->nodes.items.len);
+    for (uint32_t at = 1; at < w->nodes.items.len; at++) {
+        ir_ref ref = w->nodes.items.items[at];
         const struct ir_node node = *ir_get(g, ref);
-        if (!w->has_slabs[ref] || node.type != IR_TYPE_BSDF)
+        if (!w->has_slabs[at] || node.type != IR_TYPE_BSDF)
             continue;
         if (node.op == IR_SLAB && !(node.attr & 1u << SLAB_ROUGHNESS)) {
             ir_ref in[NUM_SLAB_OPERANDS];
             memcpy(in, ir_args(g, ref), sizeof in);
-            w->scattering[ref] = slab_scattering(w->shader, in);
+            w->scattering[at] = slab_scattering(w->shader, in);
         } else if (slabs_is_layer(g, ref)) {
             ir_ref top = ir_arg(g, ref, 0), base = ir_arg(g, ref, 1);
-            ir_ref above = top ? depth_at(w, top, slabs_layer_thickness(g, ref)) : 0;
-            w->depths[ref] = ir_sum(g, above, base ? w->depths[base] : 0);
-            w->scattering[ref] = base ? w->scattering[base] : 0;
+            ir_ref above = depth_at(w, top, slabs_layer_thickness(g, ref));
+            w->depths[at] = ir_sum(g, above, known_for(w, w->depths, base));
+            w->scattering[at] = known_for(w, w->scattering, base);
         } else if (is_operator(&node)) {
-            w->depths[ref] = variance_of_operator(w, ref, w->depths);
-            w->scattering[ref] = variance_of_operator(w, ref, w->scattering);
+            w->depths[at] = variance_of_operator(w, ref, w->depths);
+            w->scattering[at] = variance_of_operator(w, ref, w->scattering);
         }
     }
 }
 
 bool slabs_has(const struct shader *shader, ir_ref ref)
 {
-    return ref && find_slabs(shader, ref)[ref];
+    struct slab_nodes nodes;
+    slabs_find_nodes(shader, ref, &nodes);
+    return find_slabs(shader, &nodes)[nodes.items.len - 1];
 }
 
 bool slabs_has_media(const struct shader *shader, ir_ref ref)
 {
     const struct ir_graph *g = shader->graph;
-    const uint8_t *needed = ref ? ir_mark(g, &ref, 1, shader->arena) : NULL;
-    for (ir_ref at = 1; at <= ref; at++)
-        if (needed[at] && ir_get(g, at)->op == IR_SLAB
+    struct slab_nodes nodes;
+    slabs_find_nodes(shader, ref, &nodes);
+    for (uint32_t i = 1; i < nodes.items.len; i++) {
+        ir_ref at = nodes.items.items[i];
+        if (ir_get(g, at)->op == IR_SLAB
             && !ir_const_is(g, ir_arg(g, at, SLAB_mean_free_path), 0.0f))
             return true;
+    }
     return false;
 }
 
 ir_ref slabs_walk(struct shader *shader, const struct slabs_host *host, ir_ref root)
 {
     struct ir_graph *g = shader->graph;
-    struct walk w = {.shader = shader, .graph = g, .host = host, .num_nodes = root + 1};
-    w.has_slabs = find_slabs(shader, root);
-    if (!root || !w.has_slabs[root])
+    struct walk w = {.shader = shader, .graph = g, .host = host};
+    slabs_find_nodes(shader, root, &w.nodes);
+    w.has_slabs = find_slabs(shader, &w.nodes);
+    if (!has_slabs(&w, root))
         return root;
     w.spreads = find_variances(&w, SLAB_ROUGHNESS, slab_spread);
     w.slopes = find_variances(&w, SLAB_REFRACTION, slab_slope);
@@ -632,14 +646,15 @@ ir_ref slabs_walk(struct shader *shader, const struct slabs_host *host, ir_ref r
         find_scattering(&w);
     if (ir_type_is_closure(ir_type_of(g, root)))
         return walk_closure(&w, root, body(&w));
-    ir_ref *replaced = ARENA_ARRAY(shader->arena, ir_ref, w.num_nodes);
-    const uint8_t *is_layer = find_layers(&w, root);
-    for (ir_ref ref = 1; ref <= root; ref++) {
-        if (!w.has_slabs[ref] || !ir_type_is_shader(ir_type_of(g, ref)))
+    ir_ref *replaced = ARENA_ARRAY(shader->arena, ir_ref, w.nodes.items.len);
+    const uint8_t *is_layer = find_layers(&w);
+    for (uint32_t at = 1; at < w.nodes.items.len; at++) {
+        ir_ref ref = w.nodes.items.items[at];
+        if (!w.has_slabs[at] || !ir_type_is_shader(ir_type_of(g, ref)))
             continue;
         ir_push_origin_of(g, ref);
-        replaced[ref] = rewrite_root(&w, ref, is_layer[ref], replaced);
+        replaced[at] = rewrite_root(&w, ref, is_layer[at], replaced);
         ir_pop_origin(g);
     }
-    return replaced[root];
+    return replaced[w.nodes.items.len - 1];
 }

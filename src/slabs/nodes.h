@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+/*
+ * nodes.c: the closures and shaders of a tree. A search of trees makes the graph large, but each
+ * tree has few nodes, so work on one goes through this list.
+ */
+#ifndef MXG_SLABS_NODES_H
+#define MXG_SLABS_NODES_H
+
+#include "shader/shader.h"
+
+struct slab_nodes {
+    VEC(ir_ref) items; /* [0] is 0; operands before their operators, so the root is the last one */
+};
+
+/* root 0: there are none. */
+void slabs_find_nodes(const struct shader *shader, ir_ref root, struct slab_nodes *out);
+
+/* The index of a node; 0: the tree does not have it. */
+uint32_t slab_node_at(const struct slab_nodes *nodes, ir_ref ref);
+
+/* The tree with another closure in the place of one. */
+ir_ref slabs_replace(struct shader *shader, ir_ref root, ir_ref from, ir_ref to);
+
+#endif
