@@ -14,10 +14,11 @@
 
 struct check {
     struct cli cli;
-    const char *targets, *interfaces; /* lists with commas */
+    const char *targets, *interfaces, *roles; /* lists with commas; NULL: the role of the options */
     struct arg_list elements;
     bool no_compile;
     const char *input;
+    char role[32];            /* "": that of the options */
     const char *stage, *look; /* of a scene */
     mxg_bindings *bindings;   /* NULL without a scene */
     mxg_result *waiting[COMPILE_MAX_RESULTS];
@@ -66,8 +67,9 @@ static void print_message(struct check *check, const mxg_result *result, const c
     else
         fprintf(stderr, "%s: ", check->input);
     bool is_error = message->severity == MXG_SEVERITY_ERROR;
-    fprintf(stderr, "%s: '%s', %s, %s stage", is_error ? "error" : "warning",
-            at.path ? at.path : element, target, stages[message->stage]);
+    fprintf(stderr, "%s: '%s', %s, %s%s%s stage", is_error ? "error" : "warning",
+            at.path ? at.path : element, target, check->role, check->role[0] ? ", " : "",
+            stages[message->stage]);
     if (message->line)
         fprintf(stderr, ", line %u", message->line);
     fprintf(stderr, ": %s [shader-invalid]\n", message->text);
@@ -192,6 +194,28 @@ static bool bind_stage(struct check *check, mxg_document **document)
     return status == MXG_OK;
 }
 
+static bool set_option(struct check *check, const char *option, const char *value)
+{
+    if (mxg_options_set(check->cli.options, option, value) == MXG_OK)
+        return true;
+    char *reason = cli_option_error(check->cli.options);
+    report_error(&check->cli.report, "bad-option", "%s", reason);
+    free(reason);
+    return false;
+}
+
+static void check_interfaces(struct check *check, const mxg_document *document, const char *target)
+{
+    char interface[32];
+    for (const char *interfaces = check->interfaces;
+         next_word(&interfaces, interface, sizeof interface);) {
+        if (!set_option(check, "interface", interface))
+            continue;
+        check_elements(check, document, target, interface);
+        check_waiting(check, target, interface);
+    }
+}
+
 static void check_document(struct check *check)
 {
     mxg_document *document = cli_load(&check->cli, check->input);
@@ -199,20 +223,15 @@ static void check_document(struct check *check)
         mxg_document_destroy(document);
         return;
     }
-    char target[32], interface[32];
+    char target[32];
     for (const char *targets = check->targets;
          document && next_word(&targets, target, sizeof target);) {
-        for (const char *interfaces = check->interfaces;
-             next_word(&interfaces, interface, sizeof interface);) {
-            if (mxg_options_set(check->cli.options, "interface", interface) == MXG_OK) {
-                check_elements(check, document, target, interface);
-                check_waiting(check, target, interface);
-                continue;
-            }
-            char *reason = cli_option_error(check->cli.options);
-            report_error(&check->cli.report, "bad-option", "%s", reason);
-            free(reason);
-        }
+        if (!check->roles)
+            check_interfaces(check, document, target);
+        for (const char *roles = check->roles;
+             roles && next_word(&roles, check->role, sizeof check->role);)
+            if (set_option(check, "role", check->role))
+                check_interfaces(check, document, target);
     }
     mxg_bindings_destroy(check->bindings);
     check->bindings = NULL;
@@ -233,7 +252,8 @@ static void note_missing_compilers(const struct check *check)
 int main(int argc, char **argv)
 {
     static const struct command command = {
-        "compile", "-compile FILE... [--targets T,...] [--interfaces I,...] [options]",
+        "compile",
+        "-compile FILE... [--targets T,...] [--interfaces I,...] [--roles R,...] [options]",
         "Generates and compiles every renderable element. Prints: file, element, target, "
         "interface,\n"
         "bytes and lines of the pixel stage, SPIR-V body instructions of pixel and vertex stage.",
@@ -243,6 +263,7 @@ int main(int argc, char **argv)
         {"targets", 't', ARG_TEXT, "T,...", "targets (default: glsl,vulkan,essl)", &check.targets},
         {"interfaces", 'i', ARG_TEXT, "I,...",
          "interface modes (default: complete,authored,reduced)", &check.interfaces},
+        {"roles", 0, ARG_TEXT, "R,...", "roles (default: that of --role)", &check.roles},
         {"element", 'e', ARG_LIST, "PATH", "path of an element (default: all renderable elements)",
          &check.elements},
         {"stage", 0, ARG_TEXT, "FILE", "a scene: the stacks of its primitives are the elements",

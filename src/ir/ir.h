@@ -553,7 +553,7 @@ struct ir_evaluator {
 void ir_evaluator_init(struct ir_evaluator *e, const struct ir_graph *graph,
                        const struct ir_eval_env *env, struct arena *scratch);
 bool ir_evaluate(struct ir_evaluator *e, ir_ref root, struct ir_value *out);
-/* All values, because sources have others now. */
+/* Forgets all values, because sources have others now. */
 void ir_evaluator_forget(struct ir_evaluator *e);
 /* One node; nothing is kept. */
 bool ir_eval(const struct ir_graph *graph, ir_ref root, const struct ir_eval_env *env,

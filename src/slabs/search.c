@@ -151,7 +151,7 @@ static uint32_t next_open(const struct search *s, uint32_t first, uint32_t end)
     return best;
 }
 
-/* From the tree before all steps. off: features that blends do not make. */
+/* Searches from the tree before all steps on. off: features that blends do not make. */
 static void search_levels(struct search *s, uint32_t off)
 {
     int width = s->states.items[0].cost.closures > LARGE ? WIDTH_OF_LARGE : WIDTH;

@@ -53,27 +53,26 @@ cat >coat.mtlx <<'END'
   <surface name="coat" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="both"/></surface>
 </materialx>
 END
-for role in path scatter function deferred depth payload pack; do
-    options=()
-    [ "$role" = deferred ] && options=(--slabs)
-    [ "$role" = pack ] && options=(--slabs --transparency opaque)
-    [[ ,$lacking, == *,$role,* ]] ||
-        check "role $role" compiles gold.mtlx coat.mtlx --interfaces complete,reduced --role "$role" "${options[@]}"
-done
-for role in deferred pack payload; do
-    options=()
-    [ "$role" = payload ] || options=(--slabs --transparency opaque)
-    [[ ,$lacking, == *,$role,* ]] ||
-        check "decals in images, role $role" compiles gold.mtlx coat.mtlx --interfaces reduced --role "$role" --decals images "${options[@]}"
-done
+# roles WHAT ROLE... -- ARGUMENT...: those of the roles that the language has, in one process.
+roles() {
+    local what=$1 list=
+    shift
+    for (( ; $# > 0; )); do
+        local role=$1
+        shift
+        [ "$role" != -- ] || break
+        [[ ,$lacking, == *,$role,* ]] || list+=,$role
+    done
+    [ -z "$list" ] || check "$what, roles ${list#,}" compiles "$@" --roles "${list#,}"
+}
+balls=(gold.mtlx coat.mtlx)
+roles 'shaders' path scatter function depth payload -- "${balls[@]}" --interfaces complete,reduced
+roles 'slabs' deferred -- "${balls[@]}" --interfaces complete,reduced --slabs
+roles 'slabs without holes' pack -- "${balls[@]}" --interfaces complete,reduced --slabs --transparency opaque
+roles 'decals in images' payload -- "${balls[@]}" --interfaces reduced --decals images
+roles 'decals in images on slabs' deferred pack -- "${balls[@]}" --interfaces reduced --decals images --slabs --transparency opaque
 case $target in
-    msl | wgsl | slang)
-        for role in raster function payload; do
-            check "half floats, role $role" compiles gold.mtlx coat.mtlx --interfaces complete,reduced --precision mediump --role "$role"
-        done
-        ;;
+    msl | wgsl | slang) roles 'half floats' raster function payload -- "${balls[@]}" --interfaces complete,reduced --precision mediump ;;
 esac
-for role in function deferred payload; do
-    ! $has_folders || [[ ,$lacking, == *,$role,* ]] || check "documents, role $role" compiles "${documents[@]}" --trust --interfaces reduced --role "$role"
-done
+! $has_folders || roles 'documents' function deferred payload -- "${documents[@]}" --trust --interfaces reduced
 finish "$target"
