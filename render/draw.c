@@ -191,16 +191,9 @@ static bool create_layout(struct draw_program *program, const struct draw_canvas
 static bool create_modules(struct draw_program *program)
 {
     bool good = true;
-    for (int i = 0; good && i < 2; ++i) {
-        const VkShaderModuleCreateInfo info = {.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
-                                               .codeSize =
-                                                   program->draw->code_words[i] * sizeof(uint32_t),
-                                               .pCode = program->draw->code[i]};
-        good =
-            gpu_check(program->gpu,
-                      vkCreateShaderModule(program->gpu->device, &info, NULL, &program->modules[i]),
-                      "loading the shader");
-    }
+    for (int i = 0; good && i < 2; ++i)
+        good = gpu_load_shader(program->gpu, program->draw->code[i], program->draw->code_words[i],
+                               &program->modules[i]);
     return good;
 }
 
@@ -234,26 +227,6 @@ static VkPipelineColorBlendAttachmentState premultiplied_blending(bool enabled, 
         .colorWriteMask = 0xf,
     };
 }
-
-static VkPipelineShaderStageCreateInfo shader_stage(VkShaderStageFlagBits stage,
-                                                    VkShaderModule module)
-{
-    return (VkPipelineShaderStageCreateInfo){
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
-        .stage = stage,
-        .module = module,
-        .pName = "main"};
-}
-
-/* Every pipeline has this state. */
-static const VkPipelineInputAssemblyStateCreateInfo assembly = {
-    .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
-    .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST,
-};
-static const VkPipelineMultisampleStateCreateInfo samples = {
-    .sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO,
-    .rasterizationSamples = VK_SAMPLE_COUNT_1_BIT,
-};
 
 /* The ways in which a program draws. */
 enum draw_way {
@@ -289,8 +262,8 @@ static bool create_pipeline(struct draw_program *program, const struct draw_canv
 {
     const struct draw *draw = program->draw;
     const VkPipelineShaderStageCreateInfo stages[2] = {
-        shader_stage(VK_SHADER_STAGE_VERTEX_BIT, program->modules[0]),
-        shader_stage(VK_SHADER_STAGE_FRAGMENT_BIT, program->modules[1]),
+        gpu_stage(VK_SHADER_STAGE_VERTEX_BIT, program->modules[0]),
+        gpu_stage(VK_SHADER_STAGE_FRAGMENT_BIT, program->modules[1]),
     };
     VkVertexInputBindingDescription bindings[DRAW_MAX_ATTRIBUTES];
     VkVertexInputAttributeDescription attributes[DRAW_MAX_ATTRIBUTES];
@@ -339,10 +312,10 @@ static bool create_pipeline(struct draw_program *program, const struct draw_canv
                                                .stageCount = ways[way].num_stages,
                                                .pStages = stages,
                                                .pVertexInputState = &input,
-                                               .pInputAssemblyState = &assembly,
+                                               .pInputAssemblyState = &gpu_triangles,
                                                .pViewportState = &viewports,
                                                .pRasterizationState = &raster,
-                                               .pMultisampleState = &samples,
+                                               .pMultisampleState = &gpu_one_sample,
                                                .pDepthStencilState = &depth,
                                                .pColorBlendState = &blending,
                                                .layout = program->layout};

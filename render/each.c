@@ -15,30 +15,9 @@ bool each_compile(const char *pixel_source, struct compiled *out)
     return compile_program("vulkan", sources, out);
 }
 
-static bool load(struct gpu *gpu, const struct compiled_stage *code, VkShaderModule *out)
-{
-    const VkShaderModuleCreateInfo info = {.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
-                                           .codeSize = code->num_words * sizeof *code->words,
-                                           .pCode = code->words};
-    return gpu_check(gpu, vkCreateShaderModule(gpu->device, &info, NULL, out),
-                     "loading the shader");
-}
-
-static VkPipelineShaderStageCreateInfo stage_of(VkShaderStageFlagBits stage, VkShaderModule module)
-{
-    return (VkPipelineShaderStageCreateInfo){
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
-        .stage = stage,
-        .module = module,
-        .pName = "main"};
-}
-
 /* The state of a triangle without vertices, targets and depth. */
 static const VkPipelineVertexInputStateCreateInfo no_vertices = {
     .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
-static const VkPipelineInputAssemblyStateCreateInfo assembly = {
-    .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
-    .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST};
 static const VkPipelineViewportStateCreateInfo viewports = {
     .sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO,
     .viewportCount = 1,
@@ -47,9 +26,6 @@ static const VkPipelineRasterizationStateCreateInfo raster = {
     .sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO,
     .cullMode = VK_CULL_MODE_NONE,
     .lineWidth = 1.0f};
-static const VkPipelineMultisampleStateCreateInfo samples = {
-    .sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO,
-    .rasterizationSamples = VK_SAMPLE_COUNT_1_BIT};
 static const VkPipelineColorBlendStateCreateInfo no_targets = {
     .sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
 static const VkDynamicState set_by_run[] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
@@ -62,8 +38,8 @@ static bool create_pipeline(struct gpu *gpu, const VkShaderModule modules[MXG_NU
                             VkPipelineLayout layout, VkPipeline *out)
 {
     const VkPipelineShaderStageCreateInfo stages[] = {
-        stage_of(VK_SHADER_STAGE_VERTEX_BIT, modules[MXG_STAGE_VERTEX]),
-        stage_of(VK_SHADER_STAGE_FRAGMENT_BIT, modules[MXG_STAGE_PIXEL])};
+        gpu_stage(VK_SHADER_STAGE_VERTEX_BIT, modules[MXG_STAGE_VERTEX]),
+        gpu_stage(VK_SHADER_STAGE_FRAGMENT_BIT, modules[MXG_STAGE_PIXEL])};
     const VkPipelineRenderingCreateInfo rendering = {
         .sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO};
     const VkGraphicsPipelineCreateInfo info = {.sType =
@@ -72,10 +48,10 @@ static bool create_pipeline(struct gpu *gpu, const VkShaderModule modules[MXG_NU
                                                .stageCount = 2,
                                                .pStages = stages,
                                                .pVertexInputState = &no_vertices,
-                                               .pInputAssemblyState = &assembly,
+                                               .pInputAssemblyState = &gpu_triangles,
                                                .pViewportState = &viewports,
                                                .pRasterizationState = &raster,
-                                               .pMultisampleState = &samples,
+                                               .pMultisampleState = &gpu_one_sample,
                                                .pColorBlendState = &no_targets,
                                                .pDynamicState = &dynamic,
                                                .layout = layout};
@@ -91,7 +67,8 @@ bool each_create(struct gpu *gpu, const VkPipelineLayoutCreateInfo *layout,
     bool good = gpu_check(gpu, vkCreatePipelineLayout(gpu->device, layout, NULL, out_layout),
                           "making a pipeline layout");
     for (int stage = 0; good && stage < MXG_NUM_STAGES; ++stage)
-        good = load(gpu, &compiled->stages[stage], &modules[stage]);
+        good = gpu_load_shader(gpu, compiled->stages[stage].words,
+                               compiled->stages[stage].num_words, &modules[stage]);
     good = good && create_pipeline(gpu, modules, *out_layout, out);
     for (int stage = 0; stage < MXG_NUM_STAGES; ++stage)
         vkDestroyShaderModule(gpu->device, modules[stage], NULL);

@@ -207,25 +207,45 @@ static bool allocate(struct gpu *gpu, VkMemoryRequirements needs, VkMemoryProper
            || gpu_check(gpu, allocate_from(gpu, needs, flags, out), "allocating device memory");
 }
 
+bool gpu_load_shader(struct gpu *gpu, const uint32_t *code, size_t num_words, VkShaderModule *out)
+{
+    const VkShaderModuleCreateInfo info = {.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
+                                           .codeSize = num_words * sizeof *code,
+                                           .pCode = code};
+    return gpu_check(gpu, vkCreateShaderModule(gpu->device, &info, NULL, out),
+                     "loading the shader");
+}
+
+VkPipelineShaderStageCreateInfo gpu_stage(VkShaderStageFlagBits stage, VkShaderModule module)
+{
+    return (VkPipelineShaderStageCreateInfo){
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+        .stage = stage,
+        .module = module,
+        .pName = "main"};
+}
+
+const VkPipelineInputAssemblyStateCreateInfo gpu_triangles = {
+    .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
+    .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST,
+};
+const VkPipelineMultisampleStateCreateInfo gpu_one_sample = {
+    .sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO,
+    .rasterizationSamples = VK_SAMPLE_COUNT_1_BIT,
+};
+
 bool gpu_create_compute(struct gpu *gpu, const VkPipelineLayoutCreateInfo *layout,
                         const uint32_t *code, size_t num_words, VkPipelineLayout *out_layout,
                         VkPipeline *out)
 {
-    const VkShaderModuleCreateInfo source = {.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
-                                             .codeSize = num_words * sizeof(uint32_t),
-                                             .pCode = code};
     VkShaderModule module;
     if (!gpu_check(gpu, vkCreatePipelineLayout(gpu->device, layout, NULL, out_layout),
                    "making a pipeline layout")
-        || !gpu_check(gpu, vkCreateShaderModule(gpu->device, &source, NULL, &module),
-                      "loading the shader"))
+        || !gpu_load_shader(gpu, code, num_words, &module))
         return false;
     const VkComputePipelineCreateInfo info = {
         .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
-        .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
-                  .stage = VK_SHADER_STAGE_COMPUTE_BIT,
-                  .module = module,
-                  .pName = "main"},
+        .stage = gpu_stage(VK_SHADER_STAGE_COMPUTE_BIT, module),
         .layout = *out_layout};
     VkResult result = vkCreateComputePipelines(gpu->device, VK_NULL_HANDLE, 1, &info, NULL, out);
     vkDestroyShaderModule(gpu->device, module, NULL);

@@ -51,6 +51,14 @@ bool gpu_is_processor(const struct gpu *gpu);
 /* Keeps the reason of a failure; returns result == VK_SUCCESS. */
 bool gpu_check(struct gpu *gpu, VkResult result, const char *what);
 
+/* Loads SPIR-V. False: see gpu->reason. */
+bool gpu_load_shader(struct gpu *gpu, const uint32_t *code, size_t num_words, VkShaderModule *out);
+VkPipelineShaderStageCreateInfo gpu_stage(VkShaderStageFlagBits stage, VkShaderModule module);
+
+/* State of every pipeline that draws. */
+extern const VkPipelineInputAssemblyStateCreateInfo gpu_triangles;
+extern const VkPipelineMultisampleStateCreateInfo gpu_one_sample;
+
 /* A compute program of SPIR-V and its layout, which the caller destroys, also after a failure. */
 bool gpu_create_compute(struct gpu *gpu, const VkPipelineLayoutCreateInfo *layout,
                         const uint32_t *code, size_t num_words, VkPipelineLayout *out_layout,
