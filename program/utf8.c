@@ -2,6 +2,7 @@
 #include "program/utf8.h"
 
 #include "program/memory.h"
+#include "src/base/hidden.h"
 
 #include <stdint.h>
 #include <string.h>
@@ -45,18 +46,7 @@ static uint32_t decode(const char *text, size_t len)
 
 bool utf8_is_hidden(const char *text, size_t len)
 {
-    static const struct {
-        uint32_t first, last;
-    } hidden[] = {
-#define HIDDEN(first, last) {first, last},
-#include "src/base/hidden.def"
-#undef HIDDEN
-    };
-    uint32_t code = len ? decode(text, len) : 0;
-    size_t i = 0;
-    while (i < sizeof hidden / sizeof *hidden && code > hidden[i].last)
-        ++i;
-    return i < sizeof hidden / sizeof *hidden && code >= hidden[i].first;
+    return hidden_code(len ? decode(text, len) : 0);
 }
 
 void utf8_clean(char *text)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/text.h"
 
+#include "base/hidden.h"
 #include "base/num.h"
 
 #include <assert.h>
@@ -126,21 +127,10 @@ bool text_is_utf8(const char *bytes, size_t len)
     return true;
 }
 
+/* Most characters are of ASCII. */
 static bool is_hidden(uint32_t code)
 {
-    static const struct {
-        uint32_t first, last;
-    } hidden[] = {
-#define HIDDEN(first, last) {first, last},
-#include "base/hidden.def"
-#undef HIDDEN
-    };
-    if (code >= ' ' && code < 0x7f)
-        return false;
-    size_t i = 0;
-    while (i < sizeof hidden / sizeof *hidden && code > hidden[i].last)
-        i++;
-    return i < sizeof hidden / sizeof *hidden && code >= hidden[i].first;
+    return (code < ' ' || code >= 0x7f) && hidden_code(code);
 }
 
 void text_show(struct text *text, size_t begin)
