@@ -460,6 +460,7 @@ bool generation_emit(struct generation *g)
     if (is_emitted) {
         generation_tell_forward(g);
         generation_tell_lost(g);
+        generation_tell_flat_calls(g);
         generation_tell_media(g);
         generation_tell_stand_ins(g);
     }

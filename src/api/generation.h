@@ -207,6 +207,8 @@ bool generation_effects_are_defined(struct generation *g, const struct shader *s
 elem_id generation_element_of(const struct generation *g, uint32_t origin);
 /* Tells of parts of slabs that the role has no room for. */
 void generation_tell_lost(struct generation *g);
+/* Tells functions whose derivatives are 0 on paths. */
+void generation_tell_flat_calls(struct generation *g);
 /* Tells closures that stand for leaves which the language has no closure for. */
 void generation_tell_stand_ins(struct generation *g);
 /* capacity.c: warns about AOVs that a payload has no room for. */

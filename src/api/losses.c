@@ -25,6 +25,19 @@ void generation_tell_lost(struct generation *g)
     }
 }
 
+void generation_tell_flat_calls(struct generation *g)
+{
+    const struct shader *shader = &g->result->shader;
+    const struct document *doc = &g->document->layer.doc;
+    for (uint32_t i = 0; i < shader->reflection.flat_calls.len; i++) {
+        const struct shader_flat_call *call = &shader->reflection.flat_calls.items[i];
+        elem_id node = generation_element_of(g, call->origin);
+        diag_add(diags_of(g), DIAG_ID_derivatives_left_out, doc_place(doc, node),
+                 str_text(shader->strings, call->function),
+                 str_text(doc->strings, doc_element(doc, node)->category));
+    }
+}
+
 void generation_tell_stand_ins(struct generation *g)
 {
     const struct shader *shader = &g->result->shader;

@@ -9,8 +9,9 @@
  *
  * The host gives the change of each stream over a pixel (Igehy 1999, "Tracing Ray Differentials").
  * Derivatives inside of e stay unchanged. Functions with derivatives become nodes
- * (inlines_derivatives of lang_host), and so do their loops, round by round; in those that cannot,
- * because the rounds of a loop vary, screen derivatives are 0.
+ * (inlines_derivatives of lang_host), with both branches of an `if`, and loops round by round. In
+ * those that cannot, for example because the rounds of a loop vary, screen derivatives are 0, which
+ * the host of the generation is told (flat_calls).
  */
 #include "closure/closure_priv.h"
 
@@ -24,16 +25,11 @@ struct differ {
     ir_ref *here, *next[2]; /* per node: its value here, and one pixel further along x and y */
 };
 
-static bool is_derivative(enum ir_op op)
-{
-    return op == IR_DFDX || op == IR_DFDY || op == IR_FWIDTH;
-}
-
 static void find_wanted(struct differ *d, const uint8_t *needed)
 {
     for (ir_ref ref = d->num_nodes; --ref > 0;) {
         const struct ir_node *node = ir_get(d->graph, ref);
-        uint8_t axes = is_derivative((enum ir_op)node->op) ? 0 : d->wanted[ref];
+        uint8_t axes = ir_is_difference((enum ir_op)node->op) ? 0 : d->wanted[ref];
         if (needed[ref] && (node->op == IR_DFDX || node->op == IR_FWIDTH))
             axes |= 1;
         if (needed[ref] && (node->op == IR_DFDY || node->op == IR_FWIDTH))
@@ -84,7 +80,7 @@ static ir_ref difference(struct differ *d, ir_ref arg, unsigned axis)
 
 static ir_ref derivative(struct differ *d, enum ir_op op, ir_ref arg)
 {
-    assert(is_derivative(op));
+    assert(ir_is_difference(op));
     if (op != IR_FWIDTH)
         return difference(d, arg, op == IR_DFDY);
     ir_ref x = ir_op1(d->graph, IR_ABS, difference(d, arg, 0)),
@@ -96,7 +92,7 @@ static void visit(struct differ *d, ir_ref ref)
 {
     assert(ref < d->num_nodes);
     enum ir_op op = (enum ir_op)ir_get(d->graph, ref)->op;
-    bool differs = is_derivative(op);
+    bool differs = ir_is_difference(op);
     d->here[ref] = differs ? derivative(d, op, ir_arg(d->graph, ref, 0)) : rebuilt(d, ref, d->here);
     for (unsigned axis = 0; axis < 2; axis++) {
         if (!(d->wanted[ref] & 1u << axis))
@@ -105,6 +101,18 @@ static void visit(struct differ *d, ir_ref ref)
                              : op == IR_STREAM ? shifted_stream(d, ref, axis)
                                                : rebuilt(d, ref, d->next[axis]);
     }
+}
+
+/* Tells of a call that stays one: nothing differentiates what is inside it. */
+static void note_call(struct shader *shader, ir_ref ref)
+{
+    const struct ir_node *node = ir_get(shader->graph, ref);
+    if (node->op != IR_CALL)
+        return;
+    const struct ir_callee *callee = &shader->graph->callees.items[node->attr];
+    struct shader_flat_call call = {node->origin, callee->name};
+    if (lang_function(shader->unit, callee->index, NULL)->flags & LANG_FN_DIFFERENCE)
+        vec_push(shader->arena, &shader->reflection.flat_calls, call);
 }
 
 ir_ref closure_differentials(struct shader *shader, ir_ref root)
@@ -121,6 +129,7 @@ ir_ref closure_differentials(struct shader *shader, ir_ref root)
         d.here[ref] = d.next[0][ref] = d.next[1][ref] = ref;
         if (!needed[ref])
             continue;
+        note_call(shader, ref);
         ir_push_origin_of(d.graph, ref);
         visit(&d, ref);
         ir_pop_origin(d.graph);

@@ -145,6 +145,11 @@ struct ir_op_info {
     const char *doc;
 };
 extern const struct ir_op_info ir_ops[IR_NUM_OPS];
+static inline bool ir_is_difference(enum ir_op op)
+{
+    return op == IR_DFDX || op == IR_DFDY || op == IR_FWIDTH;
+}
+
 static inline const struct ir_op_info *ir_op_info(enum ir_op op)
 {
     assert(op < IR_NUM_OPS);

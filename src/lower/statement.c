@@ -73,6 +73,12 @@ static struct mark mark(const struct lower *lo)
     return (struct mark){lo->graph->nodes.len, lo->num_calls};
 }
 
+/* True if the body must become nodes: what differentiates nodes has no neighbouring pixels. */
+static bool is_differentiated(const struct lower *lo)
+{
+    return lo->host->inlines_derivatives && (lo->frame->fn->flags & LANG_FN_DIFFERENCE) != 0;
+}
+
 /*
  * True if the shader may compute the nodes since `begin` without need. Excludes calls, even if an
  * equal one exists, and derivatives, which need all pixels; nodes that use their results are
@@ -80,6 +86,8 @@ static struct mark mark(const struct lower *lo)
  */
 static bool is_cheap(struct lower *lo, struct mark begin)
 {
+    if (is_differentiated(lo))
+        return true;
     const struct ir_graph *graph = lo->graph;
     assert(begin.nodes <= graph->nodes.len && begin.calls <= lo->num_calls);
     uint32_t added = graph->nodes.len - begin.nodes;
@@ -198,10 +206,8 @@ static bool lower_loop(struct lower *lo, const struct lang_node *node)
 {
     enum { MAX_ROUNDS = 64 };
     lang_ref step = ast_step(lo->frame->layer, node);
-    bool may_run =
-        lo->host->inlines_derivatives && (lo->frame->fn->flags & LANG_FN_DERIVATIVE) != 0;
     bool returned = false;
-    lo->failed |= !may_run;
+    lo->failed |= !is_differentiated(lo);
     if (!lo->failed && node->kind == LANG_FOR && node->a)
         lower_statements(lo, node->a);
     for (unsigned round = 0; !lo->failed && !returned; round++) {

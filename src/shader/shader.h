@@ -329,6 +329,12 @@ struct shader_lost {
     const char *part, *why;
 };
 
+/* On paths: a call of a function whose derivatives are 0, because it has not become nodes. */
+struct shader_flat_call {
+    uint32_t origin;
+    str_id function;
+};
+
 /* Closures of the language that stand for a leaf without one. */
 struct shader_stand_in {
     uint32_t origin; /* of the leaf */
@@ -355,6 +361,7 @@ struct shader_reflection {
     const char *not_traced; /* on paths: why a volume is not drawn; NULL: it is */
     VEC(struct shader_lost) lost;
     VEC(struct shader_stand_in) stand_ins;
+    VEC(struct shader_flat_call) flat_calls;
     const char *not_stored; /* where pixels store slabs: why it lights itself; NULL: it does not */
     /* words that it stores per pixel, at most, or in a payload; 0: it lights itself */
     uint32_t stored_words;

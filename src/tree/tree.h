@@ -85,6 +85,7 @@ enum lang_function_flags {
      * process (docs/benchmarks.md)
      */
     LANG_FN_FINAL = 32,
+    LANG_FN_DIFFERENCE = 64, /* it or a callee has dFdx, dFdy or fwidth */
 };
 
 struct lang_function {

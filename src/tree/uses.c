@@ -23,6 +23,8 @@ static void add_op(struct lang_uses *uses, enum ir_op op)
 {
     if (ir_op_info(op)->flags & OP_DERIVATIVE)
         uses->flags |= LANG_FN_DERIVATIVE;
+    if (ir_is_difference(op))
+        uses->flags |= LANG_FN_DIFFERENCE;
     if (op >= IR_TEX && op <= IR_TEX_FETCH)
         uses->flags &= (uint16_t)~LANG_FN_PURE;
 }
@@ -71,7 +73,8 @@ void lang_uses_record(const struct lang_uses *uses, struct lang_unit *unit,
 
 void lang_inherit_flags(const struct lang_unit *unit, struct lang_function *fn)
 {
-    const uint16_t all_of = LANG_FN_PURE | LANG_FN_STRAIGHT, any_of = LANG_FN_DERIVATIVE;
+    const uint16_t all_of = LANG_FN_PURE | LANG_FN_STRAIGHT,
+                   any_of = LANG_FN_DERIVATIVE | LANG_FN_DIFFERENCE;
     for (uint32_t i = 0; i < fn->num_callees; i++) {
         uint16_t flags = lang_function(unit, ast_callees(unit, fn)[i], NULL)->flags;
         fn->flags &= (uint16_t)(flags | ~all_of);

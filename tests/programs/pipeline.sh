@@ -172,6 +172,12 @@ check "its rounds are differences of rays, one after the other" grep -q 'dx_texc
 check "of the loop nothing is left" eval '! grep -q "for (int i = 0" ridges/S.frag'
 check "a loop with rounds that vary is generated for paths" "$mxgen" ridges.mtlx -e V --target vulkan --role scatter -o ridges
 check "it stays a loop" eval 'grep -q "for (int i = 0" ridges/V.frag && ! grep -q "dx_texcoord_0" ridges/V.frag'
+check "that its derivatives are lost is told" eval '"$mxgen" ridges.mtlx -e V --target vulkan --role scatter -o ridges 2>&1 | grep -q "ridges.mtlx:10:3: warning: .*\[derivatives-left-out\]"'
+check "a raster keeps them, without a message" eval '! "$mxgen" ridges.mtlx -e V --target vulkan -o ridges 2>&1 | grep -q derivatives-left-out'
+sed 's/for (int i = 0; i < rounds; ++i)/if (st.y > 0.5)/; s/float(i + 1)/st.y/g' ridges.glsl >branch.glsl
+sed 's/ridges\.glsl/branch.glsl/' ridges.mtlx >branch.mtlx
+check "derivatives in a branch are generated for paths" "$mxgen" branch.mtlx -e S --target vulkan --role scatter -Werror -o branch
+check "they are differences of rays" grep -q 'dx_texcoord_0' branch/S.frag
 check "nothing is blurred without the option" eval '"$mxgen" "$examples/frosted.mtlx" --target vulkan -o sharp && ! grep -q "dFdx" sharp/Frosted.frag'
 check "blur has another layout" eval '[ "$(number blurred/show.json layout)" != "$(number passes/show.json layout)" ]'
 check "diffusion has another layout" eval '[ "$(number spread/show.json layout)" != "$(number passes/show.json layout)" ]'
