@@ -311,31 +311,35 @@ static void match_prim(struct bind_look *look, prim_id prim)
 }
 
 /*
- * A matcher of the members of a collection that are excluded, or of those that are not. Members
- * that were removed from the scene match nothing.
+ * A matcher of the members of a collection that are excluded, or of those that are not: its number.
+ * Members that were removed from the scene match nothing.
  */
 static uint32_t match_members(struct bind_look *look, const struct scene_binding *binding,
                               bool is_excluded)
 {
     const struct scene_member *members = &look->scene->members.items[binding->first_member];
-    uint32_t added = add_matcher(look, look->collections.len, MATCHER_MEMBER);
+    uint32_t added = add_matcher(look, 0, MATCHER_MEMBER);
     for (uint32_t i = 0; i < binding->num_members; i++)
         if (members[i].is_excluded == is_excluded && scene_has(look->scene, members[i].prim))
             match_prim(look, members[i].prim);
-    return added;
+    return added - 1;
 }
 
-/* The collection that a binding of the scene uses: its number from 1. */
-static uint32_t add_usd_collection(struct bind_look *look, const struct scene_binding *binding)
+/* The members of the collection that a binding of the scene uses: their number from 1. */
+static uint32_t find_members(struct bind_look *look, const struct scene_binding *binding)
 {
-    uint32_t number = look->collections.len;
-    struct look_collection added = {.first_nested = look->nested.len};
+    uint32_t hash = hash_pair(binding->first_member, binding->num_members), at = hash, found;
+    while ((found = table_next(&look->member_table, hash, &at)))
+        if (look->members.items[found - 1].first_member == binding->first_member
+            && look->members.items[found - 1].num_members == binding->num_members)
+            return found;
+    struct look_members added = {.first_member = binding->first_member,
+                                 .num_members = binding->num_members};
     added.include = match_members(look, binding, false);
     added.exclude = match_members(look, binding, true);
-    added.owner = add_matcher(look, number, MATCHER_MEMBER);
-    match_prim(look, binding->prim);
-    vec_push(look->arena, &look->collections, added);
-    return number + 1;
+    vec_push(look->arena, &look->members, added);
+    table_add(&look->member_table, look->arena, hash, look->members.len);
+    return look->members.len;
 }
 
 void look_read_binding(struct bind_look *look, uint32_t number)
@@ -351,12 +355,10 @@ void look_read_binding(struct bind_look *look, uint32_t number)
         assign.kind = ASSIGN_LAYER;
     if (assign.kind == ASSIGN_VOLUME || assign.kind == ASSIGN_LIGHT)
         move_beside(look, &assign, &name, &text);
-    if (binding->is_collection) {
-        assign.collection = add_usd_collection(look, binding);
-    } else {
-        add_matcher(look, look->assigns.len, MATCHER_ASSIGN);
-        match_prim(look, binding->prim);
-    }
+    if (binding->is_collection)
+        assign.members = find_members(look, binding);
+    add_matcher(look, look->assigns.len, assign.members ? MATCHER_BOUND : MATCHER_ASSIGN);
+    match_prim(look, binding->prim);
     assign.name = look_intern_name(look, &name, text, strlen(text));
     vec_push(look->arena, &look->assigns, assign);
 }

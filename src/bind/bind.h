@@ -99,7 +99,9 @@ struct stands { /* zero at first; serves one state after the other */
     struct stand *items;
     uint32_t len, cap;
     struct arena *scratch;
-    uint32_t *levels; /* of the collections */
+    VEC(uint32_t) reached; /* the collections that may hold the state */
+    bool *is_reached;      /* by collection */
+    uint32_t *levels;      /* by collection: the level of those that it includes */
     /* for assignments at one path */
     VEC(struct stand) rest;
     VEC(uint32_t) behind;

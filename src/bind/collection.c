@@ -214,11 +214,10 @@ static void add_contained(struct bind_look *look, uint64_t *own, uint32_t inner,
         own[w] |= look->contains.items[(size_t)(row - 1) * words + w];
 }
 
-void look_close_collections(struct bind_look *look)
+/* Fills the sets of the collections that each collection contains, at any depth. */
+static void contain_nested(struct bind_look *look)
 {
     uint32_t num = look->collections.len, words = (num + 63) / 64, num_rows = 0;
-    if (!num)
-        return;
     look->rows = ARENA_ARRAY(look->arena, uint32_t, num);
     for (uint32_t i = 0; i < num; i++)
         if (look->collections.items[i].num_nested)
@@ -235,4 +234,52 @@ void look_close_collections(struct bind_look *look)
                           words);
         }
     }
+}
+
+/* A number of a list, and the list. */
+struct listed {
+    uint32_t list, number;
+};
+struct listed_numbers {
+    struct listed *items;
+    uint32_t len, cap;
+};
+
+/* Each list has its numbers in the order of `listed`. */
+static struct look_lists make_lists(struct arena *arena, uint32_t num_lists,
+                                    const struct listed_numbers *listed)
+{
+    struct look_lists lists = {ARENA_ARRAY(arena, uint32_t, (size_t)num_lists + 1),
+                               ARENA_ARRAY(arena, uint32_t, listed->len)};
+    uint32_t *ends = lists.first, begin = 0;
+    for (uint32_t i = 0; i < listed->len; i++)
+        ends[listed->items[i].list + 1]++;
+    for (uint32_t i = 0; i < num_lists; i++) {
+        uint32_t len = ends[i + 1];
+        ends[i + 1] = begin; /* until it is filled */
+        begin += len;
+    }
+    for (uint32_t i = 0; i < listed->len; i++)
+        lists.items[ends[listed->items[i].list + 1]++] = listed->items[i].number;
+    return lists;
+}
+
+void look_close_collections(struct bind_look *look)
+{
+    struct listed_numbers users = {0}, assigned = {0};
+    if (!look->collections.len)
+        return;
+    contain_nested(look);
+    for (uint32_t i = 0; i < look->collections.len; i++) {
+        const struct look_collection *c = &look->collections.items[i];
+        for (uint32_t n = 0; n < c->num_nested; n++)
+            vec_push(look->arena, &users,
+                     (struct listed){look->nested.items[c->first_nested + n], i});
+    }
+    for (uint32_t i = 0; i < look->assigns.len; i++)
+        if (look->assigns.items[i].collection)
+            vec_push(look->arena, &assigned,
+                     (struct listed){look->assigns.items[i].collection - 1, i});
+    look->users = make_lists(look->arena, look->collections.len, &users);
+    look->assigned = make_lists(look->arena, look->collections.len, &assigned);
 }

@@ -45,6 +45,7 @@ struct look_assign {
     uint32_t name;       /* index in `names` */
     elem_id target;      /* the material or nodegraph; 0: a removal */
     uint32_t collection; /* 1 + index; 0: it has a geom, or stands nowhere */
+    uint32_t members;    /* 1 + index in `members`: it is for a collection of USD; 0: it is not */
     uint32_t first_variant, num_variants;
     uint8_t kind;     /* enum assign_kind */
     uint8_t products; /* bits of enum bind_product: the inputs that the material has */
@@ -65,7 +66,17 @@ struct look_collection {
     elem_id element;
     uint32_t first_nested, num_nested; /* in `nested` */
     uint32_t include, exclude;         /* 1 + matcher; 0: none */
-    uint32_t owner; /* of a collection of USD: 1 + matcher of the prim whose binding uses it */
+};
+
+/* The members of a collection of USD, which many bindings may share. */
+struct look_members {
+    uint32_t first_member, num_members; /* in the scene */
+    uint32_t include, exclude;          /* matchers */
+};
+
+/* Lists of numbers, one for each of some other numbers: `first` has one more than there are. */
+struct look_lists {
+    uint32_t *first, *items;
 };
 
 /*
@@ -76,10 +87,11 @@ enum matcher_kind {
     MATCHER_ASSIGN,
     MATCHER_INCLUDE,
     MATCHER_EXCLUDE, /* its first match on a path counts, of others the deepest */
-    MATCHER_MEMBER,  /* of a collection of USD */
+    MATCHER_BOUND,   /* a primitive whose binding is for a collection of USD */
+    MATCHER_MEMBER,  /* of such a collection */
 };
 struct look_matcher {
-    uint32_t owner;                 /* the assignment or the collection */
+    uint32_t owner;                 /* the assignment or the collection; of members none */
     uint8_t kind;                   /* enum matcher_kind */
     bool has_fault;                 /* a name was reported */
     const char *prefix, *list;      /* the names and the geomprefix in front; NULL: primitives */
@@ -102,8 +114,12 @@ struct bind_look {
     VEC(struct look_collection) collections; /* a nested one stands before its users */
     VEC(uint32_t) nested;
     struct table collection_table;
-    VEC(uint64_t) contains; /* bit sets: the collections in a collection, at any depth */
-    uint32_t *rows;         /* by collection: 1 + its row in `contains`; 0: it contains none */
+    VEC(struct look_members) members;
+    struct table member_table;
+    struct look_lists users;    /* by collection: those that include it */
+    struct look_lists assigned; /* by collection: its assignments */
+    VEC(uint64_t) contains;     /* bit sets: the collections in a collection, at any depth */
+    uint32_t *rows;             /* by collection: 1 + its row in `contains`; 0: it contains none */
     VEC(struct look_variant) variants; /* those of the looks, then those of the assignments */
     uint32_t num_look_variants;
     elem_id order; /* the look whose slotorder counts; 0: none */

@@ -80,9 +80,9 @@ static void put_loss(const struct explanation *e, const struct stand *weak,
         text_str(e->out, ", which a look has that inherits from this one");
     else if (s->binding && strong->level < weak->level)
         text_str(e->out, ", which is stronger than bindings of the scene below it");
-    else if (s->binding && s->collection && !w->collection)
+    else if (s->members && !w->members)
         text_str(e->out, ", because at one prim a collection beats a direct binding");
-    else if (s->binding && s->collection && w->collection)
+    else if (s->members && w->members)
         text_str(e->out, ", because the first of several collections wins");
     else if (strong->assign > weak->assign)
         text_str(e->out, ", which stands later in the file");

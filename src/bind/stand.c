@@ -26,42 +26,87 @@ static uint32_t level_of(const struct bindings *b, const struct bind_state *stat
  * Membership in a collection of USD is what the deepest of its paths says, and an exclusion beats
  * an inclusion of the same path (UsdCollectionMembershipQuery). The binding stands at its own prim.
  */
-static uint32_t level_of_usd(const struct bindings *b, const struct bind_state *state,
-                             const struct look_collection *c)
+static bool has_members(const struct bindings *b, const struct bind_state *state, uint32_t assign)
 {
-    uint32_t include = level_of(b, state, c->include - 1),
-             exclude = level_of(b, state, c->exclude - 1);
-    return include > exclude ? level_of(b, state, c->owner - 1) : 0;
+    const struct look_members *members =
+        &b->look.members.items[b->look.assigns.items[assign].members - 1];
+    return level_of(b, state, members->include) > level_of(b, state, members->exclude);
 }
 
-/* The level of one collection, from those of its nested ones, which stand before it. */
+/* ---- Collections ---- */
+
+static void reach(struct stands *work, uint32_t collection)
+{
+    if (!work->is_reached[collection])
+        vec_push(work->scratch, &work->reached, collection);
+    work->is_reached[collection] = true;
+}
+
+static int compare_numbers(const void *a, const void *b)
+{
+    uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
+    return x < y ? -1 : x > y;
+}
+
+/* Lists the collections that may hold the state, sorted: nested ones stand before their users. */
+static void reach_collections(const struct bindings *b, const struct bind_state *state,
+                              struct stands *work)
+{
+    const struct bind_look *look = &b->look;
+    const struct look_lists *users = &look->users;
+    const struct bind_entry *entries = &b->entries.items[state->first_entry];
+    if (!work->levels) {
+        work->levels = ARENA_ARRAY(work->scratch, uint32_t, look->collections.len);
+        work->is_reached = ARENA_ARRAY(work->scratch, bool, look->collections.len);
+    }
+    work->reached.len = 0;
+    for (uint32_t i = 0; i < state->num_entries; i++) {
+        const struct look_matcher *matcher = &look->matchers.items[entries[i].matcher];
+        if (matcher->kind == MATCHER_INCLUDE)
+            reach(work, matcher->owner);
+    }
+    for (uint32_t i = 0; i < work->reached.len; i++) {
+        uint32_t nested = work->reached.items[i];
+        for (uint32_t k = users->first[nested]; k < users->first[nested + 1]; k++)
+            reach(work, users->items[k]);
+    }
+    if (work->reached.len > 1)
+        qsort(work->reached.items, work->reached.len, sizeof *work->reached.items, compare_numbers);
+}
+
+/* The level of a collection, from its own geometry and from the level of those that it includes. */
 static uint32_t level_of_collection(const struct bindings *b, const struct bind_state *state,
-                                    uint32_t number, const uint32_t *levels)
+                                    uint32_t number, uint32_t nested_level)
 {
     const struct look_collection *c = &b->look.collections.items[number];
-    if (c->owner)
-        return level_of_usd(b, state, c);
     if (c->exclude && level_of(b, state, c->exclude - 1))
         return 0;
-    uint32_t level = c->include ? level_of(b, state, c->include - 1) : 0;
-    for (uint32_t i = 0; i < c->num_nested; i++) {
-        uint32_t nested = b->look.nested.items[c->first_nested + i];
-        assert(nested < number);
-        if (levels[nested] > level)
-            level = levels[nested];
-    }
-    return level;
+    uint32_t own = c->include ? level_of(b, state, c->include - 1) : 0;
+    return own > nested_level ? own : nested_level;
 }
 
-static const uint32_t *collection_levels(const struct bindings *b, const struct bind_state *state,
-                                         struct stands *work)
+static void add_stand(const struct bindings *b, struct stands *out, uint32_t assign, uint32_t level)
 {
-    uint32_t num = b->look.collections.len;
-    if (!work->levels)
-        work->levels = ARENA_ARRAY(work->scratch, uint32_t, num);
-    for (uint32_t i = 0; i < num; i++)
-        work->levels[i] = level_of_collection(b, state, i, work->levels);
-    return work->levels;
+    vec_push(out->scratch, out, (struct stand){b->look.assigns.items[assign].name, level, assign});
+}
+
+/* Adds the assignments of collections. `levels` is zero before and after. */
+static void add_collections(const struct bindings *b, const struct bind_state *state,
+                            struct stands *out)
+{
+    const struct look_lists *users = &b->look.users, *assigned = &b->look.assigned;
+    reach_collections(b, state, out);
+    for (uint32_t i = 0; i < out->reached.len; i++) {
+        uint32_t number = out->reached.items[i],
+                 level = level_of_collection(b, state, number, out->levels[number]);
+        for (uint32_t k = users->first[number]; k < users->first[number + 1]; k++)
+            if (out->levels[users->items[k]] < level)
+                out->levels[users->items[k]] = level;
+        for (uint32_t k = assigned->first[number]; level && k < assigned->first[number + 1]; k++)
+            add_stand(b, out, assigned->items[k], level);
+        out->levels[number] = 0;
+        out->is_reached[number] = false;
+    }
 }
 
 /* ---- Strength ---- */
@@ -242,11 +287,6 @@ static void sort_stands(const struct bind_look *look, struct stands *stands)
         sort_names_by_scene(look, stands);
 }
 
-static void add_stand(const struct bindings *b, struct stands *out, uint32_t assign, uint32_t level)
-{
-    vec_push(out->scratch, out, (struct stand){b->look.assigns.items[assign].name, level, assign});
-}
-
 void bind_stands(const struct bindings *b, const struct bind_state *state, struct stands *out)
 {
     const struct bind_look *look = &b->look;
@@ -254,20 +294,17 @@ void bind_stands(const struct bindings *b, const struct bind_state *state, struc
     out->len = 0;
     for (uint32_t i = 0; i < state->num_entries; i++) {
         const struct look_matcher *matcher = &look->matchers.items[entries[i].matcher];
-        if (matcher->kind == MATCHER_ASSIGN)
+        if (matcher->kind == MATCHER_ASSIGN
+            || (matcher->kind == MATCHER_BOUND && has_members(b, state, matcher->owner)))
             add_stand(b, out, matcher->owner, entries[i].level);
     }
-    const uint32_t *levels = look->collections.len ? collection_levels(b, state, out) : NULL;
-    for (uint32_t i = 0; levels && i < look->assigns.len; i++) {
-        uint32_t collection = look->assigns.items[i].collection;
-        if (collection && levels[collection - 1])
-            add_stand(b, out, i, levels[collection - 1]);
-    }
+    if (look->collections.len)
+        add_collections(b, state, out);
     sort_stands(look, out);
 }
 
 bool bind_is_excluded(const struct bindings *b, const struct bind_state *state, uint32_t collection)
 {
     const struct look_collection *c = &b->look.collections.items[collection - 1];
-    return c->exclude && !c->owner && level_of(b, state, c->exclude - 1);
+    return c->exclude && level_of(b, state, c->exclude - 1);
 }

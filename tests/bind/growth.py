@@ -37,12 +37,31 @@ def collections(count):
     return 'def Xform "r"\n{\n' + "".join(COLLECTION.format(i, "</r/p>") for i in range(count)) + 'def Mesh "p" {}\n}\ndef Material "M" {}\n'
 
 
+def shared_collection(count):
+    """Each primitive binds the material for the members of one collection, which has them all."""
+    names = ", ".join(f"</r/p{i}>" for i in range(count))
+    return ('def Xform "r"\n{\n' + f"rel collection:c:includes = [{names}]\n"
+            + each(count, 'def Mesh "p{i}" {{ rel material:binding:collection:b = [</r.collection:c>, </M>] }}\n') + '}\ndef Material "M" {}\n')
+
+
+def look_with_collections(count):
+    """Each primitive has a collection of its own, which one collection includes."""
+    return (LOOK.replace('<look name="L">', each(count, '<collection name="c{i}" includegeom="/m{i}"/>\n')
+                         + f'<collection name="all" includecollection="{", ".join(f"c{i}" for i in range(count))}"/>\n<look name="L">')
+            .replace("</look>", each(count, '<materialassign name="a{i}" material="A" collection="c{i}" slot="s"/>\n')
+                     + '<materialassign name="b" material="A" collection="all"/></look>'))
+
+
 def references(count):
     return 'class "c"\n{\n' + each(count, 'def Mesh "p{i}" {{}}\n') + "}\n" + each(count, 'def "q{i}" (references = </c/p{i}>) {{}}\n')
 
 
 def siblings(count):
     return each(count, 'def Mesh "m{i}" {{}}\n')
+
+
+def own_collections(count):
+    return siblings(count)
 
 
 def properties(count):
@@ -56,7 +75,7 @@ def slots(count):
 def order(count):
     """Names that are not in the order of their numbers, beside an order that lists others."""
     return ('(\n    defaultPrim = "m"\n)\ndef Mesh "m" { uniform token[] material:slotOrder = [' + ", ".join(f'"s{i}"' for i in range(count)) + "]\n"
-            + each(count, "rel material:slotBinding:_{next} = </M>\n") + '}\ndef Material "M" {}\n')
+            + each(count // 2, "rel material:slotBinding:_1{i:05} = </M>\nrel material:slotBinding:_1{i:05}9 = </M>\n") + '}\ndef Material "M" {}\n')
 
 
 def networks(count):
@@ -131,8 +150,8 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         start = work(folder, 'def Mesh "m" {}\n')
-        for make in members, collections, references, siblings, properties, slots, order, networks, equal_names, overrides, instances:
-            look = look_at_instances if make is instances else lambda count: LOOK
+        for make in members, shared_collection, collections, own_collections, references, siblings, properties, slots, order, networks, equal_names, overrides, instances:
+            look = {instances: look_at_instances, own_collections: look_with_collections}.get(make, lambda count: LOOK)
             few, many = (work(folder, make(n), look(n)) - start for n in (COUNT, 2 * COUNT))
             print(f"{make.__name__}: {few:.0f} M instructions, {many / few:.2f} times as many for twice the size")
             check(many / few < MOST, f"{make.__name__}: {many / few:.2f} times the work for twice the size")
