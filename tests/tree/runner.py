@@ -12,7 +12,7 @@ sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent))
 from checks import check, finish
 
 ROOT, BUILD, COMPILER = pathlib.Path(sys.argv[1]), sys.argv[2], sys.argv[3:]
-SUITES = {"unit", "tree", "golden", "programs", "device", "slow", "reach"}
+SUITES = {"unit", "numbers", "tree", "golden", "programs", "device", "slow", "reach"}
 SKIPPED = 77
 
 
