@@ -600,7 +600,12 @@ cat >white.mtlx <<'END'
     <input name="ior" type="color3" value="0.001, 0.001, 0.001"/><input name="extinction" type="color3" value="100, 100, 100"/>
     <input name="roughness" type="vector2" value="0.6, 0.05"/>
   </conductor_bsdf>
+  <generalized_schlick_bsdf name="D" type="BSDF">
+    <input name="color0" type="color3" value="1, 1, 1"/><input name="color90" type="color3" value="1, 1, 1"/>
+    <input name="roughness" type="vector2" value="0.8, 0.3"/><input name="distribution" type="string" value="beckmann"/>
+  </generalized_schlick_bsdf>
   <surface name="burley" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="B"/></surface>
+  <surface name="brushed" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="D"/></surface>
   <surface name="metal" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="C"/></surface>
   <surface_unlit name="light" type="surfaceshader"/>
 </materialx>
@@ -612,9 +617,10 @@ furnace() {
         ratio_is white.exr light.exr "$3"
 }
 check 'the light' exits 0 "$render" white.mtlx -e light --mesh sphere -s 32 -o light.exr
-for element in burley metal; do
+for element in burley metal brushed; do
     check "the best quality keeps the energy of $element" furnace $element reference 1
 done
 check 'a good one has that of MaterialX: Burley' furnace burley good 1.07
 check 'and of anisotropic metal' furnace metal good 0.89
+check 'but keeps that of facets by Beckmann, which MaterialX does not have' furnace brushed good 1
 finish render

@@ -395,6 +395,56 @@ sees 'nothing beside the sphere' far -2.95 3.95 -
 sees 'the object space far away, right below' far 2.9 -3.8 r
 sees 'the object space far away, left above' far 2.1 -3.1 g
 
+# Displacement of instances: a vector is along the tangent of each one, over units of the world; a cube that grows is closed at its edges:
+# through a gap at the edge in front one would see the one behind, and the background.
+moves() { sed "s|</materialx>|<displacement name='D' type='displacementshader'><input name='displacement' type='$1' value='$2'/></displacement>\
+  <surfacematerial name='Moved' type='material'><input name='surfaceshader' type='surfaceshader' nodename='SRed'/>\
+    <input name='displacementshader' type='displacementshader' nodename='D'/></surfacematerial></materialx>|" colors.mtlx; }
+moves vector3 '1, 0, 0' >aside.mtlx
+moves float 0.5 >grown.mtlx
+cat >aside.usda <<USD
+$head
+def PointInstancer "many" {
+    point3f[] positions = [(-3.5, 3.5, 0), (-2.5, 0.5, 0), (0.5, 3.5, 0), (0.5, 0.5, 0), (3.5, -2.5, 0)]
+    quath[] orientations = [(1, 0, 0, 0), (0.7071, 0, 0, 0.7071), (0, 0, 0, 1), (1, 0, 0, 0), (1, 0, 0, 0)]
+    float3[] scales = [(1, 1, 1), (1, 1, 1), (1, 1, 1), (2, 1, 1), (-1, 1, 1)]
+    int[] protoIndices = [0, 0, 0, 0, 0]
+    rel prototypes = [</many/a>]
+    def Mesh "a" { rel material:binding = </Moved>
+        $quad
+        texCoord2f[] primvars:st = [(0, 0), (1, 0), (1, 1), (0, 1)] ( interpolation = "vertex" )
+    }
+}
+USD
+document=aside.mtlx
+check 'instances with a vector displacement are drawn' draw aside -W no-pattern-unmatched
+sees 'an instance along its tangent' aside -2.5 3.5 r
+sees 'nothing where it was' aside -3.5 3.5 -
+sees 'one that is turned along its own tangent' aside -2.5 1.5 r
+sees 'nothing where that was' aside -2.5 0.5 -
+sees 'one that is turned around' aside -0.5 3.5 r
+sees 'the right end of one that is wider, a unit further' aside 2.2 0.5 r
+sees 'nothing where its left end was' aside -0.2 0.5 -
+sees 'a mirrored one against the direction' aside 2.5 -2.5 r
+cat >edges.usda <<USD
+$head
+def PointInstancer "many" {
+    point3f[] positions = [(0, 0, 0)]
+    quath[] orientations = [(0.92388, 0, 0.382683, 0)]
+    float3[] scales = [(3, 3, 3)]
+    int[] protoIndices = [0]
+    rel prototypes = [</many/a>]
+    def Cube "a" { rel material:binding = </Moved>
+    }
+}
+USD
+document=grown.mtlx
+check 'an instance of a cube that grows is drawn' draw edges -W no-pattern-unmatched
+document=
+for x in -0.1 0.1; do
+    sees 'no gap at an edge' edges $x 0 r
+done
+
 # Primvars of instances, and primvars of another type than is read.
 cat >primvars.usda <<USD
 $head
