@@ -114,7 +114,6 @@ static void write_files(struct exporting *exporting, const mxg_document *documen
     bool has_stage = exporting->options.stage != NULL;
     struct writing writing = {.cli = cli,
                               .path = exporting->options.output,
-                              .scratch = exporting->scratch.path,
                               .surface = has_stage ? NULL : &surface,
                               .stage = has_stage ? &exporting->stage : NULL,
                               .source = exporting->source,

@@ -278,7 +278,7 @@ static size_t add_file(struct state *state, enum gltf_image image)
             free(file.key);
             return i;
         }
-    if (!texture_make(gltf->flat->report, &texture, gltf->writing->scratch, &file.file)) {
+    if (!texture_make(gltf->flat->report, &texture, &file.file)) {
         free(file.key);
         return SIZE_MAX;
     }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#define _POSIX_C_SOURCE 200809L /* open_memstream */
 #include "export/texture.h"
 
 #include "program/files.h"
@@ -196,8 +197,8 @@ static bool write_rows(struct image_rows *rows, const struct texture *texture,
     return good;
 }
 
-static bool write_image(const struct texture *texture, const struct parts *parts,
-                        const struct files_stream *file, char *reason, size_t capacity)
+static bool write_image(const struct texture *texture, const struct parts *parts, FILE *out,
+                        char *reason, size_t capacity)
 {
     const struct image_format format = {.width = parts->width,
                                         .height = parts->height,
@@ -205,42 +206,42 @@ static bool write_image(const struct texture *texture, const struct parts *parts
                                         .depth = 8,
                                         .is_srgb = texture->is_srgb};
     char later[256];
-    struct image_rows *rows = image_rows_begin(file, &format, reason, capacity);
+    struct image_rows *rows = image_rows_begin(out, "texture.png", &format, reason, capacity);
     bool good = rows && write_rows(rows, texture, parts, reason, capacity);
     return image_rows_end(rows, good ? reason : later, good ? capacity : sizeof later) && good;
 }
 
-/* Makes the bytes of an image with a file, which does not stay; false with the reason. */
-static bool encode(const struct texture *texture, const struct parts *parts, const char *path,
-                   struct texture_file *out, char *reason, size_t capacity)
+/* Makes the bytes of an image; false with the reason. */
+static bool encode(const struct texture *texture, const struct parts *parts,
+                   struct texture_file *made, char *reason, size_t capacity)
 {
-    struct files_stream file;
-    const char *fault = files_begin(&file, path);
-    if (!fault && write_image(texture, parts, &file, reason, capacity)) {
-        out->data = files_read(files_name(&file), &out->size);
-        fault = out->data ? NULL : strerror(errno);
+    char *data = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&data, &size);
+    bool good = out && write_image(texture, parts, out, reason, capacity);
+    if ((!out || fclose(out) != 0) && !*reason) {
+        snprintf(reason, capacity, "%s", strerror(errno));
+        good = false;
     }
-    if (fault)
-        snprintf(reason, capacity, "%s", fault);
-    files_end(&file, false);
-    return out->data;
+    if (!good) {
+        free(data);
+        return false;
+    }
+    *made = (struct texture_file){data, size, "png"};
+    return true;
 }
 
-bool texture_make(struct report *report, const struct texture *texture, const char *folder,
-                  struct texture_file *out)
+bool texture_make(struct report *report, const struct texture *texture, struct texture_file *out)
 {
     if (copy(texture, out))
         return true;
     struct parts parts = {0};
-    char reason[256] = "", *path = cli_format("%s/texture.png", folder);
+    char reason[256] = "";
     bool good = read_parts(report, texture, &parts);
-    if (good) {
-        out->ending = "png";
-        good = encode(texture, &parts, path, out, reason, sizeof reason);
-        if (!good)
-            report_error(report, "output-failed", "cannot write '%s': %s", path, reason);
+    if (good && !encode(texture, &parts, out, reason, sizeof reason)) {
+        report_error(report, "output-failed", "cannot make a texture: %s", reason);
+        good = false;
     }
-    free(path);
     finish_parts(&parts);
     return good;
 }

@@ -36,12 +36,10 @@ struct texture_file {
 bool texture_find_range(struct report *report, const struct flat_image *image, float *out_low,
                         float *out_high);
 /*
- * Makes an image of 8 bits, as large as the largest of its parts, or copies its file. `folder` is
- * for files that do not outlive the call. false after reporting an error. The caller frees the
- * data.
+ * Makes an image of 8 bits, as large as the largest of its parts, or copies its file. false after
+ * reporting an error. The caller frees the data.
  */
-bool texture_make(struct report *report, const struct texture *texture, const char *folder,
-                  struct texture_file *out);
+bool texture_make(struct report *report, const struct texture *texture, struct texture_file *out);
 /* Returns a text that is equal for equal textures. The caller frees it. */
 char *texture_key(const struct texture *texture);
 

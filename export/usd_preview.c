@@ -76,7 +76,7 @@ static bool make_file(struct usd *usd, const struct flat_material *material,
         };
     char *key = texture_key(&texture);
     *out = usd_find_file(usd, key);
-    if (!*out && texture_make(&usd->writing->cli->report, &texture, usd->writing->scratch, &file)) {
+    if (!*out && texture_make(&usd->writing->cli->report, &texture, &file)) {
         char *name = cli_format("%s_%s.%s", material->name, row->name, file.ending);
         *out = usd_add_file(usd, key, name, file.data, file.size);
         free(name);

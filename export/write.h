@@ -12,7 +12,6 @@
 struct writing {
     struct cli *cli;
     const char *path;                   /* of the file */
-    const char *scratch;                /* a folder for files that do not outlive the writer */
     const struct bake_surface *surface; /* whose objects have each material; NULL: */
     const struct stage *stage;          /* its objects have materials of their own */
     const mxg_document *source;         /* the document of the user, with its graphs */

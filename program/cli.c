@@ -11,6 +11,7 @@
 
 #include <assert.h>
 #include <errno.h>
+#include <signal.h>
 #include <stdarg.h>
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -211,6 +212,7 @@ bool cli_start(struct cli *cli, const struct command *command, const struct arg 
 {
     *cli = (struct cli){.max_errors = MAX_ERRORS};
     keep_memory();
+    signal(SIGXFSZ, SIG_IGN); /* a limit of file sizes is told as a full disk is */
     if (wants & CLI_KEEPS_INPUTS)
         args_append(&cli->warnings, "no-unread-input");
     struct arg table[MAX_OWN_ARGS + MAX_COMMON_ARGS];

@@ -163,11 +163,6 @@ static int open_stream(struct files_stream *stream, const char *path)
     return stream->out ? 0 : errno;
 }
 
-const char *files_name(const struct files_stream *stream)
-{
-    return stream->is_direct ? stream->path : stream->temporary ? stream->temporary : stream->link;
-}
-
 /* Forgets all but the reason, which it returns. */
 static int finish_stream(struct files_stream *stream, int reason)
 {

@@ -43,8 +43,6 @@ struct files_stream {
  * then empty.
  */
 const char *files_begin(struct files_stream *stream, const char *path);
-/* The name by which a library opens the file of a stream, and writes it in place of `out`. */
-const char *files_name(const struct files_stream *stream);
 /*
  * Gives the file its name; removes it if `keep` is false. Returns NULL, or the reason for a
  * failure.

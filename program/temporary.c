@@ -58,7 +58,7 @@ static void remove_all(int number)
 /* A signal that the caller ignores, as nohup does, stays ignored. */
 static void catch_signals(void)
 {
-    static const int numbers[] = {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGXFSZ};
+    static const int numbers[] = {SIGINT, SIGTERM, SIGHUP, SIGPIPE};
     static bool is_done;
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers && !is_done; ++i) {
         struct sigaction old;

@@ -130,7 +130,7 @@ static void write_image(struct baking *baking, const struct image_format *format
         return;
     }
     dilation_begin(&dilation, spool, (uint32_t)baking->options.padding);
-    struct image_rows *rows = image_rows_begin(stream, format, reason, capacity);
+    struct image_rows *rows = image_rows_begin(stream->out, path, format, reason, capacity);
     if (rows && write_rows(rows, format, &dilation, reason, capacity))
         image_rows_end(rows, reason, capacity);
     else

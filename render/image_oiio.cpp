@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/image.h"
 #include "render/image_guard.h"
+#include "render/image_stream.h"
 
 #include "program/files.h"
 
@@ -293,7 +294,8 @@ bool can_write(const std::string &name, char *reason, size_t capacity)
 {
     std::string folder = name.substr(0, name.rfind('/') + 1);
     struct stat info;
-    if (!OIIO::ImageOutput::create(name)) {
+    auto output = OIIO::ImageOutput::create(name);
+    if (!output || !output->supports("ioproxy")) {
         OIIO::geterror();
         return fail(reason, capacity, "unknown image format; use .png, .jpg, .exr or .hdr");
     }
@@ -306,14 +308,16 @@ bool can_write(const std::string &name, char *reason, size_t capacity)
 bool write_file(const files_stream &stream, const struct image &image, char *reason,
                 size_t capacity)
 {
-    const char *path = files_name(&stream);
-    auto output = OIIO::ImageOutput::create(stream.path);
+    const char *path = stream.path;
+    stream_proxy proxy(stream.out);
+    auto output = OIIO::ImageOutput::create(path);
     if (!output)
         return fail(reason, capacity, OIIO::geterror());
+    output->set_ioproxy(&proxy);
     bool has_planes = image.num_planes && output->supports("nchannels");
     bool good =
         has_planes ? write_planes(*output, path, image) : write_pixels(*output, path, image);
-    return good || fail(reason, capacity, output->geterror());
+    return good || fail(reason, capacity, proxy.reason(*output));
 }
 
 } // namespace

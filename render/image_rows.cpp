@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/image_rows.h"
 #include "render/image_guard.h"
+#include "render/image_stream.h"
 
 #include <OpenImageIO/imageio.h>
 
@@ -8,8 +9,12 @@
 #include <string>
 
 struct image_rows {
+    stream_proxy proxy;
     std::unique_ptr<OIIO::ImageOutput> output;
     uint32_t done = 0;
+    explicit image_rows(std::FILE *out) : proxy(out)
+    {
+    }
 };
 
 namespace
@@ -22,31 +27,30 @@ OIIO::TypeDesc type_of(const image_format &format)
     return format.depth == 16 ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8;
 }
 
-bool begin(const files_stream &stream, const image_format &format, image_rows &rows, char *reason,
+bool begin(const char *path, const image_format &format, image_rows &rows, char *reason,
            size_t capacity)
 {
-    rows.output = OIIO::ImageOutput::create(stream.path);
+    rows.output = OIIO::ImageOutput::create(path);
     if (!rows.output)
         return fail(reason, capacity, OIIO::geterror());
+    rows.output->set_ioproxy(&rows.proxy);
     OIIO::ImageSpec spec(static_cast<int>(format.width), static_cast<int>(format.height),
                          static_cast<int>(format.channels), type_of(format));
     spec.attribute("oiio:ColorSpace", format.is_srgb ? "sRGB" : "Linear");
     spec.attribute("oiio:UnassociatedAlpha", 1);
     spec.attribute("CompressionQuality", 95);
-    return rows.output->open(files_name(&stream), spec)
-           || fail(reason, capacity, rows.output->geterror());
+    return rows.output->open(path, spec) || fail(reason, capacity, rows.proxy.reason(*rows.output));
 }
 
 } // namespace
 
-struct image_rows *image_rows_begin(const struct files_stream *stream,
-                                    const struct image_format *format, char *reason,
-                                    size_t capacity)
+struct image_rows *image_rows_begin(FILE *out, const char *path, const struct image_format *format,
+                                    char *reason, size_t capacity)
 {
     std::unique_ptr<image_rows> rows;
     bool good = guard(reason, capacity, [&] {
-        rows = std::make_unique<image_rows>();
-        return begin(*stream, *format, *rows, reason, capacity);
+        rows = std::make_unique<image_rows>(out);
+        return begin(path, *format, *rows, reason, capacity);
     });
     return good ? rows.release() : nullptr;
 }
@@ -59,7 +63,7 @@ bool image_rows_add(struct image_rows *rows, uint32_t count, const float *values
         rows->done += count;
         return rows->output->write_scanlines(first, static_cast<int>(rows->done), 0,
                                              OIIO::TypeDesc::FLOAT, values)
-               || fail(reason, capacity, rows->output->geterror());
+               || fail(reason, capacity, rows->proxy.reason(*rows->output));
     });
 }
 
@@ -69,6 +73,7 @@ bool image_rows_end(struct image_rows *rows, char *reason, size_t capacity)
         return true;
     std::unique_ptr<image_rows> owned(rows);
     return guard(reason, capacity, [&] {
-        return owned->output->close() || fail(reason, capacity, owned->output->geterror());
+        return owned->output->close()
+               || fail(reason, capacity, owned->proxy.reason(*owned->output));
     });
 }

@@ -3,11 +3,10 @@
 #ifndef MXG_RENDER_IMAGE_ROWS_H
 #define MXG_RENDER_IMAGE_ROWS_H
 
-#include "program/files.h"
-
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -24,12 +23,12 @@ struct image_format {
 struct image_rows;
 
 /*
- * Begins the file of a stream, which outlives the rows; the ending of its path selects the format.
- * NULL with the reason. Call image_rows_end in any case; it accepts NULL.
+ * Begins a file that goes to `out`, which outlives the rows; the ending of the path selects the
+ * format. NULL with the reason. Call image_rows_end in any case; it accepts NULL. A full disk is
+ * a fault of `out`, which its owner finds.
  */
-struct image_rows *image_rows_begin(const struct files_stream *stream,
-                                    const struct image_format *format, char *reason,
-                                    size_t capacity);
+struct image_rows *image_rows_begin(FILE *out, const char *path, const struct image_format *format,
+                                    char *reason, size_t capacity);
 /* Writes the next rows from the top: `channels` numbers of each texel. false with the reason. */
 bool image_rows_add(struct image_rows *rows, uint32_t count, const float *values, char *reason,
                     size_t capacity);

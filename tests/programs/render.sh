@@ -247,6 +247,9 @@ check 'an environment that is missing fails the run' exits 1 "$render" plain.mtl
 check 'the error of a missing environment is bad-environment' grep -q 'none.exr.*\[bad-environment\]' err
 check 'a picture may be EXR' exits 0 "$render" plain.mtlx -o ball.exr --size 8
 check 'the picture is EXR' test "$(od -An -tx1 -N4 ball.exr | tr -d ' ')" = 762f3101
+# A limit on file sizes is a full disk that needs no privileges.
+full() { (ulimit -f 1 && exits 1 "$render" plain.mtlx -o "full.$1" --size 64) && has err 'File too large' '[output-failed]' && test ! -e "full.$1"; }
+for format in png jpg exr hdr; do check "a full disk is told, and no part of a picture stays: $format" full "$format"; done
 
 cat >metal.mtlx <<'X'
 <?xml version="1.0"?>
