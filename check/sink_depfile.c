@@ -7,11 +7,11 @@
 #include "program/file_name.h"
 
 /* The report is not written with a name that make would read as something else. */
-static void put_name(struct sink *sink, const char *path)
+static void put_name(struct sink *sink, const char *path, bool is_target)
 {
-    if (!file_name_put_make(sink->out, path) && !sink->fault)
+    if (!file_name_put_make(sink->out, path, is_target) && !sink->fault)
         sink->fault = "make cannot read the name of a file; rename files with control characters, "
-                      "';', '=', '|' or '\\' in their names";
+                      "';', '=', '|' or '\\' in their names, or '%', '*', '?' or '[' in reports";
 }
 
 static void begin(struct sink *sink)
@@ -19,7 +19,7 @@ static void begin(struct sink *sink)
     for (size_t i = 0; i < sink->run->num_outputs; ++i) {
         if (i)
             putc(' ', sink->out);
-        put_name(sink, sink->run->outputs[i]);
+        put_name(sink, sink->run->outputs[i], true);
     }
     putc(':', sink->out);
 }
@@ -27,7 +27,7 @@ static void begin(struct sink *sink)
 static void put_input(struct sink *sink, const char *path)
 {
     fputs(" \\\n ", sink->out);
-    put_name(sink, path);
+    put_name(sink, path, false);
 }
 
 /* Omits missing images, because a rule cannot depend on them. */

@@ -367,12 +367,12 @@ static bool find_documents(struct generate *gen)
 }
 
 /* Writes names with a space between them. NULL, or the name that make cannot read. */
-static const char *put_names(FILE *out, const struct arg_list *names)
+static const char *put_names(FILE *out, const struct arg_list *names, bool are_targets)
 {
     for (size_t i = 0; i < names->len; ++i) {
         if (i)
             putc(' ', out);
-        if (!file_name_put_make(out, names->items[i]))
+        if (!file_name_put_make(out, names->items[i], are_targets))
             return names->items[i];
     }
     return NULL;
@@ -384,10 +384,10 @@ static void write_depfile(struct generate *gen)
     struct files_stream stream;
     const char *reason = files_begin(&stream, gen->depfile), *unfit = NULL;
     if (!reason && gen->outputs.len) {
-        unfit = put_names(stream.out, &gen->outputs);
+        unfit = put_names(stream.out, &gen->outputs, true);
         fputs(": ", stream.out);
         if (!unfit)
-            unfit = put_names(stream.out, &gen->sources);
+            unfit = put_names(stream.out, &gen->sources, false);
         putc('\n', stream.out);
     }
     if (!reason)

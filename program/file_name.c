@@ -10,11 +10,18 @@
 #include <string.h>
 
 /*
- * make ends a rule at ';', reads an assignment at '=', and has no escape for '|' and a last '\'.
+ * make ends a rule at ';', reads an assignment at '=', and has no escape for '|' and a last '\'. At
+ * the begin of a name it reads '~' as a folder.
  */
-static bool is_unfit(const char *text, size_t len)
+static bool is_unfit(const char *text, size_t len, bool is_first)
 {
-    return utf8_is_hidden(text, len) || strchr(";=|\\", *text);
+    return utf8_is_hidden(text, len) || strchr(";=|\\", *text) || (is_first && *text == '~');
+}
+
+/* The name of a target with one of these stands for other names, too. */
+static bool is_pattern(char c)
+{
+    return c && strchr("%*?[", c);
 }
 
 static unsigned hash_of(const char *name)
@@ -28,7 +35,7 @@ char *file_name_clean(const char *path)
     bool is_changed = false;
     for (const char *c = path; *c;) {
         size_t len = utf8_length(c), step = len ? len : 1;
-        bool is_bad = is_unfit(c, len);
+        bool is_bad = is_unfit(c, len, c == path) || is_pattern(*c);
         if (is_bad)
             *out = '_';
         else
@@ -68,21 +75,22 @@ char *file_name_of_element(const char *element_path)
     return name;
 }
 
-static bool suits_make(const char *name)
+static bool suits_make(const char *name, bool is_target)
 {
     bool is_good = true;
     size_t len = 1;
     for (const char *c = name; *c && is_good; c += len) {
         len = utf8_length(c);
         bool is_inner = *c == '\\' && c[1];
-        is_good = len && (is_inner || !is_unfit(c, len));
+        is_good =
+            len && (is_inner || !is_unfit(c, len, c == name)) && !(is_target && is_pattern(*c));
     }
     return is_good;
 }
 
-bool file_name_put_make(FILE *out, const char *name)
+bool file_name_put_make(FILE *out, const char *name, bool is_target)
 {
-    if (!suits_make(name))
+    if (!suits_make(name, is_target))
         return false;
     for (size_t slashes = 0; *name; ++name) {
         bool is_special = *name == ' ' || *name == '#' || *name == ':';

@@ -11,7 +11,7 @@ material() { # NAME in XML
 }
 
 # Names become files and rules of make.
-names=('x:&#10;all:&#10;&#9;touch&#9;pwned&#10;y' 'x:;touch${IFS}pwned;y' 'SHELL=touch' 'x&#13;y' 'x&#127;y' 'x&#x85;y' 'x&#x2028;y' 'x&#x202e;y' 'x\' 'x|y' 'x$(shell touch pwned)' 'x:y' 'x y' 'x#y' 'x\ y')
+names=('x:&#10;all:&#10;&#9;touch&#9;pwned&#10;y' 'x:;touch${IFS}pwned;y' 'SHELL=touch' 'x&#13;y' 'x&#127;y' 'x&#x85;y' 'x&#x2028;y' 'x&#x202e;y' 'x\' 'x|y' 'x$(shell touch pwned)' 'x:y' 'x y' 'x#y' 'x\ y' 'x%y' '%' '*' 'x?y' 'x[a-z]' '~root')
 for name in "${names[@]}"; do
     rm -rf made pwned d.d
     material "$name" >name.mtlx
