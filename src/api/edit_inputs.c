@@ -42,7 +42,7 @@ void edit_view(const mxg_edit *edit, struct library *out)
 uint32_t edit_find_definition(const struct edit_change *c, elem_id node, struct library *view)
 {
     struct diag_list unheard;
-    diag_list_init(&unheard, &c->edit->document->object.arena);
+    diag_list_init_unheard(&unheard, &c->edit->document->object.arena);
     edit_view(c->edit, view);
     return doc_element(&view->doc, node)->kind == KIND_NODE ? library_match(view, node, &unheard)
                                                             : LIBRARY_NONE;
@@ -73,7 +73,7 @@ static const char *suggest_input(const struct edit_change *c)
     struct library view;
     uint32_t nodedef = edit_find_definition(c, c->element, &view);
     struct diag_list unheard;
-    diag_list_init(&unheard, &c->edit->document->object.arena);
+    diag_list_init_unheard(&unheard, &c->edit->document->object.arena);
     struct diag_guess guess;
     if (nodedef == LIBRARY_NONE || !diag_guess_begin(&guess, &unheard, c->name))
         return "";

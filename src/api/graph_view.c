@@ -42,7 +42,7 @@ static const char *output_name(const struct graph_view *view, const struct bindi
 {
     assert(binding->kind == BIND_NODE);
     struct diag_list ignored;
-    diag_list_init(&ignored, &view->g->scratch);
+    diag_list_init_unheard(&ignored, &view->g->scratch);
     uint32_t id = doc_attr_value(view->doc, binding->ref, STR_type) == STR_multioutput
                       ? library_match(view->layer, binding->ref, &ignored)
                       : LIBRARY_NONE;
@@ -58,7 +58,7 @@ static const char *output_name(const struct graph_view *view, const struct bindi
 static struct graph_node resolve(struct graph_view *view, elem_id node)
 {
     struct diag_list ignored; /* validation reports faults; a view shows the document as it is */
-    diag_list_init(&ignored, &view->g->scratch);
+    diag_list_init_unheard(&ignored, &view->g->scratch);
     view->resolved.bindings.len = 0;
     return library_resolve_node(view->layer, node, &view->resolved, &ignored);
 }
@@ -66,7 +66,7 @@ static struct graph_node resolve(struct graph_view *view, elem_id node)
 static struct binding resolve_output(struct graph_view *view, elem_id output)
 {
     struct diag_list ignored;
-    diag_list_init(&ignored, &view->g->scratch);
+    diag_list_init_unheard(&ignored, &view->g->scratch);
     return library_resolve_port(view->layer, output, DOC_TYPE_NONE, &view->resolved, &ignored);
 }
 

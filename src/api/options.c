@@ -291,7 +291,7 @@ static const char *unknown_key(struct arena *arena, const char *key)
     struct text text;
     struct diag_list unheard; /* struct options holds its own message */
     text_init(&text, arena);
-    diag_list_init(&unheard, arena);
+    diag_list_init_unheard(&unheard, arena);
     text_fmt(&text, "unknown option '%s'%s", key, diag_suggest(&unheard, key, keys, NUM_OPTIONS));
     return text_cstr(&text);
 }

@@ -43,7 +43,7 @@ static void flatten(struct translation *t, elem_id node)
 static uint32_t definition_of(const struct translation *t, elem_id node)
 {
     struct diag_list unheard;
-    diag_list_init(&unheard, t->arena);
+    diag_list_init_unheard(&unheard, t->arena);
     return doc_element(&t->document->layer.doc, node)->kind == KIND_NODE
                ? library_match(&t->document->layer, node, &unheard)
                : LIBRARY_NONE;

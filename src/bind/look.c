@@ -203,7 +203,7 @@ void look_each_ancestor(struct bind_look *look,
 {
     struct chain chain = {0};
     struct diag_list ignored, *diags = look->diags; /* look_read reports them */
-    diag_list_init(&ignored, look->arena);
+    diag_list_init_unheard(&ignored, look->arena);
     look->diags = &ignored;
     find_parents(look, &chain);
     look->diags = diags;

@@ -13,11 +13,13 @@
 /* The values that a primitive has of one name. */
 struct said {
     uint32_t name, target; /* target 0: None */
+    uint32_t first, last;  /* of a change: 1 + a binding of the stage that it replaces; 0: none */
 };
 
 struct said_list {
     struct said *items;
     uint32_t len, cap;
+    uint32_t *at; /* by name: its index, if there is one */
 };
 
 enum { SAYS = 1, SAYS_BELOW = 2 }; /* what a primitive has in the layer */
@@ -28,11 +30,13 @@ struct usda_writer {
     struct said_list own, above, changes; /* of the primitive at hand */
     VEC(uint32_t) materials;              /* targets that the stage lacks, in order of appearance */
     struct table seen;
-    uint32_t *name_of; /* by binding of the scene: 1 + its name; 0: it is no assignment */
-    uint8_t *says;     /* by primitive: bits of SAYS */
-    prim_id first;     /* the default prim; 0: none */
-    struct text looks; /* the name of the scope of `materials` */
-    uint32_t num_lost; /* items that slot bindings cannot hold */
+    uint32_t *name_of;         /* by binding of the scene: 1 + its name; 0: it is no assignment */
+    VEC(uint32_t) scene_names; /* those names */
+    uint32_t *next_of;         /* by binding: the next one of its change, as `first` */
+    uint8_t *says;             /* by primitive: bits of SAYS */
+    prim_id first;             /* the default prim; 0: none */
+    struct text looks;         /* the name of the scope of `materials` */
+    uint32_t num_lost;         /* items that slot bindings cannot hold */
 };
 
 static const struct look_assign *assign_of(const struct bindings *b, const struct bind_item *item)
@@ -46,11 +50,24 @@ static const char *loss_of(const struct bindings *b, const struct bind_state *st
     const struct bind_item *items = &b->items.items[state->first_item];
     if (items[index].kind == ITEM_PRODUCT)
         return "a product of a weaker assignment";
-    for (uint32_t i = 0; i < index; i++)
-        if (items[i].kind != ITEM_PRODUCT
-            && assign_of(b, &items[i])->name == assign_of(b, &items[index])->name)
+    /* items are sorted by name */
+    for (uint32_t i = index;
+         i-- > 0 && assign_of(b, &items[i])->name == assign_of(b, &items[index])->name;)
+        if (items[i].kind != ITEM_PRODUCT)
             return "it stands beside a layer of its name";
     return assign_of(b, &items[index])->num_variants ? "its variants" : NULL;
+}
+
+static const struct said *find_said(const struct said_list *list, uint32_t name)
+{
+    uint32_t at = list->at[name];
+    return at < list->len && list->items[at].name == name ? &list->items[at] : NULL;
+}
+
+static void add_said(struct usda_writer *u, struct said_list *list, uint32_t name, uint32_t target)
+{
+    list->at[name] = list->len;
+    vec_push(u->w->scratch, list, (struct said){name, target, 0, 0});
 }
 
 /* The layers, overrides and vertical layers of a state, by name. */
@@ -61,21 +78,10 @@ static void collect(struct usda_writer *u, const struct bind_state *state, struc
     for (uint32_t i = 0; i < state->num_items; i++) {
         const struct bind_item *item = &b->items.items[state->first_item + i];
         const struct look_assign *assign = assign_of(b, item);
-        bool is_second = false;
-        for (uint32_t k = 0; k < out->len; k++)
-            is_second |= out->items[k].name == assign->name;
         u->num_lost += loss_of(b, state, i) != NULL;
-        if (item->kind != ITEM_PRODUCT && !is_second)
-            vec_push(u->w->scratch, out, (struct said){assign->name, assign->target});
+        if (item->kind != ITEM_PRODUCT && !find_said(out, assign->name))
+            add_said(u, out, assign->name, assign->target);
     }
-}
-
-static const struct said *find_said(const struct said_list *list, uint32_t name)
-{
-    for (uint32_t i = 0; i < list->len; i++)
-        if (list->items[i].name == name)
-            return &list->items[i];
-    return NULL;
 }
 
 /* ---- What a primitive says ---- */
@@ -94,7 +100,21 @@ static void add_change(struct usda_writer *u, uint32_t name)
 {
     const struct said *own = find_said(&u->own, name);
     if (!find_said(&u->changes, name))
-        vec_push(u->w->scratch, &u->changes, (struct said){name, own ? own->target : 0});
+        add_said(u, &u->changes, name, own ? own->target : 0);
+}
+
+/* Adds the name of a binding that is replaced. */
+static void add_replaced(struct usda_writer *u, uint32_t binding)
+{
+    uint32_t name = u->name_of[binding - 1] - 1;
+    add_change(u, name);
+    struct said *change = &u->changes.items[u->changes.at[name]];
+    if (change->last)
+        u->next_of[change->last - 1] = binding;
+    else
+        change->first = binding;
+    change->last = binding;
+    u->next_of[binding - 1] = 0;
 }
 
 /* Adds the names of the stage's own bindings here. True if one of them stands in a collection. */
@@ -107,7 +127,7 @@ static bool add_bound(struct usda_writer *u, prim_id prim)
         if (is_replaced(u, binding) && binding->is_collection)
             has_collection = true;
         else if (is_replaced(u, binding) && u->name_of[at - 1])
-            add_change(u, u->name_of[at - 1] - 1);
+            add_replaced(u, at);
         at = binding->next;
     }
     return has_collection;
@@ -135,9 +155,8 @@ static bool find_changes(struct usda_writer *u, prim_id prim)
         if (!find_said(&u->own, u->above.items[i].name))
             add_change(u, u->above.items[i].name);
     /* a binding for a purpose beats all others, so roots have one of each name */
-    for (uint32_t i = 0; i < b->scene->bindings.len && !parent && *b->scene->purpose; i++)
-        if (u->name_of[i])
-            add_change(u, u->name_of[i] - 1);
+    for (uint32_t i = 0; i < u->scene_names.len && !parent && *b->scene->purpose; i++)
+        add_change(u, u->scene_names.items[i]);
     return add_bound(u, prim) || u->changes.len;
 }
 
@@ -271,17 +290,12 @@ static const char *property_of(struct usda_writer *u, struct said said)
 }
 
 /* Says a name, in its property and in those that the stage has for it. */
-static void put_change(struct usda_writer *u, prim_id prim, uint32_t depth, struct said said)
+static void put_change(struct usda_writer *u, uint32_t depth, struct said said)
 {
-    const struct scene *scene = u->w->b->scene;
     const char *property = property_of(u, said);
     bool is_said = false;
-    for (uint32_t at = scene_first_binding(scene, prim), next; at; at = next) {
-        const struct scene_binding *binding = &scene->bindings.items[at - 1];
-        next = binding->next;
-        if (binding->is_collection || !is_replaced(u, binding)
-            || u->name_of[at - 1] != said.name + 1)
-            continue;
+    for (uint32_t at = said.first; at; at = u->next_of[at - 1]) {
+        const struct scene_binding *binding = &u->w->b->scene->bindings.items[at - 1];
         put_relation(u, depth, binding->property, said.target, binding->is_strong);
         is_said |= strcmp(binding->property, property) == 0;
     }
@@ -309,7 +323,7 @@ static void put_bindings(struct usda_writer *u, prim_id prim, uint32_t depth)
     for (unsigned of_base = 0; of_base < 2; of_base++)
         for (uint32_t i = 0; i < u->changes.len; i++)
             if (is_base(u, u->changes.items[i].name) == (of_base != 0))
-                put_change(u, prim, depth, u->changes.items[i]);
+                put_change(u, depth, u->changes.items[i]);
 }
 
 /* The slotorder of the look, or of the scene itself. */
@@ -471,16 +485,35 @@ static void put_head(struct usda_writer *u)
     usda_put(&u->text, ")\n");
 }
 
+/* Fills `name_of`, `scene_names`, and makes room for what primitives say of each name. */
+static void find_names(struct usda_writer *u)
+{
+    const struct bind_look *look = &u->w->b->look;
+    struct arena *arena = u->w->scratch;
+    struct said_list *lists[] = {&u->own, &u->above, &u->changes};
+    u->name_of = ARENA_ARRAY(arena, uint32_t, look->scene->bindings.len);
+    u->next_of = ARENA_ARRAY(arena, uint32_t, look->scene->bindings.len);
+    bool *has_name = ARENA_ARRAY(arena, bool, look->names.len);
+    for (size_t i = 0; i < sizeof lists / sizeof *lists; i++)
+        lists[i]->at = ARENA_ARRAY(arena, uint32_t, look->names.len);
+    for (uint32_t i = 0; i < look->assigns.len; i++) {
+        const struct look_assign *assign = &look->assigns.items[i];
+        if (!assign->binding)
+            continue;
+        u->name_of[assign->binding - 1] = assign->name + 1;
+        if (!has_name[assign->name])
+            vec_push(arena, &u->scene_names, assign->name);
+        has_name[assign->name] = true;
+    }
+}
+
 uint32_t bind_write_usda(struct bind_writer *w)
 {
     const struct bindings *b = w->b;
     const struct scene *scene = b->scene;
     struct usda_writer u = {.w = w, .text = {.out = w->out}, .first = find_first(scene)};
-    u.name_of = ARENA_ARRAY(w->scratch, uint32_t, scene->bindings.len);
+    find_names(&u);
     u.says = ARENA_ARRAY(w->scratch, uint8_t, scene->prims.len);
-    for (uint32_t i = 0; i < b->look.assigns.len; i++)
-        if (b->look.assigns.items[i].binding)
-            u.name_of[b->look.assigns.items[i].binding - 1] = b->look.assigns.items[i].name + 1;
     put_head(&u);
     mark_prims(&u);
     uint32_t open = 0;

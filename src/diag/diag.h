@@ -79,6 +79,8 @@ struct diag_list {
 };
 
 void diag_list_init(struct diag_list *list, struct arena *arena);
+/* A list whose messages nobody reads: it has no suggestions, whose search takes time. */
+void diag_list_init_unheard(struct diag_list *list, struct arena *arena);
 
 /*
  * Adds a diagnostic; the arguments match the format of the id. A note belongs to the diagnostic

@@ -161,6 +161,12 @@ static bool is_misspelling(const struct diag_guess *guess, const char *candidate
     return true;
 }
 
+void diag_list_init_unheard(struct diag_list *list, struct arena *arena)
+{
+    diag_list_init(list, arena);
+    list->num_guesses = MAX_GUESSES;
+}
+
 bool diag_may_guess(const struct diag_list *list)
 {
     return list->num_guesses < MAX_GUESSES;

@@ -442,11 +442,15 @@ const char *doc_file_name(const struct document *doc, uint16_t file)
     return str_text(doc->strings, doc->files.items[file - doc->first_file]);
 }
 
-/* Code points of a text. */
+/*
+ * Code points of a text, for the length of a place. Of a longer text the beginning is marked, so
+ * that many messages about it take linear time.
+ */
 static uint32_t width_of(const struct document *doc, str_id text)
 {
+    enum { MAX_WIDTH = 1000 };
     uint32_t width = 0;
-    for (const char *c = str_text(doc->strings, text); *c; c++)
+    for (const char *c = str_text(doc->strings, text); *c && width < MAX_WIDTH; c++)
         width += (*c & 0xc0) != 0x80;
     return width;
 }

@@ -16,6 +16,7 @@ struct upgrade {
     elem_id pass_end;
     int minor;                /* of the current step: 38 upgrades 1.37 to 1.38 */
     struct table definitions; /* nodedefs by node, and by node and type: upgrade_materials.c */
+    bool has_definitions;     /* they are those of the document as it is now */
     bool outdated; /* the document declares this version or a later one, so changes are warnings */
 };
 

@@ -66,6 +66,7 @@ static void add_definitions(struct upgrade *u, elem_id root)
 static void find_definitions(struct upgrade *u)
 {
     u->definitions = (struct table){0};
+    u->has_definitions = true;
     add_definitions(u, u->root);
     for (const struct document *layer = u->doc; layer; layer = layer->base)
         if (layer->root != u->root)
@@ -80,7 +81,7 @@ static elem_id shader_definition(struct upgrade *u, elem_id shader_ref)
            node = doc_attr_value(doc, shader_ref, STR_node);
     if (name)
         return find_top_level(u, name);
-    if (node && !u->definitions.num)
+    if (node && !u->has_definitions)
         find_definitions(u);
     return node ? find_definition(u, node, doc_attr_value(doc, shader_ref, STR_type)) : 0;
 }
@@ -226,7 +227,7 @@ void upgrade_opgraphs(struct upgrade *u)
             && doc_element(doc, e)->parent)
             connect_opgraph_node(u, e);
     }
-    u->definitions = (struct table){0};
+    u->has_definitions = false;
     for (elem_id e = upgrade_first(u); e; e = upgrade_next(u, e)) {
         if (is_shader_ref(u, e)) {
             name_definition(u, e);
@@ -263,7 +264,7 @@ static bool is_in_material(const struct upgrade *u, elem_id element)
 
 void upgrade_material_overrides(struct upgrade *u)
 {
-    u->definitions = (struct table){0};
+    u->has_definitions = false;
     for (elem_id e = upgrade_first(u); e; e = upgrade_next(u, e))
         if (is_shader_ref(u, e) && is_in_material(u, e))
             apply_overrides(u, e);
@@ -402,7 +403,7 @@ static void inherit_shaders(struct upgrade *u, elem_id material)
 void upgrade_materials(struct upgrade *u)
 {
     struct document *doc = u->doc;
-    u->definitions = (struct table){0};
+    u->has_definitions = false;
     for (elem_id e = upgrade_first(u); e; e = upgrade_next(u, e))
         if (doc_element(doc, e)->category == STR_material && doc_element(doc, e)->parent == u->root)
             convert_material(u, e);

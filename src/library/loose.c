@@ -15,7 +15,7 @@ static const char *suggest(const struct library *lib, elem_id node, str_id name,
                            struct diag_list *diags)
 {
     struct diag_list unheard; /* the match reports its own faults elsewhere */
-    diag_list_init(&unheard, diags->arena);
+    diag_list_init_unheard(&unheard, diags->arena);
     uint32_t nodedef = doc_element(&lib->doc, node)->kind == KIND_NODE
                            ? library_match(lib, node, &unheard)
                            : LIBRARY_NONE;

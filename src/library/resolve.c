@@ -246,7 +246,7 @@ static str_id name_of_output(const struct library *lib, elem_id port, elem_id no
 {
     str_id name = doc_attr_value(&lib->doc, port, STR_output);
     struct diag_list unheard;
-    diag_list_init(&unheard, diags->arena);
+    diag_list_init_unheard(&unheard, diags->arena);
     uint32_t id = name ? library_match(lib, node, &unheard) : LIBRARY_NONE;
     if (id == LIBRARY_NONE || library_nodedef(lib, id)->num_outputs != 1
         || library_find_output(lib, id, name) == 0)

@@ -51,7 +51,7 @@ static bool gives_uniform(struct validate *v, elem_id node, unsigned output)
 {
     const char *category = text_of(v, doc_element(v->doc, node)->category);
     struct diag_list ignored; /* discarded: the check of the node itself reports these */
-    diag_list_init(&ignored, v->resolved.arena);
+    diag_list_init_unheard(&ignored, v->resolved.arena);
     if (strcmp(category, "constant") == 0 || strcmp(category, "geompropvalueuniform") == 0)
         return true;
     uint32_t nodedef = library_match(v->lib, node, &ignored);

@@ -380,7 +380,7 @@ static void step_outputs(struct builder *b)
     const struct nodedef *def = library_nodedef(b->lib, frame->node.nodedef);
     struct diag_list ignored; /* the exit from the graph reports faults of the connection */
     struct resolve_out out = {.arena = b->arena};
-    diag_list_init(&ignored, b->arena);
+    diag_list_init_unheard(&ignored, b->arena);
     while (frame->next < def->num_outputs) {
         elem_id output = inner_output(b, frame, frame->next++);
         if (!output)

@@ -146,7 +146,7 @@ static void publish_shader(struct builder *b, elem_id port)
 {
     struct diag_list ignored; /* the resolution of the node itself reports them */
     struct resolve_out out = {.arena = b->arena, .drives = b->resolved.drives};
-    diag_list_init(&ignored, b->arena);
+    diag_list_init_unheard(&ignored, b->arena);
     struct binding binding = library_resolve_port(b->lib, port, DOC_TYPE_NONE, &out, &ignored);
     if (binding.kind == BIND_NODE)
         vec_push(b->arena, &b->public_nodes, binding.ref);

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """A stage of twice the size takes at most 2.2 times the instructions to bind, whatever it consists of: members of a collection,
-collections, references, siblings, properties, slots, order, networks, prims of equal names.
+collections, references, siblings, unknown_targets, properties, slots, order, networks, prims of equal names.
 
 Arguments: mxgen, the smaller number of things."""
 import os
@@ -64,6 +64,10 @@ def own_collections(count):
     return siblings(count)
 
 
+def unknown_targets(count):
+    return each(count, 'def Mesh "m{i}" {{ rel material:binding = </X{i}> }}\n')
+
+
 def properties(count):
     return 'def Mesh "m" {\n' + each(count, "float p{i} = {i}\n") + each(count, "float p{i}.timeSamples = {{ 1: {i} }}\n") + "}\n"
 
@@ -107,6 +111,11 @@ def look_at_instances(count):
     return LOOK.replace("<look name=\"L\">", "<look name=\"L\">" + each(count // 2, '<materialassign name="i{i}" material="A" geom="/f[{next}]"/>'))
 
 
+STAGES = {make: lambda count: LOOK for make in (members, shared_collection, collections, references, siblings, unknown_targets, properties, slots,
+                                                order, networks, equal_names, overrides)}
+STAGES |= {own_collections: look_with_collections, instances: look_at_instances}
+
+
 def write_stack(path, layers):
     """So many materials with noise over each other, which a budget has to blend."""
     parts, looks = [], []
@@ -136,7 +145,8 @@ def work(folder, text, look=LOOK):
     (folder / "stage.usda").write_text("#usda 1.0\n" + text, encoding="utf-8")
     (folder / "look.mtlx").write_text(look, encoding="utf-8")
     counter = ["valgrind", "--tool=cachegrind", "--cache-sim=no", "--cachegrind-out-file=/dev/null"]
-    command = [MXGEN, "bind", folder / "look.mtlx", "--look", "L", "--stage", folder / "stage.usda", "--json", "/dev/null", "--quiet"]
+    outputs = ["--json", "/dev/null", "--usda", "/dev/null", "--purpose", "full"]
+    command = [MXGEN, "bind", folder / "look.mtlx", "--look", "L", "--stage", folder / "stage.usda", "--quiet", *outputs]
     result = subprocess.run(counter + command, capture_output=True, check=False)
     found = re.findall(rb"I +refs: +([\d,]+)", result.stderr)
     check(found, f"no instructions are counted: {result.stderr[-500:]}")
@@ -150,8 +160,7 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         start = work(folder, 'def Mesh "m" {}\n')
-        for make in members, shared_collection, collections, own_collections, references, siblings, properties, slots, order, networks, equal_names, overrides, instances:
-            look = {instances: look_at_instances, own_collections: look_with_collections}.get(make, lambda count: LOOK)
+        for make, look in STAGES.items():
             few, many = (work(folder, make(n), look(n)) - start for n in (COUNT, 2 * COUNT))
             print(f"{make.__name__}: {few:.0f} M instructions, {many / few:.2f} times as many for twice the size")
             check(many / few < MOST, f"{make.__name__}: {many / few:.2f} times the work for twice the size")

@@ -27,6 +27,20 @@ SHAPES = [
     ("equal names", ("<constant name='c' type='float'/>",)),
     ("unknown nodes", ("<xadd# name='c#' type='float'/>",)),
     ("unknown types", ("<constant name='c#' type='flot#'/>",)),
+    ("views of unknown nodes", "inspect --graph", ("<add name='a#' type='float'><input name='in1' type='float' nodename='xa#'/></add>",)),
+    ("views of unknown types", "inspect --graph", ("<constant name='c#' type='flot#'/>",)),
+    ("unknown looks of one group", "<lookgroup name='G' looks='", ("L#,",), "'/>"),
+    ("unknown collections in one", "<collection name='C' includecollection='", ("c#,",), "'/>"),
+    ("shaders of a material of 1.35", "upgrade", "1.35", "<material name='m'>", ("<shaderref name='s#' node='standard_surface'/>",), "</material>"),
+    (
+        "materials of a look of 1.37",
+        "upgrade",
+        "1.37",
+        ("<material name='m#'><shaderref name='s#' node='standard_surface'/></material>",),
+        "<look name='L'>",
+        ("<materialassign name='a#' material='m#' geom='/a#'/>",),
+        "</look>",
+    ),
     ("unknown attributes", ("<constant name='c#' type='float' typo#='1'/>",)),
     ("attributes of one element", "<constant name='c' type='float' ", ("typo#='1' ",), "/>"),
     ("names that are not ASCII, on one line", ("<constant name='c#' type='float' doc='ü'/> ",)),
@@ -382,9 +396,9 @@ def document(shape, count):
     command, version, parts = ["validate"], "1.39", list(shape[1:])
     if isinstance(parts[0], str) and parts[0].startswith("-"):
         command = parts.pop(0).split() + ["--stdout"]
-    elif parts[0] == "import":
-        command = [parts.pop(0)]
-    elif isinstance(parts[0], str) and parts[0].startswith("1."):
+    elif parts[0] in ("import", "upgrade", "inspect --graph"):
+        command = parts.pop(0).split()
+    if isinstance(parts[0], str) and parts[0].startswith("1."):
         version = parts.pop(0)
     is_document = command != ["import"]
     text = [f"<materialx version='{version}'>"] if is_document else []
@@ -406,8 +420,7 @@ def work(mxgen, folder, shape, count):
     with open(name, "w", encoding="utf-8") as file:
         file.write(text)
     counter = ["valgrind", "--tool=cachegrind", "--cache-sim=no", "--cachegrind-out-file=/dev/null"]
-    own = command[0] in ("validate", "import")
-    arguments = [mxgen, command[0], name] if own else [mxgen, name] + command
+    arguments = [mxgen, name] + command if command[0].startswith("-") else [mxgen] + command + [name]
     arguments += ["-o", name + ".mtlx"] if is_gltf else []
     run = subprocess.run(counter + arguments + ["--max-errors", "0"], capture_output=True, check=False)
     found = re.findall(rb"I +refs: +([\d,]+)", run.stderr)
