@@ -4,6 +4,7 @@
  * The page is well-formed XML too. gallery.js sorts and hides the cards; without it the page shows
  * all of them.
  */
+#include "check/by_element.h"
 #include "check/sink.h"
 #include "check/spool.h"
 #include "program/cli.h"
@@ -24,11 +25,23 @@ struct html_state {
     struct markup cards[NUM_RANKS];
 };
 
-/* A card: an element, or a document without elements (NULL). */
+/* The state of a card: of its document, its element, and their messages and changes. */
+struct facts {
+    enum check_stage stage;
+    check_change_set changes;
+    bool has_warning, has_error;
+};
+
+/*
+ * A card: an element, or a document (`element` NULL). It shows its own messages and changes: those
+ * of a document with many elements are on the card of the document.
+ */
 struct card {
     const struct check_document *document;
     const struct check_element *element;
     bool is_gone;
+    struct index_list messages, changes;
+    struct facts facts;
 };
 
 static void begin(struct sink *sink)
@@ -52,45 +65,37 @@ static uint64_t largest(const struct check_element *element, size_t measure)
     return value;
 }
 
-/* A fault of the document counts for all its elements. */
-static enum check_stage stage_of(const struct card *card)
+static const struct check_message *message_at(const struct card *card, uint32_t index)
 {
-    enum check_stage failed = card->is_gone ? CHECK_PASSED : check_own_failure(card->document);
+    return &card->document->messages[card->messages.items[index]];
+}
+
+static const struct check_change *change_at(const struct card *card, uint32_t index)
+{
+    return &card->document->changes[card->changes.items[index]];
+}
+
+/* Adds the messages and changes of the card; `of_all`: those that count for all its elements. */
+static void add_facts(struct facts *facts, const struct card *card, bool of_all)
+{
+    for (uint32_t i = 0; i < card->messages.count; ++i) {
+        const struct check_message *message = message_at(card, i);
+        if (of_all && *message->element)
+            continue;
+        facts->has_warning = facts->has_warning || message->severity == MXG_SEVERITY_WARNING;
+        facts->has_error = facts->has_error || message->severity == MXG_SEVERITY_ERROR;
+    }
+    for (uint32_t i = 0; i < card->changes.count; ++i)
+        if (!of_all || !*change_at(card, i)->element)
+            facts->changes |= 1u << change_at(card, i)->kind;
     for (size_t i = 0; card->element && i < card->element->num_shaders; ++i)
-        check_fail(&failed, card->element->shaders[i].failed);
-    return failed;
-}
-
-/* Changes and messages of the document count for all its elements. */
-static bool is_about(const char *element, const struct card *card)
-{
-    return !card->element || !*element || strcmp(element, card->element->path) == 0;
-}
-
-static bool has_change(const struct card *card, check_change_set kinds)
-{
-    for (size_t i = 0; i < card->document->num_changes; ++i) {
-        const struct check_change *change = &card->document->changes[i];
-        if ((kinds >> change->kind & 1u) && is_about(change->element, card))
-            return true;
-    }
-    return false;
-}
-
-static bool has_message(const struct card *card, mxg_severity severity)
-{
-    for (size_t i = 0; i < card->document->num_messages && !card->is_gone; ++i) {
-        const struct check_message *message = &card->document->messages[i];
-        if (message->severity == severity && is_about(message->element, card))
-            return true;
-    }
-    return false;
+        check_fail(&facts->stage, card->element->shaders[i].failed);
 }
 
 static enum rank rank_of(const struct check_run *run, const struct card *card)
 {
-    bool failed = stage_of(card) != CHECK_PASSED;
-    if (run->is_compared ? has_change(card, run->fail_on) : failed)
+    bool failed = card->facts.stage != CHECK_PASSED;
+    if (run->is_compared ? (card->facts.changes & run->fail_on) != 0 : failed)
         return FAILS_THE_RUN;
     return failed ? KNOWN_FAILURE : OTHER;
 }
@@ -109,14 +114,13 @@ static void write_picture(struct markup *out, const char *png, const char *about
 static void write_head(struct markup *out, const struct check_run *run, const struct card *card)
 {
     enum rank rank = rank_of(run, card);
-    bool failed = stage_of(card) != CHECK_PASSED, warned = has_message(card, MXG_SEVERITY_WARNING),
-         errors = has_message(card, MXG_SEVERITY_ERROR);
+    bool failed = card->facts.stage != CHECK_PASSED;
     markup_put(out, "<article class=\"%s%s%s%s%s%s\"",
                card->is_gone ? "gone"
                : failed      ? "failed"
                              : "passed",
-               rank == FAILS_THE_RUN ? " fails" : "", warned ? " warned" : "",
-               has_change(card, ~0u) ? " changed" : "", warned || errors ? " wide" : "",
+               rank == FAILS_THE_RUN ? " fails" : "", card->facts.has_warning ? " warned" : "",
+               card->facts.changes ? " changed" : "", card->messages.count ? " wide" : "",
                card->element && card->element->num_shaders > 4 ? " wide" : "");
     for (size_t i = 0; card->element && i < NUM_MEASURES; ++i)
         markup_put(out, " data-%s=\"%" PRIu64 "\"", measure_infos[i].option + strlen("max-"),
@@ -177,7 +181,7 @@ static void write_reason(struct markup *out, const struct card *card)
         [CHECK_CRASH] = "The worker crashed",
         [CHECK_TIMEOUT] = "A step takes too long",
     };
-    enum check_stage stage = stage_of(card);
+    enum check_stage stage = card->facts.stage;
     const struct check_message *first = NULL;
     if (stage == CHECK_PASSED)
         return;
@@ -189,10 +193,9 @@ static void write_reason(struct markup *out, const struct card *card)
         markup_put(out, "%s%s", before, card->element->shaders[i].target);
         before = ", ";
     }
-    for (size_t i = 0; i < card->document->num_messages && !first; ++i)
-        if (card->document->messages[i].severity == MXG_SEVERITY_ERROR
-            && is_about(card->document->messages[i].element, card))
-            first = &card->document->messages[i];
+    for (uint32_t i = 0; i < card->messages.count && !first; ++i)
+        if (message_at(card, i)->severity == MXG_SEVERITY_ERROR)
+            first = message_at(card, i);
     markup_put(out, first ? ": " : "");
     markup_put(out, "%s", first ? first->text : "");
     markup_put(out, "</p>");
@@ -225,14 +228,14 @@ static void write_table(struct markup *out, const struct check_element *element)
 /* New messages are shown as messages. */
 static void write_changes(struct markup *out, const struct check_run *run, const struct card *card)
 {
-    for (size_t i = 0; i < card->document->num_changes; ++i) {
-        const struct check_change *change = &card->document->changes[i];
-        if (!is_about(change->element, card) || change->message)
+    for (uint32_t i = 0; i < card->changes.count; ++i) {
+        const struct check_change *change = change_at(card, i);
+        if (change->message)
             continue;
         markup_put(out,
                    "<p class=\"change%s\">%s: ", run->fail_on >> change->kind & 1u ? " fails" : "",
                    check_change_names[change->kind]);
-        if (!card->element && *change->element) {
+        if (*change->element && (!card->element || strcmp(change->element, card->element->path))) {
             markup_put(out, "'");
             markup_put(out, "%s", change->element);
             markup_put(out, "': ");
@@ -273,10 +276,9 @@ static void write_message(struct markup *out, const struct check_message *messag
 
 static bool key_of_warning(const void *messages, uint32_t index, struct group_key *out_key)
 {
-    const struct card *card = messages;
-    const struct check_message *message = &card->document->messages[index];
+    const struct check_message *message = message_at(messages, index);
     *out_key = (struct group_key){message->id, message->file, message->text, message->state};
-    return message->severity == MXG_SEVERITY_WARNING && is_about(message->element, card);
+    return message->severity == MXG_SEVERITY_WARNING;
 }
 
 static void write_rest(struct markup *out, const struct card *card, const struct groups *groups,
@@ -284,7 +286,7 @@ static void write_rest(struct markup *out, const struct card *card, const struct
 {
     struct group_rest rest = {0};
     for (uint32_t i = groups->next[first]; i; i = groups->next[i])
-        group_rest_add(&rest, card->document->messages[i].line);
+        group_rest_add(&rest, message_at(card, i)->line);
     if (!rest.count)
         return;
     markup_put(out, "<p class=\"rest\">");
@@ -294,12 +296,11 @@ static void write_rest(struct markup *out, const struct card *card, const struct
 
 static void write_messages(struct markup *out, const struct card *card)
 {
-    uint32_t count = card->is_gone ? 0 : (uint32_t)card->document->num_messages;
-    struct groups groups = groups_make(card, count, key_of_warning);
-    for (uint32_t i = 0; i < count; ++i) {
-        if (groups.first[i] != i || !is_about(card->document->messages[i].element, card))
+    struct groups groups = groups_make(card, card->messages.count, key_of_warning);
+    for (uint32_t i = 0; i < card->messages.count; ++i) {
+        if (groups.first[i] != i)
             continue;
-        write_message(out, &card->document->messages[i]);
+        write_message(out, message_at(card, i));
         write_rest(out, card, &groups, i);
     }
     groups_finish(&groups);
@@ -338,17 +339,54 @@ static void write_card(struct sink *sink, const struct card *card)
     markup_put(out, "</article>\n");
 }
 
+static struct card card_of(const struct by_element *by, size_t part)
+{
+    const struct check_document *document = by->document;
+    return (struct card){.document = document,
+                         .element = part ? &document->elements[part - 1] : NULL,
+                         .messages = by_element_messages(by, part),
+                         .changes = by_element_changes(by, part)};
+}
+
+/* Documents without elements have a card, and those with messages or changes of their own. */
+static void write_cards(struct sink *sink, const struct by_element *by)
+{
+    const struct check_document *document = by->document;
+    struct card whole = card_of(by, 0);
+    struct facts of_all = {.stage = check_own_failure(document)};
+    whole.facts.stage = of_all.stage;
+    add_facts(&whole.facts, &whole, false);
+    add_facts(&of_all, &whole, true);
+    if (document->num_elements == 0 || whole.messages.count || whole.changes.count)
+        write_card(sink, &whole);
+    for (size_t i = 1; i <= document->num_elements; ++i) {
+        struct card card = card_of(by, i);
+        card.facts = of_all;
+        add_facts(&card.facts, &card, false);
+        write_card(sink, &card);
+    }
+}
+
 static void write_document(struct sink *sink, const struct check_document *document)
 {
-    for (size_t i = 0; i < document->num_elements; ++i)
-        write_card(sink, &(struct card){document, &document->elements[i], false});
-    if (document->num_elements == 0)
-        write_card(sink, &(struct card){document, NULL, false});
+    struct by_element by;
+    by_element_init(&by, document);
+    write_cards(sink, &by);
+    by_element_finish(&by);
 }
 
 static void write_gone(struct sink *sink, const struct check_document *document)
 {
-    write_card(sink, &(struct card){document, NULL, true});
+    struct check_document plain = *document;
+    struct by_element by;
+    plain.num_elements = plain.num_messages = 0;
+    by_element_init(&by, &plain);
+    struct card card = card_of(&by, 0);
+    card.document = document;
+    card.is_gone = true;
+    add_facts(&card.facts, &card, false);
+    write_card(sink, &card);
+    by_element_finish(&by);
 }
 
 /* ---- The page ---- */

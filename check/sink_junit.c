@@ -4,6 +4,7 @@
  * in the form that CI servers show. With a baseline a case fails if a change fails the run; a known
  * failure is a skipped case.
  */
+#include "check/by_element.h"
 #include "check/sink.h"
 #include "check/spool.h"
 #include "program/cli.h"
@@ -37,6 +38,7 @@ struct junit_case {
     const struct check_document *document;
     const struct check_element *element;
     const struct check_shader *shader;
+    struct index_list changes; /* of the element */
 };
 
 static bool is_error(const struct check_message *message)
@@ -53,6 +55,16 @@ static bool is_change_of(const struct check_change *change, const struct junit_c
                         : !has_shader;
 }
 
+/* The changes among which those of a case are, in the document's order; NULL after the last. */
+static const struct check_change *change_at(const struct junit_case *test, size_t index)
+{
+    const struct check_document *document = test->document;
+    size_t count = test->shader ? test->changes.count : document->num_changes;
+    if (index >= count)
+        return NULL;
+    return &document->changes[test->shader ? test->changes.items[index] : index];
+}
+
 static enum check_stage stage_of(const struct junit_case *test)
 {
     return test->shader ? test->shader->failed : check_own_failure(test->document);
@@ -62,11 +74,10 @@ static enum check_stage stage_of(const struct junit_case *test)
 static const struct check_change *find_failing(const struct check_run *run,
                                                const struct junit_case *test)
 {
-    for (size_t i = 0; i < test->document->num_changes; ++i) {
-        const struct check_change *change = &test->document->changes[i];
+    const struct check_change *change;
+    for (size_t i = 0; (change = change_at(test, i)) != NULL; ++i)
         if ((run->fail_on >> change->kind & 1u) && is_change_of(change, test))
             return change;
-    }
     return NULL;
 }
 
@@ -114,8 +125,8 @@ static void write_text(struct sink *sink, struct markup *out, const struct junit
     for (size_t i = 0; stage_of(test) && (message = message_at(test, i)) != NULL; ++i)
         if (is_error(message))
             markup_put(out, "%s", message->rendered);
-    for (size_t i = 0; i < test->document->num_changes; ++i) {
-        const struct check_change *change = &test->document->changes[i];
+    const struct check_change *change;
+    for (size_t i = 0; (change = change_at(test, i)) != NULL; ++i) {
         if (!(sink->run->fail_on >> change->kind & 1u) || !is_change_of(change, test))
             continue;
         markup_put(out, "%s: ", check_change_names[change->kind]);
@@ -172,14 +183,16 @@ static void begin_case(struct sink *sink, struct markup *out, const struct junit
 }
 
 /* Calls a function for each case of a document. */
-static void for_each_case(struct sink *sink, const struct check_document *document,
+static void for_each_case(struct sink *sink, const struct by_element *by,
                           void (*visit)(struct sink *sink, const struct junit_case *test))
 {
-    visit(sink, &(struct junit_case){document, NULL, NULL});
+    const struct check_document *document = by->document;
+    visit(sink, &(struct junit_case){document, NULL, NULL, {NULL, 0}});
     for (size_t i = 0; i < document->num_elements; ++i)
         for (size_t k = 0; k < document->elements[i].num_shaders; ++k)
             visit(sink, &(struct junit_case){document, &document->elements[i],
-                                             &document->elements[i].shaders[k]});
+                                             &document->elements[i].shaders[k],
+                                             by_element_changes(by, i + 1)});
 }
 
 static double time_of(const struct junit_case *test)
@@ -219,7 +232,9 @@ static void write_document(struct sink *sink, const struct check_document *docum
     if (sink->fault)
         return;
     struct junit_state before = *state, own = {0};
-    for_each_case(sink, document, count_case);
+    struct by_element by;
+    by_element_init(&by, document);
+    for_each_case(sink, &by, count_case);
     own.tests = state->tests - before.tests;
     own.ms = state->ms - before.ms;
     for (int i = 0; i < NUM_OUTCOMES; ++i)
@@ -228,8 +243,9 @@ static void write_document(struct sink *sink, const struct check_document *docum
     markup_put(&state->suites, "%s", document->file);
     markup_put(&state->suites, "\"");
     write_counts(sink, &state->suites, &own);
-    for_each_case(sink, document, write_case);
+    for_each_case(sink, &by, write_case);
     markup_put(&state->suites, "</testsuite>\n");
+    by_element_finish(&by);
 }
 
 /* A document that is gone has one case: it fails, or is skipped. */
