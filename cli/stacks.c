@@ -156,13 +156,15 @@ static mxg_generate_desc desc_of(const struct stacks *s, uint32_t stack)
     return desc;
 }
 
-static mxg_result *generate_one(struct stacks *s, uint32_t stack, bool without_source)
+/* is_again: its messages are told. */
+static mxg_result *generate_one(struct stacks *s, uint32_t stack, bool without_source,
+                                bool is_again)
 {
     mxg_generate_desc desc = desc_of(s, stack);
     mxg_result *result = NULL;
     desc.without_source = without_source;
     mxg_status status = mxg_generate(s->gen->cli.context, s->stage.document, &desc, &result);
-    if (result && (without_source || status != MXG_OK))
+    if (result && (!is_again || status != MXG_OK))
         report_list(&s->gen->cli.report, mxg_result_diagnostics(result));
     if (report_status(&s->gen->cli.report, status))
         return result;
@@ -171,22 +173,29 @@ static mxg_result *generate_one(struct stacks *s, uint32_t stack, bool without_s
 }
 
 /* Writes the program of a stack that no other stack shares so far. */
-static void write_program(struct stacks *s, uint32_t stack)
+static void write_program(struct stacks *s, uint32_t stack, const mxg_result *result)
 {
-    mxg_result *result = generate_one(s, stack, false);
     char *name = stack_name(s, stack);
     const mxg_generate_desc desc = desc_of(s, stack);
-    if (result && generate_claim(s->gen, s->folder, name)) {
+    if (generate_claim(s->gen, s->folder, name)) {
         generate_write(s->gen, s->folder, name, result);
         generate_write_cuts(s->gen, s->stage.document, s->folder, &desc, result);
     }
     free(name);
+}
+
+static void write_again(struct stacks *s, uint32_t stack)
+{
+    mxg_result *result = generate_one(s, stack, false, true);
+    if (result)
+        write_program(s, stack, result);
     mxg_result_destroy(result);
 }
 
 static void generate_stack(struct stacks *s, uint32_t stack)
 {
-    mxg_result *result = generate_one(s, stack, true);
+    bool is_first = !s->num_programs; /* nobody can share its program */
+    mxg_result *result = generate_one(s, stack, !is_first, false);
     mxg_shader_info info = {sizeof info};
     if (!result)
         return;
@@ -194,7 +203,10 @@ static void generate_stack(struct stacks *s, uint32_t stack)
     struct program *program = find_program(s, info.topology);
     if (!program) {
         program = add_program(s, info.topology, stack, result);
-        write_program(s, stack);
+        if (is_first)
+            write_program(s, stack, result);
+        else
+            write_again(s, stack);
     }
     ++program->num_stacks;
     add_stack(s, stack, program, result);

@@ -66,6 +66,7 @@ ir_ref ir_build(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t
                 const ir_ref *args, unsigned num_args)
 {
     assert_well_formed(graph, op, type, attr, args, num_args);
+    graph->num_builds++;
     if (op == IR_KNOWN) {
         const union ir_word *words = ir_constant_words(graph, args[0]);
         return ir_const_bool(graph, words && words->u);

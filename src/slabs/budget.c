@@ -24,10 +24,25 @@ static void record(struct spender *s, struct slab_step step, ir_ref root)
     s->report->error = step.error;
 }
 
+/* After a search that was cut short, steps in order may take as long again. */
+static bool affords_estimates(const struct spender *s)
+{
+    return s->saver.eye && slabs_num_steps(s->saver.eye) < 2 * (uint64_t)SLAB_SEARCH_STEPS;
+}
+
 static void take(struct spender *s, struct slab_step step, ir_ref root)
 {
-    step.error = slab_saver_error(&s->saver, root);
+    step.error = affords_estimates(s) ? slab_saver_error(&s->saver, root) : -1.0f;
     record(s, step, root);
+}
+
+/* The error of all steps, which is told in any case. */
+static void estimate_result(struct spender *s)
+{
+    if (!s->report->steps.len || s->report->error >= 0.0f)
+        return;
+    s->report->error = slab_saver_error(&s->saver, s->saver.root);
+    vec_last(&s->report->steps).error = s->report->error;
 }
 
 /* False: the steps that the budget wants to see are done. */
@@ -75,7 +90,7 @@ static void take_in_order(struct spender *s)
 /* Blends within the largest error, if there is one. */
 static void take_within_error(struct spender *s)
 {
-    while (s->budget->max_error >= 0.0f && keeps_error(s) && goes_on(s)) {
+    while (s->budget->max_error >= 0.0f && keeps_error(s) && goes_on(s) && affords_estimates(s)) {
         struct slab_candidate c = slab_next_blend(&s->saver, SLAB_CHEAPER);
         c.step.error = c.root ? slab_saver_error(&s->saver, c.root) : -1.0f;
         if (c.step.error < 0.0f || c.step.error > s->budget->max_error)
@@ -150,7 +165,8 @@ ir_ref slabs_budget(struct shader *shader, const struct slabs_host *host,
         root = slabs_join_stacks(shader, host, root);
     struct spender s = {slab_saver_of(shader, host, budget->off, root), budget, out};
     out->before = out->after = s.saver.cost;
-    out->is_too_much = slabs_has(shader, root) && slabs_num_closures(shader, root) > SLABS_MAX;
+    out->is_too_much = slabs_has(shader, root)
+                       && slabs_num_closures(shader->graph, root, shader->arena) > SLABS_MAX;
     if (out->is_too_much)
         return root;
     if (!s.saver.cost.closures || (!slabs_is_asked(budget) && !slab_find_asked(&s.saver)))
@@ -164,6 +180,7 @@ ir_ref slabs_budget(struct shader *shader, const struct slabs_host *host,
         take_in_order(&s);
     if (budget->blends_all)
         blend_while_any(&s, SLAB_ANY);
+    estimate_result(&s);
     out->is_met = !goes_on(&s) || (keeps_slabs(&s) && keeps_bytes(&s) && keeps_error(&s));
     out->unblended = goes_on(&s) ? slab_find_asked(&s.saver) : 0;
     out->after = s.saver.cost;

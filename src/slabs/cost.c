@@ -68,11 +68,10 @@ struct slab_top slabs_top(const struct ir_graph *g, ir_ref root)
 }
 
 /* Counts all closures of a root, as if it had no choices. */
-static struct slab_cost cost_of_all(const struct shader *shader, ir_ref root)
+static struct slab_cost cost_of_all(struct ir_graph *g, ir_ref root, struct arena *scratch)
 {
-    const struct ir_graph *g = shader->graph;
     struct slab_spots spots;
-    slabs_find_spots(shader, root, &spots);
+    slabs_find_spots(g, root, scratch, &spots);
     struct slab_cost cost = {0};
     VEC(struct stored_slab) stored = {0};
     struct slab_top top = slabs_top(g, root);
@@ -86,7 +85,7 @@ static struct slab_cost cost_of_all(const struct shader *shader, ir_ref root)
         cost.closures++;
         cost.others += op == IR_LEAF;
         bool is_top = spot->ref == top.ref && !has_top;
-        vec_push(shader->arena, &stored, slab_stored(g, spot->ref, is_top && top.is_whole));
+        vec_push(scratch, &stored, slab_stored(g, spot->ref, is_top && top.is_whole));
         if (is_top) {
             struct stored_slab first = stored.items[0];
             stored.items[0] = vec_last(&stored);
@@ -100,9 +99,9 @@ static struct slab_cost cost_of_all(const struct shader *shader, ir_ref root)
     return cost;
 }
 
-uint32_t slabs_num_closures(const struct shader *shader, ir_ref root)
+uint32_t slabs_num_closures(struct ir_graph *g, ir_ref root, struct arena *scratch)
 {
-    return cost_of_all(shader, root).closures;
+    return cost_of_all(g, root, scratch).closures;
 }
 
 /* ---- Choices ---- */
@@ -117,11 +116,10 @@ bool slab_is_choice(const struct ir_graph *g, ir_ref share)
 }
 
 /* The condition by which a mix below a root has one side; 0: none has. */
-static ir_ref find_condition(const struct shader *shader, ir_ref root)
+static ir_ref find_condition(const struct ir_graph *g, ir_ref root, struct arena *scratch)
 {
-    const struct ir_graph *g = shader->graph;
     struct slab_nodes nodes;
-    slabs_find_nodes(shader, root, &nodes);
+    slabs_find_nodes(g, root, scratch, &nodes);
     for (uint32_t i = nodes.items.len; --i > 0;) {
         ir_ref ref = nodes.items.items[i];
         if (ir_get(g, ref)->op == IR_CLOSURE_MIX && slab_is_choice(g, ir_arg(g, ref, 2)))
@@ -137,23 +135,23 @@ static uint32_t larger(uint32_t a, uint32_t b)
     return a > b ? a : b;
 }
 
-static struct slab_cost cost_of(const struct shader *shader, ir_ref root, unsigned num_choices)
+static struct slab_cost cost_of(struct ir_graph *g, ir_ref root, unsigned num_choices,
+                                struct arena *scratch)
 {
-    struct ir_graph *g = shader->graph;
-    ir_ref condition = num_choices < MAX_CHOICES ? find_condition(shader, root) : 0;
+    ir_ref condition = num_choices < MAX_CHOICES ? find_condition(g, root, scratch) : 0;
     if (!condition)
-        return cost_of_all(shader, root);
-    ir_ref with = ir_replace(g, root, condition, ir_const_bool(g, true), shader->arena),
-           without = ir_replace(g, root, condition, ir_const_bool(g, false), shader->arena);
-    struct slab_cost a = cost_of(shader, with, num_choices + 1),
-                     b = cost_of(shader, without, num_choices + 1);
+        return cost_of_all(g, root, scratch);
+    ir_ref with = ir_replace(g, root, condition, ir_const_bool(g, true), scratch),
+           without = ir_replace(g, root, condition, ir_const_bool(g, false), scratch);
+    struct slab_cost a = cost_of(g, with, num_choices + 1, scratch),
+                     b = cost_of(g, without, num_choices + 1, scratch);
     return (struct slab_cost){.closures = larger(a.closures, b.closures),
                               .others = larger(a.others, b.others),
                               .bytes = larger(a.bytes, b.bytes),
                               .features = a.features | b.features};
 }
 
-struct slab_cost slabs_cost(const struct shader *shader, ir_ref root)
+struct slab_cost slabs_cost(struct ir_graph *g, ir_ref root, struct arena *scratch)
 {
-    return root ? cost_of(shader, root, 0) : (struct slab_cost){0};
+    return root ? cost_of(g, root, 0, scratch) : (struct slab_cost){0};
 }

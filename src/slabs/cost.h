@@ -22,10 +22,11 @@ struct slab_cost {
     uint32_t bytes;    /* of the slabs */
     uint32_t features; /* of any slab */
 };
-struct slab_cost slabs_cost(const struct shader *shader, ir_ref root);
+/* The scratch gets garbage. */
+struct slab_cost slabs_cost(struct ir_graph *graph, ir_ref root, struct arena *scratch);
 
 /* The closures of both sides. */
-uint32_t slabs_num_closures(const struct shader *shader, ir_ref root);
+uint32_t slabs_num_closures(struct ir_graph *graph, ir_ref root, struct arena *scratch);
 
 /* True for a share that is 0 or 1, by a condition. */
 bool slab_is_choice(const struct ir_graph *graph, ir_ref share);

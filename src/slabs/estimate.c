@@ -49,7 +49,8 @@ struct slab_eye {
     struct slab_glances glances;     /* that show all that varies in the first tree */
     struct sight *sights;            /* of the glances; NULL: nobody has looked yet */
     struct look whole;               /* of the first tree */
-    uint64_t num_steps;
+    uint64_t num_steps;              /* of the evaluator */
+    uint64_t builds_before;          /* of the graph, when the eye opened */
 };
 
 /* ---- Sources ---- */
@@ -253,7 +254,7 @@ static ir_ref signature_of(const struct slab_eye *eye, ir_ref root)
 {
     struct ir_graph *g = eye->shader->graph;
     struct slab_nodes nodes;
-    slabs_find_nodes(eye->shader, root, &nodes);
+    slabs_find_nodes(eye->shader->graph, root, eye->shader->arena, &nodes);
     ir_ref sum = 0, least = ir_const_splat(g, IR_TYPE_VEC3, -1.0f), most = ir_white(g);
     unsigned number = 0;
     for (uint32_t at = 1; at < nodes.items.len; at++) {
@@ -333,16 +334,16 @@ static void look(struct slab_eye *eye, ir_ref root, struct look *out)
 {
     struct slab_nodes nodes;
     *out = (struct look){.is_known = true};
-    slabs_find_nodes(eye->shader, root, &nodes);
+    slabs_find_nodes(eye->shader->graph, root, eye->shader->arena, &nodes);
     for (uint32_t i = 1; i < nodes.items.len && out->is_known; i++)
         look_at_node(eye, nodes.items.items[i], root, out);
-    eye->num_steps += root; /* building the colours takes about as long */
 }
 
 struct slab_eye *slabs_open_eye(struct shader *shader, const struct slabs_host *host, ir_ref first)
 {
     struct slab_eye *eye = ARENA_NEW(shader->arena, struct slab_eye);
-    *eye = (struct slab_eye){.shader = shader, .host = host, .first = first};
+    *eye = (struct slab_eye){
+        .shader = shader, .host = host, .first = first, .builds_before = shader->graph->num_builds};
     return eye;
 }
 
@@ -386,7 +387,9 @@ float slabs_estimate(struct slab_eye *eye, ir_ref root)
 
 uint64_t slabs_num_steps(const struct slab_eye *eye)
 {
-    return eye->num_steps;
+    enum { STEPS_OF_BUILD = 8 }; /* a node takes about so long to build */
+    uint64_t num_builds = eye->shader->graph->num_builds - eye->builds_before;
+    return eye->num_steps + STEPS_OF_BUILD * num_builds;
 }
 
 /* ---- Single values ---- */

@@ -19,7 +19,8 @@ struct slab_eye *slabs_open_eye(struct shader *shader, const struct slabs_host *
  * the first tree. -1: unknown, because the evaluator cannot compute a value.
  */
 float slabs_estimate(struct slab_eye *eye, ir_ref root);
-/* Returns the steps of all estimates: the evaluator's, and for each the nodes up to its root. */
+/* The work since the eye opened: steps of the evaluator, and of building trees and their colours.
+ */
 uint64_t slabs_num_steps(const struct slab_eye *eye);
 
 /*

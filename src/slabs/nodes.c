@@ -28,10 +28,10 @@ static int in_order(const void *a, const void *b)
     return (one > other) - (one < other);
 }
 
-void slabs_find_nodes(const struct shader *shader, ir_ref root, struct slab_nodes *out)
+void slabs_find_nodes(const struct ir_graph *g, ir_ref root, struct arena *arena,
+                      struct slab_nodes *out)
 {
-    const struct ir_graph *g = shader->graph;
-    struct finder f = {.arena = shader->arena, .nodes = out};
+    struct finder f = {.arena = arena, .nodes = out};
     *out = (struct slab_nodes){0};
     vec_push(f.arena, &out->items, 0);
     if (root)
@@ -63,35 +63,38 @@ uint32_t slab_node_at(const struct slab_nodes *nodes, ir_ref ref)
     return 0;
 }
 
-/* The node with the copies of its operands. */
-static ir_ref copy_of(struct shader *shader, const struct slab_nodes *nodes, ir_ref ref,
-                      const ir_ref *copies)
+/* The operand of a node, or its copy. */
+static ir_ref operand_of(const struct ir_graph *g, const struct slab_nodes *nodes, ir_ref ref,
+                         uint32_t operand, const ir_ref *copies)
 {
-    struct ir_graph *g = shader->graph;
+    uint32_t at = slab_node_at(nodes, ir_arg(g, ref, operand));
+    return at ? copies[at] : ir_arg(g, ref, operand);
+}
+
+/* The node with the copies of its operands. */
+static ir_ref copy_of(struct ir_graph *g, const struct slab_nodes *nodes, ir_ref ref,
+                      const ir_ref *copies, struct arena *scratch)
+{
     const struct ir_node node = *ir_get(g, ref);
-    ir_ref *args = ARENA_ARRAY(shader->arena, ir_ref, node.num_args);
     bool is_changed = false;
-    for (uint32_t i = 0; i < node.num_args; i++) {
-        uint32_t at = slab_node_at(nodes, ir_arg(g, ref, i));
-        args[i] = at ? copies[at] : ir_arg(g, ref, i);
-        is_changed |= args[i] != ir_arg(g, ref, i);
-    }
+    for (uint32_t i = 0; i < node.num_args && !is_changed; i++)
+        is_changed = operand_of(g, nodes, ref, i, copies) != ir_arg(g, ref, i);
     if (!is_changed)
         return ref;
+    ir_ref *args = ARENA_ARRAY(scratch, ir_ref, node.num_args);
+    for (uint32_t i = 0; i < node.num_args; i++)
+        args[i] = operand_of(g, nodes, ref, i, copies);
     ir_push_origin_of(g, ref);
     ir_ref copy = ir_build(g, (enum ir_op)node.op, node.type, node.attr, args, node.num_args);
     ir_pop_origin(g);
     return copy;
 }
 
-ir_ref slabs_replace(struct shader *shader, ir_ref root, ir_ref from, ir_ref to)
+ir_ref slabs_replace(struct ir_graph *g, const struct slab_nodes *nodes, const ir_ref *by,
+                     struct arena *scratch)
 {
-    struct slab_nodes nodes;
-    slabs_find_nodes(shader, root, &nodes);
-    ir_ref *copies = ARENA_ARRAY(shader->arena, ir_ref, nodes.items.len);
-    for (uint32_t i = 1; i < nodes.items.len; i++) {
-        ir_ref ref = nodes.items.items[i];
-        copies[i] = ref == from ? to : copy_of(shader, &nodes, ref, copies);
-    }
-    return copies[nodes.items.len - 1];
+    ir_ref *copies = ARENA_ARRAY(scratch, ir_ref, nodes->items.len);
+    for (uint32_t i = 1; i < nodes->items.len; i++)
+        copies[i] = by[i] ? by[i] : copy_of(g, nodes, nodes->items.items[i], copies, scratch);
+    return copies[nodes->items.len - 1];
 }

@@ -12,13 +12,15 @@ struct slab_nodes {
     VEC(ir_ref) items; /* [0] is 0; operands before their operators, so the root is the last one */
 };
 
-/* root 0: there are none. */
-void slabs_find_nodes(const struct shader *shader, ir_ref root, struct slab_nodes *out);
+/* root 0: there are none. The arena keeps the list. */
+void slabs_find_nodes(const struct ir_graph *graph, ir_ref root, struct arena *arena,
+                      struct slab_nodes *out);
 
 /* The index of a node; 0: the tree does not have it. */
 uint32_t slab_node_at(const struct slab_nodes *nodes, ir_ref ref);
 
-/* The tree with another closure in the place of one. */
-ir_ref slabs_replace(struct shader *shader, ir_ref root, ir_ref from, ir_ref to);
+/* The tree with other closures in the places of some. by: per node; 0: it stays. */
+ir_ref slabs_replace(struct ir_graph *graph, const struct slab_nodes *nodes, const ir_ref *by,
+                     struct arena *scratch);
 
 #endif

@@ -6,10 +6,10 @@
 #include "slabs/steps.h"
 
 /*
- * Steps of estimates after which a search tries no more trees; it takes 2 to 4 s for so many. A
- * material of 8 closures needs up to half of them, and 24 layers two thirds.
+ * Steps after which a search tries no more trees; it takes 1 to 3 s for so many. A material of 8
+ * closures needs up to half of them.
  */
-enum { SLAB_SEARCH_STEPS = 20000000 };
+enum { SLAB_SEARCH_STEPS = 40000000 };
 
 /*
  * Finds the steps, the first one first, from the saver's tree to the smallest one that keeps to the

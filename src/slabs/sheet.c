@@ -248,8 +248,8 @@ static void fill_tree(struct filler *f, ir_ref root, ir_ref bsdf)
     f->tree = &vec_last(&f->sheet->trees);
     ir_ref thickness = slabs_sheet_thickness(g, root);
     f->tree->is_sheet = thickness != 0;
-    slabs_find_spots(f->shader, root, &f->spots);
-    f->tree->cost = slabs_cost(f->shader, root);
+    slabs_find_spots(g, root, f->shader->arena, &f->spots);
+    f->tree->cost = slabs_cost(g, root, f->shader->arena);
     f->bases.len = f->masks.len = 0;
     ir_ref white = ir_const_splat(g, IR_TYPE_VEC3, 1.0f);
     push(f, &(struct line){.depth = 0}, bsdf, thickness, white, "");

@@ -13,15 +13,14 @@ static bool is_bsdf(const struct ir_graph *g, ir_ref ref)
 /* ---- Piles ---- */
 
 /* The index + 1 of matter on other matter. */
-static uint32_t pile_of(const struct shader *shader, struct slab_spots *spots, ir_ref ref,
-                        uint32_t next)
+static uint32_t pile_of(struct slab_spots *spots, ir_ref ref, uint32_t next)
 {
     uint32_t hash = hash_pair(ref, next), at = hash, found;
     while ((found = table_next(&spots->known_piles, hash, &at)))
         if (spots->piles.items[found - 1].ref == ref && spots->piles.items[found - 1].next == next)
             return found;
-    vec_push(shader->arena, &spots->piles, (struct slab_pile){ref, next});
-    table_add(&spots->known_piles, shader->arena, hash, spots->piles.len);
+    vec_push(spots->arena, &spots->piles, (struct slab_pile){ref, next});
+    table_add(&spots->known_piles, spots->arena, hash, spots->piles.len);
     return spots->piles.len;
 }
 
@@ -47,9 +46,9 @@ bool slabs_is_absent(const struct ir_graph *g, ir_ref ref, uint32_t operand)
            && ir_const_is(g, ir_arg(g, ref, 2), operand == 0 ? 1.0f : 0.0f);
 }
 
-static void add_spot(const struct shader *shader, struct slab_spots *spots, struct slab_spot spot)
+static void add_spot(const struct ir_graph *g, struct slab_spots *spots, struct slab_spot spot)
 {
-    if (!is_bsdf(shader->graph, spot.ref))
+    if (!is_bsdf(g, spot.ref))
         return;
     uint32_t at = slab_node_at(&spots->nodes, spot.ref);
     spot.next = spots->first[at];
@@ -62,7 +61,7 @@ static void add_spot(const struct shader *shader, struct slab_spots *spots, stru
                 || (known->below == spot.below && known->above == spot.above)))
             return;
     }
-    vec_push(shader->arena, &spots->items, spot);
+    vec_push(spots->arena, &spots->items, spot);
     spots->first[at] = spots->items.len;
 }
 
@@ -72,10 +71,9 @@ static bool spreads(const struct slab_spots *spots, ir_ref ref)
 }
 
 /* The operands of an operator lie where it lies, but the top of a layer has its thickness. */
-static void spread(const struct shader *shader, struct slab_spots *spots, ir_ref ref,
+static void spread(struct ir_graph *g, struct slab_spots *spots, ir_ref ref,
                    const struct slab_spot *spot)
 {
-    struct ir_graph *g = shader->graph;
     uint32_t num_args = ir_get(g, ref)->num_args,
              depth = spots->depth[slab_node_at(&spots->nodes, ref)];
     for (uint32_t i = 0; i < num_args; i++) {
@@ -87,34 +85,33 @@ static void spread(const struct shader *shader, struct slab_spots *spots, ir_ref
             ir_ref base = ir_arg(g, ref, 1);
             at.thickness = slabs_layer_thickness(g, ref);
             at.is_sheet = false;
-            at.below = is_bsdf(g, base) ? pile_of(shader, spots, base, spot->below) : spot->below;
+            at.below = is_bsdf(g, base) ? pile_of(spots, base, spot->below) : spot->below;
         } else if (i == 1 && slabs_is_layer(g, ref) && spreads(spots, ir_arg(g, ref, 0))) {
-            at.above = pile_of(shader, spots, ir_arg(g, ref, 0), spot->above);
+            at.above = pile_of(spots, ir_arg(g, ref, 0), spot->above);
         }
         uint32_t *depth_of_arg = &spots->depth[slab_node_at(&spots->nodes, at.ref)];
         if (*depth_of_arg <= depth)
             *depth_of_arg = depth + 1;
-        add_spot(shader, spots, at);
+        add_spot(g, spots, at);
     }
 }
 
-void slabs_find_spots(const struct shader *shader, ir_ref root, struct slab_spots *out)
+void slabs_find_spots(struct ir_graph *g, ir_ref root, struct arena *arena, struct slab_spots *out)
 {
-    struct ir_graph *g = shader->graph;
-    *out = (struct slab_spots){0};
-    slabs_find_nodes(shader, root, &out->nodes);
+    *out = (struct slab_spots){.arena = arena};
+    slabs_find_nodes(g, root, arena, &out->nodes);
     uint32_t num = out->nodes.items.len;
-    out->first = ARENA_ARRAY(shader->arena, uint32_t, num);
-    out->depth = ARENA_ARRAY(shader->arena, uint32_t, num);
-    out->spreads = ARENA_ARRAY(shader->arena, uint8_t, num);
+    out->first = ARENA_ARRAY(arena, uint32_t, num);
+    out->depth = ARENA_ARRAY(arena, uint32_t, num);
+    out->spreads = ARENA_ARRAY(arena, uint8_t, num);
     find_spreading(g, &out->nodes, out->spreads);
-    add_spot(shader, out, (struct slab_spot){.ref = root, .root = root});
+    add_spot(g, out, (struct slab_spot){.ref = root, .root = root});
     for (uint32_t at = num; --at > 0;) {
         ir_ref ref = out->nodes.items.items[at];
         uint8_t op = ir_get(g, ref)->op;
         if (op == IR_SLAB_SURFACE || op == IR_SURFACE_SHADER) {
             ir_ref thickness = slabs_sheet_thickness(g, ref);
-            add_spot(shader, out,
+            add_spot(g, out,
                      (struct slab_spot){.ref = ir_arg(g, ref, 0),
                                         .thickness = thickness,
                                         .is_sheet = thickness != 0,
@@ -122,7 +119,7 @@ void slabs_find_spots(const struct shader *shader, ir_ref root, struct slab_spot
         }
         for (uint32_t i = out->first[at]; i; i = out->items.items[i - 1].next) {
             const struct slab_spot spot = out->items.items[i - 1];
-            spread(shader, out, ref, &spot);
+            spread(g, out, ref, &spot);
         }
     }
 }

@@ -34,10 +34,12 @@ struct slab_spots {
     uint8_t *spreads;            /* per node: what lies below it looks rougher, or blurred */
     VEC(struct slab_pile) piles; /* each once */
     struct table known_piles;    /* their indices + 1 */
+    struct arena *arena;
 };
 
-/* All closures below a root of any type. root 0: none. */
-void slabs_find_spots(const struct shader *shader, ir_ref root, struct slab_spots *out);
+/* All closures below a root of any type. root 0: none. The arena keeps the list. */
+void slabs_find_spots(struct ir_graph *graph, ir_ref root, struct arena *arena,
+                      struct slab_spots *out);
 
 /* The first spot of a closure below the root. */
 static inline const struct slab_spot *slab_spot_of(const struct slab_spots *spots, ir_ref ref)

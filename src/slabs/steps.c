@@ -5,11 +5,23 @@
 
 /* ---- The tree ---- */
 
+/* Where estimates are made, what serves one tree alone is given back: a search has many. */
+static struct arena *scratch_of(const struct slab_saver *s)
+{
+    return s->host->scratch ? s->host->scratch : s->shader->arena;
+}
+
+static void empty_scratch(const struct slab_saver *s)
+{
+    if (s->host->scratch)
+        arena_finish(s->host->scratch);
+}
+
 void slab_saver_set_root(struct slab_saver *s, ir_ref root)
 {
     s->root = root;
-    slabs_find_spots(s->shader, root, &s->spots);
-    s->cost = slabs_cost(s->shader, root);
+    slabs_find_spots(s->graph, root, s->shader->arena, &s->spots);
+    s->cost = slab_saver_cost(s, root);
 }
 
 /* Points of an estimate have no footprint, and no surroundings. */
@@ -30,7 +42,9 @@ struct slab_saver slab_saver_of(struct shader *shader, const struct slabs_host *
 
 struct slab_cost slab_saver_cost(const struct slab_saver *s, ir_ref root)
 {
-    return slabs_cost(s->shader, root);
+    struct slab_cost cost = slabs_cost(s->graph, root, scratch_of(s));
+    empty_scratch(s);
+    return cost;
 }
 
 float slab_saver_error(const struct slab_saver *s, ir_ref root)
@@ -94,13 +108,28 @@ static uint32_t depth_of(const struct slab_saver *s, ir_ref ref)
     return s->spots.depth[slab_node_at(&s->spots.nodes, ref)];
 }
 
+/* The saver's tree with other closures in the places of some; by: per node of its spots. */
+static ir_ref replaced(const struct slab_saver *s, const ir_ref *by)
+{
+    ir_ref root = slabs_replace(s->graph, &s->spots.nodes, by, scratch_of(s));
+    empty_scratch(s);
+    return root;
+}
+
+static ir_ref *no_replacements(const struct slab_saver *s)
+{
+    return ARENA_ARRAY(scratch_of(s), ir_ref, s->spots.nodes.items.len);
+}
+
 static struct slab_candidate blend_at(const struct slab_saver *s, const struct slab_spot *spot)
 {
     struct slab_candidate c = {.depth = depth_of(s, spot->ref)};
     c.step.kind = kind_of(s->graph, spot->ref);
     c.step.node = spot->ref;
-    ir_ref slab = slab_blended(&s->blend, spot);
-    c.root = slabs_replace(s->shader, s->root, spot->ref, slab);
+    ir_ref slab = slab_blended(&s->blend, spot); /* it may estimate, which empties the scratch */
+    ir_ref *by = no_replacements(s);
+    by[slab_node_at(&s->spots.nodes, spot->ref)] = slab;
+    c.root = replaced(s, by);
     return c;
 }
 
@@ -111,6 +140,23 @@ static bool is_worth(enum slab_choice choice, struct slab_cost after, struct sla
                                     : is_lower(after, before));
 }
 
+/* The deepest spot that a choice may blend, above a depth; of equal ones the first. NULL: none. */
+static const struct slab_spot *next_deepest(const struct slab_saver *s, enum slab_choice choice,
+                                            const struct slab_spot *last)
+{
+    const struct slab_spot *best = NULL;
+    for (uint32_t i = 0; i < s->spots.items.len; i++) {
+        const struct slab_spot *spot = &s->spots.items.items[i];
+        uint32_t depth = depth_of(s, spot->ref), before = last ? depth_of(s, last->ref) : 0;
+        bool is_left = !last || depth < before || (depth == before && spot > last);
+        if (is_left && slab_can_blend(s->graph, spot->ref)
+            && (choice != SLAB_ASKED || is_asked(s->graph, spot->ref))
+            && (!best || depth > depth_of(s, best->ref)))
+            best = spot;
+    }
+    return best;
+}
+
 /*
  * The deepest operator of a choice, at any cost or only where it is worth it: another operator may
  * need its slabs, too.
@@ -118,18 +164,13 @@ static bool is_worth(enum slab_choice choice, struct slab_cost after, struct sla
 static struct slab_candidate deepest_of(const struct slab_saver *s, enum slab_choice choice,
                                         bool at_any_cost)
 {
-    struct slab_candidate best = {.root = 0};
-    for (uint32_t i = 0; i < s->spots.items.len; i++) {
-        const struct slab_spot spot = s->spots.items.items[i];
-        if (!slab_can_blend(s->graph, spot.ref)
-            || (choice == SLAB_ASKED && !is_asked(s->graph, spot.ref))
-            || (best.root && depth_of(s, spot.ref) <= best.depth))
-            continue;
-        struct slab_candidate c = blend_at(s, &spot);
+    const struct slab_spot *spot = next_deepest(s, choice, NULL);
+    for (; spot; spot = next_deepest(s, choice, spot)) {
+        struct slab_candidate c = blend_at(s, spot);
         if (at_any_cost || is_worth(choice, slab_saver_cost(s, c.root), s->cost))
-            best = c;
+            return c;
     }
-    return best;
+    return (struct slab_candidate){.root = 0};
 }
 
 struct slab_candidate slab_next_blend(const struct slab_saver *s, enum slab_choice choice)
@@ -152,14 +193,14 @@ struct slab_candidate slab_next_blend(const struct slab_saver *s, enum slab_choi
 struct slab_candidate slab_feature_step(const struct slab_saver *s, enum slab_feature feature)
 {
     struct slab_candidate c = {.step = {.kind = SLAB_STEP_FEATURE, .feature = feature}};
-    ir_ref root = s->root;
+    ir_ref *by = no_replacements(s);
     for (uint32_t i = 0; i < s->spots.items.len; i++) {
         const struct slab_spot *spot = &s->spots.items.items[i];
-        if (slab_features(s->graph, spot) & 1u << feature) {
-            ir_ref slab = slab_without(s->graph, spot, 1u << feature);
-            root = slabs_replace(s->shader, root, spot->ref, slab);
-        }
+        ir_ref *slab = &by[slab_node_at(&s->spots.nodes, spot->ref)];
+        if (!*slab && slab_features(s->graph, spot) & 1u << feature)
+            *slab = slab_without(s->graph, spot, 1u << feature);
     }
+    ir_ref root = replaced(s, by);
     c.root = root == s->root ? 0 : root;
     return c;
 }

@@ -614,7 +614,7 @@ static void find_scattering(struct walk *w)
 bool slabs_has(const struct shader *shader, ir_ref ref)
 {
     struct slab_nodes nodes;
-    slabs_find_nodes(shader, ref, &nodes);
+    slabs_find_nodes(shader->graph, ref, shader->arena, &nodes);
     return find_slabs(shader, &nodes)[nodes.items.len - 1];
 }
 
@@ -622,7 +622,7 @@ bool slabs_has_media(const struct shader *shader, ir_ref ref)
 {
     const struct ir_graph *g = shader->graph;
     struct slab_nodes nodes;
-    slabs_find_nodes(shader, ref, &nodes);
+    slabs_find_nodes(shader->graph, ref, shader->arena, &nodes);
     for (uint32_t i = 1; i < nodes.items.len; i++) {
         ir_ref at = nodes.items.items[i];
         if (ir_get(g, at)->op == IR_SLAB
@@ -636,7 +636,7 @@ ir_ref slabs_walk(struct shader *shader, const struct slabs_host *host, ir_ref r
 {
     struct ir_graph *g = shader->graph;
     struct walk w = {.shader = shader, .graph = g, .host = host};
-    slabs_find_nodes(shader, root, &w.nodes);
+    slabs_find_nodes(g, root, shader->arena, &w.nodes);
     w.has_slabs = find_slabs(shader, &w.nodes);
     if (!has_slabs(&w, root))
         return root;

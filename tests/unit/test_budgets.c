@@ -107,7 +107,7 @@ static float error_of_heaviest(struct generation *g, uint32_t num_slabs, uint32_
     uint32_t dropped = 0;
     float error = 0.0f;
     struct slab_spots spots;
-    slabs_find_spots(&g->result->shader, g->root, &spots);
+    slabs_find_spots(g->result->shader.graph, g->root, g->result->shader.arena, &spots);
     struct slab_eye *eye = slabs_open_eye(&g->result->shader, &host, g->root);
     for (uint32_t left = num_slabs; left > num; left--) {
         uint32_t best = 0;
@@ -146,14 +146,15 @@ static void save_closures(struct generation *g)
     struct slab_report report;
     if (!begin(g))
         return;
-    struct slab_cost whole = slabs_cost(&g->result->shader, g->root);
+    struct slab_cost whole = slabs_cost(g->result->shader.graph, g->root, g->result->shader.arena);
     for (uint32_t num = 1; num <= MAX_CLOSURES && num < whole.closures; num++) {
         struct slab_budget budget = {.max_slabs = num, .max_error = -1.0f, .max_steps = -1};
         ir_ref root = build_budget_slabs(g->builder, &g->closure_host, &g->estimates, &budget,
                                          g->root, &report);
         REQUIRE(report.is_met && report.after.closures == num);
         check_steps(&report);
-        REQUIRE_EQ(slabs_cost(&g->result->shader, root).closures, num);
+        REQUIRE_EQ(slabs_cost(g->result->shader.graph, root, g->result->shader.arena).closures,
+                   num);
         if (!REQUIRE(run->num_errors < MAX_ERRORS))
             return;
         run->heaviest[run->num_errors] = error_of_heaviest(g, whole.closures, num);
@@ -258,7 +259,7 @@ static void spend(struct generation *g, const struct slab_budget *budget, struct
 
 static void spend_all(struct generation *g, struct fixed *out)
 {
-    struct slab_cost whole = slabs_cost(&g->result->shader, g->root);
+    struct slab_cost whole = slabs_cost(g->result->shader.graph, g->root, g->result->shader.arena);
     for (uint32_t off = 0; off < 1u << NUM_SLAB_FEATURES; off++)
         for (uint32_t num = whole.closures; num && !(off & ~whole.features); num--) {
             struct slab_budget budget = {
@@ -454,7 +455,7 @@ static void save_best(struct generation *g)
 {
     if (!begin(g))
         return;
-    struct slab_cost whole = slabs_cost(&g->result->shader, g->root);
+    struct slab_cost whole = slabs_cost(g->result->shader.graph, g->root, g->result->shader.arena);
     for (uint32_t bytes = 16; bytes < whole.bytes; bytes += 16) {
         struct slab_budget budget = {.max_bytes = bytes, .max_error = -1.0f, .max_steps = -1};
         struct slab_report best, other;
