@@ -14,6 +14,7 @@ uint side_of(Hit hit, vec3 direction);
 Medium no_medium();
 void enter_medium(inout Path path, Medium medium);
 void leave_medium(inout Path path, uint body);
+void leave_medium(inout Shadow ray, uint number);
 void copy_media(Path path, inout Shadow ray, uint number);
 bool is_in_body(Path path);
 bool is_in_solid(Path path, uint side);
@@ -253,6 +254,15 @@ void cross_surface(inout Path path, Point point, vec3 inside)
         leave_medium(path, solid.body);
 }
 
+// Rays to lights that come into the solid at this surface begin outside of it.
+void leave_with_light(inout Path path, Point point)
+{
+    uint side = side_of(met, path.direction);
+    for (uint i = 0u; i < path.num_shadows; ++i)
+        if (is_in_solid(path, side) && dot(point.facet, path.direction) > 0.0 && dot(point.facet, path.shadows[i].direction) > 0.0)
+            leave_medium(path.shadows[i], i + 1u);
+}
+
 // Where a path goes that has met a surface.
 void bounce(inout Path path, Point point, vec4 towards)
 {
@@ -267,6 +277,7 @@ void bounce(inout Path path, Point point, vec4 towards)
     mat3 most = is_first ? keep_light(pixel_number(), arrives) : mat3(0.0); // that AOVs take of light that comes here
     count_turn(path);
     gather(path, point, towards.xyz, arrives, most, is_first);
+    leave_with_light(path, point);
     if (is_first)
         path.weight = is_light(weight.rgb) ? weight.rgb : vec3(0.0);
     else

@@ -30,7 +30,9 @@
  * The balance heuristic (Veach and Guibas 1995, "Optimally Combining Sampling Techniques") weighs
  * light samples against these directions, for each leaf by itself: lightWorld.w is 1 / the density
  * of the light's direction, and 0 for a point light. Light that enters a solid meets the other side
- * of the solid first, so lights do not shine through it: there density is 0 and out5 black.
+ * of the solid first, so lights do not shine through it: there density is 0 and out5 black. Inside
+ * of a solid the light of a point comes through the surface; that of the environment meets paths
+ * that go out.
  */
 #include "closure/scatter.h"
 
@@ -271,6 +273,29 @@ static void sample_leaves(struct closure_scatter *s)
 }
 
 /*
+ * A leaf that refracts sends light of its own side, `value`, and to a viewer inside the solid also
+ * that of a point behind the surface. A direction that refracts has no density (scatter_take_side),
+ * so no other light is weighed against it.
+ */
+static ir_ref through_surface(struct closure_scatter *s, const struct closure_leaf *leaf,
+                              ir_ref direction, ir_ref value, bool is_point)
+{
+    struct ir_graph *g = s->graph;
+    ir_ref in_front = scatter_is_in_front(s, direction), other = scatter_grey(s, 0.0f), behind = 0;
+    if (is_point)
+        behind = closure_call(s->shader, s->host, leaf->leaf, LEAF_REFRACTION, &direction);
+    if (behind && !ir_const_is(g, behind, 0.0f)) {
+        ir_ref normal = closure_normal(s->shader, s->host), view = closure_view(s->shader, s->host);
+        ir_ref cosine = ir_op2(g, IR_DOT, normal, view), nothing = scatter_number(s, 0.0f),
+               is_inside = scatter_op2(s, IR_LT, cosine, nothing),
+               weight = weight_from(s, leaf, direction);
+        behind = ir_mul(g, ir_convert(g, IR_TYPE_VEC3, behind), weight);
+        other = ir_op3(g, IR_SELECT, is_inside, behind, other);
+    }
+    return ir_op3(g, IR_SELECT, in_front, value, other);
+}
+
+/*
  * The response of a part to light from a direction. solid_angle 0: the light of a point, which no
  * sample finds.
  */
@@ -296,10 +321,8 @@ static ir_ref response(struct closure_scatter *s, uint32_t part, ir_ref directio
                 scatter_op2(s, IR_MUL, density, scatter_op2(s, IR_DIV, leaf->share, s->total));
             value = scatter_balanced(s, value, density, solid_angle);
         }
-        if (has(s, leaf->leaf, LEAF_REFRACTION)) {
-            ir_ref in_front = scatter_is_in_front(s, direction);
-            value = ir_op3(g, IR_SELECT, in_front, value, scatter_grey(s, 0.0f));
-        }
+        if (has(s, leaf->leaf, LEAF_REFRACTION))
+            value = through_surface(s, leaf->in[part], direction, value, !solid_angle);
         sum = scatter_op2(s, IR_ADD, sum, value);
     }
     return sum;
