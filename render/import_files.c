@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 enum { MAX_OPENED = 4096 };
@@ -19,28 +20,45 @@ enum { MAX_OPENED = 4096 };
 #define BASE_MEMORY ((uint64_t)256 << 20)
 #define MEMORY_PER_BYTE 160
 
+/*
+ * So much time of the processor may it take, and for each MiB of its files: it reads most in a
+ * tenth of that, but some of its work grows with the square, as that for properties of a node.
+ */
+enum { BASE_SECONDS = 10, SECONDS_PER_MIB = 2 };
+
 /* ---- Crashes ---- */
 
-static const int signals[] = {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL};
+static const int signals[] = {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGPROF};
 enum { NUM_SIGNALS = sizeof signals / sizeof *signals, STACK_SIZE = 1 << 16 };
 static struct sigaction before[NUM_SIGNALS];
-static char stack[STACK_SIZE], message[512];
+static char stack[STACK_SIZE], crashed[512], took_long[512];
 
 /* Runs on a stack of its own, because the usual cause is a stack that is full. */
 static void die(int number)
 {
-    (void)number;
+    const char *message = number == SIGPROF ? took_long : crashed;
     ssize_t written = write(STDERR_FILENO, message, strlen(message));
     _exit(written < 0 ? 2 : 1);
+}
+
+/* 0: no limit. */
+static void limit_seconds(uint64_t seconds)
+{
+    const struct itimerval limit = {.it_value = {.tv_sec = (time_t)seconds}};
+    setitimer(ITIMER_PROF, &limit, NULL);
 }
 
 static void catch_crashes(const char *path)
 {
     const stack_t own = {.ss_sp = stack, .ss_size = sizeof stack};
     struct sigaction action = {.sa_handler = die, .sa_flags = SA_ONSTACK};
-    snprintf(message, sizeof message,
+    snprintf(crashed, sizeof crashed,
              "error: cannot use the mesh '%.300s': its reader cannot go on; the file is damaged, "
              "nests too deep or needs too much memory [bad-mesh]\n",
+             path);
+    snprintf(took_long, sizeof took_long,
+             "error: cannot use the mesh '%.300s': its reader takes too long; a node may have too "
+             "many properties, or many corners lie at one place [bad-mesh]\n",
              path);
     sigemptyset(&action.sa_mask);
     sigaltstack(&own, NULL);
@@ -136,6 +154,7 @@ static struct aiFile *open_file(struct aiFileIO *io, const char *path, const cha
                             .UserData = (aiUserData)(void *)stream};
     files->size += size_of(file);
     limit_data(files->data_before + BASE_MEMORY + MEMORY_PER_BYTE * files->size);
+    limit_seconds(BASE_SECONDS + SECONDS_PER_MIB * (files->size >> 20));
     return file;
 }
 
@@ -153,11 +172,13 @@ void import_files_begin(struct import_files *files, const mxg_context *context, 
     files->data_before = limit_data_used();
     limit_data(files->data_before + BASE_MEMORY);
     catch_crashes(path);
+    limit_seconds(BASE_SECONDS);
 }
 
 void import_files_end(struct import_files *files)
 {
     (void)files;
+    limit_seconds(0);
     forget_crashes();
     limit_data(LIMIT_NONE);
 }

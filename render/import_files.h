@@ -2,7 +2,8 @@
 /*
  * The files that Assimp opens for a mesh or a stage: those that a document may read
  * (mxg_context_file_fault), and a limited number of them. While it reads them, the memory of the
- * program is limited by their size, and a crash of Assimp ends the program with a message.
+ * program and its time are limited by their size, and a crash of Assimp ends the program with a
+ * message.
  */
 #ifndef MXG_RENDER_IMPORT_FILES_H
 #define MXG_RENDER_IMPORT_FILES_H

@@ -230,7 +230,7 @@ static void report_version(const struct library *lib, elem_id node, struct diag_
 static const char *const removed_nodes[][2] = {
     {"swizzle", "<extract>, <separate3>, <combine3> or <convert>"},
     {"arrayappend", "an array value"},
-    {"compare", "<ifgreater>"},
+    {"compare", "<ifgreatereq>, with 'in1' and 'in2' swapped,"},
     {"switchf", "<switch>"},
     {"thin_film_brdf", "the thin-film inputs of <dielectric_bsdf> or <conductor_bsdf>"},
     {"thin_film_bsdf", "the thin-film inputs of <dielectric_bsdf> or <conductor_bsdf>"},

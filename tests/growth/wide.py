@@ -4,6 +4,7 @@
 instructions, which do not depend on the machine, so a table can be tight. Arguments: mxgen, [names of shapes…]."""
 
 import concurrent.futures
+import json
 import os
 import re
 import shutil
@@ -428,6 +429,21 @@ def work(mxgen, folder, shape, count):
     return float(found[-1].replace(b",", b"")) / 1e6
 
 
+def check_reader(mxgen, folder):
+    """Assimp copies all properties of a node for each of them: a limit of time ends it."""
+    if not os.path.exists(os.path.join(os.path.dirname(mxgen), "mxgen-render")):
+        checks.skip("mxgen-render is not built: no reader of glTF is tried")
+        return
+    stage, look = os.path.join(folder, "many.gltf"), os.path.join(folder, "look.mtlx")
+    node = {"name": "a", "extras": {f"p{i}": i for i in range(20000)}}
+    with open(stage, "w", encoding="utf-8") as file:
+        json.dump({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [node]}, file)
+    with open(look, "w", encoding="utf-8") as file:
+        file.write("<materialx version='1.39'><look name='L'/></materialx>")
+    run = subprocess.run([mxgen, "bind", look, "--stage", stage, "-q"], capture_output=True, text=True, check=False)
+    checks.check(run.returncode == 1 and "its reader takes too long" in run.stderr, f"a node of 20,000 properties: {run.returncode}, {run.stderr}")
+
+
 def main():
     mxgen, wanted = sys.argv[1], sys.argv[2:]
     if not shutil.which("valgrind") or os.environ.get("SANITIZER"):
@@ -441,6 +457,8 @@ def main():
             none, few, many = (jobs[shape[0], count].result() for count in counts)
             ratio = (many - none) / (few - none)
             checks.check(ratio < MOST, f"{shape[0]}: {few:.1f} M instructions for {FEW}, {many:.1f} M for {FACTOR * FEW}: {ratio:.1f} times")
+        if not wanted:
+            check_reader(mxgen, folder)
     checks.finish("wide")
 
 
