@@ -26,12 +26,12 @@ static bool make_unique_folder(char *name)
 #endif
 }
 
-static bool make_deep_folder(void)
+static bool make_plain_folder(const char *name)
 {
 #ifdef _WIN32
-    return _mkdir("deep") == 0;
+    return _mkdir(name) == 0;
 #else
-    return mkdir("deep", 0777) == 0;
+    return mkdir(name, 0777) == 0;
 #endif
 }
 
@@ -48,7 +48,7 @@ static const char *const made_files[] = {"b.mtlx", "a.mtlx", "deep/c.mtlx", "dee
 /* In a folder of its own, which it then stands in. */
 static void make_folder(char *folder)
 {
-    REQUIRE(make_unique_folder(folder) && chdir(folder) == 0 && make_deep_folder());
+    REQUIRE(make_unique_folder(folder) && chdir(folder) == 0 && make_plain_folder("deep"));
     for (size_t i = 0; i < sizeof made_files / sizeof *made_files; i++)
         write_file(made_files[i]);
 }
@@ -128,9 +128,72 @@ static void test_sandbox(void)
     remove_folder(folder);
 }
 
+/* Names from a folder with "in", "lib" and "secret"; the first two are allowed. */
+static const struct {
+    const char *path;
+    bool is_allowed;
+} ways_up[] = {
+    {"in/a.mtlx", true},
+    {"in/deep/../a.mtlx", true},
+    {"in/none/../a.mtlx", true}, /* opening it tells that there is no such folder */
+    {"in/deep/../../in/a.mtlx", true},
+    {"in/deep/../../lib/b.mtlx", true},
+    {"lib/../in/a.mtlx", true},
+    {"./lib/.././in//deep/../a.mtlx", true},
+    {"in/../secret/../in/a.mtlx", false},
+    {"in/../none/../in/a.mtlx", false},
+    {"in/../secret/deep/../../in/a.mtlx", false},
+    {"in/../secret/none/../../in/a.mtlx", false},
+    {"in/../none/none/../../in/a.mtlx", false},
+    {"in/none/../../secret/../in/a.mtlx", false},
+    {"in/none/../../none/../in/a.mtlx", false},
+    {"lib/../secret/../in/a.mtlx", false},
+    {"lib/../secretary/../in/a.mtlx", false},
+    {"none/../in/a.mtlx", false},
+    {"in/deep/../../lib/../secret/../in/a.mtlx", false},
+    {"in/a.mtlx/../../secret/../in/a.mtlx", false},
+};
+enum { NUM_WAYS_UP = sizeof ways_up / sizeof *ways_up };
+
+/* A way up out of a folder that is none of the allowed ones, and around none, tells nothing. */
+static void test_ways_up(void)
+{
+    static const char given[] = "secret/../in/a.mtlx";
+    static const char *const folders[] = {"in", "in/deep", "lib", "secret", "secret/deep"};
+    enum { NUM_FOLDERS = sizeof folders / sizeof *folders };
+    char folder[] = "unit_files_XXXXXX", path[PATH_MAX + 64], whole[PATH_MAX];
+    mxg_context_desc desc = MXG_CONTEXT_DESC_INIT;
+    mxg_context *context = NULL;
+    make_folder(folder);
+    for (size_t i = 0; i < NUM_FOLDERS; i++)
+        REQUIRE(make_plain_folder(folders[i]));
+    desc.sandbox = true;
+    REQUIRE(file_real_path(".", whole));
+    for (int is_given = 0; is_given < 2; is_given++) {
+        REQUIRE_EQ(mxg_context_create(&desc, &context), MXG_OK);
+        REQUIRE(sandbox_admit_file(context, is_given ? given : "in/a.mtlx"));
+        REQUIRE(sandbox_admit_folder(context, "lib/"));
+        for (size_t i = 0; i < NUM_WAYS_UP; i++) {
+            REQUIRE_EQ(!sandbox_fault(context, ways_up[i].path), ways_up[i].is_allowed);
+            snprintf(path, sizeof path, "%s/%s", whole, ways_up[i].path);
+            REQUIRE_EQ(!sandbox_fault(context, path), ways_up[i].is_allowed);
+        }
+        const char *same_way = "secret/../in/deep/../a.mtlx"; /* as the caller went, and further */
+        REQUIRE_EQ(!sandbox_fault(context, same_way), is_given);
+        REQUIRE(!mxg_context_file_fault(context, given, same_way));
+        snprintf(path, sizeof path, "%s/%s", given, "../../none/../in/a.mtlx");
+        REQUIRE(mxg_context_file_fault(context, given, path) != NULL);
+        mxg_context_destroy(context);
+    }
+    for (size_t i = NUM_FOLDERS; i-- > 0;)
+        REQUIRE(rmdir(folders[i]) == 0);
+    remove_folder(folder);
+}
+
 int main(void)
 {
     test_folders();
     test_sandbox();
+    test_ways_up();
     return test_report("files");
 }
