@@ -155,33 +155,58 @@ static struct texel_light *make_lights(const struct image *map)
     return lights;
 }
 
+enum { IRRADIANCE_WIDTH = 64, IRRADIANCE_HEIGHT = 32 };
+
+/* Sums of a row, by texel, so that the compiler computes several texels at once. */
+struct irradiance_row {
+    float normal[3][IRRADIANCE_WIDTH], sum[3][IRRADIANCE_WIDTH], weight[IRRADIANCE_WIDTH];
+};
+
+static void add_light(struct irradiance_row *row, struct texel_light light)
+{
+    const float *d = light.direction, *color = light.light;
+    for (int x = 0; x < IRRADIANCE_WIDTH; ++x) {
+        float cosine =
+            row->normal[0][x] * d[0] + row->normal[1][x] * d[1] + row->normal[2][x] * d[2];
+        float weight = (cosine > 0 ? cosine : 0) * light.solid;
+        row->weight[x] += weight;
+        row->sum[0][x] += weight * color[0];
+        row->sum[1][x] += weight * color[1];
+        row->sum[2][x] += weight * color[2];
+    }
+}
+
+static void fill_row(struct image *out, uint32_t y, const struct texel_light *lights, size_t count)
+{
+    struct irradiance_row row = {0};
+    for (uint32_t x = 0; x < IRRADIANCE_WIDTH; ++x) {
+        double n[3];
+        environment_direction(out, x, y, n);
+        for (int c = 0; c < 3; ++c)
+            row.normal[c][x] = (float)n[c];
+    }
+    for (size_t i = 0; i < count; ++i)
+        add_light(&row, lights[i]);
+    float *texel = (float *)out->pixels + (size_t)y * IRRADIANCE_WIDTH * 4;
+    for (uint32_t x = 0; x < IRRADIANCE_WIDTH; ++x, texel += 4) {
+        for (int c = 0; c < 3; ++c)
+            texel[c] = row.sum[c][x] / row.weight[x];
+        texel[3] = 1.0f;
+    }
+}
+
 bool environment_irradiance(const struct image *radiance, struct image *out)
 {
     struct image small;
-    *out = (struct image){
-        .width = 64, .height = 32, .is_float = true, .pixels = malloc(64 * 32 * 4 * sizeof(float))};
+    *out =
+        (struct image){.width = IRRADIANCE_WIDTH,
+                       .height = IRRADIANCE_HEIGHT,
+                       .is_float = true,
+                       .pixels = malloc(IRRADIANCE_WIDTH * IRRADIANCE_HEIGHT * 4 * sizeof(float))};
     bool good = resample(radiance, 128, 64, &small);
     struct texel_light *lights = good ? make_lights(&small) : NULL;
-    size_t count = (size_t)small.width * small.height;
-    float *texel = out->pixels;
-    for (uint32_t y = 0; lights && texel && y < out->height; ++y) {
-        for (uint32_t x = 0; x < out->width; ++x, texel += 4) {
-            double n[3];
-            environment_direction(out, x, y, n);
-            float sum[3] = {0}, weights = 0;
-            for (size_t i = 0; i < count; ++i) {
-                const float *d = lights[i].direction;
-                float cosine = (float)n[0] * d[0] + (float)n[1] * d[1] + (float)n[2] * d[2];
-                cosine = cosine > 0 ? cosine * lights[i].solid : 0;
-                weights += cosine;
-                for (size_t c = 0; c < 3; ++c)
-                    sum[c] += cosine * lights[i].light[c];
-            }
-            for (size_t c = 0; c < 3; ++c)
-                texel[c] = sum[c] / weights;
-            texel[3] = 1.0f;
-        }
-    }
+    for (uint32_t y = 0; lights && out->pixels && y < IRRADIANCE_HEIGHT; ++y)
+        fill_row(out, y, lights, (size_t)small.width * small.height);
     good = lights && out->pixels;
     free(lights);
     image_finish(&small);
