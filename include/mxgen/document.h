@@ -118,8 +118,8 @@ MXG_API const char *mxg_document_xml(const mxg_document *document, size_t *out_s
  * Makes a document from another one, or from nothing. Documents stay immutable: mxg_edit_commit
  * makes the next one, which shares memory with the document that it comes from. An edit takes time
  * and memory for its changes, however large the document. Only a change of a definition, the first
- * material of a document, and the removal of the last one take the time of an index of the whole,
- * and so does an edit after as many changes as the document has elements.
+ * material of a document, the removal of the last one, and what is upgraded take the time of an
+ * index of the whole, and so does an edit after as many changes as the document has elements.
  *
  *     mxg_edit *edit;
  *     mxg_edit_create(ctx, lib, NULL, "gold", &edit);
@@ -133,8 +133,9 @@ MXG_API const char *mxg_document_xml(const mxg_document *document, size_t *out_s
  *
  * An edit that fails changes nothing, returns MXG_ERROR_ARGUMENT (or 0 for an element), and
  * mxg_edit_error gives the reason. The calls check what they can check alone: names, places in the
- * tree, text that XML can hold. mxg_edit_commit checks the rest like mxg_document_parse. One thread
- * at a time may use an edit.
+ * tree, text that XML can hold. mxg_edit_commit checks the rest like mxg_document_parse, and
+ * upgrades what documents of version 1.39 still contain of earlier ones: the document is that of
+ * its text. One thread at a time may use an edit.
  */
 typedef struct mxg_edit mxg_edit;
 
@@ -153,11 +154,16 @@ MXG_API mxg_element mxg_edit_find_element(const mxg_edit *edit, mxg_element belo
 
 /*
  * Appends an element; parent 0 is the root. `name` and `type` may be NULL. A name must be valid and
- * new below the parent.
+ * new below the parent. The category has one prefix at most, and not "xml", "xmlns" or "xi": an
+ * edit includes no files; mxg_edit_copy_element copies their elements.
  */
 MXG_API mxg_element mxg_edit_add_element(mxg_edit *edit, mxg_element parent, const char *category,
                                          const char *name, const char *type);
-/* Sets an attribute; a value of NULL removes it. "name" works like mxg_edit_rename_element. */
+/*
+ * Sets an attribute; a value of NULL removes it. "name" works like mxg_edit_rename_element. The
+ * attributes and prefixes of XML ("xmlns", "xml:lang") cannot be set, and no two attributes that
+ * differ in their prefixes alone. The version of the root is 1.39.
+ */
 MXG_API mxg_status mxg_edit_set_attribute(mxg_edit *edit, mxg_element element,
                                           const char *attribute, const char *value);
 /* Renames an element, and changes the references to it: connections, definitions, assignments. */

@@ -152,6 +152,7 @@ static void complete(struct end_job *job)
     if (document->origin)
         stand_alone(document);
     doc_keep_paths(doc);
+    doc_upgrade_edit(doc, diags);
     doc_complete(doc, diags);
     document_finish(document, &job->files);
 }

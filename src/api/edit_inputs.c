@@ -72,10 +72,10 @@ static const char *suggest_input(const struct edit_change *c)
 {
     struct library view;
     uint32_t nodedef = edit_find_definition(c, c->element, &view);
-    struct diag_list unheard;
-    diag_list_init_unheard(&unheard, &c->edit->document->object.arena);
+    struct diag_list list; /* for the suggestion */
+    diag_list_init(&list, &c->edit->document->object.arena);
     struct diag_guess guess;
-    if (nodedef == LIBRARY_NONE || !diag_guess_begin(&guess, &unheard, c->name))
+    if (nodedef == LIBRARY_NONE || !diag_guess_begin(&guess, &list, c->name))
         return "";
     int num_inputs = library_nodedef(&view, nodedef)->num_inputs;
     for (int i = 0; i < num_inputs; i++)

@@ -289,10 +289,10 @@ static const char *unknown_key(struct arena *arena, const char *key)
     for (unsigned i = 0; i < NUM_OPTIONS; i++)
         keys[i] = table[i].key;
     struct text text;
-    struct diag_list unheard; /* struct options holds its own message */
+    struct diag_list list; /* for the suggestion; struct options holds its own message */
     text_init(&text, arena);
-    diag_list_init_unheard(&unheard, arena);
-    text_fmt(&text, "unknown option '%s'%s", key, diag_suggest(&unheard, key, keys, NUM_OPTIONS));
+    diag_list_init(&list, arena);
+    text_fmt(&text, "unknown option '%s'%s", key, diag_suggest(&list, key, keys, NUM_OPTIONS));
     return text_cstr(&text);
 }
 

@@ -448,6 +448,12 @@ void doc_expand_templates(struct document *doc, struct diag_list *diags);
  * file; only they change.
  */
 void doc_upgrade(struct document *doc, elem_id root, elem_id end, struct diag_list *diags);
+/* Upgrades what an edit made, as the reader does for 1.39. */
+void doc_upgrade_edit(struct document *doc, struct diag_list *diags);
+/* True if doc_upgrade_edit may change the element. */
+bool doc_needs_upgrade(const struct document *doc, elem_id element);
+/* True for a text of a version 1.39, which the reader does not upgrade. */
+bool doc_is_current_version(const char *text);
 
 /*
  * namespace.c: renames top-level elements with a `namespace` to "ns:name", and the references to

@@ -544,6 +544,22 @@ static const struct {
     {39, NULL, upgrade_nodes},
 };
 
+static bool parse_version(const char *text, size_t len, int64_t *out_major, int64_t *out_minor)
+{
+    const char *dot = memchr(text, '.', len);
+    size_t before = dot ? (size_t)(dot - text) : 0;
+    return dot && num_parse_int(text, before, out_major) == before
+           && num_parse_int(dot + 1, len - before - 1, out_minor) != 0 && *out_major >= 1
+           && *out_minor >= 0;
+}
+
+bool doc_is_current_version(const char *text)
+{
+    int64_t major = 0, minor = 0;
+    return parse_version(text, strlen(text), &major, &minor) && major == 1
+           && minor == CURRENT_MINOR;
+}
+
 /*
  * The minor version of 1.x. Reports an invalid version; CURRENT_MINOR if there is nothing to
  * upgrade.
@@ -553,32 +569,31 @@ static int read_version(struct document *doc, elem_id root, struct diag_list *di
     str_id version = doc_attr_value(doc, root, STR_version);
     struct diag_place place = doc_attr_place(doc, root, STR_version);
     const char *text = str_text(doc->strings, version);
-    size_t len = str_len(doc->strings, version);
-    if (!version) {
-        diag_add(diags, DIAG_ID_version_missing, place);
-        return CURRENT_MINOR;
-    }
-    const char *dot = memchr(text, '.', len);
     int64_t major = 0, minor = 0;
-    if (!dot || num_parse_int(text, (size_t)(dot - text), &major) != (size_t)(dot - text)
-        || num_parse_int(dot + 1, len - (size_t)(dot - text) - 1, &minor) == 0 || major < 1
-        || minor < 0) {
+    if (!version)
+        diag_add(diags, DIAG_ID_version_missing, place);
+    else if (!parse_version(text, str_len(doc->strings, version), &major, &minor))
         diag_add(diags, DIAG_ID_version_bad, place, text);
-        return CURRENT_MINOR;
-    }
-    if (major > 1 || minor > CURRENT_MINOR) {
+    else if (major > 1 || minor > CURRENT_MINOR)
         diag_add(diags, DIAG_ID_version_newer, place, text);
-        return CURRENT_MINOR;
-    }
-    return (int)minor;
+    else
+        return (int)minor;
+    return CURRENT_MINOR;
 }
 
-static bool is_outdated(const struct document *doc, elem_id root, elem_id end)
+/* True for what 1.38 and 1.39 removed, and documents of these versions still contain. */
+static bool is_outdated(const struct document *doc, elem_id element)
 {
-    str_id complex_ior = str_find(doc->strings, "complex_ior", 11);
+    str_id complex_ior = str_find(doc->strings, "complex_ior", 11),
+           category = doc_element(doc, element)->category;
+    return doc_attr(doc, element, STR_channels) || category == STR_parameter
+           || (complex_ior && category == complex_ior);
+}
+
+static bool has_outdated(const struct document *doc, elem_id root, elem_id end)
+{
     for (elem_id e = root; e < end; e++)
-        if (doc_attr(doc, e, STR_channels) || doc_element(doc, e)->category == STR_parameter
-            || (complex_ior && doc_element(doc, e)->category == complex_ior))
+        if (is_outdated(doc, e))
             return true;
     return false;
 }
@@ -599,10 +614,10 @@ static void replace_color2(struct upgrade *u)
         rename_type(u, e);
 }
 
-void doc_upgrade(struct document *doc, elem_id root, elem_id end, struct diag_list *diags)
+static void upgrade_from(struct document *doc, elem_id root, elem_id end, int minor,
+                         struct diag_list *diags)
 {
     assert(root < end && end <= doc->first_element + doc->elements.len);
-    int minor = read_version(doc, root, diags);
     struct upgrade u = {.doc = doc,
                         .diags = diags,
                         .root = root,
@@ -617,7 +632,7 @@ void doc_upgrade(struct document *doc, elem_id root, elem_id end, struct diag_li
     if (minor >= 38)
         replace_color2(&u);
     u.outdated = minor >= CURRENT_MINOR;
-    if (u.outdated && !is_outdated(doc, root, end))
+    if (u.outdated && !has_outdated(doc, root, end))
         return;
     doc_index_names(doc, NULL);
     if (minor >= 38) {
@@ -643,4 +658,21 @@ void doc_upgrade(struct document *doc, elem_id root, elem_id end, struct diag_li
             steps[i].after(&u);
     }
     doc_set_attr(doc, root, STR_version, upgrade_word(&u, "1.39"));
+}
+
+void doc_upgrade(struct document *doc, elem_id root, elem_id end, struct diag_list *diags)
+{
+    upgrade_from(doc, root, end, read_version(doc, root, diags), diags);
+}
+
+void doc_upgrade_edit(struct document *doc, struct diag_list *diags)
+{
+    upgrade_from(doc, doc->root, doc->first_element + doc->elements.len, CURRENT_MINOR, diags);
+}
+
+bool doc_needs_upgrade(const struct document *doc, elem_id element)
+{
+    str_id color2 = str_find(doc->strings, "color2", 6);
+    return is_outdated(doc, element) || upgrade_always_changes(doc, element)
+           || (color2 && doc_attr_value(doc, element, STR_type) == color2);
 }

@@ -82,6 +82,8 @@ void upgrade_thin_films(struct upgrade *u);  /* 1.39 */
 
 /* upgrade_always.c: every version */
 void upgrade_always(struct upgrade *u);
+/* True if it may change the element. */
+bool upgrade_always_changes(const struct document *doc, elem_id element);
 
 /* upgrade_channels.c */
 void upgrade_color2_channels(struct upgrade *u); /* 1.38 */

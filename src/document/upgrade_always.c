@@ -3,12 +3,14 @@
 #include "document/upgrade.h"
 
 /* "True" and "FALSE" are what Python and Houdini write. */
+static const char *const words[][2] = {
+    {"True", "true"}, {"TRUE", "true"}, {"False", "false"}, {"FALSE", "false"}};
+enum { NUM_WORDS = sizeof words / sizeof *words };
+
 static void lower_boolean(struct upgrade *u, elem_id element, str_id attr)
 {
-    static const char *const words[][2] = {
-        {"True", "true"}, {"TRUE", "true"}, {"False", "false"}, {"FALSE", "false"}};
     str_id value = doc_attr_value(u->doc, element, attr);
-    for (size_t i = 0; value && i < sizeof words / sizeof *words; i++) {
+    for (size_t i = 0; value && i < NUM_WORDS; i++) {
         if (!upgrade_is(u, value, words[i][0]))
             continue;
         doc_set_attr(u->doc, element, attr, upgrade_word(u, words[i][1]));
@@ -59,4 +61,16 @@ void upgrade_always(struct upgrade *u)
         else
             make_uniform(u, e);
     }
+}
+
+bool upgrade_always_changes(const struct document *doc, elem_id element)
+{
+    const struct element *e = doc_element(doc, element);
+    if (e->category == STR_geompropvalue || e->kind == KIND_NODEDEF)
+        return true;
+    for (uint32_t i = 0; i < e->num_attrs; i++)
+        for (size_t k = 0; k < NUM_WORDS; k++)
+            if (strcmp(str_text(doc->strings, doc_attrs(doc, element)[i].value), words[k][0]) == 0)
+                return true;
+    return false;
 }

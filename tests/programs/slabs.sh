@@ -239,7 +239,7 @@ check 'the command line goes with a profile' exits 0 "$mxgen" "$slabs" -e DustyF
 check 'the command line replaces an option of the profile' says 'slabs 2 to 1'
 printf 'max-slabs = 2\nmax-byts = 3\n' >wrong.toml
 check 'an unknown key of a profile is wrong usage' exits 2 "$mxgen" "$slabs" --profile wrong.toml -o made
-check 'the error has the line of the key' says "wrong.toml:2: error: unknown option 'max-byts'"
+check 'the error has the line of the key' says "wrong.toml:2: error: unknown option 'max-byts' (did you mean 'max-bytes'?)"
 printf 'max-slabs 2\n' >wrong.toml
 check 'a line without a value is wrong usage' exits 2 "$mxgen" "$slabs" --profile wrong.toml -o made
 check 'the error says what a line is' says 'wrong.toml:1: error: a line is a comment'

@@ -211,7 +211,9 @@ class Edits(unittest.TestCase):
                               (lambda: shader.value("base_color", 1.0), "type"), (lambda: shader.value("base", "red", "float"), "red"),
                               (lambda: shader.value("base", float("nan"), "float"), "base"), (lambda: shader.rename(""), "name"),
                               (lambda: shader.value("base", (1.0, 2.0), "float"), "components"),
-                              (lambda: shader.move(shader), "itself"), (lambda: shader.set("a b", "1"), "name")):
+                              (lambda: shader.move(shader), "itself"), (lambda: shader.set("a b", "1"), "name"),
+                              (lambda: shader.set("xmlns:x", ""), "XML"), (lambda: edit.add("xi:include", "i"), "XML"),
+                              (lambda: edit.root.set("version", "1.36"), "1.39")):
             with self.assertRaises(mxgen.EditError) as caught:
                 failing()
             self.assertIn(text, str(caught.exception))
@@ -219,6 +221,13 @@ class Edits(unittest.TestCase):
             edit["none"]
         self.assertTrue(mxgen.equal(edit.end(), self.context.parse(
             '<materialx version="1.39"><standard_surface name="SR" type="surfaceshader"/></materialx>')))
+
+    def test_upgrades(self):
+        with self.context.edit() as edit:
+            edit.add("constant", "C", "boolean").add("parameter", "value", "boolean").set("value", "True")
+        self.assertEqual([item.id for item in edit.document.diagnostics], ["upgraded", "outdated"])
+        self.assertTrue(mxgen.equal(edit.document, self.context.parse(
+            '<materialx version="1.39"><constant name="C" type="boolean"><input name="value" type="boolean" value="true"/></constant></materialx>')))
 
     def test_errors_at_the_end(self):
         edit = self.context.edit(name="sphere")
