@@ -331,6 +331,12 @@ struct build_meaning build_meaning_of_default(struct builder *b, const struct po
  */
 struct build_meaning build_meaning_of_file(struct builder *b, const struct frame *frame,
                                            uint32_t input);
+/*
+ * The meaning of a property of the geometry, which a node reads: of colours the space that the node
+ * itself has, not its parents; false: it has none (specification, "Geometric Node Notes"). The
+ * node's default stands in for the property, so it has that space, too.
+ */
+bool build_meaning_of_property(struct builder *b, elem_id node, struct build_meaning *out);
 /* A value of a type in the working space and the unit of the target; other types stay. */
 ir_ref build_convert(struct builder *b, ir_ref value, doc_type type,
                      const struct build_meaning *meaning);

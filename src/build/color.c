@@ -117,6 +117,16 @@ static elem_id first_with(const struct builder *b, str_id attr, const elem_id el
     return 0;
 }
 
+bool build_meaning_of_property(struct builder *b, elem_id node, struct build_meaning *out)
+{
+    str_id category = doc_element(&b->lib->doc, node)->category;
+    if ((category != STR_geomcolor && category != STR_geompropvalue)
+        || !doc_attr_value(&b->lib->doc, node, STR_colorspace))
+        return false;
+    *out = (struct build_meaning){.of_space = node, .space = build_colorspace(b, node)};
+    return true;
+}
+
 /* `holder` has the value; 0: it is an argument. The connection of the node's input ends at `end`.
  */
 static struct build_meaning meaning_of(struct builder *b, elem_id node, const struct port *port,
@@ -131,9 +141,12 @@ static struct build_meaning meaning_of(struct builder *b, elem_id node, const st
     bool may_say = holder || port->type == DOC_TYPE_filename;
     elem_id of_space = may_say ? first_with(b, STR_colorspace, elements) : 0;
     of_space = of_space ? of_space : holder;
+    struct build_meaning property;
+    bool stands_in = port->name == STR_default && build_meaning_of_property(b, node, &property);
     return (struct build_meaning){.port = port,
                                   .of_space = of_space,
-                                  .space = of_space ? build_colorspace(b, of_space) : 0,
+                                  .space =
+                                      of_space && !stands_in ? build_colorspace(b, of_space) : 0,
                                   .of_unit = first_with(b, STR_unit, elements)};
 }
 

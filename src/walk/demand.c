@@ -158,24 +158,36 @@ static uint32_t first_file(const struct builder *b, const struct frame *frame)
     return found;
 }
 
+/* Finds what the node's file means, unless an input inside of the definition says it. */
+static bool find_meaning_of_file(struct builder *b, const struct frame *frame,
+                                 struct build_meaning *out)
+{
+    const struct port *ports = library_ports(b->lib, frame->node.nodedef, NULL);
+    uint32_t i = first_file(b, frame);
+    if (i == library_nodedef(b->lib, frame->node.nodedef)->num_inputs)
+        return false;
+    *out = build_meaning_of_file(b, frame, i);
+    bool is_graph = frame->impl->kind == IMPL_GRAPH;
+    if (is_graph && library_graph_says(b->lib, frame->impl->ref, ports[i].name, STR_colorspace))
+        out->space = 0;
+    if (is_graph && library_graph_says(b->lib, frame->impl->ref, ports[i].name, STR_unit))
+        out->of_unit = 0;
+    return true;
+}
+
 /*
- * Converts the results of image nodes from the colour space and the unit of their file
- * (specification, "Color Spaces" and "Units"), unless an input inside of the definition says it.
+ * Converts the results of image nodes from the colour space and the unit of their file, and colours
+ * of the geometry from theirs (specification, "Color Spaces" and "Units").
  */
 static void convert_results(struct builder *b, const struct frame *frame, ir_ref *results)
 {
     assert(frame->impl->nodedef == frame->node.nodedef);
     const struct nodedef *def = library_nodedef(b->lib, frame->node.nodedef);
     const struct port *ports = library_ports(b->lib, frame->node.nodedef, NULL);
-    uint32_t i = first_file(b, frame);
-    if (i == def->num_inputs)
+    struct build_meaning meaning;
+    if (!find_meaning_of_file(b, frame, &meaning)
+        && !build_meaning_of_property(b, frame->node.element, &meaning))
         return;
-    struct build_meaning meaning = build_meaning_of_file(b, frame, i);
-    bool is_graph = frame->impl->kind == IMPL_GRAPH;
-    if (is_graph && library_graph_says(b->lib, frame->impl->ref, ports[i].name, STR_colorspace))
-        meaning.space = 0;
-    if (is_graph && library_graph_says(b->lib, frame->impl->ref, ports[i].name, STR_unit))
-        meaning.of_unit = 0;
     for (uint32_t o = 0; o < def->num_outputs; o++)
         results[o] = build_convert(b, results[o], ports[def->num_inputs + o].type, &meaning);
 }

@@ -628,4 +628,18 @@ head -c 100 image.mxlib >broken.mxlib
 check 'a broken image fails the run' exits 1 "$mxgen" thrice.mtlx --library broken.mxlib
 check 'the error of a broken image is image-bad' grep -q '\[image-bad\]' err
 
+# Colours of the geometry: the node's own space, which is that of its default, too; no parent's.
+cat >colours.mtlx <<'X'
+<materialx version="1.39" colorspace="acescg">
+  <geompropvalue name="own" type="color3" colorspace="srgb_texture"><input name="geomprop" type="string" value="c"/><input name="default" type="color3" value="0.5, 0.5, 0.5"/></geompropvalue>
+  <geompropvalue name="none" type="color3"><input name="geomprop" type="string" value="c"/></geompropvalue>
+  <geompropvalue name="other" type="color3" colorspace="srgb_texture"><input name="geomprop" type="string" value="c"/><input name="default" type="color3" value="0.5, 0.5, 0.5" colorspace="lin_rec709"/></geompropvalue>
+  <output name="o1" type="color3" nodename="own"/><output name="o2" type="color3" nodename="none"/><output name="o3" type="color3" nodename="other"/>
+</materialx>
+X
+check 'a colour of the geometry is converted from the space of its node' eval '"$mxgen" inspect --ir colours.mtlx -e o1 >ir && has ir "srgb_texture_to"'
+check 'and not from that of its parents' eval '"$mxgen" inspect --ir colours.mtlx -e o2 >ir && ! grep -q "_to_" ir'
+check 'its default is of that space' eval '"$mxgen" colours.mtlx -e o1 -o colours --reflect -q && has colours/o1.json "\"default\": [0.5, 0.5, 0.5]"'
+check 'a default of another space is told' eval 'exits 0 "$mxgen" colours.mtlx -e o3 -o colours && has err "is read in the colour space of the property" "[geomprop-default]"'
+
 finish cli
