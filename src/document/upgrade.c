@@ -398,6 +398,14 @@ static void remove_overridden_values(struct upgrade *u)
     }
 }
 
+/* A vector becomes a colour with the same numbers, in any colour space around it. */
+static void make_color(struct upgrade *u, elem_id input)
+{
+    doc_set_attr(u->doc, input, STR_type, STR_color3);
+    if (doc_attr(u->doc, input, STR_value) && doc_inherited_attr(u->doc, input, STR_colorspace))
+        doc_set_attr(u->doc, input, STR_colorspace, STR_none);
+}
+
 /* 1.39: the radius of subsurface scattering is a colour. */
 static void upgrade_subsurface(struct upgrade *u, elem_id node)
 {
@@ -405,12 +413,15 @@ static void upgrade_subsurface(struct upgrade *u, elem_id node)
     if (!radius || doc_attr_value(u->doc, radius, STR_type) != STR_vector3)
         return;
     upgrade_note(u, radius, "the input 'radius' of <subsurface_bsdf> is now a color3");
-    if (doc_is_connected(u->doc, radius)) {
+    if (doc_is_connected(u->doc, radius) || doc_attr(u->doc, radius, STR_unit)) {
         elem_id convert = upgrade_add_node(u, node, "convert", "convert", STR_color3);
         upgrade_copy_input(u, radius, convert, "in", NULL);
+        doc_remove_attr(u->doc, radius, STR_value);
+        doc_remove_attr(u->doc, radius, STR_unit);
+        doc_remove_attr(u->doc, radius, STR_unittype);
         upgrade_connect(u, radius, convert, NULL);
     }
-    doc_set_attr(u->doc, radius, STR_type, STR_color3);
+    make_color(u, radius);
 }
 
 /* A definition of a library changes its input as a node does. */
@@ -420,7 +431,7 @@ static void upgrade_subsurface_definition(struct upgrade *u, elem_id nodedef)
     if (!upgrade_is(u, doc_attr_value(u->doc, nodedef, STR_node), "subsurface_bsdf") || !radius
         || doc_attr_value(u->doc, radius, STR_type) != STR_vector3)
         return;
-    doc_set_attr(u->doc, radius, STR_type, STR_color3);
+    make_color(u, radius);
     upgrade_note(u, radius, "the input 'radius' of <subsurface_bsdf> is now a color3");
 }
 
