@@ -16,8 +16,18 @@ bool bake_is_of_look(const mxg_document *document, mxg_element element)
     return args_is_one_of(bake_element(document, element).category, categories);
 }
 
+/* The name that the new document has for a material; NULL: it does not have it. */
+static const char *name_of(const struct baking *baking, const char *material)
+{
+    mxg_element element = mxg_document_find_element(baking->document, 0, material);
+    for (size_t i = 0; i < baking->plan.num_nodes; ++i)
+        if (baking->plan.nodes[i].element == element)
+            return baking->plan.nodes[i].name;
+    return NULL;
+}
+
 /* Why an element of a look cannot stay; NULL: it can. */
-static const char *why_lost(const struct baking *baking, mxg_edit *edit, mxg_element element)
+static const char *why_lost(const struct baking *baking, mxg_element element)
 {
     const mxg_document *document = baking->document;
     const char *category = bake_element(document, element).category,
@@ -29,9 +39,7 @@ static const char *why_lost(const struct baking *baking, mxg_edit *edit, mxg_ele
         return NULL;
     if (graph && *graph)
         return "a layer that is a nodegraph changes inputs that are baked";
-    return material && *material && !mxg_edit_find_element(edit, 0, material)
-               ? "its material is not there"
-               : NULL;
+    return material && *material && !name_of(baking, material) ? "its material is not there" : NULL;
 }
 
 static void tell_lost(struct baking *baking, mxg_element element, const char *why)
@@ -43,19 +51,25 @@ static void tell_lost(struct baking *baking, mxg_element element, const char *wh
     free(place);
 }
 
-/* Removes what cannot stay of the copy of a look, which has its name. */
-static void remove_lost(struct baking *baking, mxg_edit *edit, mxg_element look)
+/*
+ * Removes what cannot stay of the copy of a look, which has its name, and names materials as they
+ * are now.
+ */
+static void adapt(struct baking *baking, mxg_edit *edit, mxg_element look)
 {
-    for (mxg_element child = bake_element(baking->document, look).first_child; child;) {
-        mxg_element_info info = bake_element(baking->document, child);
-        const char *why = why_lost(baking, edit, child);
+    for (mxg_element child = bake_element(baking->document, look).first_child; child;
+         child = bake_element(baking->document, child).next) {
+        const char *why = why_lost(baking, child),
+                   *material = bake_attribute(baking->document, child, "material");
+        char *path = bake_path(baking->document, child);
+        mxg_element copy = mxg_edit_find_element(edit, 0, path);
         if (why) {
-            char *path = bake_path(baking->document, child);
-            mxg_edit_remove_element(edit, mxg_edit_find_element(edit, 0, path));
+            mxg_edit_remove_element(edit, copy);
             tell_lost(baking, child, why);
-            free(path);
+        } else if (material && *material) {
+            mxg_edit_set_attribute(edit, copy, "material", name_of(baking, material));
         }
-        child = info.next;
+        free(path);
     }
 }
 
@@ -67,6 +81,6 @@ void bake_add_looks(struct baking *baking, mxg_edit *edit)
         if (!bake_is_of_look(document, child))
             continue;
         mxg_edit_copy_element(edit, 0, document, child, NULL);
-        remove_lost(baking, edit, child);
+        adapt(baking, edit, child);
     }
 }

@@ -225,16 +225,28 @@ static bool take(struct bake_plan *plan, const char *name, bool is_file)
     return is_new && is_new_file;
 }
 
-/* A name that is not taken yet: letters, digits and '_'. The caller frees it. */
-static char *free_name(struct bake_plan *plan, const char *wanted, bool is_file)
+/* Letters, digits and '_', and no digit first, as names are in documents. The caller frees it. */
+static char *valid_name(const char *wanted)
 {
     static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_";
     enum { MAX_NAME = 120 };
-    char *base = cli_format("%.*s", MAX_NAME, wanted);
-    for (char *c = base; *c; ++c)
+    char *name = cli_format("%s%.*s", isdigit((unsigned char)*wanted) ? "_" : "", MAX_NAME, wanted);
+    for (char *c = name; *c; ++c)
         *c = strchr(letters, *c) ? *c : '_';
-    char *name = cli_format("%s", base);
-    for (unsigned number = 2; !take(plan, name, is_file); ++number) {
+    return name;
+}
+
+/*
+ * A name that is not taken yet. The caller frees it. A name that has to change gives way to an
+ * element of the document that has such a name already.
+ */
+static char *free_name(struct bake_plan *plan, const char *wanted, bool is_file)
+{
+    char *base = valid_name(wanted), *name = cli_format("%s", base);
+    bool is_changed = strcmp(base, wanted) != 0;
+    for (unsigned number = 2; (is_changed && mxg_document_find_element(plan->document, 0, name))
+                              || !take(plan, name, is_file);
+         ++number) {
         free(name);
         name = cli_format("%s_%u", base, number);
     }

@@ -33,6 +33,23 @@ check 'looks stay' eval 'exits 0 "$mxgen" bake looks.mtlx -o looks --size 4 && h
 check 'names of images do not take theirs' eval 'has looks/looks.mtlx "<look name=\"S_base\">" && ! grep -q "<image name=\"S_base\"" looks/looks.mtlx && exits 0 "$mxgen" validate looks/looks.mtlx'
 check 'a layer that is a nodegraph is told' eval '"$mxgen" bake looks.mtlx -o looks --size 4 2>err; has err "'"'wet_look/w' (looks.mtlx:"'" "changes inputs that are baked [bake-look]" && ! grep -q wet\" looks/looks.mtlx'
 
+# Names that a document cannot have give way to those that it can, and looks follow.
+material_of() { # NAME NUMBER COLOUR
+    printf '<checkerboard name="k%s" type="color3"><input name="color1" type="color3" value="%s"/></checkerboard>' "$2" "$3"
+    printf '<standard_surface name="S%s" type="surfaceshader"><input name="base_color" type="color3" nodename="k%s"/></standard_surface>' "$2" "$2"
+    printf '<surfacematerial name="%s" type="material"><input name="surfaceshader" type="surfaceshader" nodename="S%s"/></surfacematerial>' "$1" "$2"
+}
+{
+    echo '<materialx version="1.39">'
+    material_of 'a b' 1 '1, 0, 0'
+    material_of a_b 2 '0, 1, 0'
+    material_of 1a 3 '0, 0, 1'
+    echo '<look name="L"><materialassign name="m1" material="a_b" geom="/x"/><materialassign name="m2" material="a b" geom="/y"/><materialassign name="m3" material="1a" geom="/z"/></look></materialx>'
+} >names.mtlx
+check 'materials of unusual names are baked' exits 0 "$mxgen" bake names.mtlx -o names --size 4
+check 'a valid name stays' has names/names.mtlx '"a_b" type="material"' 'name="m1" material="a_b"'
+check 'and looks name the others as they are now' has names/names.mtlx 'name="m2" material="a_b_2"' 'name="m3" material="_1a"'
+
 # ---- Folders ----
 
 mkdir -p many/wood/deep many/faulty
