@@ -268,8 +268,10 @@ static void settle_graph(struct library *lib, uint32_t own, struct resolve_out *
     struct diag_list faults;
     diag_list_init(&faults, lib->doc.arena);
     faults.policy = diags->policy;
+    faults.num_guesses = diags->num_guesses; /* all graphs together have a limited number */
     out->chains = (struct library_chains){0};
     resolve_graph(lib, impl, out, &faults);
+    diags->num_guesses = faults.num_guesses;
     if (faults.num_errors)
         index_break(lib, impl, &faults);
     for (uint32_t i = 0; !faults.num_errors && i < faults.items.len; i++)
