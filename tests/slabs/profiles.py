@@ -3,7 +3,7 @@
 """The profiles of examples/slab_profiles.mtlx: slabs have the free paths and albedos that the measured coefficients give, by formula, and
 light below the surface goes as far as the scale of the profile says.
 
-Arguments: mxgen, mxgen-render ('' to draw nothing), the root of the project."""
+Arguments: mxgen, mxgen-render ('': only the numbers), the root of the project."""
 import math
 import pathlib
 import re
@@ -76,8 +76,10 @@ def shares(rows):
 def main():
     for material in MATERIALS:
         check_numbers(material)
+    if not RENDER:
+        finish("slab-profiles")
     with tempfile.TemporaryDirectory() as name:
-        skin = traced(pathlib.Path(name), "Skin") if RENDER else None
+        skin = traced(pathlib.Path(name), "Skin")
         if not skin:
             skip("without a Vulkan device nothing is drawn")
             finish("slab-profiles")
