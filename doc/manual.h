@@ -7,6 +7,7 @@
 #define MXG_DOC_MANUAL_H
 
 #include "program/cli.h"
+#include "program/name_table.h"
 #include "program/store.h"
 
 #include <mxgen/mxgen.h>
@@ -67,7 +68,8 @@ struct manual {
     struct manual_node *nodes; /* in order of group, then name */
     size_t num_nodes, num_variants;
     uint32_t num_targets;
-    struct store store; /* owns all memory of the reference */
+    struct store store;      /* owns all other memory of the reference */
+    struct name_table names; /* of nodes */
 };
 
 /* model.c: the definitions from `first` on. */

@@ -202,10 +202,9 @@ static void add_targets(struct manual *manual, struct manual_node *node,
  */
 static const char *unique_id(struct manual *manual, const mxg_nodedef *def)
 {
-    for (size_t i = 0; i < manual->num_nodes; ++i)
-        if (strcmp(manual->nodes[i].name, def->node) == 0)
-            return manual_keep(manual, cli_format("%s-%s", def->node, def->group));
-    return def->node;
+    bool is_new;
+    names_add(&manual->names, def->node, &is_new);
+    return is_new ? def->node : manual_keep(manual, cli_format("%s-%s", def->node, def->group));
 }
 
 /* The entry of `num` definitions of one node. */

@@ -57,4 +57,5 @@ void library_doc(struct cli *cli, const struct library_args *args)
     if (args->markdown || both)
         write_page(&manual, cli, folder, "index.md", manual_write_markdown);
     store_finish(&manual.store);
+    names_finish(&manual.names);
 }

@@ -57,10 +57,11 @@ class Draft:
         made = re.sub(r"\W", "_", name, flags=re.ASCII)
         made = made if made and not made[0].isdigit() else f"_{made}"
         stem = made.rstrip("0123456789")
-        number = int(made[len(stem):] or 1)
+        number, known = int(made[len(stem):] or 1), self.edit._numbers
         while self.child(made) is not None:
-            number += 1
+            number = max(number, known.get((self.number, stem), 0)) + 1
             made = f"{stem}{number}"
+            known[self.number, stem] = number - 1  # all up to it are taken
         return made
 
     def set(self, attribute: str, value: str | None) -> Draft:
@@ -136,6 +137,7 @@ class Edit(Native):
         self._library = library
         self._source = source
         self._document: Document | None = None
+        self._numbers: dict[tuple[int, str], int] = {}  # by element and stem: a number up to which `unique_name` tries no name again
 
     # ---- Calls ----
 

@@ -31,6 +31,12 @@ SHAPES = [
     ("views of unknown nodes", "inspect --graph", ("<add name='a#' type='float'><input name='in1' type='float' nodename='xa#'/></add>",)),
     ("views of unknown types", "inspect --graph", ("<constant name='c#' type='flot#'/>",)),
     (
+        "definitions of a reference",
+        "library doc",
+        ("<nodedef name='ND_#' node='n#'><input name='a' type='float' value='1'/><output name='out' type='float'/></nodedef>",),
+        ("<nodegraph name='NG#' nodedef='ND_#'><dot name='d' type='float'/><output name='out' type='float' nodename='d'/></nodegraph>",),
+    ),
+    (
         "graphs of a library with unknown nodes",
         "library pack",
         ("<nodedef name='ND_#' node='n#'><input name='a' type='float' value='1'/><output name='out' type='float'/></nodedef>",),
@@ -403,7 +409,7 @@ def document(shape, count):
     command, version, parts = ["validate"], "1.39", list(shape[1:])
     if isinstance(parts[0], str) and parts[0].startswith("-"):
         command = parts.pop(0).split() + ["--stdout"]
-    elif parts[0] in ("import", "upgrade", "inspect --graph", "library pack"):
+    elif parts[0] in ("import", "upgrade", "inspect --graph", "library pack", "library doc"):
         command = parts.pop(0).split()
     if isinstance(parts[0], str) and parts[0].startswith("1."):
         version = parts.pop(0)
@@ -428,7 +434,7 @@ def work(mxgen, folder, shape, count):
         file.write(text)
     counter = ["valgrind", "--tool=cachegrind", "--cache-sim=no", "--cachegrind-out-file=/dev/null"]
     arguments = [mxgen, name] + command if command[0].startswith("-") else [mxgen] + command + [name]
-    arguments += ["-o", name + ".mtlx"] if is_gltf or command[-1] == "pack" else []
+    arguments += ["-o", name + ".mtlx"] if is_gltf or command[0] == "library" else []
     run = subprocess.run(counter + arguments + ["--max-errors", "0"], capture_output=True, check=False)
     found = re.findall(rb"I +refs: +([\d,]+)", run.stderr)
     checks.check(run.returncode in (0, 1) and found, f"{shape[0]}: ends with {run.returncode}")

@@ -6,6 +6,7 @@ import pathlib
 import tempfile
 import threading
 import unittest
+import unittest.mock
 import zipfile
 
 import common
@@ -125,6 +126,11 @@ class Values(unittest.TestCase):
         edit.add("noise2d", edit.unique_name("SR"), "float")
         self.assertEqual(edit.unique_name("SR"), "SR3")
         self.assertEqual(edit["SR"].unique_name("base_color"), "base_color2")
+        child, looked = mxgen.edit.Draft.child, []
+        with unittest.mock.patch.object(mxgen.edit.Draft, "child", lambda draft, name: looked.append(name) or child(draft, name)):
+            for _ in range(100):
+                edit.add("constant", edit.unique_name("many"), "float")
+        self.assertLess(len(looked), 400)  # not each number for each name
         self.assertTrue("SR2" in edit and "SR3" not in edit)
         edit.cancel()
 
