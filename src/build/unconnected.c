@@ -4,6 +4,8 @@
 
 #include "lower/lower.h"
 
+#include <math.h>
+
 /* The name of an enum value stands for the value at the same position of enumvalues. */
 static str_id enum_value(struct builder *b, const struct port *port, str_id text)
 {
@@ -40,6 +42,18 @@ static bool parse(struct builder *b, doc_type type, str_id text, const struct po
                               out);
 }
 
+static void report_infinite(struct builder *b, const struct ir_value *value, str_id text,
+                            elem_id element)
+{
+    unsigned components = ir_type_is_float(value->type) ? ir_type_components(value->type) : 0;
+    for (unsigned i = 0; i < components; i++)
+        if (!isfinite(value->w[i].f)) {
+            doc_report_infinite(build_text(b, text),
+                                doc_attr_place(build_doc(b), element, STR_value), b->diags);
+            return;
+        }
+}
+
 ir_ref build_constant(struct builder *b, const struct port *port, str_id text, elem_id element)
 {
     ir_type_id ir = build_type(b, port->type);
@@ -49,18 +63,20 @@ ir_ref build_constant(struct builder *b, const struct port *port, str_id text, e
                            b->diags);
         return ir_const_string(b->graph, text);
     }
-    if (parse(b, port->type, text, port, &value))
+    if (parse(b, port->type, text, port, &value)) {
+        report_infinite(b, &value, text, element);
         return ir_const(b->graph, &value);
+    }
     if (text == doc_attr_value(build_doc(b), element, STR_value)
         && doc_read_loosely(port->type, build_text(b, text), str_len(&b->lib->strings, text),
                             &value)) {
         library_report_loose(b->lib, element, port->type, b->diags);
+        report_infinite(b, &value, text, element);
         return ir_const(b->graph, &value);
     }
-    diag_add(b->diags, DIAG_ID_bad_value, doc_attr_place(build_doc(b), element, STR_value),
-             build_text(b, text), build_text(b, library_type_name(b->lib, port->type)),
-             doc_value_fault(port->type, build_text(b, text), str_len(&b->lib->strings, text),
-                             b->diags->arena));
+    doc_report_value(port->type, build_text(b, library_type_name(b->lib, port->type)),
+                     build_text(b, text), doc_attr_place(build_doc(b), element, STR_value),
+                     b->diags);
     return ir_poison(b->graph, ir);
 }
 

@@ -59,6 +59,8 @@ bool doc_value_is_valid(doc_type type, const char *text, size_t len);
  * MaterialX reads.
  */
 unsigned doc_read_loosely(doc_type type, const char *text, size_t len, struct ir_value *out);
+/* True for numbers with a fraction, and arrays of them. */
+bool doc_type_is_float(doc_type type);
 /* The reason why a value is invalid, as a suffix for a message. */
 const char *doc_value_fault(doc_type type, const char *text, size_t len, struct arena *arena);
 
@@ -560,6 +562,11 @@ void doc_report_outdated(const struct document *doc, elem_id element, struct dia
  */
 void doc_report_loose(const struct document *doc, elem_id element, doc_type type,
                       const char *suggestion, struct diag_list *diags);
+/* Reports a text that is no value of the type. */
+void doc_report_value(doc_type type, const char *type_name, const char *text,
+                      struct diag_place place, struct diag_list *diags);
+/* Reports the first number in a value that a float cannot hold; the value is infinite. */
+void doc_report_infinite(const char *text, struct diag_place place, struct diag_list *diags);
 /* Reports the type of an element if it is unknown or missing. */
 void doc_report_type(const struct document *doc, elem_id element, struct diag_list *diags);
 

@@ -208,18 +208,42 @@ static bool has_value(str_id attr)
            || attr == STR_uisoftmin || attr == STR_uisoftmax || attr == STR_uistep;
 }
 
+/* interfacename-ignored */
+static bool refers_to_itself(const struct document *doc, elem_id element)
+{
+    const struct element *e = doc_element(doc, element), *owner = doc_element(doc, e->parent);
+    str_id name = doc_attr_value(doc, element, STR_interfacename);
+    return name && e->kind == KIND_INPUT && owner->kind == KIND_NODEGRAPH
+           && !doc_child_of_kind(doc, owner->parent, KIND_INPUT, name);
+}
+
+/*
+ * True for a value that generation reads, and so may not be empty: a connection replaces it, and a
+ * definition has none.
+ */
+static bool counts(const struct document *doc, elem_id element)
+{
+    const struct element *e = doc_element(doc, element);
+    bool is_port = e->kind == KIND_INPUT || e->kind == KIND_OUTPUT;
+    return is_port && doc_element(doc, e->parent)->kind != KIND_NODEDEF
+           && (!doc_is_connected(doc, element) || refers_to_itself(doc, element));
+}
+
 static void check_value(struct validation *v, elem_id element, doc_type type, str_id attr,
                         str_id value)
 {
     size_t len = str_len(v->doc->strings, value);
-    if (value && attr == STR_value && doc_read_loosely(type, text_of(v, value), len, NULL)) {
+    struct diag_place place = doc_attr_place(v->doc, element, attr);
+    if (doc_type_is_float(type))
+        doc_report_infinite(text_of(v, value), place, v->diags);
+    if (!value && (attr != STR_value || !counts(v->doc, element)))
+        return;
+    if (attr == STR_value && doc_read_loosely(type, text_of(v, value), len, NULL)) {
         /* the definition of a node has a suggestion: library_report_loose */
         if (doc_element(v->doc, doc_element(v->doc, element)->parent)->kind != KIND_NODE)
             doc_report_loose(v->doc, element, type, "", v->diags);
-    } else if (value && !doc_value_is_valid(type, text_of(v, value), len))
-        diag_add(v->diags, DIAG_ID_bad_value, doc_attr_place(v->doc, element, attr),
-                 text_of(v, value), text_of(v, doc_type_name(type)),
-                 doc_value_fault(type, text_of(v, value), len, v->arena));
+    } else if (!doc_value_is_valid(type, text_of(v, value), len))
+        doc_report_value(type, text_of(v, doc_type_name(type)), text_of(v, value), place, v->diags);
 }
 
 static void check_type_and_values(struct validation *v, elem_id element)
@@ -235,15 +259,6 @@ static void check_type_and_values(struct validation *v, elem_id element)
     for (uint32_t i = 0; i < e->num_attrs; i++)
         if (has_value(attrs[i].name))
             check_value(v, element, type, attrs[i].name, attrs[i].value);
-}
-
-/* interfacename-ignored */
-static bool refers_to_itself(const struct document *doc, elem_id element)
-{
-    const struct element *e = doc_element(doc, element), *owner = doc_element(doc, e->parent);
-    str_id name = doc_attr_value(doc, element, STR_interfacename);
-    return name && e->kind == KIND_INPUT && owner->kind == KIND_NODEGRAPH
-           && !doc_child_of_kind(doc, owner->parent, KIND_INPUT, name);
 }
 
 static void check_bindings(struct validation *v, elem_id element)

@@ -4,6 +4,7 @@
 #include "document/document.h"
 
 #include <assert.h>
+#include <math.h>
 
 static bool is_space(char c)
 {
@@ -46,9 +47,10 @@ struct number_text {
     const char *text;
     size_t len;
     bool integer;
-    bool loose;   /* what stands behind a number up to the next separator is no fault */
-    size_t fault; /* found: where no number stands */
-    size_t rest;  /* found: the first text behind a number; 0: none */
+    bool loose;              /* what stands behind a number up to the next separator is no fault */
+    size_t fault;            /* found: where no number stands */
+    size_t rest;             /* found: the first text behind a number; 0: none */
+    struct text_word beyond; /* found: the first number that a float cannot hold */
 };
 
 /* The place behind a number and its rest. */
@@ -74,6 +76,8 @@ static int64_t find_numbers(struct number_text *t, union ir_word *out, size_t ma
         t->fault = at;
         if (read == 0)
             return -1;
+        if (!t->integer && !isfinite(word.f) && !t->beyond.len)
+            t->beyond = (struct text_word){t->text + at, read};
         if (count < max_kept)
             out[count] = word;
         count++;
@@ -207,6 +211,22 @@ void doc_report_loose(const struct document *doc, elem_id element, doc_type type
              *suggestion ? suggestion : decimal_hint(type, numbers.text, count, diags->arena));
 }
 
+void doc_report_infinite(const char *text, struct diag_place place, struct diag_list *diags)
+{
+    struct number_text numbers = {.text = text, .len = strlen(text), .loose = true};
+    find_numbers(&numbers, NULL, 0);
+    if (numbers.beyond.len)
+        diag_add(diags, DIAG_ID_infinite_number, place,
+                 arena_strndup(diags->arena, numbers.beyond.bytes, numbers.beyond.len));
+}
+
+bool doc_type_is_float(doc_type type)
+{
+    bool is_array = type >= DOC_TYPE_integerarray && type <= DOC_TYPE_vector4array;
+    return (doc_type_components(type) || is_array) && type != DOC_TYPE_integer
+           && type != DOC_TYPE_boolean && type != DOC_TYPE_integerarray;
+}
+
 bool doc_value_is_valid(doc_type type, const char *text, size_t len)
 {
     struct ir_value value;
@@ -218,6 +238,17 @@ bool doc_value_is_valid(doc_type type, const char *text, size_t len)
     assert((size_t)(type - DOC_TYPE_integerarray) < sizeof group);
     int64_t count = parse_numbers(type == DOC_TYPE_integerarray, text, len, NULL, 0);
     return count >= 0 && count % group[type - DOC_TYPE_integerarray] == 0;
+}
+
+/* Why a number is no integer; NULL: the word is no number. */
+static const char *fault_of_integer(const char *word, size_t len)
+{
+    float number;
+    if (num_parse_float(word, len, &number) != len)
+        return NULL;
+    return strspn(word, "+-0123456789") >= len
+               ? "it is beyond the integers, which are -2147483648 to 2147483647"
+               : "an integer has no fraction and no exponent";
 }
 
 const char *doc_value_fault(doc_type type, const char *text, size_t len, struct arena *arena)
@@ -242,15 +273,22 @@ const char *doc_value_fault(doc_type type, const char *text, size_t len, struct 
         end++;
     if (end == fault)
         return ": a number is missing after a comma";
-    float number;
-    if (integer && num_parse_float(text + fault, end - fault, &number) == end - fault)
-        return ": an integer has no fraction and no exponent";
     unsigned components = doc_type_components(type);
-    if (!fault && end == len && components) { /* the message has the word already */
+    bool is_all = !fault && end == len; /* the message has the word already */
+    const char *of_integer = integer ? fault_of_integer(text + fault, end - fault) : NULL;
+    if (of_integer)
+        text_fmt(&message, ": %s", of_integer);
+    else if (is_all && components)
         text_fmt(&message, components > 1 ? ": it is %u numbers" : ": it is a number", components);
-        return text_cstr(&message);
-    }
-    text_fmt(&message, ": '%.*s' is not a valid %s", (int)(end - fault), text + fault,
-             integer ? "integer" : "number");
+    else
+        text_fmt(&message, ": '%.*s' is not a valid %s", (int)(end - fault), text + fault,
+                 integer ? "integer" : "number");
     return text_cstr(&message);
+}
+
+void doc_report_value(doc_type type, const char *type_name, const char *text,
+                      struct diag_place place, struct diag_list *diags)
+{
+    diag_add(diags, DIAG_ID_bad_value, place, text, type_name,
+             doc_value_fault(type, text, strlen(text), diags->arena));
 }
