@@ -68,7 +68,9 @@ uint8_t *gltf_source_resolve(const struct gltf_source *source, const char *uri, 
     if (strstr(uri, "://") || strncmp(uri, "data:", strlen("data:")) == 0)
         return NULL;
     char *name = decode_percent(uri), *path = cli_beside(source->path, name);
-    *out_fault = mxg_context_file_fault(source->cli->context, source->path, path);
+    *out_fault = strchr(name, '\\')
+                     ? "a URI has '/' between folders; documents read '\\' as that, too"
+                     : mxg_context_file_fault(source->cli->context, source->path, path);
     free(name);
     if (*out_fault)
         free(path);

@@ -18,6 +18,8 @@ void import_tell_loss(struct importing *importing, const char *of, const char *f
     va_start(args, format);
     vsnprintf(text, sizeof text, format, args);
     va_end(args);
+    for (char *c = text; *c; ++c)
+        *c = *c == '\n' || *c == '\t' ? '?' : *c; /* a URI of the file does not end the line */
     report_warning(&importing->source.cli->report, "import-loss",
                    "'%s' of '%s' is not in the document as it is: %s", of, importing->source.path,
                    text);

@@ -186,6 +186,10 @@ check 'missing bytes are told' loses short.gltf 'the bytes of the image are miss
 check 'the web is not read' loses web.gltf "'https://example.com/a.png': it is no file beside it"
 check 'other kinds of images are told' loses basis.gltf "'baseColorTexture' has no image in PNG or JPEG"
 check 'a missing file is told' loses other/missing.gltf "there is no file 'other/nowhere.png'"
+sed 's|nowhere.png|now\\nhere.png|' other/missing.gltf >other/line.gltf
+check 'a URI does not end the line of a message' loses other/line.gltf "there is no file 'other/now?here.png'"
+sed 's|nowhere.png|..\\\\nowhere.png|' other/missing.gltf >other/back.gltf
+check 'a backslash is no part of a URI' eval 'loses other/back.gltf "a URI has" && ! grep -q nowhere lost.mtlx'
 options=--sandbox
 check 'a sandbox has a border' loses other/above.gltf "'../secret.png': it is outside"
 printf '{"asset": {"version": "2.0"},\n "materials": [}' >broken.gltf
