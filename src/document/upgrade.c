@@ -79,7 +79,7 @@ static const struct node_rename {
     {37, "separate", IN_TYPE_IS, "color3", "separate3", ""},
     {37, "separate", IN_TYPE_IS, "vector3", "separate3", ""},
     {37, "separate", HAS_INPUT, "in", "separate2", ""},
-    {37, "geomattrvalue", ALWAYS, NULL, "geompropvalue", ""},
+    {37, "geomattrvalue", ALWAYS, NULL, "geompropvalue", "attrname>geomprop"},
     {38, "atan2", ALWAYS, NULL, "atan2", "in1>in2 in2>in1"},
     {38, "diffuse_brdf", ALWAYS, NULL, "oren_nayar_diffuse_bsdf", ""},
     {38, "burley_diffuse_brdf", ALWAYS, NULL, "burley_diffuse_bsdf", ""},
@@ -307,6 +307,8 @@ static void upgrade_definitions(struct upgrade *u)
             move_nodedef_type(u, e);
         else if (element->kind == KIND_BACKDROP)
             upgrade_backdrop(u, e);
+        else
+            upgrade_property(u, e); /* was <geomattrvalue> */
     }
 }
 

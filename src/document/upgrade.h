@@ -81,6 +81,8 @@ void upgrade_complex_ior(struct upgrade *u); /* 1.38 */
 void upgrade_thin_films(struct upgrade *u);  /* 1.39 */
 
 /* upgrade_always.c: every version */
+/* Gives a node that reads a property of the geometry its inputs, and strings their category. */
+void upgrade_property(struct upgrade *u, elem_id element);
 void upgrade_always(struct upgrade *u);
 /* True if it may change the element. */
 bool upgrade_always_changes(const struct document *doc, elem_id element);

@@ -18,6 +18,37 @@ static void lower_boolean(struct upgrade *u, elem_id element, str_id attr)
     }
 }
 
+static bool reads_property(str_id category)
+{
+    return category == STR_geompropvalue || category == STR_geompropvalueuniform;
+}
+
+/* Names may have no index yet. */
+static bool has_input(const struct document *doc, elem_id node, str_id name)
+{
+    for (elem_id e = doc_element(doc, node)->first_child; e; e = doc_element(doc, e)->next)
+        if (doc_element(doc, e)->name == name)
+            return true;
+    return false;
+}
+
+/* The specification of geometry extensions writes these inputs as attributes. */
+static void make_inputs(struct upgrade *u, elem_id node)
+{
+    static const str_id names[] = {STR_geomprop, STR_default};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        str_id value = doc_attr_value(u->doc, node, names[i]);
+        if (!value || has_input(u->doc, node, names[i]))
+            continue;
+        const char *name = str_text(u->doc->strings, names[i]);
+        str_id type = names[i] == STR_default ? doc_attr_value(u->doc, node, STR_type) : STR_string;
+        doc_remove_attr(u->doc, node, names[i]);
+        upgrade_add_input(u, node, name, type, value);
+        upgrade_note(u, node, "the attribute '%s' of <%s> is now an input", name,
+                     str_text(u->doc->strings, doc_element(u->doc, node)->category));
+    }
+}
+
 /* Strings are uniform properties. */
 static void make_uniform(struct upgrade *u, elem_id node)
 {
@@ -47,6 +78,14 @@ static void make_definition_uniform(struct upgrade *u, elem_id nodedef)
                  str_text(u->doc->strings, type));
 }
 
+void upgrade_property(struct upgrade *u, elem_id element)
+{
+    if (!upgrade_is_node(u, element) || !reads_property(doc_element(u->doc, element)->category))
+        return;
+    make_inputs(u, element);
+    make_uniform(u, element);
+}
+
 void upgrade_always(struct upgrade *u)
 {
     static const str_id switches[] = {STR_uniform, STR_isdefaultversion, STR_uiadvanced,
@@ -59,14 +98,14 @@ void upgrade_always(struct upgrade *u)
         if (doc_element(u->doc, e)->kind == KIND_NODEDEF)
             make_definition_uniform(u, e);
         else
-            make_uniform(u, e);
+            upgrade_property(u, e);
     }
 }
 
 bool upgrade_always_changes(const struct document *doc, elem_id element)
 {
     const struct element *e = doc_element(doc, element);
-    if (e->category == STR_geompropvalue || e->kind == KIND_NODEDEF)
+    if (reads_property(e->category) || e->kind == KIND_NODEDEF)
         return true;
     for (uint32_t i = 0; i < e->num_attrs; i++)
         for (size_t k = 0; k < NUM_WORDS; k++)
