@@ -34,6 +34,8 @@ void validate_attributes_of(struct validate *v, elem_id element);
 void validate_uniform(struct validate *v, elem_id node, const struct port *port,
                       const struct binding *binding);
 void validate_declaration(struct validate *v, elem_id element);
+/* The spaces of a change of space exist; its definition, as in MaterialX, has no list of them. */
+void validate_space(struct validate *v, elem_id node, const struct port *port, elem_id input);
 /* Reports two implementations of one definition for the same target. */
 void validate_implementations(struct validate *v, struct arena *scratch);
 void validate_unit(struct validate *v, elem_id node, const struct port *port, elem_id input);

@@ -77,6 +77,7 @@ void validate_input(struct validate *v, elem_id node, uint32_t nodedef, const st
     if (port->type == DOC_TYPE_string)
         library_check_enum(v->lib, port, text, doc_attr_place(v->doc, binding->element, STR_value),
                            v->diags);
+    validate_space(v, node, port, binding->element);
     check_range(v, binding->element, port, text);
     validate_unit(v, node, port, binding->element);
 }

@@ -96,6 +96,29 @@ void validate_uniform(struct validate *v, elem_id node, const struct port *port,
              text_of(v, doc_element(v->doc, varies)->name));
 }
 
+/* ---- Spaces ---- */
+
+static bool is_among(const char *word, const char *const *words, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (strcmp(words[i], word) == 0)
+            return true;
+    return false;
+}
+
+void validate_space(struct validate *v, elem_id node, const struct port *port, elem_id input)
+{
+    static const char *const nodes[] = {"transformpoint", "transformvector", "transformnormal"},
+                             *const inputs[] = {"fromspace", "tospace"},
+                             *const spaces[] = {"model", "object", "world"};
+    const char *category = text_of(v, doc_element(v->doc, node)->category),
+               *space = text_of(v, doc_attr_value(v->doc, input, STR_value));
+    if (is_among(text_of(v, port->name), inputs, 2) && is_among(category, nodes, 3) && *space
+        && !is_among(space, spaces, 3))
+        diag_add(v->diags, DIAG_ID_unknown_space, doc_attr_place(v->doc, input, STR_value), space,
+                 category, diag_suggest(v->diags, space, spaces, 3));
+}
+
 /* ---- Declarations ---- */
 
 static void report(struct validate *v, elem_id element, const char *what)
