@@ -238,6 +238,9 @@ void build_trace(void *builder, struct diag_list *list);
 /* The value of a binding. The bound node must have results already. `node` owns the input. */
 ir_ref build_input(struct builder *b, struct instance *scope, elem_id node, const struct port *port,
                    const struct binding *binding);
+/* build_input without the conversion: in the colour space and the unit that it is written in. */
+ir_ref build_written_input(struct builder *b, struct instance *scope, elem_id node,
+                           const struct port *port, const struct binding *binding);
 
 /* published.c */
 
@@ -299,6 +302,11 @@ bool build_evaluate(struct builder *b, ir_ref value, struct ir_value *out);
  */
 ir_ref build_color_transform(struct builder *b, ir_ref value, doc_type type, str_id space,
                              struct diag_place place);
+/* build_color_transform without a report; 0: the library has no such transform. */
+ir_ref build_find_transform(struct builder *b, ir_ref value, doc_type type, str_id space);
+/* Types whose values have a colour space, and those whose values have a unit. */
+bool build_is_color(doc_type type);
+bool build_is_measure(doc_type type);
 /* Reports an option with an unsupported space or unit. */
 void build_check_colorspace(struct builder *b);
 void build_check_distance_unit(struct builder *b);
@@ -340,6 +348,27 @@ bool build_meaning_of_property(struct builder *b, elem_id node, struct build_mea
 /* A value of a type in the working space and the unit of the target; other types stay. */
 ir_ref build_convert(struct builder *b, ir_ref value, doc_type type,
                      const struct build_meaning *meaning);
+
+/*
+ * inverse.c: the value that build_convert turns into a value of the type; 0 with the reason: there
+ * is none. Colours are constants, or have their initial values.
+ */
+ir_ref build_unconvert(struct builder *b, ir_ref value, doc_type type,
+                       const struct build_meaning *meaning, const char **out_fault);
+
+/*
+ * files.c: the meaning of the files that a node reads, and so of its results, unless an input
+ * inside of its definition says it; false: it reads none.
+ */
+bool build_meaning_of_files(struct builder *b, const struct frame *frame,
+                            struct build_meaning *out);
+/*
+ * True for an input, of a node that reads files, that stands in where a file has no texels:
+ * `default` of an image. It is converted with them afterwards, so build_border gives it in the
+ * space and the unit of the file.
+ */
+bool build_is_border(const struct builder *b, const struct frame *frame, const struct port *port);
+ir_ref build_border(struct builder *b, const struct frame *frame, uint32_t input);
 
 /* texture.c: the file of the document that has an element; "": the library has it. */
 const char *build_file_of(const struct builder *b, elem_id element);

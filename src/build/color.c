@@ -53,8 +53,7 @@ void build_check_distance_unit(struct builder *b)
                  "a distance unit of the library, for example meter or centimeter");
 }
 
-ir_ref build_color_transform(struct builder *b, ir_ref value, doc_type type, str_id space,
-                             struct diag_place place)
+ir_ref build_find_transform(struct builder *b, ir_ref value, doc_type type, str_id space)
 {
     assert(type == DOC_TYPE_color3 || type == DOC_TYPE_color4);
     const char *from = build_text(b, space),
@@ -64,8 +63,15 @@ ir_ref build_color_transform(struct builder *b, ir_ref value, doc_type type, str
     if (!result)
         result = transform(b, strcmp(from, hub) == 0 ? value : transform(b, value, type, from, hub),
                            type, hub, to);
+    return result;
+}
+
+ir_ref build_color_transform(struct builder *b, ir_ref value, doc_type type, str_id space,
+                             struct diag_place place)
+{
+    ir_ref result = build_find_transform(b, value, type, space);
     if (!result && b->has_colorspace)
-        library_report_space(b->lib, from, place, b->diags);
+        library_report_space(b->lib, build_text(b, space), place, b->diags);
     return result ? result : ir_poison(b->graph, ir_type_of(b->graph, value));
 }
 
@@ -205,15 +211,24 @@ struct build_meaning build_meaning_of_file(struct builder *b, const struct frame
     return meaning;
 }
 
+bool build_is_color(doc_type type)
+{
+    return type == DOC_TYPE_color3 || type == DOC_TYPE_color4;
+}
+
+bool build_is_measure(doc_type type)
+{
+    return type == DOC_TYPE_float || type == DOC_TYPE_vector2 || type == DOC_TYPE_vector3
+           || type == DOC_TYPE_vector4;
+}
+
 ir_ref build_convert(struct builder *b, ir_ref value, doc_type type,
                      const struct build_meaning *meaning)
 {
-    bool is_color = type == DOC_TYPE_color3 || type == DOC_TYPE_color4;
-    bool is_measure = type == DOC_TYPE_float || type == DOC_TYPE_vector2 || type == DOC_TYPE_vector3
-                      || type == DOC_TYPE_vector4;
-    if (value && is_color && meaning->space)
+    if (value && build_is_color(type) && meaning->space)
         return build_color_transform(
             b, value, type, meaning->space,
             doc_attr_place(&b->lib->doc, meaning->of_space, STR_colorspace));
-    return value && is_measure && meaning->of_unit ? convert_unit(b, value, meaning) : value;
+    return value && build_is_measure(type) && meaning->of_unit ? convert_unit(b, value, meaning)
+                                                               : value;
 }

@@ -99,7 +99,7 @@ static void note_input(struct builder *b, const struct port *file, const struct 
         texture->sampling.frameoffset = value.w[0].i;
     if (port->name != STR_default || !arg || !is_texel(ir_type_of(b->graph, arg)))
         return;
-    texture->has_default = build_initial(b, arg, &texture->value);
+    texture->has_default = build_evaluate(b, arg, &texture->value);
     if (ir_get(b->graph, arg)->op == IR_UNIFORM) {
         texture->default_from = ir_get(b->graph, arg)->attr + 1;
         texture->fallback = b->options->caps & CAP_MISSING_COLORS ? texture->default_from : 0;

@@ -35,6 +35,30 @@ bool library_graph_says(const struct library *lib, elem_id graph, str_id input, 
     return false;
 }
 
+/* True if the node reads a file. */
+static bool has_file(const struct library *lib, elem_id node)
+{
+    for (elem_id e = doc_element(&lib->doc, node)->first_child; e;
+         e = doc_element(&lib->doc, e)->next)
+        if (doc_attr_value(&lib->doc, e, STR_type) == STR_filename)
+            return true;
+    return false;
+}
+
+bool library_graph_has_border(const struct library *lib, elem_id graph, str_id input)
+{
+    for (elem_id at = doc_element(&lib->doc, graph)->first_child; at;
+         at = doc_next_in_tree(&lib->doc, graph, at)) {
+        if (doc_attr_value(&lib->doc, at, STR_interfacename) != input)
+            continue;
+        str_id name = doc_element(&lib->doc, at)->name;
+        bool stands_in = name == STR_default || strcmp(text_of(lib, name), "fallback") == 0;
+        if (stands_in && has_file(lib, doc_element(&lib->doc, at)->parent))
+            return true;
+    }
+    return false;
+}
+
 uint32_t library_implemented_nodedef(const struct library *lib, elem_id graph)
 {
     str_id name = graph ? doc_attr_value(&lib->doc, graph, STR_nodedef) : 0;

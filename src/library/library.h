@@ -431,6 +431,11 @@ bool library_graph_reads(const struct library *lib, elem_id graph, str_id input)
 /* True if an element in it that reads this input has the attribute. */
 bool library_graph_says(const struct library *lib, elem_id graph, str_id input, str_id attr);
 /*
+ * True if a nodegraph hands its input to a node that reads a file, as the value that stands in for
+ * the file: to `default` of an image, or `fallback` of a UsdUVTexture.
+ */
+bool library_graph_has_border(const struct library *lib, elem_id graph, str_id input);
+/*
  * The definition that a nodegraph implements, by its own attribute or by the first
  * <implementation> of its layer. LIBRARY_NONE.
  */

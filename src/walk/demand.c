@@ -137,42 +137,18 @@ static void build_args(struct builder *b, struct frame *frame)
     assert(frame->next == def->num_inputs);
     const struct port *ports = library_ports(b->lib, frame->node.nodedef, NULL);
     frame->args = ARENA_ARRAY(b->arena, ir_ref, def->num_inputs);
-    for (uint32_t i = 0; i < def->num_inputs; i++)
-        frame->args[i] =
-            build_input(b, frame->scope, frame->node.element, &ports[i], &frame->bindings[i]);
-}
-
-/* The first input for a file that has one, else the first input for a file; their number: none. */
-static uint32_t first_file(const struct builder *b, const struct frame *frame)
-{
-    const struct nodedef *def = library_nodedef(b->lib, frame->node.nodedef);
-    const struct port *ports = library_ports(b->lib, frame->node.nodedef, NULL);
-    uint32_t found = def->num_inputs;
-    for (uint32_t i = 0; i < def->num_inputs; i++) {
-        if (ports[i].type != DOC_TYPE_filename)
-            continue;
-        if (frame->bindings[i].kind != BIND_DEFAULT)
-            return i;
-        found = found < i ? found : i;
-    }
-    return found;
-}
-
-/* Finds what the node's file means, unless an input inside of the definition says it. */
-static bool find_meaning_of_file(struct builder *b, const struct frame *frame,
-                                 struct build_meaning *out)
-{
-    const struct port *ports = library_ports(b->lib, frame->node.nodedef, NULL);
-    uint32_t i = first_file(b, frame);
-    if (i == library_nodedef(b->lib, frame->node.nodedef)->num_inputs)
-        return false;
-    *out = build_meaning_of_file(b, frame, i);
-    bool is_graph = frame->impl->kind == IMPL_GRAPH;
-    if (is_graph && library_graph_says(b->lib, frame->impl->ref, ports[i].name, STR_colorspace))
-        out->space = 0;
-    if (is_graph && library_graph_says(b->lib, frame->impl->ref, ports[i].name, STR_unit))
-        out->of_unit = 0;
-    return true;
+    bool has_file = false;
+    for (uint32_t pass = 0; pass < 2; pass++) /* files first: they say what a border means */
+        for (uint32_t i = 0; i < def->num_inputs; i++) {
+            bool is_file = ports[i].type == DOC_TYPE_filename;
+            has_file |= is_file;
+            if (is_file == (pass == 1))
+                continue;
+            frame->args[i] = has_file && build_is_border(b, frame, &ports[i])
+                                 ? build_border(b, frame, i)
+                                 : build_input(b, frame->scope, frame->node.element, &ports[i],
+                                               &frame->bindings[i]);
+        }
 }
 
 /*
@@ -185,7 +161,7 @@ static void convert_results(struct builder *b, const struct frame *frame, ir_ref
     const struct nodedef *def = library_nodedef(b->lib, frame->node.nodedef);
     const struct port *ports = library_ports(b->lib, frame->node.nodedef, NULL);
     struct build_meaning meaning;
-    if (!find_meaning_of_file(b, frame, &meaning)
+    if (!build_meaning_of_files(b, frame, &meaning)
         && !build_meaning_of_property(b, frame->node.element, &meaning))
         return;
     for (uint32_t o = 0; o < def->num_outputs; o++)

@@ -115,11 +115,6 @@ static elem_id owner_of(const struct builder *b, elem_id node, elem_id element)
                : node;
 }
 
-static bool is_color(doc_type type)
-{
-    return type == DOC_TYPE_color3 || type == DOC_TYPE_color4;
-}
-
 /*
  * The value at the end of a chain of connections, as its element has it, or without a meaning the
  * default. In the document it exists once for all readers,
@@ -139,7 +134,7 @@ static ir_ref end_of_chain(struct builder *b, struct instance *scope, elem_id no
         return b->results.items[*slot - SLOT_RESULTS];
     b->reader.node = node;
     b->reader.input = port->name;
-    b->reader.transforms = meaning && is_color(port->type) && meaning->space;
+    b->reader.transforms = meaning && build_is_color(port->type) && meaning->space;
     ir_ref value = says_value ? literal(b, scope, owner, port, element, outermost)
                               : unset(b, scope, owner, port, element, outermost);
     b->reader.transforms = false;
@@ -149,6 +144,18 @@ static ir_ref end_of_chain(struct builder *b, struct instance *scope, elem_id no
         vec_push(b->arena, &b->results, value);
     }
     return value;
+}
+
+ir_ref build_written_input(struct builder *b, struct instance *scope, elem_id node,
+                           const struct port *port, const struct binding *binding)
+{
+    assert(binding->kind == BIND_INTERFACE || binding->kind == BIND_VALUE);
+    if (binding->kind == BIND_INTERFACE)
+        return interface_arg(b, scope, port, binding);
+    struct build_meaning meaning = build_meaning_of(b, node, port, binding);
+    bool is_ignored =
+        ignores_value(b, node, owner_of(b, node, binding->element), port, binding->element);
+    return end_of_chain(b, scope, node, port, binding, is_ignored ? NULL : &meaning);
 }
 
 static ir_ref source_value(struct builder *b, struct instance *scope, elem_id node,

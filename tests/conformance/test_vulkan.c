@@ -5,6 +5,7 @@
  *
  *     test_vulkan TARGET FOLDER INTERFACE [PART PARTS]      the documents of one part of several,
  * counted from 1
+ *     test_vulkan TARGET FOLDER INTERFACE TEXTURE-MODES     with a value of this option
  */
 #include "render/render.h"
 #include "rows.h"
@@ -102,13 +103,15 @@ static bool load_library(struct run *run, const char *folder)
     return run->library != NULL;
 }
 
-/* `where`: the folder and the interface. */
-static bool start(struct run *run, char **where, const char *library, const char *deviations)
+/* `where`: the folder and the interface. `modes`: of textures; NULL: as the option has them. */
+static bool start(struct run *run, char **where, const char *modes, const char *library,
+                  const char *deviations)
 {
     compile_begin();
     return mxg_context_create(NULL, &run->context) == MXG_OK && load_library(run, library)
            && mxg_options_create(run->context, &run->options) == MXG_OK
            && mxg_options_set(run->options, "interface", where[1]) == MXG_OK
+           && (!modes || mxg_options_set(run->options, "texture-modes", modes) == MXG_OK)
            && scene_init_grid(&run->scene) && suite_open(&run->suite, where[0], deviations);
 }
 
@@ -125,15 +128,16 @@ static void stop(struct run *run)
 
 int main(int argc, char **argv)
 {
-    if (argc != 4 && argc != 6 && argc != 8) {
+    if (argc < 4 || argc == 7 || argc > 8) {
         fprintf(stderr,
-                "usage: %s TARGET FOLDER INTERFACE [PART PARTS [LIBRARIES DEVIATIONS.tsv]]\n",
+                "usage: %s TARGET FOLDER INTERFACE [PART PARTS [LIBRARIES DEVIATIONS.tsv] | "
+                "TEXTURE-MODES]\n",
                 argv[0]);
         return 2;
     }
     size_t part = argc >= 6 ? strtoul(argv[4], NULL, 10) : 1,
            parts = argc >= 6 ? strtoul(argv[5], NULL, 10) : 1;
-    const char *library = argc == 8 ? argv[6] : NULL;
+    const char *library = argc == 8 ? argv[6] : NULL, *modes = argc == 5 ? argv[4] : NULL;
     struct run run = {.suite = {.folder = argv[2]}, .target = argv[1]};
     int code = 1;
     if (!compile_knows_target(run.target)) {
@@ -142,7 +146,7 @@ int main(int argc, char **argv)
     } else if (!gpu_open(&run.gpu)) {
         printf("skip: there is no Vulkan device: %s\n", run.gpu.reason);
         code = EXIT_SKIPPED;
-    } else if (start(&run, argv + 2, library, argc == 8 ? argv[7] : NULL)) {
+    } else if (start(&run, argv + 2, modes, library, argc == 8 ? argv[7] : NULL)) {
         for (size_t i = part - 1; i < run.suite.num_documents; i += parts)
             check_document(&run, i);
         char name[64];

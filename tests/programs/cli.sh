@@ -642,4 +642,42 @@ check 'and not from that of its parents' eval '"$mxgen" inspect --ir colours.mtl
 check 'its default is of that space' eval '"$mxgen" colours.mtlx -e o1 -o colours --reflect -q && has colours/o1.json "\"default\": [0.5, 0.5, 0.5]"'
 check 'a default of another space is told' eval 'exits 0 "$mxgen" colours.mtlx -e o3 -o colours && has err "is read in the colour space of the property" "[geomprop-default]"'
 
+# The default of an image stands in for texels, so reflection has it in the space and the unit of the file: sRGB of 0.5 is 0.735357.
+{
+  echo '<materialx version="1.39">'
+  for node in image tiledimage hextiledimage latlongimage gltf_image; do
+    echo "<$node name=\"n_$node\" type=\"color3\"><input name=\"file\" type=\"filename\" value=\"\" colorspace=\"srgb_texture\"/><input name=\"default\" type=\"color3\" value=\"0.5, 0.5, 0.5\" colorspace=\"lin_rec709\"/></$node><output name=\"$node\" type=\"color3\" nodename=\"n_$node\"/>"
+  done
+  cat <<'X'
+  <triplanarprojection name="n_tri" type="color3"><input name="filex" type="filename" value="" colorspace="srgb_texture"/><input name="default" type="color3" value="0.5, 0.5, 0.5"/></triplanarprojection>
+  <output name="triplanarprojection" type="color3" nodename="n_tri"/>
+  <UsdUVTexture name="n_usd" type="multioutput"><input name="file" type="filename" value="" colorspace="srgb_texture"/><input name="fallback" type="color4" value="0.5, 0.5, 0.5, 1"/></UsdUVTexture>
+  <output name="UsdUVTexture" type="color3" nodename="n_usd" output="rgb"/>
+  <tiledimage name="n_same" type="color3" colorspace="srgb_texture"><input name="file" type="filename" value=""/><input name="default" type="color3" value="0.25, 0.25, 0.25"/></tiledimage>
+  <output name="same" type="color3" nodename="n_same"/>
+  <image name="n_plain" type="color3"><input name="file" type="filename" value=""/><input name="default" type="color3" value="0.5, 0.5, 0.5" colorspace="srgb_texture"/></image>
+  <output name="plain" type="color3" nodename="n_plain"/>
+  <tiledimage name="n_feet" type="vector2"><input name="file" type="filename" value="" unit="foot"/><input name="default" type="vector2" value="0.3048, 0.6096"/></tiledimage>
+  <output name="feet" type="vector2" nodename="n_feet"/>
+  <geomcolor name="paint" type="color3"/>
+  <image name="n_varies" type="color3"><input name="file" type="filename" value="" colorspace="srgb_texture"/><input name="default" type="color3" nodename="paint"/></image>
+  <output name="varies" type="color3" nodename="n_varies"/>
+</materialx>
+X
+} >borders.mtlx
+# border ELEMENT TEXT: the reflection of the element, with all inputs as uniforms and without, has the default
+border() {
+  for interface in complete reduced; do
+    "$mxgen" borders.mtlx -e "$1" -o borders --reflect -q --interface $interface && has "borders/$1.json" "\"default\": $2" || return 1
+  done
+}
+for node in image tiledimage hextiledimage latlongimage gltf_image triplanarprojection; do
+  check "the default of <$node> is in the space of the file" border $node '[0.735'
+done
+check 'the fallback of <UsdUVTexture> is in the space of the file' border UsdUVTexture '[0.735'
+check 'a default of the same space stays as it is' border same '[0.25, 0.25, 0.25]'
+check 'a default beside a file without a space is converted' border plain '[0.21404'
+check 'a default is in the unit of the file' border feet '[1.0, 2.0]'
+check 'a default that varies is told' eval 'exits 0 "$mxgen" borders.mtlx -e varies -o borders && has err "borders.mtlx:18:" "it varies" "[image-default]"'
+
 finish cli
