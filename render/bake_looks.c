@@ -19,11 +19,9 @@ bool bake_is_of_look(const mxg_document *document, mxg_element element)
 /* The name that the new document has for a material; NULL: it does not have it. */
 static const char *name_of(const struct baking *baking, const char *material)
 {
-    mxg_element element = mxg_document_find_element(baking->document, 0, material);
-    for (size_t i = 0; i < baking->plan.num_nodes; ++i)
-        if (baking->plan.nodes[i].element == element)
-            return baking->plan.nodes[i].name;
-    return NULL;
+    const struct bake_plan *plan = &baking->plan;
+    size_t index = bake_plan_find(plan, mxg_document_find_element(baking->document, 0, material));
+    return index < plan->num_nodes ? plan->nodes[index].name : NULL;
 }
 
 /* Why an element of a look cannot stay; NULL: it can. */

@@ -328,8 +328,7 @@ static bool is_direction(const mxg_document *document, mxg_element node, const c
     return false;
 }
 
-/* The node of the plan; num_nodes: it is not there yet. */
-static size_t find_node(const struct bake_plan *plan, mxg_element element)
+size_t bake_plan_find(const struct bake_plan *plan, mxg_element element)
 {
     size_t i = 0;
     while (i < plan->num_nodes && plan->nodes[i].element != element)
@@ -388,7 +387,7 @@ static bool add_input(struct bake_plan *plan, struct visits *visits, mxg_element
         return true;
     if (end.node && stays(plan, end.node)) {
         input.way = BAKE_NODE;
-        input.index = find_node(plan, end.node);
+        input.index = bake_plan_find(plan, end.node);
         if (input.index == plan->num_nodes) {
             begin_node(plan, visits, end.node);
             return false;
@@ -465,7 +464,7 @@ bool bake_plan_add(struct bake_plan *plan, const char *path)
                      path);
         return false;
     }
-    if (find_node(plan, root) == plan->num_nodes)
+    if (bake_plan_find(plan, root) == plan->num_nodes)
         begin_node(plan, &visits, root);
     while (visits.num) {
         if (visits.items[visits.num - 1].next)

@@ -87,6 +87,8 @@ bool bake_is_of_look(const mxg_document *document, mxg_element element);
 void bake_plan_begin(struct bake_plan *plan, const mxg_document *document, struct report *report);
 /* Plans a renderable with all that it reads. false after reporting an error. */
 bool bake_plan_add(struct bake_plan *plan, const char *path);
+/* The index of a node of the plan; num_nodes: it is not there. */
+size_t bake_plan_find(const struct bake_plan *plan, mxg_element element);
 /* A name that nothing of the new document has. The caller frees it. */
 char *bake_plan_name(struct bake_plan *plan, const char *wanted);
 /* A name for a file, without its ending, that no file of the plan has. */

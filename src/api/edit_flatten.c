@@ -129,11 +129,6 @@ static elem_id copy_of(struct flattening *f, str_id name)
 
 /* ---- Values ---- */
 
-static bool is_color(doc_type type)
-{
-    return type == DOC_TYPE_color3 || type == DOC_TYPE_color4;
-}
-
 /* Lets an attribute that elements inherit have the value `wanted`; 0: none, which is `none`. */
 static void keep_inherited(struct flattening *f, elem_id port, str_id attr, str_id wanted,
                            str_id none)
@@ -146,7 +141,7 @@ static void keep_meaning(struct flattening *f, elem_id port, elem_id original)
 {
     const struct document *doc = tree_of(f);
     doc_type type = doc_type_of(doc_attr_value(doc, port, STR_type));
-    if (is_color(type) || type == DOC_TYPE_filename)
+    if (doc_type_is_color(type) || type == DOC_TYPE_filename)
         keep_inherited(f, port, STR_colorspace, doc_inherited_attr(doc, original, STR_colorspace),
                        STR_none);
     if (type == DOC_TYPE_filename)
@@ -248,7 +243,7 @@ static void take_default(struct flattening *f, elem_id port, const struct port *
         return;
     if (says)
         keep_meaning(f, port, input->element);
-    else if (is_color(input->type))
+    else if (doc_type_is_color(input->type))
         keep_inherited(f, port, STR_colorspace, STR_EMPTY, STR_none);
 }
 

@@ -304,8 +304,7 @@ ir_ref build_color_transform(struct builder *b, ir_ref value, doc_type type, str
                              struct diag_place place);
 /* build_color_transform without a report; 0: the library has no such transform. */
 ir_ref build_find_transform(struct builder *b, ir_ref value, doc_type type, str_id space);
-/* Types whose values have a colour space, and those whose values have a unit. */
-bool build_is_color(doc_type type);
+/* True for types whose values have a unit. */
 bool build_is_measure(doc_type type);
 /* Reports an option with an unsupported space or unit. */
 void build_check_colorspace(struct builder *b);

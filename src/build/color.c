@@ -211,11 +211,6 @@ struct build_meaning build_meaning_of_file(struct builder *b, const struct frame
     return meaning;
 }
 
-bool build_is_color(doc_type type)
-{
-    return type == DOC_TYPE_color3 || type == DOC_TYPE_color4;
-}
-
 bool build_is_measure(doc_type type)
 {
     return type == DOC_TYPE_float || type == DOC_TYPE_vector2 || type == DOC_TYPE_vector3
@@ -225,7 +220,7 @@ bool build_is_measure(doc_type type)
 ir_ref build_convert(struct builder *b, ir_ref value, doc_type type,
                      const struct build_meaning *meaning)
 {
-    if (value && build_is_color(type) && meaning->space)
+    if (value && doc_type_is_color(type) && meaning->space)
         return build_color_transform(
             b, value, type, meaning->space,
             doc_attr_place(&b->lib->doc, meaning->of_space, STR_colorspace));

@@ -156,7 +156,7 @@ static ir_ref unconvert_color(struct builder *b, ir_ref color, doc_type type, st
 ir_ref build_unconvert(struct builder *b, ir_ref value, doc_type type,
                        const struct build_meaning *meaning, const char **out_fault)
 {
-    if (build_is_color(type) && meaning->space)
+    if (doc_type_is_color(type) && meaning->space)
         return unconvert_color(b, value, type, meaning->space, out_fault);
     if (!build_is_measure(type) || !meaning->of_unit)
         return value;

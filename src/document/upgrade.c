@@ -400,14 +400,6 @@ static void remove_overridden_values(struct upgrade *u)
     }
 }
 
-/* A vector becomes a colour with the same numbers, in any colour space around it. */
-static void make_color(struct upgrade *u, elem_id input)
-{
-    doc_set_attr(u->doc, input, STR_type, STR_color3);
-    if (doc_attr(u->doc, input, STR_value) && doc_inherited_attr(u->doc, input, STR_colorspace))
-        doc_set_attr(u->doc, input, STR_colorspace, STR_none);
-}
-
 /* 1.39: the radius of subsurface scattering is a colour. */
 static void upgrade_subsurface(struct upgrade *u, elem_id node)
 {
@@ -423,7 +415,8 @@ static void upgrade_subsurface(struct upgrade *u, elem_id node)
         doc_remove_attr(u->doc, radius, STR_unittype);
         upgrade_connect(u, radius, convert, NULL);
     }
-    make_color(u, radius);
+    doc_set_attr(u->doc, radius, STR_type, STR_color3);
+    upgrade_keep_numbers(u, radius);
 }
 
 /* A definition of a library changes its input as a node does. */
@@ -433,7 +426,8 @@ static void upgrade_subsurface_definition(struct upgrade *u, elem_id nodedef)
     if (!upgrade_is(u, doc_attr_value(u->doc, nodedef, STR_node), "subsurface_bsdf") || !radius
         || doc_attr_value(u->doc, radius, STR_type) != STR_vector3)
         return;
-    make_color(u, radius);
+    doc_set_attr(u->doc, radius, STR_type, STR_color3);
+    upgrade_keep_numbers(u, radius);
     upgrade_note(u, radius, "the input 'radius' of <subsurface_bsdf> is now a color3");
 }
 

@@ -61,6 +61,8 @@ elem_id upgrade_scope(const struct upgrade *u, elem_id port);
 elem_id upgrade_upstream(const struct upgrade *u, elem_id port);
 /* the type of the connection's source; 0: unknown */
 str_id upgrade_upstream_type(const struct upgrade *u, elem_id port);
+/* Lets a value that became a colour have its numbers in any colour space around it. */
+void upgrade_keep_numbers(struct upgrade *u, elem_id input);
 void upgrade_connect(struct upgrade *u, elem_id port, elem_id node, const char *output);
 /*
  * Copies `source` to an input `name` of `node`. A NULL type keeps the type of the source. Does

@@ -148,11 +148,6 @@ static str_id select_value(struct upgrade *u, const struct selection *s, str_id 
     return str_intern(strings, text.data, text.len);
 }
 
-static bool is_color(str_id type)
-{
-    return type == STR_color3 || type == STR_color4;
-}
-
 /*
  * True if the numbers of a value are not those that its node reads: a colour has a space, of `in`
  * or of the elements around `node`; a number has a unit.
@@ -162,15 +157,8 @@ static bool is_converted(const struct document *doc, elem_id node, const struct 
 {
     str_id space = doc_attr_value(doc, in, STR_colorspace);
     space = space ? space : doc_inherited_attr(doc, node, STR_colorspace);
-    return doc_attr_value(doc, in, STR_unit) || (is_color(s->from) && space && space != STR_none);
-}
-
-/* Adds the value of a constant, whose numbers are those of the selection in any space around it. */
-static void add_value(struct upgrade *u, elem_id node, str_id type, str_id value)
-{
-    elem_id input = upgrade_add_input(u, node, "value", type, value);
-    if (is_color(type) && doc_inherited_attr(u->doc, node, STR_colorspace))
-        doc_set_attr(u->doc, input, STR_colorspace, STR_none);
+    return doc_attr_value(doc, in, STR_unit)
+           || (doc_type_is_color(doc_type_of(s->from)) && space && space != STR_none);
 }
 
 /*
@@ -190,7 +178,8 @@ static void build_selection(struct upgrade *u, elem_id node, const struct select
     if (is_constant(s) || !in || (!connected && !is_converted(doc, node, s, in))) {
         str_id value = in && !connected ? doc_attr_value(doc, in, STR_value) : STR_EMPTY;
         upgrade_set_category(u, node, "constant");
-        add_value(u, node, s->to, select_value(u, s, value));
+        upgrade_keep_numbers(u,
+                             upgrade_add_input(u, node, "value", s->to, select_value(u, s, value)));
     } else if (s->num_to == 1 && s->num_from > 1) {
         static const char *const indices[] = {"0", "1", "2", "3"};
         assert(s->channels[0] < s->num_from);

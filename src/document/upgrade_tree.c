@@ -212,6 +212,14 @@ void upgrade_connect(struct upgrade *u, elem_id port, elem_id node, const char *
         doc_set_attr(u->doc, port, STR_output, upgrade_word(u, output));
 }
 
+void upgrade_keep_numbers(struct upgrade *u, elem_id input)
+{
+    bool is_color = doc_type_is_color(doc_type_of(doc_attr_value(u->doc, input, STR_type)));
+    if (is_color && doc_attr(u->doc, input, STR_value)
+        && doc_inherited_attr(u->doc, input, STR_colorspace))
+        doc_set_attr(u->doc, input, STR_colorspace, STR_none);
+}
+
 void upgrade_copy_input(struct upgrade *u, elem_id source, elem_id node, const char *name,
                         const char *type)
 {

@@ -240,6 +240,11 @@ bool doc_value_is_valid(doc_type type, const char *text, size_t len)
     return count >= 0 && count % group[type - DOC_TYPE_integerarray] == 0;
 }
 
+bool doc_type_is_color(doc_type type)
+{
+    return type == DOC_TYPE_color3 || type == DOC_TYPE_color4;
+}
+
 /* Why a number is no integer; NULL: the word is no number. */
 static const char *fault_of_integer(const char *word, size_t len)
 {

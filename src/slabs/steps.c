@@ -140,7 +140,8 @@ static bool is_worth(enum slab_choice choice, struct slab_cost after, struct sla
                                     : is_lower(after, before));
 }
 
-/* The deepest spot that a choice may blend, above a depth; of equal ones the first. NULL: none. */
+/* The spot that a choice may blend and that comes after `last`: the deepest first, of equal ones in
+ * their order. `last` NULL: the first spot. NULL: there is none. */
 static const struct slab_spot *next_deepest(const struct slab_saver *s, enum slab_choice choice,
                                             const struct slab_spot *last)
 {

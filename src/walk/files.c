@@ -41,7 +41,7 @@ bool build_meaning_of_files(struct builder *b, const struct frame *frame, struct
 
 bool build_is_border(const struct builder *b, const struct frame *frame, const struct port *port)
 {
-    if (!build_is_color(port->type) && !build_is_measure(port->type))
+    if (!doc_type_is_color(port->type) && !build_is_measure(port->type))
         return false;
     return frame->impl->kind == IMPL_GRAPH
                ? library_graph_has_border(b->lib, frame->impl->ref, port->name)
@@ -52,7 +52,7 @@ bool build_is_border(const struct builder *b, const struct frame *frame, const s
 static bool is_alike(struct builder *b, const struct port *port, const struct build_meaning *one,
                      const struct build_meaning *other)
 {
-    if (build_is_color(port->type))
+    if (doc_type_is_color(port->type))
         return one->space == other->space;
     return one->of_unit && other->of_unit
            && build_unit_factor(b, one->of_unit, one->port->element)
@@ -85,7 +85,7 @@ ir_ref build_border(struct builder *b, const struct frame *frame, uint32_t input
     struct build_meaning file;
     bool has_file = build_meaning_of_files(b, frame, &file);
     assert(has_file);
-    if (!has_file || !(build_is_color(port->type) ? file.space : file.of_unit))
+    if (!has_file || !(doc_type_is_color(port->type) ? file.space : file.of_unit))
         return build_input(b, frame->scope, node, port, binding);
     if (binding->kind == BIND_VALUE || binding->kind == BIND_INTERFACE) {
         struct build_meaning own = build_meaning_of(b, node, port, binding);

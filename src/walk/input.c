@@ -134,7 +134,7 @@ static ir_ref end_of_chain(struct builder *b, struct instance *scope, elem_id no
         return b->results.items[*slot - SLOT_RESULTS];
     b->reader.node = node;
     b->reader.input = port->name;
-    b->reader.transforms = meaning && build_is_color(port->type) && meaning->space;
+    b->reader.transforms = meaning && doc_type_is_color(port->type) && meaning->space;
     ir_ref value = says_value ? literal(b, scope, owner, port, element, outermost)
                               : unset(b, scope, owner, port, element, outermost);
     b->reader.transforms = false;
