@@ -11,7 +11,9 @@
 
 #include <assert.h>
 #include <errno.h>
+#ifndef __wasi__
 #include <signal.h>
+#endif
 #include <stdarg.h>
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -207,12 +209,20 @@ static void keep_memory(void)
 #endif
 }
 
+/* A limit of file sizes is told as a full disk is; WebAssembly and Windows have no signal of it. */
+static void ignore_file_limit(void)
+{
+#ifdef SIGXFSZ
+    signal(SIGXFSZ, SIG_IGN);
+#endif
+}
+
 bool cli_start(struct cli *cli, const struct command *command, const struct arg *args,
                size_t num_args, unsigned wants, int argc, char **argv, int *out_exit)
 {
     *cli = (struct cli){.max_errors = MAX_ERRORS};
     keep_memory();
-    signal(SIGXFSZ, SIG_IGN); /* a limit of file sizes is told as a full disk is */
+    ignore_file_limit();
     if (wants & CLI_KEEPS_INPUTS)
         args_append(&cli->warnings, "no-unread-input");
     struct arg table[MAX_OWN_ARGS + MAX_COMMON_ARGS];
