@@ -156,9 +156,20 @@ struct spell_name spell_local_base(struct spell *spell, ir_ref ref);
 
 /* ---- statement.c ---- */
 
+/* Begins a line, which comes from this origin of the graph (0: none). */
+void spell_open_line(struct spell *spell, unsigned indent, uint32_t origin);
+
+/* Writes the head of an `if`, up to the end of its line. */
+void spell_if(struct spell *spell, unsigned indent, ir_ref condition, bool braces);
+
+/* Writes one effect that opens no branch and closes no block; of a loop, its head. */
+void spell_effect(struct spell *spell, unsigned indent, const struct effect *effect);
+void spell_graph_function(struct spell *spell, const struct shader_function *function);
+
+/* ---- block.c ---- */
+
 /* Writes statements with this indentation. Their locals are named in a new scope. */
 void spell_statements(struct spell *spell, const struct effect_list *statements, unsigned indent);
-void spell_graph_function(struct spell *spell, const struct shader_function *function);
 
 /* ---- passed.c: what functions of graphs cannot see ---- */
 

@@ -5,7 +5,7 @@
 #include <assert.h>
 #include <stdio.h>
 
-static void open_line(struct spell *spell, unsigned indent, uint32_t origin)
+void spell_open_line(struct spell *spell, unsigned indent, uint32_t origin)
 {
     spell_mark(spell, origin);
     spell_indent(spell, indent);
@@ -14,7 +14,7 @@ static void open_line(struct spell *spell, unsigned indent, uint32_t origin)
 static void write_assignment(struct spell *spell, unsigned indent, struct spell_name name,
                              const char *operator, ir_ref value)
 {
-    open_line(spell, indent, ir_get(spell->shader->graph, value)->origin);
+    spell_open_line(spell, indent, ir_get(spell->shader->graph, value)->origin);
     spell_name(spell, name);
     spell_text(spell, operator);
     spell_expression(spell, value, LANG_PREC_ASSIGN);
@@ -252,7 +252,7 @@ static void declare_outs(struct spell *spell, unsigned indent, ir_ref call, unsi
         } else {
             if (i > 0)
                 text_mem(spell->out, ";\n", 2);
-            open_line(spell, indent, node->origin);
+            spell_open_line(spell, indent, node->origin);
             write_typed(spell, PHRASE_LOCAL, call, out.type, name);
         }
         if (out.inout) {
@@ -300,7 +300,7 @@ static void write_struct_let(struct spell *spell, unsigned indent, ir_ref call, 
     name_member(spell, made, LANG_RESULTS_VALUE);
     for (unsigned i = 0; i < outs; i++)
         name_member(spell, made, member_of(spell, call, i));
-    open_line(spell, indent, node->origin);
+    spell_open_line(spell, indent, node->origin);
     SPELL(spell, lang_results_name(spell->style->syntax, function, spell->scratch), " ", made.text,
           " = ");
     if (node->op == IR_CALL)
@@ -325,7 +325,7 @@ static void write_call_let(struct spell *spell, unsigned indent, ir_ref call, un
         (void)add_local(spell, spell_call_base(spell, call), call);
     declare_outs(spell, indent, call, outs);
     assert(spell->let_names.len == first + 1 + outs);
-    open_line(spell, indent, node->origin);
+    spell_open_line(spell, indent, node->origin);
     if (node->type != IR_TYPE_VOID) {
         spell_variable(spell, PHRASE_VALUE, node->type, spell->let_names.items[first]);
         text_mem(spell->out, " = ", 3);
@@ -348,7 +348,7 @@ static void write_let(struct spell *spell, unsigned indent, ir_ref ref)
         }
     }
     struct spell_name name = add_local(spell, spell_local_base(spell, ref), ref);
-    open_line(spell, indent, node->origin);
+    spell_open_line(spell, indent, node->origin);
     write_typed(spell, node->op == IR_CONST ? PHRASE_LOCAL_CONSTANT : PHRASE_VALUE, ref, node->type,
                 name);
     text_mem(spell->out, " = ", 3);
@@ -386,7 +386,7 @@ static void write_last_light(struct spell *spell)
 static void write_first_turn(struct spell *spell, unsigned indent, ir_ref turn)
 {
     spell->loop_turn = names_unique(&spell->names, "turn", 4);
-    open_line(spell, indent, 0);
+    spell_open_line(spell, indent, 0);
     spell_variable(spell, PHRASE_LOCAL, IR_TYPE_VEC2, spell->loop_turn);
     text_mem(spell->out, " = ", 3);
     spell_expression(spell, turn, LANG_PREC_ASSIGN);
@@ -411,7 +411,7 @@ static void write_comment(struct spell *spell, unsigned indent, str_id text)
         comment.len = len;
         text_fmt(&comment, " (%u)", (unsigned)number);
     }
-    open_line(spell, indent, 0);
+    spell_open_line(spell, indent, 0);
     text_mem(spell->out, "// ", 3);
     spell_comment(spell, comment.data, comment.len);
     text_char(spell->out, '\n');
@@ -421,7 +421,7 @@ static void explain_order(struct spell *spell, unsigned indent)
 {
     if (!spell->options->comments || spell->shader->interface.rules.neutral_names)
         return;
-    open_line(spell, indent, 0);
+    spell_open_line(spell, indent, 0);
     spell_text(spell, "// from the last light, so that drivers do not unroll the loop\n");
 }
 
@@ -453,16 +453,16 @@ static void write_loop(struct spell *spell, unsigned indent, const struct effect
         spell->loop_index = names_unique(&spell->names, "i", 1).text;
     if (effect->kind == EFFECT_LIGHTS)
         explain_order(spell, indent);
-    open_line(spell, indent, 0);
+    spell_open_line(spell, indent, 0);
     const char *rest = spell->style->phrases[PHRASE_FOR];
     for (char part; (part = lang_next(&rest, spell->out));)
         write_loop_part(spell, effect, part);
     spell_text(spell, " {\n");
 }
 
-static void write_if(struct spell *spell, unsigned indent, ir_ref condition, bool braces)
+void spell_if(struct spell *spell, unsigned indent, ir_ref condition, bool braces)
 {
-    open_line(spell, indent, ir_get(spell->shader->graph, condition)->origin);
+    spell_open_line(spell, indent, ir_get(spell->shader->graph, condition)->origin);
     text_mem(spell->out, "if (", 4);
     spell_expression(spell, condition, LANG_PREC_ASSIGN);
     text_str(spell->out, braces ? ") {\n" : ")\n");
@@ -472,12 +472,12 @@ static void write_discard(struct spell *spell, unsigned indent, ir_ref condition
 {
     bool braces = condition && spell->style->syntax->always_braces;
     if (condition)
-        write_if(spell, indent++, condition, braces);
-    open_line(spell, indent, 0);
+        spell_if(spell, indent++, condition, braces);
+    spell_open_line(spell, indent, 0);
     SPELL(spell, spell->style->phrases[PHRASE_DISCARD], ";\n");
     if (!braces)
         return;
-    open_line(spell, indent - 1, 0);
+    spell_open_line(spell, indent - 1, 0);
     spell_text(spell, "}\n");
 }
 
@@ -489,7 +489,7 @@ static void write_variable(struct spell *spell, unsigned indent, const struct ef
                                  ? (struct spell_name){"v", 1}
                                  : spell_name_of(spell->shader->strings, local->name);
     spell->locals[effect->index] = names_unique(&spell->names, name.text, name.len);
-    open_line(spell, indent, 0);
+    spell_open_line(spell, indent, 0);
     spell_variable(spell, PHRASE_LOCAL, local->type, spell->locals[effect->index]);
     if (effect->value) {
         text_mem(spell->out, " = ", 3);
@@ -501,7 +501,7 @@ static void write_variable(struct spell *spell, unsigned indent, const struct ef
 /* "return mdl_results_f(x, r1)": a graph's function with several results in a struct. */
 static void write_return_struct(struct spell *spell, unsigned indent, const struct effect *effect)
 {
-    open_line(spell, indent, 0);
+    spell_open_line(spell, indent, 0);
     SPELL(spell, "return ", spell->graph_results, "(");
     spell_expression(spell, effect->value, lang_argument_level(spell->style->syntax));
     for (uint32_t i = 1; i < spell->num_graph_results; i++)
@@ -538,7 +538,7 @@ static struct spell_name position_name(const struct spell *spell)
     return (struct spell_name){text_cstr(&name), name.len};
 }
 
-static void write_effect(struct spell *spell, unsigned indent, const struct effect *effect)
+void spell_effect(struct spell *spell, unsigned indent, const struct effect *effect)
 {
     switch ((enum effect_kind)effect->kind) {
     case EFFECT_LET: write_let(spell, indent, effect->value); break;
@@ -566,60 +566,8 @@ static void write_effect(struct spell *spell, unsigned indent, const struct effe
     case EFFECT_RESULT: write_result(spell, indent, effect); break;
     case EFFECT_IF:
     case EFFECT_ELSE:
-    case EFFECT_END: /* spell_statements */ break;
+    case EFFECT_END: /* block.c */ break;
     }
-}
-
-/* A single plain statement in an `if` needs no braces. */
-static bool holds_one_statement(const struct spell *spell, const struct effect_list *list,
-                                uint32_t opening)
-{
-    if (spell->style->syntax->always_braces || opening + 2 >= list->len
-        || list->items[opening + 2].kind != EFFECT_END)
-        return false;
-    uint8_t kind = list->items[opening + 1].kind;
-    return kind == EFFECT_ACCUMULATE || kind == EFFECT_ASSIGN;
-}
-
-static bool opens_block(uint8_t kind)
-{
-    return kind == EFFECT_IF || kind == EFFECT_ELSE || kind == EFFECT_LIGHTS
-           || kind == EFFECT_SAMPLES;
-}
-
-void spell_statements(struct spell *spell, const struct effect_list *statements, unsigned indent)
-{
-    VEC(uint32_t) blocks = {0};
-    spell->let_names.len = 0;
-    spell->loop_index = NULL;
-    spell_plan_locals(spell, statements);
-    for (uint32_t i = 0; i < statements->len; i++) {
-        const struct effect *effect = &statements->items[i];
-        uint8_t kind = effect->kind;
-        if (kind == EFFECT_IF && holds_one_statement(spell, statements, i)) {
-            write_if(spell, indent, effect->value, false);
-            write_effect(spell, indent + 1, &statements->items[i + 1]);
-            i += 2;
-            continue;
-        }
-        if (kind == EFFECT_END || kind == EFFECT_ELSE) {
-            names_close_block(&spell->names, vec_pop(&blocks));
-            open_line(spell, --indent, 0);
-            spell_text(spell, kind == EFFECT_END ? "}\n" : "} else {\n");
-        } else if (kind == EFFECT_IF) {
-            write_if(spell, indent, effect->value, true);
-        } else {
-            write_effect(spell, indent, effect);
-        }
-        if (opens_block(kind)) {
-            vec_push(spell->scratch, &blocks, names_open_block(&spell->names));
-            indent++;
-        }
-    }
-    assert(blocks.len == 0);
-    for (uint32_t i = 0; i < statements->len; i++)
-        if (statements->items[i].kind == EFFECT_LET)
-            spell->local_of[statements->items[i].value] = 0;
 }
 
 /* A parameter of a graph's function: "p0", or "r1" of its second result. */

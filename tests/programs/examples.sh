@@ -48,6 +48,8 @@ for member in 'vec3 position' 'vec3 direction' 'float temperature' 'float power'
 done
 check 'the lights of stage.mtlx have no other members' eval '! grep -qE "decay_rate|float intensity|inner_angle;" out.d/Curtain.frag'
 check 'the reflection names the lights' eval 'grep -q "\"shader\": *\"spot\"" out.d/Curtain.json && grep -q "\"shader\": *\"bulb\"" out.d/Curtain.json'
+check 'a chain of light types is not nested' exits 0 "$mxgen" "$examples/stage.mtlx" --element Curtain --lights "$(seq -f spot=%g -s , 1 400)" -o many -q
+check 'each further type is an else if' eval '[ $(grep -c "^        } else if (light_type == [0-9]*) {" many/Curtain.frag) -ge 398 ]'
 [ -z "$compile" ] || check 'stage.mtlx compiles' exits 0 "$compile" "$examples/stage.mtlx" --lights spot=1,bulb=2
 cat >key.mtlx <<'XML'
 <?xml version="1.0"?>
