@@ -245,10 +245,6 @@ static elem_id find_path(const struct search *s, const char *path, str_id *out_o
 static elem_id find_asked(const struct search *s, const char *path, str_id *out_output)
 {
     elem_id found = find_path(s, path, out_output);
-    /* invalid names may contain a '/' */
-    for (uint32_t i = 0; i < s->document->renderables.num && !found; i++)
-        if (strcmp(renderable_path(s->document, i), path) == 0)
-            found = renderable_at(s->document, i);
     if (!found)
         report_unknown(s, path);
     return found ? find_meant(s, found) : 0;

@@ -622,20 +622,35 @@ static str_id qualified(const struct document *doc, const char *name, size_t len
     return str_find(doc->strings, text, prefix + 1 + len);
 }
 
+/*
+ * The child whose name is at `*at` of a path; moves `*at` behind the name. Names that are not valid
+ * may contain a '/': where no child has the shortest name, a few longer ones are tried.
+ */
+static elem_id find_step(const struct document *doc, elem_id element, const char *path, size_t len,
+                         size_t *at)
+{
+    const unsigned most_slashes = 8;
+    elem_id child = 0;
+    size_t end = *at;
+    for (unsigned i = 0; i <= most_slashes && !child && end < len; i++) {
+        size_t from = i ? end + 1 : end;
+        const char *slash = memchr(path + from, '/', len - from);
+        end = slash ? (size_t)(slash - path) : len;
+        child = doc_child(doc, element, str_find(doc->strings, path + *at, end - *at));
+        if (!child && element == doc->root)
+            child = doc_child(doc, element, qualified(doc, path + *at, end - *at));
+    }
+    *at = end + 1;
+    return child;
+}
+
 elem_id doc_find_below(const struct document *doc, elem_id below, const char *path, size_t len)
 {
     elem_id element = below;
     while (len && *path == '/')
         path++, len--;
-    for (size_t at = 0; at < len && element;) {
-        const char *slash = memchr(path + at, '/', len - at);
-        size_t end = slash ? (size_t)(slash - path) : len;
-        elem_id child = doc_child(doc, element, str_find(doc->strings, path + at, end - at));
-        if (!child && element == doc->root)
-            child = doc_child(doc, element, qualified(doc, path + at, end - at));
-        element = child;
-        at = end + 1;
-    }
+    for (size_t at = 0; at < len && element;)
+        element = find_step(doc, element, path, len, &at);
     return element;
 }
 

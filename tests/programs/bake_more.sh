@@ -44,11 +44,12 @@ material_of() { # NAME NUMBER COLOUR
     material_of 'a b' 1 '1, 0, 0'
     material_of a_b 2 '0, 1, 0'
     material_of 1a 3 '0, 0, 1'
-    echo '<look name="L"><materialassign name="m1" material="a_b" geom="/x"/><materialassign name="m2" material="a b" geom="/y"/><materialassign name="m3" material="1a" geom="/z"/></look></materialx>'
+    material_of c/d 4 '1, 1, 0'
+    echo '<look name="L"><materialassign name="m1" material="a_b" geom="/x"/><materialassign name="m2" material="a b" geom="/y"/><materialassign name="m3" material="1a" geom="/z"/><materialassign name="m4" material="c/d" geom="/w"/></look></materialx>'
 } >names.mtlx
 check 'materials of unusual names are baked' exits 0 "$mxgen" bake names.mtlx -o names --size 4
 check 'a valid name stays' has names/names.mtlx '"a_b" type="material"' 'name="m1" material="a_b"'
-check 'and looks name the others as they are now' has names/names.mtlx 'name="m2" material="a_b_2"' 'name="m3" material="_1a"'
+check 'and looks name the others as they are now' has names/names.mtlx 'name="m2" material="a_b_2"' 'name="m3" material="_1a"' 'name="m4" material="c_d"'
 
 # ---- Folders ----
 
