@@ -49,21 +49,6 @@ static bool check_version(struct generation *g)
     return !version;
 }
 
-/* MaterialX names of the target and of the targets that it inherits, nearest first. */
-static const str_id *target_names(struct generation *g, unsigned *out_count)
-{
-    unsigned count = 0;
-    for (const struct target *target = g->result->target; target; target = target->base)
-        count++;
-    str_id *names = ARENA_ARRAY(&g->result->object.arena, str_id, count);
-    unsigned i = 0;
-    for (const struct target *target = g->result->target; target; target = target->base)
-        names[i++] = str_intern_z(&g->result->strings, target->materialx_name);
-    assert(i == count);
-    *out_count = count;
-    return names;
-}
-
 static str_id option_name(struct generation *g, enum option_id option)
 {
     return str_intern_z(&g->result->strings, g->options[option].text);
@@ -115,7 +100,7 @@ static void set_build_options(struct generation *g)
         .cancel = context->cancel,
         .cancel_user_data = context->cancel_user_data,
     };
-    g->build_options.targets = target_names(g, &g->build_options.num_targets);
+    generation_name_targets(g);
 }
 
 /* The result's own library layers, because generation does not write to the document. */

@@ -225,6 +225,8 @@ bool generation_keeps_outputs(struct generation *g);
 bool generation_find_role(struct generation *g);
 /* role.c: false, after diagnostics, if the target has no modules, or no option names one. */
 bool generation_has_module(struct generation *g);
+/* target_names.c: sets the names of targets in the build options. */
+void generation_name_targets(struct generation *g);
 /* host_names.c: false, after diagnostics, if a name that the host chooses is none. */
 bool generation_check_names(struct generation *g);
 /* The items of the option `rename`. */

@@ -25,9 +25,12 @@ enum { TEXTURE_MODES_BUT_BORDERS = 3 }; /* libraries/stdlib/image.glsl lists all
 struct mxg_node_code; /* mxgen/node.h */
 
 struct build_options {
-    /* MaterialX names of the target and of its bases: "essl", "genglsl" */
+    /*
+     * MaterialX names of the target and of what it inherits, nearest first: "essl", "genglsl". The
+     * language of the first ones is the target's; of the others it has graphs, but not the source.
+     */
     const str_id *targets;
-    unsigned num_targets;
+    unsigned num_targets, num_languages;
     enum build_interface interface;
     const struct lang_syntax *syntax; /* of the target, whose words no uniform may have as name */
     /* patterns of element paths that become uniforms, or constants */

@@ -10,7 +10,9 @@ static unsigned fitness(const struct builder *b, const struct implementation *im
 {
     if (!impl->target)
         return 2;
-    for (unsigned i = 0; i < b->options->num_targets; i++)
+    bool is_portable = impl->kind == IMPL_GRAPH || library_is_portable(b->lib, impl);
+    unsigned num = is_portable ? b->options->num_targets : b->options->num_languages;
+    for (unsigned i = 0; i < num; i++)
         if (b->options->targets[i] == impl->target)
             return 3 + b->options->num_targets - i;
     return library_is_portable(b->lib, impl) ? 1 : 0;

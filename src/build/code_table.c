@@ -14,7 +14,7 @@ static str_id known_name(const struct builder *b, const char *name)
 static bool is_for_target(const struct builder *b, const struct mxg_node_code *code)
 {
     str_id target = code->target ? known_name(b, code->target) : 0;
-    for (unsigned i = 0; target && i < b->options->num_targets; i++)
+    for (unsigned i = 0; target && i < b->options->num_languages; i++)
         if (b->options->targets[i] == target)
             return true;
     return !code->target;

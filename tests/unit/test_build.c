@@ -365,27 +365,37 @@ static void test_targets(void)
                               "<implementation name='I' nodedef='ND_which' sourcecode='8.0'/>",
                       own_gen[] = "<which name='n' type='float'/><implementation name='I' "
                                   "nodedef='ND_which' target='gen' sourcecode='9.0'/>",
+                      own_graph[] = "<which name='n' type='float'/><nodegraph name='G' "
+                                    "nodedef='ND_which' target='gen'><gain name='g' "
+                                    "type='float'/><output name='out' type='float' "
+                                    "nodename='g'/></nodegraph>",
                       only[] = "<only name='n' type='float'/>";
     static const struct {
         const char *targets[2], *document, *expected, *messages;
+        unsigned num_foreign; /* of the targets, the last ones, whose language is another */
     } cases[] = {
-        {{NULL}, plain, "1", ""},
-        {{"gen"}, plain, "2", ""},
-        {{"sub", "gen"}, plain, "3", ""},
-        {{"new", "gen"}, plain, "2", ""}, /* inherited */
-        {{"new"}, plain, "1", ""},
-        {{NULL}, own, "8", ""},
-        {{"gen"}, own, "2", ""},
-        {{"gen"}, own_gen, "9", ""},
-        {{"sub", "gen"}, own_gen, "3", ""},
-        {{"gen"}, only, "4", ""},
-        {{"new"}, only, "nothing", "missing-implementation, accepted-targets, defined-here"},
+        {{NULL}, plain, "1", "", 0},
+        {{"gen"}, plain, "2", "", 0},
+        {{"sub", "gen"}, plain, "3", "", 0},
+        {{"new", "gen"}, plain, "2", "", 0}, /* inherited */
+        {{"new"}, plain, "1", "", 0},
+        {{NULL}, own, "8", "", 0},
+        {{"gen"}, own, "2", "", 0},
+        {{"gen"}, own_gen, "9", "", 0},
+        {{"sub", "gen"}, own_gen, "3", "", 0},
+        {{"gen"}, only, "4", "", 0},
+        {{"new"}, only, "nothing", "missing-implementation, accepted-targets, defined-here", 0},
+        {{"new", "gen"}, own_gen, "9", "", 0},
+        {{"new", "gen"}, own_gen, "1", "", 1},   /* source has a language, */
+        {{"new", "gen"}, own_graph, "6", "", 1}, /* a graph has none */
+        {{"new"}, own_graph, "1", "", 0},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct work w;
         work_open(&w, cases[i].document);
         for (unsigned t = 0; t < 2 && cases[i].targets[t]; t++)
             w.targets[w.options.num_targets++] = str_intern_z(&w.strings, cases[i].targets[t]);
+        w.options.num_languages = w.options.num_targets - cases[i].num_foreign;
         if (!REQUIRE_STR(value_text(&w, work_build(&w, "n")), cases[i].expected))
             printf("    case %zu\n", i);
         REQUIRE_STR(layers_messages(&w.layers), cases[i].messages);
