@@ -8,6 +8,8 @@
 
 #include "base/num.h"
 
+#include <math.h>
+
 /* degrees between entries, and number of entries */
 enum { STEP = 2, LENGTH = 180 / STEP + 1, MAX_ANGLES = 4096 };
 
@@ -46,6 +48,8 @@ static float next_number(struct measurement *m)
     size_t len = num_parse_float(m->at, (size_t)(m->end - m->at), &value);
     if (!len && !m->fault)
         m->fault = "a number is missing";
+    if (!isfinite(value) && !m->fault)
+        m->fault = "one of its numbers is infinite, because the numbers of a float end at 3.4e38";
     m->at += len;
     return value;
 }

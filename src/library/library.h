@@ -504,6 +504,29 @@ void library_check_enum(const struct library *lib, const struct port *port, str_
 void library_check_shaders(const struct library *lib, elem_id node, uint32_t nodedef,
                            const struct binding *bindings, struct diag_list *diags);
 
+/* ---- struct_value.c ---- */
+
+struct member_value {
+    doc_type type;
+    struct text_word text;
+};
+struct member_values { /* layout of VEC(struct member_value) */
+    struct member_value *items;
+    uint32_t len, cap;
+};
+/*
+ * Splits "{0.5;true}" into the values of the members of a struct type, which may be none of their
+ * types; false: there is not one for each. A default has no text: its members have the values of
+ * the <typedef>.
+ */
+bool library_split_struct(const struct library *lib, doc_type type, struct text_word text,
+                          bool is_default, struct arena *arena, struct member_values *out);
+void library_report_struct(const struct library *lib, doc_type type, const char *text,
+                           struct diag_place place, struct diag_list *diags);
+/* Reports the attribute `value` of an element of a struct type, if it is no value of this type. */
+void library_check_struct(const struct library *lib, elem_id element, struct arena *scratch,
+                          struct diag_list *diags);
+
 /*
  * loose.c: reports a value with more numbers than the type of its port has, with the input of the
  * same definition that the author may mean, or with text behind a number.

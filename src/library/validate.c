@@ -101,6 +101,7 @@ static void check_element(struct validate *v, elem_id element)
         library_default_geomprop(v->lib, element,
                                  library_type(v->lib, doc_attr_value(v->doc, element, STR_type)),
                                  v->diags);
+    library_check_struct(v->lib, element, v->resolved.arena, v->diags);
     validate_attributes_of(v, element);
     validate_declaration(v, element);
 }

@@ -35,6 +35,7 @@ static const struct memory_file files[] = {
     {"dark.ies", "TILT=NONE\n1 1000 1 2 1 1 2 0 0 0\n1 1 100\n0 90 0 0 0"},
     {"mixed_up.ies", "TILT=NONE\n1 1000 1 2 1 1 2 0 0 0\n1 1 100\n90 0 0 1 1"},
     {"many.ies", "TILT=NONE\n1 1000 1 1e9 1 1 2 0 0 0\n1 1 100\n"},
+    {"infinite.ies", "TILT=NONE\n1 1000 1 2 1 1 2 0 0 0\n1 1 100\n0 90 0 1 1e40"},
     {"other.ies", "not a profile"},
     {NULL, NULL},
 };
@@ -500,9 +501,9 @@ static void test_profile(void)
 
 static void test_bad_profiles(void)
 {
-    static const char *const bodies[] = {LAMP("type_b.ies"),   LAMP("short.ies"), LAMP("dark.ies"),
-                                         LAMP("mixed_up.ies"), LAMP("many.ies"),  LAMP("other.ies"),
-                                         LAMP("missing.ies")};
+    static const char *const bodies[] = {
+        LAMP("type_b.ies"), LAMP("short.ies"), LAMP("dark.ies"),     LAMP("mixed_up.ies"),
+        LAMP("many.ies"),   LAMP("other.ies"), LAMP("infinite.ies"), LAMP("missing.ies")};
     for (size_t i = 0; i < sizeof bodies / sizeof *bodies; i++) {
         struct shot shot;
         shoot(&shot, bodies[i], false, NULL, NULL, MXG_OK);
