@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Bundles a script of the page. Arguments: esbuild, the folder web, the built npm package, the output: page.js, with the worker in it, or
-# editor.js, which needs the packages of npm (package.json).
+# editor.js or studio.js, which need the packages of npm (package.json).
 set -eu
 esbuild=$1 web=$2 package=$3 output=$(realpath -m "$4")
 work=$(mktemp -d)
@@ -11,7 +11,7 @@ mkdir -p "$work/js" "$work/node_modules"
 cp -r "$package" "$work/js/mxgen"
 cp -r "$web/../examples" "$work/examples"
 mkdir "$work/web"
-cp -r "$web"/*.js "$web/editor" "$work/web"
+cp -r "$web"/*.js "$web/editor" "$web/studio" "$work/web"
 cd "$work"
 bundle() { # OUTPUT INPUT
     NODE_PATH=$web/node_modules "$esbuild" "$2" --bundle --minify --format=iife --target=es2022 --loader:.mtlx=text --loader:.bundle.js=text \
@@ -19,6 +19,7 @@ bundle() { # OUTPUT INPUT
 }
 case $output in
 */editor.js) bundle "$output" web/editor/editor.js ;;
+*/studio.js) bundle "$output" web/studio/studio.js ;;
 *)
     bundle node_modules/worker.bundle.js web/worker.js
     bundle "$output" web/page.js

@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sliders, colours and switches for the public uniforms of a shader, made from its reflection.
 
-function element(name, properties = {}, ...children) {
-    const made = Object.assign(document.createElement(name), properties);
-    made.append(...children);
-    return made;
-}
+import { element } from "./dom.js";
 
 const first = (...texts) => {
     const text = texts.find(candidate => candidate !== "" && Number.isFinite(Number(candidate.split(",")[0])));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Panels: tabs, which of them a width of the page shows beside each other, and the bars that resize them.
 
+import { element } from "./dom.js";
+
 const WIDTHS = [["wide", "(min-width: 1200px)"], ["medium", "(min-width: 700px)"], ["narrow", "all"]];
 const OWN = { wide: ["document", "inputs"], medium: ["document"], narrow: [] }; // panels with a place of their own, without a tab
 const STEP = 2; // percent of a key
@@ -14,15 +16,32 @@ export class Layout {
     onShow = () => {}; // hears which tab is shown
 
     constructor() {
-        for (const tab of tabs()) {
-            tab.addEventListener("click", () => this.show(tab.dataset.tab));
-            tab.addEventListener("keydown", event => this.#step(event, tab));
-        }
+        for (const tab of tabs())
+            this.#listen(tab);
         for (const [, query] of WIDTHS)
             matchMedia(query).addEventListener("change", () => this.#arrange());
         for (const bar of document.querySelectorAll("[role=separator]"))
             resizeBy(bar);
         this.#arrange();
+    }
+
+    #listen(tab) {
+        tab.addEventListener("click", () => this.show(tab.dataset.tab));
+        tab.addEventListener("keydown", event => this.#step(event, tab));
+    }
+
+    /** Adds an empty panel with a tab behind the others. */
+    add(name, title) {
+        const tab = element("button", { type: "button", id: `tab-${name}`, textContent: title }), panel = element("div", { id: name, className: "panel", tabIndex: 0 });
+        tab.dataset.tab = name;
+        for (const [made, attributes] of [[tab, { "role": "tab", "aria-controls": name }], [panel, { "role": "tabpanel", "aria-labelledby": tab.id }]])
+            for (const [attribute, value] of Object.entries(attributes))
+                made.setAttribute(attribute, value);
+        tabs().at(-1).after(tab);
+        [...document.querySelectorAll(".panel")].at(-1).after(panel);
+        this.#listen(tab);
+        this.show(this.#chosen);
+        return panel;
     }
 
     get chosen() {
@@ -60,6 +79,8 @@ export class Layout {
             const panel = tab.dataset.tab, isChosen = panel === name;
             tab.setAttribute("aria-selected", String(isChosen));
             tab.tabIndex = isChosen ? 0 : -1;
+            if (isChosen)
+                tab.scrollIntoView({ block: "nearest", inline: "nearest" });
             $(panel).hidden = !isChosen && !OWN[this.#width].includes(panel);
         }
         $("tools").hidden = name !== "source";

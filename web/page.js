@@ -108,18 +108,32 @@ function loadScript(name) {
     });
 }
 
+/** What a script of the page gives to the function `mxgen…`. */
+async function load(name, receiver) {
+    const given = new Promise(resolve => globalThis[receiver] = resolve);
+    await loadScript(name);
+    return given;
+}
+
 /** Without it the text stays as it is. */
 async function openEditor(module) {
-    const loaded = new Promise(resolve => globalThis.mxgenEditor = resolve);
-    await loadScript("editor.js");
+    const Editor = await load("editor.js", "mxgenEditor");
     language.remember("begin", { name: "", letters: module }).catch(error => tell(error.message));
-    text = text.replaceBy(await loaded, { worker: language, tell, onCures: found => {
+    text = text.replaceBy(Editor, { worker: language, tell, onCures: found => {
         cures = found;
         showMessages();
     } });
     text.addEventListener("input", textChanged);
     $("format").disabled = false;
     document.body.dataset.editor = "true";
+}
+
+async function openStudio() {
+    if (!view)
+        return;
+    const Studio = await load("studio.js", "mxgenStudio");
+    new Studio({ view, panel: layout.add("view", "View"), tell });
+    document.body.dataset.studio = "true";
 }
 
 // ---- Results ----
@@ -401,7 +415,9 @@ async function begin() {
     if (fault)
         tell(fault.message);
     await picture;
-    await openEditor(letters);
+    const faults = (await Promise.allSettled([openEditor(letters), openStudio()])).filter(({ reason }) => reason);
+    if (faults.length)
+        tell(faults.map(({ reason }) => reason.message).join(" "));
 }
 
 begin().catch(error => {

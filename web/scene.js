@@ -86,10 +86,19 @@ function cubeSide(degrees) {
 
 const cubeEnd = up => (u, v) => [HALF_CUBE * (2 * u - 1), up * HALF_CUBE, up * HALF_CUBE * (1 - 2 * v)];
 
+/** A square laid over a ball: up to an angle at which it leaves the ball it follows that, then it hangs down in folds. */
+function cloth(u, v) {
+    const half = 1.05, radius = 0.52, leaves = 1.25, x = half * (2 * u - 1), z = half * (1 - 2 * v), r = Math.hypot(x, z), around = Math.atan2(z, x);
+    const bend = Math.min(r / radius, leaves), hang = Math.max(r - leaves * radius, 0), fold = Math.sin(8 * around + 0.6) + 0.3 * Math.sin(13 * around - 1.1);
+    const away = radius * Math.sin(bend) + hang * (0.2 + 0.28 * fold * hang / (hang + 0.12));
+    return [away * Math.cos(around), radius * Math.cos(bend) - 0.93 * hang + 0.22, away * Math.sin(around)];
+}
+
 /** Formula, cells across and up. */
 const SHAPES = {
     ball: [[ball, 192, 160], [foot, 128, 64]],
     sphere: [[sphere, 128, 64]],
+    cloth: [[cloth, 192, 192]],
     cube: [...[0, 90, 180, 270].map(degrees => [cubeSide(degrees), 16, 16]), [cubeEnd(1), 16, 16], [cubeEnd(-1), 16, 16]],
     plane: [[(u, v) => [1.6 * u - 0.8, 1.6 * v - 0.8, 0], 16, 16]],
 };

@@ -1,39 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // The picture: a shader of the target essl on a shape, bound from its reflection, by WebGL 2.
 
+import { Develop } from "./develop.js";
+import { faultOf, link } from "./programs.js";
 import { attributeOf, backToFront, CAMERA, lightValue, makeMesh, makeSky, uniformOf } from "./scene.js";
 
 const MAX_LIGHTS = 3;
 const OVERSAMPLING = 2; // samples of a pixel in each direction, when the picture rests
 const IDLE = 150; // milliseconds until it does
+const TILE = 512; // pixels of a part of a picture to keep, so that no draw holds up the device
 const COARSENESS = 4; // pixels of the first picture for one of its samples, in each direction
 
-// Averages the samples of a pixel over a grey background, and encodes sRGB (IEC 61966-2-1), like render/picture.c.
-const DEVELOP_VERTEX = `#version 300 es
-void main()
-{
-    vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
-    gl_Position = vec4(corner * 4.0 - 1.0, 0.0, 1.0);
-}`;
-const DEVELOP_PIXEL = `#version 300 es
-precision highp float;
-precision highp sampler2D;
-uniform sampler2D u_samples;
-uniform int u_oversampling; // 0: the picture is coarse
-uniform vec2 u_extent;
-out vec4 color;
-void main()
-{
-    ivec2 first = ivec2(gl_FragCoord.xy) * u_oversampling;
-    vec4 sum = vec4(0.0);
-    for (int y = 0; y < u_oversampling; ++y)
-        for (int x = 0; x < u_oversampling; ++x)
-            sum += texelFetch(u_samples, first + ivec2(x, y), 0);
-    sum = u_oversampling > 0 ? sum / float(u_oversampling * u_oversampling) : textureLod(u_samples, gl_FragCoord.xy / u_extent, 0.0);
-    float behind = 0.06 + 0.12 * (gl_FragCoord.y + 0.5) / u_extent.y;
-    vec3 linear = clamp(0.6 * sum.rgb + (1.0 - min(sum.a, 1.0)) * behind, 0.0, 1.0);
-    color = vec4(mix(12.92 * linear, 1.055 * pow(linear, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, linear)), 1.0);
-}`;
+const pause = milliseconds => new Promise(resolve => setTimeout(resolve, milliseconds));
 
 /** A fault that a person can read. */
 export class ViewError extends Error {}
@@ -98,46 +76,26 @@ export class View {
     #prepare() {
         if (this.#maps)
             return;
-        this.#develop = this.#link(DEVELOP_VERTEX, DEVELOP_PIXEL);
+        this.#develop = new Develop(this.#gl, this.#tone);
         this.#sky ??= makeSky();
         this.#maps = Object.fromEntries(Object.entries(this.#sky).map(([name, levels]) => [name, this.#upload(levels)]));
         this.#missing = this.#checker();
         this.#mesh(1);
     }
 
-    #develop;
+    #develop = null;
+    #tone;
     #maps = null;
     #missing;
 
     // ---- Programs ----
-
-    #link(vertex, pixel) {
-        const gl = this.#gl, program = gl.createProgram();
-        for (const [type, source] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, pixel]]) {
-            const shader = gl.createShader(type);
-            gl.shaderSource(shader, source);
-            gl.compileShader(shader);
-            gl.attachShader(program, shader);
-            gl.deleteShader(shader);
-        }
-        gl.linkProgram(program);
-        return program;
-    }
-
-    #faultOf(program) {
-        const gl = this.#gl;
-        if (gl.getProgramParameter(program, gl.LINK_STATUS) || gl.isContextLost())
-            return null;
-        const logs = gl.getAttachedShaders(program).map(shader => gl.getShaderInfoLog(shader)).filter(Boolean);
-        return logs.join("\n") || gl.getProgramInfoLog(program) || "the driver refuses the shader";
-    }
 
     /** Before the first picture: a smaller shader, whose coarse picture comes first. */
     showPreview(shader) {
         if (this.#drawn || this.#pending)
             return;
         this.#isPreview = true;
-        this.#drop({ shader, program: this.#link(shader.vertex, shader.pixel) });
+        this.#drop({ shader, program: link(this.#gl, shader.vertex, shader.pixel) });
         this.#prepare();
         this.draw();
     }
@@ -163,7 +121,7 @@ export class View {
             this.draw();
             return;
         }
-        this.#drop({ shader, program: this.#link(shader.vertex, shader.pixel) });
+        this.#drop({ shader, program: link(this.#gl, shader.vertex, shader.pixel) });
         this.#prepare();
         this.draw();
     }
@@ -181,7 +139,7 @@ export class View {
             return false;
         if (this.#parallel && !gl.getProgramParameter(pending.program, this.#parallel.COMPLETION_STATUS_KHR))
             return true;
-        const fault = this.#faultOf(pending.program);
+        const fault = faultOf(gl, pending.program);
         if (fault) {
             this.onError(fault);
             this.#drop(null);
@@ -241,6 +199,14 @@ export class View {
         this.draw();
     }
 
+    /** The source of a function that maps tones (develop.js); none by default. */
+    set tone(source) {
+        this.#tone = source;
+        this.#develop?.finish();
+        this.#develop = new Develop(this.#gl, source);
+        this.draw();
+    }
+
     /** Asks for a frame: now with one sample for each pixel, and with all when the picture rests. */
     draw() {
         this.#numChanges++;
@@ -292,69 +258,112 @@ export class View {
         return info.alpha === "blend" && (info.alphaNow === "blend" || this.hasMoved);
     }
 
-    #drawFrame(oversampling) {
-        const gl = this.#gl, { shader, program } = this.#drawn, canvas = this.#canvas;
-        const width = Math.max(1, Math.round(canvas.clientWidth * devicePixelRatio)), height = Math.max(1, Math.round(canvas.clientHeight * devicePixelRatio));
-        if (canvas.width !== width || canvas.height !== height)
-            Object.assign(canvas, { width, height });
-        const isPreview = this.#isPreview, scale = isPreview ? 1 / COARSENESS : oversampling;
-        this.#bindTarget(Math.ceil(width * scale), Math.ceil(height * scale));
+    /** Draws the samples of a part of a picture: `first` is the place of its lower left one. Numbers count samples. */
+    #drawSamples(extent, first, size) {
+        const gl = this.#gl;
+        this.#bindTarget(...size);
+        gl.viewport(-first[0], -first[1], ...extent);
         gl.clearColor(0, 0, 0, 0);
         gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+        this.#drawMesh(extent[0] / extent[1]);
+    }
+
+    #drawMesh(aspect) {
+        const gl = this.#gl, { shader, program } = this.#drawn;
         gl.useProgram(program);
-        this.#bindUniforms(width / height);
+        this.#bindUniforms(aspect);
         const mesh = this.#bindMesh(shader.info.displaced ? 4 : 1), blends = this.#isBlended();
         const capability = (name, on) => on ? gl.enable(name) : gl.disable(name);
         capability(gl.DEPTH_TEST, !blends);
         capability(gl.BLEND, blends);
         gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
         if (blends)
-            gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, backToFront(mesh, uniformOf("u_viewDirection", this.camera, width / height, 0)), gl.DYNAMIC_DRAW);
+            gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, backToFront(mesh, uniformOf("u_viewDirection", this.camera, aspect, 0)), gl.DYNAMIC_DRAW);
         gl.drawElements(gl.TRIANGLES, mesh.indices.length, gl.UNSIGNED_INT, 0);
-        this.#developFrame(width, height, isPreview ? 0 : oversampling);
-        this.#isBusy = true;
-        const numChanges = this.#numChanges;
-        this.#whenDrawn(() => {
-            this.#isBusy = false;
-            this.onPicture(!isPreview && oversampling === OVERSAMPLING && numChanges === this.#numChanges);
-            if (isPreview)
-                this.#endPreview();
-        });
     }
 
-    /** Calls `then` when the device has done its work. */
-    #whenDrawn(then) {
-        const gl = this.#gl, sync = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
-        gl.flush();
-        const look = () => {
-            if (gl.isContextLost())
-                return;
-            if (gl.getSyncParameter(sync, gl.SYNC_STATUS) !== gl.SIGNALED) {
-                setTimeout(look, 4);
-                return;
-            }
-            gl.deleteSync(sync);
-            then();
-        };
-        setTimeout(look);
-    }
-
-    #developFrame(width, height, oversampling) {
-        const gl = this.#gl;
+    async #drawFrame(oversampling) {
+        const gl = this.#gl, canvas = this.#canvas, isPreview = this.#isPreview, numChanges = this.#numChanges;
+        const width = Math.max(1, Math.round(canvas.clientWidth * devicePixelRatio)), height = Math.max(1, Math.round(canvas.clientHeight * devicePixelRatio));
+        if (canvas.width !== width || canvas.height !== height)
+            Object.assign(canvas, { width, height });
+        const scale = isPreview ? 1 / COARSENESS : oversampling, extent = [Math.ceil(width * scale), Math.ceil(height * scale)];
+        this.#drawSamples(extent, [0, 0], extent);
         gl.bindFramebuffer(gl.FRAMEBUFFER, null);
         gl.viewport(0, 0, width, height);
-        for (const name of [gl.DEPTH_TEST, gl.BLEND])
-            gl.disable(name);
-        gl.useProgram(this.#develop);
-        gl.activeTexture(gl.TEXTURE0);
-        gl.bindTexture(gl.TEXTURE_2D, this.#target.color);
-        gl.bindSampler(0, null);
-        gl.uniform1i(gl.getUniformLocation(this.#develop, "u_samples"), 0);
-        gl.uniform1i(gl.getUniformLocation(this.#develop, "u_oversampling"), oversampling);
-        gl.uniform2f(gl.getUniformLocation(this.#develop, "u_extent"), width, height);
-        gl.bindVertexArray(null);
-        gl.drawArrays(gl.TRIANGLES, 0, 3);
+        this.#develop.draw(this.#target.color, isPreview ? 0 : oversampling, [width, height]);
+        this.#isBusy = true;
+        if (!await this.#finished())
+            return;
+        this.#isBusy = false;
+        this.onPicture(!isPreview && oversampling === OVERSAMPLING && numChanges === this.#numChanges);
+        if (isPreview)
+            this.#endPreview();
     }
+
+    /** Waits until the device has done its work; false: it lost it. */
+    async #finished() {
+        const gl = this.#gl, sync = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+        gl.flush();
+        let wait = 0;
+        do {
+            await pause(wait);
+            wait = 4;
+            if (gl.isContextLost())
+                return false;
+        } while (gl.getSyncParameter(sync, gl.SYNC_STATUS) !== gl.SIGNALED);
+        gl.deleteSync(sync);
+        return true;
+    }
+
+    // ---- Pictures to keep ----
+
+    /** The square picture of a document, with all samples, for a multiple of 512 pixels on each side; null: there is none. */
+    async takePicture(size, isTransparent) {
+        while (this.#isBusy || this.#wait())
+            await pause(4);
+        if (!this.#drawn || this.#gl.isContextLost())
+            return null;
+        this.#isBusy = true; // nothing else is drawn
+        try {
+            const picture = new ImageData(size, size);
+            for (let y = 0; y < size; y += TILE)
+                for (let x = 0; x < size; x += TILE)
+                    if (!await this.#takeTile(picture, [x, y], isTransparent))
+                        return null;
+            return picture;
+        } finally {
+            this.#isBusy = false;
+        }
+    }
+
+    /** Rows of a picture go down, those of the device up. */
+    async #takeTile({ width, height, data }, first, isTransparent) {
+        const gl = this.#gl, samples = x => x * OVERSAMPLING, pixels = new Uint8Array(4 * TILE * TILE);
+        this.#drawSamples([samples(width), samples(height)], first.map(samples), [samples(TILE), samples(TILE)]);
+        const framebuffer = gl.createFramebuffer(), buffer = gl.createRenderbuffer();
+        gl.bindRenderbuffer(gl.RENDERBUFFER, buffer);
+        gl.renderbufferStorage(gl.RENDERBUFFER, gl.RGBA8, TILE, TILE);
+        gl.bindFramebuffer(gl.FRAMEBUFFER, framebuffer);
+        gl.framebufferRenderbuffer(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.RENDERBUFFER, buffer);
+        gl.viewport(0, 0, TILE, TILE);
+        this.#develop.draw(this.#target.color, OVERSAMPLING, [width, height], { first, isTransparent });
+        const isDone = await this.#finished();
+        gl.bindFramebuffer(gl.FRAMEBUFFER, framebuffer);
+        gl.readPixels(0, 0, TILE, TILE, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+        gl.deleteFramebuffer(framebuffer);
+        gl.deleteRenderbuffer(buffer);
+        for (let y = 0; y < TILE; y++)
+            data.set(pixels.subarray(4 * TILE * y, 4 * TILE * (y + 1)), 4 * ((height - 1 - first[1] - y) * width + first[0]));
+        return isDone;
+    }
+
+    /** The name of what is drawn. */
+    get title() {
+        return this.#drawn?.shader.info.name ?? "";
+    }
+
+    // ---- Meshes ----
 
     #mesh(detail) {
         const key = `${this.#shape} ${detail}`;

@@ -46,6 +46,20 @@ export const MEAN = `(() => {
     return [0, 1, 2].map(c => data.reduce((sum, x, i) => i % 4 === c ? sum + x : sum, 0) / (size * size));
 })()`;
 
+/** Mean absolute difference of two PNG files, from 0 to 255, by the browser. */
+export const DIFFERENCE = (a, b) => `(async () => {
+    const pixels = async text => {
+        const image = await createImageBitmap(new Blob([Uint8Array.from(atob(text), letter => letter.charCodeAt(0))], { type: "image/png" }), { colorSpaceConversion: "none" });
+        const context = new OffscreenCanvas(image.width, image.height).getContext("2d");
+        context.drawImage(image, 0, 0);
+        return context.getImageData(0, 0, image.width, image.height);
+    };
+    const [one, other] = await Promise.all([pixels(${JSON.stringify(a)}), pixels(${JSON.stringify(b)})]);
+    if (one.width !== other.width || one.height !== other.height)
+        return [255, one.width, one.height];
+    return [one.data.reduce((sum, x, i) => sum + Math.abs(x - other.data[i]), 0) / (one.width * one.height * 3)];
+})()`;
+
 /** Opens the page in a browser; it must not complain. */
 export async function withPage(browser, address, work, size = { width: 960, height: 420 }) {
     const page = await browser.open(address, size);

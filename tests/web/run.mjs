@@ -11,7 +11,7 @@ import { pathToFileURL } from "node:url";
 
 import { run, test } from "../js/harness.mjs";
 import { Browser } from "./browser.mjs";
-import { change, compile, drop, MEAN, pick, RED, status, textOf, type, WHOLE, withPage as openPage, withServer } from "./page.mjs";
+import { change, compile, DIFFERENCE, drop, MEAN, pick, RED, status, textOf, type, WHOLE, withPage as openPage, withServer } from "./page.mjs";
 
 const [folder, chromium, root, program, mode] = process.argv.slice(2);
 const work = fs.mkdtempSync(path.join(os.tmpdir(), "mxgen-page-"));
@@ -87,7 +87,7 @@ if (mode !== "pictures") {
         await page.until("document.getElementById('element').options.length === 2");
         await page.evaluate(pick("element", "Blue"));
         await page.until("document.querySelector('[data-path=\"S2/base_color\"]')");
-        for (const shape of ["sphere", "cube", "plane", "ball"]) {
+        for (const shape of ["sphere", "cube", "cloth", "plane", "ball"]) {
             await change(page, pick("shape", shape));
             assert((await page.evaluate(MEAN))[2] > 60, shape);
         }
@@ -177,23 +177,9 @@ if (mode !== "pictures") {
     })));
 }
 
-/** Mean absolute difference of two PNG files, from 0 to 255, by the browser. */
-const DIFFERENCE = (a, b) => `(async () => {
-    const pixels = async text => {
-        const image = await createImageBitmap(new Blob([Uint8Array.from(atob(text), letter => letter.charCodeAt(0))], { type: "image/png" }), { colorSpaceConversion: "none" });
-        const context = new OffscreenCanvas(image.width, image.height).getContext("2d");
-        context.drawImage(image, 0, 0);
-        return context.getImageData(0, 0, image.width, image.height);
-    };
-    const [one, other] = await Promise.all([pixels(${JSON.stringify(a)}), pixels(${JSON.stringify(b)})]);
-    if (one.width !== other.width || one.height !== other.height)
-        return [255, one.width, one.height];
-    return [one.data.reduce((sum, x, i) => sum + Math.abs(x - other.data[i]), 0) / (one.width * one.height * 3)];
-})()`;
-
 if (mode === "pictures")
     // The page takes as many samples of the same lights with another rasteriser; the irradiance has fewer texels.
-    for (const [name, shape, limit] of [["gold", "ball", 0.5], ["marble", "sphere", 0.5], ["car_paint", "sphere", 1], ["gold", "cube", 0.5], ["shaderx", "sphere", 0.5], ["displaced", "sphere", 1.5], ["fog", "plane", 0.5]])
+    for (const [name, shape, limit] of [["gold", "ball", 0.5], ["marble", "sphere", 0.5], ["car_paint", "sphere", 1], ["gold", "cube", 0.5], ["gold", "cloth", 0.5], ["shaderx", "sphere", 0.5], ["displaced", "sphere", 1.5], ["fog", "plane", 0.5]])
         test(`${name} on a ${shape} looks as in mxgen render`, () => withPage(onDisk, async page => {
             await page.until("document.body.dataset.picture");
             await page.evaluate(pick("shape", shape));

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+// How the page shows a material, in Chromium: tones, pictures to save. Arguments: the folder of the page, Chromium, the root of the project, and
+// the program, if it has mxgen-render.
+
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import fs from "node:fs";
+import os from "node:os";
+import path from "node:path";
+import { pathToFileURL } from "node:url";
+
+import { run, test } from "../js/harness.mjs";
+import { Browser } from "./browser.mjs";
+import { change, compile, DIFFERENCE, MEAN, pick, type, WHOLE, withPage } from "./page.mjs";
+
+const [folder, chromium, root, program] = process.argv.slice(2);
+const onDisk = pathToFileURL(path.join(folder, "index.html")).href;
+const example = name => path.join(root, "examples", name);
+const work = fs.mkdtempSync(path.join(os.tmpdir(), "mxgen-studio-"));
+const browser = new Browser(chromium);
+
+const withStudio = (work, size = { width: 960, height: 420 }) => withPage(browser, onDisk, async page => {
+    await page.until(`document.body.dataset.studio && document.body.dataset.editor && document.body.dataset.compiled && ${WHOLE}`);
+    await change(page, pick("shape", "plane"));
+    await work(page);
+}, size);
+
+/** A surface that sends this light to everywhere. */
+const lamp = light => `<materialx version="1.39"><surface_unlit name="S" type="surfaceshader"><input name="emission_color" type="color3" value="${light.join(", ")}"/>
+    </surface_unlit><surfacematerial name="M" type="material"><input name="surfaceshader" type="surfaceshader" nodename="S"/></surfacematerial></materialx>`;
+
+const close = (found, wanted, tolerance, about) => assert(found.every((x, i) => Math.abs(x - wanted[i]) <= tolerance), `${about}: ${found} instead of ${wanted}`);
+
+// ---- Tones ----
+
+const EXPOSURE = 0.6;
+const LIGHTS = [[0.02, 0.05, 0.1], [0.9, 0.2, 0.1], [4, 0.5, 0.02], [0.01, 6, 0.3], [40, 60, 80]];
+const encode = x => 255 * (x <= 0.0031308 ? 12.92 * x : 1.055 * x ** (1 / 2.4) - 0.055);
+
+async function shown(page, tones, light) {
+    await page.evaluate(pick("tones", tones));
+    await compile(page, type(page, lamp(light)));
+    return page.evaluate(MEAN);
+}
+
+/** What the tone maps of three.js make of lights, by WebGL: sRGB from 0 to 255. */
+const byThree = (source, name, lights) => `(() => {
+    const gl = new OffscreenCanvas(1, 1).getContext("webgl2"), program = gl.createProgram();
+    const sources = ["#version 300 es\\nvoid main() { gl_Position = vec4(0, 0, 0, 1); gl_PointSize = 1.0; }", "#version 300 es\\nprecision highp float;\\n" + ${JSON.stringify(source)} + \`
+        uniform vec3 u_light;
+        out vec4 color;
+        void main()
+        {
+            vec3 x = clamp(${name}(u_light), 0.0, 1.0);
+            color = vec4(mix(12.92 * x, 1.055 * pow(x, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, x)), 1.0);
+        }\`];
+    sources.forEach((text, index) => {
+        const shader = gl.createShader(index ? gl.FRAGMENT_SHADER : gl.VERTEX_SHADER);
+        gl.shaderSource(shader, text);
+        gl.compileShader(shader);
+        gl.attachShader(program, shader);
+    });
+    gl.linkProgram(program);
+    gl.useProgram(program);
+    gl.uniform1f(gl.getUniformLocation(program, "toneMappingExposure"), ${EXPOSURE});
+    return ${JSON.stringify(lights)}.map(light => {
+        gl.uniform3f(gl.getUniformLocation(program, "u_light"), ...light);
+        gl.drawArrays(gl.POINTS, 0, 1);
+        const pixel = new Uint8Array(4);
+        gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
+        return [...pixel.subarray(0, 3)];
+    });
+})()`;
+
+test("no tones by default: light is cut off", () => withStudio(async page => {
+    assert.equal(await page.evaluate("document.getElementById('tones').value"), "None");
+    for (const light of LIGHTS)
+        close(await shown(page, "None", light), light.map(x => encode(Math.min(1, EXPOSURE * x))), 1, `None of ${light}`);
+}));
+
+test("Khronos Neutral is the specification: what is neither dark nor bright loses 0.04, and white stays white", () => withStudio(async page => {
+    for (const light of [[0.3, 0.3, 0.3], [1, 0.5, 0.25], [0.2, 0.6, 0.9]])
+        close(await shown(page, "Khronos Neutral", light), light.map(x => encode(EXPOSURE * x - 0.04)), 1, `Neutral of ${light}`);
+    close(await shown(page, "Khronos Neutral", [3000, 3000, 3000]), [255, 255, 255], 1, "Neutral of white");
+}));
+
+test("AgX: 0.18 becomes one half of its curve, and light of any brightness fits", () => withStudio(async page => {
+    const grey = 0.18 / EXPOSURE, middle = encode(0.5 ** 2.2);
+    close(await shown(page, "AgX", [grey, grey, grey]), [middle, middle, middle], 1, "AgX of grey");
+    const [red, green] = await shown(page, "AgX", [20, 0.2, 0.2]);
+    assert(red > green + 20 && green > 80, `bright red loses its colour: ${red} ${green}`);
+}));
+
+test("Neutral and AgX agree with three.js", async () => {
+    const file = path.join(root, "tests/npm/node_modules/three/src/renderers/shaders/ShaderChunk/tonemapping_pars_fragment.glsl.js");
+    if (!fs.existsSync(file))
+        return console.log("skip: three is not installed (npm ci --prefix tests/npm): tones were not compared");
+    const { default: source } = await import(pathToFileURL(file));
+    await withStudio(async page => {
+        for (const [tones, name, tolerance] of [["Khronos Neutral", "NeutralToneMapping", 1], ["AgX", "AgXToneMapping", 3]]) { // whose curve is a fit there
+            const wanted = await page.evaluate(byThree(source, name, LIGHTS));
+            for (const [index, light] of LIGHTS.entries())
+                close(await shown(page, tones, light), wanted[index], tolerance, `${tones} of ${light}`);
+        }
+        await change(page, pick("tones", "None"));
+    });
+});
+
+// ---- Pictures ----
+
+/** The picture of the program, as base64. */
+function render(document, ...options) {
+    const file = path.join(work, "rendered.png");
+    execFileSync(program, ["render", document, ...options, "-o", file], { stdio: "pipe" });
+    return fs.readFileSync(file).toString("base64");
+}
+
+/** Asserts that the mean difference of two pictures, from 0 to 255, is below a limit. */
+async function compare(page, mine, theirs, limit, about) {
+    const [difference, ...sizes] = await page.evaluate(DIFFERENCE(mine, theirs));
+    console.log(`${about}: ${difference.toFixed(2)} of 255 ${sizes.join(" ")}`);
+    assert(difference < limit, `${about}: ${difference} of 255 ${sizes}`);
+}
+
+/** Saves a picture; its name and its bytes, as base64. */
+async function save(page, size, isTransparent) {
+    const files = fs.mkdtempSync(path.join(work, "save-"));
+    await browser.send("Browser.setDownloadBehavior", { behavior: "allow", downloadPath: files });
+    await page.evaluate(`document.getElementById("size").value = "${size}", document.getElementById("transparent").checked = ${isTransparent}, document.getElementById("save").click()`);
+    await page.until("!document.getElementById('save').disabled");
+    while (!fs.readdirSync(files).some(name => name.endsWith(".png")))
+        await new Promise(resolve => setTimeout(resolve, 30));
+    const [name] = fs.readdirSync(files);
+    return [name, fs.readFileSync(path.join(files, name)).toString("base64")];
+}
+
+const hasRender = () => program || console.log("skip: mxgen-render is not built: pictures were not compared");
+
+test("a saved picture is that of mxgen render, of any size, with and without a background", () => withStudio(async page => {
+    await change(page, pick("shape", "ball"));
+    const [name, opaque] = await save(page, 1024, false), [, transparent] = await save(page, 512, true);
+    assert.equal(name, "Gold.png");
+    await change(page, pick("shape", "sphere")); // the view draws on
+    if (!hasRender())
+        return;
+    await compare(page, opaque, render(example("gold.mtlx"), "-s", "1024"), 0.5, "opaque");
+    await compare(page, transparent, render(example("gold.mtlx"), "-s", "512", "--background", "none"), 0.5, "transparent");
+}));
+
+try {
+    await run("web-studio");
+} finally {
+    await browser.close();
+    fs.rmSync(work, { recursive: true });
+}
