@@ -205,8 +205,11 @@ MXG_API mxg_element mxg_edit_copy_element(mxg_edit *edit, mxg_element parent,
  * Replaces a node by the nodes of the nodegraph that implements its definition. Their names begin
  * with its name; the one behind its only output has the name itself, and whatever read the node
  * reads its outputs there. They give the values that the node gave: inputs of the definition are
- * those of the node, or their defaults. Nodes with definitions that are nodegraphs stay as they
- * are; each takes a call of its own. An edit does not know the definitions that it adds itself.
+ * those of the node, or their defaults. A node whose values they cannot give stays, with the reason
+ * in mxg_edit_error: its results are converted from the colour space of a file that its graph
+ * changes, or it reads an interface in another unit than its own. Nodes with definitions that are
+ * nodegraphs stay as they are; each takes a call of its own. An edit does not know the definitions
+ * that it adds itself.
  */
 MXG_API mxg_status mxg_edit_flatten_node(mxg_edit *edit, mxg_element node);
 

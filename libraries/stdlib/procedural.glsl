@@ -77,7 +77,8 @@ float mx_circle(vec2 p, float radius)
 float mx_cloverleaf(vec2 p, float radius)
 {
     vec2 q = 2.0 * abs(p);
-    return max(mx_circle(q - vec2(radius, 0.0), radius), mx_circle(q - vec2(0.0, radius), radius));
+    float reach = abs(radius);
+    return max(mx_circle(q - vec2(reach, 0.0), reach), mx_circle(q - vec2(0.0, reach), reach));
 }
 
 // A regular hexagon, its radius being that of the inscribed circle: symmetry folds the plane to one half of one side.

@@ -30,7 +30,8 @@ class File:
     name: str | None = None
 
 
-#: Finds a file: (canonical name of the referring file or "", reference) to its content, or None if there is no such file.
+#: Finds a file: (canonical name of the referring file or "", reference) to its content, or None if there is no such file. An OSError that it
+#: raises is the reason why a file cannot be read; it becomes a message at the reference.
 Resolver = Callable[[str, str], Union[File, bytes, str, None]]
 #: Lists the files of a texture folder: (canonical name of the referring file, folder) to names, or None: no such folder.
 ListFolder = Callable[[str, str], Union[Sequence[str], None]]
@@ -64,10 +65,18 @@ class _Host:
         self.raised: BaseException | None = None
         self._lent: dict[int, tuple[bytes, bytes | None]] = {}
         self._next = 1
+        self._unreadable = b"", b""
 
-    def open(self, origin: bytes, reference: bytes, blob: Any, _reason: Any) -> bool:
+    def open(self, origin: bytes, reference: bytes, blob: Any, reason: Any) -> bool:
         assert self.resolver is not None
-        found = self.resolver(py_text(origin), py_text(reference))
+        try:
+            found = self.resolver(py_text(origin), py_text(reference))
+        except FileNotFoundError:
+            found = None
+        except OSError as error:
+            self._unreadable = reference, c_text(error.strerror or str(error), "the reason")
+            blob.contents.name, reason[0] = self._unreadable
+            return False
         if found is None:
             return False
         file = found if isinstance(found, File) else File(found)
@@ -128,7 +137,7 @@ class Context(Native):
     trust          accepts shader source in documents
     sandbox        keeps references of a document in its folder and in `include_roots`
 
-    An exception in a callback stops the call and leaves it unchanged. A callback cannot use its own context. Threads take turns
+    An exception in a callback, but an OSError of the resolver, stops the call and leaves it unchanged. A callback cannot use its own context. Threads take turns
     with a context; give each thread its own to generate at the same time."""
 
     def __init__(self, *, resolver: Resolver | None = None, list_folder: ListFolder | None = None,

@@ -83,5 +83,8 @@ const char *edit_source_type(const struct edit_change *change);
 
 /* The nodegraph that implements a definition for every target; 0: there is none. */
 elem_id edit_find_graph(const struct library *lib, uint32_t nodedef);
+/* Fails if the nodes of this graph cannot have the values of the node that the change is of. */
+void edit_check_flat(struct edit_change *change, const struct library *lib, uint32_t nodedef,
+                     elem_id graph);
 
 #endif

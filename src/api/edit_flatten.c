@@ -96,6 +96,8 @@ static bool find(struct flattening *f)
                   edit_label(c->edit, c->element));
     else if (doc_is_within(tree_of(f), c->element, f->graph))
         edit_fail(c, "'%s' is a part of its own definition", edit_label(c->edit, c->element));
+    else
+        edit_check_flat(c, view_of(f), f->nodedef, f->graph);
     return !c->failed && edit_check_room(c, most_elements(f));
 }
 
@@ -232,19 +234,25 @@ static void take_input(struct flattening *f, elem_id port, elem_id from, const s
         keep_meaning(f, port, from);
 }
 
-/* The default of an input of the definition. Colours of a library are in the working space. */
+/*
+ * The default of an input of the definition. Colours and files of a library are in the working
+ * space, if they say no other.
+ */
 static void take_default(struct flattening *f, elem_id port, const struct port *input)
 {
     struct document *doc = tree_of(f);
-    bool says =
-        input->element >= doc->first_element || doc_attr_value(doc, input->element, STR_colorspace);
+    bool is_file = input->type == DOC_TYPE_filename,
+         port_says = doc_attr(doc, port, STR_colorspace) != NULL,
+         says = input->element >= doc->first_element
+                || doc_attr_value(doc, input->element, STR_colorspace);
     doc_set_attr(doc, port, STR_value, input->value);
-    if (doc_attr(doc, port, STR_colorspace))
-        return;
-    if (says)
+    if (says && !port_says)
         keep_meaning(f, port, input->element);
-    else if (doc_type_is_color(input->type))
+    else if (!port_says && (is_file || doc_type_is_color(input->type)))
         keep_inherited(f, port, STR_colorspace, STR_EMPTY, STR_none);
+    if (is_file)
+        keep_inherited(f, port, STR_fileprefix,
+                       doc_inherited_attr(doc, input->element, STR_fileprefix), STR_EMPTY);
 }
 
 static void add_input(struct flattening *f, elem_id node, const char *name, const char *type,

@@ -186,38 +186,119 @@ static void test_outputs(struct fixture *f)
     mxg_document_destroy(after);
 }
 
-/* A file from a node has the space of the input that it goes through; what the definition says
- * stays. */
+#define READER(name, says) \
+    "<nodedef name='ND_" name "' node='" name "'>" \
+    "<input name='a' type='filename' value='none.png'/>" \
+    "<output name='out' type='color3'/></nodedef>" \
+    "<nodegraph name='NG_" name "' nodedef='ND_" name "'>" \
+    "<image name='i' type='color3'>" \
+    "<input name='file' type='filename' interfacename='a' " says "/></image>"
+#define END(node) "<output name='out' type='color3' nodename='" node "'/></nodegraph>"
+#define ADDING \
+    "<add name='sum' type='color3'><input name='in1' type='color3' nodename='i'/>" \
+    "<input name='in2' type='color3' value='0.1, 0.2, 0.3'/></add>"
+#define READERS \
+    READER("plain", "") \
+    END("i") \
+    READER("adding", "") ADDING END("sum") READER("stating", "colorspace='srgb_texture'") \
+        ADDING END("sum")
+
+/*
+ * A file from a node has the space of the input that it goes through; what the definition says
+ * stays.
+ */
 static void test_files(struct fixture *f)
 {
     mxg_document *before = parse(
-        f, DOCUMENT(
-               " colorspace='lin_rec709'",
-               "<nodedef name='ND_t' node='twice'>"
-               "<input name='a' type='filename' value='none.png'/>"
-               "<input name='b' type='filename' value='none.png'/>"
-               "<output name='out' type='color3'/></nodedef><nodegraph name='NG_t' nodedef='ND_t'>"
-               "<image name='i' type='color3'>"
-               "<input name='file' type='filename' interfacename='a'/></image>"
-               "<image name='j' type='color3'><input name='file' type='filename' "
-               "interfacename='b' colorspace='srgb_texture'/></image>"
-               "<add name='both' type='color3'><input name='in1' type='color3' nodename='i'/>"
-               "<input name='in2' type='color3' nodename='j'/></add>"
-               "<output name='out' type='color3' nodename='both'/></nodegraph>"
-               "<constant name='map' type='filename'>"
-               "<input name='value' type='filename' value='wood.png'/></constant>"
-               "<twice name='P' type='color3'>"
-               "<input name='a' type='filename' nodename='map' colorspace='acescg'/>"
-               "<input name='b' type='filename' value='rust.png' "
-               "colorspace='acescg'/></twice>" SURFACE(
-                   "<input name='base_color' type='color3' nodename='P'/>")));
-    mxg_document *after = flatten(f, before, (const char *const[]){"P", NULL});
-    expect_attribute(after, "P_i/file", "nodename", "map");
-    expect_attribute(after, "P_i/file", "colorspace", "acescg");
-    expect_attribute(after, "P_j/file", "value", "rust.png");
-    expect_attribute(after, "P_j/file", "colorspace", "srgb_texture");
+        f, DOCUMENT(" colorspace='lin_rec709'", READERS
+                    "<constant name='map' type='filename'>"
+                    "<input name='value' type='filename' value='wood.png'/></constant>"
+                    "<plain name='P' type='color3'>"
+                    "<input name='a' type='filename' nodename='map' colorspace='acescg'/></plain>"
+                    "<stating name='Q' type='color3'><input name='a' type='filename' "
+                    "value='rust.png' colorspace='acescg'/></stating>"
+                    "<adding name='R' type='color3'/>" SURFACE(
+                        "<input name='base_color' type='color3' nodename='P'/>"
+                        "<input name='coat_color' type='color3' nodename='R'/>"
+                        "<input name='emission_color' type='color3' nodename='Q'/>")));
+    mxg_document *after = flatten(f, before, (const char *const[]){"P", "Q", "R", NULL});
+    expect_attribute(after, "P/file", "nodename", "map");
+    expect_attribute(after, "P/file", "colorspace", "acescg");
+    expect_attribute(after, "Q_i/file", "value", "rust.png");
+    expect_attribute(after, "Q_i/file", "colorspace", "srgb_texture");
+    REQUIRE(draws_the_same(f->context, before, after, "S"));
     mxg_document_destroy(before);
     mxg_document_destroy(after);
+}
+
+/* The default of a library's definition is a file beside the library, in the working space. */
+static void test_files_of_libraries(void)
+{
+    static const struct memory_file library[] = {
+        {"library.mtlx", DOCUMENT(" colorspace='acescg' fileprefix='tex/'", READERS)},
+        {NULL, NULL}};
+    struct memory_files files = {.files = library};
+    struct fixture own = {0};
+    mxg_context_desc desc = MXG_CONTEXT_DESC_INIT;
+    const mxg_resolver resolver = memory_resolver(&files);
+    desc.resolver = &resolver;
+    REQUIRE_EQ(mxg_context_create(&desc, &own.context), MXG_OK);
+    mxg_library *builtin = mxg_library_builtin(own.context);
+    REQUIRE_EQ(mxg_library_load(own.context, builtin, (const char *const[]){"library.mtlx"}, 1,
+                                &own.library),
+               MXG_OK);
+    mxg_library_unref(builtin);
+    mxg_document *before =
+        parse(&own, DOCUMENT(" colorspace='srgb_texture' fileprefix='here/'",
+                             "<adding name='P' type='color3'/>" SURFACE(
+                                 "<input name='base_color' type='color3' nodename='P'/>")));
+    mxg_document *after = flatten(&own, before, (const char *const[]){"P", NULL});
+    expect_attribute(after, "P_i/file", "fileprefix", "tex/");
+    expect_attribute(after, "P_i/file", "colorspace", "none");
+    mxg_result *result = generate_reduced(own.context, after, "S");
+    REQUIRE(strstr(mxg_result_reflection_json(result, NULL), "\"file\": \"tex/none.png\""));
+    REQUIRE(!strstr(mxg_result_source(result, MXG_STAGE_PIXEL, NULL), "srgb"));
+    mxg_result_destroy(result);
+    mxg_document_destroy(before);
+    mxg_document_destroy(after);
+    close_fixture(&own);
+}
+
+/* What a node converts behind its graph, or before it, no node of the graph can. */
+static void test_conversions(struct fixture *f)
+{
+    static const struct {
+        const char *inputs, *reason;
+    } cases[] = {
+        {READERS "<adding name='P' type='color3'><input name='a' type='filename' value='wood.png'/>"
+                 "</adding>",
+         "the results of 'P' are converted from the colour space or unit of the file 'a'"},
+        {READERS "<adding name='P' type='color3'/>", /* of the document, like its default */
+         "the results of 'P' are converted"},
+        {SPLIT "<nodegraph name='G'>"
+               "<input name='far' type='float' value='2' unit='inch' unittype='distance'/>"
+               "<split name='P' type='multioutput'>"
+               "<input name='depth' type='float' interfacename='far'/>"
+               "<input name='file' type='filename' value='' colorspace='none'/></split>"
+               "<output name='out' type='float' nodename='P' output='c'/></nodegraph>",
+         "'depth' of 'P' is in 'meter', and what it reads in 'inch'"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[8192], reason[512];
+        snprintf(text, sizeof text,
+                 "<materialx version='1.39' colorspace='srgb_texture'>%s</materialx>",
+                 cases[i].inputs);
+        mxg_document *document = parse(f, text);
+        mxg_edit *edit = NULL;
+        REQUIRE_EQ(mxg_edit_create(f->context, f->library, document, NULL, &edit), MXG_OK);
+        mxg_element node = edited_at(edit, i == 2 ? "G/P" : "P");
+        REQUIRE_EQ(mxg_edit_flatten_node(edit, node), MXG_ERROR_ARGUMENT);
+        mxg_edit_error(edit, reason, sizeof reason);
+        if (!REQUIRE(strstr(reason, cases[i].reason)))
+            printf("    %s\n", reason);
+        mxg_edit_destroy(edit);
+        mxg_document_destroy(document);
+    }
 }
 
 /* A string that names a file has no prefix, and the file has the space of the definition. */
@@ -336,8 +417,8 @@ static void test_failures(void)
 }
 
 static void (*const tests[])(struct fixture *f) = {
-    test_values,      test_defaults, test_outputs, test_files,
-    test_named_files, test_levels,   test_library,
+    test_values,      test_defaults,    test_outputs, test_files,
+    test_conversions, test_named_files, test_levels,  test_library,
 };
 
 int main(void)
@@ -348,6 +429,7 @@ int main(void)
         tests[i](&f);
         close_fixture(&f);
     }
+    test_files_of_libraries();
     test_failures();
     return test_report("api-flatten");
 }

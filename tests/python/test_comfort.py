@@ -194,6 +194,22 @@ class Files(unittest.TestCase):
             context.load("../gold/none.mtlx")
         self.assertIsNone(files.list_folder("", "none"))
 
+    def test_entries_that_cannot_be_read(self):
+        data = io.BytesIO()
+        with zipfile.ZipFile(data, "w", zipfile.ZIP_DEFLATED) as archive:
+            archive.writestr("large.mtlx", common.GOLD + " " * (3 << 20))
+            archive.writestr("damaged.mtlx", common.GOLD)
+            offset = archive.getinfo("damaged.mtlx").header_offset + 40
+            archive.writestr("main.mtlx", '<materialx version="1.39"><xi:include href="damaged.mtlx" xmlns:xi="http://www.w3.org/2001/XInclude"/></materialx>')
+        damaged = bytearray(data.getvalue())
+        damaged[offset:offset + 60] = bytes(60)
+        context = mxgen.Context(resolver=mxgen.ZipFiles(io.BytesIO(damaged), max_file_mib=2).open)
+        for name, reason in ("large.mtlx", "larger than 2 MiB"), ("damaged.mtlx", "the archive says"), ("main.mtlx", "the archive says"):
+            with self.assertRaisesRegex(mxgen.DocumentError, reason) as raised:
+                context.load(name)
+            self.assertIn(raised.exception.diagnostics[0].id, ("file-unreadable", "include-missing"))
+        self.assertTrue(mxgen.Context(resolver=mxgen.ZipFiles(data).open).load("large.mtlx"))
+
 
 class Pictures(unittest.TestCase):
     def setUp(self):
