@@ -160,18 +160,33 @@ static bool is_new(struct report *report, const mxg_diagnostic *diagnostic)
 
 void report_document(struct report *report)
 {
-    report->document_errors = 0;
+    report->document_errors = report->document_warnings = 0;
     report->has_cut_note = false;
     report->is_cause_told = false;
 }
 
-/* True if a message and its notes may be printed; limits the number of errors. */
+enum { MAX_WARNINGS = 1000 }; /* printed for a document, as long as errors have a limit */
+
+/* Counts a message that is no error; false if there are too many. The first that is cut is told. */
+static bool admit_warning(struct report *report)
+{
+    if (report->document_warnings++ == MAX_WARNINGS)
+        fprintf(
+            stderr,
+            "note: more than %d warnings; the rest is not shown, but '--max-errors 0' shows all\n",
+            MAX_WARNINGS);
+    return report->document_warnings <= MAX_WARNINGS;
+}
+
+/* True if a message and its notes may be printed; limits their number. */
 static bool admit(struct report *report, const mxg_diagnostic *diagnostic, uint32_t index)
 {
     if (!is_shown(report, diagnostic, index) || !is_new(report, diagnostic))
         return false;
-    if (diagnostic->severity != MXG_SEVERITY_ERROR || !report->max_errors)
+    if (!report->max_errors)
         return true;
+    if (diagnostic->severity != MXG_SEVERITY_ERROR)
+        return admit_warning(report);
     if (report->document_errors < report->max_errors) {
         ++report->document_errors;
         return true;

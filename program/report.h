@@ -29,8 +29,9 @@ struct report {
     uint32_t errors;        /* number of errors, including repeated ones and those past the limit */
     size_t max_errors;      /* limit per document; 0: no limit */
     size_t document_errors; /* errors printed for the current document */
-    bool has_cut_note;      /* the hint that more errors exist was printed */
-    bool is_cause_told;     /* the note about consequences was printed for the document */
+    size_t document_warnings;   /* other messages for it, including those that were not printed */
+    bool has_cut_note;          /* the hint that more errors exist was printed */
+    bool is_cause_told;         /* the note about consequences was printed for the document */
     struct name_table printed;  /* hashes of printed messages */
     char *source_name, *source; /* the last file that was read */
     size_t source_size;

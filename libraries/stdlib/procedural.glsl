@@ -64,7 +64,7 @@ float mx_line(vec2 p, float radius, vec2 point1, vec2 point2)
 {
     vec2 along = point2 - point1;
     vec2 from = p - point1;
-    float nearest = clamp(dot(from, along) / dot(along, along), 0.0, 1.0);
+    float nearest = clamp(dot(from, along) / max(dot(along, along), 1e-20), 0.0, 1.0);
     return distance(from, along * nearest) > radius ? 0.0 : 1.0;
 }
 

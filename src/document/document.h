@@ -131,9 +131,9 @@ enum comment_place {
     NUM_COMMENT_PLACES
 };
 
-/* A comment of the file, or a blank line. Only doc_write reads comments. */
+/* A comment or a processing instruction of the file, or a blank line. Only doc_write reads them. */
 struct doc_comment {
-    str_id text;   /* between "<!--" and "-->"; 0: a blank line */
+    str_id text;   /* with "<!--" and "-->", or "<?" and "?>"; 0: a blank line */
     uint32_t next; /* in the same place: index plus 1; 0 = none */
 };
 

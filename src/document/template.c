@@ -17,8 +17,12 @@ struct slice {
     size_t len;
 };
 
+/* Nested templates multiply: a few lines could make any number of elements. */
+enum { MAX_MADE = 1 << 17 };
+
 struct expansion {
     struct document *doc;
+    uint32_t most_elements; /* of the document */
     struct diag_list *diags;
     elem_id template;
     size_t num_vars;
@@ -26,6 +30,11 @@ struct expansion {
     struct text *scratch;
     bool failed;
 };
+
+static bool is_full(const struct expansion *x)
+{
+    return doc_is_full(x->doc) || doc_num_elements(x->doc) >= x->most_elements;
+}
 
 static bool slice_is(struct slice a, const char *text, size_t len)
 {
@@ -205,7 +214,7 @@ static void copy_tree(struct expansion *x, elem_id source)
     elem_id copy = copy_element(x, source, doc_element(doc, x->template)->parent, false);
     doc_move_before(doc, copy, x->template);
     assert(doc_element(doc, copy)->next == x->template);
-    for (elem_id from = source; !doc_is_full(doc);) {
+    for (elem_id from = source; !is_full(x);) {
         if (!template && doc_element(doc, from)->kind == KIND_TEMPLATE) {
             template = from;
             check_hiding(x, from);
@@ -273,7 +282,7 @@ static void expand(struct expansion *x)
     struct slice rest = attr_slice(doc, x->template, STR_rows);
     if (!read_vars(x))
         return;
-    while (!x->failed && !doc_is_full(doc) && read_row(x, &rest))
+    while (!x->failed && !is_full(x) && read_row(x, &rest))
         for (elem_id child = doc_element(doc, x->template)->first_child; child;
              child = doc_element(doc, child)->next)
             copy_tree(x, child);
@@ -294,13 +303,20 @@ void doc_expand_templates(struct document *doc, struct diag_list *diags)
         return;
     struct text scratch;
     text_init(&scratch, doc->arena);
+    struct expansion first = {.doc = doc,
+                              .most_elements = doc_num_elements(doc) + MAX_MADE,
+                              .diags = diags,
+                              .scratch = &scratch};
     /* the loop also reaches the copies of inner templates */
-    for (uint32_t i = 0; i < doc->elements.len && !doc_is_full(doc); i++) {
-        struct expansion x = {
-            .doc = doc, .diags = diags, .template = doc->first_element + i, .scratch = &scratch};
+    for (uint32_t i = 0; i < doc->elements.len && !is_full(&first); i++) {
+        struct expansion x = first;
+        x.template = doc->first_element + i;
         if (doc->elements.items[i].kind != KIND_TEMPLATE || !is_outermost(doc, x.template))
             continue;
         expand(&x);
+        if (is_full(&x) && !doc_is_full(doc))
+            fail(&x, STR_rows, "the templates of a document make 131072 elements at most%.*s",
+                 (struct slice){"", 0});
         doc_remove_element(doc, x.template);
     }
     doc->has_templates = false;

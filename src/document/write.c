@@ -32,13 +32,6 @@ static void indent(struct text *out, uint32_t depth)
         text_str(out, "  ");
 }
 
-static void write_comment(const struct document *doc, str_id text, struct text *out)
-{
-    text_str(out, "<!--");
-    text_str(out, str_text(doc->strings, text));
-    text_str(out, "-->");
-}
-
 /*
  * Blank lines as the reader counts them, also where elements between them are gone: several count
  * as one, and those at the begin and at the end of an element do not count.
@@ -67,7 +60,7 @@ static void write_comments(const struct document *doc, elem_id element, enum com
         }
         begin_line(layout, out);
         indent(out, depth);
-        write_comment(doc, text, out);
+        text_str(out, str_text(doc->strings, text));
         text_char(out, '\n');
     }
 }
@@ -77,7 +70,7 @@ static void end_line(const struct document *doc, elem_id element, struct text *o
     for (uint32_t i = doc_first_comment(doc, element, COMMENT_BEHIND); i;
          i = doc_comment_at(doc, i)->next) {
         text_char(out, element != doc->root ? ' ' : '\n');
-        write_comment(doc, doc_comment_at(doc, i)->text, out);
+        text_str(out, str_text(doc->strings, doc_comment_at(doc, i)->text));
     }
     text_char(out, '\n');
 }

@@ -305,22 +305,37 @@ static void on_end_element(void *user, const xmlChar *name, const xmlChar *prefi
     guarded(user, end_element, user);
 }
 
-struct comment {
+/* A comment, or the words of a processing instruction. */
+struct aside {
     struct xml_reader *reader;
-    const char *text;
+    const xmlChar *text, *target; /* NULL: none */
 };
 
-static void add_comment(void *arg)
+static void add_aside(void *arg)
 {
-    const struct comment *comment = arg;
-    xml_see_comment(comment->reader, str_intern_z(comment->reader->doc->strings, comment->text));
+    const struct aside *aside = arg;
+    struct text text;
+    text_init(&text, &aside->reader->scratch);
+    if (!aside->target)
+        text_fmt(&text, "<!--%s-->", (const char *)aside->text);
+    else
+        text_fmt(&text, "<?%s%s%s?>", (const char *)aside->target, aside->text ? " " : "",
+                 aside->text ? (const char *)aside->text : "");
+    xml_see_comment(aside->reader, str_intern(aside->reader->doc->strings, text.data, text.len));
 }
 
 static void on_comment(void *user, const xmlChar *text)
 {
     struct xml_reader *reader = user;
     if (reader->doc->keeps_comments)
-        guarded(reader, add_comment, &(struct comment){reader, (const char *)text});
+        guarded(reader, add_aside, &(struct aside){reader, text, NULL});
+}
+
+static void on_instruction(void *user, const xmlChar *target, const xmlChar *text)
+{
+    struct xml_reader *reader = user;
+    if (reader->doc->keeps_comments)
+        guarded(reader, add_aside, &(struct aside){reader, text, target});
 }
 
 static void stray_text(void *arg)
@@ -480,6 +495,7 @@ static bool prepare_parser(struct xml_reader *reader)
         .ignorableWhitespace = on_text,
         .cdataBlock = on_text,
         .comment = on_comment,
+        .processingInstruction = on_instruction,
         .internalSubset = on_doctype,
         .serror = on_structured_error,
     };

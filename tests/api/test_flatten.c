@@ -200,8 +200,8 @@ static void test_outputs(struct fixture *f)
 #define READERS \
     READER("plain", "") \
     END("i") \
-    READER("adding", "") ADDING END("sum") READER("stating", "colorspace='srgb_texture'") \
-        ADDING END("sum")
+    READER("adding", "") \
+    ADDING END("sum") READER("stating", "colorspace='srgb_texture'") ADDING END("sum")
 
 /*
  * A file from a node has the space of the input that it goes through; what the definition says

@@ -229,4 +229,17 @@ if [ -x "$render" ]; then
 else
     skip 'mxgen-render is not built'
 fi
+
+# A few lines make many elements, and many messages.
+doubled() { # N: a node in N templates of two rows each
+    local begin='' name='' end='' i
+    for i in $(seq "$1"); do begin+="<template vars='v$i' rows='1;2'>" name+="@v$i@" end+='</template>'; done
+    echo "<materialx version='1.39'>$begin<constant name='c$name' type='float'/>$end</materialx>"
+}
+doubled 11 >many.mtlx
+doubled 24 >most.mtlx
+check 'the warnings of a document are limited' eval 'exits 0 "$mxgen" validate many.mtlx && [ "$(grep -c "warning:" err)" = 1000 ] && grep -q "^note: more than 1000 warnings" err'
+check '--max-errors 0 shows all' eval 'exits 0 "$mxgen" validate many.mtlx --max-errors 0 && [ "$(grep -c "warning:" err)" = 2048 ]'
+check 'templates make a limited number of elements' eval '(ulimit -v 1000000; exits 1 timeout 20 "$mxgen" validate most.mtlx) && grep -q "at most \[template-bad\]" err'
+
 finish hostile

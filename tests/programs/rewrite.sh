@@ -41,6 +41,18 @@ cat >old.mtlx <<'END'
 END
 check 'an old document is upgraded' exits 0 "$mxgen" upgrade old.mtlx -o new.mtlx
 check 'the upgraded document has version 1.39' grep -q 'version="1.39"' new.mtlx
+cat >instructions.mtlx <<'END'
+<?xml version="1.0"?>
+<?xml-model href="x.rng"?>
+<materialx version="1.39">
+  <!---->
+  <?note?>
+  <constant name="a" type="float"/> <?behind it?>
+  <?last one?>
+</materialx>
+<?after?>
+END
+check 'processing instructions and an empty comment stay' eval '"$mxgen" format instructions.mtlx | cmp - instructions.mtlx'
 check 'the upgrade keeps comments' test "$(grep -c -- '<!--' new.mtlx)" = 4
 check 'the upgraded document is valid' exits 0 "$mxgen" validate new.mtlx --verbose
 check 'the upgraded document needs no upgrade' eval '! grep -q upgraded err'
