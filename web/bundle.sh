@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Bundles a script of the page. Arguments: esbuild, the folder web, the built npm package, the output: page.js, with the worker in it, or
+# Bundles a script of the page. Arguments: esbuild, the folder web, the built npm package, the output: page.js, with its worker in it, or
 # editor.js or studio.js, which need the packages of npm (package.json).
 set -eu
 esbuild=$1 web=$2 package=$3 output=$(realpath -m "$4")
@@ -19,7 +19,10 @@ bundle() { # OUTPUT INPUT
 }
 case $output in
 */editor.js) bundle "$output" web/editor/editor.js ;;
-*/studio.js) bundle "$output" web/studio/studio.js ;;
+*/studio.js)
+    bundle node_modules/reader.bundle.js web/studio/reader.js
+    bundle "$output" web/studio/studio.js
+    ;;
 *)
     bundle node_modules/worker.bundle.js web/worker.js
     bundle "$output" web/page.js

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page's side of the worker.
+// The page's side of a worker.
 
 const TOO_LONG = 20_000; // milliseconds
 
@@ -9,12 +9,14 @@ export class Compiler {
     #next = 1;
     #remembered = new Map();
     #source;
+    #complaint;
     onSaid = () => {}; // what the worker says by itself
     onStop = () => {};
 
-    /** `source` is the text of the worker. */
-    constructor(source) {
+    /** `source` is the text of the worker, `complaint` a sentence for work that takes too long. */
+    constructor(source, complaint = "The document takes longer than 20 seconds; the compiler was stopped.") {
         this.#source = source;
+        this.#complaint = complaint;
     }
 
     #start() {
@@ -55,7 +57,7 @@ export class Compiler {
             this.#start();
         const id = this.#next++;
         return new Promise((resolve, reject) => {
-            const timer = setTimeout(() => this.#stop("The document takes longer than 20 seconds; the compiler was stopped."), TOO_LONG);
+            const timer = setTimeout(() => this.#stop(this.#complaint), TOO_LONG);
             this.#waiting.set(id, { resolve, reject, timer });
             this.#worker.postMessage({ id, kind, ...request });
         });

@@ -21,6 +21,7 @@ import workerSource from "worker.bundle.js";
 const EXAMPLES = { "Gold": gold, "Marble": marble, "Car paint": carPaint, "Displaced": displaced, "ShaderX nodes": shaderx, "Custom node": expression, "Fog": fog };
 const DOCUMENT = "document.mtlx";
 const MAX_TEXT = 4 << 20; // an editor of more is slow
+const SCENERY = /\.(hdr|exr)$/i;
 const PAUSE = 250; // milliseconds after a key before the document is compiled
 
 const $ = id => document.getElementById(id);
@@ -34,6 +35,7 @@ let element = null;
 let request = 0; // the number of the newest compilation
 let pause = 0;
 let messages = []; // of the newest compilation
+let remarks = []; // messages about files that were opened last
 let cures = []; // quick fixes of the editor
 const textures = new Map(); // pictures that were dropped, by the names of their files
 const originals = new Map(); // values that documents had when they were opened, by the paths of inputs
@@ -128,12 +130,17 @@ async function openEditor(module) {
     document.body.dataset.editor = "true";
 }
 
+let giveStudio;
+const studio = new Promise(resolve => giveStudio = resolve); // null: there is none
+
 async function openStudio() {
-    if (!view)
-        return;
-    const Studio = await load("studio.js", "mxgenStudio");
-    new Studio({ view, panel: layout.add("view", "View"), tell });
-    document.body.dataset.studio = "true";
+    try {
+        const Studio = view && await load("studio.js", "mxgenStudio");
+        giveStudio(Studio && new Studio({ view, panel: layout.add("view", "View"), tell }));
+        document.body.dataset.studio = "true";
+    } finally {
+        giveStudio(null);
+    }
 }
 
 // ---- Results ----
@@ -158,11 +165,12 @@ function messageItem({ severity, id, message, file, line, column, length }) {
 
 function showMessages() {
     const list = $("messages").firstElementChild;
-    list.replaceChildren(...messages.map(messageItem));
-    if (!messages.length)
+    const all = [...messages, ...remarks];
+    list.replaceChildren(...all.map(messageItem));
+    if (!all.length)
         list.append(Object.assign(document.createElement("li"), { className: "none", textContent: "No errors, no warnings." }));
-    $("tab-messages").textContent = messages.length ? `Messages (${messages.length})` : "Messages";
-    $("tab-messages").className = messages.some(({ severity }) => severity === "error") ? "error" : "";
+    $("tab-messages").textContent = all.length ? `Messages (${all.length})` : "Messages";
+    $("tab-messages").className = all.some(({ severity }) => severity === "error") ? "error" : "";
 }
 
 async function inspect() {
@@ -269,13 +277,24 @@ async function takePicture(file) {
     await language.remember("addFile", { name: file.name, content: new Uint8Array(await file.arrayBuffer()) });
 }
 
-/** Documents and texts that they include, and textures. */
+/** What the material is shown with. */
+async function takeScenery(file) {
+    const taker = await studio;
+    if (!taker)
+        throw new Error("there is no picture");
+    remarks.push(...await taker.take(file));
+}
+
+/** Documents and texts that they include, textures, and scenery. */
 async function take(files) {
     const texts = [], faults = [];
     let opened = null;
+    remarks = [];
     for (const file of files) {
         try {
-            if (file.type.startsWith("image/"))
+            if (SCENERY.test(file.name))
+                await takeScenery(file);
+            else if (file.type.startsWith("image/"))
                 await takePicture(file);
             else if (file.name.endsWith(".mtlx") && !opened)
                 opened = file;
@@ -300,6 +319,8 @@ async function take(files) {
         $("example").value = "";
     if (faults.length)
         tell(`The page cannot read ${faults.join(", ")}.`);
+    else if (remarks.length)
+        tell(remarks[0].message);
 }
 
 // ---- The page ----

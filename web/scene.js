@@ -201,7 +201,7 @@ function makeMap(width, height, value) {
 }
 
 /** Half the width and height, by box averages. */
-function halve(map) {
+export function halve(map) {
     const width = Math.max(map.width >> 1, 1), height = Math.max(map.height >> 1, 1), pixels = new Float32Array(width * height * 4);
     for (let y = 0; y < height; y++)
         for (let x = 0; x < width; x++)
@@ -236,13 +236,15 @@ function irradianceOf(map) {
     });
 }
 
-/** The sky: the levels of the radiance map, and the irradiance map. */
-export function makeSky() {
-    const levels = [makeMap(256, 128, radiance)];
-    while (levels.at(-1).width > 1)
+/** A latitude-longitude map as light: its levels, and the irradiance map. */
+export function lightOf(map) {
+    const levels = [map];
+    while (levels.at(-1).width > 1 || levels.at(-1).height > 1)
         levels.push(halve(levels.at(-1)));
-    return { radiance: levels, irradiance: [irradianceOf(levels[2])] };
+    return { radiance: levels, irradiance: [irradianceOf(levels.find(({ width }) => width <= 64))] };
 }
+
+export const makeSky = () => lightOf(makeMap(256, 128, radiance));
 
 const LIGHTS = [
     { type: 1, direction: [-0.6, -0.7, -0.4], position: [0, 0, 0], color: [1.0, 0.95, 0.9], intensity: 2.0, decay_rate: 0 },

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shaders for the view (view.js), made in a worker, and how a worker answers.
+// Shaders for the view (view.js), made in a worker.
 
 import { DocumentError } from "../js/mxgen/mxgen.js";
 
@@ -57,15 +57,4 @@ export function placesOf(document, { variables }) {
 /** The same fault can stand in the diagnostics of the document and of the shader. */
 export function distinct(diagnostics) {
     return [...new Map(diagnostics.map(item => [JSON.stringify({ ...item, parent: 0 }), item])).values()];
-}
-
-/** Answers messages { id, kind, … } by the function of their kind; the answer has the same id. */
-export function serve(kinds) {
-    addEventListener("message", async ({ data: { id, kind, ...request } }) => {
-        try {
-            postMessage({ id, answer: await kinds[kind](request) });
-        } catch (error) {
-            postMessage({ id, error: String(error?.message ?? error) });
-        }
-    });
 }

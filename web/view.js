@@ -27,7 +27,8 @@ export class View {
     #meshes = new Map();
     #buffers = new Map();
     #textures = new Map(); // by file
-    #sky;
+    #sky = null;
+    #ownLight = null;
     #target = null;
     #frame = 0;
     #isBusy = false; // the device draws a frame
@@ -77,10 +78,17 @@ export class View {
         if (this.#maps)
             return;
         this.#develop = new Develop(this.#gl, this.#tone);
-        this.#sky ??= makeSky();
-        this.#maps = Object.fromEntries(Object.entries(this.#sky).map(([name, levels]) => [name, this.#upload(levels)]));
+        this.#makeMaps();
         this.#missing = this.#checker();
         this.#mesh(1);
+    }
+
+    get #light() {
+        return this.#ownLight ?? (this.#sky ??= makeSky());
+    }
+
+    #makeMaps() {
+        this.#maps = Object.fromEntries(Object.entries(this.#light).map(([name, levels]) => [name, this.#upload(levels)]));
     }
 
     #develop = null;
@@ -185,6 +193,16 @@ export class View {
         gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, gl.RGBA, gl.UNSIGNED_BYTE, image);
         gl.generateMipmap(gl.TEXTURE_2D);
         this.#textures.set(file, { image, texture });
+        this.draw();
+    }
+
+    /** Maps (lightOf of scene.js) in the place of the sky and its three lights; null: these. */
+    set light(maps) {
+        this.#ownLight = maps;
+        for (const texture of Object.values(this.#maps ?? {}))
+            this.#gl.deleteTexture(texture);
+        if (this.#maps)
+            this.#makeMaps();
         this.draw();
     }
 
@@ -430,14 +448,14 @@ export class View {
     }
 
     #bindUniforms(aspect) {
-        const { shader } = this.#drawn, numLevels = this.#sky.radiance.length;
+        const { shader } = this.#drawn, numLevels = this.#light.radiance.length;
         let unit = 0;
         for (const variable of shader.variables) {
             const { name, type, block, values } = variable;
             if (block === "textures")
                 this.#bindTexture(variable, unit++);
             else if (block === "publicUniforms" || block === "privateUniforms") {
-                const value = block === "privateUniforms" ? uniformOf(name, this.camera, aspect, numLevels) ?? values : values;
+                const value = block === "privateUniforms" ? this.#valueOf(name, aspect, numLevels) ?? values : values;
                 const count = { float: 1, int: 1, bool: 1, vec2: 2, vec3: 3, vec4: 4, ivec2: 2, ivec3: 3, ivec4: 4, mat2: 4, mat3: 9, mat4: 16 }[type];
                 if (value.length >= count)
                     this.#setUniform(name, type, variable.arrayLength ? value : value.slice(0, count));
@@ -449,6 +467,10 @@ export class View {
                 }
             }
         }
+    }
+
+    #valueOf(name, aspect, numLevels) {
+        return name === "u_numActiveLightSources" && this.#ownLight ? [0] : uniformOf(name, this.camera, aspect, numLevels);
     }
 
     #bindTexture({ name, file, uaddressmode, vaddressmode, filtertype }, unit) {

@@ -4,7 +4,8 @@
 
 import { DocumentError, instantiate } from "../js/mxgen/mxgen.js";
 import { moduleOf } from "./module.js";
-import { distinct, generate, partsOf, placesOf, REDUCED, serve, shaderOf } from "./shaders.js";
+import { serve } from "./serve.js";
+import { distinct, generate, partsOf, placesOf, REDUCED, shaderOf } from "./shaders.js";
 
 const files = new Map(); // texts that documents include, and pictures, by their last name
 

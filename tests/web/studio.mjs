@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the page shows a material, in Chromium: tones, pictures to save. Arguments: the folder of the page, Chromium, the root of the project, and
-// the program, if it has mxgen-render.
+// How the page shows a material, in Chromium: tones, pictures to save, light. Arguments: the folder of the page, Chromium, the root of the project,
+// and if mxgen-render is built, the program and write_maps.
 
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
@@ -11,9 +11,10 @@ import { pathToFileURL } from "node:url";
 
 import { run, test } from "../js/harness.mjs";
 import { Browser } from "./browser.mjs";
-import { change, compile, DIFFERENCE, MEAN, pick, type, WHOLE, withPage } from "./page.mjs";
+import { readLight } from "../../web/studio/light.js";
+import { change, compile, DIFFERENCE, drop, MEAN, pick, type, WHOLE, withPage } from "./page.mjs";
 
-const [folder, chromium, root, program] = process.argv.slice(2);
+const [folder, chromium, root, program, writeMaps] = process.argv.slice(2);
 const onDisk = pathToFileURL(path.join(folder, "index.html")).href;
 const example = name => path.join(root, "examples", name);
 const work = fs.mkdtempSync(path.join(os.tmpdir(), "mxgen-studio-"));
@@ -145,6 +146,86 @@ test("a saved picture is that of mxgen render, of any size, with and without a b
         return;
     await compare(page, opaque, render(example("gold.mtlx"), "-s", "1024"), 0.5, "opaque");
     await compare(page, transparent, render(example("gold.mtlx"), "-s", "512", "--background", "none"), 0.5, "transparent");
+}));
+
+// ---- Light ----
+
+const maps = path.join(work, "maps");
+fs.mkdirSync(maps);
+if (writeMaps)
+    execFileSync(writeMaps, [maps]);
+
+/** The map of write_maps.cpp. */
+function mapAt(x, y) {
+    const up = 1 - (y + 0.5) / 128, isLamp = Math.abs(x - 60) < 12 && Math.abs(y - 50) < 6;
+    return Math.abs(x - 150) < 2 && Math.abs(y - 30) < 2 ? [300, 200, 100] : [0.4 - 0.2 * up, isLamp ? 20 : 0.3, 0.1 + 0.6 * up];
+}
+
+test("maps of OpenImageIO: every compression, half and float, are read as they were written", () => {
+    for (const name of fs.readdirSync(maps)) {
+        const bytes = new Uint8Array(fs.readFileSync(path.join(maps, name)));
+        if (name === "b44.exr") {
+            assert.throws(() => readLight(name, bytes), /compression is unknown/);
+            continue;
+        }
+        const { maps: { radiance: [{ width, height, pixels }] } } = readLight(name, bytes), tolerance = { "dwaa.exr": 0.05, "runs.hdr": 0.01 }[name] ?? 0.001;
+        assert.deepEqual([width, height], [256, 128]);
+        for (let y = 0; y < height; y += 3)
+            for (let x = 0; x < width; x += 3) {
+                const wanted = mapAt(x, y), scale = Math.max(...wanted);
+                close([...pixels.subarray(4 * (y * width + x), 4 * (y * width + x) + 3)], wanted, tolerance * scale, `${name} at ${x}, ${y}`);
+            }
+    }
+});
+
+const ascii = text => new TextEncoder().encode(text);
+const joined = (...parts) => Uint8Array.from(parts.flatMap(part => [...part]));
+
+test("a .hdr without runs, and with runs of whole pixels", () => {
+    const head = ascii("#?RADIANCE\nEXPOSURE=2\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 4\n"), red = [128, 0, 0, 129], blue = [0, 0, 64, 128];
+    for (const rows of [[red, red, red, blue, blue, blue, blue, blue], [red, [1, 1, 1, 2], blue, blue, [1, 1, 1, 3]]]) {
+        const { maps: { radiance: [{ pixels }] } } = readLight("x.hdr", joined(head, ...rows));
+        assert.deepEqual([...pixels], [...[1, 1, 1].flatMap(() => [1, 0, 0, 1]), ...[1, 1, 1, 1, 1].flatMap(() => [0, 0, 0.25, 1])]);
+    }
+});
+
+test("maps that are damaged, too large, or of another kind are told", () => {
+    const head = size => ascii(`#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n${size}\n`);
+    const faults = [
+        ["x.hdr", ascii("no map"), /header has no end/], ["x.hdr", ascii("no map\n\n-Y 2 +X 2\n"), /does not begin with/],
+        ["x.hdr", head("-Y 4 +X 4"), /ends after 0 of 4 rows/], ["x.hdr", head("-Y 60000 +X 60000"), /60000 × 60000 pixels; the page reads up to/],
+        ["x.hdr", head("+X 4 -Y 4"), /rows from the top/], ["x.hdr", joined(head("-Y 1 +X 9"), [2, 2, 0, 9, 200, 1]), /pixels are damaged/],
+        ["x.hdr", joined(head("-Y 1 +X 9"), [2, 2, 0, 9, 0]), /pixels are damaged/],
+        ["x.hdr", ascii("#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 2 +X 2\n"), /32-bit_rle_xyze/], ["x.exr", ascii("no map, but long enough"), /no picture of OpenEXR/],
+    ];
+    for (const [name, bytes, message] of faults)
+        assert.throws(() => readLight(name, bytes), message, String(message));
+    for (const name of fs.readdirSync(maps).filter(name => name.endsWith(".exr"))) // cut off anywhere
+        for (const part of [0.1, 0.5, 0.9]) {
+            const bytes = fs.readFileSync(path.join(maps, name));
+            assert.throws(() => readLight(name, new Uint8Array(bytes.subarray(0, part * bytes.length))), Error, name);
+        }
+});
+
+test("dropped light is that of mxgen render --environment", () => withStudio(async page => {
+    await change(page, pick("shape", "ball"));
+    const bad = [...ascii("#?RADIANCE\n\n-Y 4 +X 4\n")];
+    await page.evaluate(drop([["bad.hdr", "image/vnd.radiance", bad]]));
+    await page.until("/cannot use the environment 'bad.hdr': it ends after 0 of 4 rows/.test(document.getElementById('messages').textContent)");
+    assert.equal(await page.evaluate("document.getElementById('light').value"), "Sky");
+    if (!hasRender())
+        return;
+    for (const name of ["runs.hdr", "piz_half.exr"]) {
+        const file = path.join(maps, name);
+        await compile(page, drop([[name, "", [...fs.readFileSync(file)]]]));
+        assert.equal(await page.evaluate("document.getElementById('light').value"), name);
+        assert.equal(await page.evaluate("document.getElementById('messages').textContent"), "No errors, no warnings.");
+        const [, mine] = await save(page, 512, false);
+        await compare(page, mine, render(example("gold.mtlx"), "--environment", file), 0.5, name);
+    }
+    await change(page, pick("light", "Sky"));
+    const [, mine] = await save(page, 512, false);
+    await compare(page, mine, render(example("gold.mtlx")), 0.5, "the sky again");
 }));
 
 try {

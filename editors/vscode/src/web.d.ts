@@ -45,6 +45,11 @@ declare module "@web/scene.js" {
     export const SHAPE_NAMES: string[];
 }
 
+declare module "@web/serve.js" {
+    /** Answers messages by the function of their kind. */
+    export function serve(kinds: Record<string, (request: any) => unknown>): void;
+}
+
 declare module "@web/shaders.js" {
     import type { Diagnostic, Document, ShaderInfo, Variable } from "mxgen";
     export interface Parts {
@@ -58,7 +63,6 @@ declare module "@web/shaders.js" {
     /** The shader that the page draws; null: it has errors, which go to `found`. */
     export function shaderOf(document: Document, element: string, found: Diagnostic[]): Parts | null;
     export function distinct(diagnostics: Diagnostic[]): Diagnostic[];
-    export function serve(kinds: Record<string, (request: any) => unknown>): void;
 }
 
 declare module "@web/view.js" {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The compiler of the preview, in a worker, so that the preview answers while it works.
 
-import { distinct, placesOf, serve, shaderOf, type Parts } from "@web/shaders.js";
+import { serve } from "@web/serve.js";
+import { distinct, placesOf, shaderOf, type Parts } from "@web/shaders.js";
 import type { CompiledModule, Context, Diagnostic, Document, Element, Library, Renderable } from "mxgen";
 import { DocumentError, instantiate } from "mxgen";
 
