@@ -112,10 +112,14 @@ static void load_file(struct budget *budget, struct budget_file *file)
 {
     const char *path = find_file(budget, file->folder);
     size_t size = 0;
-    char *text = path ? files_read(path, &size) : NULL;
+    const char *refused = path ? mxg_context_file_fault(budget->context, path, path) : NULL;
+    char *text = path && !refused ? files_read(path, &size) : NULL;
     if (path)
         file->path = store_text(&file->store, path, strlen(path));
-    const char *reason = text ? toml_fault(text, size) : path ? strerror(errno) : NULL;
+    const char *reason = refused ? refused
+                         : text  ? toml_fault(text, size)
+                         : path  ? strerror(errno)
+                                 : NULL;
     if (reason)
         budget_refuse_toml(&file->store, file->path, reason, &file->fault);
     else if (text)
@@ -202,16 +206,18 @@ static void fail(struct store *store, struct check_document *document,
     free(parts);
 }
 
-static void judge_shader(const struct budget *budget, const struct budget_file *file,
-                         struct store *store, struct check_document *document,
-                         const struct check_element *element, struct check_shader *shader)
+static void judge_shader(struct budget *budget, const struct budget_file *file, struct store *store,
+                         struct check_document *document, const struct check_element *element,
+                         struct check_shader *shader)
 {
     for (int measure = 0; measure < NUM_MEASURES; ++measure) {
         const struct budget_rule *rule =
             find_rule(&budget->command_line, (enum measure)measure, shader->target);
         if (!rule)
             rule = find_rule(&file->rules, (enum measure)measure, shader->target);
-        if (rule && shader->measures[measure] > rule->limit)
+        if (rule && measure == MEASURE_INSTRUCTIONS && !shader->compiled)
+            budget->num_unjudged++;
+        else if (rule && shader->measures[measure] > rule->limit)
             fail(store, document, element, shader, rule);
     }
 }

@@ -24,6 +24,8 @@ enum { NUM_BUDGET_FOLDERS = 256 };
 
 struct budget {
     struct store store;
+    const mxg_context *context; /* whose sandbox and limits hold for mxgen.toml */
+    uint64_t num_unjudged;      /* shaders with a budget of instructions that were not compiled */
     struct budget_folder {
         char *name; /* NULL: free entry */
         char *file; /* the nearest file in or above the folder; NULL: none */

@@ -18,6 +18,7 @@
 #include "program/files.h"
 
 #include <errno.h>
+#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -419,6 +420,7 @@ static int run(struct check *check)
     if (!find_renderer(check) || !prepare(check))
         return EXIT_FAULT;
     make_worker_args(check);
+    check->budget.context = check->cli.context;
     inputs_init(&check->inputs, &check->cli.parser.inputs, &check->files_from);
     check->cache = (struct cache){
         .folder = check->cache_folder,
@@ -437,6 +439,11 @@ static int run(struct check *check)
     if (check->cache.fault)
         fprintf(stderr, "warning: the cache '%s' cannot be written: %s [output-failed]\n",
                 check->cache_folder, check->cache.fault);
+    if (check->budget.num_unjudged)
+        fprintf(stderr,
+                "warning: the budget of instructions does not hold for %" PRIu64
+                " shaders, which were not compiled [budget-unjudged]\n",
+                check->budget.num_unjudged);
     if (totals->documents == 0 && !check->num_found && !check->inputs.failed && !check->pool.fault)
         report_error(report, "nothing-to-check", "found no document to check");
     bool good = !report->errors && !check->inputs.failed && reports_are_good(&check->reports);
@@ -492,6 +499,8 @@ static const char *find_misuse(const struct check *check)
         return "--accept is the drawn error of --translate MODEL";
     if (check->accept && !is_error(check->accept))
         return "--accept takes a number, at least 0";
+    if (check->no_compile && check->budget_args[MEASURE_INSTRUCTIONS])
+        return "--max-instructions counts those of compiled shaders; leave out --no-compile";
     bool has_report = false;
     for (size_t i = 0; i < SINK_DEPFILE; ++i)
         has_report = has_report || check->reports.paths[i];

@@ -47,8 +47,14 @@ static void rewrite(struct cli *cli, const struct format_args *args, const char 
     bool is_stdin = strcmp(path, "-") == 0;
     const char *name = is_stdin ? CLI_STDIN_NAME : path;
     size_t size = 0;
-    char *data = files_read(is_stdin ? "/dev/stdin" : path, &size);
     report_document(&cli->report);
+    const char *fault =
+        cli->sandbox && !is_stdin ? mxg_context_file_fault(cli->context, path, path) : NULL;
+    char *data = fault ? NULL : files_read(is_stdin ? "/dev/stdin" : path, &size);
+    if (fault) {
+        report_error(&cli->report, "file-unreadable", "cannot read '%s': %s", name, fault);
+        return;
+    }
     if (!data) {
         report_error(&cli->report, errno == ENOENT ? "file-missing" : "file-unreadable",
                      "cannot read '%s': %s", name, strerror(errno));

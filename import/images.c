@@ -97,6 +97,19 @@ static char *find_image(struct importing *importing, const json_t *image, size_t
     return file;
 }
 
+/* MaterialX replaces "<UDIM>", "{frame}" and "[token]" in names of files. */
+static void tell_tokens(struct importing *importing, const char *file)
+{
+    static const char *const begins[] = {"<UDIM>", "<UVTILE>", "{", "["};
+    for (size_t i = 0; i < sizeof begins / sizeof *begins; ++i)
+        if (strstr(file, begins[i])) {
+            import_tell_loss(importing, file,
+                             "MaterialX reads '%s' in a name as a token; rename the file",
+                             begins[i]);
+            return;
+        }
+}
+
 const char *import_image(struct importing *importing, size_t index)
 {
     if (index >= importing->num_images)
@@ -105,6 +118,8 @@ const char *import_image(struct importing *importing, size_t index)
     if (!image->is_tried)
         image->name =
             find_image(importing, gltf_source_item(&importing->source, "images", index), index);
+    if (!image->is_tried && image->name)
+        tell_tokens(importing, image->name);
     image->is_tried = true;
     return image->name;
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
  * Documents of the materials of glTF files: the way back from export/. import.c has the whole,
- * material.c the surfaces, texture.c the nodes of textures, images.c their files, variants.c looks.
- * The table
- * program/gltf_inputs.h says where each input comes from.
+ * material.c the surfaces, members.c the types of their JSON, texture.c the nodes of textures,
+ * images.c their files, variants.c looks. The table program/gltf_inputs.h says where each input
+ * comes from.
  */
 #ifndef MXG_IMPORT_IMPORT_H
 #define MXG_IMPORT_IMPORT_H
@@ -68,6 +68,11 @@ bool import_write_file(struct importing *importing, const char *name, const void
 
 /* images.c: the file of an image as the document names it; NULL after telling a loss, once. */
 const char *import_image(struct importing *importing, size_t index);
+
+/* The sets of texture coordinates that a document may name. */
+enum { IMPORT_MAX_TEXCOORD = 255 };
+/* members.c: tells what is not as glTF has it, and so does not count. */
+void import_check_members(struct importing *importing, const char *of, const json_t *material);
 
 /* material.c: adds a material. Returns its name, which the caller frees. */
 char *import_add_material(struct importing *importing, size_t index);

@@ -211,6 +211,7 @@ char *import_add_material(struct importing *importing, size_t index)
     mxg_element shader = mxg_edit_add_element(edit, 0, is_unlit ? "surface_unlit" : "gltf_pbr",
                                               shader_name, "surfaceshader");
     (is_unlit ? add_unlit : add_lit)(&material, shader);
+    import_check_members(importing, name, json);
     tell_extensions(&material);
     mxg_element element = mxg_edit_add_element(edit, 0, "surfacematerial", name, "material");
     mxg_edit_connect_input(edit, element, "surfaceshader", shader, NULL);

@@ -47,7 +47,7 @@ static void place(struct import_material *material, mxg_element node, const json
 
 static void set_sampler(struct import_material *material, mxg_element node, const json_t *sampler)
 {
-    enum { CLAMP = 33071, MIRROR = 33648, CLOSEST = 9728 };
+    enum { REPEAT = 10497, CLAMP = 33071, MIRROR = 33648, CLOSEST = 9728, LINEAR = 9729 };
     static const char *const members[] = {"wrapS", "wrapT"}, *const inputs[] = {"uaddressmode",
                                                                                 "vaddressmode"};
     mxg_edit *edit = material->importing->edit;
@@ -55,9 +55,27 @@ static void set_sampler(struct import_material *material, mxg_element node, cons
         uint64_t wrap = json_count_of(sampler, members[i]);
         if (wrap == CLAMP || wrap == MIRROR)
             mxg_edit_set_value(edit, node, inputs[i], "string", wrap == CLAMP ? "clamp" : "mirror");
+        else if (wrap != REPEAT && json_object_get(sampler, members[i]))
+            import_tell_loss(material->importing, material->name,
+                             "'%s' of a sampler must be 10497, 33071 or 33648", members[i]);
     }
-    if (json_count_of(sampler, "magFilter") == CLOSEST)
+    uint64_t filter = json_count_of(sampler, "magFilter");
+    if (filter == CLOSEST)
         mxg_edit_set_value(edit, node, "filtertype", "string", "closest");
+    else if (filter != LINEAR && json_object_get(sampler, "magFilter"))
+        import_tell_loss(material->importing, material->name,
+                         "'magFilter' of a sampler must be 9728 or 9729");
+}
+
+/* The sampler of a texture; NULL: it has none, which is told if it names one. */
+static const json_t *sampler_of(struct import_material *material, const json_t *texture)
+{
+    const json_t *sampler = gltf_source_item(&material->importing->source, "samplers",
+                                             gltf_index_of(texture, "sampler"));
+    if (!json_is_object(sampler) && json_object_get(texture, "sampler"))
+        import_tell_loss(material->importing, material->name,
+                         "the sampler of a texture is not there");
+    return sampler;
 }
 
 /* Texture coordinates other than the first. */
@@ -65,10 +83,10 @@ static void set_texcoord(struct import_material *material, mxg_element node, uin
 {
     char name[32], number[24];
     mxg_edit *edit = material->importing->edit;
-    if (!set)
+    if (!set || set > IMPORT_MAX_TEXCOORD)
         return;
-    snprintf(name, sizeof name, "texcoord_%u", (unsigned)(set & 0xff));
-    snprintf(number, sizeof number, "%u", (unsigned)(set & 0xff));
+    snprintf(name, sizeof name, "texcoord_%u", (unsigned)set);
+    snprintf(number, sizeof number, "%u", (unsigned)set);
     mxg_element reader = mxg_edit_find_element(edit, material->graph, name);
     if (!reader) {
         reader = import_node(material, "texcoord", name, "vector2");
@@ -99,7 +117,10 @@ static const char *file_of(struct import_material *material, const struct gltf_i
                            const json_t *texture)
 {
     size_t index = gltf_index_of(texture, "source");
-    if (index == SIZE_MAX)
+    if (!json_is_object(texture))
+        import_tell_loss(material->importing, material->name, "the texture of '%s' is not there",
+                         row->texture);
+    else if (index == SIZE_MAX)
         import_tell_loss(material->importing, material->name, "'%s' has no image in PNG or JPEG",
                          row->texture);
     return import_image(material->importing, index);
@@ -127,9 +148,7 @@ static mxg_element make_reader(struct import_material *material, const struct gl
         place(material, reader, transform);
         set_texcoord(material, reader,
                      set ? json_count_of(transform, "texCoord") : json_count_of(info, "texCoord"));
-        set_sampler(
-            material, reader,
-            gltf_source_item(&importing->source, "samplers", gltf_index_of(texture, "sampler")));
+        set_sampler(material, reader, sampler_of(material, texture));
     }
     free(name);
     return reader;

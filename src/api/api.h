@@ -245,6 +245,8 @@ bool sandbox_admit_file(struct mxg_context *context, const char *file);
 bool sandbox_admit_folder(struct mxg_context *context, const char *folder);
 /* The reason why a document may not read a file; NULL if it may. */
 const char *sandbox_fault(const struct mxg_context *context, const char *path);
+/* Why a sandbox refuses a document that the caller names: it is a link to a file outside. */
+const char *sandbox_named_fault(const struct mxg_context *context, const char *path);
 extern const char sandbox_outside[]; /* this reason for a file outside */
 /* Judges a file that a host reads later, so it may be missing, or a pattern of names. */
 const char *sandbox_texture_fault(const struct mxg_context *context, const char *path);

@@ -39,7 +39,8 @@ static void read_layer(void *arg)
     mxg_document *document = load->document;
     struct library *layer = &document->layer;
     struct diag_list *diags = &document->object.diagnostics.list;
-    const struct xml_limits *limits = &document->object.context->xml_limits;
+    const mxg_context *context = document->object.context;
+    const struct xml_limits *limits = &context->xml_limits;
     struct xml_files files = file_source_for_xml(&load->files);
     /* only its reference count changes */
     library_init(layer, &document->object.arena, (struct library *)(uintptr_t)&load->base->layer);
@@ -47,7 +48,10 @@ static void read_layer(void *arg)
         vec_push(&document->object.arena, &load->files.folders, load->base->folders.items[i]);
     document_follow_context(document);
     layer->doc.keeps_comments = true;
-    if (load->data) {
+    const char *fault = load->data ? NULL : sandbox_named_fault(context, load->name);
+    if (fault) {
+        diag_add(diags, DIAG_ID_file_unreadable, (struct diag_place){0}, load->name, fault);
+    } else if (load->data) {
         vec_push(&document->object.arena, &load->files.names,
                  arena_strndup(&document->object.arena, load->name, strlen(load->name)));
         xml_read_memory(&layer->doc, &files, limits, load->name, load->data, load->size, diags);

@@ -59,6 +59,60 @@ static void note_interface(struct defining *d)
     }
 }
 
+/* The element beside the nodegraph that a port reads; 0: none. */
+static elem_id source_of(const struct document *doc, elem_id port)
+{
+    static const str_id names[] = {STR_nodename, STR_nodegraph, STR_output};
+    elem_id source = 0;
+    for (unsigned i = 0; i < 3 && !source; i++) {
+        str_id name = doc_attr_value(doc, port, names[i]);
+        source = name ? doc_child(doc, doc->root, name) : 0;
+    }
+    return source;
+}
+
+struct search {
+    struct defining *d;
+    bool *seen; /* by the number of an element of this document */
+    VEC(elem_id) next;
+};
+
+static void follow(struct search *s, elem_id reader, elem_id port)
+{
+    struct edit_change *c = s->d->c;
+    const struct document *doc = tree_of(s->d);
+    elem_id source = source_of(doc, port);
+    if (source && source == c->element)
+        edit_fail(c, "'%s' reads its own output through '%s', and no node can",
+                  edit_label(c->edit, source), edit_label(c->edit, reader));
+    if (!source || s->seen[source - doc->first_element])
+        return;
+    s->seen[source - doc->first_element] = true;
+    vec_push(arena_of(s->d), &s->next, source);
+}
+
+/*
+ * A nodegraph may read its own outputs through nodes beside it, as long as no node reads itself;
+ * but a node of its definition would read itself.
+ */
+static void check_cycle(struct defining *d)
+{
+    const struct document *doc = tree_of(d);
+    size_t size = doc_num_elements(doc) * sizeof(bool);
+    struct search s = {.d = d, .seen = arena_alloc(arena_of(d), size)};
+    memset(s.seen, 0, size);
+    vec_push(arena_of(d), &s.next, d->c->element);
+    while (s.next.len && !d->c->failed) {
+        elem_id reader = vec_pop(&s.next);
+        if (doc_element(doc, reader)->kind == KIND_OUTPUT)
+            follow(&s, reader, reader);
+        for (elem_id port = doc_element(doc, reader)->first_child; port && !d->c->failed;
+             port = doc_element(doc, port)->next)
+            if (doc_element(doc, port)->kind == KIND_INPUT)
+                follow(&s, reader, port);
+    }
+}
+
 /* False after a reason. */
 static bool find(struct defining *d)
 {
@@ -84,6 +138,8 @@ static bool find(struct defining *d)
         edit_fail(c, "'%s' implements '%s' already", label, str_text(doc->strings, defined));
     else if (!d->outputs.len)
         edit_fail(c, "'%s' has no output", label);
+    else
+        check_cycle(d);
     return !c->failed && edit_check_room(c, 2 + (uint64_t)d->ports.len + d->outputs.len);
 }
 

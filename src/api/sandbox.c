@@ -266,6 +266,14 @@ const char *sandbox_fault(const struct mxg_context *context, const char *path)
     return !fault && file_facts(path).kind == FILE_OTHER ? irregular : fault;
 }
 
+/* A pipe that the caller names is no file of a stranger. */
+const char *sandbox_named_fault(const struct mxg_context *context, const char *path)
+{
+    bool is_file =
+        context->sandbox && stdio_is_resolver(context) && file_facts(path).kind == FILE_REGULAR;
+    return is_file ? sandbox_texture_fault(context, path) : NULL;
+}
+
 const char *mxg_context_file_fault(const mxg_context *context, const char *from, const char *path)
 {
     if (!context || !from || !path)

@@ -103,6 +103,9 @@ static void test_failures(void)
     expect_failure(&f, "NG", "ND", "kind", "'IM' refers to 'NG' by 'nodegraph'");
     expect_failure(&f, "empty", "ND", "kind", "'empty' has no output");
     close_fixture(&f);
+    open_fixture(&f, "reads_itself.mtlx", 0);
+    expect_failure(&f, "NG", "ND", "kind", "'NG' reads its own output through 'beside'");
+    close_fixture(&f);
     REQUIRE_EQ(mxg_edit_define_nodegraph(NULL, 1, "ND", "wood"), 0);
 }
 

@@ -31,6 +31,7 @@ check 'the parts of a small source are its whole size' eval '
 check 'a budget of 0 is a budget' exits 1 "$mxgen" check show "${quick[@]}" --max-closures 0
 check 'a budget that is no number is wrong usage' exits 2 "$mxgen" check show --max-closures many
 check 'a number with more text is wrong usage' exits 2 "$mxgen" check show --max-closures 1x
+check 'a budget of instructions needs compiled shaders' exits 2 "$mxgen" check show --no-compile --max-instructions 500
 check 'a budget of an unknown target is wrong usage' exits 2 "$mxgen" check show --max-closures glsl=100,gsls=1
 check 'the error lists the targets' grep -q "unknown target 'gsls'; expected one of: glsl" err
 if [ "$compiles" = yes ]; then
@@ -63,6 +64,8 @@ check 'a depfile does not name files that do not hold' eval 'grep -q " ../show/d
 rm -r sideways
 check 'the command line replaces the file' exits 0 "$mxgen" check show "${quick[@]}" --max-source-bytes 1000000
 check 'the command line replaces its own measures only' exits 1 "$mxgen" check show "${quick[@]}" --max-closures 100
+printf '[budget]\nmax-closures = 100\nmax-source-bytes = 1000000\nmax-instructions = 1\n' >show/deep/deeper/mxgen.toml
+check 'shaders that are not compiled are told, if a file has a budget of instructions' eval 'exits 0 "$mxgen" check show/deep/deeper --no-compile && grep -q "\[budget-unjudged\]" err'
 printf '[budget]\nmax-closures = 100\n' >show/deep/deeper/mxgen.toml
 check 'the nearest file holds' eval '"$mxgen" check show "${quick[@]}" --json near.json >out; says near.json "[x[\"status\"] for x in d]" "['"'passed', 'failed'"']"'
 # Faults with their columns and messages

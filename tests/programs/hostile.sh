@@ -230,6 +230,25 @@ else
     skip 'mxgen-render is not built'
 fi
 
+# In a sandbox no link among the files of a folder leads out of it.
+mkdir -p links outside
+echo '<materialx version="1.39"><constant name="own" type="float"/><output name="o" type="float" nodename="own"/></materialx>' >links/own.mtlx
+sed 's/own/hidden/g' links/own.mtlx >outside/hidden.mtlx
+echo 'password: swordfish' >outside/secret.txt
+ln -s ../outside/secret.txt links/mxgen.toml
+check 'a budget file that is a link out of the sandbox is not read' eval 'exits 1 "$mxgen" check links/own.mtlx --no-compile --sandbox >out && ! grep -rq swordfish out err && grep -q "outside the folders" out err'
+rm links/mxgen.toml
+ln -s ../outside/secret.txt links/a.mtlx
+ln -s ../outside/hidden.mtlx links/b.mtlx
+ln -s own.mtlx links/inside.mtlx
+for run in 'validate links' 'links -o linked' 'check links --no-compile' 'bake links -o baked' 'format links/a.mtlx links/b.mtlx' 'validate links/b.mtlx'; do
+    check "mxgen $run: no link leads out of the sandbox" eval 'exits 1 "$mxgen" $run --sandbox >out && ! grep -Eq "swordfish|hidden" out && ! grep -Eq "swordfish|.hidden." err && grep -hq "it is outside the folders" out err'
+done
+check 'nothing of a file outside is generated' eval '[ "$(ls linked)" = "$(printf "inside\nown")" ] && ! grep -rq hidden linked'
+check 'an include root allows it' exits 0 "$mxgen" validate links/b.mtlx --sandbox --include-root outside
+check 'a link within the folder is allowed' exits 0 "$mxgen" validate links/inside.mtlx --sandbox
+check 'without a sandbox links are files' exits 0 "$mxgen" validate links/b.mtlx
+
 # A few lines make many elements, and many messages.
 doubled() { # N: a node in N templates of two rows each
     local begin='' name='' end='' i

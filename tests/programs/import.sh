@@ -222,6 +222,26 @@ looks = {look.get(\"name\"): [assign.get(\"material\") for assign in look] for l
 assert looks == {\"a\": [\"m\"], \"b\": [\"k\"], \"c\": []}, looks"'
 printf '{"asset": {"version": "2.0"}, "materials": [{"name": "m", "extensions": {"EXT_\\u001b[31m\\u009b31m": {}}}]}' >escape.gltf
 check 'no control character goes to a terminal' eval 'imports escape.gltf -o escape.mtlx && has err "EXT_?[31m?31m" && ! LC_ALL=C grep -q "$(printf "\\033\\|\\302\\233")" err'
+# Members of wrong types do not count, and are told.
+loses() { imports wrong.gltf -o wrong.mtlx && has err '[import-loss]' "$1" && exits 0 "$mxgen" validate wrong.mtlx; }
+wrong() { # MATERIAL MESSAGE: a material of this JSON has this loss
+    printf '{"asset": {"version": "2.0"}, "images": [{"uri": "a[b].png"}], "textures": [{"source": 0}, {"source": 0, "sampler": 3}], "materials": [%s]}' "$1" >wrong.gltf
+    check "a material $1: $2" loses "$2"
+}
+texture() { printf '{"name": "m", "pbrMetallicRoughness": {"baseColorTexture": %s}}' "$1"; }
+wrong null 'a material is an object'
+wrong '{"extensions": []}' "'extensions' must be an object"
+wrong '{"alphaMode": "HASHED"}' "'alphaMode' must be 'OPAQUE', 'MASK' or 'BLEND'"
+wrong '{"pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1]}}' "'baseColorFactor' must be an array of 4 numbers"
+wrong '{"pbrMetallicRoughness": {"metallicFactor": "1"}}' "'metallicFactor' must be a number"
+for set in 256 100000 4294967297 1.5 -1 '"1"'; do
+    wrong "$(texture "{\"index\": 0, \"texCoord\": $set}")" "'texCoord' must be an integer from 0 to 255"
+    check "and its image reads the first coordinates: $set" eval '! grep -q "<texcoord" wrong.mtlx'
+done
+wrong "$(texture '{"index": 0, "extensions": {"KHR_texture_transform": {"offset": [1, 2, 3]}}}')" "'offset' must be an array of 2 numbers"
+wrong "$(texture '{"index": 5}')" "the texture of 'baseColorTexture' is not there"
+wrong "$(texture '{"index": 1}')" "the sampler of a texture is not there"
+wrong "$(texture '{"index": 0}')" "MaterialX reads '[' in a name as a token"
 check 'a file without materials is an error' fails empty.gltf 'it has no materials'
 check 'a broken binary file is an error' fails broken.glb 'no binary glTF 2.0'
 check 'a missing file is an error' fails missing.gltf 'No such file'
