@@ -101,7 +101,10 @@ static bool copy_to(struct baking *baking, const char *from, const char *name)
     char *to = cli_format("%s/%s", baking->options.output, name);
     bool is_free = outputs_read(&baking->files, &baking->cli.report, from)
                    && outputs_write(&baking->files, &baking->cli.report, to, "a copy");
-    const char *reason = is_free ? copy(&baking->written, from, to) : NULL;
+    const char *reason =
+        is_free ? mxg_context_file_fault(baking->cli.context, baking->path, from) : NULL;
+    if (is_free && !reason)
+        reason = copy(&baking->written, from, to);
     if (reason)
         report_error(&baking->cli.report, "output-failed", "cannot copy '%s' to '%s': %s", from, to,
                      reason);

@@ -276,6 +276,90 @@ static bool has_scheme(const char *name)
     return len > 1 && name[len] == ':';
 }
 
+/* ---- Names that stand for several files ---- */
+
+/* The length of "<UDIM>", "{frame}" and their like; 0: no token is there. */
+static size_t token_length(const char *name)
+{
+    const char *end = *name == '<' ? strchr(name, '>') : *name == '{' ? strchr(name, '}') : NULL;
+    return end ? (size_t)(end - name) + 1 : 0;
+}
+
+static bool has_token(const char *name, size_t len)
+{
+    for (size_t i = 0; i < len; i++)
+        if (token_length(name + i))
+            return true;
+    return false;
+}
+
+/* True if a file of a folder fits a pattern, in which a token stands for any text. */
+static bool fits(const char *pattern, const char *name)
+{
+    const char *behind = NULL, *from = NULL; /* the last token, and where its text ends so far */
+    if (strcmp(name, ".") == 0 || strcmp(name, "..") == 0)
+        return false;
+    while (*name) {
+        size_t token = token_length(pattern);
+        if (token) {
+            behind = pattern += token;
+            from = name;
+        } else if (*pattern == *name) {
+            pattern++, name++;
+        } else if (behind) {
+            pattern = behind;
+            name = ++from;
+        } else {
+            return false;
+        }
+    }
+    for (size_t token; (token = token_length(pattern)) != 0;)
+        pattern += token;
+    return !*pattern;
+}
+
+/* The fault of a file in a folder, which may be that of a tile or a frame. */
+static const char *fault_in_folder(struct mxg_context *context, const char *from,
+                                   const char *folder, const char *name)
+{
+    size_t len = strlen(folder);
+    struct block *path = resize(context, NULL, len + strlen(name) + 1);
+    if (!path)
+        return stdio_no_memory;
+    memcpy(path->bytes, folder, len);
+    memcpy(path->bytes + len, name, strlen(name) + 1);
+    const char *fault = fault_of_path(context, from, path->bytes);
+    release(context, path);
+    return fault;
+}
+
+/* The fault of any file that a name with tokens may stand for: a link among them may lead out. */
+static const char *fault_of_set(struct mxg_context *context, const char *from, const char *file)
+{
+    const char *slash = file_last_separator(file), *base = slash ? slash + 1 : file, *fault = NULL;
+    size_t len = (size_t)(base - file), size;
+    if (has_token(file, len))
+        return "a token stands in the name of its folder, and in a sandbox only in that of the "
+               "file";
+    if (!has_token(base, strlen(base)))
+        return NULL;
+    struct block *folder = resize(context, NULL, len + 1), *names = NULL;
+    if (folder) {
+        memcpy(folder->bytes, file, len);
+        folder->bytes[len] = '\0';
+        size = list_folder(context, from, folder->bytes, NULL, 0);
+        names = resize(context, NULL, size);
+    }
+    if (!names || list_folder(context, from, folder->bytes, names->bytes, size) > size)
+        fault = stdio_no_memory;
+    for (size_t at = 0; !fault && at < size; at += strlen(names->bytes + at) + 1)
+        if (fits(base, names->bytes + at))
+            fault = fault_in_folder(context, from, folder->bytes, names->bytes + at);
+    release(context, names);
+    release(context, folder);
+    return fault;
+}
+
 const char *stdio_texture_fault(void *user_data, const char *from, const char *file)
 {
     struct mxg_context *context = user_data;
@@ -290,6 +374,8 @@ const char *stdio_texture_fault(void *user_data, const char *from, const char *f
     const char *fault = fault_of_path(context, from, file);
     if (!fault)
         fault = has_scheme(url->bytes) ? sandbox_outside : fault_of_path(context, from, url->bytes);
+    if (!fault)
+        fault = fault_of_set(context, from, file);
     release(context, url);
     return fault;
 }

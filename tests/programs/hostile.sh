@@ -249,6 +249,28 @@ check 'an include root allows it' exits 0 "$mxgen" validate links/b.mtlx --sandb
 check 'a link within the folder is allowed' exits 0 "$mxgen" validate links/inside.mtlx --sandbox
 check 'without a sandbox links are files' exits 0 "$mxgen" validate links/b.mtlx
 
+# Nor do tiles and frames.
+printf 'P6 1 1 255 \377\000\000' >outside/red.ppm
+mkdir -p sets
+sampler() { # FILE
+    echo "<materialx version=\"1.39\"><image name=\"i\" type=\"color3\"><input name=\"file\" type=\"filename\" value=\"$1\"/></image><standard_surface name=\"S\" type=\"surfaceshader\"><input name=\"base_color\" type=\"color3\" nodename=\"i\"/></standard_surface><surfacematerial name=\"M\" type=\"material\"><input name=\"surfaceshader\" type=\"surfaceshader\" nodename=\"S\"/></surfacematerial></materialx>"
+}
+sampler 't.&lt;UDIM&gt;.ppm' >sets/tiles.mtlx
+sampler 'f{04frame}.ppm' >sets/frames.mtlx
+sampler 'in{frame}/a.ppm' >sets/folders.mtlx
+cp outside/red.ppm sets/t.1001.ppm
+check 'tiles in the folder are allowed' exits 0 "$mxgen" validate sets/tiles.mtlx --sandbox
+ln -s ../outside/red.ppm sets/t.1002.ppm
+ln -s ../outside/red.ppm sets/f0033.ppm
+for document in tiles frames folders; do
+    for run in validate '' 'bake --copy'; do
+        check "mxgen $run: the $document of a texture lead nowhere" eval 'exits 1 "$mxgen" $run sets/$document.mtlx -o copies --sandbox >out || exits 1 "$mxgen" $run sets/$document.mtlx --sandbox && grep -q "\[texture-refused\]" err && [ ! -e copies/t.1002.ppm ] && [ ! -e copies/f0033.ppm ]'
+    done
+done
+rm sets/t.1002.ppm
+mkfifo sets/t.1003.ppm
+[ ! -x "$render" ] || check 'a pipe among tiles is not copied' eval 'exits 1 timeout 20 "$mxgen" bake --copy sets/tiles.mtlx -o copies && grep -q "not a regular file" err'
+
 # A few lines make many elements, and many messages.
 doubled() { # N: a node in N templates of two rows each
     local begin='' name='' end='' i
