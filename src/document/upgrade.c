@@ -453,7 +453,10 @@ static void replace_object_normalmap(struct upgrade *u, elem_id node)
 {
     struct document *doc = u->doc;
     elem_id multiply = upgrade_add_node(u, node, "normalmap_multiply", "multiply", STR_vector3);
-    upgrade_copy_input(u, upgrade_child(u, node, "in"), multiply, "in1", NULL);
+    if (upgrade_child(u, node, "in"))
+        upgrade_copy_input(u, upgrade_child(u, node, "in"), multiply, "in1", NULL);
+    else
+        upgrade_add_input(u, multiply, "in1", STR_vector3, upgrade_word(u, "0.5, 0.5, 1.0"));
     upgrade_add_input(u, multiply, "in2", STR_float, upgrade_word(u, "2.0"));
     elem_id subtract = upgrade_add_node(u, node, "normalmap_subtract", "subtract", STR_vector3);
     upgrade_connect(u, upgrade_add_input(u, subtract, "in1", STR_vector3, STR_EMPTY), multiply,
@@ -491,6 +494,10 @@ static void upgrade_normalmap(struct upgrade *u, elem_id node)
         replace_object_normalmap(u, node);
         return;
     }
+    if (space && doc_is_connected(u->doc, space))
+        upgrade_tell_loss(u, space,
+                          "<normalmap> has no input 'space'; its normals are read in tangent "
+                          "space, whatever this connection says");
     if (space) {
         doc_remove_element(u->doc, space);
         upgrade_note(u, node, "<normalmap> has no input 'space'");
@@ -658,6 +665,7 @@ static void upgrade_from(struct document *doc, elem_id root, elem_id end, int mi
         assert(i == 0 || steps[i].minor > steps[i - 1].minor);
         if (u.minor <= minor)
             continue;
+        upgrade_defaults(&u);
         if (steps[i].before)
             steps[i].before(&u);
         apply_tables(&u);

@@ -40,6 +40,12 @@ __attribute__((format(printf, 3, 4)))
 #endif
 void upgrade_note(struct upgrade *u, elem_id element, const char *format, ...);
 
+/* Warns of a meaning that the upgrade cannot keep. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 3, 4)))
+#endif
+void upgrade_tell_loss(struct upgrade *u, elem_id element, const char *format, ...);
+
 /* Changes that keep the name index valid. */
 void upgrade_set_name(struct upgrade *u, elem_id element, str_id name);
 void upgrade_move(struct upgrade *u, elem_id element, elem_id new_parent);
@@ -80,7 +86,12 @@ void upgrade_materials(struct upgrade *u);          /* 1.38 */
 /* upgrade_closures.c */
 void upgrade_closures(struct upgrade *u);    /* 1.38 */
 void upgrade_complex_ior(struct upgrade *u); /* 1.38 */
-void upgrade_thin_films(struct upgrade *u);  /* 1.39 */
+
+/* upgrade_films.c */
+void upgrade_thin_films(struct upgrade *u); /* 1.39 */
+
+/* upgrade_defaults.c: writes inputs that had another default before the current step. */
+void upgrade_defaults(struct upgrade *u);
 
 /* upgrade_always.c: every version */
 /* Gives a node that reads a property of the geometry its inputs, and strings their category. */

@@ -69,17 +69,30 @@ elem_id upgrade_child(const struct upgrade *u, elem_id parent, const char *name)
     return doc_child(u->doc, parent, str_find(u->doc->strings, name, strlen(name)));
 }
 
-void upgrade_note(struct upgrade *u, elem_id element, const char *format, ...)
+static void tell(struct upgrade *u, enum diag_id id, elem_id element, const char *format,
+                 va_list args)
 {
-    struct diag_place place = doc_place(u->doc, element);
     char message[512];
-    va_list args;
-    va_start(args, format);
     int len = snprintf(message, sizeof message, "1.%d: ", u->minor);
     assert(len > 0 && (size_t)len < sizeof message);
     vsnprintf(message + len, sizeof message - (size_t)len, format, args);
+    diag_add(u->diags, id, doc_place(u->doc, element), message);
+}
+
+void upgrade_note(struct upgrade *u, elem_id element, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    tell(u, u->outdated ? DIAG_ID_outdated : DIAG_ID_upgraded, element, format, args);
     va_end(args);
-    diag_add(u->diags, u->outdated ? DIAG_ID_outdated : DIAG_ID_upgraded, place, message);
+}
+
+void upgrade_tell_loss(struct upgrade *u, elem_id element, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    tell(u, DIAG_ID_upgrade_loss, element, format, args);
+    va_end(args);
 }
 
 void upgrade_set_name(struct upgrade *u, elem_id element, str_id name)

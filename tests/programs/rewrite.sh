@@ -53,6 +53,8 @@ cat >instructions.mtlx <<'END'
 <?after?>
 END
 check 'processing instructions and an empty comment stay' eval '"$mxgen" format instructions.mtlx | cmp - instructions.mtlx'
+echo '<materialx version="1.38"><nodegraph name="g"><input name="s" type="string" value="object"/><normalmap name="n" type="vector3"><input name="space" type="string" interfacename="s"/></normalmap><output name="o" type="vector3" nodename="n"/></nodegraph></materialx>' >space.mtlx
+check 'a meaning that the upgrade cannot keep is told' eval '"$mxgen" upgrade space.mtlx -o - >out 2>err && has err "space.mtlx:1:" "[upgrade-loss]"'
 check 'the upgrade keeps comments' test "$(grep -c -- '<!--' new.mtlx)" = 4
 check 'the upgraded document is valid' exits 0 "$mxgen" validate new.mtlx --verbose
 check 'the upgraded document needs no upgrade' eval '! grep -q upgraded err'
