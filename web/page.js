@@ -21,7 +21,7 @@ import workerSource from "worker.bundle.js";
 const EXAMPLES = { "Gold": gold, "Marble": marble, "Car paint": carPaint, "Displaced": displaced, "ShaderX nodes": shaderx, "Custom node": expression, "Fog": fog };
 const DOCUMENT = "document.mtlx";
 const MAX_TEXT = 4 << 20; // an editor of more is slow
-const SCENERY = /\.(hdr|exr)$/i;
+const SCENERY = /\.(hdr|exr|obj|glb)$/i;
 const PAUSE = 250; // milliseconds after a key before the document is compiled
 
 const $ = id => document.getElementById(id);
@@ -136,7 +136,7 @@ const studio = new Promise(resolve => giveStudio = resolve); // null: there is n
 async function openStudio() {
     try {
         const Studio = view && await load("studio.js", "mxgenStudio");
-        giveStudio(Studio && new Studio({ view, panel: layout.add("view", "View"), tell }));
+        giveStudio(Studio && new Studio({ view, panel: layout.add("view", "View"), shape: $("shape"), tell }));
         document.body.dataset.studio = "true";
     } finally {
         giveStudio(null);

@@ -6,16 +6,16 @@ const PI = Math.PI, DEGREE = PI / 180;
 
 // ---- Vectors and matrices; a matrix has its columns one after the other ----
 
-function normalize(v) {
+export function normalize(v) {
     const length = Math.sqrt(dot(v, v));
     return [v[0] / length, v[1] / length, v[2] / length];
 }
 
-function cross(a, b) {
+export function cross(a, b) {
     return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 }
 
-const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+export const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 const IDENTITY = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
 
 export function multiply(a, b) {
@@ -104,7 +104,7 @@ const SHAPES = {
 };
 export const SHAPE_NAMES = Object.keys(SHAPES);
 
-const minus = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+export const minus = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
 const sum = (items, value) => items.reduce((total, item) => total + value(item), 0);
 
 /** Position, normal, tangent and texture coordinates of all vertices, and indices of triangles. `detail` multiplies the cells. */

@@ -25,6 +25,7 @@ export class View {
     #isPreview = false; // that is pending or drawn: its picture is coarse
     #complete = null; // the shader that follows the preview
     #meshes = new Map();
+    #makers = new Map(); // of shapes that were added
     #buffers = new Map();
     #textures = new Map(); // by file
     #sky = null;
@@ -383,10 +384,21 @@ export class View {
 
     // ---- Meshes ----
 
+    /** Adds a shape: `make(detail)` makes its mesh as makeMesh of scene.js does. It takes the place of one with the same name. */
+    addShape(name, make) {
+        this.#makers.set(name, make);
+        for (const key of [...this.#meshes.keys()].filter(key => key.startsWith(`${name} `)))
+            this.#meshes.delete(key);
+        for (const [key, { buffer }] of [...this.#buffers].filter(([key]) => key.startsWith(`${name} `))) {
+            this.#gl.deleteBuffer(buffer);
+            this.#buffers.delete(key);
+        }
+    }
+
     #mesh(detail) {
-        const key = `${this.#shape} ${detail}`;
+        const key = `${this.#shape} ${detail}`, make = this.#makers.get(this.#shape) ?? (cells => makeMesh(this.#shape, cells));
         if (!this.#meshes.has(key))
-            this.#meshes.set(key, makeMesh(this.#shape, detail));
+            this.#meshes.set(key, make(detail));
         return { key, mesh: this.#meshes.get(key) };
     }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the page shows a material, in Chromium: tones, pictures to save, light. Arguments: the folder of the page, Chromium, the root of the project,
+// How the page shows a material, in Chromium: tones, pictures to save, light, meshes. Arguments: the folder of the page, Chromium, the root of the project,
 // and if mxgen-render is built, the program and write_maps.
 
 import assert from "node:assert/strict";
@@ -12,6 +12,7 @@ import { pathToFileURL } from "node:url";
 import { run, test } from "../js/harness.mjs";
 import { Browser } from "./browser.mjs";
 import { readLight } from "../../web/studio/light.js";
+import { readMesh } from "../../web/studio/mesh.js";
 import { change, compile, DIFFERENCE, drop, MEAN, pick, type, WHOLE, withPage } from "./page.mjs";
 
 const [folder, chromium, root, program, writeMaps] = process.argv.slice(2);
@@ -226,6 +227,118 @@ test("dropped light is that of mxgen render --environment", () => withStudio(asy
     await change(page, pick("light", "Sky"));
     const [, mine] = await save(page, 512, false);
     await compare(page, mine, render(example("gold.mtlx")), 0.5, "the sky again");
+}));
+
+// ---- Meshes ----
+
+/** Corners of a torus around z: position, normal, texture coordinates, by places on its grid. */
+const ACROSS = 24, AROUND = 12;
+const torus = Array.from({ length: (ACROSS + 1) * (AROUND + 1) }, (_, i) => {
+    const s = i % (ACROSS + 1) / ACROSS, t = Math.floor(i / (ACROSS + 1)) / AROUND, a = 2 * Math.PI * s, b = 2 * Math.PI * t, n = [Math.cos(a) * Math.cos(b), Math.sin(a) * Math.cos(b), Math.sin(b)];
+    return { position: [2 * Math.cos(a) + 0.8 * n[0], 2 * Math.sin(a) + 0.8 * n[1], 0.8 * n[2]], normal: n, texcoord: [2 * s, t] };
+});
+const quads = Array.from({ length: ACROSS * AROUND }, (_, i) => {
+    const corner = i % ACROSS + Math.floor(i / ACROSS) * (ACROSS + 1), above = corner + ACROSS + 1;
+    return [corner, corner + 1, above + 1, above];
+});
+
+/** `parts` are of "vt" and "vn". */
+function objOf(parts) {
+    const lines = torus.flatMap(({ position, normal, texcoord }) => [`v ${position.join(" ")}`, ...(parts.includes("vt") ? [`vt ${texcoord.join(" ")}`] : []), ...(parts.includes("vn") ? [`vn ${normal.join(" ")}`] : [])]);
+    const corner = i => `${i}/${parts.includes("vt") ? i : ""}/${parts.includes("vn") ? i : ""}`.replace(/\/+$/, "");
+    return ["# a torus", "o torus", ...lines, ...quads.map((quad, k) => `f ${quad.map(i => corner(k % 2 ? i + 1 : i - torus.length)).join(" ")}`), ""].join("\n");
+}
+
+/** With `isShort`, texture coordinates are normalized integers. */
+function glbOf(change = () => {}, isShort = false) {
+    const indices = quads.flatMap(([a, b, c, d]) => [a, b, c, a, c, d]), views = [], parts = [];
+    const add = (array, stride) => {
+        views.push({ buffer: 0, byteOffset: parts.reduce((sum, part) => sum + part.length, 0), byteLength: array.byteLength, ...stride });
+        parts.push(new Uint8Array(array.buffer));
+        return views.length - 1;
+    };
+    const mixed = Float32Array.from(torus.flatMap(({ position, normal }) => [...position, ...normal])), texcoords = torus.flatMap(({ texcoord: [s, t] }) => [s / 2, 1 - t]);
+    const count = torus.length, corners = add(mixed, { byteStride: 24 }), coordinates = add(isShort ? Uint16Array.from(texcoords, x => Math.round(65535 * x)) : Float32Array.from(texcoords), {}), triangles = add(Uint16Array.from(indices), {});
+    const xs = c => torus.map(({ position }) => position[c]);
+    const gltf = {
+        asset: { version: "2.0" }, scene: 0, scenes: [{ nodes: [0] }], bufferViews: views, buffers: [{ byteLength: parts.reduce((sum, part) => sum + part.length, 0) }],
+        nodes: [{ rotation: [0.5, 0.5, 0.5, 0.5], children: [1], scale: [1, 2, 1] }, { mesh: 0, translation: [3, 1, 0], scale: [-1, 1, 1] }],
+        meshes: [{ primitives: [{ attributes: { POSITION: 0, NORMAL: 1, TEXCOORD_0: 2 }, indices: 3 }] }],
+        accessors: [{ bufferView: corners, componentType: 5126, count, type: "VEC3", min: [0, 1, 2].map(c => Math.min(...xs(c))), max: [0, 1, 2].map(c => Math.max(...xs(c))) }, { bufferView: corners, byteOffset: 12, componentType: 5126, count, type: "VEC3" },
+            { bufferView: coordinates, componentType: isShort ? 5123 : 5126, normalized: isShort, count, type: "VEC2" }, { bufferView: triangles, componentType: 5123, count: indices.length, type: "SCALAR" }],
+    };
+    change(gltf);
+    const json = ascii(JSON.stringify(gltf)), text = joined(json, new Uint8Array(-json.length & 3).fill(32)), binary = joined(...parts);
+    const word = x => [x & 255, x >> 8 & 255, x >> 16 & 255, x >>> 24], chunk = (kind, bytes) => joined(word(bytes.length), word(kind), bytes);
+    const chunks = joined(chunk(0x4e4f534a, text), chunk(0x004e4942, joined(binary, new Uint8Array(-binary.length & 3))));
+    return joined(word(0x46546c67), word(2), word(chunks.length + 12), chunks);
+}
+
+test("meshes that are damaged, too large, or of another kind are told", () => {
+    const faults = [
+        ["x.obj", ascii("nothing"), /no triangles/], ["x.obj", ascii("v 0 0 0\nf 1 2 3"), /line 2 has a corner '2' that is not there/], ["x.obj", ascii("v 0 zero 0"), /line 1 has no 3 numbers/],
+        ["x.obj", ascii("v 0 0 0\nf 1 1 1"), /no area/], ["x.obj", ascii(`v 0 0 0\nv 1 0 0\nv 0 1 0\n${"f 1 2 3\n".repeat(500_001)}`), /more than 500000 triangles/],
+        ["x.glb", ascii("glTF, but no mesh at all"), /no binary glTF 2.0/], ["x.glb", glbOf().subarray(0, 3000), /ends too early/],
+        ["x.glb", glbOf(gltf => { gltf.accessors[3].count = 1e6; }), /behind its end/], ["x.glb", glbOf(gltf => { gltf.accessors[0].count = 3; }), /corners that are not there/],
+        ["x.glb", glbOf(gltf => { gltf.nodes[1].children = [0]; }), /nested more than 100 deep/], ["x.glb", glbOf(gltf => { gltf.buffers[0].uri = "x.bin"; }), /in another file/],
+        ["x.glb", glbOf(gltf => { gltf.accessors[0].sparse = {}; }), /sparse or compressed/], ["x.glb", glbOf(gltf => { gltf.meshes[0].primitives[0].extensions = { KHR_draco_mesh_compression: {} }; }), /Draco/],
+        ["x.glb", glbOf(gltf => { gltf.meshes[0].primitives[0].mode = 1; }), /no triangles/],
+    ];
+    for (const [name, bytes, message] of faults)
+        assert.throws(() => readMesh(name, bytes), message, String(message));
+});
+
+test("a mesh fills the view, and has unit normals and tangents at right angles", () => {
+    for (const [name, bytes, told] of [["x.obj", ascii(objOf("vt vn")), 0], ["x.obj", ascii(objOf("vt")), 1], ["x.obj", ascii(objOf("")), 2], ["x.glb", glbOf(), 0]]) {
+        const { mesh: { position, normal, tangent, texcoord, indices, count }, notes } = readMesh(name, bytes), at = (values, i) => [...values.subarray(3 * i, 3 * i + 3)];
+        assert.equal(notes.length, told);
+        assert.equal(indices.length, 6 * quads.length);
+        assert.deepEqual([position.length, normal.length, tangent.length, texcoord.length], [3, 3, 3, 2].map(size => size * count));
+        let most = 0;
+        for (let i = 0; i < count; i++) {
+            const [n, t] = [at(normal, i), at(tangent, i)];
+            most = Math.max(most, Math.hypot(...at(position, i)));
+            close([Math.hypot(...n), Math.hypot(...t), n[0] * t[0] + n[1] * t[1] + n[2] * t[2]], [1, 1, 0], 1e-5, `${name} corner ${i}`);
+        }
+        close([most], [1], 1e-5, name);
+    }
+});
+
+test("texture coordinates of glTF may be integers", () => {
+    const [{ mesh: { texcoord: one } }, { mesh: { texcoord: other } }] = [false, true].map(isShort => readMesh("x.glb", glbOf(() => {}, isShort)));
+    close([...other], [...one], 1e-5, "texcoord");
+    assert(Math.max(...one) > 0.99);
+});
+
+/** Colours that show texture coordinates. */
+const RAMP = `<materialx version="1.39"><ramp4 name="r" type="color3"><input name="valuetl" type="color3" value="1, 0, 0"/><input name="valuetr" type="color3" value="0, 1, 0"/>
+    <input name="valuebl" type="color3" value="0, 0, 1"/><input name="valuebr" type="color3" value="1, 1, 1"/></ramp4><standard_surface name="S" type="surfaceshader">
+    <input name="base_color" type="color3" nodename="r"/><input name="specular_anisotropy" type="float" value="0.7"/><input name="metalness" type="float" value="0.5"/></standard_surface>
+    <surfacematerial name="M" type="material"><input name="surfaceshader" type="surfaceshader" nodename="S"/></surfacematerial></materialx>`;
+
+test("a dropped mesh is that of mxgen render --mesh", () => withStudio(async page => {
+    const ramp = path.join(work, "ramp.mtlx");
+    fs.writeFileSync(ramp, RAMP);
+    await page.evaluate(drop([["bad.obj", "", "v 0 0 0"]]));
+    await page.until("/cannot use the mesh 'bad.obj': it has no triangles/.test(document.getElementById('messages').textContent)");
+    assert.equal(await page.evaluate("document.getElementById('shape').value"), "plane");
+    await compile(page, type(page, RAMP));
+    for (const [name, content, message] of [["torus.obj", ascii(objOf("vt vn")), /^No errors/], ["bare.obj", ascii(objOf("")), /the mesh 'bare.obj' has no texture coordinates; they were made/], ["torus.glb", glbOf(), /^No errors/]]) {
+        const file = path.join(work, name);
+        fs.writeFileSync(file, content);
+        await compile(page, drop([[name, "", [...content]]]));
+        assert.equal(await page.evaluate("document.getElementById('shape').value"), name);
+        assert.match(await page.evaluate("document.getElementById('messages').textContent"), message);
+        if (!hasRender())
+            continue;
+        const [, mine] = await save(page, 512, false);
+        await compare(page, mine, render(ramp, "-m", file), name === "bare.obj" ? 1 : 0.5, name); // normals that Assimp makes weigh triangles otherwise
+    }
+    if (!hasRender())
+        return;
+    await compile(page, type(page, fs.readFileSync(example("displaced.mtlx"), "utf8")));
+    const [, mine] = await save(page, 512, false);
+    await compare(page, mine, render(example("displaced.mtlx"), "-m", path.join(work, "torus.glb")), 1.5, "displaced");
 }));
 
 try {

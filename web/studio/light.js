@@ -37,5 +37,5 @@ export function readLight(name, bytes) {
     const maps = lightOf(map);
     for (const { pixels } of [...maps.radiance, ...maps.irradiance]) // which the device stores as halves
         pixels.forEach((x, i) => { pixels[i] = Math.min(x, MAX_HALF); });
-    return { maps, notes: numBad ? [`${numBad} of its numbers are infinite or larger than 1e9; they are 0 here`] : [] };
+    return { maps, notes: numBad ? [`has ${numBad} numbers that are NaN, infinite or larger than 1e9; they are 0 here`] : [] };
 }

@@ -4,39 +4,55 @@
 import { Compiler } from "../compiler.js";
 import { element } from "../dom.js";
 import readerSource from "reader.bundle.js";
+import { refine } from "./mesh.js";
 import { savePicture } from "./save.js";
 import { TONES } from "./tones.js";
 
 const SIZES = [512, 1024, 2048];
 const MAX_FILE = 256 << 20; // bytes
 const SKY = "Sky";
+const MESH = /\.(obj|glb)$/i;
 
 const labelled = (name, control) => element("label", {}, element("span", { textContent: name }), control);
 
 class Studio {
     #view;
+    #shape;
     #tell;
     #reader = new Compiler(readerSource, "it takes longer than 20 seconds");
     #light = element("select", { id: "light" }, new Option(SKY));
 
-    /** `panel` is for its controls; `tell` takes sentences for the user. */
-    constructor({ view, panel, tell }) {
+    /** `panel` is for its controls, `shape` the list of shapes; `tell` takes sentences for the user. */
+    constructor({ view, panel, shape, tell }) {
         this.#view = view;
+        this.#shape = shape;
         this.#tell = tell;
         panel.append(this.#looks(), this.#pictures());
     }
 
-    /** Takes a file of light; returns messages about it: severity, id and message. */
+    /** Takes a file of light or of a mesh; returns messages about it: severity, id and message. */
     async take(file) {
+        const isMesh = MESH.test(file.name), thing = `the ${isMesh ? "mesh" : "environment"} '${file.name}'`;
         try {
             if (file.size > MAX_FILE)
                 throw new Error(`it has ${(file.size / 1e6).toFixed(0)} MB; the page reads files of up to ${MAX_FILE >> 20} MB`);
-            const { maps, notes } = await this.#reader.ask("light", { name: file.name, bytes: new Uint8Array(await file.arrayBuffer()) });
-            this.#offerLight(file.name, maps);
-            return notes.map(note => ({ severity: "warning", id: "bad-pixels", message: `Of '${file.name}' ${note}.` }));
+            const { maps, mesh, notes } = await this.#reader.ask(isMesh ? "mesh" : "light", { name: file.name, bytes: new Uint8Array(await file.arrayBuffer()) });
+            if (isMesh)
+                this.#offerMesh(file.name, mesh);
+            else
+                this.#offerLight(file.name, maps);
+            return notes.map(note => ({ severity: "warning", id: "", message: `${thing} ${note}` }));
         } catch (error) {
-            return [{ severity: "error", id: "bad-environment", message: `cannot use the environment '${file.name}': ${error.message}` }];
+            return [{ severity: "error", id: isMesh ? "bad-mesh" : "bad-environment", message: `cannot use ${thing}: ${error.message}` }];
         }
+    }
+
+    #offerMesh(name, mesh) {
+        this.#view.addShape(name, detail => detail > 1 ? refine(mesh) : mesh);
+        if (![...this.#shape.options].some(({ value }) => value === name))
+            this.#shape.append(new Option(name));
+        this.#shape.value = name;
+        this.#shape.dispatchEvent(new Event("change"));
     }
 
     #offerLight(name, maps) {
@@ -49,7 +65,7 @@ class Studio {
         const tones = element("select", { id: "tones" }, ...Object.keys(TONES).map(name => new Option(name)));
         tones.addEventListener("change", () => { this.#view.tone = TONES[tones.value]; });
         return element("fieldset", {}, element("legend", { textContent: "Look" }), labelled("Light", this.#light), labelled("Tone mapping", tones),
-            element("p", { textContent: "Drop a map of light (.hdr, .exr) on the page." }));
+            element("p", { textContent: "Drop a map of light (.hdr, .exr) or a mesh (.obj, .glb) on the page." }));
     }
 
     #pictures() {
