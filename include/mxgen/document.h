@@ -191,12 +191,17 @@ MXG_API mxg_status mxg_edit_connect_input(mxg_edit *edit, mxg_element node, cons
  * of mxg_edit_commit's document.
  */
 MXG_API mxg_status mxg_edit_remove_element(mxg_edit *edit, mxg_element element);
-/* Moves an element before another one (`before` 0: to the end) below `parent` (0: the root). */
+/*
+ * Moves an element before another one (`before` 0: to the end) below `parent` (0: the root). Its
+ * values keep their meaning: it gets the attributes `colorspace`, `fileprefix` and `geomprefix`
+ * that it inherited, where the new place says something else.
+ */
 MXG_API mxg_status mxg_edit_move_element(mxg_edit *edit, mxg_element element, mxg_element parent,
                                          mxg_element before);
 /*
  * Appends a copy of an element of any document, with all below it. `name` NULL or "" keeps the
- * name, which must be new below the parent.
+ * name, which must be new below the parent. Its values keep their meaning, as those of an element
+ * that moves.
  */
 MXG_API mxg_element mxg_edit_copy_element(mxg_edit *edit, mxg_element parent,
                                           const mxg_document *document, mxg_element element,

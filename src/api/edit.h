@@ -83,6 +83,15 @@ const char *edit_source_type(const struct edit_change *change);
 
 /* The nodegraph that implements a definition for every target; 0: there is none. */
 elem_id edit_find_graph(const struct library *lib, uint32_t nodedef);
+/* edit_scope.c: what an element inherits that counts for it; NULL: it does not. */
+enum { EDIT_NUM_SCOPES = 3 };
+struct edit_scope {
+    const char *values[EDIT_NUM_SCOPES];
+};
+void edit_note_scope(const struct document *doc, elem_id element, struct edit_scope *out);
+/* Lets an element at its new place inherit what it had. */
+void edit_keep_scope(struct edit_change *change, elem_id element, const struct edit_scope *scope);
+
 /* Fails if the nodes of this graph cannot have the values of the node that the change is of. */
 void edit_check_flat(struct edit_change *change, const struct library *lib, uint32_t nodedef,
                      elem_id graph);

@@ -296,10 +296,13 @@ static void move(void *arg)
         edit_fail(c, "there is an element '%s' already", name);
     if (c->failed)
         return;
+    struct edit_scope scope;
+    edit_note_scope(doc, c->element, &scope);
     if (c->before)
         doc_move_before(doc, c->element, c->before);
     else
         doc_move_element(doc, c->element, c->other);
+    edit_keep_scope(c, c->element, &scope);
     doc_index_change(doc, c->element);
 }
 
@@ -327,9 +330,13 @@ static void copy(void *arg)
         c->name && *c->name ? c->name : str_text(from->strings, doc_element(from, c->other)->name);
     if (*name && !edit_check_new_name(c, c->element, name))
         return;
+    struct edit_scope scope;
+    edit_note_scope(from, c->other, &scope);
     c->result =
         doc_copy_element(edit_tree(c->edit), c->element, from, c->other, edit_word(c, name));
-    if (!c->result)
+    if (c->result)
+        edit_keep_scope(c, c->result, &scope);
+    else
         edit_fail(c, "the document would have more elements than the context allows");
 }
 
