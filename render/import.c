@@ -105,6 +105,16 @@ static const char *fault_of(const struct aiScene *scene)
     return scene->mRootNode ? nodes_fault(scene) : "it has no nodes";
 }
 
+/* The reason that Assimp gives, with what to do where it knows no such files. */
+static const char *reason_of_assimp(void)
+{
+    const char *reason = aiGetErrorString();
+    return strstr(reason, "No suitable reader")
+               ? "no reader knows this kind of file; a mesh may be OBJ, glTF, PLY or STL, and a "
+                 "stage of USD is for --stage"
+               : reason;
+}
+
 /* Reads a file, and makes triangles. NULL with a reason. */
 static const struct aiScene *read_file(struct import_files *files, bool keeps_nodes,
                                        const char **out_reason)
@@ -116,7 +126,7 @@ static const struct aiScene *read_file(struct import_files *files, bool keeps_no
     const struct aiScene *scene =
         aiImportFileExWithProperties(files->path, 0, &files->io, properties);
     aiReleasePropertyStore(properties);
-    *out_reason = *files->fault ? files->fault : scene ? fault_of(scene) : aiGetErrorString();
+    *out_reason = *files->fault ? files->fault : scene ? fault_of(scene) : reason_of_assimp();
     if (scene && *out_reason) {
         aiReleaseImport(scene);
         return NULL;
@@ -126,7 +136,7 @@ static const struct aiScene *read_file(struct import_files *files, bool keeps_no
             scene, aiProcess_Triangulate | aiProcess_SortByPType
                        | (keeps_nodes ? 0u : (unsigned)aiProcess_PreTransformVertices));
     if (!scene && !*out_reason)
-        *out_reason = aiGetErrorString();
+        *out_reason = reason_of_assimp();
     return scene;
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What the elements around an element say about the values in it: an element that goes to another
- * place takes it along, where the new place says something else. So does an include.
+ * The elements around an element say in which colour space its values are, and where its files: an
+ * element that goes to another place takes this along, where the new place says something else. So
+ * does an include.
  */
 #include "api/edit.h"
 

@@ -59,7 +59,8 @@ ir_ref build_find_transform(struct builder *b, ir_ref value, doc_type type, str_
     const char *from = build_text(b, space),
                *to = build_text(b, canonical_space(b, b->options->colorspace)),
                *hub = library_color_hub;
-    ir_ref result = strcmp(from, to) == 0 ? value : transform(b, value, type, from, to);
+    bool stays = strcmp(from, to) == 0 || strcmp(to, "none") == 0;
+    ir_ref result = stays ? value : transform(b, value, type, from, to);
     if (!result)
         result = transform(b, strcmp(from, hub) == 0 ? value : transform(b, value, type, from, hub),
                            type, hub, to);

@@ -639,6 +639,7 @@ cat >colours.mtlx <<'X'
 X
 check 'a colour of the geometry is converted from the space of its node' eval '"$mxgen" inspect --ir colours.mtlx -e o1 >ir && has ir "srgb_texture_to"'
 check 'and not from that of its parents' eval '"$mxgen" inspect --ir colours.mtlx -e o2 >ir && ! grep -q "_to_" ir'
+check 'the working space none converts nothing' eval '"$mxgen" inspect --ir colours.mtlx -e o1 --colorspace none >ir && ! grep -q "_to_" ir'
 check 'its default is of that space' eval '"$mxgen" colours.mtlx -e o1 -o colours --reflect -q && has colours/o1.json "\"default\": [0.5, 0.5, 0.5]"'
 check 'a default of another space is told' eval 'exits 0 "$mxgen" colours.mtlx -e o3 -o colours && has err "is read in the colour space of the property" "[geomprop-default]"'
 
