@@ -340,8 +340,7 @@ struct build_meaning build_meaning_of_file(struct builder *b, const struct frame
                                            uint32_t input);
 /*
  * The meaning of a property of the geometry, which a node reads: of colours the space that the node
- * itself has, not its parents; false: it has none (specification, "Geometric Node Notes"). The
- * node's default stands in for the property, so it has that space, too.
+ * itself has, not its parents; false: it has none (specification, "Geometric Node Notes").
  */
 bool build_meaning_of_property(struct builder *b, elem_id node, struct build_meaning *out);
 /* A value of a type in the working space and the unit of the target; other types stay. */
@@ -356,15 +355,16 @@ ir_ref build_unconvert(struct builder *b, ir_ref value, doc_type type,
                        const struct build_meaning *meaning, const char **out_fault);
 
 /*
- * files.c: the meaning of the files that a node reads, and so of its results, unless an input
- * inside of its definition says it; false: it reads none.
+ * files.c: the meaning of a node's results, from which they are converted: that of the files that
+ * it reads, unless an input inside of its definition says it, or of a property of the geometry;
+ * false: they are not.
  */
-bool build_meaning_of_files(struct builder *b, const struct frame *frame,
-                            struct build_meaning *out);
+bool build_meaning_of_results(struct builder *b, const struct frame *frame,
+                              struct build_meaning *out);
 /*
- * True for an input, of a node that reads files, that stands in where a file has no texels:
- * `default` of an image. It is converted with them afterwards, so build_border gives it in the
- * space and the unit of the file.
+ * True for an input, of such a node, that stands in where a file has no texels, or a geometry no
+ * property: `default`. It is converted with them afterwards, so build_border gives it in the space
+ * and the unit of the results.
  */
 bool build_is_border(const struct builder *b, const struct frame *frame, const struct port *port);
 ir_ref build_border(struct builder *b, const struct frame *frame, uint32_t input);

@@ -148,12 +148,9 @@ static struct build_meaning meaning_of(struct builder *b, elem_id node, const st
     bool may_say = holder || port->type == DOC_TYPE_filename;
     elem_id of_space = may_say ? first_with(b, STR_colorspace, elements) : 0;
     of_space = of_space ? of_space : holder;
-    struct build_meaning property;
-    bool stands_in = port->name == STR_default && build_meaning_of_property(b, node, &property);
     return (struct build_meaning){.port = port,
                                   .of_space = of_space,
-                                  .space =
-                                      of_space && !stands_in ? build_colorspace(b, of_space) : 0,
+                                  .space = of_space ? build_colorspace(b, of_space) : 0,
                                   .of_unit = first_with(b, STR_unit, elements)};
 }
 

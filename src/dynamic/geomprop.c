@@ -30,18 +30,6 @@ static const struct shader_variable *find_texture(const mxg_build *build)
     return node->op == IR_TEXTURE ? &build->b->shader->interface.variables.items[node->attr] : NULL;
 }
 
-/* The default stands in for the property, so it is a colour of the same space. */
-static void check_space(const mxg_build *build, const char *name)
-{
-    const struct document *doc = &build->b->lib->doc;
-    elem_id node = build->frame->node.element,
-            input = doc_child_of_kind(doc, node, KIND_INPUT, STR_default);
-    str_id space = doc_attr_value(doc, node, STR_colorspace),
-           own = input ? doc_attr_value(doc, input, STR_colorspace) : 0;
-    if (space && own && own != space)
-        warn(build, name, "its default is read in the colour space of the property");
-}
-
 /*
  * Booleans cannot be interpolated, and strings cannot be streams: hosts set them per object (as in
  * MaterialX 1.39).
@@ -60,7 +48,6 @@ bool dynamic_geomprop(void *user_data, mxg_build *build, mxg_ref *results)
         results[0] = mxg_build_input(build, "default");
         return true;
     }
-    check_space(build, name.text);
     struct ir_value value;
     struct property property = {.name = str_intern_z(b->shader->strings, name.text),
                                 .type = build->type};

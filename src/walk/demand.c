@@ -137,14 +137,15 @@ static void build_args(struct builder *b, struct frame *frame)
     assert(frame->next == def->num_inputs);
     const struct port *ports = library_ports(b->lib, frame->node.nodedef, NULL);
     frame->args = ARENA_ARRAY(b->arena, ir_ref, def->num_inputs);
-    bool has_file = false;
+    struct build_meaning ignored;
+    bool may_have_border = build_meaning_of_property(b, frame->node.element, &ignored);
     for (uint32_t pass = 0; pass < 2; pass++) /* files first: they say what a border means */
         for (uint32_t i = 0; i < def->num_inputs; i++) {
             bool is_file = ports[i].type == DOC_TYPE_filename;
-            has_file |= is_file;
+            may_have_border |= is_file;
             if (is_file == (pass == 1))
                 continue;
-            frame->args[i] = has_file && build_is_border(b, frame, &ports[i])
+            frame->args[i] = may_have_border && build_is_border(b, frame, &ports[i])
                                  ? build_border(b, frame, i)
                                  : build_input(b, frame->scope, frame->node.element, &ports[i],
                                                &frame->bindings[i]);
@@ -161,8 +162,7 @@ static void convert_results(struct builder *b, const struct frame *frame, ir_ref
     const struct nodedef *def = library_nodedef(b->lib, frame->node.nodedef);
     const struct port *ports = library_ports(b->lib, frame->node.nodedef, NULL);
     struct build_meaning meaning;
-    if (!build_meaning_of_files(b, frame, &meaning)
-        && !build_meaning_of_property(b, frame->node.element, &meaning))
+    if (!build_meaning_of_results(b, frame, &meaning))
         return;
     for (uint32_t o = 0; o < def->num_outputs; o++)
         results[o] = build_convert(b, results[o], ports[def->num_inputs + o].type, &meaning);

@@ -4,7 +4,8 @@
  *
  * The results of an image are converted from the space and the unit of its file. They pass the
  * image's `default`, too, which has a space and a unit of its own (specification, "Color Spaces"):
- * it is the border of the texture, so it has to be in the space of the file.
+ * it is the border of the texture, so it has to be in the space of the file. A property of the
+ * geometry that is a colour has a default likewise.
  */
 #include "build/build_priv.h"
 
@@ -24,7 +25,8 @@ static uint32_t first_file(const struct builder *b, const struct frame *frame)
     return found;
 }
 
-bool build_meaning_of_files(struct builder *b, const struct frame *frame, struct build_meaning *out)
+static bool meaning_of_files(struct builder *b, const struct frame *frame,
+                             struct build_meaning *out)
 {
     const struct port *ports = library_ports(b->lib, frame->node.nodedef, NULL);
     uint32_t i = first_file(b, frame);
@@ -37,6 +39,13 @@ bool build_meaning_of_files(struct builder *b, const struct frame *frame, struct
     if (is_graph && library_graph_says(b->lib, frame->impl->ref, ports[i].name, STR_unit))
         out->of_unit = 0;
     return true;
+}
+
+bool build_meaning_of_results(struct builder *b, const struct frame *frame,
+                              struct build_meaning *out)
+{
+    return meaning_of_files(b, frame, out)
+           || build_meaning_of_property(b, frame->node.element, out);
 }
 
 bool build_is_border(const struct builder *b, const struct frame *frame, const struct port *port)
@@ -83,9 +92,9 @@ ir_ref build_border(struct builder *b, const struct frame *frame, uint32_t input
     const struct binding *binding = &frame->bindings[input];
     elem_id node = frame->node.element;
     struct build_meaning file;
-    bool has_file = build_meaning_of_files(b, frame, &file);
-    assert(has_file);
-    if (!has_file || !(doc_type_is_color(port->type) ? file.space : file.of_unit))
+    bool is_converted = build_meaning_of_results(b, frame, &file);
+    assert(is_converted);
+    if (!is_converted || !(doc_type_is_color(port->type) ? file.space : file.of_unit))
         return build_input(b, frame->scope, node, port, binding);
     if (binding->kind == BIND_VALUE || binding->kind == BIND_INTERFACE) {
         struct build_meaning own = build_meaning_of(b, node, port, binding);
