@@ -32,6 +32,7 @@ let view = null;
 let shader = null; // of the last document without errors
 let places = {}; // of its nodes
 let element = null;
+let options = {}; // of generation, for the picture
 let request = 0; // the number of the newest compilation
 let pause = 0;
 let messages = []; // of the newest compilation
@@ -136,7 +137,10 @@ const studio = new Promise(resolve => giveStudio = resolve); // null: there is n
 async function openStudio() {
     try {
         const Studio = view && await load("studio.js", "mxgenStudio");
-        giveStudio(Studio && new Studio({ view, panel: layout.add("view", "View"), shape: $("shape"), tell }));
+        giveStudio(Studio && new Studio({ view, picture: $("picture"), panel: layout.add("view", "View"), shape: $("shape"), tell, setOptions: chosen => {
+            options = chosen;
+            compile();
+        } }));
         document.body.dataset.studio = "true";
     } finally {
         giveStudio(null);
@@ -226,7 +230,7 @@ async function compile() {
     clearTimeout(pause);
     const number = ++request, started = performance.now();
     try {
-        const answer = await compiler.ask("compile", { text: text.value, element });
+        const answer = await compiler.ask("compile", { text: text.value, element, options });
         if (number !== request)
             return; // a newer text is on its way
         messages = answer.diagnostics;

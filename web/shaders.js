@@ -20,15 +20,15 @@ export function generate(document, element, options, use) {
     }
 }
 
-/** The shader of an element. */
-export function shaderOf(document, element, found) {
+/** The shader of an element. `options` are of generation; null: it has errors, which go to `found`. */
+export function shaderOf(document, element, found, options = {}) {
     try {
-        const parts = generate(document, element, {}, shader => {
+        const parts = generate(document, element, { options }, shader => {
             found.push(...shader.diagnostics);
             return partsOf(shader);
         });
         // With the values of the document: most materials are opaque, although their opacity is a uniform.
-        generate(document, element, { ...REDUCED, withoutSource: true }, ({ info: { alpha, numClosures } }) => {
+        generate(document, element, { options: { ...REDUCED.options, ...options }, withoutSource: true }, ({ info: { alpha, numClosures } }) => {
             Object.assign(parts.info, { alphaNow: alpha, numClosures });
         });
         return parts;

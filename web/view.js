@@ -22,6 +22,8 @@ export class View {
     #parallel;
     #pending = null; // a program that the driver compiles
     #drawn = null; // the program that is drawn
+    #pinned = null; // another one, which is drawn left of an edge
+    #edge = 0.5; // as a part of the width
     #isPreview = false; // that is pending or drawn: its picture is coarse
     #complete = null; // the shader that follows the preview
     #meshes = new Map();
@@ -70,6 +72,8 @@ export class View {
         const shader = this.#complete ?? (this.#pending ?? this.#drawn)?.shader;
         this.#drawn = this.#pending = this.#complete = null;
         this.#isPreview = this.#isBusy = false;
+        if (this.#pinned)
+            this.#pinned = { shader: this.#pinned.shader, program: link(gl, this.#pinned.shader.vertex, this.#pinned.shader.pixel), locations: new Map() };
         if (shader)
             this.setShader(shader);
     }
@@ -155,7 +159,7 @@ export class View {
             this.#endPreview();
             return false;
         }
-        if (this.#drawn)
+        if (this.#drawn && this.#drawn.program !== this.#pinned?.program)
             gl.deleteProgram(this.#drawn.program);
         this.#drawn = { ...pending, locations: new Map() };
         this.#pending = null;
@@ -272,9 +276,9 @@ export class View {
     }
 
     /** With its values of now; an input that moved since may have made it transparent. */
-    #isBlended() {
-        const { info } = this.#drawn.shader;
-        return info.alpha === "blend" && (info.alphaNow === "blend" || this.hasMoved);
+    #isBlended(drawn) {
+        const { info } = drawn.shader;
+        return info.alpha === "blend" && (info.alphaNow === "blend" || drawn === this.#drawn && this.hasMoved);
     }
 
     /** Draws the samples of a part of a picture: `first` is the place of its lower left one. Numbers count samples. */
@@ -284,14 +288,21 @@ export class View {
         gl.viewport(-first[0], -first[1], ...extent);
         gl.clearColor(0, 0, 0, 0);
         gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
-        this.#drawMesh(extent[0] / extent[1]);
+        const edge = this.#pinned ? Math.max(0, Math.min(size[0], Math.round(this.#edge * extent[0]) - first[0])) : 0;
+        gl.enable(gl.SCISSOR_TEST);
+        for (const [drawn, from, to] of [[this.#pinned, 0, edge], [this.#drawn, edge, size[0]]])
+            if (from < to) {
+                gl.scissor(from, 0, to - from, size[1]);
+                this.#drawMesh(drawn, extent[0] / extent[1]);
+            }
+        gl.disable(gl.SCISSOR_TEST);
     }
 
-    #drawMesh(aspect) {
-        const gl = this.#gl, { shader, program } = this.#drawn;
-        gl.useProgram(program);
-        this.#bindUniforms(aspect);
-        const mesh = this.#bindMesh(shader.info.displaced ? 4 : 1), blends = this.#isBlended();
+    #drawMesh(drawn, aspect) {
+        const gl = this.#gl;
+        gl.useProgram(drawn.program);
+        this.#bindUniforms(drawn, aspect);
+        const mesh = this.#bindMesh(drawn, drawn.shader.info.displaced ? 4 : 1), blends = this.#isBlended(drawn);
         const capability = (name, on) => on ? gl.enable(name) : gl.disable(name);
         capability(gl.DEPTH_TEST, !blends);
         capability(gl.BLEND, blends);
@@ -333,6 +344,33 @@ export class View {
         } while (gl.getSyncParameter(sync, gl.SYNC_STATUS) !== gl.SIGNALED);
         gl.deleteSync(sync);
         return true;
+    }
+
+    // ---- Comparison ----
+
+    /** Keeps what is drawn, with its values, left of the edge; false: nothing is drawn. */
+    pin() {
+        if (!this.#drawn || this.#isPreview)
+            return false;
+        this.unpin();
+        const { shader } = this.#drawn, alphaNow = this.#isBlended(this.#drawn) ? "blend" : shader.info.alphaNow;
+        const variables = shader.variables.map(variable => ({ ...variable, values: [...variable.values] }));
+        this.#pinned = { ...this.#drawn, shader: { ...shader, info: { ...shader.info, alphaNow }, variables } };
+        this.draw();
+        return true;
+    }
+
+    unpin() {
+        if (this.#pinned && this.#pinned.program !== this.#drawn?.program)
+            this.#gl.deleteProgram(this.#pinned.program);
+        this.#pinned = null;
+        this.draw();
+    }
+
+    /** Where the edge is, as a part of the width. */
+    set edge(share) {
+        this.#edge = share;
+        this.draw();
     }
 
     // ---- Pictures to keep ----
@@ -415,9 +453,9 @@ export class View {
         return found;
     }
 
-    #bindMesh(detail) {
-        const gl = this.#gl, { shader, program } = this.#drawn, { key, mesh } = this.#mesh(detail);
-        gl.bindVertexArray(this.#drawn.array ??= gl.createVertexArray());
+    #bindMesh(drawn, detail) {
+        const gl = this.#gl, { shader, program } = drawn, { key, mesh } = this.#mesh(detail);
+        gl.bindVertexArray(drawn.array ??= gl.createVertexArray());
         for (const { name, type } of shader.variables.filter(({ block }) => block === "appData")) {
             const at = gl.getAttribLocation(program, name);
             if (at < 0)
@@ -435,14 +473,14 @@ export class View {
             gl.enableVertexAttribArray(at);
             gl.vertexAttribPointer(at, components, gl.FLOAT, false, 0, 0);
         }
-        this.#buffer(`${key} ${this.#isBlended() ? "sorted" : ""}`, gl.ELEMENT_ARRAY_BUFFER, () => ({ values: mesh.indices }));
+        this.#buffer(`${key} ${this.#isBlended(drawn) ? "sorted" : ""}`, gl.ELEMENT_ARRAY_BUFFER, () => ({ values: mesh.indices }));
         return mesh;
     }
 
     // ---- Uniforms ----
 
-    #setUniform(name, type, values) {
-        const gl = this.#gl, { program, locations } = this.#drawn;
+    #setUniform({ program, locations }, name, type, values) {
+        const gl = this.#gl;
         if (!locations.has(name))
             locations.set(name, gl.getUniformLocation(program, name));
         const at = locations.get(name);
@@ -459,23 +497,23 @@ export class View {
             gl[matrices[type]](at, false, values);
     }
 
-    #bindUniforms(aspect) {
-        const { shader } = this.#drawn, numLevels = this.#light.radiance.length;
+    #bindUniforms(drawn, aspect) {
+        const { shader } = drawn, numLevels = this.#light.radiance.length;
         let unit = 0;
         for (const variable of shader.variables) {
             const { name, type, block, values } = variable;
             if (block === "textures")
-                this.#bindTexture(variable, unit++);
+                this.#bindTexture(drawn, variable, unit++);
             else if (block === "publicUniforms" || block === "privateUniforms") {
                 const value = block === "privateUniforms" ? this.#valueOf(name, aspect, numLevels) ?? values : values;
                 const count = { float: 1, int: 1, bool: 1, vec2: 2, vec3: 3, vec4: 4, ivec2: 2, ivec3: 3, ivec4: 4, mat2: 4, mat3: 9, mat4: 16 }[type];
                 if (value.length >= count)
-                    this.#setUniform(name, type, variable.arrayLength ? value : value.slice(0, count));
+                    this.#setUniform(drawn, name, type, variable.arrayLength ? value : value.slice(0, count));
             } else if (block === "lightData") {
                 for (let light = 0; light < MAX_LIGHTS; light++) {
                     const value = lightValue(light, name) ?? values;
                     if (value.length)
-                        this.#setUniform(`u_lightData[${light}].${name}`, type, value);
+                        this.#setUniform(drawn, `u_lightData[${light}].${name}`, type, value);
                 }
             }
         }
@@ -485,7 +523,7 @@ export class View {
         return name === "u_numActiveLightSources" && this.#ownLight ? [0] : uniformOf(name, this.camera, aspect, numLevels);
     }
 
-    #bindTexture({ name, file, uaddressmode, vaddressmode, filtertype }, unit) {
+    #bindTexture(drawn, { name, file, uaddressmode, vaddressmode, filtertype }, unit) {
         const gl = this.#gl, modes = { clamp: gl.CLAMP_TO_EDGE, mirror: gl.MIRRORED_REPEAT, constant: gl.CLAMP_TO_EDGE };
         const map = { u_envRadiance: this.#maps.radiance, u_envIrradiance: this.#maps.irradiance }[name];
         const found = map ?? this.#textures.get(file)?.texture;
@@ -498,7 +536,7 @@ export class View {
             gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, closest ? gl.NEAREST : gl.LINEAR_MIPMAP_LINEAR);
             gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, closest ? gl.NEAREST : gl.LINEAR);
         }
-        this.#setUniform(name, "int", [unit]);
+        this.#setUniform(drawn, name, "int", [unit]);
     }
 
     // ---- The camera ----

@@ -74,11 +74,11 @@ serve({
     },
 
     /** The shader, diagnostics and renderables of a document. Without errors, its warnings too. */
-    async compile({ text, element }) {
+    async compile({ text, element, options }) {
         const diagnostics = [];
         const answer = await withDocument(text, diagnostics, document => {
             const { renderables } = document, chosen = renderables.some(({ path }) => path === element) ? element : renderables[0]?.path ?? null;
-            const shader = chosen === null ? null : shaderOf(document, chosen, diagnostics);
+            const shader = chosen === null ? null : shaderOf(document, chosen, diagnostics, options);
             diagnostics.push(...document.validate());
             return { renderables, element: chosen, shader, places: shader ? placesOf(document, shader) : {} };
         });

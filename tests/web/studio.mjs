@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the page shows a material, in Chromium: tones, pictures to save, light, meshes. Arguments: the folder of the page, Chromium, the root of the project,
+// How the page shows a material, in Chromium: tones, pictures to save, light, meshes, comparison. Arguments: the folder of the page, Chromium, the root of the project,
 // and if mxgen-render is built, the program and write_maps.
 
 import assert from "node:assert/strict";
@@ -13,7 +13,7 @@ import { run, test } from "../js/harness.mjs";
 import { Browser } from "./browser.mjs";
 import { readLight } from "../../web/studio/light.js";
 import { readMesh } from "../../web/studio/mesh.js";
-import { change, compile, DIFFERENCE, drop, MEAN, pick, type, WHOLE, withPage } from "./page.mjs";
+import { change, compile, DIFFERENCE, drop, MEAN, pick, RED, type, WHOLE, withPage } from "./page.mjs";
 
 const [folder, chromium, root, program, writeMaps] = process.argv.slice(2);
 const onDisk = pathToFileURL(path.join(folder, "index.html")).href;
@@ -339,6 +339,68 @@ test("a dropped mesh is that of mxgen render --mesh", () => withStudio(async pag
     await compile(page, type(page, fs.readFileSync(example("displaced.mtlx"), "utf8")));
     const [, mine] = await save(page, 512, false);
     await compare(page, mine, render(example("displaced.mtlx"), "-m", path.join(work, "torus.glb")), 1.5, "displaced");
+}));
+
+// ---- Comparison ----
+
+/** The mean colours of parts of the canvas left and right of its middle. */
+const sides = page => page.evaluate(`(() => {
+    const canvas = document.getElementById("canvas"), copy = new OffscreenCanvas(canvas.width, canvas.height).getContext("2d", { willReadFrequently: true });
+    copy.drawImage(canvas, 0, 0);
+    return [-30, 10].map(x => {
+        const { data } = copy.getImageData(canvas.width / 2 + x, canvas.height / 2 - 20, 20, 20);
+        return [0, 1, 2].map(c => data.reduce((sum, value, i) => i % 4 === c ? sum + value : sum, 0) / 400);
+    });
+})()`);
+const isRed = ([r, , b]) => r > 100 && b < 90, isBlue = ([r, , b]) => b > 100 && r < 90;
+
+test("a pinned picture stays left of the edge, with its values", () => withStudio(async page => {
+    const onPage = id => `document.getElementById("${id}")`, key = name => change(page, `${onPage("edge")}.dispatchEvent(new KeyboardEvent("keydown", { key: "${name}", cancelable: true }))`);
+    await compile(page, type(page, RED));
+    assert.equal(await page.evaluate(`${onPage("edge")}.hidden`), true);
+    await change(page, `${onPage("pin")}.click()`);
+    const box = "document.querySelector('[data-path=\"SR/base_color\"] input[type=color]')";
+    await change(page, `${box}.value = "#0000ff", ${box}.dispatchEvent(new Event("input", { bubbles: true }))`); // the same shader
+    const [left, right] = await sides(page);
+    assert(isRed(left) && isBlue(right), `${left} | ${right}`);
+    await compile(page, type(page, lamp([0, 0, 0.9]))); // another shader
+    assert.deepEqual((await sides(page)).map(isRed), [true, false]);
+    await key("End");
+    assert.equal(await page.evaluate(`${onPage("edge")}.getAttribute("aria-valuenow")`), "100");
+    assert.deepEqual((await sides(page)).map(isRed), [true, true]);
+    await key("Home");
+    assert.deepEqual((await sides(page)).map(isBlue), [true, true]);
+    await page.evaluate(`window.lost = ${onPage("canvas")}.getContext("webgl2").getExtension("WEBGL_lose_context"), lost.loseContext()`);
+    await page.until(`${onPage("canvas")}.getContext("webgl2").isContextLost()`);
+    await page.evaluate("lost.restoreContext()");
+    await page.until(`!${onPage("canvas")}.getContext("webgl2").isContextLost()`);
+    await key("End");
+    assert.deepEqual((await sides(page)).map(isRed), [true, true]);
+    await change(page, `${onPage("pin")}.click()`);
+    assert.deepEqual((await sides(page)).map(isBlue), [true, true]);
+    page.complaints = page.complaints.filter(text => !/context/i.test(text));
+}));
+
+/** Layers of a diffuse base, which one slab can only blend. */
+const LAYERS = `<materialx version="1.39"><oren_nayar_diffuse_bsdf name="d" type="BSDF"><input name="color" type="color3" value="0.8, 0.1, 0.1"/></oren_nayar_diffuse_bsdf>
+    <sheen_bsdf name="s" type="BSDF"><input name="color" type="color3" value="0.2, 0.3, 1"/></sheen_bsdf><layer name="l" type="BSDF"><input name="top" type="BSDF" nodename="s"/>
+    <input name="base" type="BSDF" nodename="d"/></layer><dielectric_bsdf name="c" type="BSDF"/><layer name="k" type="BSDF"><input name="top" type="BSDF" nodename="c"/>
+    <input name="base" type="BSDF" nodename="l"/></layer><surface name="S" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="k"/></surface>
+    <surfacematerial name="M" type="material"><input name="surfaceshader" type="surfaceshader" nodename="S"/></surfacematerial></materialx>`;
+
+test("two budgets of one material", () => withStudio(async page => {
+    await compile(page, type(page, LAYERS));
+    await change(page, "document.getElementById('pin').click()");
+    const [left, right] = await sides(page);
+    close(left, right, 12, "the same on both sides");
+    await compile(page, pick("slabs", "1"));
+    const [pinned, one] = await sides(page);
+    close(pinned, left, 1, "the pinned picture");
+    assert(one[2] < right[2] - 10, `one slab has less sheen: ${one} instead of ${right}`);
+    await compile(page, pick("slabs", ""));
+    close((await sides(page))[1], right, 1, "back");
+    await compile(page, pick("quality", "draft"));
+    assert.match(await page.evaluate("document.getElementById('messages').textContent"), /^No errors/);
 }));
 
 try {

@@ -3,12 +3,14 @@
 
 import { Compiler } from "../compiler.js";
 import { element } from "../dom.js";
+import { Compare } from "./compare.js";
 import readerSource from "reader.bundle.js";
 import { refine } from "./mesh.js";
 import { savePicture } from "./save.js";
 import { TONES } from "./tones.js";
 
 const SIZES = [512, 1024, 2048];
+const SLABS = [["off", ""], ["any number", "0"], ["at most 4", "4"], ["at most 2", "2"], ["at most 1", "1"]]; // name, limit
 const MAX_FILE = 256 << 20; // bytes
 const SKY = "Sky";
 const MESH = /\.(obj|glb)$/i;
@@ -22,12 +24,16 @@ class Studio {
     #reader = new Compiler(readerSource, "it takes longer than 20 seconds");
     #light = element("select", { id: "light" }, new Option(SKY));
 
-    /** `panel` is for its controls, `shape` the list of shapes; `tell` takes sentences for the user. */
-    constructor({ view, panel, shape, tell }) {
+    /**
+     * `picture` is the element that the view fills, `panel` is for controls, `shape` the list of shapes. `tell` takes sentences for the user,
+     * `setOptions` options of generation.
+     */
+    constructor({ view, picture, panel, shape, tell, setOptions }) {
         this.#view = view;
         this.#shape = shape;
         this.#tell = tell;
-        panel.append(this.#looks(), this.#pictures());
+        new Compare(view, picture);
+        panel.append(this.#looks(), this.#shaders(setOptions), this.#pictures());
     }
 
     /** Takes a file of light or of a mesh; returns messages about it: severity, id and message. */
@@ -66,6 +72,15 @@ class Studio {
         tones.addEventListener("change", () => { this.#view.tone = TONES[tones.value]; });
         return element("fieldset", {}, element("legend", { textContent: "Look" }), labelled("Light", this.#light), labelled("Tone mapping", tones),
             element("p", { textContent: "Drop a map of light (.hdr, .exr) or a mesh (.obj, .glb) on the page." }));
+    }
+
+    /** Budgets, to compare what they cost. */
+    #shaders(setOptions) {
+        const quality = element("select", { id: "quality" }, ...["reference", "good", "draft"].map(name => new Option(name)));
+        const slabs = element("select", { id: "slabs" }, ...SLABS.map(([name, limit]) => new Option(name, limit)));
+        for (const select of [quality, slabs])
+            select.addEventListener("change", () => setOptions({ quality: quality.value, ...(slabs.value && { "slabs": "true", "max-slabs": slabs.value }) }));
+        return element("fieldset", {}, element("legend", { textContent: "Shader" }), labelled("Quality", quality), labelled("Slabs", slabs));
     }
 
     #pictures() {
