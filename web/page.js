@@ -324,7 +324,7 @@ async function take(files) {
     if (faults.length)
         tell(`The page cannot read ${faults.join(", ")}.`);
     else if (remarks.length)
-        tell(remarks[0].message);
+        tell((remarks.find(({ severity }) => severity === "error") ?? remarks[0]).message);
 }
 
 // ---- The page ----

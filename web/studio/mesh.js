@@ -163,7 +163,7 @@ export function readMesh(name, bytes) {
     if (!mesh.indices.length)
         throw new Unreadable("it has no triangles");
     fit(mesh);
-    const notes = [!mesh.normal && "normals", !mesh.texcoord && "texture coordinates"].filter(Boolean).map(part => `has no ${part}; they were made`);
+    const notes = mesh.texcoord ? [] : ["has no texture coordinates; they were made"];
     mesh = mesh.normal ? mesh : makeNormals(mesh);
     for (let i = 0; i < mesh.normal.length / 3; i++)
         mesh.normal.set(unit(at(mesh.normal, i), [0, 1, 0]), 3 * i);
