@@ -2,6 +2,7 @@
 #include "export/stage.h"
 
 #include "program/memory.h"
+#include "render/look_parts.h"
 #include "render/site_picture.h"
 
 #include <stdlib.h>
@@ -92,6 +93,17 @@ static void add_look(struct stage *stage, const char *name)
     stage->looks[stage->num_looks++] = name;
 }
 
+/* Layers are told where they are lost: tell_lost. */
+static void tell_variant(void *user_data, const char *look, const mxg_element_info *part)
+{
+    const struct stage *stage = user_data;
+    if (strcmp(part->category, "variantassign") == 0)
+        report_warning(stage->site.report, "export-loss",
+                       "'%s/%s' (%s:%u) is not in the file: its materials have their own values, "
+                       "without those of variants",
+                       look, part->name, part->file, (unsigned)part->line);
+}
+
 static void list_looks(struct stage *stage, const mxg_document *document, const char *look,
                        bool has_variants)
 {
@@ -110,6 +122,8 @@ static void list_looks(struct stage *stage, const mxg_document *document, const 
     }
     if (!stage->num_looks)
         add_look(stage, look);
+    for (size_t i = 0; i < stage->num_looks; ++i)
+        look_parts(document, stage->looks[i], tell_variant, stage);
 }
 
 static void dress(struct stage *stage, const mxg_bindings *bindings, struct stage_dress *dresses)

@@ -2,6 +2,7 @@
 /* The elements of a run: pictures, turntables, contact sheets, and values on a grid. */
 #define _POSIX_C_SOURCE 200809L
 #include "render/job.h"
+#include "render/look_parts.h"
 #include "render/sheet.h"
 
 #include <stdio.h>
@@ -55,6 +56,15 @@ static void add_item(struct items *list, const mxg_document *document, const cha
                                       cli_format("%s", element)};
 }
 
+static void tell_part(void *user_data, const char *look, const mxg_element_info *part)
+{
+    struct report *report = user_data;
+    report_warning(report, "look-part",
+                   "'%s/%s' (%s:%u) changes inputs of materials, which --look draws as they are; "
+                   "with --stage it counts",
+                   look, part->name, part->file, (unsigned)part->line);
+}
+
 /* Adds the materials of the requested look, or the renderables. */
 static void add_elements(struct job *job, struct items *list, const mxg_document *document,
                          const char *path)
@@ -72,8 +82,10 @@ static void add_elements(struct job *job, struct items *list, const mxg_document
     if (look && list->len == before)
         report_error(&job->cli.report, "no-look", "'%s' has no look '%s' that assigns a material",
                      path, look);
-    if (look)
+    if (look) {
+        look_parts(document, look, tell_part, &job->cli.report);
         return;
+    }
     if (num == 0 || (list->len == 0 && job->options.element)) /* generation reports the error */
         add_item(list, document, path, job->options.element);
 }

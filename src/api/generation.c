@@ -114,6 +114,7 @@ static void init_layers(struct generation *g)
     lang_unit_init(&result->unit, arena, &result->strings, &layer->unit);
     ir_graph_init(&result->graph, arena, &result->strings);
     result->graph.max_nodes = result->object.context->max_nodes;
+    result->graph.has_no_neighbours = g->role->derivatives == DERIVATIVES_NONE;
     shader_init(&result->shader, g->role, arena, &result->strings, &result->graph, &result->unit);
     if (g->options[OPTION_host_lights].number && g->role->lights == LIGHTS_IN_SHADER)
         result->shader.lights = LIGHTS_OF_HOST;

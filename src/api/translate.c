@@ -112,6 +112,7 @@ static void translate_surface(struct translation *t, elem_id surface)
         translate_drop_idle(t);
         report_losses(t);
         translate_write(t);
+        t->has_changed = true;
     }
     translate_forget_surface(t);
 }
@@ -131,6 +132,23 @@ static void finish(struct generation *g, struct translation *t)
     g->result->text_size = size;
 }
 
+/* Variants, and layers that are nodegraphs, name inputs of the old model. */
+static void tell_looks(const struct translation *t)
+{
+    const struct document *doc = &t->document->layer.doc;
+    for (elem_id e = doc->root; e; e = doc_next_in_tree(doc, doc->root, e)) {
+        enum element_kind kind = (enum element_kind)doc_element(doc, e)->kind;
+        struct text path;
+        if (kind != KIND_VARIANTASSIGN
+            && (kind != KIND_MATERIALASSIGN || !doc_attr_value(doc, e, STR_nodegraph)))
+            continue;
+        text_init(&path, t->arena);
+        doc_path(doc, e, '/', &path);
+        diag_add(t->diags, DIAG_ID_translation_look, doc_name_place(doc, e), text_cstr(&path),
+                 t->wanted);
+    }
+}
+
 static void translate(struct generation *g)
 {
     struct translation *t = g->user_data;
@@ -145,6 +163,8 @@ static void translate(struct generation *g)
         translate_each_surface(t, translate_surface);
     if (!t->diags->num_errors && t->replaced.len)
         translate_remove_remains(t);
+    if (t->has_changed || t->replaced.len)
+        tell_looks(t);
     if (!t->diags->num_errors)
         finish(g, t);
 }

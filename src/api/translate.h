@@ -64,6 +64,7 @@ struct translation {
     uint32_t num_left;                        /* surfaces without another translation */
     VEC(elem_id) closures;                    /* the surface, and what it is made of */
     VEC(elem_id) leaves;                      /* their inputs with connected values */
+    bool has_changed;                         /* a surface has another model now */
     VEC(elem_id) replaced; /* closures of all surfaces so far, and what definitions had inside */
     /* definitions: translate_flatten.c */
     VEC(elem_id) opened;    /* closures and surfaces that definitions had inside */

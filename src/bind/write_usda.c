@@ -45,8 +45,10 @@ static const struct look_assign *assign_of(const struct bindings *b, const struc
 }
 
 /* Why slot bindings cannot hold an item of a state; NULL: they hold it. */
-static const char *loss_of(const struct bindings *b, const struct bind_state *state, uint32_t index)
+static const char *loss_of(const struct usda_writer *u, const struct bind_state *state,
+                           uint32_t index)
 {
+    const struct bindings *b = u->w->b;
     const struct bind_item *items = &b->items.items[state->first_item];
     if (items[index].kind == ITEM_PRODUCT)
         return "a product of a weaker assignment";
@@ -55,7 +57,9 @@ static const char *loss_of(const struct bindings *b, const struct bind_state *st
          i-- > 0 && assign_of(b, &items[i])->name == assign_of(b, &items[index])->name;)
         if (items[i].kind != ITEM_PRODUCT)
             return "it stands beside a layer of its name";
-    return assign_of(b, &items[index])->num_variants ? "its variants" : NULL;
+    struct variant_list variants = {0};
+    bind_variants(&b->look, items[index].assign, u->w->scratch, &variants);
+    return variants.len ? "its variants" : NULL;
 }
 
 static const struct said *find_said(const struct said_list *list, uint32_t name)
@@ -78,7 +82,7 @@ static void collect(struct usda_writer *u, const struct bind_state *state, struc
     for (uint32_t i = 0; i < state->num_items; i++) {
         const struct bind_item *item = &b->items.items[state->first_item + i];
         const struct look_assign *assign = assign_of(b, item);
-        u->num_lost += loss_of(b, state, i) != NULL;
+        u->num_lost += loss_of(u, state, i) != NULL;
         if (item->kind != ITEM_PRODUCT && !find_said(out, assign->name))
             add_said(u, out, assign->name, assign->target);
     }
@@ -424,7 +428,7 @@ static void put_losses(struct usda_writer *u, prim_id prim)
         const struct bind_item *item = &b->items.items[state->first_item + i];
         if (bind_prim_at(b, prim, item->level) != prim)
             continue;
-        const char *loss = is_instance ? "USD has no prim for an instance" : loss_of(b, state, i);
+        const char *loss = is_instance ? "USD has no prim for an instance" : loss_of(u, state, i);
         if (loss)
             put_loss(u, prim, item->assign, loss);
     }

@@ -156,6 +156,8 @@ ir_ref closure_displace(struct shader *shader, const struct closure_host *host, 
     if (!offset)
         return shaded_root(shader, surface, 0);
     shader->reflection.displaced = true;
+    if (shader->role->derivatives == DERIVATIVES_NONE) /* the host gives the moved surface */
+        return shaded_root(shader, surface, 0);
     struct closure_point *point = host->point;
     ir_ref before = stream(shader, STR_positionWorld);
     ir_push_name(g, STR_P);

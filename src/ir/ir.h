@@ -282,8 +282,9 @@ struct ir_graph {
     uint32_t origin;             /* of new nodes: ir_push_origin */
     str_id slot;                 /* of new origins */
     VEC(uint32_t) outer_origins; /* origins below it on the stack */
-    uint64_t num_builds; /* calls of ir_build, also those that add nothing: the work so far */
-    uint32_t max_nodes;  /* 0 = unlimited; beyond it ->overflow is set and POISON returned */
+    uint64_t num_builds;    /* calls of ir_build, also those that add nothing: the work so far */
+    bool has_no_neighbours; /* derivatives are 0 */
+    uint32_t max_nodes;     /* 0 = unlimited; beyond it ->overflow is set and POISON returned */
     bool overflow;
     bool exact;   /* only apply exact rules, which hold for infinities and NaN, too */
     bool no_fold; /* no folding; for tests, and while a pass copies nodes */

@@ -101,6 +101,7 @@ const ir_ref *ir_rebuild(struct ir_graph *graph, const uint8_t *needed, const st
     graph->no_fold = r.old.no_fold;
     graph->exact = r.old.exact;
     graph->max_nodes = r.old.max_nodes;
+    graph->has_no_neighbours = r.old.has_no_neighbours;
     graph->overflow = r.old.overflow;
     return r.copies;
 }

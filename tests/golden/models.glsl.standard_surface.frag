@@ -532,7 +532,7 @@ void main()
         * (reflection_scale * max(SR_standard_surface_specular_color, 0.0));
     float scatter_weight = clamped_subsurface * opaque_weight * (1.0 - thin);
     vec3 scatter_radius = SR_standard_surface_subsurface_radius * SR_standard_surface_subsurface_scale;
-    float curvature = max(length(fwidth(Nf)) / length(fwidth(vd.positionWorld)), 0.01);
+    float curvature = max(length(fwidth(Nf)) / max(length(fwidth(vd.positionWorld)), 1e-20), 0.01);
     vec3 scatter_product = scatter_color * (body_weight * (fuzz_throughput * scatter_weight));
     // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {

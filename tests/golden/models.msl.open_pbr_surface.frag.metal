@@ -716,7 +716,7 @@ void FragmentMain()
     float scatter_weight = clamped_subsurface_weight * opaque_weight * (1.0 - thin);
     float3 scatter_radius = u_pub.SR_open_pbr_surface_subsurface_radius
         * u_pub.SR_open_pbr_surface_subsurface_radius_scale;
-    float curvature = max(length(fwidth(Nf)) / length(fwidth(vd.positionWorld)), 0.01);
+    float curvature = max(length(fwidth(Nf)) / max(length(fwidth(vd.positionWorld)), 1e-20), 0.01);
     float3 scatter_product = subsurface_positive * (body_weight * scatter_weight);
     float diffuse_weight = clamp(u_pub.SR_open_pbr_surface_base_weight, 0.0, 1.0)
         * (opaque_weight * (1.0 - clamped_subsurface_weight));

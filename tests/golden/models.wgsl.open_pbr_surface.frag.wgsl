@@ -665,7 +665,7 @@ fn main(vd: VertexData) -> @location(0) vec4f
     let scatter_weight: f32 = clamped_subsurface_weight * opaque_weight * (1.0 - thin);
     let scatter_radius: vec3f = u_pub.SR_open_pbr_surface_subsurface_radius
         * u_pub.SR_open_pbr_surface_subsurface_radius_scale;
-    let curvature: f32 = max(length(fwidth(Nf)) / length(fwidth(vd.positionWorld)), 0.01);
+    let curvature: f32 = max(length(fwidth(Nf)) / max(length(fwidth(vd.positionWorld)), 1e-20), 0.01);
     let scatter_product: vec3f = subsurface_positive * (body_weight * scatter_weight);
     let diffuse_weight: f32 = clamp(u_pub.SR_open_pbr_surface_base_weight, 0.0, 1.0)
         * (opaque_weight * (1.0 - clamped_subsurface_weight));

@@ -569,7 +569,7 @@ fn main(vd: VertexData) -> @location(0) vec4f
     let scatter_weight: f32 = clamped_subsurface * opaque_weight * (1.0 - thin);
     let scatter_radius: vec3f = u_pub.SR_standard_surface_subsurface_radius
         * u_pub.SR_standard_surface_subsurface_scale;
-    let curvature: f32 = max(length(fwidth(Nf)) / length(fwidth(vd.positionWorld)), 0.01);
+    let curvature: f32 = max(length(fwidth(Nf)) / max(length(fwidth(vd.positionWorld)), 1e-20), 0.01);
     let scatter_product: vec3f = scatter_color * (body_weight * (fuzz_throughput * scatter_weight));
     // from the last light, so that drivers do not unroll the loop
     for (var i: i32 = min(u_prv.u_numActiveLightSources, 3) - 1; i >= 0; i--) {

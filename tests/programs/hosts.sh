@@ -130,6 +130,7 @@ check 'the shader does not declare a name of the host' eval '! says "vec3 eye;" 
 check 'the function asks for the lights' says '^void mxg_light\(int i, vec3 P, out vec3 L, out vec3 radiance\);' Glass.frag
 check 'a function has no vertex stage' eval '! [ -e out.d/Glass.vert ]'
 check 'the reflection names the function' eval 'tr -d " \n" <out.d/Glass.json | grep -q "\"function\":\"pane\",\"functionType\":\"pane_Surface\""'
+check 'a function of a displaced surface has the normal of the host' eval 'exits 0 "$mxgen" "${tiles%/*}/displaced.mtlx" --role function --target glsl --stdout >displaced && ! grep -Eq "cross\(|dFd|fwidth|(length|normalize)\(vec3\(0" displaced'
 check 'a function may be without lights' make Glass --role function --lights none
 check 'a function without lights asks for none' eval '! says mxg_light Glass.frag'
 check 'a function may ask for more' make Glass --role function --prefix pane_ --host-occlusion --host-environment

@@ -198,10 +198,10 @@ float mx_translucent_bsdf_pdf(vec3 color, vec3 N, vec3 V, vec3 L)
 
 // Curvature of the surface with the normal n at the point P: how far both change from one pixel to the next.
 //
-// A stored radius is that over the circle's, whose curvature is 1.
+// A stored radius is that over the circle's, whose curvature is 1. Where neither changes, the surface is nearly flat.
 float mx_curvature(vec3 n, vec3 P)
 {
-    return option_stored == 1 ? 1.0 : max(length(fwidth(n)) / length(fwidth(P)), 0.01);
+    return option_stored == 1 ? 1.0 : max(length(fwidth(n)) / max(length(fwidth(P)), 1e-20), 0.01);
 }
 
 // Light that arrives at a point of a circle of this curvature by subsurface scattering, where the cosine of the
