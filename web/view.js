@@ -370,7 +370,8 @@ export class View {
     /** Where the edge is, as a part of the width. */
     set edge(share) {
         this.#edge = share;
-        this.draw();
+        if (this.#pinned)
+            this.draw();
     }
 
     // ---- Pictures to keep ----
