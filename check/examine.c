@@ -136,17 +136,12 @@ static bool is_about_absence(const char *id)
     return false;
 }
 
-/*
- * For "there is no file 'a/b.png'": notes the place, because the message ends when the file
- * appears.
- */
-static void add_quoted_place(struct examiner *examiner, const mxg_diagnostic *diagnostic)
+/* Notes the place of a file that is absent, because the message ends when the file appears. */
+static void add_absent_place(struct examiner *examiner, const char *file, const char *path)
 {
-    const char *quote = strchr(diagnostic->message, '\'');
-    size_t len = quote ? strcspn(quote + 1, "'") : 0;
-    if (len && diagnostic->file)
-        check_add_place(&examiner->store, examiner->document, diagnostic->file,
-                        store_text(&examiner->store, quote + 1, len));
+    if (file)
+        check_add_place(&examiner->store, examiner->document, file,
+                        store_text(&examiner->store, path, strlen(path)));
 }
 
 /* The notes of a diagnostic; NULL without one. The caller frees them; they borrow the texts. */
@@ -175,7 +170,7 @@ void examine_diagnostics(struct examiner *examiner, const mxg_diagnostics *list,
         if (!is_shown(examiner, &diagnostic, i))
             continue;
         if (is_about_absence(diagnostic.id))
-            add_quoted_place(examiner, &diagnostic);
+            add_absent_place(examiner, diagnostic.file, mxg_diagnostics_argument(list, i, 0));
         struct check_message message = {.severity = diagnostic.severity,
                                         .id = diagnostic.id,
                                         .text = diagnostic.message,

@@ -7,8 +7,8 @@
  *     mix(bg, fg, m)     one or the other
  *     a leaf's weight    whether it is there
  *     add(a, b)          one or the other behind a gate of 2, where neither lets light through
- *     scale(a, c)        behind a gate of c, where a lets no light through or nothing lies below
- * it; or of a leaf that is no medium, what it reflects
+ *     scale(a, c)        behind a gate of c, where a lets no light through, or nothing lies below;
+ *                        or of a leaf that is no medium, what it reflects
  *
  * A leaf that refracts leads into a solid, so nothing may lie below it but the medium of the solid.
  */
