@@ -117,6 +117,7 @@ const struct target target_mdl = {
     .brief = "NVIDIA's Material Definition Language 1.8 and later",
     .caps = CAP_BITWISE | CAP_IMPLICIT_LOD | CAP_STRINGS | CAP_NAMED_WHOLES | CAP_TYPED_TEXTURES
             | CAP_MISSING_COLORS | CAP_SCOPED_PARAMETERS | CAP_INDEXED_TANGENTS | CAP_METADATA,
+    .lacks_aovs = "a material of MDL has no outputs beside its closures",
     .versions = versions,
     .modules = modules,
     .closures = &mdl_closures,

@@ -7,12 +7,16 @@
 void generation_tell_lost_aovs(struct generation *g)
 {
     const struct shader *shader = &g->result->shader;
-    for (uint32_t i = 0; i < shader->interface.aovs.len && g->role->returns == RETURNS_PAYLOAD; i++)
-        if (shader->interface.aovs.items[i].is_output && shader->interface.aovs.items[i].element)
+    const char *lacks = g->result->target->lacks_aovs;
+    for (uint32_t i = 0; i < shader->interface.aovs.len; i++) {
+        const struct shader_aov *aov = &shader->interface.aovs.items[i];
+        bool is_lost = lacks || (aov->is_output && g->role->returns == RETURNS_PAYLOAD);
+        if (is_lost && aov->element)
             diag_add(diags_of(g), DIAG_ID_aov_left_out,
-                     doc_place(&g->document->layer.doc, shader->interface.aovs.items[i].element),
-                     str_text(shader->strings, shader->interface.aovs.items[i].name),
-                     "a payload holds one closure");
+                     doc_place(&g->document->layer.doc, aov->element),
+                     str_text(shader->strings, aov->name),
+                     lacks ? lacks : "a payload holds one closure");
+    }
 }
 
 /* The slots of the textures that the shader reads, each once. */

@@ -22,6 +22,7 @@ check 'a material knows no view' exits 1 "$mxgen" gold.mtlx --target mdl --eleme
 check 'the error says so' grep -q 'gold.mtlx:.*mdl has no viewPosition' err
 check 'a material has no derivatives' exits 1 "$mxgen" gold.mtlx --target mdl --element slopes -o none
 check 'the error says so' grep -q 'gold.mtlx:.*mdl has no slopes' err
+check 'an AOV that a material cannot have is told' eval 'exits 0 "$mxgen" "$(dirname "$(realpath "$0")")/../golden/aov.mtlx" --target mdl -o aovs && grep -q "aov.mtlx:.* is left out: a material of MDL.*\[aov-left-out\]" err'
 check 'a text is no light' exits 1 "$mxgen" gold.mtlx --target mdl --element text -o none
 check 'a value is light' exits 0 "$mxgen" gold.mtlx --target mdl --element glow -o glow
 check 'a value is the intensity of an edf' grep -q 'emission: material_emission(emission: surface_emission' glow/glow.mdl
