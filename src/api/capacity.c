@@ -19,7 +19,7 @@ void generation_tell_lost_aovs(struct generation *g)
     }
 }
 
-/* The slots of the textures that the shader reads, each once. */
+/* "; these layers read some: 'a', 'b'": the slots of textures that the shader reads, each once. */
 static const char *list_slots(struct generation *g)
 {
     const struct shader *shader = &g->result->shader;
@@ -31,7 +31,8 @@ static const char *list_slots(struct generation *g)
         if (v->block != BLOCK_TEXTURES || !v->slot || v->slot == last)
             continue;
         last = v->slot;
-        text_fmt(&list, "%s'%s'", list.len ? ", " : "", str_text(shader->strings, last));
+        text_fmt(&list, "%s'%s'",
+                 list.len ? ", " : "; these layers read some: ", str_text(shader->strings, last));
     }
     return text_cstr(&list);
 }
@@ -44,7 +45,7 @@ bool generation_keeps_textures(struct generation *g)
              num = shader->interface.first_of_block[BLOCK_TEXTURES + 1] - first;
     while (target && !target->max_textures)
         target = target->base;
-    if (!g->desc.bindings || !target || num <= target->max_textures)
+    if (!target || num <= target->max_textures)
         return true;
     diag_add(diags_of(g), DIAG_ID_texture_limit, doc_place(&g->document->layer.doc, g->element),
              (unsigned)num, (unsigned)target->max_textures, g->result->target->name, list_slots(g));

@@ -219,6 +219,18 @@ document "$(pictures 12 P 0) $(pictures 8 Q 12) <look name='L'><materialassign m
 check 'too many textures fail' exits 1 "$mxgen" look.mtlx --stage stage.txt --target essl --environment none -o out.d
 check 'the error names the slots' grep -q "reads 20 textures, .* at most 16 in essl; .*: '000', '050' \[texture-limit\]" err
 check 'another target takes these textures' exits 0 "$mxgen" look.mtlx --stage stage.txt --target vulkan --environment none -o out.d
+# So may one material.
+textures() { # N: a document with N images in one sum
+    echo '<materialx version="1.39"><constant name="s0" type="color3"/>'
+    for i in $(seq "$1"); do echo "<image name=\"i$i\" type=\"color3\"><input name=\"file\" type=\"filename\" value=\"$i.png\"/></image><add name=\"s$i\" type=\"color3\"><input name=\"in1\" type=\"color3\" nodename=\"s$((i - 1))\"/><input name=\"in2\" type=\"color3\" nodename=\"i$i\"/></add>"; done
+    echo "<output name=\"o\" type=\"color3\" nodename=\"s$1\"/></materialx>"
+}
+textures 16 >few.mtlx
+textures 17 >many.mtlx
+for target in essl msl wgsl; do
+    check "$target has 16 textures" exits 0 "$mxgen" few.mtlx --target $target -o few
+    check "$target has no 17" eval 'exits 1 "$mxgen" many.mtlx --target $target -o many && grep -q "reads 17 textures, .* at most 16 in $target \[texture-limit\]" err'
+done
 
 # Looks without a scene.
 document '<look name="base"><materialassign slot="a b" material="red" geom="/"/><materialassign slot="050" nodegraph="NG_half" geom="/"/></look>
