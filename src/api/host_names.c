@@ -79,32 +79,18 @@ static bool check_module(struct generation *g)
                      "an identifier that is no word and no module of the language");
 }
 
-/* True if two items "NAME=VALUE" have one name. */
-static bool has_one_name(const char *a, const char *b)
+static bool check_lights(struct generation *g)
 {
-    size_t len = strcspn(a, "=");
-    return len == strcspn(b, "=") && strncmp(a, b, len) == 0;
-}
-
-/* A list of names, or 'none' alone. */
-static bool check_list(struct generation *g, enum option_id option, bool is_unique)
-{
-    const struct option_value *value = &g->options[option];
-    const char *const *items = value->list.items;
-    bool good = true;
-    for (uint32_t i = 0; i < value->list.len && good; i++) {
-        if (value->list.len > 1 && strcmp(items[i], "none") == 0)
-            good = report(g, option, items[i], "'none' alone, or names");
-        for (uint32_t k = 0; k < i && good && is_unique; k++)
-            if (has_one_name(items[i], items[k]))
-                good = report(g, option, items[i], "names that no other item has");
-    }
-    return good;
+    const struct option_value *lights = &g->options[OPTION_lights];
+    for (uint32_t i = 0; i < lights->list.len && lights->list.len > 1; i++)
+        if (strcmp(lights->list.items[i], "none") == 0)
+            return report(g, OPTION_lights, "none", "'none' alone, or names of lights");
+    return true;
 }
 
 bool generation_check_names(struct generation *g)
 {
     bool prefix = check_prefix(g), renamed = check_renamed(g), module = check_module(g),
-         lights = check_list(g, OPTION_lights, false), aovs = check_list(g, OPTION_aovs, true);
-    return prefix && renamed && module && lights && aovs;
+         lights = check_lights(g);
+    return prefix && renamed && module && lights;
 }
