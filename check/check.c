@@ -440,10 +440,10 @@ static int run(struct check *check)
         fprintf(stderr, "warning: the cache '%s' cannot be written: %s [output-failed]\n",
                 check->cache_folder, check->cache.fault);
     if (check->budget.num_unjudged)
-        fprintf(stderr,
-                "warning: the budget of instructions does not hold for %" PRIu64
-                " shaders, which were not compiled [budget-unjudged]\n",
-                check->budget.num_unjudged);
+        report_warning(report, "budget-unjudged",
+                       "the budget of instructions does not hold for %" PRIu64
+                       " shaders, which were not compiled",
+                       check->budget.num_unjudged);
     if (totals->documents == 0 && !check->num_found && !check->inputs.failed && !check->pool.fault)
         report_error(report, "nothing-to-check", "found no document to check");
     bool good = !report->errors && !check->inputs.failed && reports_are_good(&check->reports);

@@ -35,30 +35,47 @@ static const struct member members[] = {
     {"texCoord", COUNT, IMPORT_MAX_TEXCOORD, {0}},
 };
 
+/* True for an extension, or what refers to a texture. */
+static bool is_object(const char *name)
+{
+    for (size_t i = 0; i < gltf_num_inputs; ++i) {
+        const struct gltf_input *row = &gltf_inputs[i];
+        if ((row->texture && strcmp(row->texture, name) == 0)
+            || (row->object && strcmp(row->object, name) == 0))
+            return true;
+    }
+    return false;
+}
+
+/* A factor is a number, or an array of those that several rows have parts of; false: it is none. */
+static bool find_factor(const char *name, struct member *out)
+{
+    bool is_found = false;
+    *out = (struct member){name, NUMBER, 0, {0}};
+    for (size_t i = 0; i < gltf_num_inputs; ++i) {
+        const struct gltf_input *row = &gltf_inputs[i];
+        if (!row->factor || strcmp(row->factor, name) != 0)
+            continue;
+        is_found = true;
+        if (row->has_array && row->at + row->count > out->most)
+            *out = (struct member){name, NUMBERS, row->at + row->count, {0}};
+    }
+    return is_found;
+}
+
 /* Finds the type that glTF gives a member; false: it has no meaning here. */
 static bool find_member(const char *name, bool is_transform, struct member *out)
 {
-    *out = (struct member){name, is_transform ? NUMBERS : NUMBER, 2, {0}};
-    if (strcmp(name, "scale") == 0) /* of coordinates, or of a normal map */
-        return true;
     for (size_t i = 0; i < sizeof members / sizeof *members; ++i)
-        if (strcmp(members[i].name, name) == 0)
-            return *out = members[i], true;
-    bool is_texture = false, is_factor = false;
-    for (size_t i = 0; i < gltf_num_inputs && !is_texture; ++i) {
-        const struct gltf_input *row = &gltf_inputs[i];
-        is_texture = (row->texture && strcmp(row->texture, name) == 0)
-                     || (row->object && strcmp(row->object, name) == 0);
-        if (!row->factor || strcmp(row->factor, name) != 0)
-            continue;
-        unsigned end = row->has_array ? row->at + row->count : 0;
-        out->kind = end ? NUMBERS : NUMBER;
-        out->most = is_factor && out->most > end ? out->most : end;
-        is_factor = true;
-    }
-    if (is_texture)
-        out->kind = OBJECT;
-    return is_texture || is_factor;
+        if (strcmp(members[i].name, name) == 0) {
+            *out = members[i];
+            return true;
+        }
+    if (find_factor(name, out))
+        return true;
+    bool is_scale = strcmp(name, "scale") == 0; /* of coordinates, or of a normal map */
+    *out = (struct member){name, !is_scale ? OBJECT : is_transform ? NUMBERS : NUMBER, 2, {0}};
+    return is_scale || is_object(name);
 }
 
 static bool fits(const struct member *member, const json_t *value)

@@ -19,18 +19,11 @@ uint32_t mxg_result_num_compiled_inputs(const mxg_result *result)
     return result && result->has_shader ? result->shader.reflection.compiled.len : 0;
 }
 
-/* True if the element is the input, false if it is the node, whose definition has the input. */
-static bool is_input(const struct document *doc, elem_id element)
-{
-    uint16_t kind = doc_element(doc, element)->kind;
-    return kind == KIND_INPUT || kind == KIND_OUTPUT;
-}
-
 static void write_path(const struct document *doc, const struct shader_compiled_input *input,
                        struct text *out)
 {
     doc_path(doc, input->element, '/', out);
-    if (!is_input(doc, input->element) && input->definition)
+    if (!doc_is_port(doc, input->element) && input->definition)
         text_fmt(out, "/%s", str_text(doc->strings, doc_element(doc, input->definition)->name));
     text_char(out, '\0');
 }
@@ -68,7 +61,7 @@ void result_compiled(void *user_data, uint32_t index, struct shader_compiled_tex
     const struct document *doc = tree_of(result);
     const struct shader_compiled_input *input = &result->shader.reflection.compiled.items[index];
     const struct attribute *own =
-        is_input(doc, input->element) ? doc_attr(doc, input->element, STR_value) : NULL;
+        doc_is_port(doc, input->element) ? doc_attr(doc, input->element, STR_value) : NULL;
     str_id value = own                 ? own->value
                    : input->definition ? doc_attr_value(doc, input->definition, STR_value)
                                        : 0;

@@ -18,12 +18,6 @@ static uint32_t index_of(const struct remains *r, elem_id element)
     return element - r->doc->first_element;
 }
 
-static bool is_port(const struct remains *r, elem_id element)
-{
-    uint32_t kind = doc_element(r->doc, element)->kind;
-    return kind == KIND_INPUT || kind == KIND_OUTPUT;
-}
-
 /* The node, or output of a nodegraph, that a port reads; 0: none. */
 static elem_id read_by(const struct remains *r, elem_id port)
 {
@@ -40,7 +34,7 @@ static elem_id read_by(const struct remains *r, elem_id port)
 static void count_readers(struct remains *r)
 {
     for (elem_id e = r->doc->root; e; e = doc_next_in_tree(r->doc, r->doc->root, e)) {
-        elem_id source = is_port(r, e) ? read_by(r, e) : 0;
+        elem_id source = doc_is_port(r->doc, e) ? read_by(r, e) : 0;
         if (source)
             r->readers[index_of(r, source)]++;
         bool is_output = source && doc_element(r->doc, e)->kind == KIND_OUTPUT;
@@ -58,7 +52,7 @@ static void find_unread(struct remains *r)
 /* One reader less of what a port reads. */
 static void leave(struct remains *r, elem_id port)
 {
-    elem_id source = is_port(r, port) ? read_by(r, port) : 0;
+    elem_id source = doc_is_port(r->doc, port) ? read_by(r, port) : 0;
     if (source && --r->readers[index_of(r, source)] == 0 && r->may_go[index_of(r, source)])
         vec_push(r->t->arena, &r->unread, source);
 }

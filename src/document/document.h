@@ -393,6 +393,12 @@ static inline const struct element *doc_element(const struct document *doc, elem
     }
     return &doc->elements.items[index];
 }
+/* True for inputs and outputs, which can read others. */
+static inline bool doc_is_port(const struct document *doc, elem_id element)
+{
+    uint16_t kind = doc_element(doc, element)->kind;
+    return kind == KIND_INPUT || kind == KIND_OUTPUT;
+}
 /* The change of an element in an edit, made if there is none: then it is empty. */
 struct doc_change *doc_add_change(struct document *doc, uint32_t index);
 /* To be changed. */

@@ -38,16 +38,10 @@ static bool takes_film(const struct upgrade *u, elem_id node)
     return can && !(mode && upgrade_is(u, doc_attr_value(u->doc, mode, STR_value), "T"));
 }
 
-static bool is_port(const struct document *doc, elem_id element)
-{
-    uint16_t kind = doc_element(doc, element)->kind;
-    return kind == KIND_INPUT || kind == KIND_OUTPUT;
-}
-
 static void count_readers(struct films *f)
 {
     for (elem_id e = upgrade_first(f->u); e; e = upgrade_next(f->u, e)) {
-        elem_id source = is_port(f->u->doc, e) ? upgrade_upstream(f->u, e) : 0;
+        elem_id source = doc_is_port(f->u->doc, e) ? upgrade_upstream(f->u, e) : 0;
         if (source)
             f->num_readers[own_index(f, source)]++;
     }
@@ -203,7 +197,7 @@ void upgrade_thin_films(struct upgrade *u)
         if (upgrade_is_node(u, e) && upgrade_is_category(u, e, "layer"))
             replace_layer(&f, e);
     for (elem_id e = upgrade_first(u); e; e = upgrade_next(u, e))
-        if (is_port(doc, e))
+        if (doc_is_port(doc, e))
             redirect(&f, e);
     for (elem_id e = upgrade_first(u); e; e = upgrade_next(u, e))
         if (bypass_of(&f, e) || is_unused(&f, e))

@@ -223,9 +223,8 @@ static bool refers_to_itself(const struct document *doc, elem_id element)
  */
 static bool counts(const struct document *doc, elem_id element)
 {
-    const struct element *e = doc_element(doc, element);
-    bool is_port = e->kind == KIND_INPUT || e->kind == KIND_OUTPUT;
-    return is_port && doc_element(doc, e->parent)->kind != KIND_NODEDEF
+    elem_id parent = doc_element(doc, element)->parent;
+    return doc_is_port(doc, element) && doc_element(doc, parent)->kind != KIND_NODEDEF
            && (!doc_is_connected(doc, element) || refers_to_itself(doc, element));
 }
 
@@ -294,11 +293,10 @@ static void check_has_output(struct validation *v, elem_id element)
 
 static void check_standing(struct validation *v, elem_id element)
 {
-    const struct element *e = doc_element(v->doc, element);
     bool is_placed = check_place(v, element);
     if (is_placed)
         check_required(v, element);
-    if (e->kind == KIND_INPUT || e->kind == KIND_OUTPUT)
+    if (doc_is_port(v->doc, element))
         check_bindings(v, element);
 }
 

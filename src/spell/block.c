@@ -55,8 +55,7 @@ static bool holds_one_statement(const struct spell *spell, const struct effect_l
     return kind == EFFECT_ACCUMULATE || kind == EFFECT_ASSIGN;
 }
 
-/* Writes what ends a block: `item` is its END or ELSE, `next` the condition of an "else if", or 0.
- */
+/* Ends a block at its END or ELSE; `next` is the condition of an "else if", 0: there is none. */
 static void close_block(struct spell *spell, unsigned indent, uint8_t kind, ir_ref next)
 {
     spell_open_line(spell, indent, next ? ir_get(spell->shader->graph, next)->origin : 0);
