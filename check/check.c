@@ -35,7 +35,7 @@ struct slot {
     char *record;   /* a worker's answer; NULL: not yet */
     size_t size;
     bool is_done;
-    enum check_stage failed; /* the reason for a missing record */
+    enum check_failure failed; /* the reason for a missing record */
     char *reason;
 };
 

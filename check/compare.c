@@ -35,13 +35,13 @@ static struct check_change *add(struct comparison *c, enum check_change_kind kin
     return change;
 }
 
-static void compare_verdicts(struct comparison *c, enum check_stage before, enum check_stage now)
+static void compare_verdicts(struct comparison *c, enum check_failure before, enum check_failure now)
 {
     if (now && !before)
-        add(c, CHANGE_FAILS, cli_format("fails at %s, where it passed", check_stage_names[now]));
+        add(c, CHANGE_FAILS, cli_format("fails at %s, where it passed", check_failure_names[now]));
     else if (before && !now)
         add(c, CHANGE_FIXED,
-            cli_format("passes, where it failed at %s", check_stage_names[before]));
+            cli_format("passes, where it failed at %s", check_failure_names[before]));
 }
 
 /* ---- Messages ---- */
@@ -324,7 +324,7 @@ static void compare_element(struct comparison *c, const struct check_element *be
             compare_shader(c, old, shader);
         else if (shader->failed)
             add(c, CHANGE_FAILS,
-                cli_format("is new and fails at %s", check_stage_names[shader->failed]));
+                cli_format("is new and fails at %s", check_failure_names[shader->failed]));
     }
     c->target = "";
     if (before && has_shader(before) && has_shader(now)) {
@@ -374,7 +374,7 @@ void compare_documents(struct store *store, struct check_document *now,
         add(&c, CHANGE_NEW, cli_format("is new"));
         if (check_own_failure(now))
             add(&c, CHANGE_FAILS,
-                cli_format("is new and fails at %s", check_stage_names[now->failed]));
+                cli_format("is new and fails at %s", check_failure_names[now->failed]));
     }
     compare_messages(&c, before);
     compare_elements(&c, before);

@@ -228,11 +228,11 @@ void examine_tell(struct examiner *examiner, const char *element, mxg_severity s
     free(rendered);
 }
 
-void examine_fault(struct examiner *examiner, const char *element, enum check_stage stage,
+void examine_fault(struct examiner *examiner, const char *element, enum check_failure failure,
                    const char *id, const char *text)
 {
     examine_tell(examiner, element, MXG_SEVERITY_ERROR, id, text);
-    check_fail(&examiner->document->failed, stage);
+    check_fail(&examiner->document->failed, failure);
 }
 
 /* ---- Stages ---- */

@@ -84,8 +84,8 @@ void examine_status(struct examiner *examiner, mxg_status status, struct check_s
 /* Adds a message about the current document, or an element of it. */
 void examine_tell(struct examiner *examiner, const char *element, mxg_severity severity,
                   const char *id, const char *text);
-/* Adds an error in this way, and fails the document at a stage. */
-void examine_fault(struct examiner *examiner, const char *element, enum check_stage stage,
+/* Adds an error in this way, and fails the document. */
+void examine_fault(struct examiner *examiner, const char *element, enum check_failure failure,
                    const char *id, const char *text);
 /* The folder for pictures, which is made once; NULL: it cannot be made. */
 const char *examine_folder(struct examiner *examiner);

@@ -17,7 +17,7 @@ function show() {
   history.replaceState(null, "", "#" + new URLSearchParams({filter: search.value, status: status.value, order: order.value}));
 }
 
-// What has no such measure comes last; equal ones stay in order.
+// Cards without such a measure come last; equal ones stay in order.
 function sort() {
   const measure = card => Number(card.dataset[order.value] || 0);
   main.append(...cards.slice().sort((a, b) => measure(b.card) - measure(a.card) || a.index - b.index).map(entry => entry.card));

@@ -38,7 +38,7 @@ struct pool_answer {
     size_t ticket;
     char *record; /* the caller frees it; NULL: the worker died or exceeded a limit */
     size_t size;
-    enum check_stage failed; /* CHECK_CRASH, CHECK_TIMEOUT or CHECK_MEMORY */
+    enum check_failure failed; /* CHECK_CRASH, CHECK_TIMEOUT or CHECK_MEMORY */
     char *reason;            /* the caller frees it; why there is no record */
 };
 

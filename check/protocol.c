@@ -110,9 +110,9 @@ uint64_t desk_clock(void)
 
 char *desk_describe(const struct desk *desk)
 {
-    unsigned stage = atomic_load(&desk->stage);
+    unsigned step = atomic_load(&desk->step);
     const char *name =
-        stage == CHECK_PASSED || stage >= NUM_CHECK_STAGES ? "start" : check_stage_names[stage];
+        step == CHECK_PASSED || step >= NUM_CHECK_FAILURES ? "start" : check_failure_names[step];
     return *desk->element ? cli_format("%s of '%s' for %s", name, desk->element, desk->target)
                           : cli_format("%s", name);
 }
@@ -154,14 +154,14 @@ bool channel_next(struct channel *channel, struct frame *out_task)
     return true;
 }
 
-void channel_mark(struct channel *channel, enum check_stage stage, const char *element,
+void channel_mark(struct channel *channel, enum check_failure step, const char *element,
                   const char *target)
 {
     struct desk *desk = channel->desk;
     uint64_t now = desk_clock();
     put_text(desk->element, sizeof desk->element, element);
     put_text(desk->target, sizeof desk->target, target);
-    atomic_store(&desk->stage, (unsigned)stage);
+    atomic_store(&desk->step, (unsigned)step);
     atomic_store(&desk->step_begin, now);
     if (channel->oldest_answer && now - channel->oldest_answer > MAX_WAIT)
         flush(channel); /* the step may take long */

@@ -56,7 +56,7 @@ struct desk {
     atomic_uint is_ready;         /* the worker has loaded its library */
     atomic_uint num_begun;        /* number of started tasks */
     atomic_ullong step_begin;     /* desk_clock, in nanoseconds */
-    atomic_uint stage;            /* enum check_stage of the step */
+    atomic_uint step;             /* enum check_failure: where a fault now would be */
     atomic_uint is_out_of_memory; /* an allocation failed that the worker cannot handle */
     char element[DESK_ELEMENT];   /* "": the document */
     char target[DESK_TARGET];
@@ -80,7 +80,7 @@ bool channel_open(struct channel *channel, int input, int output);
 /* The next task; false at the end. */
 bool channel_next(struct channel *channel, struct frame *out_task);
 /* Writes the step that begins to the desk, in case the worker dies in it. */
-void channel_mark(struct channel *channel, enum check_stage stage, const char *element,
+void channel_mark(struct channel *channel, enum check_failure step, const char *element,
                   const char *target);
 /*
  * Queues the answer to the task; it is written when the worker has no more tasks, or after a short

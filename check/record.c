@@ -3,10 +3,10 @@
 
 #include <string.h>
 
-const char *const check_stage_names[NUM_CHECK_STAGES] = {
-#define STAGE(name, text) text,
-    CHECK_STAGES(STAGE)
-#undef STAGE
+const char *const check_failure_names[NUM_CHECK_FAILURES] = {
+#define FAILURE(name, text) text,
+    CHECK_FAILURES(FAILURE)
+#undef FAILURE
 };
 
 const struct measure_info measure_infos[NUM_MEASURES] = {
@@ -33,23 +33,23 @@ const check_change_set check_failing_changes =
 #undef CHANGE
         0u;
 
-void check_fail(enum check_stage *failed, enum check_stage stage)
+void check_fail(enum check_failure *failed, enum check_failure failure)
 {
-    if (stage != CHECK_PASSED && (*failed == CHECK_PASSED || stage < *failed))
-        *failed = stage;
+    if (failure != CHECK_PASSED && (*failed == CHECK_PASSED || failure < *failed))
+        *failed = failure;
 }
 
-/* True if a shader failed at this stage. */
-static bool has_failed_shader(const struct check_document *document, enum check_stage stage)
+/* True if a shader has this failure. */
+static bool has_failed_shader(const struct check_document *document, enum check_failure failure)
 {
     for (size_t i = 0; i < document->num_elements; ++i)
         for (size_t k = 0; k < document->elements[i].num_shaders; ++k)
-            if (document->elements[i].shaders[k].failed == stage)
+            if (document->elements[i].shaders[k].failed == failure)
                 return true;
     return false;
 }
 
-enum check_stage check_own_failure(const struct check_document *document)
+enum check_failure check_own_failure(const struct check_document *document)
 {
     return has_failed_shader(document, document->failed) ? CHECK_PASSED : document->failed;
 }

@@ -15,8 +15,8 @@
 
 #define CHECK_FORMAT_VERSION 1 /* version of records and reports in JSON */
 
-/* The stage of the first failure, in order. */
-#define CHECK_STAGES(X) \
+/* The first failure: the step that fails, in order. */
+#define CHECK_FAILURES(X) \
     X(PASSED, "passed")     /* no failure */ \
     X(LOAD, "load")         /* the file is no document, or a part of it is missing */ \
     X(VALIDATE, "validate") /* validation against the library */ \
@@ -29,15 +29,15 @@
     X(TIMEOUT, "timeout") /* or exceeded the time limit */ \
     X(MEMORY, "memory")   /* or the limit of memory */
 
-enum check_stage {
-#define STAGE(name, text) CHECK_##name,
-    CHECK_STAGES(STAGE)
-#undef STAGE
-        NUM_CHECK_STAGES
+enum check_failure {
+#define FAILURE(name, text) CHECK_##name,
+    CHECK_FAILURES(FAILURE)
+#undef FAILURE
+        NUM_CHECK_FAILURES
 };
 
 /* "passed", "load" … */
-extern const char *const check_stage_names[NUM_CHECK_STAGES];
+extern const char *const check_failure_names[NUM_CHECK_FAILURES];
 
 enum measure {
 #define MEASURE(name, key, option, noun, meaning) MEASURE_##name,
@@ -83,7 +83,7 @@ struct check_part {
 /* An element for one target. */
 struct check_shader {
     const char *target;
-    enum check_stage failed;
+    enum check_failure failed;
     bool compiled;        /* the target has a compiler */
     const char *topology; /* hexadecimal; "" without a shader, or in a brief record */
     uint64_t measures[NUM_MEASURES];
@@ -167,7 +167,7 @@ struct check_document {
     uint64_t index; /* index among all documents, including other shards */
     const char *file;
     const char *name; /* its path below the root (root.h); "": it is outside */
-    enum check_stage failed;
+    enum check_failure failed;
     struct check_message *messages; /* each once, in order of discovery */
     size_t num_messages;
     uint32_t num_hidden; /* errors beyond the limit, which `messages` lacks */
@@ -191,14 +191,14 @@ struct check_document {
     size_t num_gone_messages;
 };
 
-/* Sets the stage of a failure, unless an earlier one is set. */
-void check_fail(enum check_stage *failed, enum check_stage stage);
+/* Sets a failure, unless an earlier one is set. */
+void check_fail(enum check_failure *failed, enum check_failure failure);
 
 /*
- * The stage at which the document itself failed, or CHECK_PASSED: failures of its shaders do not
+ * The failure of the document itself, or CHECK_PASSED: failures of its shaders do not
  * count.
  */
-enum check_stage check_own_failure(const struct check_document *document);
+enum check_failure check_own_failure(const struct check_document *document);
 
 /* True if the document has a change of one of these kinds. */
 bool check_has_change(const struct check_document *document, check_change_set kinds);

@@ -16,7 +16,7 @@ enum field_kind {
     TIME,    /* double, in milliseconds with three decimals */
     FLAG,    /* bool */
     NAME,    /* an enum: an index into `names`; another name is the first one */
-    OUTCOME, /* enum check_stage: "status", and for failures "stage" */
+    OUTCOME, /* enum check_failure: "status", and for failures "failure" */
     LIST,    /* an array of structs, or of what stands alone: TEXT or SMALL */
     PARTS,   /* of a shader: {"instructions": {"main": 12, …}, …} */
     SETTINGS /* {"SR/base": "0.5", …} */
@@ -208,11 +208,11 @@ static json_t *write_settings(const struct check_setting *settings, size_t num)
     return object;
 }
 
-static void write_outcome(json_t *out, enum check_stage failed)
+static void write_outcome(json_t *out, enum check_failure failed)
 {
     json_object_set_new(out, "status", json_string(failed ? "failed" : "passed"));
     if (failed)
-        json_object_set_new(out, "stage", json_string(check_stage_names[failed]));
+        json_object_set_new(out, "failure", json_string(check_failure_names[failed]));
 }
 
 /* NULL: the member is omitted. */
@@ -246,7 +246,7 @@ static void write_members(json_t *out, const struct record_type *type, const cha
         const struct field *field = &type->fields[i];
         json_t *value = write_member(field, item, with_times);
         if (field->kind == OUTCOME)
-            write_outcome(out, *(const enum check_stage *)(const void *)(item + field->at));
+            write_outcome(out, *(const enum check_failure *)(const void *)(item + field->at));
         else if (value)
             json_object_set_new(out, field->key, value);
     }
@@ -318,13 +318,13 @@ static unsigned read_name(const json_t *value, const char *const *names, unsigne
     return 0;
 }
 
-static enum check_stage read_outcome(const json_t *object)
+static enum check_failure read_outcome(const json_t *object)
 {
-    unsigned stage =
-        read_name(json_object_get(object, "stage"), check_stage_names, NUM_CHECK_STAGES);
+    unsigned failure =
+        read_name(json_object_get(object, "failure"), check_failure_names, NUM_CHECK_FAILURES);
     if (strcmp(json_text_of(object, "status"), "failed") != 0)
         return CHECK_PASSED;
-    return stage == CHECK_PASSED ? CHECK_LOAD : (enum check_stage)stage; /* an unknown name */
+    return failure == CHECK_PASSED ? CHECK_LOAD : (enum check_failure)failure; /* an unknown name */
 }
 
 static void read_list(struct store *store, json_t *array, const struct field *field, char *out)
@@ -388,7 +388,7 @@ static void read_member(struct store *store, json_t *object, const struct field 
     case TIME: *(double *)at = json_number_value(value); break;
     case FLAG: *(bool *)at = json_is_true(value); break;
     case NAME: *(unsigned *)at = read_name(value, field->names, field->num_names); break;
-    case OUTCOME: *(enum check_stage *)at = read_outcome(object); break;
+    case OUTCOME: *(enum check_failure *)at = read_outcome(object); break;
     case LIST: read_list(store, value, field, out); break;
     case PARTS: read_parts(store, value, (void *)out); break;
     case SETTINGS: read_settings(store, value, field, out); break;

@@ -16,8 +16,8 @@ enum { MAX_TARGETS = 16, MAX_SHARDS = 1000000 };
 /* Sums over all documents. */
 struct check_totals {
     uint64_t documents, empty /* no elements */, elements, shaders, errors, warnings, cached;
-    /* documents by stage; at CHECK_PASSED: documents that passed */
-    uint64_t failed[NUM_CHECK_STAGES];
+    /* documents by failure; at CHECK_PASSED: documents that passed */
+    uint64_t failed[NUM_CHECK_FAILURES];
     /*
      * differences from a baseline: documents with such a change, with any change that fails the
      * run, and documents that the run lacks

@@ -27,7 +27,7 @@ struct html_state {
 
 /* The state of a card: of its document, its element, and their messages and changes. */
 struct facts {
-    enum check_stage stage;
+    enum check_failure failure;
     check_change_set changes;
     bool has_warning, has_error;
 };
@@ -89,12 +89,12 @@ static void add_facts(struct facts *facts, const struct card *card, bool of_all)
         if (!of_all || !*change_at(card, i)->element)
             facts->changes |= 1u << change_at(card, i)->kind;
     for (size_t i = 0; card->element && i < card->element->num_shaders; ++i)
-        check_fail(&facts->stage, card->element->shaders[i].failed);
+        check_fail(&facts->failure, card->element->shaders[i].failed);
 }
 
 static enum rank rank_of(const struct check_run *run, const struct card *card)
 {
-    bool failed = card->facts.stage != CHECK_PASSED;
+    bool failed = card->facts.failure != CHECK_PASSED;
     if (run->is_compared ? (card->facts.changes & run->fail_on) != 0 : failed)
         return FAILS_THE_RUN;
     return failed ? KNOWN_FAILURE : OTHER;
@@ -114,7 +114,7 @@ static void write_picture(struct markup *out, const char *png, const char *about
 static void write_head(struct markup *out, const struct check_run *run, const struct card *card)
 {
     enum rank rank = rank_of(run, card);
-    bool failed = card->facts.stage != CHECK_PASSED;
+    bool failed = card->facts.failure != CHECK_PASSED;
     markup_put(out, "<article class=\"%s%s%s%s%s%s\"",
                card->is_gone ? "gone"
                : failed      ? "failed"
@@ -170,7 +170,7 @@ static void write_steps(struct markup *out, const struct check_element *element)
 /* "The compiler rejects the shader for glsl: 'x' is undeclared": the first failure in words. */
 static void write_reason(struct markup *out, const struct card *card)
 {
-    static const char *const words[NUM_CHECK_STAGES] = {
+    static const char *const words[NUM_CHECK_FAILURES] = {
         [CHECK_LOAD] = "The document cannot be loaded",
         [CHECK_VALIDATE] = "The document does not match the node library",
         [CHECK_TRANSLATE] = "The document cannot have the other shading model",
@@ -181,14 +181,14 @@ static void write_reason(struct markup *out, const struct card *card)
         [CHECK_CRASH] = "The worker crashed",
         [CHECK_TIMEOUT] = "A step takes too long",
     };
-    enum check_stage stage = card->facts.stage;
+    enum check_failure failure = card->facts.failure;
     const struct check_message *first = NULL;
-    if (stage == CHECK_PASSED)
+    if (failure == CHECK_PASSED)
         return;
-    markup_put(out, "<p class=\"why\">%s", words[stage]);
+    markup_put(out, "<p class=\"why\">%s", words[failure]);
     const char *before = " for ";
     for (size_t i = 0; card->element && i < card->element->num_shaders; ++i) {
-        if (card->element->shaders[i].failed != stage)
+        if (card->element->shaders[i].failed != failure)
             continue;
         markup_put(out, "%s%s", before, card->element->shaders[i].target);
         before = ", ";
@@ -210,7 +210,7 @@ static void write_table(struct markup *out, const struct check_element *element)
     markup_put(out, "</tr><tr><th>result</th>");
     for (size_t k = 0; k < element->num_shaders; ++k)
         markup_put(out, "<td>%s</td>",
-                   element->shaders[k].failed ? check_stage_names[element->shaders[k].failed]
+                   element->shaders[k].failed ? check_failure_names[element->shaders[k].failed]
                                               : "passed");
     for (size_t i = 0; i < NUM_MEASURES; ++i) {
         markup_put(out, "</tr><tr><th>%s</th>", measure_infos[i].noun);
@@ -353,8 +353,8 @@ static void write_cards(struct sink *sink, const struct by_element *by)
 {
     const struct check_document *document = by->document;
     struct card whole = card_of(by, 0);
-    struct facts of_all = {.stage = check_own_failure(document)};
-    whole.facts.stage = of_all.stage;
+    struct facts of_all = {.failure = check_own_failure(document)};
+    whole.facts.failure = of_all.failure;
     add_facts(&whole.facts, &whole, false);
     add_facts(&of_all, &whole, true);
     if (document->num_elements == 0 || whole.messages.count || whole.changes.count)
@@ -443,9 +443,9 @@ static void write_totals(struct markup *out, const struct check_run *run,
         markup_put(out, "%s %s", i ? "," : "", run->targets[i]);
     markup_put(out, run->compiles ? "</p><ul>" : ", not compiled</p><ul>");
     write_total(out, "bad", totals->documents - totals->failed[CHECK_PASSED], "failed");
-    for (int stage = CHECK_PASSED + 1; stage < NUM_CHECK_STAGES; ++stage)
-        if (totals->failed[stage])
-            write_total(out, "part", totals->failed[stage], check_stage_names[stage]);
+    for (int failure = CHECK_PASSED + 1; failure < NUM_CHECK_FAILURES; ++failure)
+        if (totals->failed[failure])
+            write_total(out, "part", totals->failed[failure], check_failure_names[failure]);
     write_total(out, "good", totals->failed[CHECK_PASSED], "passed");
     write_total(out, "", totals->documents, "documents");
     write_total(out, "", totals->elements, "elements");

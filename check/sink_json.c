@@ -70,8 +70,8 @@ static void end(struct sink *sink, const struct check_totals *totals)
                   (json_int_t)totals->elements, "shaders", (json_int_t)totals->shaders);
     json_set_count(summary, "errors", totals->errors);
     json_set_count(summary, "warnings", totals->warnings);
-    json_object_set_new(summary, "stages",
-                        make_counts(check_stage_names, totals->failed, NUM_CHECK_STAGES));
+    json_object_set_new(summary, "failures",
+                        make_counts(check_failure_names, totals->failed, NUM_CHECK_FAILURES));
     if (sink->run->is_compared && sink->kind == &sink_json)
         json_object_set_new(summary, "changes",
                             make_counts(check_change_names, totals->changes, NUM_CHECK_CHANGES));

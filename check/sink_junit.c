@@ -65,7 +65,7 @@ static const struct check_change *change_at(const struct junit_case *test, size_
     return &document->changes[test->shader ? test->changes.items[index] : index];
 }
 
-static enum check_stage stage_of(const struct junit_case *test)
+static enum check_failure failure_of(const struct junit_case *test)
 {
     return test->shader ? test->shader->failed : check_own_failure(test->document);
 }
@@ -92,8 +92,8 @@ static bool is_gone(const struct junit_case *test)
 static enum outcome outcome_of(const struct check_run *run, const struct junit_case *test)
 {
     bool fails =
-        run->is_compared ? find_failing(run, test) != NULL : stage_of(test) != CHECK_PASSED;
-    return fails ? FAILED : stage_of(test) || is_gone(test) ? SKIPPED : PASSED;
+        run->is_compared ? find_failing(run, test) != NULL : failure_of(test) != CHECK_PASSED;
+    return fails ? FAILED : failure_of(test) || is_gone(test) ? SKIPPED : PASSED;
 }
 
 /* ---- Texts ---- */
@@ -122,7 +122,7 @@ static const struct check_message *find_error(const struct junit_case *test)
 static void write_text(struct sink *sink, struct markup *out, const struct junit_case *test)
 {
     const struct check_message *message;
-    for (size_t i = 0; stage_of(test) && (message = message_at(test, i)) != NULL; ++i)
+    for (size_t i = 0; failure_of(test) && (message = message_at(test, i)) != NULL; ++i)
         if (is_error(message))
             markup_put(out, "%s", message->rendered);
     const struct check_change *change;
@@ -141,9 +141,9 @@ static void write_outcome(struct sink *sink, struct markup *out, const struct ju
     const struct check_change *change = find_failing(sink->run, test);
     bool has_new = change && change->message;
     const struct check_message *first = has_new          ? change->message
-                                        : stage_of(test) ? find_error(test)
+                                        : failure_of(test) ? find_error(test)
                                                          : NULL;
-    const char *stage = check_stage_names[stage_of(test)];
+    const char *failure = check_failure_names[failure_of(test)];
     if (outcome == PASSED) {
         markup_put(out, "/>\n");
     } else if (outcome == SKIPPED) {
@@ -152,14 +152,14 @@ static void write_outcome(struct sink *sink, struct markup *out, const struct ju
         markup_put(out, "%s",
                    is_gone(test) ? test->document->changes[0].text
                    : first       ? first->text
-                                 : stage);
+                                 : failure);
         markup_put(out, "\"/></testcase>\n");
     } else {
         markup_put(out, "><failure type=\"%s\" message=\"",
                    first    ? first->id
                    : change ? check_change_names[change->kind]
-                            : stage);
-        markup_put(out, "%s", first ? first->text : change ? change->text : stage);
+                            : failure);
+        markup_put(out, "%s", first ? first->text : change ? change->text : failure);
         markup_put(out, "\">");
         write_text(sink, out, test);
         markup_put(out, "</failure></testcase>\n");

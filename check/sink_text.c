@@ -199,7 +199,7 @@ static void print_verdict(struct sink *sink, const char *verdict,
     FILE *out = sink->out;
     progress_clear(sink->run->progress);
     fprintf(out, "%s %s", verdict, document->file);
-    fprintf(out, document->failed ? " (%s)\n" : "\n", check_stage_names[document->failed]);
+    fprintf(out, document->failed ? " (%s)\n" : "\n", check_failure_names[document->failed]);
     print_messages(out, sink->run, document, with_warnings);
     if (!sink->run->quiet)
         print_steps(out, document);
@@ -315,10 +315,10 @@ static void print_failures(FILE *out, const struct check_totals *totals)
     uint64_t passed = totals->failed[CHECK_PASSED], failed = totals->documents - passed;
     fprintf(out, "%" PRIu64 " passed, %" PRIu64 " failed", passed, failed);
     const char *separator = " (";
-    for (int stage = CHECK_PASSED + 1; stage < NUM_CHECK_STAGES; ++stage) {
-        if (!totals->failed[stage])
+    for (int failure = CHECK_PASSED + 1; failure < NUM_CHECK_FAILURES; ++failure) {
+        if (!totals->failed[failure])
             continue;
-        fprintf(out, "%s%s %" PRIu64, separator, check_stage_names[stage], totals->failed[stage]);
+        fprintf(out, "%s%s %" PRIu64, separator, check_failure_names[failure], totals->failed[failure]);
         separator = ", ";
     }
     if (totals->known)

@@ -111,7 +111,7 @@ function loadScript(name) {
     });
 }
 
-/** What a script of the page gives to the function `mxgen…`. */
+/** The argument that a script of the page gives to the function `mxgen…`. */
 async function load(name, receiver) {
     const given = new Promise(resolve => globalThis[receiver] = resolve);
     await loadScript(name);
@@ -190,7 +190,7 @@ function missingTextures() {
     return [...new Set(wanted)].filter(file => !textures.has(nameOf(file)));
 }
 
-/** What a person who looks at the picture should know of it. */
+/** Notes for a person who looks at the picture. */
 function showNotice(hasShader) {
     const errors = messages.filter(({ severity }) => severity === "error"), missing = missingTextures();
     if (errors.length)
@@ -281,7 +281,7 @@ async function takePicture(file) {
     await language.remember("addFile", { name: file.name, content: new Uint8Array(await file.arrayBuffer()) });
 }
 
-/** What the material is shown with. */
+/** The settings that the material is shown with. */
 async function takeScenery(file) {
     const taker = await studio;
     if (!taker)

@@ -54,7 +54,7 @@ export function placesOf(document, { variables }) {
     return places;
 }
 
-/** The same fault can stand in the diagnostics of the document and of the shader. */
+/** One fault can stand in the diagnostics of the document and of the shader. */
 export function distinct(diagnostics) {
     return [...new Map(diagnostics.map(item => [JSON.stringify({ ...item, parent: 0 }), item])).values()];
 }

@@ -17,7 +17,7 @@ export type Bytes = ArrayBuffer | ArrayBufferView;
 
 /** Loads mxgen.wasm, by default from beside the package. `source` is an address (in Node a path), the bytes, or a compiled module. */
 export function load(source?: string | { readonly href: string } | Bytes | CompiledModule): Promise<Mxgen>;
-/** The same for bytes or a compiled module, without default callbacks. */
+/** Loads mxgen from bytes or a compiled module, without default callbacks. */
 export function instantiate(source: Bytes | CompiledModule, defaults?: Pick<ContextOptions, "resolver" | "listFolder">): Promise<Mxgen>;
 
 export type Severity = "error" | "warning" | "note";
@@ -208,7 +208,7 @@ export class Context extends Owner {
 
 // ---- Libraries ----
 
-/** What a document says about an input for a user interface, in the words of its attributes. */
+/** The data of an input for a user interface, in the words of its attributes. */
 export interface UserInterface {
     uiname: string;
     uifolder: string;
@@ -290,7 +290,7 @@ export interface Renderable {
     category: string;
 }
 
-/** What a generation makes. */
+/** The stages and the reflection that a generation makes. */
 export interface GenerateRequest {
     /** A material, shader, node or output, a graph with one output, or a look with one material; null: the first renderable. */
     element?: string | Element | null;
@@ -520,7 +520,7 @@ export type LayerKind = "layer" | "layerProduct" | "layerOverride" | "layerVerti
 
 export type FactKind = "geomprop" | "token" | "property" | "visibility";
 
-/** What the document says of a primitive beside its layers. */
+/** The properties that the document gives a primitive beside its layers. */
 export interface Fact {
     kind: FactKind;
     /** as in the document; of a visibility the vistype, "" for all */
@@ -697,7 +697,7 @@ export interface ShaderInfo {
     deviceFeature: string;
 }
 
-/** What a shader stores for the passes of the deferred pipeline, or what a pass reads. */
+/** The images that a shader stores for the passes of the deferred pipeline, or that a pass reads. */
 export interface Storage {
     /** of 32 bits per pixel, at most, or of the payload; 0: the shader lights itself */
     words: number;

@@ -26,7 +26,7 @@ function makeSession(native, library, options, host) {
     }));
 }
 
-/** What a callback with a promise gives for a path, for C, which cannot wait: null, until `fetch` has asked for what was missing. */
+/** The answer of a callback with a promise for a path, for C, which cannot wait: null, until `fetch` has asked for what was missing. */
 class Cache {
     #ask;
     #known = new Map();

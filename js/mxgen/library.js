@@ -97,7 +97,7 @@ export class Library extends Owner {
         return text;
     }
 
-    /** What `expand` cannot say in graphs for other tools: a warning for each input. */
+    /** A warning for each input that `expand` cannot say in graphs for other tools. */
     get losses() {
         const losses = this._native.lib.mxg_library_losses(this._pointer);
         if (!losses)

@@ -27,7 +27,7 @@ class Unwinding {
     }
 }
 
-/** What a value is, for messages. */
+/** The kind of a value, for messages. */
 export function kindOf(value) {
     return value === null ? "null" : Array.isArray(value) ? "an array" : typeof value === "object" ? value.constructor?.name ?? "object" : typeof value;
 }
@@ -194,7 +194,7 @@ export class Native {
         return this.newBytes(encoder.encode(value));
     }
 
-    /** The same; null and undefined give NULL. */
+    /** As above; null and undefined give NULL. */
     newOptionalText(value, what) {
         return value === null || value === undefined ? 0 : this.newText(value, what);
     }
@@ -246,7 +246,7 @@ export class Native {
         });
     }
 
-    /** What a call of C returns, and the pieces that it writes. */
+    /** The result of a call of C, and the pieces that it writes. */
     written(call) {
         const status = call();
         return { status, pieces: this.#written.splice(0) };

@@ -91,7 +91,7 @@ export class Shader extends Owner {
         return info;
     }
 
-    /** What the shader stores for the passes of the deferred pipeline; null after `onlyDiagnostics`. */
+    /** The images that the shader stores for the passes of the deferred pipeline; null after `onlyDiagnostics`. */
     get storage() {
         return this._native.record("mxg_storage", out => this._native.lib.mxg_result_storage(this._pointer, out));
     }
@@ -151,7 +151,7 @@ export class Shader extends Owner {
                                                this._native.lib.mxg_result_input_state(this._pointer, this._native.newText(path, "path"))));
     }
 
-    /** What a host changes to draw `after` in place of this shader, and the variables of `after` with other values. */
+    /** The steps of a host that draws `after` in place of this shader, and the variables of `after` with other values. */
     change(after) {
         expect(after, Shader, "after");
         const native = this._native, capacity = native.lib.mxg_result_num_variables(after._pointer);
@@ -237,7 +237,7 @@ export class Shader extends Owner {
         return text;
     }
 
-    /** The same, parsed. */
+    /** The reflection as an object. */
     reflection() {
         return JSON.parse(this.reflectionJson);
     }

@@ -266,7 +266,7 @@ void translate_generate(struct translation *t, const mxg_document *document, con
                             && mxg_options_set(t->options, "interface", "reduced") == MXG_OK
                             && mxg_options_set(t->options, "uniform", uniforms) == MXG_OK);
     mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
-    desc.target = "glsl";
+    desc.target = targets[0]->name; /* any: only the graph of the shader is read */
     desc.element = path;
     desc.options = t->options;
     desc.without_source = true;

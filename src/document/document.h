@@ -257,7 +257,7 @@ void doc_set_place(struct document *doc, elem_id element, uint16_t file, uint32_
  * or to the end of the parent.
  */
 void doc_remove_element(struct document *doc, elem_id element);
-/* The same, but the element keeps its comments. */
+/* As above, but the element keeps its comments. */
 void doc_unlink_element(struct document *doc, elem_id element);
 /* Puts an element, which may be outside the tree, behind another one. */
 void doc_link_after(struct document *doc, elem_id element, elem_id sibling);

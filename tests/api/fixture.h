@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What tests of the public interface share: an allocator that counts and fails, edits, files in
+ * The parts that tests of the public interface share: an allocator that counts and fails, edits, files in
  * memory, messages.
  */
 #ifndef MXG_TESTS_API_FIXTURE_H

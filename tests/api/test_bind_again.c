@@ -434,7 +434,7 @@ static void test_removals(mxg_context *context, bool with_leaves)
     mxg_document_destroy(document);
 }
 
-/* What bindings of a scene say after it changed: nothing. */
+/* Bindings of a scene say nothing after it changed. */
 static void test_stale(mxg_context *context)
 {
     struct look look = {.includes = {"", "", ""}};

@@ -264,7 +264,7 @@ static void test_files_of_libraries(void)
     close_fixture(&own);
 }
 
-/* What a node converts behind its graph, or before it, no node of the graph can. */
+/* No node of a graph can convert as a node does behind its graph, or before it. */
 static void test_conversions(struct fixture *f)
 {
     static const struct {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What a generation gives: source with places, reflection, views; and what a path of an element
+ * The results of a generation: source with places, reflection, views; and what a path of an element
  * means.
  */
 #include "documents.h"
@@ -152,7 +152,7 @@ static void test_variables(const struct bench *b)
     mxg_result_destroy(result);
 }
 
-/* What a host makes a user interface of: all that the JSON says. */
+/* A host makes a user interface of all that the JSON says. */
 static void test_user_interface(void)
 {
     struct bench b;

@@ -70,7 +70,7 @@ static void test_max_nodes(void)
     free(text);
 }
 
-/* What only tells diagnostics knows of the limit, although it does less. */
+/* A call that only tells diagnostics knows of the limit, although it does less. */
 static void test_max_nodes_of_diagnostics(void)
 {
     static const char text[] = "<materialx version=\"1.39\"><standard_surface name=\"S\" "

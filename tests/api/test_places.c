@@ -29,7 +29,7 @@ enum { NUM_CONNECTIONS = sizeof connections / sizeof *connections };
 
 static unsigned documents, silent;
 
-/* What of the document can be generated is; its errors are told. */
+/* The sound part of a document is generated; errors of the rest are told. */
 static void generate_all(mxg_context *context, const mxg_document *document)
 {
     for (uint32_t i = 0; i < mxg_document_num_renderables(document); ++i) {

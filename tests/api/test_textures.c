@@ -40,7 +40,7 @@ static const struct memory_file files[] = {
     {NULL, NULL},
 };
 
-/* What the compiler asked for texels of. */
+/* The file whose texels the compiler asked for. */
 struct asked {
     unsigned count;
     bool is_right; /* each time */
@@ -164,7 +164,7 @@ static void test_tiles_of_folder(void)
     finish(&shot);
 }
 
-/* What the document lists needs no files. */
+/* Tiles that the document lists need no files. */
 static void test_tiles_of_document(void)
 {
     struct shot shot;

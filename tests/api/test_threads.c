@@ -30,7 +30,7 @@ struct worker {
     unsigned number, num_wrong;
 };
 
-/* What a generation gives, as one text; to be freed. */
+/* The result of a generation as one text; to be freed. */
 static char *all_of(const mxg_result *result)
 {
     const char *parts[] = {mxg_result_source(result, MXG_STAGE_VERTEX, NULL),

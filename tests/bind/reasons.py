@@ -34,7 +34,7 @@ def assign(name, geom=None, slot="000", **attributes):
     return f"<materialassign {text}/>"
 
 
-# What is shown, the texts of parent look and look, options, the primitive, and its assignments with their reasons, in order.
+# Each row has the object that is shown, the texts of parent look and look, options, the primitive, and its assignments with their reasons, in order.
 CASES = [
     ("a deeper one", "", assign("low", "/") + assign("deep", "/a"), [], "/a/b",
      [("000", "deep", "wins: a layer"), ("000", "low", "loses to L/deep, which stands deeper, at /a")]),

@@ -53,16 +53,16 @@ check 'an unknown target is wrong usage' exits 2 "$mxgen" check tree -t gsls
 check 'an unknown option is wrong usage' exits 2 "$mxgen" check tree --jobbs 2
 check 'a bad value of an option of generation is wrong usage' exits 2 "$mxgen" check tree --interface none
 
-# What is told
+# Messages
 sed 's/standard_surface/standard_surfase/' tree/a.mtlx >bad.mtlx
 sed 's/value="0.5"/value="abc"/' tree/a.mtlx >worse.mtlx
 head -n 5 tree/a.mtlx >half.mtlx
 echo '<materialx version="1.39"><surfacematerial name="M" type="material"/></materialx>' >shaderless.mtlx
 check 'a material without a shader fails the run' exits 1 "$mxgen" check shaderless.mtlx "${quick[@]}" --json shaderless.json
-check 'a material without a shader is an error of its document' says shaderless.json '(d[0]["stage"], [m["id"] for m in d[0]["messages"]])' "('validate', ['no-shader'])"
+check 'a material without a shader is an error of its document' says shaderless.json '(d[0]["failure"], [m["id"] for m in d[0]["messages"]])' "('validate', ['no-shader'])"
 check 'documents with errors fail the run' exits 1 "$mxgen" check bad.mtlx worse.mtlx half.mtlx tree "${quick[@]}" --json bad.json
 check 'documents with errors do not stop the others' says bad.json '[x["status"] for x in d]' "['failed', 'failed', 'failed', 'passed', 'passed', 'passed', 'passed']"
-check 'the report has the stage of each failure' says bad.json '[x["stage"] for x in d[:3]]' "['validate', 'validate', 'load']"
+check 'the report has each failure' says bad.json '[x["failure"] for x in d[:3]]' "['validate', 'validate', 'load']"
 check 'the report has the place of each failure' says bad.json '(d[1]["messages"][0]["id"], d[1]["messages"][0]["line"])' "('bad-value', 4)"
 check 'the text shows the line of an error' grep -q 'value="abc"' out
 check 'a fault is printed once' is "$(grep -c '^worse.mtlx:4:.*error' out)" 1
@@ -184,7 +184,7 @@ mkdir programs && cp "$mxgen" programs/mxgen && cp "$fake" programs/mxgen-check
 mkdir odd
 touch odd/{a,b_dies,c,d_hangs,e_slow,f,g_lies,h}.mtlx
 check 'a worker that dies, one that hangs and one that lies fail the run' exits 1 programs/mxgen check odd --time-limit 1 -j3 --json odd.json
-check 'each of them fails its own document only' says odd.json '[x.get("stage", "passed") for x in d]' \
+check 'each of them fails its own document only' says odd.json '[x.get("failure", "passed") for x in d]' \
     "['passed', 'crash', 'passed', 'timeout', 'passed', 'passed', 'crash', 'passed']"
 check 'each of them has an id' says odd.json '[m["id"] for x in d for m in x["messages"]]' "['check-crashed', 'check-timeout', 'check-crashed']"
 check 'the error of a worker that dies says at which step' grep -q 'signal 9 (Killed) at: validate' out
@@ -193,7 +193,7 @@ for i in $(seq 100 199); do
     case $i in 1?7) touch many/${i}_dies.mtlx ;; 150) touch many/${i}_hangs.mtlx ;; *) touch many/$i.mtlx ;; esac
 done
 check 'a worker that has several documents may die' exits 1 programs/mxgen check many --time-limit 1 -j1 --verbose --json many.json
-check 'a worker that dies loses only the document at hand' says many.json '[i for i, x in enumerate(d) if x.get("stage")]' '[7, 17, 27, 37, 47, 50, 57, 67, 77, 87, 97]'
+check 'a worker that dies loses only the document at hand' says many.json '[i for i, x in enumerate(d) if x.get("failure")]' '[7, 17, 27, 37, 47, 50, 57, 67, 77, 87, 97]'
 check 'documents stay in order when workers die' says many.json '[int(x["file"].split("/")[1][:3]) for x in d] == list(range(100, 200))' True
 check 'all answers arrive when workers die' is "$(grep -c '^passed' out)" 89
 name=$(printf 'x%.0s' $(seq 200)) deep=deep

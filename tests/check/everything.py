@@ -42,7 +42,7 @@ def check_documents(folder):
     check(set(documents) == {str(path.relative_to(ROOT)) for path in ROOT.rglob("*.mtlx") if path.is_file()}, "every document is told")
     for name, document in documents.items():
         errors = [message for message in document["messages"] if message["severity"] == "error"]
-        check(document.get("stage") not in ("crash", "timeout"), f"{name}: {document.get('stage')}")
+        check(document.get("failure") not in ("crash", "timeout"), f"{name}: {document.get('failure')}")
         check((document["status"] == "failed") == bool(errors), f"{name}: what fails says why")
         check(all(message.get("file") for message in errors), f"{name}: errors have a place")
     with open(pathlib.Path(__file__).parent.parent / "materials" / "expected.tsv", encoding="utf-8") as table:

@@ -168,7 +168,7 @@ else
     skip 'without glslang no shader is compiled'
 fi
 
-# What is new comes first, then what else has changed, then one summary
+# New failures come first, then what else has changed, then one summary
 material Near rough >show/deep/near.mtlx
 material Aaa >show/aaa.mtlx
 rm show/wood.mtlx
@@ -189,7 +189,7 @@ check '--quiet prints the summary' is "$(tail -n 3 out | head -n 1)" '3 document
 check 'a baseline can be renewed' exits 0 "$mxgen" check show "${quick[@]}" --baseline new.json --update-baseline
 check 'a renewed baseline has no changes' exits 0 "$mxgen" check show "${quick[@]}" --baseline new.json --fail-on all
 
-# The same from shards
+# Merged shards are judged alike
 shards() { for k in 1 2 3; do "$mxgen" check show "${quick[@]}" --shard $k/3 --json shard$k.json >/dev/null; done; }
 shards
 merge() { "$mxgen" check merge shard?.json "${base[@]}" "$@"; }

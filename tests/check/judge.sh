@@ -16,7 +16,7 @@ echo '<materialx version="1.39"><position name="p" type="vector3"/><output name=
 check 'a budget that is kept passes' exits 0 "$mxgen" check show "${quick[@]}" --max-source-bytes 1000000
 check 'a budget that is exceeded fails' exits 1 "$mxgen" check show/deep/near.mtlx "${quick[@]}" --max-source-bytes 1000 --json over.json
 check 'the error is over-budget for every target' says over.json '[(m["id"], m["target"]) for m in d[0]["messages"]]' "[('over-budget', 'glsl'), ('over-budget', 'essl')]"
-check 'the stage of the failure is budget' says over.json '(d[0]["stage"], d[0]["elements"][0]["shaders"][0]["stage"])' "('budget', 'budget')"
+check 'the failure is the budget' says over.json '(d[0]["failure"], d[0]["elements"][0]["shaders"][0]["failure"])' "('budget', 'budget')"
 check 'a budget may be of one target' exits 1 "$mxgen" check show/deep/near.mtlx "${quick[@]}" --max-uniform-bytes essl=10,glsl=100000 --json one.json
 check 'a budget of one target fails that target only' says one.json '[s["status"] for s in d[0]["elements"][0]["shaders"]]' "['passed', 'failed']"
 check 'the error names the node' grep -Eq "bytes of uniforms; the budget allows 10: SR [0-9]+ \[over-budget\]" out

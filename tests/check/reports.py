@@ -14,7 +14,7 @@ sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent))
 from checks import check, finish
 
 EXPLANATIONS = pathlib.Path(sys.argv[5]).read_text(encoding="utf-8")
-OWN_STAGES = ("load", "validate", "render", "crash", "timeout")
+OWN_FAILURES = ("load", "validate", "render", "crash", "timeout")
 REASONS = ("cannot be loaded", "does not match the node library", "cannot generate the shader", "rejects the shader", "cannot be rendered",
            "exceeds its budget", "worker crashed", "takes too long")
 with open(sys.argv[1], encoding="utf-8") as file:
@@ -92,14 +92,14 @@ def check_junit(path):
 def outcome(document, element, shader):
     """Of a case of JUnit: with a baseline its changes count, and known failures are skipped."""
     if "compared" not in report:
-        errors = shader["status"] if shader else "failed" if document.get("stage") in OWN_STAGES else "passed"
+        errors = shader["status"] if shader else "failed" if document.get("failure") in OWN_FAILURES else "passed"
         return errors
     mine = [change for change in document.get("changes", [])
             if (shader and (change.get("element"), change.get("target")) == (element["path"], shader["target"]))
             or (not shader and not (change.get("element") and change.get("target")))]
     if any(change["kind"] in ("fails", "new-errors", "uncompiled") for change in mine):
         return "failed"
-    failed = shader["status"] == "failed" if shader else document.get("stage") in OWN_STAGES
+    failed = shader["status"] == "failed" if shader else document.get("failure") in OWN_FAILURES
     return "skipped" if failed or document in gone else "passed"
 
 

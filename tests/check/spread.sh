@@ -196,7 +196,7 @@ check 'a depfile without a report is wrong usage' exits 2 "$mxgen" check show --
 rm -rf shards && mkdir shards
 for k in 1 2 3 4; do "$mxgen" check show --no-compile --shard $k/4 --json shards/$k.json >/dev/null; done
 check 'the shards have each document once' is "$(cat shards/*.json | grep -c '^{"index"')" 15
-check 'shards merge' exits 1 "$mxgen" check merge shards/4.json shards/2.json shards/1.json shards/3.json --json merged.json --junit merged.xml
+check 'shards merge into one report' exits 1 "$mxgen" check merge shards/4.json shards/2.json shards/1.json shards/3.json --json merged.json --junit merged.xml
 check 'merged shards give the report of one run' cmp merged.json none.json
 check 'merged shards give the JUnit report of one run' eval 'exits 1 "$mxgen" check show --no-compile --junit none.xml && cmp merged.xml none.xml'
 check 'a missing shard fails the merge' exits 1 "$mxgen" check merge shards/[124].json

@@ -129,7 +129,7 @@ static void test_no_utf8(void)
 static void test_odd_members(void)
 {
     static const char text[] =
-        "{\"file\":\"a\",\"index\":-1,\"status\":\"failed\",\"stage\":\"?\",\"messages\":[1,"
+        "{\"file\":\"a\",\"index\":-1,\"status\":\"failed\",\"failure\":\"?\",\"messages\":[1,"
         "{\"line\":5000000000,\"severity\":{}}],\"files\":{},\"elements\":[{\"shaders\":[{"
         "\"messages\":[2,-1,0.5,\"1\",1],\"parts\":{\"textures\":[1]},\"closures\":1e300}]}]}";
     struct store store = {0};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What of a reference is not followed, as it is listed with its reasons: lines of two names and of
+ * The parts of a reference that are not followed, as they are listed with their reasons: lines of two names and of
  * the numbers that are allowed instead, of which there may be none. What is listed must be met by a
  * test, and must deviate, unless its reason begins with "open: ": compilers choose the value.
  */

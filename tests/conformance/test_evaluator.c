@@ -70,7 +70,7 @@ static bool attribute_value(const struct run *run, const struct shader_variable 
 
 static bool evaluate(struct run *run, ir_ref ref, struct ir_value *out);
 
-/* What the vertex stage writes to vertex data `index`. */
+/* The value that the vertex stage writes to vertex data `index`. */
 static bool vertex_data(struct run *run, uint32_t index, struct ir_value *out)
 {
     const struct effect_list *effects =

@@ -166,7 +166,7 @@ static bool judge_answer(struct run *run, const struct material *material)
     return answer != DRAWS_ABSENT;
 }
 
-/* What main returns. */
+/* The exit code of main. */
 static int judge_all(struct run *run)
 {
     for (size_t i = 0; i < run->documents.len; ++i)

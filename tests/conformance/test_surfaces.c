@@ -27,7 +27,7 @@ enum { EXIT_SKIPPED = 77, SIZE = 96, ENVIRONMENT_SAMPLES = 64 };
 static const double max_mean_error = 0.02, max_rms_error = 0.03, trimmed = 0.01;
 static const double dark = 1e-3; /* an image with a mean below is judged as if it had this one */
 
-/* What lights the sphere. */
+/* The lights of the sphere. */
 enum image_kind { IMAGE_FULL, IMAGE_DIRECT, IMAGE_FURNACE, NUM_IMAGE_KINDS };
 static const char *const image_names[NUM_IMAGE_KINDS] = {"full", "direct", "furnace"};
 

@@ -141,7 +141,7 @@ static bool judge_row(struct run *run, const struct row_list *list, const struct
     return true;
 }
 
-/* What main returns. */
+/* The exit code of main. */
 static int judge_all(struct run *run, const char *name, bool is_whole)
 {
     bool can_draw = true;

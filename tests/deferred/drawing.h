@@ -28,7 +28,7 @@ struct bench {
 /* Shaders have the reduced interface. False: nothing can store, told. With a ball of the radius 1.
  */
 bool bench_open_ball(struct bench *b);
-/* The same with a plane below one lamp, without an environment. */
+/* As above with a plane below one lamp, without an environment. */
 bool bench_open_plane(struct bench *b);
 /* Documents take the place of the one before. */
 bool bench_load(struct bench *b, const char *root, const char *path);

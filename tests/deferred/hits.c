@@ -23,7 +23,7 @@ static const char rays[] =
     "    return vec2(fract(atan(local.x, local.z) / 6.2831853), acos(-local.y) / 3.1415927);\n"
     "}\n";
 
-/* What the function takes. */
+/* The parameters of the function. */
 static const char main_begin[] =
     "void main()\n"
     "{\n"

@@ -7,7 +7,7 @@
 
 enum { HITS_ROOM = 1 << 17 }; /* bytes of a text */
 
-/* What becomes of the result of the function. */
+/* The use of the function's result. */
 enum hits {
     HITS_STORED,  /* it stands in the buffer `payloads`, with its ray */
     HITS_BLENDED, /* it is a decal, blended into the images of decals */

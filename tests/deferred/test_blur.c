@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What lies below rough interfaces: an edge of paint below frosted lacquer, blurred by the pass,
+ * Surfaces below rough interfaces: an edge of paint below frosted lacquer, blurred by the pass,
  * and waves of paint, blurred by the forward shader.
  */
 #include "deferred/drawing.h"

@@ -194,7 +194,7 @@ static const char decals[] = "<materialx version='1.39'>" SLAB("paint", "0.1, 0.
                             SURFACE("OnOne", "on_one") SURFACE("OnTwo", "on_two") "</materialx>";
 
 /*
- * What a decal makes of a base, with so many words more in the images: the picture of the surface
+ * A base under a decal, with so many words more in the images: the picture of the surface
  * that has both, within dB.
  */
 static void test_decal(struct bench *b, const char *decal, const char *base, const char *both,

@@ -21,7 +21,7 @@ struct messages {
     unsigned len;
 };
 
-/* What is expected of a document: read from it and the files it reads, each once. */
+/* The expectations of a document: read from it and the files it reads, each once. */
 struct expectations {
     struct messages messages;
     char files[EXPECT_MAX_FILES][128];

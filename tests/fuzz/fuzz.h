@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What the fuzz targets share. A target is one function; every input is run through it twice: with
+ * The parts that fuzz targets share. A target is one function; every input is run through it twice: with
  * memory as it comes, and with the one allocation failing that the input's bytes choose. Either way
  * nothing may stay behind.
  */
@@ -42,7 +42,7 @@ void fuzz_require_document(const char *path);
 /* A number made of all bytes of the input: for choices. */
 unsigned fuzz_choice(const char *data, size_t size, unsigned below);
 
-/* What holds for every input; a failure ends the program, as the sanitizers do. */
+/* A claim that holds for every input; a failure ends the program, as the sanitizers do. */
 #define FUZZ_REQUIRE(condition) \
     ((condition) ? (void)0 \
                  : (fprintf(stderr, "%s:%d: %s\n", __FILE__, __LINE__, #condition), abort()))

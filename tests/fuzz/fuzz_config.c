@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What people and machines leave beside documents: mxgen.toml with budgets, the profile of a
+ * Files that people and machines leave beside documents: mxgen.toml with budgets, the profile of a
  * platform, and the JSON reports of checks. Nothing of an input ends the program, and everything it
  * makes is freed.
  */

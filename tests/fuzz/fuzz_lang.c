@@ -31,7 +31,7 @@ static bool read_source(void *user_data, const char *from, const char *ref, cons
     return is_main || strcmp(ref, "other.glsl") == 0;
 }
 
-/* What a unit declares, as a file. Uniforms and streams have no printer of their own. */
+/* The declarations of a unit, as a file. Uniforms and streams have no printer of their own. */
 static const char *print(struct arena *arena, const struct lang_unit *unit)
 {
     struct text out;

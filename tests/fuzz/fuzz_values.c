@@ -6,7 +6,7 @@
 #include "document/document.h"
 #include "ir/ir.h"
 
-/* What is printed reads back to the same float. */
+/* A printed float reads back to itself. */
 static void check_float(float value)
 {
     char text[NUM_FLOAT_MAX];

@@ -30,19 +30,19 @@ run_line() {
         esac
     done
     local title=${document%.mtlx}.$name
-    check "$title" exits 0 "$mxgen" "$document" --target "$target" --interface "$interface" --reflect -o "$title.d" "${options[@]}" || return
+    check "$title is generated" exits 0 "$mxgen" "$document" --target "$target" --interface "$interface" --reflect -o "$title.d" "${options[@]}" || return
     for ending in ${files//,/ }; do
         local made=("$title.d"/*."$ending")
         for file in "${made[@]}"; do
             local element=${file##*/}
             [ ${#made[@]} -eq 1 ] && element= || element=.${element%."$ending"}
             kept[$title$element.$ending]=1
-            check "$title$element.$ending" same "$golden/$title$element.$ending" "$file"
+            check "$title$element.$ending stays as it is" same "$golden/$title$element.$ending" "$file"
             [ -z "$update" ] || cat check.log
         done
     done
     [ -n "$compile" ] && [ "$target" != slang ] || return # each start of slang-wasm takes seconds: the test `slang` has these documents
-    check "$title compiles" "$compile" "$document" --targets "$target" --interfaces "$interface" "${options[@]}"
+    check "each stage of $title compiles" "$compile" "$document" --targets "$target" --interfaces "$interface" "${options[@]}"
     if grep -q '^note: .* no compiler' check.log; then missing[$target]=1; fi
 }
 
@@ -58,7 +58,7 @@ for file in vulkan.light_complex.comp vulkan.compose.comp hlsl.light_simple.cs.h
     target=${file%%.*}
     [ -d "passes.$target" ] || check "passes of the deferred pipeline: $target" exits 0 "$mxgen" pipeline "passes.$target" --target "$target"
     kept[pipeline.$file]=1
-    check "pipeline.$file" same "$golden/pipeline.$file" "passes.$target/${file#*.}"
+    check "pipeline.$file stays as it is" same "$golden/pipeline.$file" "passes.$target/${file#*.}"
     [ -z "$update" ] || cat check.log
 done
 targets=$("$mxgen" --help | sed -n '/^Targets:/,$ s/^  \([a-z][^ ]*\) .*/\1/p')

@@ -46,7 +46,7 @@ END
     check "so they are in a project without the types of browsers" exits 0 types --lib es2022 right.ts
     printf 'import { load } from "mxgen";\nusing context = (await load()).createContext();\nexport const version: string = context.toString();\n' >using.ts
     if tsc --version | grep -q 'Version \(5\.[2-9]\|[6-9]\)'; then
-        check "'using' compiles" exits 0 types --lib es2022,esnext.disposable using.ts
+        check "a declaration with 'using' compiles" exits 0 types --lib es2022,esnext.disposable using.ts
     else
         skip "this tsc does not know 'using'"
     fi

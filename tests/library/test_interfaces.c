@@ -247,7 +247,7 @@ static void compare_nodedef(const mxg_library *library, uint32_t index, const mx
     }
 }
 
-/* What `mxgen library doc` has to tell: nothing may be left without a meaning. */
+/* Everything that `mxgen library doc` tells has a meaning. */
 static void require_documentation(const mxg_library *library, uint32_t index,
                                   const mxg_nodedef *def)
 {

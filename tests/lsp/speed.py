@@ -42,7 +42,7 @@ MATERIAL = '''  <nodegraph name="NG_{0}">
     <input name="surfaceshader" type="surfaceshader" nodename="SR_{0}"/>
   </surfacematerial>
 '''
-# What is typed, and where: the text that stands in front of it.
+# Keys that are typed, and their place: the text that stands in front of it.
 TYPED = [('<input name="base_color" type="color3" nodegraph="', "textDocument/completion"), ('nodename="', "textDocument/completion"),
          ("<multiply ", "textDocument/completion"), ('value="', "textDocument/hover"), ("    <noise2d", "textDocument/hover")]
 

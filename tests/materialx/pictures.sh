@@ -45,7 +45,7 @@ while read -r document; do
     elif [ -n "$update" ]; then
         printf '%s\t%s\t%s\n' "$document" "$(ratio "$document")" "${reasons[$document]:-}" >>"$table"
     else
-        check "$document" agrees "$document" "${listed[$document]:-0}" "${reasons[$document]:-}"
+        check "$document looks as it does in MaterialX" agrees "$document" "${listed[$document]:-0}" "${reasons[$document]:-}"
     fi
 done < <(cd "$examples" && find . -name '*.mtlx' | sed 's|^\./||' | sort)
 

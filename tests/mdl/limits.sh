@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# What a material of MDL cannot have, and its versions. Argument: mxgen.
+# Limits of a material of MDL, and its versions. Argument: mxgen.
 mxgen=$(realpath "$1")
 . "$(dirname "$0")/../programs/common.sh"
 
@@ -44,9 +44,9 @@ cat >names.mtlx <<'END'
   </nodegraph>
 </materialx>
 END
-check 'names that begin otherwise' exits 0 "$mxgen" names.mtlx --target mdl --element _graph/_o -o made
-check 'a material' grep -q '^export material x_graph_o(' made/_graph._o.mdl
-check 'a parameter' grep -q 'float x_k = 0.5' made/_graph._o.mdl
+check 'names that begin with an underscore are generated' exits 0 "$mxgen" names.mtlx --target mdl --element _graph/_o -o made
+check 'a material is exported by its name' grep -q '^export material x_graph_o(' made/_graph._o.mdl
+check 'an input is a parameter with its default' grep -q 'float x_k = 0.5' made/_graph._o.mdl
 
 cat >drive.mtlx <<'END'
 <materialx version="1.39">
@@ -54,11 +54,11 @@ cat >drive.mtlx <<'END'
   <output name="shown" type="color3" nodename="picture"/>
 </materialx>
 END
-check 'a path with a drive' exits 0 "$mxgen" drive.mtlx --target mdl --element shown -o made
-check 'has no colon' grep -qF 'texture_2d("/D/textures/a_b.png", tex::gamma_linear)' made/shown.mdl
+check 'a path with a drive is generated' exits 0 "$mxgen" drive.mtlx --target mdl --element shown -o made
+check 'a path of MDL has no colon' grep -qF 'texture_2d("/D/textures/a_b.png", tex::gamma_linear)' made/shown.mdl
 
 for version in 1.8 1.9 1.10; do
-    check "version $version" exits 0 "$mxgen" gold.mtlx --target mdl --target-version "$version" --element gold -o made
+    check "a material in version $version is generated" exits 0 "$mxgen" gold.mtlx --target mdl --target-version "$version" --element gold -o made
     check "it is version $version" grep -qx "mdl $version;" made/gold.mdl
 done
 finish mdl-limits

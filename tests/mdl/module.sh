@@ -9,7 +9,7 @@ mapfile -d '' documents < <(realpath -z "$@")
 # module FOLDER [OPTION...]
 module() { exits 0 "$mxgen" pipeline "$1" --target mdl --mdl-module studio "${@:2}"; }
 
-check 'the module' module first
+check 'the module is generated' module first
 check 'is one file' [ "$(ls first)" = studio.mdl ]
 check 'it has no material' eval '! grep -q "^export material" first/studio.mdl'
 check 'its bytes are those of the library' eval 'module again --interface reduced --metadata none --colorspace acescg --reserved mx_bicubic && cmp first/studio.mdl again/studio.mdl'
@@ -77,7 +77,7 @@ if command -v mdlc >/dev/null; then
             -W 350=off -p "with$version" "${names[@]}"
         check 'it says nothing' eval '! grep -h "Error\|Warning" out err'
     done
-    check 'mxgen check' exits 0 "$mxgen" check own.mtlx --library library.mtlx --target mdl --mdl-module studio
+    check 'mxgen check knows the module' exits 0 "$mxgen" check own.mtlx --library library.mtlx --target mdl --mdl-module studio
     check 'it tells a module that is none' eval '! "$mxgen" check own.mtlx --library library.mtlx --target mdl --mdl-module df >out 2>&1 && grep -q bad-option out'
 else
     skip 'mdlc is not installed: no module is compiled'
@@ -90,7 +90,7 @@ done
 check 'a hostile name in a material' exits 1 "$mxgen" own.mtlx --library library.mtlx --target mdl --mdl-module 'a;import ::b' -o none
 check 'the error says so' grep -q "is not a value of option 'mdl-module'" err
 check 'nothing was written' [ ! -e none/waving.mdl ]
-check 'another target' exits 2 "$mxgen" own.mtlx --library library.mtlx --target glsl --mdl-module studio -o none
+check 'another target has no module' exits 2 "$mxgen" own.mtlx --library library.mtlx --target glsl --mdl-module studio -o none
 check 'the error says so' grep -qF "'--mdl-module' does not apply to 'glsl'; it applies to 'mdl'" err
 check 'a pipeline of another target' exits 2 "$mxgen" pipeline none --target vulkan --mdl-module studio
 check 'a material in the place of the module' exits 1 "$mxgen" own.mtlx --library library.mtlx --target mdl --mdl-module waving -o none

@@ -15,7 +15,7 @@ for document in "$folder"/*.mtlx; do
     name=$(basename "$document" .mtlx)
     say "$name.mtlx" >said.txt
     [ -z "$update" ] || cp said.txt "$folder/$name.txt"
-    check "$name" diff -u "$folder/$name.txt" said.txt
+    check "the messages of $name stay as they are" diff -u "$folder/$name.txt" said.txt
 done
 
 finish messages

@@ -20,7 +20,7 @@ git -C "$root" ls-files -z | (cd "$root" && xargs -0 cp --parents -t "$work/sour
 check "dpkg-buildpackage makes the packages" env -C source dpkg-buildpackage -us -uc -b
 for package in libmxgen0 libmxgen-dev mxgen python3-mxgen; do
     check "$package is made" ls "$package"_*.deb
-    check "$package unpacks" dpkg-deb -x "$package"_*.deb system
+    check "the package $package unpacks" dpkg-deb -x "$package"_*.deb system
     dpkg-deb -c "$package"_*.deb | awk '$6 !~ /\/$/ { print $6 }' >>files
 done
 check "lintian finds no fault" lintian --allow-root --fail-on error,warning ./*.changes

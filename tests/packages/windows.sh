@@ -23,7 +23,7 @@ check "a program in C compiles" clang $(sed -n "s/^\(target\|libgcc\) = '\(.*\)'
 mkdir folder
 cp "$root/examples/gold.mtlx" folder
 echo '<materialx version="1.39"><xi:include xmlns:xi="http://www.w3.org/2001/XInclude" href="gold.mtlx"/></materialx>' >folder/main.mtlx
-check "it runs" exits 0 wine build/c_minimal.exe 'folder\main.mtlx'
+check "the program runs on Windows" exits 0 wine build/c_minimal.exe 'folder\main.mtlx'
 tr -d '\r' <out >windows.out
 check "it runs here" exits 0 "$program" folder/main.mtlx
 check "the shader is the same" cmp out windows.out

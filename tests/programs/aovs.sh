@@ -205,7 +205,7 @@ metal=$(channel lights.exr metal.R)
 check 'a sphere of metal is traced' exits 0 "$render" lit.mtlx -e SM -m sphere -q -s 24 --path-trace --paths 64 -o lights.exr
 check 'an AOV has the traced light of the metal' reads lights.exr R mean "$metal" 0.01
 
-# What the look hides is not drawn.
+# A primitive that the look hides is not drawn.
 sed 's|<look name="L">|&<visibility geom="/a/floor" vistype="camera" visible="false"/>|' look.mtlx >hidden.mtlx
 check 'a stage with visibility is drawn' exits 0 "$render" hidden.mtlx --stage stage.usda --camera /a/down -q -s 16 --look L -o hidden.exr
 check 'an invisible primitive is not drawn' reads hidden.exr A 0.5 0.9 0 0

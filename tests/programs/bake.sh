@@ -208,6 +208,6 @@ check 'overlapping triangles are told' eval 'exits 0 "$mxgen" bake marble.mtlx -
 check 'a document is not written over itself' eval 'exits 1 "$mxgen" bake wall.mtlx -o . --size 8 && has err "[output-clash]" && test ! -e SR_base_color.png'
 touch file
 check 'a folder must be one' eval 'exits 1 "$mxgen" bake wall.mtlx -o file/in --size 8 && has err "[output-failed]"'
-check 'usage' exits 2 "$mxgen" bake wall.mtlx
-check 'formats' exits 2 "$mxgen" bake wall.mtlx -o none -f gif
+check 'bake without an output fails' exits 2 "$mxgen" bake wall.mtlx
+check 'an unknown format fails' exits 2 "$mxgen" bake wall.mtlx -o none -f gif
 finish bake

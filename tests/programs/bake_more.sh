@@ -29,7 +29,7 @@ surface looks.mtlx "$noise
   <constant name=\"dim\" type=\"float\"/>
   <nodegraph name=\"wet\"><constant name=\"c\" type=\"float\"/><output name=\"specular_roughness\" type=\"float\" nodename=\"c\"/></nodegraph>" "$reads_noise"
 sed -i 's|</materialx>|  <look name="S_base"><materialassign name="m" material="M" collection="parts"/></look>\n  <look name="wet_look" inherit="S_base"><materialassign name="w" slot="000::010" nodegraph="wet" geom="/a"/><visibility name="v" geom="/b" visible="false"/></look>\n&|' looks.mtlx
-check 'looks stay' eval 'exits 0 "$mxgen" bake looks.mtlx -o looks --size 4 && has looks/looks.mtlx "<collection name=\"parts\"" "<materialassign name=\"m\" material=\"M\" collection=\"parts\"/>" "<visibility name=\"v\""'
+check 'looks and collections stay' eval 'exits 0 "$mxgen" bake looks.mtlx -o looks --size 4 && has looks/looks.mtlx "<collection name=\"parts\"" "<materialassign name=\"m\" material=\"M\" collection=\"parts\"/>" "<visibility name=\"v\""'
 check 'names of images do not take theirs' eval 'has looks/looks.mtlx "<look name=\"S_base\">" && ! grep -q "<image name=\"S_base\"" looks/looks.mtlx && exits 0 "$mxgen" validate looks/looks.mtlx'
 check 'a layer that is a nodegraph is told' eval '"$mxgen" bake looks.mtlx -o looks --size 4 2>err; has err "'"'wet_look/w' (looks.mtlx:"'" "changes inputs that are baked [bake-look]" && ! grep -q wet\" looks/looks.mtlx'
 
@@ -87,7 +87,7 @@ check 'without a material, outputs are baked' exits 0 "$mxgen" bake outputs.mtlx
 check 'the document has them' has outs/outputs.mtlx '<output name="NG_color" type="color3" nodename="NG_color_image"/>' \
     '<output name="top" type="float" nodename="top_image"/>' '<input name="value" type="float" value="0.5"/>' '<output name="NG_plain" type="float" nodename="NG_plain_value"/>'
 check 'and is valid' exits 0 "$mxgen" validate outs/outputs.mtlx -Werror
-check 'one output' eval 'exits 0 "$mxgen" bake outputs.mtlx -e top -o one --size 16 && test "$(ls one | tr "\n" " ")" = "outputs.mtlx top_image.exr "'
+check 'one output is baked alone' eval 'exits 0 "$mxgen" bake outputs.mtlx -e top -o one --size 16 && test "$(ls one | tr "\n" " ")" = "outputs.mtlx top_image.exr "'
 "$render" outputs.mtlx -e NG/n --scene plane -s 16 -q -o live.exr
 check 'its image is the pattern' "$psnr" --at-least 45 live.exr outs/NG_color_image.exr
 

@@ -30,7 +30,7 @@ while read -r document interface; do
     cp "${files[0]%.json}.frag" $folder/$document.frag
     check "$document is drawn with both shaders" exits 0 measure --materialx theirs $interface "$examples/$document.mtlx"
     check "both pictures of $document are the same" grep -qE "^\| $document \| $number \| $number \| 0\.0000 \| $number \| $number \|$" out
-    check "$document counts" grep -qE '^\| all \| 1 \| [0-9.]+ \([0-9.]+, [0-9.]+\) \|$' out
+    check "$document is one of one" grep -qE '^\| all \| 1 \| [0-9.]+ \([0-9.]+, [0-9.]+\) \|$' out
 done <<'END'
 gold complete
 textured reduced

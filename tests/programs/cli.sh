@@ -36,7 +36,7 @@ is() { [ "$1" = "$2" ] || { echo "'$1', not '$2'"; return 1; }; }
 files() { [ "$(cd "$1" && find . -type f | sort | tr '\n' ' ')" = "$2" ] || { find "$1"; return 1; }; }
 none_in() { [ -z "$(find "$1" -type f 2>/dev/null)" ]; }
 
-# What is written, and where
+# Files are written where the options say
 check 'a run generates every renderable element' exits 0 "$mxgen" two.mtlx --target glsl -o all
 check 'a document with materials gives its materials' files all './A.frag ./A.vert ./C.frag ./C.vert '
 check '--element picks an element' exits 0 "$mxgen" two.mtlx --element NG/out -o one --reflect
@@ -265,7 +265,7 @@ check '-Wno-ID hides the warning' eval '! grep -q unknown-input err'
 check '-Werror fails the run' exits 1 "$mxgen" validate warned.mtlx -Werror
 check '-Werror makes the warning an error' grep -Eq 'error: .*\[unknown-input\]' err
 check '-Werror=ID fails the run' exits 1 "$mxgen" validate warned.mtlx -Werror=unknown-input
-check '-Wno-error=ID passes' exits 0 "$mxgen" validate warned.mtlx -Werror -Wno-error=unknown-input
+check '-Wno-error=ID lets a warning pass' exits 0 "$mxgen" validate warned.mtlx -Werror -Wno-error=unknown-input
 check '-Wno-error=ID leaves a warning' grep -q 'warning: ' err
 check 'an unknown id of -W is wrong usage' exits 2 "$mxgen" validate warned.mtlx -Wno-unknown-inputs
 check 'an unknown id of -W has a suggestion' grep -q "did you mean 'unknown-input'" err
@@ -287,7 +287,7 @@ check 'a warning in fifteen places is printed once' eval 'test "$(grep -c unknow
 check 'a note without a message is not printed' eval '! grep -q colorspace-alias err'
 check 'a document with a note passes with --verbose' exits 0 "$mxgen" validate repeats.mtlx --verbose
 check '--verbose prints the note' grep -q "note: 'srgb_tx' is another name of the colour space 'srgb_texture' \[colorspace-alias\]" err
-# What follows from a missing include is counted for every element
+# Errors that follow from a missing include are counted for every element
 {
     echo '<materialx version="1.39" xmlns:xi="http://www.w3.org/2001/XInclude"><xi:include href="absent.mtlx"/>'
     for i in 1 2 3; do echo "<glow name='g$i' type='float'/><output name='o$i' type='float' nodename='g$i'/>"; done

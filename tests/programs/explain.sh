@@ -12,7 +12,7 @@ here=$(cd "$(dirname "$0")" && pwd)
 without_example='bake-look budget-unjudged look-part occlusion-left-out needed-by fault-of-source closures-not-stored too-many-slabs code-error code-fault removed-reference bad-geometry not-drawn light-left-out light-unread missing-primvar primvar-type unknown-camera usda-loss usda-shader inherit-depth network-limit blur-left-out film-left-out bad-pixels check-crashed check-failed check-memory check-timeout file-too-large graph-depth output-limit too-many-ports too-many-variants xml-attributes render-failed shader-invalid
 failed no-renderer no-device device-lost device-memory size-limit bad-mesh empty-mesh bad-environment bad-shader no-look no-uniform no-picture translation-error nothing-to-bake bake-view bake-mesh bake-type bake-clamped bake-degenerate bake-overlap export-loss export-clamped export-space export-tiles import-file import-loss no-texcoords usda-size usd-flatten'
 
-# What mxgen says of an example: ids of all messages, with the notes' too.
+# The messages about an example: ids of all messages, with the notes' too.
 says() { # folder
     local arguments
     read -ra arguments <"$1/arguments"
@@ -49,7 +49,7 @@ check 'the examples of all messages are written' exits 0 "$mxgen" explain -o exa
 for id in $ids; do
     check "the example of $id has its message" try "$id"
 done
-# What the programs print by themselves is explained as well
+# Messages that the programs print by themselves are explained as well
 printed=$(cd "$root" && grep -rhoE '(report_(error|warning)\([^"]*|\bfail(_as)?\([^"]*|\bid = |VK_ERROR_[A-Z_]+, )"[a-z]+(-[a-z]+)*"' program cli check compile doc render | grep -oE '"[^"]*"$' | tr -d '"' | sort -u)
 for id in $printed; do
     check "$id has an explanation" grep -qx "$id" <<<"$ids"

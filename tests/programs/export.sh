@@ -95,21 +95,21 @@ file=all.glb
 check 'a value beside a texture is its factor' member $file $base/metallicFactor 0.25
 check 'what is a texture alone has no factor' lacks $file $base/roughnessFactor
 check 'occlusion is the same texture' member $file $all/occlusionTexture "$(python3 "$here/gltf.py" $file get $base/metallicRoughnessTexture)"
-check 'a mask' eval "member $file $all/alphaMode '\"MASK\"' && member $file $all/alphaCutoff 0.3"
+check 'a mask has its cutoff' eval "member $file $all/alphaMode '\"MASK\"' && member $file $all/alphaCutoff 0.3"
 check 'a map of normals keeps its numbers' texel $file $all/normalTexture 0.25 0.25 48 128 255
 check 'and its scale' member $file $all/normalTexture/scale 0.5
 check 'emission above 1 is strength' member $file $all/extensions/KHR_materials_emissive_strength/emissiveStrength 14.0
 check 'of which the texture has parts of 1' texel $file $all/emissiveTexture 0.875 0.875 255 106 145
 check 'a texture above 1 has its factor' member $file $all/extensions/KHR_materials_specular/specularColorFactor '[7.0, 7.0, 7.0]'
 check 'specular is its alpha' texel $file $all/extensions/KHR_materials_specular/specularTexture 0.25 0.25 175 220 146 48
-check 'ior' member $file $all/extensions/KHR_materials_ior/ior 1.7
-check 'clearcoat' eval "member $file $all/extensions/KHR_materials_clearcoat/clearcoatFactor 0.5 && texel $file $all/extensions/KHR_materials_clearcoat/clearcoatRoughnessTexture 0.25 0.25 255 128 255"
+check 'the index of refraction is written' member $file $all/extensions/KHR_materials_ior/ior 1.7
+check 'a clearcoat has its factor and its roughness' eval "member $file $all/extensions/KHR_materials_clearcoat/clearcoatFactor 0.5 && texel $file $all/extensions/KHR_materials_clearcoat/clearcoatRoughnessTexture 0.25 0.25 255 128 255"
 check 'its map is that of the surface' member $file $all/extensions/KHR_materials_clearcoat/clearcoatNormalTexture '{"index": 2, "scale": 0.5}'
 check 'sheen has its roughness in alpha' eval "member $file $all/extensions/KHR_materials_sheen/sheenColorFactor '[0.1, 0.2, 0.3]' && texel $file $all/extensions/KHR_materials_sheen/sheenRoughnessTexture 0.25 0.25 255 255 255 128"
 check 'a film has its thickness in nanometres' eval "member $file $all/extensions/KHR_materials_iridescence/iridescenceThicknessMaximum 700.0 && member $file $all/extensions/KHR_materials_iridescence/iridescenceThicknessMinimum 0 && texel $file $all/extensions/KHR_materials_iridescence/iridescenceThicknessTexture 0.25 0.25 255 182 255"
 check 'an angle is a direction' texel $file $all/extensions/KHR_materials_anisotropy/anisotropyTexture 0.25 0.25 239 189 255
-check 'glass' eval "member $file $glass/extensions/KHR_materials_volume '{\"thicknessFactor\": 0.5, \"attenuationDistance\": 0.3, \"attenuationColor\": [0.1, 0.9, 0.3]}' && member $file $glass/extensions/KHR_materials_dispersion/dispersion 0.4 && texel $file $glass/extensions/KHR_materials_transmission/transmissionTexture 0.25 0.25 128 255 255"
-check 'emission of one value' eval "member $file $glass/emissiveFactor '[0.0, 1.0, 0.5]' && member $file $glass/extensions/KHR_materials_emissive_strength/emissiveStrength 4.0"
+check 'glass is a volume' eval "member $file $glass/extensions/KHR_materials_volume '{\"thicknessFactor\": 0.5, \"attenuationDistance\": 0.3, \"attenuationColor\": [0.1, 0.9, 0.3]}' && member $file $glass/extensions/KHR_materials_dispersion/dispersion 0.4 && texel $file $glass/extensions/KHR_materials_transmission/transmissionTexture 0.25 0.25 128 255 255"
+check 'emission of one value is a factor' eval "member $file $glass/emissiveFactor '[0.0, 1.0, 0.5]' && member $file $glass/extensions/KHR_materials_emissive_strength/emissiveStrength 4.0"
 check 'inputs that do nothing are left out' eval "lacks $file $glass/extensions/KHR_materials_clearcoat && lacks $file $glass/pbrMetallicRoughness/baseColorTexture && lacks $file $glass/alphaMode"
 check 'materials stand side by side' member $file nodes/Glass/translation '[2.2, 0, 0]'
 check 'only maps need tangents' eval "member $file meshes/0/primitives/0/attributes/TANGENT 3 && lacks $file meshes/1/primitives/0/attributes/TANGENT"
@@ -237,11 +237,11 @@ check 'and images are near' "$psnr" --at-least 24 marble.exr preview.exr
 sed '/name="\(metallic\|emissive\)"/d; s/gltf_pbr/UsdPreviewSurface/; s/base_color" type="color3" nodename/diffuseColor" type="color3" nodename/' placed.mtlx >moved.mtlx
 "$mxgen" export moved.mtlx -q -o placed.usda
 sed '/outputs:mtlx:surface.connect/d' placed.usda >placed_preview.usda
-check 'placed images' eval 'has placed.usda "inputs:scale = (2, 4)" "inputs:translation = (-0.6, -1.7)" && draws placed.usda placed.exr && draws placed_preview.usda placed_preview.exr'
-check 'lie where they lie in the graph' "$psnr" --at-least 40 placed.exr placed_preview.exr
+check 'placed images have their transform' eval 'has placed.usda "inputs:scale = (2, 4)" "inputs:translation = (-0.6, -1.7)" && draws placed.usda placed.exr && draws placed_preview.usda placed_preview.exr'
+check 'they lie where they lie in the graph' "$psnr" --at-least 40 placed.exr placed_preview.exr
 check 'images of maps and numbers above 1' eval 'exits 0 "$mxgen" export all.mtlx -o all.usda --size 4 && has all.usda "inputs:scale = (2, 2, 2, 1)" "inputs:bias = (-1, -1, -1, 0)" "inputs:scale = (14, 14, 14, 1)" "double3 xformOp:translate = (2.2, 0, 0)" && draws all.usda all.png'
 mkdir package
-check 'a package' exits 0 "$mxgen" export image.mtlx -o package/image.usdz
+check 'a package is written' exits 0 "$mxgen" export image.mtlx -o package/image.usdz
 cat >package.py <<'EOF'
 import struct, sys, zipfile
 data = open(sys.argv[1], "rb").read()
@@ -301,8 +301,8 @@ check 'nor an image that it reads' eval 'cp flat/S_base_color.png clash_M_baseCo
 check 'a folder must exist' eval 'exits 1 "$mxgen" export image.mtlx -o none/a.gltf && has err "[output-failed]"'
 check 'a sandbox holds' eval 'mkdir -p in && sed "s,flat/,../flat/," image.mtlx >in/image.mtlx && exits 1 "$mxgen" export in/image.mtlx --sandbox -o none.gltf && has err "[texture-refused]" && test ! -e none.gltf'
 check 'nothing of failures is left' test "$(ls -A "$TMPDIR" | wc -l)" = 0
-check 'endings' exits 2 "$mxgen" export all.mtlx -o none.fbx
-check 'usage' exits 2 "$mxgen" export all.mtlx
+check 'an unknown ending fails' exits 2 "$mxgen" export all.mtlx -o none.fbx
+check 'export without an output fails' exits 2 "$mxgen" export all.mtlx
 if [ -d "$root/tests/npm/node_modules/gltf-validator" ] && command -v node >valid.log; then
     check "Khronos' validator has no objection" valid 'out1/all of it.gltf' all.glb marble.glb image.gltf aces.glb tall.glb loss.gltf placed.gltf unlit.gltf
 else

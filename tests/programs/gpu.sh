@@ -19,7 +19,7 @@ for document in standard_surface_default open_pbr_default; do
         folder=$document.$interface
         check "$folder is generated" exits 0 "$mxgen" "$bench/$document.mtlx" --target vulkan --interface $interface -o "$folder"
         for stage in vert frag; do
-            check "$folder compiles" exits 0 glslangValidator -V "$folder"/*.$stage -o $stage.spv
+            check "the shader of $folder compiles" exits 0 glslangValidator -V "$folder"/*.$stage -o $stage.spv
         done
         statistics_of vert.spv frag.spv
         check "$folder takes few registers" test "$(ours VGPRs)" -le "$(($(theirs $document $interface vgprs) * ${registers[$interface]} / 100))"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# What an attacker may write into names, documents, stages and reports. Arguments: mxgen
+# Texts that an attacker may write into names, documents, stages and reports. Arguments: mxgen
 mxgen=$(realpath "$1")
 here=$(cd "$(dirname "$0")" && pwd)
 . "$here/common.sh"

@@ -44,7 +44,7 @@ done
 check 'some runs were killed' test "$killed" -ge 5
 check 'a run after a killed one is not disturbed' exits 0 "$mxgen" many.mtlx --reflect -o made
 check 'a run after a killed one writes everything' eval 'for file in whole/*; do cmp "$file" "made/${file#whole/}" || exit 1; done'
-# What a killed process leaves where it replaces a file: the next run removes it, but nothing that a process locks, and nothing of others.
+# A killed process leaves a file where it replaces one: the next run removes it, but nothing that a process locks, and nothing of others.
 touch made/M_1.frag.0123abcd.mxgen.tmp made/M_2.frag.0123abcd.mxgen.tmp made/M_3.frag.0123abcd.tmp
 mkdir made/folder.0123abcd.mxgen.tmp
 ln -s ../whole.d made/link.0123abcd.mxgen.tmp

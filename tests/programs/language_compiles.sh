@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# What a language's compiler says of shaders, in all roles that the language has.
+# A language's compiler accepts the shaders of all roles that the language has.
 # Arguments: mxgen, mxgen-compile, the target, roles that it lacks ("deferred,depth"; none: ''), a part and the number of parts, and documents or
 # folders of documents, of which the test takes this part.
 mxgen=$(realpath "$1") compile=$(realpath "$2") target=$3 lacking=$4 part=$5 parts=$6
@@ -42,7 +42,7 @@ if grep -q '^note: .* no compiler' err; then
     skip "no compiler for $target is installed: nothing is compiled"
     finish "$target"
 fi
-check 'documents' compiles "${documents[@]}" --trust --interfaces complete,reduced # the compiler starts once for all
+check 'all documents compile' compiles "${documents[@]}" --trust --interfaces complete,reduced # the compiler starts once for all
 cat >coat.mtlx <<'END'
 <materialx version="1.39">
   <slab name="metal" type="BSDF"><input name="f0" type="color3" value="0.9, 0.6, 0.3"/></slab>

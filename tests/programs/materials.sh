@@ -63,7 +63,7 @@ while IFS=$'\t' read -r document count ids reason; do
     is_listed[$document]=1 reasons[$document]=$reason
     [ -z "$update" ] || continue
     [ -z "${is_left_out[$document]:-}" ] || continue
-    check "$document" as_expected "$count" "$ids" "$document"
+    check "$document is generated as listed" as_expected "$count" "$ids" "$document"
 done < <(sed 1d "$table")
 [ -z "$update" ] || printf 'document\tgenerated\terrors\treason\n' >"$table"
 while read -r document; do

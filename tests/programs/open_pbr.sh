@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# What version 1.2 of OpenPBR changes, by what must look the same. Its values are in ../shaderx. Arguments: mxgen, mxgen-render, the root of the
+# Changes of version 1.2 of OpenPBR, by surfaces that must look the same. Its values are in ../shaderx. Arguments: mxgen, mxgen-render, the root of the
 # source tree.
 mxgen=$(realpath "$1") render=${2:+$(realpath "$2")} root=$(realpath "$3")
 . "$root/tests/programs/common.sh"
@@ -42,7 +42,7 @@ metal="base_metalness=float:1" matte="specular_weight=float:0"
 } >surfaces.mtlx
 
 # 1.5 divides the direction of the ray inside of the ball.
-check 'shaders' exits 0 "$mxgen" surfaces.mtlx --interface reduced -o shaders
+check 'shaders are generated' exits 0 "$mxgen" surfaces.mtlx --interface reduced -o shaders
 check 'refraction does not depend on the specular weight' grep -q 'refract(.*0\.6666667)' shaders/Glass.frag
 check 'before 1.2 it did' exits 1 grep -q 'refract(.*0\.6666667)' shaders/GlassBefore.frag
 
@@ -65,7 +65,7 @@ check 'metal is retroreflective as the closure is' near "$(mean Retro)" "$(mean 
 check 'that is seen' far "$(mean Retro)" "$(mean Core)" 0.01
 mixed=$(awk -v a="$(mean Gloss0)" -v b="$(mean Gloss1)" 'BEGIN { print 0.75 * a + 0.25 * b }')
 check 'gloss goes back in part' near "$(mean Gloss0.25)" "$mixed" 0.0005
-check 'and differs' far "$(mean Gloss0)" "$(mean Gloss1)" 0.002
+check 'the two ends differ' far "$(mean Gloss0)" "$(mean Gloss1)" 0.002
 check 'the weight scales the luminance' near "$(mean Glow)" "$(mean GlowBefore)" 0.0001
 check 'weight 0, the default, is dark' far "$(mean Glow)" "$(mean Dark)" 0.1
 check 'colours end at 1' near "$(mean Whiter)" "$(mean White)" 0.0001

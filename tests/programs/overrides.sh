@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# What drives the inputs of a layer's material (docs/slots.md, "Overrides"): outputs of graphs, inputs of materials, and variants, each rule
+# The elements that drive the inputs of a layer's material (docs/slots.md, "Overrides"): outputs of graphs, inputs of materials, and variants, each rule
 # with its counter-case. The shaders are constants, so the text of the main function is the colour. Argument: mxgen.
 mxgen=$(realpath "$1")
 here=$(cd "$(dirname "$0")" && pwd)

@@ -66,7 +66,7 @@ cat >lamp.mtlx <<'XML'
 XML
 compare lamp 1 lamp.mtlx '-e S --environment none' '-e S --environment none' lamp=2
 
-# What MaterialX's rasters simplify, and `--role path` does not.
+# `--role path` keeps what MaterialX's rasters simplify.
 leaf sheen '<sheen_bsdf name="bsdf" type="BSDF"/>' '--role path'
 leaf zeltner '<sheen_bsdf name="bsdf" type="BSDF"><input name="mode" type="string" value="zeltner"/></sheen_bsdf>' \
     '--role path --size 96' # few pixels hold its rim

@@ -418,7 +418,7 @@ check 'these runs leave no files' test -z "$(ls -A | grep -E '^x\.|tmp-')"
 # ratio_is A B EXPECTED: the means of two pictures, within 1 percent.
 ratio_is() { awk -v a="$("$mean_ratio" "$1" "$2")" -v b="$3" 'BEGIN { print a; exit !(a > b * 0.99 && a < b * 1.01) }'; }
 
-# What lobes reflect in all, by a fit and by the baked table: pictures agree, and only the latter asks for a texture.
+# Albedos of lobes come from a fit and from the baked table: pictures agree, and only the latter asks for a texture.
 cat >rough.mtlx <<'X'
 <?xml version="1.0"?>
 <materialx version="1.39">
@@ -619,7 +619,7 @@ furnace() {
     exits 0 "$render" white.mtlx -e "$1" --mesh sphere -s 32 --lights none --environment white.hdr --samples 256 --quality "$2" -o white.exr &&
         ratio_is white.exr light.exr "$3"
 }
-check 'the light' exits 0 "$render" white.mtlx -e light --mesh sphere -s 32 -o light.exr
+check 'the light is drawn' exits 0 "$render" white.mtlx -e light --mesh sphere -s 32 -o light.exr
 for element in burley metal brushed; do
     check "the best quality keeps the energy of $element" furnace $element reference 1
 done

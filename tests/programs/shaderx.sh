@@ -6,7 +6,7 @@ mxgen=$(realpath "$1") compile=$(realpath "$2") films=$(realpath "$3")
 shift 3
 . "$here/common.sh"
 for document in "$@" "$films"; do
-    check "${document##*/} compiles" exits 0 "$compile" "$document"
+    check "the document ${document##*/} compiles" exits 0 "$compile" "$document"
     check "${document##*/} has shaders" test -s out
 done
 

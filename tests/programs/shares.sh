@@ -63,7 +63,7 @@ for run in 'glsl raster' 'glsl scatter' 'vulkan deferred' 'osl' 'mdl'; do
     options=(--target "$target" ${role:+--role "$role"} --interface reduced)
     [ "$role" != deferred ] || options+=(--slabs)
     for name in bounds outside brighter; do
-        check "$run, $name" exits 0 "$mxgen" "$name.mtlx" "${options[@]}" -o "$name $run"
+        check "$run: $name is generated" exits 0 "$mxgen" "$name.mtlx" "${options[@]}" -o "$name $run"
     done
     check "$run: a share outside of its bounds is the bound" diff -r "bounds $run" "outside $run"
     check "$run: it has materials" test "$(find "bounds $run" -type f | wc -l)" -gt 12

@@ -49,7 +49,7 @@ check '--max-error keeps glints' eval '! says "no glints"'
 check 'an unknown feature fails' exits 1 "$mxgen" "$slabs" --features -glimmer -o made
 check 'the error lists the features' says "-glints, -lut, -fuzz"
 sed 's/<slab name="dust" type="BSDF">/&<input name="glint_density" type="float" value="3"\/>/' "$slabs" >glints.mtlx
-check 'glints compile' compiles glints.mtlx
+check 'a shader with glints compiles' compiles glints.mtlx
 check 'a shader without glints is generated' exits 0 "$mxgen" glints.mtlx -e DustyFibre --features -glints --stdout
 check 'a shader without glints has no code of them' eval '! grep -q mx_glints out'
 check 'glints give a shader of OSL' exits 0 "$mxgen" glints.mtlx -e DustyFibre --target osl --stdout

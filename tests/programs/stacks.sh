@@ -267,7 +267,7 @@ fi
 check 'a look without a scene is wrong usage' exits 2 "$mxgen" look.mtlx --look L
 check 'an element of a scene is wrong usage' exits 2 stacks --element red
 check 'a scene on standard output is wrong usage' exits 2 stacks --stdout
-# What a document says of primitives beside their layers.
+# A document says more of primitives than their layers.
 cat >look.mtlx <<'XML'
 <?xml version="1.0"?>
 <materialx version="1.39">

@@ -161,7 +161,7 @@ looks("a dome with the pole of the stage", (flat, flat, high), (-high * a, -high
       dome.replace("DomeLight", "DomeLight_1"), "r", "Z")
 looks("a dome with the pole y", (flat, high, flat), (-high * a, math.cos(math.radians(40)), -high * a), dome, "g", "Z")
 
-# What the picture lacks is told, with its place.
+# Lights that the picture lacks are told, with their place.
 tells("a factor of specular light", light("DistantLight", "float inputs:specular = 0.5"), "'/light.inputs:specular' (", "stage.usda:14:7)", "[light-unread]")
 tells("a link", light("DistantLight", "rel collection:lightLink:includes = </floor>"), "'/light.collection:lightLink:includes'", "[light-unread]")
 tells("a profile", light("SphereLight", "asset inputs:shaping:ies:file = @a.ies@"), "'/light.inputs:shaping:ies:file'", "[light-unread]")

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What hosts choose, as pictures of a square on a Vulkan device: two functions in one file of a
+ * Choices of hosts, as pictures of a square on a Vulkan device: two functions in one file of a
  * host draw what the programs of their documents draw; and shadow, occlusion, encoding and
  * transparency have the values that docs/hosts.md promises.
  */

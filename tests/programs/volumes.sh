@@ -183,7 +183,7 @@ done
 check 'a medium that varies is traced' stage fog.exr ball.usda foggy $even --size 4 --paths 1024
 check 'a medium that varies is as opaque as its integral' near "$(channel fog.exr A)" "$(of '1 - (exp(-1) + exp(-2) + exp(-4)) / 3')" 0.01
 
-# The same inside a surface that bends nothing: what is seen through it is the light of the sky behind.
+# A medium inside a surface that bends nothing: what is seen through it is the light of the sky behind.
 # shellcheck disable=SC2086
 check 'a medium that varies inside a surface is traced' stage within.exr ball.usda within $even --size 4 --paths 1536
 for row in 'R 1' 'G 2' 'B 4'; do
@@ -269,7 +269,7 @@ print(100 * scattering * phase * total)' "$1" "$2"
     check 'a white medium that varies loses no light' near "$(all cloud.exr)" 1 0.01
     check 'a medium that sends what it absorbs is traced in even light' trace flame.exr VFlame --size 16 --paths 128
     check 'a medium that sends what it absorbs is not to be seen' near "$(all flame.exr)" 1 0.01
-    # The same medium as a volume, and inside a surface that does not bend light.
+    # One medium as a volume, and inside a surface that does not bend light.
     check 'a medium that absorbs and scatters is traced' trace soup.exr VSoup --size 16 --paths 96
     check 'a surface around it is traced' trace around.exr SSoup --size 16 --paths 96
     check 'a surface that bends nothing changes nothing' near "$(all around.exr)" "$(all soup.exr)" 0.01

@@ -13,7 +13,7 @@ import common
 
 SCENE = '#usda 1.0\ndef Xform "set" { def Mesh "m" { rel material:binding = </set/M> }\ndef Material "M" {} }\n'
 LOOK = '<look name="L"><materialassign name="a" material="Gold" geom="/"/></look></materialx>'
-# What they take is any object: callbacks of with, comparisons, keys that may be missing.
+# They take any object: callbacks of with, comparisons, keys that may be missing.
 ANY = {"__exit__", "__eq__", "__contains__", "__getattr__", "__setattr__", "__delattr__", "__init_subclass__", "__reduce__", "__setstate__"}
 
 

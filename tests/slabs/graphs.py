@@ -25,7 +25,7 @@ LOSSES = {"slab": "emission, glint_density, glint_uv, specular_lut, specular_lut
           "slab_mix": "blend_parameters", "slab_surface": "surface_thickness"}
 
 DOCUMENTS = [ROOT / f"examples/{name}.mtlx" for name in ("slabs", "slab_blends", "slab_helpers", "slab_glints")]
-# Of an error that the page lists: another device rounds otherwise.
+# Tolerance of an error that the page lists: another device rounds otherwise.
 NEAR, SHARE = 0.02, 0.01
 
 

@@ -62,7 +62,7 @@ const BUNDLERS = {
     },
 };
 
-/** What Vite's server says in a page of the program, with settings for its optimizer. */
+/** The answer of Vite's server in a page of the program, with settings for its optimizer. */
 async function served(name, optimizeDeps) {
     const { createServer } = await import(path.join(packages, "node_modules/vite/dist/node/index.js")), { files } = app(name, "index.html");
     fs.mkdirSync(path.join(files, "public"));

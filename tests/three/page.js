@@ -112,7 +112,7 @@ const draws = {
         return { ours: at(ours, 0.1, 0.1), theirs: at(theirs, 0.1, 0.1), difference: ours.data.reduce((sum, x, i) => sum + Math.abs(x - theirs.data[i]), 0) / ours.data.length };
     },
 
-    /** What a flame of no coverage adds to black, with its alpha. */
+    /** The light that a flame of no coverage adds to black, with its alpha. */
     async glow() {
         const text = surface(input("base", "float", 0) + input("specular", "float", 0) + input("emission", "float", 1) + input("emission_color", "color3", "1, 1, 0"));
         const { scene, mesh } = sceneOf(new Material(await documentOf(text)), { environment: null });

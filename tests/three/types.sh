@@ -9,7 +9,7 @@ command -v node >/dev/null || { echo "skip: Node is not installed"; exit 77; }
 sed -n "/^foreach file/,/]/p" "$root/js/mxgen/three/meson.build" | grep -o "[a-z_.]*\.\(js\|ts\)" | sed 's|^|three/|' >files
 check "the package has its modules" diff expected files
 for module in $(grep 'js$' expected); do
-    check "$module parses" exits 0 node --check "$root/js/mxgen/$module"
+    check "the module $module parses" exits 0 node --check "$root/js/mxgen/$module"
 done
 node -e 'const { exports } = require(process.argv[1]); for (const file of Object.values(exports["./three"])) console.log(file.slice(2))' \
     "$root/js/mxgen/package.json" >named

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What page.js draws with, for WebGLRenderer.
+// The renderer that page.js draws with: WebGLRenderer.
 
 import { WebGLRenderer } from "three";
 
@@ -7,7 +7,7 @@ export { MaterialXLoader, MaterialXMaterial as Material, MaterialXTextures } fro
 
 export const renderer = new WebGLRenderer({ alpha: true, preserveDrawingBuffer: true, premultipliedAlpha: true });
 
-/** What tells one program from another, after a drawing. */
+/** The number that tells one program from another, after a drawing. */
 export const programOf = material => renderer.properties.get(material).currentProgram.id;
 
 /** A surface that covers nothing. */

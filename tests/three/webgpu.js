@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What page.js draws with, for WebGPURenderer.
+// The renderer that page.js draws with: WebGPURenderer.
 
 import { WebGLRenderer } from "three";
 import { ClusteredLighting } from "three/addons/lighting/ClusteredLighting.js";
@@ -19,7 +19,7 @@ owner[name] = (...values) => {
     return create(...values);
 };
 
-/** What tells one program from another, after a drawing: programs do not go, so their number does. */
+/** The number that tells one program from another, after a drawing: programs do not go, so their number does. */
 export const programOf = () => modules;
 
 /** A surface that covers nothing. */
@@ -36,7 +36,7 @@ export const nodes = {
 /** Other ways in which three draws lights. */
 export const lightings = { clustered: new ClusteredLighting(), dynamic: new DynamicLighting() };
 
-/** What WebGLRenderer throws. */
+/** The errors that WebGLRenderer throws. */
 export function misuse(scene, camera) {
     try {
         new WebGLRenderer().render(scene, camera);

@@ -44,7 +44,7 @@ def flat(model, inputs):
     return f'<{model} name="S" type="surfaceshader">{ports}</{model}>'
 
 
-# Of each model: inputs with values that are no defaults, by a meaning that models share.
+# Each model's inputs with values that are no defaults, by a meaning that models share.
 SHARED = {
     "standard_surface": {"color": ("base_color", "color3"), "metal": ("metalness", "float"), "rough": ("specular_roughness", "float"),
                          "ior": ("specular_IOR", "float"), "coat": ("coat", "float"), "coat rough": ("coat_roughness", "float"),

@@ -66,7 +66,10 @@ OLD_PATH = re.compile(r"(?<![\w./<>$*{}%@\"-])((?:\w+/)+\w+\.(?:c|h|cpp|def|sh|p
 FILE = re.compile(r"(?<![\w./<>$*%@\"-])(\w+\.(?:c|h|def))\b(?!\.)")
 COMMENT = re.compile(r"/\*.*?\*/|//[^\n]*", re.DOTALL)
 # The first comment line of a block without a subject: what does "the same" mean to someone who reads it alone?
-FRAGMENT = re.compile(r"(?:^|\n)[ \t]*(?:/\*[\s*]*|//\s*)((?:What|The same|Of) [^\n]*)")
+FRAGMENT = re.compile(r"(?:^|\n)[ \t]*(?:/\*[\s*]*|//\s*|#\s*|<!--\s*)((?:What|The same|Of) [^\n]*)")
+MARKED = (".c", ".h", ".cpp", ".def", ".glsl", ".inline", ".osl", ".mtlx", ".html", ".css", ".js", ".mjs", ".ts", ".py", ".sh", ".build", "")
+# The title of a check, which a reader sees when it fails: check 'a folder can be checked' …
+TITLE = re.compile(r"^[ \t]*check (['\"])(.+?)\1", re.MULTILINE)
 TEXTS = (".c", ".h", ".cpp", ".def", ".glsl", ".mtlx", ".py", ".sh", ".build", ".md", ".txt", "")
 # Where a path of a comment may begin, beside the folder of the file itself.
 PLACES = [ROOT, ROOT / "src", ROOT / "include", ROOT / "tests", ROOT / "libraries"]
@@ -93,14 +96,29 @@ def check_references():
         prose = [text] if path.suffix == ".md" else COMMENT.findall(text) if path.suffix in (".c", ".h", ".cpp", ".def") else []
         for found in OLD_PATH.findall("\n".join(prose)):
             check(any((place / found).exists() for place in [*PLACES, path.parent]), f"{where}: there is no {found}")
-        if path.suffix in (".c", ".h", ".cpp", ".def", ".glsl") and where.parts[0] != "tests":
-            for found in FRAGMENT.findall(re.sub(r"(//[^\n]*)\n(?=[ \t]*//)", r"\1 ", text)): # lines of one comment
-                check(False, f"{where}: a comment without a subject: {found}")
         if path.suffix in (".c", ".h", ".cpp", ".def"):
             for comment in COMMENT.finditer(text):
                 for name in FILE.findall(comment[0]):
                     check(name in names | NOT_OURS, f"{where}:{text.count(chr(10), 0, comment.start()) + 1}: there is no {name}")
         check(not re.search(r"design[\s*]+section|section \d+ of the design", text), f"{where}: a section of a design that is not here")
+
+
+def check_sentences():
+    num_comments = num_titles = 0
+    for folder in FOLDERS:
+        for path in sorted((ROOT / folder).rglob("*")):
+            where = path.relative_to(ROOT)
+            if path.suffix not in MARKED or not path.is_file() or {"__pycache__", "node_modules"} & set(path.parts) or "golden" in where.parts and path.suffix == ".osl":
+                continue
+            text = path.read_text(encoding="utf-8", errors="replace")
+            text = re.sub(r"^([ \t]*(?://|#)[^\n]*)\n(?=[ \t]*(?://|#))", r"\1 ", text, flags=re.MULTILINE) # lines of one comment
+            for found in FRAGMENT.findall(text):
+                check(False, f"{where}: a comment without a subject: {found}")
+            num_comments += len(re.findall(r"/\*|//|#|<!--", text))
+            for _, title in TITLE.findall(text) if path.suffix == ".sh" else ():
+                num_titles += 1
+                check(len(title.split()) > 2, f"{where}: the title of a check is no sentence: {title}")
+    check(num_comments > 10000 and num_titles > 2000, f"{num_comments} comments and {num_titles} titles were found only")
 
 
 def blocks(language):
@@ -219,6 +237,7 @@ for page in pages:
 for page in set(pages) - reached(ROOT / "README.md"):
     check(False, f"no link leads from README.md to {page.relative_to(ROOT)}")
 check_references()
+check_sentences()
 check_commands()
 check_program()
 check_semantics()

@@ -21,7 +21,7 @@ VERBS = "add connect copy move pack remove rename report require set write".spli
 ALONE = "commit destroy format ref set unref write".split()
 # Verbs of no object: they take a context and make a result.
 ACTIONS = "generate inspect rewrite translate validate".split()
-# What needs no object: a catalogue of all that a version of mxgen has, and values.
+# Functions without an object: a catalogue of all that a version of mxgen has, and values.
 CATALOGUE = "catalogue"
 VALUES = {"color": ["difference"], "slot": ["decode", "encode"], "status": ["string"], "version": ["string"]}
 # Numbers of things that no getter gives, and things of two numbers: inputs and outputs.

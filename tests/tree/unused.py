@@ -15,7 +15,7 @@ MXGEN, TARGET = sys.argv[1:]
 LINE = re.compile(r"^(\S+)  (\w+)\((.*)\) -> (.*)$")
 PATTERNS = {"boolean", "integer", "float", "color3", "color4", "vector2", "vector3", "vector4"}
 WORD = re.compile(r"[A-Za-z_]\w*")
-# What a declaration introduces: functions, uniforms and streams, structs, local variables (also in lists).
+# Names that a declaration introduces: functions, uniforms and streams, structs, local variables (also in lists).
 TYPE = r"(?:float|int|uint|bool|[iu]?vec[234]|mat[234]|sampler2D|[A-Z]\w*|mx_\w+)"
 FUNCTION = re.compile(rf"^(?:void|{TYPE}) (\w+)\(", re.M)
 GLOBAL = re.compile(rf"^(?:layout\([^)]*\) )?(?:flat )?(?:uniform|in) {TYPE} (\w+)", re.M)

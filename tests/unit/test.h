@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What a unit test needs. A failed requirement is printed with its place and counted; the test goes
+ * The tools of a unit test. A failed requirement is printed with its place and counted; the test goes
  * on.
  *
  *     int main(void)

@@ -365,7 +365,7 @@ static int num_digits(const char *text)
 }
 
 /*
- * What is printed reads back to the same bits, and is as short as the shortest of the C library's
+ * A printed number reads back to the same bits, and is as short as the shortest of the C library's
  * forms that does.
  */
 static bool round_trips(float value)

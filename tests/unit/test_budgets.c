@@ -246,7 +246,7 @@ static void save_error(struct generation *g)
 
 enum { MAX_FIXED = 1024 };
 
-/* What budgets of closures and features lead to. */
+/* Results of budgets of closures and features. */
 struct fixed {
     struct slab_report reports[MAX_FIXED];
     unsigned num;

@@ -193,7 +193,7 @@ static const struct {
     {"%a = dFdx float %f\n%c = dFdx float %f\n%r = sub float %a, %c", "return 0.0"},
 };
 
-/* The same sources in the same order for both, so that equal graphs print equal. */
+/* Both have equal sources in one order, so that equal graphs print equal. */
 static void test_builder_case(const char *in, const char *out)
 {
     struct fixture built, expected;
@@ -333,7 +333,7 @@ static void test_user_types(void)
     teardown(&f);
 }
 
-/* What is printed parses back to the same, whether folded or not. */
+/* A printed graph parses back to itself, whether folded or not. */
 static const char *const round_trips[] = {
     "return 1.0, -0.0, 1e-45, 3.4028235e38, inf, -inf, nan#2143289344, 7, -2147483648, "
     "4294967295u, true, \"a\\\"b\\\\\\u0001\"\n",
@@ -384,7 +384,7 @@ static void test_round_trip(void)
     }
 }
 
-/* What the reader refuses, and so a mutation of a text is sound, or refused. */
+/* Texts that the reader refuses, and so a mutation of a text is sound, or refused. */
 static void test_refused(void)
 {
     static const char *const texts[] = {

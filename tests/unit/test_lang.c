@@ -73,7 +73,7 @@ static const char *print_function(struct fixture *f, const struct lang_syntax *s
 
 /* Printing */
 
-/* What is read is printed as it stands there. */
+/* A text that is read is printed as it stands there. */
 static void prints(struct fixture *f, const struct test_case *c)
 {
     struct text text;
@@ -162,7 +162,7 @@ static const char *other_type(void *user_data, ir_type_id type)
 }
 
 /*
- * What an image holds as text is taken from there, as long as all of its names are those of the
+ * A text that an image holds is taken from there, as long as all of its names are those of the
  * source.
  */
 static void test_print_from_image(void)

@@ -147,7 +147,7 @@ static uint32_t find(struct fixture *f, uint32_t file, const char *name)
     return lang_find_function(&f->unit, file, str_intern_z(&f->strings, name), NULL, 0);
 }
 
-/* What parses. */
+/* Texts that parse. */
 
 static const char everything[] =
     "// a comment with ü\n"

@@ -546,7 +546,7 @@ static const char *refusal(struct image image)
     return fault ? fault : "mapped";
 }
 
-/* What the header has in front of all else: magic, fingerprint, checksum and size. */
+/* The header has in front of all else: magic, fingerprint, checksum and size. */
 enum { IMAGE_MAGIC = 8, IMAGE_FINGERPRINT = 16, IMAGE_CHECKSUM = 24, IMAGE_SIZE = 32 };
 
 /* A word of the reason. */

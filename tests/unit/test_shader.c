@@ -32,7 +32,7 @@ static const struct member_case {
 };
 
 /*
- * The same for constant buffers: "Packing rules for constant variables" of Microsoft's reference,
+ * Rows for constant buffers: "Packing rules for constant variables" of Microsoft's reference,
  * and a row begins behind an array or matrix.
  */
 static const struct member_case cbuffer_cases[] = {
@@ -571,7 +571,7 @@ static uint64_t topology(const char *uniform_name, const char *garbage, float co
     return hash;
 }
 
-/* Of a shader that compares a string with `mode`; `garbage` is a string that was known before. */
+/* The parts of a shader that compares a string with `mode`; `garbage` is a string that was known before. */
 static uint64_t topology_of_string(const char *garbage, const char *mode)
 {
     struct fixture f;

@@ -305,7 +305,7 @@ static void test_truth(struct run *run)
     REQUIRE(sum[WALK] < 0.0054 && worst < 0.04);
 }
 
-/* What white matter reflects: partly there, thin, rough. */
+/* The light that white matter reflects: partly there, thin, rough. */
 static void measure_furnace(struct run *run, double most_f0, double *least, double *most)
 {
     *least = *most = 1.0;
@@ -349,7 +349,7 @@ static void test_energy(struct run *run)
     REQUIRE(most <= 1.0);
 }
 
-/* Of a sheet that absorbs nothing, all light comes back or shines through. */
+/* A sheet that absorbs nothing loses no light: all of it comes back or shines through. */
 static double worst_sheet(struct run *run, int num_layers)
 {
     double worst = 0.0;
@@ -378,7 +378,7 @@ static void test_sheets(struct run *run)
 
 /* ---- Light from single directions ---- */
 
-/* What the lobes send of the light from `run->light`, times its cosine. */
+/* The part that the lobes send of the light from `run->light`, times its cosine. */
 static ir_ref response_of(struct run *run)
 {
     struct generation *g = run->generation;
@@ -507,7 +507,7 @@ struct furnace {
 };
 
 /*
- * What the response has of each lobe's single reflections follows from two lights: that of the
+ * The share that the response has of each lobe's single reflections follows from two lights: that of the
  * mirror, and another. The shares times the integrals of these reflections are all the light.
  */
 static double returned(struct run *run, const struct furnace *furnace, ir_ref response)
@@ -599,7 +599,7 @@ static void look_behind(struct run *run)
     }
 }
 
-/* What a raster has of the light behind a sheet is what a random walk brings to the viewer. */
+/* A raster has as much of the light behind a sheet as a random walk brings to the viewer. */
 static void test_backlight(struct run *run)
 {
     enum { NUM_SHEETS = 60 };

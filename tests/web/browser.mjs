@@ -77,7 +77,7 @@ export class Browser {
 }
 
 export class Page {
-    /** What the console says. */
+    /** The messages of the console. */
     complaints = [];
     #browser;
     #session;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What tests of the page share: how they do what its users do, and see what they see.
+// Tests of the page share this: how they do what its users do, and see what they see.
 
 import assert from "node:assert/strict";
 import fs from "node:fs";

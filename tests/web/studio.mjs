@@ -45,7 +45,7 @@ async function shown(page, tones, light) {
     return page.evaluate(MEAN);
 }
 
-/** What the tone maps of three.js make of lights, by WebGL: sRGB from 0 to 255. */
+/** The results of the tone maps of three.js for lights, by WebGL: sRGB from 0 to 255. */
 const byThree = (source, name, lights) => `(() => {
     const gl = new OffscreenCanvas(1, 1).getContext("webgl2"), program = gl.createProgram();
     const sources = ["#version 300 es\\nvoid main() { gl_Position = vec4(0, 0, 0, 1); gl_PointSize = 1.0; }", "#version 300 es\\nprecision highp float;\\n" + ${JSON.stringify(source)} + \`

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the language server writes in Markdown, as elements: paragraphs, lists, code, bold letters, links. No text becomes HTML.
+// The Markdown of the language server, as elements: paragraphs, lists, code, bold letters, links. No text becomes HTML.
 
 function inline(text) {
     const parts = [], pattern = /`([^`]+)`|\*\*([^*]+)\*\*|\[([^\]]+)\]\(<?(https?:[^)>]+)>?\)|\\([\\`*_{}[\]()#+\-.!<>&|])/g;

@@ -99,7 +99,7 @@ function listsOf({ numbers, count }) {
     return { starts, items };
 }
 
-/** Of each corner the mean of the triangles around it, up to an edge. */
+/** The normal of each corner: the mean of the triangles around it, up to an edge. */
 function makeNormals(mesh) {
     const made = split(mesh), numCorners = made.indices.length, places = placesOf(numCorners, [[rounded(made.position), 3]]), { starts, items } = listsOf(places);
     const faces = new Float64Array(numCorners), lengths = new Float64Array(numCorners / 3), sum = [0, 0, 0];

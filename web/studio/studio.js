@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the page loads beside its editor: how the picture looks, beside its material.
+// The page loads this beside its editor: how the picture looks, beside its material.
 
 import { Compiler } from "../compiler.js";
 import { element } from "../dom.js";

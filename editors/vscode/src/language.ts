@@ -5,7 +5,7 @@ import * as vscode from "vscode";
 
 import { register } from "./extension";
 
-/** What serves documents. Its end may take time. */
+/** The server of documents. Its end may take time. */
 export interface Stoppable {
     dispose(): unknown;
 }

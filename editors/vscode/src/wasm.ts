@@ -17,7 +17,7 @@ export function fromServer(uri: vscode.Uri): vscode.Uri {
     return scheme && uri.scheme === "file" ? vscode.Uri.from({ scheme, authority, path }) : uri;
 }
 
-/** What `find` gives for the address of a path; null if it fails. */
+/** The result of `find` for the address of a path; null if it fails. */
 async function at<Found>(path: string, find: (uri: vscode.Uri) => Promise<Found>): Promise<Found | null> {
     try {
         return await find(fromServer(vscode.Uri.from({ scheme: "file", path })));

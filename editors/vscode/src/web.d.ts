@@ -36,7 +36,7 @@ declare module "@web/inputs.js" {
     import type { Variable } from "mxgen";
     /** Shows the controls whose names have all the words of a text. */
     export function filterInputs(panel: HTMLElement, text: string): void;
-    /** What has the focus keeps it. */
+    /** The editor that has the focus keeps it. */
     export function showInputs(panel: HTMLElement, variables: Variable[], set: (variable: Variable, values: number[], isFinal: boolean) => void): void;
     export function valueText(variable: Variable, values: number[]): string;
 }

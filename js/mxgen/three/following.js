@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the materials for both renderers share: each follows a document, whose shader is a function (docs/hosts.md) among code of three.
+// The part that materials for both renderers share: each follows a document, whose shader is a function (docs/hosts.md) among code of three.
 
 import { ArgumentError } from "../errors.js";
 import { MaterialXTextures } from "./textures.js";
@@ -121,7 +121,7 @@ export const following = (Standard, target) => class extends Standard {
         return variable !== null;
     }
 
-    /** What is made of the shader stays this material's own. */
+    /** Textures and programs of the shader stay this material's own. */
     copy(source, own = {}) {
         const { uniforms } = this;
         super.copy(source);

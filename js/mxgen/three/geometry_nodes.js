@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a surface reads of its geometry, as nodes.
+// The data that a surface reads of its geometry, as nodes.
 
 import { If, Loop, abs, attribute, batch, convert, cross, dFdx, dFdy, dot, float, instancedMesh, int, mat4, modelWorldMatrix, normalize, normalLocal,
          normalWorldGeometry, positionLocal, positionWorld, select, sign, tangentGeometry, tangentLocal, varyingProperty, vec2, vec3, vec4 } from "three/tsl";

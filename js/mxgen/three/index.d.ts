@@ -18,7 +18,7 @@ export interface MaterialXParameters extends MeshStandardMaterialParameters {
     textures?: MaterialXTextures;
 }
 
-/** What materials for both renderers have. */
+/** The members that materials for both renderers have. */
 export interface MaterialXMembers {
     readonly isMaterialXMaterial: true;
     /** A new document, after an edit, changes uniforms or, where it must, the program. Throws DocumentError, and then nothing changes. */

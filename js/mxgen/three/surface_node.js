@@ -39,7 +39,7 @@ function hostNodes(builder) {
 /** The add-ons of three draw lights in loops; the surface has a loop of its own. */
 const plain = lightsNode => lightsNode.constructor === LightsNode ? lightsNode : lights(lightsNode.getLights());
 
-// What a light adds to, where nothing asks for it.
+// A light adds to this where nothing asks for it.
 const SINK = { addAssign() {}, mulAssign() {} };
 
 /** Builds lights in a context of their own: by default those of the scene, with those of `materialLightings`. */
