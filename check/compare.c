@@ -35,7 +35,8 @@ static struct check_change *add(struct comparison *c, enum check_change_kind kin
     return change;
 }
 
-static void compare_verdicts(struct comparison *c, enum check_failure before, enum check_failure now)
+static void compare_verdicts(struct comparison *c, enum check_failure before,
+                             enum check_failure now)
 {
     if (now && !before)
         add(c, CHANGE_FAILS, cli_format("fails at %s, where it passed", check_failure_names[now]));

@@ -39,7 +39,7 @@ struct pool_answer {
     char *record; /* the caller frees it; NULL: the worker died or exceeded a limit */
     size_t size;
     enum check_failure failed; /* CHECK_CRASH, CHECK_TIMEOUT or CHECK_MEMORY */
-    char *reason;            /* the caller frees it; why there is no record */
+    char *reason;              /* the caller frees it; why there is no record */
 };
 
 /* The caller keeps argv alive. */

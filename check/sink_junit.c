@@ -140,9 +140,9 @@ static void write_outcome(struct sink *sink, struct markup *out, const struct ju
     enum outcome outcome = outcome_of(sink->run, test);
     const struct check_change *change = find_failing(sink->run, test);
     bool has_new = change && change->message;
-    const struct check_message *first = has_new          ? change->message
+    const struct check_message *first = has_new            ? change->message
                                         : failure_of(test) ? find_error(test)
-                                                         : NULL;
+                                                           : NULL;
     const char *failure = check_failure_names[failure_of(test)];
     if (outcome == PASSED) {
         markup_put(out, "/>\n");

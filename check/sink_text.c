@@ -318,7 +318,8 @@ static void print_failures(FILE *out, const struct check_totals *totals)
     for (int failure = CHECK_PASSED + 1; failure < NUM_CHECK_FAILURES; ++failure) {
         if (!totals->failed[failure])
             continue;
-        fprintf(out, "%s%s %" PRIu64, separator, check_failure_names[failure], totals->failed[failure]);
+        fprintf(out, "%s%s %" PRIu64, separator, check_failure_names[failure],
+                totals->failed[failure]);
         separator = ", ";
     }
     if (totals->known)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The parts that tests of the public interface share: an allocator that counts and fails, edits, files in
- * memory, messages.
+ * The parts that tests of the public interface share: an allocator that counts and fails, edits,
+ * files in memory, messages.
  */
 #ifndef MXG_TESTS_API_FIXTURE_H
 #define MXG_TESTS_API_FIXTURE_H

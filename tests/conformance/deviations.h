@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The parts of a reference that are not followed, as they are listed with their reasons: lines of two names and of
- * the numbers that are allowed instead, of which there may be none. What is listed must be met by a
- * test, and must deviate, unless its reason begins with "open: ": compilers choose the value.
+ * The parts of a reference that are not followed, as they are listed with their reasons: lines of
+ * two names and of the numbers that are allowed instead, of which there may be none. What is listed
+ * must be met by a test, and must deviate, unless its reason begins with "open: ": compilers choose
+ * the value.
  */
 #ifndef MXG_TESTS_CONFORMANCE_DEVIATIONS_H
 #define MXG_TESTS_CONFORMANCE_DEVIATIONS_H

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The parts that fuzz targets share. A target is one function; every input is run through it twice: with
- * memory as it comes, and with the one allocation failing that the input's bytes choose. Either way
- * nothing may stay behind.
+ * The parts that fuzz targets share. A target is one function; every input is run through it twice:
+ * with memory as it comes, and with the one allocation failing that the input's bytes choose.
+ * Either way nothing may stay behind.
  */
 #ifndef MXG_TESTS_FUZZ_H
 #define MXG_TESTS_FUZZ_H

@@ -228,8 +228,8 @@ static inline double stack_throughput(const struct stack *stack, int at, double 
 /* ---- OpenPBR's layering (version 1.1, "Coat") ---- */
 
 /*
- * Light that comes back from above `base`: a coat absorbs on both ways, and covers with its share. It
- * does not scatter, and no light bounces below it.
+ * Light that comes back from above `base`: a coat absorbs on both ways, and covers with its share.
+ * It does not scatter, and no light bounces below it.
  */
 static inline double stack_openpbr(const struct stack *stack, int at, double thickness, double ways,
                                    double base)

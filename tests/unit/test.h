@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The tools of a unit test. A failed requirement is printed with its place and counted; the test goes
- * on.
+ * The tools of a unit test. A failed requirement is printed with its place and counted; the test
+ * goes on.
  *
  *     int main(void)
  *     {

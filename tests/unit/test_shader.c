@@ -571,7 +571,8 @@ static uint64_t topology(const char *uniform_name, const char *garbage, float co
     return hash;
 }
 
-/* The parts of a shader that compares a string with `mode`; `garbage` is a string that was known before. */
+/* The parts of a shader that compares a string with `mode`; `garbage` is a string that was known
+ * before. */
 static uint64_t topology_of_string(const char *garbage, const char *mode)
 {
     struct fixture f;

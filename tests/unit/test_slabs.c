@@ -507,8 +507,9 @@ struct furnace {
 };
 
 /*
- * The share that the response has of each lobe's single reflections follows from two lights: that of the
- * mirror, and another. The shares times the integrals of these reflections are all the light.
+ * The share that the response has of each lobe's single reflections follows from two lights: that
+ * of the mirror, and another. The shares times the integrals of these reflections are all the
+ * light.
  */
 static double returned(struct run *run, const struct furnace *furnace, ir_ref response)
 {
