@@ -93,6 +93,9 @@ void compile_results(const char *target, const mxg_result *const *results, size_
  */
 bool compile_compute(const char *target, const char *source, struct compiled *out);
 
+/* compiled.c: the same of a pass, with functions of the host that it calls. */
+bool compile_pass(const char *target, const char *source, struct compiled *out);
+
 /* compiled.c: adds a message, for what compiles. */
 void compiled_add(struct compiled *compiled, mxg_stage stage, mxg_severity severity, uint32_t line,
                   const char *text, size_t len);

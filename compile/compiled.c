@@ -74,38 +74,42 @@ enum { MAX_ARGUMENTS = 8192 }; /* bytes of the arguments of a call */
 #define SLANG_STAGE "[shader(\"fragment\")] "
 
 /* How a language declares functions. */
-enum declarations { TYPE_FIRST, NAME_FIRST, NUM_DECLARATIONS };
+enum declarations { TYPE_FIRST, NAME_FIRST, IN_STRUCT, NUM_DECLARATIONS };
 
 /*
  * The file of a host around a function, per target: what stands above it, and what calls it; `main`
  * NULL: functions that nothing calls are compiled, too. `scatter_main` calls scatter().
  * `feature_head` stands above, too, where the shader asks for a feature of the device. Functions of
- * the host have the text of `declarations`.
+ * the host have the text of `declarations`; they stand behind the source, or above it in the struct
+ * that `struct_head` opens.
  */
 static const struct host {
-    const char *target, *head, *vec3, *output, *main, *scatter_main, *feature_head;
+    const char *target, *head, *vec3, *output, *main, *scatter_main, *feature_head, *struct_head;
     enum declarations declarations;
 } hosts[] = {
-    {"glsl", "#version 450\n", "vec3", "out vec4 host_color;\n", "void main()", "void main()", ""},
+    {"glsl", "#version 450\n", "vec3", "out vec4 host_color;\n", "void main()", "void main()", "",
+     NULL},
     {"vulkan", "#version 450\n", "vec3", "layout(location = 0) out vec4 host_color;\n",
-     "void main()", "void main()", ""},
+     "void main()", "void main()", "", NULL},
     {"essl", "#version 300 es\n" ESSL_PRECISIONS, "vec3", "out vec4 host_color;\n", "void main()",
-     "void main()", ""},
+     "void main()", "", NULL},
     {"essl310", "#version 310 es\n" ESSL_PRECISIONS, "vec3",
-     "layout(location = 0) out vec4 host_color;\n", "void main()", "void main()", ""},
-    {"hlsl", "", "float3", "", "void main(out float4 host_color : SV_Target0)", "void main()", ""},
+     "layout(location = 0) out vec4 host_color;\n", "void main()", "void main()", "", NULL},
+    {"hlsl", "", "float3", "", "void main(out float4 host_color : SV_Target0)", "void main()", "",
+     NULL},
     {"slang", "", "float3", "", SLANG_STAGE "void fragmentMain(out float4 host_color : SV_Target0)",
-     SLANG_STAGE "void main()", ""},
-    {"msl",
-     "#include <metal_stdlib>\nusing namespace metal;\nstruct MxgLights {\n    int count() { "
-     "return 2; "
-     "}\n    void light(int i, float3 P, thread float3& L, thread float3& radiance) { L = "
-     "normalize(P); radiance = P; }\n};\n",
-     "float3", "", NULL, NULL, ""},
-    {"wgsl", "", "vec3f", "", NULL, NULL, "enable f16;\n", NAME_FIRST},
+     SLANG_STAGE "void main()", "", NULL},
+    {"msl", "", "float3", "", NULL, NULL, "",
+     "#include <metal_stdlib>\nusing namespace metal;\nstruct MxgHost {\n    int2 mxg_pixel;\n"
+     "    const device float3 *read;\n    texture2d<float> sky;\n",
+     IN_STRUCT},
+    {"wgsl", "", "vec3f", "", NULL, NULL, "enable f16;\n", NULL, NAME_FIRST},
 };
 
-/* Functions that a shader may ask its host for; $ is the type of three floats. */
+/*
+ * Functions that a shader may ask its host for; $ is the type of three floats. A text that is NULL
+ * is the first one.
+ */
 static const struct {
     const char *name, *texts[NUM_DECLARATIONS];
 } host_functions[] = {
@@ -114,7 +118,10 @@ static const struct {
     {"mxg_light",
      {"void mxg_light(int i, $ P, out $ L, out $ radiance) { L = normalize(P); radiance = P; }\n",
       "fn mxg_light(i: i32, P: $, L: ptr<function, $>, radiance: ptr<function, $>) { *L = "
-      "normalize(P); *radiance = P; }\n"}},
+      "normalize(P); *radiance = P; }\n",
+      "void mxg_light(int i, $ P, thread $& L, thread $& radiance) { L = normalize(P); radiance = "
+      "P; "
+      "}\n"}},
     {"mxg_shadow",
      {"float mxg_shadow(int i, $ P, $ N, $ L) { return dot(N, L); }\n",
       "fn mxg_shadow(i: i32, P: $, N: $, L: $) -> f32 { return dot(N, L); }\n"}},
@@ -147,15 +154,20 @@ static size_t write_host_functions(const struct host *host, const char *source, 
 {
     size_t len = 0;
     for (size_t i = 0; i < NUM_HOST_FUNCTIONS; ++i) {
-        const char *text = host_functions[i].texts[host->declarations];
+        const char *const *texts = host_functions[i].texts,
+                          *text = texts[host->declarations] ? texts[host->declarations] : *texts;
         if (!calls(source, host_functions[i].name))
             continue;
-        for (; *text && len + strlen(host->vec3) < MAX_HOST_TEXT - 1; ++text)
+        if (!len && host->struct_head)
+            len = (size_t)sprintf(out, "%s", host->struct_head);
+        for (; *text && len + strlen(host->vec3) < MAX_HOST_TEXT - 4; ++text)
             if (*text == '$')
                 len += (size_t)sprintf(out + len, "%s", host->vec3);
             else
                 out[len++] = *text;
     }
+    if (len && host->struct_head)
+        len += (size_t)sprintf(out + len, "};\n");
     out[len] = '\0';
     return len;
 }
@@ -216,68 +228,91 @@ static void write_caller(const struct host *host, const mxg_result *result,
                              : of_surface);
 }
 
+/* A source in the file of a host. */
+struct hosted {
+    char *text;     /* malloc; NULL: no memory */
+    unsigned above; /* lines above the source */
+};
+
+/* Puts a source between two texts, with functions of the host that it calls. */
+static struct hosted surround(const struct host *host, const char *above, const char *source,
+                              const char *behind)
+{
+    char functions[MAX_HOST_TEXT];
+    size_t len = write_host_functions(host, source, functions),
+           capacity = strlen(above) + len + strlen(source) + strlen(behind) + 2;
+    const char *inside = host->struct_head ? functions : "",
+               *after = host->struct_head ? "" : functions;
+    struct hosted hosted = {malloc(capacity), count_lines(above) + count_lines(inside)};
+    if (hosted.text)
+        snprintf(hosted.text, capacity, "%s%s%s\n%s%s", above, inside, source, after, behind);
+    return hosted;
+}
+
+/* Lines of messages count from the source on. */
+static void free_hosted(struct hosted *hosted, struct compiled *out)
+{
+    for (size_t i = 0; i < out->num_messages; ++i)
+        if (out->messages[i].stage == MXG_STAGE_PIXEL && out->messages[i].line > hosted->above)
+            out->messages[i].line -= hosted->above;
+    free(hosted->text);
+}
+
+static bool compile_hosted(const char *target, const char *vertex, struct hosted *hosted,
+                           struct compiled *out)
+{
+    const char *const sources[MXG_NUM_STAGES] = {vertex, hosted->text};
+    bool good = hosted->text && compile_program(target, sources, out);
+    free_hosted(hosted, out);
+    return good;
+}
+
+bool compile_pass(const char *target, const char *source, struct compiled *out)
+{
+    const struct host *host = find_host(target);
+    *out = (struct compiled){0};
+    if (!host)
+        return false;
+    struct hosted hosted = surround(host, "", source, "");
+    bool good = hosted.text && compile_compute(target, hosted.text, out);
+    free_hosted(&hosted, out);
+    return good;
+}
+
 /* Compiles a function in the file of a host. */
 static bool compile_function(const char *target, const mxg_result *result,
                              const mxg_shader_info *info, struct compiled *out)
 {
     const struct host *host = find_host(target);
-    const char *source = mxg_result_source(result, MXG_STAGE_PIXEL, NULL);
-    size_t capacity = strlen(source) + MAX_HOST_TEXT + 3 * MAX_ARGUMENTS;
-    char *text = host ? malloc(capacity) : NULL;
+    char above[1024], behind[3 * MAX_ARGUMENTS] = "";
     *out = (struct compiled){0};
-    if (!text)
-        return false;
-    const char *feature_head = *info->device_feature ? host->feature_head : "";
-    size_t len = (size_t)snprintf(text, capacity, "%s%s%s", feature_head, host->head, source);
-    if (!strstr(host->head, "MxgLights"))
-        len += write_host_functions(host, source, text + len);
-    if (host->main)
-        write_caller(host, result, info, text + len, capacity - len);
-    bool good = compile_program(target, (const char *const[MXG_NUM_STAGES]){NULL, text}, out);
-    unsigned above = count_lines(feature_head) + count_lines(host->head);
-    for (size_t i = 0; i < out->num_messages; ++i)
-        if (out->messages[i].line > above)
-            out->messages[i].line -= above;
-    free(text);
-    return good;
-}
-
-/*
- * Adds behind the last line of a source, so that the lines of messages stay, what its host would:
- * functions that it calls, and, for the function scatter() of a path tracer (role=scatter), a main
- * where a compiler asks for a program. NULL if it needs nothing; otherwise the caller frees the
- * source.
- */
-static char *with_host(const char *source, const char *target)
-{
-    static const char body[] = "\n{\n    scatter();\n}\n";
-    const struct host *host = source ? find_host(target) : NULL;
-    char functions[MAX_HOST_TEXT];
     if (!host)
-        return NULL;
-    bool needs_main = host->scatter_main && strstr(source, "\nvoid scatter()\n");
-    size_t len = write_host_functions(host, source, functions);
-    if (!needs_main && !len)
-        return NULL;
-    const char *main = needs_main ? host->scatter_main : "";
-    size_t capacity = strlen(source) + len + strlen(main) + sizeof body + 1;
-    char *whole = malloc(capacity);
-    if (whole)
-        snprintf(whole, capacity, "%s\n%s%s%s", source, functions, main, needs_main ? body : "");
-    return whole;
+        return false;
+    snprintf(above, sizeof above, "%s%s", *info->device_feature ? host->feature_head : "",
+             host->head);
+    if (host->main)
+        write_caller(host, result, info, behind, sizeof behind);
+    struct hosted hosted =
+        surround(host, above, mxg_result_source(result, MXG_STAGE_PIXEL, NULL), behind);
+    return compile_hosted(target, NULL, &hosted, out);
 }
 
+/* A function scatter() of a path tracer has a main where a compiler asks for a program. */
 static bool compile_stages(const char *target, const mxg_result *result, struct compiled *out)
 {
+    static const char body[] = "\n{\n    scatter();\n}\n";
+    const struct host *host = find_host(target);
     const char *sources[MXG_NUM_STAGES];
     for (int stage = 0; stage < MXG_NUM_STAGES; ++stage)
         sources[stage] = mxg_result_source(result, (mxg_stage)stage, NULL);
-    char *whole = with_host(sources[MXG_STAGE_PIXEL], target);
-    if (whole)
-        sources[MXG_STAGE_PIXEL] = whole;
-    bool good = compile_program(target, sources, out);
-    free(whole);
-    return good;
+    if (!host || !sources[MXG_STAGE_PIXEL])
+        return compile_program(target, sources, out);
+    char main[128] = "";
+    if (host->scatter_main && strstr(sources[MXG_STAGE_PIXEL], "\nvoid scatter()\n"))
+        snprintf(main, sizeof main, "%s%s", host->scatter_main, body);
+    *out = (struct compiled){0};
+    struct hosted hosted = surround(host, "", sources[MXG_STAGE_PIXEL], main);
+    return compile_hosted(target, sources[MXG_STAGE_VERTEX], &hosted, out);
 }
 
 bool compile_result(const char *target, const mxg_result *result, struct compiled *out)

@@ -13,6 +13,6 @@ extern const struct target target_glsl, target_vulkan, target_essl, target_essl3
 /* The capabilities of every GLSL version. */
 #define GLSL_CAPS \
     (CAP_VERTEX_STAGE | CAP_HOST_FILES | CAP_OVERLOADS | CAP_BITWISE | CAP_IMPLICIT_LOD \
-     | CAP_TEXTURE_ARRAYS | CAP_SAMPLERS | CAP_HOST_FUNCTIONS)
+     | CAP_TEXTURE_ARRAYS | CAP_SAMPLERS)
 
 #endif

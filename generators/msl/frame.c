@@ -222,6 +222,8 @@ static uint32_t num_attributes(const struct spell *spell)
     return end;
 }
 
+enum { HOST_BUFFER = 30 }; /* the last one of Metal */
+
 /* How a list writes what is bound. */
 enum list { MEMBERS, PARAMETERS, ARGUMENTS };
 
@@ -282,6 +284,20 @@ static void list_resource(struct spell *spell, enum list list, const struct spel
     spell_text(spell, ends[list]);
 }
 
+/* The struct of the host's file, which has the functions that the shader calls. */
+static void list_host(struct spell *spell, enum list list)
+{
+    if (!spell_asks_host(spell))
+        return;
+    spell_text(spell, begins[list]);
+    spell_text(spell, list == ARGUMENTS ? "host"
+                      : list == MEMBERS ? "MxgHost " SPELL_HOST_INSTANCE
+                                        : "constant MxgHost& " SPELL_HOST_INSTANCE);
+    if (list == PARAMETERS)
+        text_fmt(spell->out, " [[buffer(%u)]]", (unsigned)HOST_BUFFER);
+    spell_text(spell, ends[list]);
+}
+
 /* MaterialX's order: lights, textures, blocks. */
 static void list_bound(struct spell *spell, enum list list)
 {
@@ -295,19 +311,10 @@ static void list_bound(struct spell *spell, enum list list)
         list_block(spell, list, (enum shader_block)block);
     SPELL_EACH_RESOURCE(r, spell)
     list_resource(spell, list, &r);
+    list_host(spell, list);
 }
 
 /* ---- The context ---- */
-
-/* The lights of the host's file, which has a struct with these two functions. */
-static void write_host_lights(struct spell *spell)
-{
-    spell_text(spell,
-               "    MxgLights lights;\n"
-               "    int mxg_light_count() { return lights.count(); }\n"
-               "    void mxg_light(int i, float3 P, thread float3& L, thread float3& radiance)\n"
-               "    {\n        lights.light(i, P, L, radiance);\n    }\n");
-}
 
 static void write_inputs_and_outputs(struct spell *spell)
 {
@@ -333,8 +340,6 @@ static void open_context(struct spell *spell)
 {
     open_struct(spell, "GlobalContext");
     list_bound(spell, MEMBERS);
-    if (spell->stage->has_lights && spell->shader->lights == LIGHTS_OF_HOST)
-        write_host_lights(spell);
     write_inputs_and_outputs(spell);
     spell_text(spell, "\n");
 }
@@ -354,6 +359,13 @@ static void write_parameters(struct spell *spell)
           " [[stage_in]]");
     list_bound(spell, PARAMETERS);
     spell_text(spell, ")\n{\n");
+}
+
+/* Its functions are members, and those of Metal are for objects of a thread. */
+static void copy_host(struct spell *spell)
+{
+    if (spell_asks_host(spell))
+        spell_text(spell, "    MxgHost host = " SPELL_HOST_INSTANCE ";\n");
 }
 
 /* "    GlobalContext context = {u_prv, mx_words": the begin of a list. */
@@ -376,6 +388,7 @@ static void write_kernel(struct spell *spell)
           "    uint3 place [[thread_position_in_threadgroup]]");
     list_bound(spell, PARAMETERS);
     spell_text(spell, ")\n{\n");
+    copy_host(spell);
     open_arguments(spell);
     SPELL(spell, "};\n",
           pass->has_group ? "    threadgroup atomic_uint bits;\n    context.mx_bits = &bits;\n"
@@ -401,6 +414,9 @@ static void close_context(struct spell *spell)
                            : "void",
           " ", entry);
     write_parameters(spell);
+    copy_host(spell);
+    if (spell_asks_host(spell))
+        SPELL(spell, "    host.mxg_pixel = int2(", vd, ".pos.xy);\n");
     open_arguments(spell);
     spell_text(spell, spell->out->data[spell->out->len - 1] == '{' ? "" : ", ");
     SPELL(spell, inputs, returns ? ", {}};\n" : "};\n", "    context.", entry, "();\n");

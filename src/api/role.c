@@ -38,7 +38,6 @@ static const struct ability {
                  {CAP_TWO_SOURCES, "blend with two sources"},
                  {CAP_HOST_FILES, "be a function in a file of the host"},
                  {CAP_LIGHTING, "compute light in the shader"},
-                 {CAP_HOST_FUNCTIONS, "call functions of the host"},
                  {CAP_CLOSURES, "return closures"},
                  {CAP_MODULES, "have modules"}};
 
@@ -91,17 +90,6 @@ static void check_target(struct generation *g, const char *option, const char *v
 }
 
 /* ---- Options ---- */
-
-static const enum option_id host_functions[] = {OPTION_host_lights, OPTION_host_shadows,
-                                                OPTION_host_occlusion, OPTION_host_environment,
-                                                OPTION_host_thickness};
-
-static void check_host_functions(struct generation *g)
-{
-    for (size_t i = 0; i < sizeof host_functions / sizeof *host_functions; i++)
-        if (g->options[host_functions[i]].number)
-            check_target(g, option_key(host_functions[i]), "true", CAP_HOST_FUNCTIONS);
-}
 
 static bool has_value(const struct generation *g, enum option_id option, const char *value)
 {
@@ -201,7 +189,6 @@ bool generation_find_role(struct generation *g)
         check_target(g, option_key(OPTION_role), asked->name, asked->caps);
     if (has_value(g, OPTION_transparency, "dual"))
         check_target(g, option_key(OPTION_transparency), "dual", CAP_TWO_SOURCES);
-    check_host_functions(g);
     check_tasks(g, asked);
     check_values(g, asked);
     if (is_pass)

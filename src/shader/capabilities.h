@@ -54,11 +54,9 @@ enum target_caps {
 };
 
 /* No enumerators, because an int has no bits for them. */
-/* programs can declare functions that the host appends */
-#define CAP_HOST_FUNCTIONS (UINT64_C(1) << 31)
 /* the language has modules: --mdl-module. It follows from `modules` of the target, too */
-#define CAP_MODULES (UINT64_C(1) << 32)
+#define CAP_MODULES (UINT64_C(1) << 31)
 /* without CAP_BINDINGS: programs say where Vulkan binds their own images and buffers */
-#define CAP_PROGRAM_BINDINGS (UINT64_C(1) << 33)
+#define CAP_PROGRAM_BINDINGS (UINT64_C(1) << 32)
 
 #endif

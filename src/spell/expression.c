@@ -149,8 +149,7 @@ static const char *callee_name(const struct spell *spell, ir_ref call)
                         spell->shader->graph->callees.items[node->attr].name);
     uint32_t callee = shader_callee(spell->shader, call);
     if (node->op == IR_VERBATIM)
-        return str_text(spell->shader->strings,
-                        spell->shader->sources.calls.items[callee].function);
+        return spell_host_name(spell, spell->shader->sources.calls.items[callee].function);
     return spell_function_name(spell, callee);
 }
 

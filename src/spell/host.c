@@ -49,6 +49,29 @@ static void declare_others(struct spell *spell)
     }
 }
 
+bool spell_asks_host(const struct spell *spell)
+{
+    return spell->stage_id == STAGE_PIXEL && spell->shader->reflection.host_functions.len > 0;
+}
+
+const char *spell_host_prefix(const struct spell *spell)
+{
+    return spell->frame->open_context ? SPELL_HOST_INSTANCE "." : "";
+}
+
+const char *spell_host_name(const struct spell *spell, str_id name)
+{
+    const struct shader_reflection *reflection = &spell->shader->reflection;
+    bool is_hosts = false;
+    struct text text;
+    for (uint32_t i = 0; i < reflection->host_functions.len; i++)
+        is_hosts |= reflection->host_functions.items[i] == name;
+    text_init(&text, spell->scratch);
+    text_fmt(&text, "%s%s", is_hosts ? spell_host_prefix(spell) : "",
+             str_text(spell->shader->strings, name));
+    return text_cstr(&text);
+}
+
 void spell_host_functions(struct spell *spell)
 {
     if (spell->frame->open_context || spell->style->syntax->no_directives)

@@ -32,6 +32,18 @@ static const char *member_name(const struct spell *spell, str_id name)
     return text_cstr(&text);
 }
 
+/* The pixel that a pass lights, which it tells functions of the host. */
+static const char *hosts_name(const struct spell *spell, str_id name)
+{
+    struct text text;
+    const char *prefix = spell_host_prefix(spell);
+    if (!*prefix || strcmp(str_text(spell->shader->strings, name), "mxg_pixel") != 0)
+        return NULL;
+    text_init(&text, spell->scratch);
+    text_fmt(&text, "%smxg_pixel", prefix);
+    return text_cstr(&text);
+}
+
 /* Inputs of a program are variables of the interface, if it has such a name. */
 static const char *global_name(void *user_data, uint32_t id)
 {
@@ -39,6 +51,8 @@ static const char *global_name(void *user_data, uint32_t id)
     const struct lang_global *global = lang_global(spell->program->unit, id, NULL);
     if (global->kind == LANG_GLOBAL_UNIFORM && spell->target->instances)
         return member_name(spell, global->name);
+    if (global->kind == LANG_GLOBAL_VARIABLE)
+        return hosts_name(spell, global->name);
     if (global->kind != LANG_GLOBAL_STREAM)
         return NULL;
     if (strcmp(str_text(spell->shader->strings, global->name), "gl_FragCoord") == 0)
@@ -166,7 +180,7 @@ static void write_variable(struct spell *spell, const struct lang_names *names, 
 {
     const struct lang_unit *unit = spell->program->unit;
     const struct lang_global *global = lang_global(unit, id, NULL);
-    if (global->kind != LANG_GLOBAL_VARIABLE)
+    if (global->kind != LANG_GLOBAL_VARIABLE || hosts_name(spell, global->name))
         return;
     lang_print_variable(spell->style, names, unit, PHRASE_VARIABLE, global->type,
                         lang_word(str_text(unit->strings, global->name)), spell->out);

@@ -292,6 +292,14 @@ void spell_stage(struct spell *spell, enum shader_stage_id stage);
 
 /* Declares the functions of the host that the stage calls, in languages that need it. */
 void spell_host_functions(struct spell *spell);
+/* The member of a context whose type is a struct of the host, with its functions. */
+#define SPELL_HOST_INSTANCE "mxg_host"
+/* True if the stage calls functions of the host. */
+bool spell_asks_host(const struct spell *spell);
+/* Before the names of what the host has: "mxg_host." in a language with contexts. */
+const char *spell_host_prefix(const struct spell *spell);
+/* A function by name, as the stage calls it. */
+const char *spell_host_name(const struct spell *spell, str_id name);
 
 /* ---- verbatim_text.c ---- */
 

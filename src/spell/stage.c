@@ -89,7 +89,7 @@ static void name_functions(struct spell *spell)
         if (lang_module_name(shader->unit, id))
             continue;
         if (!fn->body) { /* the host has named it */
-            spell->functions[id] = str_text(shader->strings, source);
+            spell->functions[id] = spell_host_name(spell, source);
             names_take(&spell->names, str_text(shader->strings, source),
                        str_len(shader->strings, source));
             continue;
@@ -197,7 +197,8 @@ static bool is_variable(const struct spell *spell, uint32_t global)
     return shader_global_variable(spell->shader, global) != UINT32_MAX;
 }
 
-/* By position in the reach: whether a function reads variables of the interface. */
+/* By position in the reach: whether a function reads variables of the interface or is the host's.
+ */
 static const bool *find_readers(const struct spell *spell)
 {
     const struct lang_reach *reach = &spell->stage->reach;
@@ -207,6 +208,7 @@ static const bool *find_readers(const struct spell *spell)
     for (uint32_t i = 0; i < reach->functions.len; i++) {
         uint32_t id = reach->functions.items[i];
         const struct lang_function *fn = lang_function(unit, id, &layer);
+        readers[i] = !fn->body;
         for (uint32_t k = 0; k < fn->num_globals; k++)
             readers[i] |= is_variable(spell, ast_globals(layer, fn)[k]);
         for (uint32_t k = 0; k < fn->num_callees; k++)

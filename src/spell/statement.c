@@ -374,7 +374,7 @@ static const char *private_name(const struct spell *spell, str_id asked)
 static void write_last_light(struct spell *spell)
 {
     if (spell->shader->lights == LIGHTS_OF_HOST) {
-        spell_text(spell, "mxg_light_count() - 1");
+        SPELL(spell, spell_host_prefix(spell), "mxg_light_count() - 1");
         return;
     }
     SPELL(spell, "min(", private_name(spell, STR_u_numActiveLightSources), ", ");

@@ -150,4 +150,5 @@ def main():
             answer_group(list(draws), folder, str(number), images)
 
 
-main()
+if __name__ == '__main__':
+    main()

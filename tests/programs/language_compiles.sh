@@ -72,7 +72,12 @@ roles 'slabs without holes' pack -- "${balls[@]}" --interfaces complete,reduced 
 roles 'decals in images' payload -- "${balls[@]}" --interfaces reduced --decals images
 roles 'decals in images on slabs' deferred pack -- "${balls[@]}" --interfaces reduced --decals images --slabs --transparency opaque
 case $target in
-    msl | wgsl | slang) roles 'half floats' raster function payload -- "${balls[@]}" --interfaces complete,reduced --precision mediump ;;
+    msl | wgsl | slang)
+        roles 'half floats' raster function payload -- "${balls[@]}" --interfaces complete,reduced --precision mediump
+        roles 'a host with lights' raster -- "${balls[@]}" --interfaces reduced --host-lights --host-occlusion --host-environment --host-thickness
+        roles 'a host with shadows' raster -- "${balls[@]}" --interfaces reduced --host-shadows --environment none
+        roles 'a host with an environment' function -- "${balls[@]}" --interfaces reduced --host-occlusion --host-environment
+        ;;
 esac
 ! $has_folders || roles 'documents' function deferred payload -- "${documents[@]}" --trust --interfaces reduced
 finish "$target"

@@ -82,6 +82,9 @@ for target in hlsl slang msl; do
     check "passes are generated for $target" "$mxgen" pipeline "$target" --target "$target"
 done
 check "files of passes have the endings of their languages" test -s hlsl/over.cs.hlsl -a -s hlsl/read.hlsl -a -s slang/over.comp.slang -a -s msl/show.comp.metal -a -s msl/read.metal
+check "passes in Metal ask their host" "$mxgen" pipeline hosted_msl --target msl --host-lights --host-environment
+check "they tell it the pixel" grep -q '^    mxg_host.mxg_pixel = pixel;' hosted_msl/light_single.comp.metal
+check "those that light nothing have no host" eval '! grep -q mxg_ hosted_msl/classify.comp.metal hosted_msl/compose.comp.metal'
 if command -v glslangValidator >/dev/null; then
     cat hlsl/read.hlsl - >read.hlsl <<'X'
 RWTexture2D<float4> picture : register(u0, space0);
