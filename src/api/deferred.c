@@ -22,10 +22,10 @@ static const struct lang_unit *parse_program(struct shader *shader, const struct
 struct deferred_layout generation_storage(const struct generation *g)
 {
     const struct option_value *options = g->options;
-    bool is_payload = g->role->returns == RETURNS_PAYLOAD || g->role->reads == READS_PAYLOADS;
+    bool is_of_rays = role_is_of_rays(g->role);
     return (struct deferred_layout){
         .storage =
-            is_payload ? STORAGE_ROUND : (enum deferred_storage)options[OPTION_storage].number,
+            is_of_rays ? STORAGE_ROUND : (enum deferred_storage)options[OPTION_storage].number,
         .set = (uint32_t)options[OPTION_binding_set].number + 1,
         .sets = g->result->target->caps & (CAP_SETS | CAP_PROGRAM_BINDINGS),
         .has_bindings = g->result->target->syntax->in_images
@@ -34,11 +34,10 @@ struct deferred_layout generation_storage(const struct generation *g)
         .any_format = g->result->target->any_format,
         .first = g->result->target->first_resource,
         .parse = g->result->target->syntax->in_images ? NULL : parse_program,
-        .is_payload = is_payload,
-        .is_function = g->role->returns == RETURNS_WORDS,
+        .role = g->role,
         .diffuses = options[OPTION_sss].number != 0,
-        .blurs = !is_payload && options[OPTION_rough_refraction].number,
-        .has_occlusion = !is_payload && options[OPTION_occlusion_map].number,
+        .blurs = !is_of_rays && options[OPTION_rough_refraction].number,
+        .has_occlusion = !is_of_rays && options[OPTION_occlusion_map].number,
         .has_decals = role_stores(g->role) && options[OPTION_decals].number,
     };
 }

@@ -59,14 +59,14 @@ static void set_build_options(struct generation *g)
     const struct option_value *o = g->options;
     const mxg_context *context = g->result->object.context;
     uint64_t caps = target_capabilities(g->result->target);
-    bool is_pass = role_is_pass(g->role),
-         hosts_environment = o[OPTION_host_environment].number && o[OPTION_environment].number != 0;
+    bool hosts_environment = o[OPTION_host_environment].number && o[OPTION_environment].number != 0;
     g->build_options = (struct build_options){
         .syntax = g->result->target->syntax,
-        .interface = is_pass ? INTERFACE_REDUCED : (enum build_interface)o[OPTION_interface].number,
+        .interface = role_is_pass(g->role) ? INTERFACE_REDUCED
+                                           : (enum build_interface)o[OPTION_interface].number,
         .publish_all = o[OPTION_publish].number != 0,
         .uniform_globs = o[OPTION_uniform].list.items,
-        .num_uniform_globs = is_pass ? 0 : o[OPTION_uniform].list.len,
+        .num_uniform_globs = role_is_pass(g->role) ? 0 : o[OPTION_uniform].list.len,
         .constant_globs = o[OPTION_constant].list.items,
         .num_constant_globs = o[OPTION_constant].list.len,
         .colorspace = option_name(g, OPTION_colorspace),

@@ -179,11 +179,11 @@ bool generation_has_module(struct generation *g)
 bool generation_find_role(struct generation *g)
 {
     uint32_t before = diags_of(g)->num_errors;
-    bool is_pass = g->role != NULL;
-    if (!is_pass)
+    bool is_known = g->role != NULL; /* of a pass: its name says it */
+    if (!is_known)
         g->role = role_of_options(g);
-    const struct role *asked = is_pass ? check_pass(g) : g->role;
-    if (is_pass)
+    const struct role *asked = is_known ? check_pass(g) : g->role;
+    if (is_known)
         check_target(g, "pass", deferred_pass_name(g->result->pass), g->role->caps);
     else
         check_target(g, option_key(OPTION_role), asked->name, asked->caps);
@@ -191,7 +191,7 @@ bool generation_find_role(struct generation *g)
         check_target(g, option_key(OPTION_transparency), "dual", CAP_TWO_SOURCES);
     check_tasks(g, asked);
     check_values(g, asked);
-    if (is_pass)
+    if (is_known)
         leave_tasks(g);
     return diags_of(g)->num_errors == before;
 }

@@ -47,14 +47,14 @@ bool generation_slab_features(struct generation *g)
 
 struct slab_budget generation_slab_budget(const struct generation *g)
 {
-    bool is_payload = g->role->returns == RETURNS_PAYLOAD;
+    bool packs_one = g->role->returns == RETURNS_PAYLOAD;
     return (struct slab_budget){
-        .max_slabs = is_payload ? 1 : (uint32_t)g->options[OPTION_max_slabs].number,
+        .max_slabs = packs_one ? 1 : (uint32_t)g->options[OPTION_max_slabs].number,
         .max_bytes = (uint32_t)g->options[OPTION_max_bytes].number,
         .max_error = g->options[OPTION_max_error].real,
         .off = g->slab_features_off,
-        .recognises = g->options[OPTION_slabs].number != 0 || is_payload,
-        .max_steps = is_payload ? -1 : (int32_t)g->options[OPTION_max_steps].number,
+        .recognises = g->options[OPTION_slabs].number != 0 || packs_one,
+        .max_steps = packs_one ? -1 : (int32_t)g->options[OPTION_max_steps].number,
     };
 }
 

@@ -5,14 +5,9 @@
 
 #include <string.h>
 
-static bool is_pass(const mxg_result *result)
-{
-    return role_is_pass(result->shader.role);
-}
-
 static uint32_t classes_of(const mxg_result *result)
 {
-    if (!is_pass(result))
+    if (!role_is_pass(result->shader.role))
         return result->shader.reflection.stored_classes;
     enum deferred_class lit = deferred_pass_class(result->pass);
     return lit == CLASS_EMPTY || !deferred_is_indirect(result->pass) ? 0 : 1u << lit;
@@ -24,8 +19,9 @@ mxg_status mxg_result_storage(const mxg_result *result, mxg_storage *out)
         return MXG_ERROR_ARGUMENT;
     uint32_t words = result->shader.reflection.stored_words;
     mxg_storage full = {.words = words,
-                        .layout =
-                            is_pass(result) || words ? deferred_layout_number(&result->storage) : 0,
+                        .layout = role_is_pass(result->shader.role) || words
+                                      ? deferred_layout_number(&result->storage)
+                                      : 0,
                         .classes = classes_of(result)};
     return struct_write(out, &full, sizeof full);
 }
@@ -72,7 +68,7 @@ mxg_status mxg_catalogue_pass_member(uint32_t resource, uint32_t index, mxg_pass
 
 mxg_status mxg_result_pass(const mxg_result *result, mxg_pass *out)
 {
-    if (!result || !result->has_shader || !is_pass(result))
+    if (!result || !result->has_shader || !role_is_pass(result->shader.role))
         return MXG_ERROR_ARGUMENT;
     mxg_pass full = {.name = deferred_pass_name(result->pass),
                      .group_size = {DEFERRED_TILE, DEFERRED_TILE, 1},
@@ -154,11 +150,10 @@ static void put_resource(const struct deferred_layout *layout, enum deferred_bin
 
 static const char *name_of(const mxg_result *result)
 {
-    if (is_pass(result))
+    if (role_is_pass(result->shader.role))
         return deferred_pass_name(result->pass);
-    return result->storage.is_payload    ? "payload"
-           : result->storage.is_function ? "pack"
-                                         : "material";
+    const struct role *role = result->shader.role;
+    return role->returns == RETURNS_SLABS ? "material" : role->name;
 }
 
 /* The classes of a material by name. */
@@ -182,8 +177,10 @@ static void put_resources(const mxg_result *result, struct json *json)
     const struct deferred_layout *layout = &result->storage;
     const struct source_resources material =
         deferred_of_material(layout, result->shader.reflection.stored_words);
-    uint32_t reads = is_pass(result) ? deferred_reads(result->pass, layout) : material.reads,
-             writes = is_pass(result) ? deferred_writes(result->pass, layout) : material.writes;
+    uint32_t reads = role_is_pass(result->shader.role) ? deferred_reads(result->pass, layout)
+                                                       : material.reads,
+             writes = role_is_pass(result->shader.role) ? deferred_writes(result->pass, layout)
+                                                        : material.writes;
     json_key(json, "resources");
     json_open(json, '[');
     for (uint32_t i = 0; i < NUM_RESOURCES; i++)
@@ -240,20 +237,20 @@ void result_storage(void *user_data, struct json *json)
 {
     const mxg_result *result = user_data;
     uint32_t words = result->shader.reflection.stored_words;
-    if (!is_pass(result) && deferred_is_decal(&result->storage))
+    if (!role_is_pass(result->shader.role) && deferred_is_decal(&result->storage))
         put_decal(json);
-    if (!is_pass(result) && !words)
+    if (!role_is_pass(result->shader.role) && !words)
         return;
     json_key(json, "deferred");
     json_open(json, '{');
     json_put_text(json, "pass", name_of(result));
     json_put_number(json, "layout", deferred_layout_number(&result->storage));
-    if (is_pass(result))
+    if (role_is_pass(result->shader.role))
         put_pass(result->pass, json);
     json_put_nonzero(json, "words", words);
-    if (!is_pass(result) && !result->storage.is_payload) {
+    if (!role_is_pass(result->shader.role) && role_packs_pixel(result->shader.role)) {
         put_classes(result->shader.reflection.stored_classes, json);
-        if (!result->storage.is_function)
+        if (result->shader.role->returns == RETURNS_SLABS)
             put_targets(false, json);
     }
     put_resources(result, json);

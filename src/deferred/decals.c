@@ -49,7 +49,7 @@ static ir_ref decal_at(struct shader *shader, const struct deferred_layout *layo
 {
     struct ir_graph *g = shader->graph;
     str_id name = name_of(shader, image);
-    if (layout->is_function)
+    if (layout->role->returns == RETURNS_WORDS)
         return deferred_given(shader, name, IR_TYPE_VEC4);
     const char *value = str_text(shader->strings, name) + strlen("decal_");
     ir_ref number = ir_const_int(g, (int)image);
@@ -112,7 +112,7 @@ ir_ref deferred_painted(struct shader *shader, const struct closure_host *host, 
 ir_ref deferred_painted_light(struct shader *shader, const struct deferred_layout *layout,
                               ir_ref emission)
 {
-    if (!emission || !layout->has_decals || layout->is_payload)
+    if (!emission || !layout->has_decals || layout->role->returns == RETURNS_PAYLOAD)
         return emission;
     ir_ref light = ir_convert(shader->graph, IR_TYPE_VEC3, emission);
     ir_ref decal = decal_at(shader, layout, ALBEDO);

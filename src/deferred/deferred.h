@@ -10,6 +10,7 @@
 #define MXG_DEFERRED_DEFERRED_H
 
 #include "closure/closure.h"
+#include "shader/role.h"
 
 enum {
     DEFERRED_MAX_CLOSURES = 16,  /* of a pixel: word 1 has four bits for their number */
@@ -36,18 +37,17 @@ struct deferred_layout {
      */
     const struct lang_unit *(*parse)(struct shader *shader, const struct text *text);
     uint32_t max_words; /* of a pixel of this material, by the cost of its slabs; 0: of a pass */
-    bool is_payload;    /* of a ray, in place of a pixel */
-    bool is_function;   /* the words of a pixel are results, not outputs and layers of an image */
-    bool diffuses;      /* the option `sss`: the pass "diffuse" spreads the light of bodies */
-    bool blurs;         /* the option `rough-refraction`: the pass "blur" */
-    bool has_occlusion; /* the option `occlusion-map`: the alpha of target 0 */
-    bool has_decals;    /* the option `decals`: images of their own */
+    const struct role *role; /* of the material, or of the pass */
+    bool diffuses;           /* the option `sss`: the pass "diffuse" spreads the light of bodies */
+    bool blurs;              /* the option `rough-refraction`: the pass "blur" */
+    bool has_occlusion;      /* the option `occlusion-map`: the alpha of target 0 */
+    bool has_decals;         /* the option `decals`: images of their own */
 };
 
 /* True for a payload that returns values for images of decals, in place of words. */
 static inline bool deferred_is_decal(const struct deferred_layout *layout)
 {
-    return layout->is_payload && layout->has_decals;
+    return layout->has_decals && role_is_of_rays(layout->role);
 }
 
 /* A hash of the storage: materials and passes with equal ones fit together. */

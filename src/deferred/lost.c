@@ -38,7 +38,7 @@ void deferred_note_lost(struct shader *shader, const struct deferred_layout *lay
     enum form form = deferred_is_decal(layout) ? DECAL : PAYLOAD;
     const char *why = form == DECAL ? why_decal : "a payload has no room for it";
     ir_ref backlight = deferred_backlight(shader, all);
-    if (!layout->is_payload)
+    if (layout->role->returns != RETURNS_PAYLOAD)
         return;
     if (backlight)
         note(shader, backlight, "thin", "no light comes from behind what is stored");

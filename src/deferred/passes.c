@@ -225,7 +225,7 @@ void deferred_write_storage(const struct deferred_layout *layout, struct text *o
 uint32_t deferred_layout_number(const struct deferred_layout *layout)
 {
     uint64_t h = deferred_hash_values(HASH_STABLE_SEED);
-    uint32_t storage = (uint32_t)layout->storage | (uint32_t)layout->is_payload << 8
+    uint32_t storage = (uint32_t)layout->storage | (uint32_t)role_is_of_rays(layout->role) << 8
                        | (uint32_t)layout->diffuses << 9 | (uint32_t)layout->blurs << 10
                        | (uint32_t)layout->has_occlusion << 11;
     for (const char *const *line = deferred_record; *line; line++)

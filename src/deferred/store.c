@@ -224,7 +224,7 @@ static uint32_t find_classes(const struct ir_graph *g, const struct stored_slab 
 static void measure(struct shader *shader, const struct closure_list *marks,
                     const struct deferred_layout *layout)
 {
-    if (layout->is_payload) {
+    if (layout->role->returns == RETURNS_PAYLOAD) {
         shader->reflection.stored_words = DEFERRED_PAYLOAD_WORDS;
         return;
     }
@@ -266,7 +266,8 @@ static ir_ref table_of(struct shader *shader, ir_ref texture, ir_ref weight)
 static bool is_unread(const struct ir_graph *g, ir_ref mark, unsigned operand,
                       const struct deferred_layout *layout)
 {
-    bool has_glints = !layout->is_payload && deferred_has_part(g, mark, MARK_glint_density);
+    bool has_glints =
+        layout->role->returns != RETURNS_PAYLOAD && deferred_has_part(g, mark, MARK_glint_density);
     bool is_turned =
         layout->storage == STORAGE_FLOAT || deferred_has_part(g, mark, MARK_anisotropy);
     if (operand == MARK_tangent)
@@ -311,17 +312,17 @@ static const char stored_word[] = "uint mx_stored_word(int finished, int index)\
 /* The text of what packs and keeps closures. */
 static void write_keeper(const struct deferred_layout *layout, struct text *out)
 {
-    if (layout->is_function)
+    if (layout->role->returns == RETURNS_WORDS)
         deferred_write_lines(deferred_words, false, out);
-    deferred_write_lines(layout->is_payload ? deferred_pack : deferred_write, layout->is_function,
-                         out);
-    if (layout->is_function)
+    deferred_write_lines(layout->role->returns == RETURNS_PAYLOAD ? deferred_pack : deferred_write,
+                         layout->role->returns == RETURNS_WORDS, out);
+    if (layout->role->returns == RETURNS_WORDS)
         deferred_write_lines(deferred_words_end, false, out);
 }
 
 static bool is_pixel_stage(const struct deferred_layout *layout)
 {
-    return !layout->is_payload && !layout->is_function;
+    return layout->role->returns == RETURNS_SLABS;
 }
 
 static struct source_resources resources_of_words(const struct deferred_layout *layout,
@@ -362,7 +363,8 @@ uint32_t deferred_add_source(struct shader *shader, const struct deferred_layout
 static uint32_t add_source(struct shader *shader, const struct deferred_layout *layout)
 {
     bool is_pixel = is_pixel_stage(layout),
-         has_more = !layout->is_payload && shader->reflection.stored_words > DEFERRED_TARGET_WORDS;
+         has_more = layout->role->returns != RETURNS_PAYLOAD
+                    && shader->reflection.stored_words > DEFERRED_TARGET_WORDS;
     const struct source_resources resources =
         resources_of_words(layout, shader->reflection.stored_words);
     struct text text;
@@ -440,7 +442,7 @@ ir_ref deferred_given(struct shader *shader, str_id name, ir_type_id type)
 static ir_ref begin(struct shader *shader, const struct deferred_layout *layout, uint32_t source)
 {
     struct ir_graph *g = shader->graph;
-    if (!layout->is_function)
+    if (layout->role->returns != RETURNS_WORDS)
         return ir_const_int(g, 0);
     ir_ref place = ir_const_splat(g, IR_TYPE_VEC2, 0.0f);
     if (layout->storage == STORAGE_DITHER)
@@ -538,7 +540,7 @@ void deferred_store(struct shader *shader, const struct closure_host *host,
     closure_flatten(shader, &spreading, surface->bsdf, &spread);
     struct closure_list marks = marks_of(shader, surface->bsdf, surface->list);
     ir_ref emission = deferred_painted_light(shader, layout, surface->emission);
-    if (layout->is_payload)
+    if (layout->role->returns == RETURNS_PAYLOAD)
         premultiply(shader, surface, &marks, &emission);
     shader->reflection.closures.len = 0; /* lights of slabs are no closures of their own here */
     deferred_note_lost(shader, layout, surface->list, &marks);
@@ -555,9 +557,9 @@ void deferred_store(struct shader *shader, const struct closure_host *host,
         const struct closure_leaf *leaf = &marks.leaves.items[i];
         store_leaf(shader, leaf, is_spread(&spread, leaf), local, source, layout);
     }
-    if (layout->is_payload)
+    if (layout->role->returns == RETURNS_PAYLOAD)
         finish_payload(shader, source, local, emission, surface->alpha);
-    else if (layout->is_function)
+    else if (layout->role->returns == RETURNS_WORDS)
         finish_words(shader, source, local, surface, emission);
     else
         finish_pass(shader, layout, source, local, surface, emission);

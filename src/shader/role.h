@@ -106,6 +106,12 @@ static inline bool role_packs_pixel(const struct role *role)
     return role->returns == RETURNS_SLABS || role->returns == RETURNS_WORDS;
 }
 
+/* True if it packs surfaces that rays hit, or lights them. */
+static inline bool role_is_of_rays(const struct role *role)
+{
+    return role->returns == RETURNS_PAYLOAD || role->reads == READS_PAYLOADS;
+}
+
 /* True for a pass over what others stored: a compute stage in the place of the pixel stage. */
 static inline bool role_is_pass(const struct role *role)
 {
