@@ -53,6 +53,9 @@ bool code_numbers(struct mxg_build *build, ir_type_id type, const float *numbers
 /* A type by name; VOID after a report. */
 ir_type_id code_type(struct mxg_build *build, const char *name);
 
+/* The node, in its document. */
+struct diag_place code_place(const struct mxg_build *build);
+
 /* Reports a mistake of the code: "'ND_gain' asks for an input that it does not have: 'x'". */
 void code_fault(struct mxg_build *build, const char *fault, const char *word);
 

@@ -133,6 +133,18 @@ def check_layout():
         check(not broken, f"{header.name}: '{broken and broken.group().strip()}' is alone on a line; put the comment above the declaration")
 
 
+def check_room(functions):
+    """The room api defines all of them: who reads it has seen what a host can call."""
+    defined = {}
+    for path in sorted((ROOT / "src").rglob("*.c")):
+        for name in re.findall(r"^[a-z][^;=\n]*?\b(mxg_\w+)\((?=[^;{]*\)\s*\{)", path.read_text(encoding="utf-8"), re.MULTILINE):
+            defined[name] = path.relative_to(ROOT)
+    for name, path in defined.items():
+        check(name not in functions or path.parts[:2] == ("src", "api"), f"{name} is a function of hosts: it belongs to src/api, not to {path}")
+    missing = functions.keys() - defined.keys()
+    check(not missing, f"no definition was found of {sorted(missing)}")
+
+
 def main():
     text, functions = declarations()
     members = set(MEMBER.findall(text))
@@ -150,6 +162,7 @@ def main():
                 check_object(function, kind, words, functions, members)
     check(len(functions) > 150, f"the headers declare {len(functions)} functions only")
     check_layout()
+    check_room(functions)
     print(f"{len(functions)} functions of {len(objects)} objects")
     finish("grammar")
 
