@@ -61,6 +61,8 @@ void deferred_note_lost(struct shader *shader, const struct deferred_layout *lay
                         const struct closure_list *all, const struct closure_list *marks);
 /* Notes the light of a decal, which its images have no room for; 0: it has none. */
 void deferred_note_lost_light(struct shader *shader, ir_ref emission);
+/* Notes what a sum of equal slabs has more of, by an input of the slab, than there is room for. */
+void deferred_note_lost_weight(struct shader *shader, ir_ref mark, const char *part);
 
 /* ---- passes.c and others ---- */
 

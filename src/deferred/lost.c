@@ -56,3 +56,8 @@ void deferred_note_lost_light(struct shader *shader, ir_ref emission)
     if (emission && !ir_const_is(shader->graph, emission, 0.0f))
         note(shader, emission, "emission", why_decal);
 }
+
+void deferred_note_lost_weight(struct shader *shader, ir_ref mark, const char *part)
+{
+    note(shader, mark, part, "a sum of equal slabs has more of it than 1, which is the most");
+}

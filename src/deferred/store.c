@@ -19,6 +19,7 @@
 #include "slabs/bytes.h"
 
 #include <assert.h>
+#include <math.h>
 
 static bool is_of_family(const struct shader *shader, ir_ref leaf, const char *family)
 {
@@ -169,6 +170,13 @@ enum {
 #include "deferred/closure.def"
 #undef CLOSURE_VALUE
 };
+
+/* True for a weight that a word has room for. */
+static bool is_light_enough(const struct ir_graph *g, const struct closure_leaf *leaf)
+{
+    const float rounding = 1e-4f;
+    return closure_most_weight(g, leaf) <= 1.0f + rounding;
+}
 
 static bool is_white(const struct ir_graph *g, const struct closure_leaf *leaf)
 {
@@ -487,6 +495,47 @@ static void premultiply(struct shader *shader, const struct closure_stored *surf
         *emission = times(g, *emission, surface->alpha);
 }
 
+/* An input of a slab times a weight above 1, as far as there is light for it. */
+static ir_ref weighed(struct shader *shader, ir_ref mark, enum mark_operand operand,
+                      const char *name, ir_ref weight)
+{
+    struct ir_graph *g = shader->graph;
+    const float rounding = 1e-4f;
+    ir_ref value = ir_mul(g, ir_arg(g, mark, operand), weight);
+    struct ir_value known = {.type = IR_TYPE_VOID};
+    bool is_too_much = ir_get_const(g, value, &known)
+                       && fmaxf(fmaxf(known.w[0].f, known.w[1].f), known.w[2].f) > 1 + rounding;
+    if (is_too_much)
+        deferred_note_lost_weight(shader, mark, name);
+    return ir_op2(g, IR_MIN, value, ir_white(g));
+}
+
+/* A payload has no weights above 1, as a sum of equal slabs has: their albedo and f0 are more. */
+static void take_weights(struct shader *shader, struct closure_list *marks)
+{
+    struct ir_graph *g = shader->graph;
+    for (uint32_t i = 0; i < marks->leaves.len; i++) {
+        struct closure_leaf *leaf = &marks->leaves.items[i];
+        ir_ref args[NUM_MARK_OPERANDS];
+        if (is_light_enough(g, leaf))
+            continue;
+        if (leaf->decay) {
+            deferred_note_lost_weight(shader, leaf->leaf, "diffuse_albedo");
+            continue;
+        }
+        ir_ref weight = times(g, leaf->color, leaf->scalar),
+               more = ir_op2(g, IR_MAX, weight, ir_white(g));
+        memcpy(args, ir_args(g, leaf->leaf), sizeof args);
+        args[MARK_diffuse_albedo] =
+            weighed(shader, leaf->leaf, MARK_diffuse_albedo, "diffuse_albedo", more);
+        args[MARK_f0] = weighed(shader, leaf->leaf, MARK_f0, "f0", more);
+        const struct ir_node *node = ir_get(g, leaf->leaf);
+        leaf->color = ir_op2(g, IR_MIN, weight, ir_white(g));
+        leaf->scalar = ir_const_float(g, 1.0f);
+        leaf->leaf = ir_build(g, IR_LEAF, IR_TYPE_BSDF, node->attr, args, NUM_MARK_OPERANDS);
+    }
+}
+
 /* The end of a payload function: an output per word. */
 static void finish_payload(struct shader *shader, uint32_t source, uint32_t local, ir_ref emission,
                            ir_ref alpha)
@@ -522,10 +571,9 @@ static void put_decal(struct shader *shader, const struct closure_host *host,
 
 const char *deferred_why_no_room(const struct shader *shader, const struct closure_list *list)
 {
-    const float rounding = 1e-4f;
     for (uint32_t i = 0; i < list->leaves.len; i++)
         if (deferred_is_mark(shader, list->leaves.items[i].leaf)
-            && closure_most_weight(shader->graph, &list->leaves.items[i]) > 1.0f + rounding)
+            && !is_light_enough(shader->graph, &list->leaves.items[i]))
             return "a sum of equal slabs may weigh more than 1";
     return deferred_backlight(shader, list) ? "no word has the light from behind a sheet" : NULL;
 }
@@ -540,8 +588,10 @@ void deferred_store(struct shader *shader, const struct closure_host *host,
     closure_flatten(shader, &spreading, surface->bsdf, &spread);
     struct closure_list marks = marks_of(shader, surface->bsdf, surface->list);
     ir_ref emission = deferred_painted_light(shader, layout, surface->emission);
-    if (layout->role->returns == RETURNS_PAYLOAD)
+    if (layout->role->returns == RETURNS_PAYLOAD) {
+        take_weights(shader, &marks);
         premultiply(shader, surface, &marks, &emission);
+    }
     shader->reflection.closures.len = 0; /* lights of slabs are no closures of their own here */
     deferred_note_lost(shader, layout, surface->list, &marks);
     if (deferred_is_decal(layout)) {
