@@ -366,6 +366,17 @@ static void open_sights(struct slab_eye *eye)
         look(eye, eye->first, &eye->whole);
 }
 
+/* Adds how much two colours of one glance and light differ to each side of the ball. */
+static void add_difference(const struct slab_eye *eye, const float *a, const float *b, uint32_t at,
+                           double sides[SLAB_NUM_SIDES])
+{
+    const struct slab_glances *glances = &eye->glances;
+    const struct slab_glance *glance = &glances->items.items[at / NUM_LIGHTS % glances->items.len];
+    double difference = light_weights[at % NUM_LIGHTS] * color_difference(a + at * 3, b + at * 3);
+    for (unsigned i = 0; i < SLAB_NUM_SIDES; i++)
+        sides[i] += difference * glance->weights[i];
+}
+
 float slabs_estimate(struct slab_eye *eye, ir_ref root)
 {
     if (!eye->sights)
@@ -374,15 +385,15 @@ float slabs_estimate(struct slab_eye *eye, ir_ref root)
     struct look b = {0};
     if (a->is_known)
         look(eye, root, &b);
-    double sum = 0.0;
-    uint32_t num = a->colors.len / 3, num_glances = eye->glances.items.len;
+    double sides[SLAB_NUM_SIDES] = {0}, worst = 0.0;
+    uint32_t num = a->colors.len / 3, num_looks = eye->glances.items.len * NUM_LIGHTS;
     if (!a->is_known || !b.is_known || a->colors.len != b.colors.len || num == 0)
         return -1.0f;
     for (uint32_t i = 0; i < num; i++)
-        sum += light_weights[i % NUM_LIGHTS]
-               * eye->glances.items.items[i / NUM_LIGHTS % num_glances].weight
-               * color_difference(a->colors.items + i * 3, b.colors.items + i * 3);
-    return (float)(sum * num_glances * NUM_LIGHTS / num); /* the mean of several surfaces */
+        add_difference(eye, a->colors.items, b.colors.items, i, sides);
+    for (unsigned i = 0; i < SLAB_NUM_SIDES; i++)
+        worst = fmax(worst, sides[i]);
+    return (float)(worst * num_looks / num); /* the mean of several surfaces */
 }
 
 uint64_t slabs_num_steps(const struct slab_eye *eye)

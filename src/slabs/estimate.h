@@ -16,7 +16,8 @@ struct slab_eye;
 struct slab_eye *slabs_open_eye(struct shader *shader, const struct slabs_host *host, ir_ref first);
 /*
  * The estimated error of a tree: the mean CIEDE2000 of all surfaces below its root, and those of
- * the first tree. -1: unknown, because the evaluator cannot compute a value.
+ * the first tree, of the worst side of the ball. -1: unknown, because the evaluator cannot compute
+ * a value.
  */
 float slabs_estimate(struct slab_eye *eye, ir_ref root);
 /* The work since the eye opened: steps of the evaluator, and of building trees and their colours.

@@ -15,13 +15,29 @@ static float fraction(float x)
 }
 
 /* A spiral of equal areas around the axis y (Vogel 1979). */
-static void position_at(unsigned at, float out[3])
+static void point_of_spiral(unsigned at, unsigned num, float out[3])
 {
-    float y = 1.0f - (2.0f * (float)at + 1.0f) / SLAB_NUM_PLACES, radius = sqrtf(1.0f - y * y),
+    float y = 1.0f - (2.0f * (float)at + 1.0f) / (float)num, radius = sqrtf(1.0f - y * y),
           turn = GOLDEN_ANGLE * (float)at;
     out[0] = radius * cosf(turn);
     out[1] = y;
     out[2] = radius * sinf(turn);
+}
+
+static void position_at(unsigned at, float out[3])
+{
+    point_of_spiral(at, SLAB_NUM_PLACES, out);
+}
+
+/* How much of a picture from one side a place is; 0 behind the edge. */
+static float area_of(unsigned at, unsigned side)
+{
+    float position[3], to_viewer[3], cosine = 0.0f;
+    position_at(at, position);
+    point_of_spiral(side, SLAB_NUM_SIDES, to_viewer);
+    for (unsigned c = 0; c < 3; c++)
+        cosine += position[c] * to_viewer[c];
+    return fmaxf(cosine, 0.0f);
 }
 
 /* Longitude and latitude, and a third number for data of vertices. */
@@ -115,33 +131,47 @@ static unsigned middle_of(const float *values, const struct nearest *nearest, un
     return middle;
 }
 
-/* A place that stands for little of the ball is looked at from few sides. */
-static void add_glances(struct arena *arena, unsigned at, float weight, struct slab_glances *out)
+/* ---- Glances ---- */
+
+/* The parts of a picture from one side that each chosen place stands for. */
+static void add_side(const struct nearest *nearest, unsigned side,
+                     float weights[MAX_CHOSEN][SLAB_NUM_SIDES])
+{
+    float sum = 0.0f;
+    for (unsigned i = 0; i < SLAB_NUM_PLACES; i++)
+        sum += area_of(i, side);
+    for (unsigned i = 0; i < SLAB_NUM_PLACES; i++)
+        weights[nearest[i].chosen][side] += area_of(i, side) / sum;
+}
+
+/* A place that stands for little of each side is looked at from few directions. */
+static void add_glances(struct arena *arena, unsigned at, const float weights[SLAB_NUM_SIDES],
+                        struct slab_glances *out)
 {
     const unsigned few = 2;
-    unsigned num = weight * SLAB_NUM_VIEWS < 1.0f ? few : SLAB_NUM_VIEWS;
-    for (unsigned i = 0; i < num; i++)
-        vec_push(arena, &out->items,
-                 (struct slab_glance){.at = at,
-                                      .view = (at + i * (SLAB_NUM_VIEWS / num)) % SLAB_NUM_VIEWS,
-                                      .weight = weight / (float)num});
+    float most = 0.0f;
+    for (unsigned i = 0; i < SLAB_NUM_SIDES; i++)
+        most = fmaxf(most, weights[i]);
+    unsigned num = most * SLAB_NUM_VIEWS < 1.0f ? few : SLAB_NUM_VIEWS;
+    for (unsigned i = 0; i < num; i++) {
+        struct slab_glance glance = {.at = at,
+                                     .view = (at + i * (SLAB_NUM_VIEWS / num)) % SLAB_NUM_VIEWS};
+        for (unsigned side = 0; side < SLAB_NUM_SIDES; side++)
+            glance.weights[side] = weights[side] / (float)num;
+        vec_push(arena, &out->items, glance);
+    }
 }
 
 /* The farthest place comes next (Gonzalez 1985), so that no small patch is missed. */
 void slabs_choose_glances(const float *values, struct arena *arena, struct slab_glances *out)
 {
-    struct nearest nearest[SLAB_NUM_PLACES];
-    float weights[MAX_CHOSEN] = {0};
-    unsigned num = 0, next = 0;
-    if (!values) {
-        add_glances(arena, 0, 1.0f, out);
-        return;
-    }
-    do
+    struct nearest nearest[SLAB_NUM_PLACES] = {0};
+    float weights[MAX_CHOSEN][SLAB_NUM_SIDES] = {0};
+    unsigned num = values ? 0 : 1, next = 0;
+    while (values && num < MAX_CHOSEN && (num == 0 || nearest[next].distance > LIKE))
         next = add_place(values, next, num++, nearest);
-    while (num < MAX_CHOSEN && nearest[next].distance > LIKE);
-    for (unsigned i = 0; i < SLAB_NUM_PLACES; i++)
-        weights[nearest[i].chosen] += 1.0f / SLAB_NUM_PLACES;
+    for (unsigned side = 0; side < SLAB_NUM_SIDES; side++)
+        add_side(nearest, side, weights);
     for (unsigned i = 0; i < num; i++)
-        add_glances(arena, middle_of(values, nearest, i), weights[i], out);
+        add_glances(arena, values ? middle_of(values, nearest, i) : 0, weights[i], out);
 }

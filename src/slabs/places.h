@@ -8,13 +8,14 @@
 
 #include "ir/ir.h"
 
-enum { SLAB_NUM_PLACES = 256, SLAB_NUM_VIEWS = 6 };
+enum { SLAB_NUM_PLACES = 256, SLAB_NUM_VIEWS = 6, SLAB_NUM_SIDES = 32 };
 
 /* A look at a place from one side. */
 struct slab_glance {
-    unsigned at;   /* below SLAB_NUM_PLACES */
-    unsigned view; /* below SLAB_NUM_VIEWS */
-    float weight;  /* the part of the ball that it stands for; all are 1 together */
+    unsigned at;                   /* below SLAB_NUM_PLACES */
+    unsigned view;                 /* below SLAB_NUM_VIEWS */
+    float weights[SLAB_NUM_SIDES]; /* the parts that it stands for of what each side of the ball
+                                      shows; all glances are 1 together */
 };
 
 struct slab_glances {

@@ -77,7 +77,7 @@ struct slabs_host {
     struct arena *scratch; /* for estimates, which leave it empty; NULL: there are none */
 };
 
-#define SLABS_TEXELS 16
+#define SLABS_TEXELS 64             /* a part is about a pixel of a small picture */
 #define SLABS_LAYER_THICKNESS 0.01f /* centimetres, of a layer without an input for it */
 #define SLABS_CLEAR_PATH 1e6f       /* centimetres, of matter that is only an interface */
 

@@ -48,6 +48,12 @@ def write_mask(path, share):
     path.write_bytes(b"P6 64 64 255\n" + row * 64)
 
 
+def write_stripes(path, width):
+    """White and black in turn."""
+    row = b"".join(b"\xff\xff\xff" if x // width % 2 else b"\0\0\0" for x in range(64))
+    path.write_bytes(b"P6 64 64 255\n" + row * 64)
+
+
 def report(document):
     done = run(MXGEN, "inspect", document, "--slabs", "--format", "json")
     check(done.returncode == 0, f"inspect: {done.stderr}")
@@ -75,6 +81,10 @@ with tempfile.TemporaryDirectory() as folder:
         fixed = unread["steps"][-1]["estimatedError"]
         check(errors[0] < 0.01 and errors[1] < 0.01, f"one slab is seen alone, but blending shows: {errors}")
         check(errors[0.5] < 0.01 < fixed, f"each texel shows one slab, but blending shows: {errors}, unread {fixed}")
+        for width in (4, 1):
+            write_stripes(mask, width)
+            error = report(document)["steps"][-1]["estimatedError"]
+            check(error < 0.01, f"stripes of {width}: each texel shows one slab, but blending shows: {error}")
         write_mask(mask, 1)
         for name, is_one in (("mask.ppm", True), ("missing.ppm", False)):
             document.write_text(DOCUMENT.replace("mask.ppm", name))
