@@ -144,6 +144,16 @@ static void dress(struct stage *stage, const mxg_bindings *bindings, struct stag
     }
 }
 
+/* False after reporting an error: the looks hide all that the stage has. */
+static bool shows_any(struct stage *stage)
+{
+    for (uint32_t i = 0; i < stage->site.num_objects; ++i)
+        if (stage_shows(stage, i))
+            return true;
+    report_error(stage->site.report, "empty-mesh", "the look hides all primitives of the stage");
+    return false;
+}
+
 bool stage_bind(struct stage *stage, struct cli *cli, const mxg_document *document,
                 const char *look, bool has_variants)
 {
@@ -164,5 +174,5 @@ bool stage_bind(struct stage *stage, struct cli *cli, const mxg_document *docume
             dress(stage, bindings, stage->dresses + i * stage->site.num_objects);
         mxg_bindings_destroy(bindings);
     }
-    return good;
+    return good && shows_any(stage);
 }

@@ -22,6 +22,16 @@ struct bind_value {
     const char *path, *text;
 };
 
+/* A part of the names of files: "<id>" stands for the value. */
+struct bind_token {
+    const char *name, *value;
+};
+struct bind_tokens {
+    const mxg_context *context; /* its sandbox holds for the names that tokens make */
+    struct bind_token *items;
+    size_t num;
+};
+
 /* A file of a texture that cannot be read. */
 struct bind_fault {
     const char *file; /* as the document names it; NULL: the user does, see the reason */
@@ -57,9 +67,10 @@ struct bind {
     const struct outputs *files;        /* none of them may be a texture */
     const struct bind_value *values;
     size_t num_values;
-    bool is_opaque; /* replaces the background, also for transparent materials */
-    bool unwraps;   /* draws the surface flat, at its texture coordinates (unwrap.h) */
-    bool checker;   /* a checker replaces an unreadable texture; otherwise it is an error */
+    const struct bind_tokens *tokens; /* of what is drawn; NULL: there are none */
+    bool is_opaque;                   /* replaces the background, also for transparent materials */
+    bool unwraps; /* draws the surface flat, at its texture coordinates (unwrap.h) */
+    bool checker; /* a checker replaces an unreadable texture; otherwise it is an error */
     struct bind_fault *faults; /* the files that cannot be read, also where that is an error */
     size_t num_faults;
 

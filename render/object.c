@@ -4,6 +4,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+const struct primvar *object_primvar(const struct scene_object *object, const char *name)
+{
+    for (uint32_t i = 0; i < object->num_primvars; ++i)
+        if (strcmp(object->primvars[i].name, name) == 0)
+            return &object->primvars[i];
+    return NULL;
+}
+
 void object_finish_primvars(struct scene_object *object, uint32_t num)
 {
     for (uint32_t i = object->num_primvars - num; i < object->num_primvars; ++i) {

@@ -158,6 +158,7 @@ static void init_bind(const struct painting *painting, const struct part *part,
                                 .files = painter->files,
                                 .values = painter->values,
                                 .num_values = painter->num_values,
+                                .tokens = subject->tokens,
                                 .unwraps = painter->unwraps,
                                 .checker = painter->checker};
 }

@@ -53,6 +53,7 @@ struct subject {
     uint32_t stack;
     const struct scene_object *objects; /* what has it */
     uint32_t num_objects;               /* 0: the object of the scene */
+    const struct bind_tokens *tokens;   /* of the names of files; NULL: there are none */
 };
 
 /* A subject on the device. */

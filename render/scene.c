@@ -83,19 +83,11 @@ void scene_primvar_name(const char *attribute, char out[SCENE_MAX_NAME])
              strncmp(attribute, "i_geomprop_", 11) == 0 ? attribute + 11 : attribute);
 }
 
-static const struct primvar *find_primvar(const struct scene_object *object, const char *name)
-{
-    for (uint32_t i = 0; i < object->num_primvars; ++i)
-        if (strcmp(object->primvars[i].name, name) == 0)
-            return &object->primvars[i];
-    return NULL;
-}
-
 const struct primvar *scene_primvar(const struct scene_object *object, const char *name)
 {
     char wanted[SCENE_MAX_NAME];
     scene_primvar_name(name, wanted);
-    return object->path ? find_primvar(object, wanted) : NULL;
+    return object->path ? object_primvar(object, wanted) : NULL;
 }
 
 static bool store_primvar(const struct primvar *primvar, uint32_t index, float *out)
@@ -115,7 +107,7 @@ static bool primvar_attribute(const struct scene_object *object, const char *nam
     if (is_color && primvar && primvar->components == 3) {
         out[3] = 1;
         if (strcmp(name, "i_color_0") == 0)
-            store_primvar(find_primvar(object, "displayOpacity"), index, &out[3]);
+            store_primvar(object_primvar(object, "displayOpacity"), index, &out[3]);
     }
     return store_primvar(primvar, index, out);
 }

@@ -92,6 +92,8 @@ bool scene_init_plane(struct scene *scene);
 
 void scene_finish(struct scene *scene);
 void object_finish(struct scene_object *object);
+/* The primvar of an object by its name; NULL: there is none. */
+const struct primvar *object_primvar(const struct scene_object *object, const char *name);
 /* Frees the last primvars of an object, and the list if there are any. */
 void object_finish_primvars(struct scene_object *object, uint32_t num);
 /* A copy of an object for displacement: with at least so many triangles, welded. false: out of

@@ -8,15 +8,22 @@
 
 /* An object and what it has. */
 struct dressed {
-    uint32_t stack, object;
+    uint32_t stack, tokens, object;
 };
 
-/* By stack, then in the order of the site. */
+static bool is_same_subject(const struct dressed *a, const struct dressed *b)
+{
+    return a->stack == b->stack && a->tokens == b->tokens;
+}
+
+/* By stack and tokens, then in the order of the site. */
 static int compare_dressed(const void *a, const void *b)
 {
     const struct dressed *x = a, *y = b;
     if (x->stack != y->stack)
         return x->stack < y->stack ? -1 : 1;
+    if (x->tokens != y->tokens)
+        return x->tokens < y->tokens ? -1 : 1;
     return (x->object > y->object) - (x->object < y->object);
 }
 
@@ -32,19 +39,22 @@ static void group(const struct site *site, const mxg_document *document, const c
                   const struct dressed *dressed, uint32_t num, struct site_subjects *out)
 {
     for (uint32_t i = 0; i < num; ++i) {
-        out->objects[i] = site->objects[dressed[i].object].object;
-        if (i && dressed[i].stack == dressed[i - 1].stack) {
+        const struct site_object *object = &site->objects[dressed[i].object];
+        out->objects[i] = object->object;
+        site_add_geomprops(&out->facts, site_bound_primitive(site, object), &out->objects[i]);
+        if (i && is_same_subject(&dressed[i], &dressed[i - 1])) {
             ++out->items[out->len - 1].num_objects;
             continue;
         }
-        out->items[out->len++] =
-            (struct subject){.document = document,
-                             .path = path,
-                             .element = stack_name(out->bindings, dressed[i].stack),
-                             .bindings = out->bindings,
-                             .stack = dressed[i].stack,
-                             .objects = &out->objects[i],
-                             .num_objects = 1};
+        out->items[out->len++] = (struct subject){
+            .document = document,
+            .path = path,
+            .element = stack_name(out->bindings, dressed[i].stack),
+            .bindings = out->bindings,
+            .stack = dressed[i].stack,
+            .objects = &out->objects[i],
+            .num_objects = 1,
+            .tokens = dressed[i].tokens ? &out->facts.tokens[dressed[i].tokens - 1] : NULL};
     }
 }
 
@@ -73,6 +83,8 @@ bool site_subjects_make(struct painter *painter, const struct site *site,
         report_list(report, mxg_bindings_diagnostics(out->bindings));
     if (!report_status(report, status))
         return false;
+    out->facts = (struct site_facts){
+        .context = painter->cli->context, .document = document, .bindings = out->bindings};
     struct dressed *dressed = memory_alloc(site->num_objects * sizeof *dressed);
     out->items = memory_alloc(site->num_objects * sizeof *out->items);
     out->objects = memory_alloc(site->num_objects * sizeof *out->objects);
@@ -80,7 +92,8 @@ bool site_subjects_make(struct painter *painter, const struct site *site,
     for (uint32_t i = 0; i < site->num_objects; ++i) {
         uint32_t primitive = site_bound_primitive(site, &site->objects[i]);
         if (site_is_visible(out->bindings, primitive))
-            dressed[num++] = (struct dressed){mxg_bindings_stack(out->bindings, primitive), i};
+            dressed[num++] = (struct dressed){mxg_bindings_stack(out->bindings, primitive),
+                                              site_tokens(&out->facts, primitive), i};
     }
     qsort(dressed, num, sizeof *dressed, compare_dressed);
     group(site, document, path, dressed, num, out);
@@ -96,5 +109,6 @@ void site_subjects_finish(struct site_subjects *subjects)
         free((void *)(uintptr_t)subjects->items[i].element);
     free(subjects->items);
     free(subjects->objects);
+    site_facts_finish(&subjects->facts);
     mxg_bindings_destroy(subjects->bindings);
 }

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-/* The subjects of a site: its objects, grouped by the stack that a look gives them. */
+/* The subjects of a site: its objects, grouped by the stack and the tokens that a look gives them.
+ */
 #ifndef MXG_RENDER_SITE_PICTURE_H
 #define MXG_RENDER_SITE_PICTURE_H
 
 #include "render/picture.h"
 #include "render/site.h"
+#include "render/site_facts.h"
 
 struct site_subjects {
     struct subject *items; /* their element is allocated */
     size_t len;
-    struct scene_object *objects; /* of all subjects; refers to the site */
+    struct scene_object *objects; /* of all subjects; refers to the site and the facts */
+    struct site_facts facts;
     mxg_bindings *bindings;
 };
 

@@ -88,14 +88,6 @@ static bool fill(const struct authored *from, const struct usd_corners *corners,
     return true;
 }
 
-static bool has_primvar(const struct scene_object *object, const char *name)
-{
-    for (uint32_t i = 0; i < object->num_primvars; ++i)
-        if (strcmp(object->primvars[i].name, name) == 0)
-            return true;
-    return false;
-}
-
 static void append(struct scene_object *object, struct primvar made)
 {
     object->primvars =
@@ -148,7 +140,7 @@ static const char *interpolation_of(const mxg_property *property)
 
 static void add_words(const char *name, const mxg_property *property, struct scene_object *object)
 {
-    if (has_primvar(object, name + strlen("primvars:")))
+    if (object_primvar(object, name + strlen("primvars:")))
         return;
     struct primvar made = begin_primvar(name, property);
     made.num = 1;
@@ -172,7 +164,7 @@ static void add_primvar(struct site *site, uint32_t primitive, const mxg_propert
         site_fail(site, primitive, from.property, "has no interpolation of USD: '%.*s'",
                   (int)property->interpolation_len, property->interpolation);
     else if ((is_constant || (!is_inherited && corners->points))
-             && !has_primvar(object, from.property + strlen("primvars:"))) {
+             && !object_primvar(object, from.property + strlen("primvars:"))) {
         from.values = usd_numbers(site, primitive, from.property, &from.num_values);
         from.num_values /= from.components;
         from.indices = usd_numbers(site, primitive, indices, &from.num_indices);
@@ -236,7 +228,7 @@ static void add_instance_primvar(struct site *site, uint32_t instancer, size_t i
     const struct usd_corners one = {1, &number, &number, &number};
     struct scene_object made = {0};
     add_primvar(site, instancer, property, false, &one, &made);
-    if (made.num_primvars && !has_primvar(&to->object, made.primvars->name)) {
+    if (made.num_primvars && !object_primvar(&to->object, made.primvars->name)) {
         if (to->shares_primvars && !to->num_own_primvars)
             own_primvars(to);
         append(&to->object, *made.primvars);

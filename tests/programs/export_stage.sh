@@ -80,6 +80,8 @@ check 'a look that hides is told' eval '"$mxgen" export looks.mtlx --stage room.
 check 'materials that nothing has are left out' eval '! grep -q World room.gltf'
 check 'it stands where it stood, in metres, y upwards' eval 'grep -A4 "\"max\"" room.gltf | tr -d " \n" | grep -q "1.5,0.5,0.5"'
 check 'one look has no variants' eval 'exits 0 "$mxgen" export looks.mtlx --stage room.usda --look old -o old.gltf && wears old.gltf table Paint && ! grep -q variants old.gltf && ! grep -q mouse old.gltf'
+sed 's|geom="/room/mouse"|geom="/room"|' looks.mtlx >hidden.mtlx
+check 'a look that hides all is told' eval 'exits 1 "$mxgen" export hidden.mtlx --stage room.usda --look old -o none.gltf && has err "the look hides all primitives of the stage [empty-mesh]" && test ! -e none.gltf'
 check 'unknown looks are told' eval 'exits 1 "$mxgen" export looks.mtlx --stage room.usda --look ancient -o none.gltf && has err "ancient" && test ! -e none.gltf'
 check 'a package of USD has the first look' eval 'exits 0 "$mxgen" export looks.mtlx --stage room.usda -o room_out.usda && has err "'"'"'room.usda/old'"'"' (looks.mtlx:14) is not in the file as it is: the format has one look" && has room_out.usda "rel material:binding = </room_out/Materials/Wood>" && ! grep -q Paint room_out.usda'
 check 'which is drawn again' exits 0 "$render" --stage room_out.usda -s 32 -Wno-unread-input -o room.png

@@ -546,6 +546,74 @@ for place in '-2 0 r' '-1.7 0 r' '-1.3 0 -' '0 0 g' '0.8 0 g' '0 1.2 -' '2 0 b' 
 done
 check 'widths for other points are an error' eval 'sed "s/\[1, 2, 0.2\]/[1, 2]/" points.usda >widths.usda; exits 1 "$render" colors.mtlx --stage widths.usda -s 16 -o widths.ppm && grep -F "[bad-geometry]" err | grep -qF "has 2 numbers for 3 points"'
 
+# ---- What a document says of geometry ----
+
+# Paint comes of a primvar or a <geominfo>, a picture of a token.
+{
+    echo '<materialx version="1.39">'
+    grep -A6 "name='Gpaint'" colors.mtlx
+    for name in red green; do echo "<geominfo name='I$name' geom='/$name'><token name='id' type='string' value='$name'/></geominfo>"; done
+    cat <<'XML'
+  <geominfo name="IG" geom="/green, /own, /among"><geomprop name="paint" type="color3" value="0, 1, 0"/><geomprop name="number" type="integer" value="0"/></geominfo>
+  <geominfo name="IB" geom="/among/deeper"><geomprop name="paint" type="color3" value="0, 0, 1"/></geominfo>
+  <geominfo name="IO" geom="/out"><token name="id" type="string" value="/../../black"/></geominfo>
+  <image name="picture" type="color3"><input name="file" type="filename" value="of_&lt;id&gt;.ppm"/></image>
+  <surface_unlit name="SF" type="surfaceshader"><input name="emission_color" type="color3" nodename="picture"/></surface_unlit>
+  <surfacematerial name="Pictured" type="material"><input name="surfaceshader" type="surfaceshader" nodename="SF"/></surfacematerial>
+</materialx>
+XML
+} >geominfo.mtlx
+printf 'P3 1 1 255 255 0 0\n' >of_red.ppm
+printf 'P3 1 1 255 0 255 0\n' >of_green.ppm
+cat >geominfo.usda <<USD
+$head
+def Mesh "green" { rel material:binding = </Painted>
+    $quad
+    $(at -3.5 3.5)
+}
+def Mesh "own" { color3f primvars:paint = (1, 0, 0)
+    rel material:binding = </Painted>
+    $quad
+    $(at -1.5 3.5)
+}
+def Xform "among" { rel material:binding = </Painted>
+    def Mesh "deeper" {
+        $quad
+        $(at 0.5 3.5)
+    }
+    def Mesh "beside" {
+        $quad
+        $(at 2.5 3.5)
+    }
+}
+USD
+document=geominfo.mtlx check 'properties of <geominfo> are drawn' draw geominfo
+check 'without a message' test ! -s err
+sees 'the property of the document' geominfo -3.5 3.5 g
+sees "the geometry's own primvar before that of the document" geominfo -1.5 3.5 r
+sees 'the property of a deeper primitive' geominfo 0.5 3.5 b
+sees 'the property of the primitive above' geominfo 2.5 3.5 g
+cat >tokens.usda <<USD
+$head
+def Mesh "red" { rel material:binding = </Pictured>
+    $quad
+    $(at -3.5 3.5)
+}
+def Mesh "green" { rel material:binding = </Pictured>
+    $quad
+    $(at -1.5 3.5)
+}
+USD
+document=geominfo.mtlx check 'tokens of <geominfo> name files' draw tokens
+check 'without a message' test ! -s err
+sees 'the file of the first primitive' tokens -3.5 3.5 r
+sees 'the file of the second' tokens -1.5 3.5 g
+mkdir -p inner/of_
+cp geominfo.mtlx of_green.ppm inner
+sed 's/"red"/"out"/' tokens.usda >inner/out.usda
+check 'the names that tokens make may lead out of the folder' exits 0 "$render" inner/geominfo.mtlx --stage inner/out.usda -s 16 -o out.ppm
+check 'a sandbox holds for these names' eval 'exits 1 "$render" inner/geominfo.mtlx --stage inner/out.usda --sandbox -s 16 -o out.ppm && grep -F "[missing-texture]" err | grep -qF "outside"'
+
 # ---- Many objects ----
 
 # spheres NUM: as many instances, and as many prims
