@@ -334,7 +334,8 @@ void scene_set_camera(struct scene *scene, const double eye[3], const double tar
 
 void scene_backdrop(const struct scene *scene, double x, double y, double out[3])
 {
-    const double ray[3] = {x / scene->projection.m[0][0], y / scene->projection.m[1][1], -1};
+    const struct matrix *m = &scene->projection;
+    const double ray[3] = {(x + m->m[2][0]) / m->m[0][0], (y + m->m[2][1]) / m->m[1][1], -1};
     double world[3], d[3];
     matrix_direction(matrix_transpose(scene->view), ray, world); /* the inverse of a rotation */
     matrix_direction(scene->environment, world, d);

@@ -230,6 +230,8 @@ static void use_camera(const struct site_camera *camera, double aspect, double r
     }
     scene->projection = matrix_perspective(2 * atan(half) / DEGREE, aspect, radius / 1000,
                                            sqrt(distance) + 2 * radius);
+    for (size_t i = 0; i < 2; ++i)
+        scene->projection.m[2][i] = camera->centre[i] * scene->projection.m[i][i];
 }
 
 /* The studio's camera looks at the sphere as at a mesh of size 1. */

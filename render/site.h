@@ -29,6 +29,7 @@ struct site_object {
 struct site_camera {
     struct matrix world;  /* it looks along -z, with y upwards */
     double width, height; /* tangents of half its angles */
+    double centre[2];     /* of the frame, as tangents: the shift of the lens */
     char *path;
 };
 
@@ -162,5 +163,7 @@ void usd_add_instance_primvars(struct site *site, uint32_t instancer, size_t ins
                                struct site_object *object);
 /* The components of a type: 3 of "color3f[]"; 0: it has no numbers. */
 unsigned usd_components(const char *type, size_t len);
+/* The word of an interpolation, `otherwise` if the property has none; NULL: it is none of USD. */
+const char *usd_interpolation(const mxg_property *property, const char *otherwise);
 
 #endif

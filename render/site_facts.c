@@ -37,7 +37,7 @@ static unsigned components_of(const char *type)
     static const struct {
         const char *name;
         unsigned components;
-    } types[] = {{"boolean", 1}, {"integer", 1}, {"float", 1},   {"vector2", 2},
+    } types[] = {{"boolean", 1}, {"integer", 1}, {"float", 1},  {"vector2", 2},
                  {"color3", 3},  {"vector3", 3}, {"color4", 4}, {"vector4", 4}};
     for (size_t i = 0; i < sizeof types / sizeof *types; ++i)
         if (strcmp(types[i].name, type) == 0)
@@ -197,7 +197,8 @@ uint32_t site_tokens(struct site_facts *facts, uint32_t primitive)
     bool is_new;
     struct name_entry *entry = names_add_hash(&facts->known, hash, &is_new);
     if (is_new) {
-        facts->tokens = memory_resize(facts->tokens, (facts->num_tokens + 1) * sizeof *facts->tokens);
+        facts->tokens =
+            memory_resize(facts->tokens, (facts->num_tokens + 1) * sizeof *facts->tokens);
         facts->tokens[facts->num_tokens++] = make_tokens(facts, primitive);
         entry->value = facts->num_tokens;
     }

@@ -17,7 +17,8 @@ struct site_primvars {
     uint32_t num_own;        /* of a <geominfo>; they belong to the list */
 };
 
-/* The lists that objects and subjects share. Zero-initialise it, and set the first three members. */
+/* The lists that objects and subjects share. Zero-initialise it, and set the first three members.
+ */
 struct site_facts {
     const mxg_context *context;
     const mxg_document *document;

@@ -52,11 +52,21 @@ struct visit {
     struct matrix parent;
     uint32_t depth;    /* of instancers around it */
     uint32_t instance; /* 1 + index in the instances of the site; 0: none */
+    bool is_beside;    /* the purpose of its parent is no picture: "guide", "proxy" */
 };
 
-/* Geometry of UsdGeom that is told instead of drawn. */
-static const char *const undrawn[] = {"BasisCurves", "NurbsCurves", "HermiteCurves",
-                                      "NurbsPatch",  "TetMesh",     "Volume"};
+/* Primitives that are told instead of drawn, and what is told. */
+#define NOT_DRAWN "which mxgen does not draw"
+static const struct {
+    const char *type, *told;
+} undrawn[] = {{"BasisCurves", NOT_DRAWN},
+               {"NurbsCurves", NOT_DRAWN},
+               {"HermiteCurves", NOT_DRAWN},
+               {"NurbsPatch", NOT_DRAWN},
+               {"TetMesh", NOT_DRAWN},
+               {"Volume", NOT_DRAWN},
+               {"SkelRoot", "whose joints and blend shapes move nothing here: meshes have the "
+                            "points of the file"}};
 enum { NUM_UNDRAWN = sizeof undrawn / sizeof *undrawn };
 
 struct walk {
@@ -103,11 +113,13 @@ static void push_children(struct walk *walk, uint32_t first, struct visit below)
     }
 }
 
-static bool is_hidden(const struct site *site, uint32_t primitive)
+/* True if a primitive is no part of a picture by its purpose, or that of what it stands in. */
+static bool is_beside(const struct site *site, uint32_t primitive, bool is_parent_beside)
 {
-    return usd_is(site, primitive, "visibility", "invisible")
-           || usd_is(site, primitive, "purpose", "guide")
-           || usd_is(site, primitive, "purpose", "proxy");
+    char purpose[64];
+    if (!mxg_scene_property_word(site->scene, primitive, "purpose", 0, purpose, sizeof purpose))
+        return is_parent_beside;
+    return strcmp(purpose, "guide") == 0 || strcmp(purpose, "proxy") == 0;
 }
 
 static bool is_regular(struct matrix m)
@@ -133,6 +145,8 @@ static void add_camera(struct site *site, uint32_t primitive, struct matrix worl
         .world = world,
         .width = usd_number(site, primitive, "horizontalAperture", 20.955) / 2 / focal,
         .height = usd_number(site, primitive, "verticalAperture", 15.2908) / 2 / focal,
+        .centre = {usd_number(site, primitive, "horizontalApertureOffset", 0) / focal,
+                   usd_number(site, primitive, "verticalApertureOffset", 0) / focal},
         .path = site_path(site->scene, primitive)};
 }
 
@@ -140,9 +154,10 @@ static void add_camera(struct site *site, uint32_t primitive, struct matrix worl
 
 /* The arrays of a PointInstancer. */
 struct instances {
-    double *positions, *orientations, *scales, *prototypes, *hidden, *ids;
+    double *positions, *orientations, *scales, *prototypes, *hidden, *inactive, *ids;
     uint32_t *targets; /* by number of prototype */
-    size_t num, num_orientations, num_scales, num_prototypes, num_hidden, num_ids, num_targets;
+    size_t num, num_orientations, num_scales, num_prototypes, num_hidden, num_inactive, num_ids,
+        num_targets;
 };
 
 static int compare_numbers(const void *a, const void *b)
@@ -156,11 +171,24 @@ static double id_of(const struct instances *instances, size_t i)
     return i < instances->num_ids ? instances->ids[i] : (double)i;
 }
 
-static bool is_invisible(const struct instances *instances, size_t i)
+/* True if a sorted list has the id. */
+static bool has_id(const double *ids, size_t num, double id)
 {
-    double id = id_of(instances, i);
-    return instances->num_hidden
-           && bsearch(&id, instances->hidden, instances->num_hidden, sizeof id, compare_numbers);
+    return num && bsearch(&id, ids, num, sizeof id, compare_numbers);
+}
+
+static bool is_masked(const struct instances *in, size_t i)
+{
+    double id = id_of(in, i);
+    return has_id(in->hidden, in->num_hidden, id) || has_id(in->inactive, in->num_inactive, id);
+}
+
+static double *read_ids(struct site *site, uint32_t primitive, const char *name, size_t *out_num)
+{
+    double *ids = usd_numbers(site, primitive, name, out_num);
+    if (ids)
+        qsort(ids, *out_num, sizeof *ids, compare_numbers);
+    return ids;
 }
 
 /* The prototypes of an instancer by their numbers; MXG_NONE: the stage lacks one. */
@@ -177,17 +205,18 @@ static bool read_instances(struct site *site, uint32_t primitive, struct instanc
 {
     *out = (struct instances){0};
     out->positions = usd_numbers(site, primitive, "positions", &out->num);
-    out->orientations = usd_numbers(site, primitive, "orientations", &out->num_orientations);
+    out->orientations = usd_numbers(site, primitive, "orientationsf", &out->num_orientations);
+    if (!out->orientations) /* in half precision */
+        out->orientations = usd_numbers(site, primitive, "orientations", &out->num_orientations);
     out->scales = usd_numbers(site, primitive, "scales", &out->num_scales);
     out->prototypes = usd_numbers(site, primitive, "protoIndices", &out->num_prototypes);
-    out->hidden = usd_numbers(site, primitive, "invisibleIds", &out->num_hidden);
+    out->hidden = read_ids(site, primitive, "invisibleIds", &out->num_hidden);
+    out->inactive = read_ids(site, primitive, "inactiveIds", &out->num_inactive);
     out->ids = usd_numbers(site, primitive, "ids", &out->num_ids);
     out->targets = find_prototypes(site, primitive, &out->num_targets);
     out->num /= 3;
     out->num_orientations /= 4;
     out->num_scales /= 3;
-    if (out->num_hidden)
-        qsort(out->hidden, out->num_hidden, sizeof *out->hidden, compare_numbers);
     if (out->num_prototypes != out->num)
         site_fail(site, primitive, "protoIndices", "has %zu numbers for %zu positions",
                   out->num_prototypes, out->num);
@@ -197,7 +226,8 @@ static bool read_instances(struct site *site, uint32_t primitive, struct instanc
 static void free_instances(struct instances *instances)
 {
     double *const arrays[] = {instances->positions,  instances->orientations, instances->scales,
-                              instances->prototypes, instances->hidden,       instances->ids};
+                              instances->prototypes, instances->hidden,       instances->inactive,
+                              instances->ids};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; ++i)
         free(arrays[i]);
     free(instances->targets);
@@ -247,9 +277,10 @@ static void add_instances(struct walk *walk, struct visit at, struct matrix worl
             site_fail(site, at.primitive, "protoIndices", "has %g, which is no prototype", number);
             break;
         }
-        if (!is_invisible(&in, i))
+        if (!is_masked(&in, i))
             push(walk, (struct visit){prototype, matrix_multiply(world, instance_matrix(&in, i)),
-                                      at.depth + 1, add_instance(site, at, i, id_of(&in, i))});
+                                      at.depth + 1, add_instance(site, at, i, id_of(&in, i)),
+                                      at.is_beside});
     }
     free_instances(&in);
 }
@@ -269,7 +300,7 @@ static void set_instance(struct walk *walk, uint32_t first, uint32_t instance)
 static void note_undrawn(struct walk *walk, uint32_t primitive, const char *type)
 {
     for (size_t i = 0; i < NUM_UNDRAWN; ++i)
-        if (strcmp(type, undrawn[i]) == 0 && !walk->undrawn[i].num++)
+        if (strcmp(type, undrawn[i].type) == 0 && !walk->undrawn[i].num++)
             walk->undrawn[i].first = primitive;
 }
 
@@ -279,11 +310,11 @@ static void tell_undrawn(const struct walk *walk)
     for (size_t i = 0; i < NUM_UNDRAWN; ++i)
         if (walk->undrawn[i].num > 1)
             site_warn(walk->site, "not-drawn", walk->undrawn[i].first, NULL,
-                      "and %u more are %s, which mxgen does not draw",
-                      (unsigned)walk->undrawn[i].num - 1, undrawn[i]);
+                      "and %u more are %s, %s", (unsigned)walk->undrawn[i].num - 1, undrawn[i].type,
+                      undrawn[i].told);
         else if (walk->undrawn[i].num)
-            site_warn(walk->site, "not-drawn", walk->undrawn[i].first, NULL,
-                      "is %s, which mxgen does not draw", undrawn[i]);
+            site_warn(walk->site, "not-drawn", walk->undrawn[i].first, NULL, "is %s, %s",
+                      undrawn[i].type, undrawn[i].told);
 }
 
 /* Adds the geometry of a primitive, for the first time or again. */
@@ -313,30 +344,40 @@ static void add_geometry(struct walk *walk, struct visit at, const char *type, s
     set_instance(walk, first, at.instance);
 }
 
+/* Adds what stands at a primitive itself. */
+static void add_primitive(struct walk *walk, struct visit at, const char *type, struct matrix world)
+{
+    struct site *site = walk->site;
+    if (strcmp(type, "Camera") == 0)
+        add_camera(site, at.primitive, world);
+    else if (strcmp(type, "PointInstancer") != 0 && is_regular(world))
+        add_geometry(walk, at, type, world);
+    if (is_regular(world))
+        usd_add_light(site, at.primitive, type, world);
+}
+
 static void visit(struct walk *walk, struct visit at)
 {
     struct site *site = walk->site;
     mxg_primitive primitive = {sizeof primitive};
     bool resets;
-    if (is_hidden(site, at.primitive))
+    if (usd_is(site, at.primitive, "visibility", "invisible"))
         return;
+    at.is_beside = is_beside(site, at.primitive, at.is_beside);
     mxg_scene_primitive(site->scene, at.primitive, &primitive);
     struct matrix local = usd_transform(site, at.primitive, &resets);
     struct matrix world = resets ? local : matrix_multiply(at.parent, local);
     char *type = cli_format("%.*s", (int)primitive.type_len, primitive.type);
-    if (strcmp(type, "Camera") == 0)
-        add_camera(site, at.primitive, world);
-    else if (strcmp(type, "PointInstancer") == 0 && at.depth == MAX_DEPTH)
-        site_fail(site, at.primitive, NULL, "has instances that contain it");
-    else if (strcmp(type, "PointInstancer") == 0)
-        add_instances(walk, at, world);
-    else if (is_regular(world))
-        add_geometry(walk, at, type, world);
-    if (is_regular(world))
-        usd_add_light(site, at.primitive, type, world);
+    if (!at.is_beside)
+        add_primitive(walk, at, type, world);
     /* prototypes below an instancer are drawn as its instances only */
     if (strcmp(type, "PointInstancer") != 0)
-        push_children(walk, primitive.first_child, (struct visit){0, world, at.depth, at.instance});
+        push_children(walk, primitive.first_child,
+                      (struct visit){0, world, at.depth, at.instance, at.is_beside});
+    else if (at.depth == MAX_DEPTH)
+        site_fail(site, at.primitive, NULL, "has instances that contain it");
+    else
+        add_instances(walk, at, world);
     free(type);
 }
 
@@ -350,7 +391,7 @@ void site_read_usd(struct site *site)
     for (uint32_t i = num; i-- > 0;) { /* roots in their order: the first is visited first */
         mxg_scene_primitive(site->scene, i, &at);
         if (at.parent == UINT32_MAX)
-            push(&walk, (struct visit){i, matrix_identity(), 0, 0});
+            push(&walk, (struct visit){.primitive = i, .parent = matrix_identity()});
     }
     while (walk.num_visits && !site->has_fault)
         visit(&walk, walk.visits[--walk.num_visits]);

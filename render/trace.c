@@ -280,7 +280,10 @@ static struct Camera make_camera(const struct tracer *tracer)
         camera.eye[i] = (float)scene->eye[i];
         camera.right[i] = (float)(axes.m[0][i] / scene->projection.m[0][0]);
         camera.up[i] = (float)(axes.m[1][i] / scene->projection.m[1][1]);
-        camera.forward[i] = (float)-axes.m[2][i];
+        camera.forward[i] = /* the middle of the frame */
+            (float)(scene->projection.m[2][0] / scene->projection.m[0][0] * axes.m[0][i]
+                    + scene->projection.m[2][1] / scene->projection.m[1][1] * axes.m[1][i]
+                    - axes.m[2][i]);
         for (size_t c = 0; c < 3; ++c)
             camera.environment[c][i] = (float)scene->environment.m[c][i];
     }

@@ -11,15 +11,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { NO_SUBSET = 0, MAX_CORNERS = 1 << 27 };
+enum { NO_SUBSET = 0, HOLE = -1, MAX_CORNERS = 1 << 27 };
 
 struct usd_mesh {
     struct site *site;
     uint32_t primitive;
     double *points, *counts, *indices, *normals;
     size_t num_points, num_faces, num_corners, num_normals; /* points and normals: of three */
-    char normals_of;   /* 'c'orner, 'f'ace or 'p'oint; 0: none */
-    uint32_t *subsets; /* by face: 1 + number of a subset, or NO_SUBSET */
+    char normals_of;  /* 'c'orner, 'f'ace, 'p'oint or 'w'hole mesh; 0: none */
+    int32_t *subsets; /* by face: 1 + number of a subset, NO_SUBSET, or HOLE */
     bool is_flipped, is_flat;
 };
 
@@ -82,6 +82,22 @@ static bool expand_normals(struct usd_mesh *mesh, const char *name)
     return good;
 }
 
+/* Notes whose normals they are, and how many are needed. */
+static size_t place_normals(struct usd_mesh *mesh, const mxg_property *property, bool is_primvar)
+{
+    const char *of = usd_interpolation(property, is_primvar ? "constant" : "vertex");
+    const char letter = !of                              ? 'p'
+                        : strcmp(of, "faceVarying") == 0 ? 'c'
+                        : strcmp(of, "uniform") == 0     ? 'f'
+                        : strcmp(of, "constant") == 0    ? 'w'
+                                                         : 'p';
+    mesh->normals_of = letter;
+    return letter == 'c'   ? mesh->num_corners
+           : letter == 'f' ? mesh->num_faces
+           : letter == 'w' ? 1
+                           : mesh->num_points;
+}
+
 static void read_normals(struct usd_mesh *mesh)
 {
     struct site *site = mesh->site;
@@ -100,13 +116,7 @@ static void read_normals(struct usd_mesh *mesh)
         site_fail(site, mesh->primitive, name, "has an index without a value");
         return;
     }
-    size_t len = property.interpolation_len;
-    mesh->normals_of = len && strncmp(property.interpolation, "faceVarying", len) == 0 ? 'c'
-                       : len && strncmp(property.interpolation, "uniform", len) == 0   ? 'f'
-                                                                                       : 'p';
-    size_t needed = mesh->normals_of == 'c'   ? mesh->num_corners
-                    : mesh->normals_of == 'f' ? mesh->num_faces
-                                              : mesh->num_points;
+    size_t needed = place_normals(mesh, &property, strcmp(name, "normals") != 0);
     if (mesh->num_normals >= needed)
         return;
     if (mesh->num_normals)
@@ -190,7 +200,7 @@ static void add_corner(const struct usd_mesh *mesh, struct corner_list *list, si
 }
 
 /* The triangles of the faces in a subset. */
-static void add_faces(const struct usd_mesh *mesh, uint32_t subset, struct corner_list *list)
+static void add_faces(const struct usd_mesh *mesh, int32_t subset, struct corner_list *list)
 {
     size_t room = 3 * mesh->num_corners + 1, first = 0;
     list->faces = memory_alloc(room * sizeof *list->faces);
@@ -209,6 +219,7 @@ static void fill_vertex(const struct usd_mesh *mesh, const struct corner_list *l
 {
     size_t at = mesh->normals_of == 'c'   ? list->numbers[i]
                 : mesh->normals_of == 'f' ? list->faces[i]
+                : mesh->normals_of == 'w' ? 0
                                           : list->points[i];
     double normal[3];
     memcpy(normal, &mesh->normals[3 * at], sizeof normal);
@@ -234,7 +245,7 @@ static const struct primvar *find_texcoords(const struct scene_object *object)
     return found;
 }
 
-static void add_object(struct usd_mesh *mesh, uint32_t subset, uint32_t primitive,
+static void add_object(struct usd_mesh *mesh, int32_t subset, uint32_t primitive,
                        struct matrix world)
 {
     struct corner_list list = {0};
@@ -259,18 +270,19 @@ static void add_object(struct usd_mesh *mesh, uint32_t subset, uint32_t primitiv
     free(list.numbers);
 }
 
-/* Marks the faces of a subset; false: it has a fault. */
-static void read_subset(struct usd_mesh *mesh, uint32_t primitive, uint32_t number)
+/* Marks the faces that a property lists. */
+static void mark_faces(struct usd_mesh *mesh, uint32_t primitive, const char *property,
+                       int32_t mark)
 {
     size_t count;
-    double *faces = usd_numbers(mesh->site, primitive, "indices", &count);
+    double *faces = usd_numbers(mesh->site, primitive, property, &count);
     for (size_t i = 0; i < count; ++i) {
         if (!(faces[i] >= 0) || faces[i] >= (double)mesh->num_faces) {
-            site_fail(mesh->site, primitive, "indices", "has %g; the mesh has %zu faces", faces[i],
+            site_fail(mesh->site, primitive, property, "has %g; the mesh has %zu faces", faces[i],
                       mesh->num_faces);
             break;
         }
-        mesh->subsets[(size_t)faces[i]] = number;
+        mesh->subsets[(size_t)faces[i]] = mark;
     }
     free(faces);
 }
@@ -287,9 +299,9 @@ static uint32_t each_subset(struct usd_mesh *mesh, struct matrix world, bool dra
             continue;
         ++number;
         if (draws)
-            add_object(mesh, number, child, world);
+            add_object(mesh, (int32_t)number, child, world);
         else
-            read_subset(mesh, child, number);
+            mark_faces(mesh, child, "indices", (int32_t)number);
     }
     return number;
 }
@@ -302,6 +314,8 @@ void usd_add_mesh(struct site *site, uint32_t primitive, struct matrix world)
         if (!mesh.normals_of)
             make_normals(&mesh);
         each_subset(&mesh, world, false);
+        if (!mesh.is_flat) /* polygons have no holes */
+            mark_faces(&mesh, primitive, "holeIndices", HOLE);
         add_object(&mesh, NO_SUBSET, primitive, world);
         each_subset(&mesh, world, true);
     }

@@ -126,12 +126,11 @@ static void convert(struct site *site, struct authored *from, const mxg_property
     append(object, made);
 }
 
-/* The word of an interpolation; NULL: it is none. */
-static const char *interpolation_of(const mxg_property *property)
+const char *usd_interpolation(const mxg_property *property, const char *otherwise)
 {
     static const char *const words[] = {"constant", "uniform", "vertex", "varying", "faceVarying"};
     if (!property->interpolation_len)
-        return words[0];
+        return otherwise;
     for (size_t i = 0; i < sizeof words / sizeof *words; ++i)
         if (is_word(property->interpolation, property->interpolation_len, words[i]))
             return words[i];
@@ -154,7 +153,7 @@ static void add_primvar(struct site *site, uint32_t primitive, const mxg_propert
 {
     struct authored from = {.primitive = primitive,
                             .components = usd_components(property->type, property->type_len),
-                            .interpolation = interpolation_of(property)};
+                            .interpolation = usd_interpolation(property, "constant")};
     from.property = cli_format("%.*s", (int)property->name_len, property->name);
     char *indices = cli_format("%s:indices", from.property);
     bool is_constant = from.interpolation && strcmp(from.interpolation, "constant") == 0;

@@ -111,30 +111,37 @@ static void turn_line(struct shape *shape, double r0, double z0, double r1, doub
 
 enum { ROUND_VERTICES = (AROUND + 1) * (ALONG + 1), ROUND_INDICES = AROUND * ALONG * 6 };
 
-static void make_sphere(struct shape *shape, double radius, double height)
+/* The radii below and above, and the height. */
+struct round {
+    double low, high, height;
+};
+
+static void make_sphere(struct shape *shape, const struct round *round)
 {
-    (void)height;
-    turn_arc(shape, radius, 0, -PI / 2, PI / 2, 0, 1);
+    turn_arc(shape, round->low, 0, -PI / 2, PI / 2, 0, 1);
 }
 
-static void make_cylinder(struct shape *shape, double radius, double height)
+static void make_cylinder(struct shape *shape, const struct round *round)
 {
-    turn_line(shape, 0, -height / 2, radius, -height / 2, 0, 0.25);
-    turn_line(shape, radius, -height / 2, radius, height / 2, 0.25, 0.75);
-    turn_line(shape, radius, height / 2, 0, height / 2, 0.75, 1);
+    const double half = round->height / 2;
+    turn_line(shape, 0, -half, round->low, -half, 0, 0.25);
+    turn_line(shape, round->low, -half, round->high, half, 0.25, 0.75);
+    turn_line(shape, round->high, half, 0, half, 0.75, 1);
 }
 
-static void make_cone(struct shape *shape, double radius, double height)
+static void make_cone(struct shape *shape, const struct round *round)
 {
-    turn_line(shape, 0, -height / 2, radius, -height / 2, 0, 0.25);
-    turn_line(shape, radius, -height / 2, 0, height / 2, 0.25, 1);
+    const double half = round->height / 2;
+    turn_line(shape, 0, -half, round->low, -half, 0, 0.25);
+    turn_line(shape, round->low, -half, 0, half, 0.25, 1);
 }
 
-static void make_capsule(struct shape *shape, double radius, double height)
+static void make_capsule(struct shape *shape, const struct round *round)
 {
-    turn_arc(shape, radius, -height / 2, -PI / 2, 0, 0, 0.25);
-    turn_line(shape, radius, -height / 2, radius, height / 2, 0.25, 0.75);
-    turn_arc(shape, radius, height / 2, 0, PI / 2, 0.75, 1);
+    const double half = round->height / 2;
+    turn_arc(shape, round->low, -half, -PI / 2, 0, 0, 0.25);
+    turn_line(shape, round->low, -half, round->high, half, 0.25, 0.75);
+    turn_arc(shape, round->high, half, 0, PI / 2, 0.75, 1);
 }
 
 /* A rectangle with the normal `normal`; `right` and `up` are half its sides. */
@@ -187,30 +194,36 @@ static char axis_of(const struct site *site, uint32_t primitive)
 
 static const struct {
     const char *type;
-    double radius, height; /* where the file has none: the schema's */
-    void (*make)(struct shape *shape, double radius, double height);
-} round_shapes[] = {{"Sphere", 1, 0, make_sphere},
-                    {"Cylinder", 1, 2, make_cylinder},
-                    {"Cone", 1, 2, make_cone},
-                    {"Capsule", 0.5, 1, make_capsule}};
+    const char *low, *high; /* the properties with its radii */
+    double radius, height;  /* where the file has none: the schema's */
+    void (*make)(struct shape *shape, const struct round *round);
+} round_shapes[] = {{"Sphere", "radius", "radius", 1, 0, make_sphere},
+                    {"Cylinder", "radius", "radius", 1, 2, make_cylinder},
+                    {"Cylinder_1", "radiusBottom", "radiusTop", 1, 2, make_cylinder},
+                    {"Cone", "radius", "radius", 1, 2, make_cone},
+                    {"Capsule", "radius", "radius", 0.5, 1, make_capsule},
+                    {"Capsule_1", "radiusBottom", "radiusTop", 0.5, 1, make_capsule}};
 enum { NUM_ROUND = sizeof round_shapes / sizeof *round_shapes };
 
-/* The measures of a shape: two numbers, and the axis of a round one. */
 struct measures {
-    size_t round; /* index in round_shapes; NUM_ROUND: it is flat */
+    size_t type; /* index in round_shapes; NUM_ROUND: it is flat */
     bool is_cube;
-    double a, b;
+    struct round round;
+    double a, b; /* half the sides of a flat one */
     char axis;
 };
 
 static bool measure(struct site *site, uint32_t primitive, const char *type, struct measures *out)
 {
     *out = (struct measures){.is_cube = strcmp(type, "Cube") == 0, .axis = 'Z'};
-    while (out->round < NUM_ROUND && strcmp(type, round_shapes[out->round].type) != 0)
-        ++out->round;
-    if (out->round < NUM_ROUND) {
-        out->a = usd_number(site, primitive, "radius", round_shapes[out->round].radius);
-        out->b = usd_number(site, primitive, "height", round_shapes[out->round].height);
+    while (out->type < NUM_ROUND && strcmp(type, round_shapes[out->type].type) != 0)
+        ++out->type;
+    if (out->type < NUM_ROUND) {
+        const double radius = round_shapes[out->type].radius;
+        out->round = (struct round){
+            .low = usd_number(site, primitive, round_shapes[out->type].low, radius),
+            .high = usd_number(site, primitive, round_shapes[out->type].high, radius),
+            .height = usd_number(site, primitive, "height", round_shapes[out->type].height)};
     } else if (out->is_cube) {
         out->a = usd_number(site, primitive, "size", 2) / 2;
         return true;
@@ -228,8 +241,8 @@ static struct mesh make_mesh(const struct measures *m)
 {
     struct shape shape = {0};
     begin(&shape, 3 * ROUND_VERTICES, 3 * ROUND_INDICES);
-    if (m->round < NUM_ROUND)
-        round_shapes[m->round].make(&shape, m->a, m->b);
+    if (m->type < NUM_ROUND)
+        round_shapes[m->type].make(&shape, &m->round);
     else if (m->is_cube)
         make_cube(&shape, m->a);
     else
@@ -248,7 +261,9 @@ bool usd_add_shape(struct site *site, uint32_t primitive, const char *type, stru
     bool is_new;
     if (!measure(site, primitive, type, &measures))
         return false;
-    char *key = cli_format("%s %.17g %.17g %c", type, measures.a, measures.b, measures.axis);
+    char *key =
+        cli_format("%s %.17g %.17g %.17g %.17g %.17g %c", type, measures.a, measures.b,
+                   measures.round.low, measures.round.high, measures.round.height, measures.axis);
     struct name_entry *first = names_add(&site->shapes, key, &is_new);
     struct mesh mesh = is_new ? make_mesh(&measures) : site->objects[first->value - 1].object.mesh;
     free(key);

@@ -103,13 +103,41 @@ static struct usda_named *add_named(struct usda_layer *layer, usda_prim_id prim,
     return &vec_last(&layer->named);
 }
 
-/* The first property with a value counts; without one, the last. */
+/* How much a property says of a name: a value more than time samples, and these more than nothing.
+ */
+static unsigned rank_of(const struct usda_layer *layer, const struct usda_named *named,
+                        uint32_t property)
+{
+    const struct usda_property *at = &layer->properties.items[property];
+    return !property || !at->value.len ? 0 : at->name.len == named->name.len ? 2 : 1;
+}
+
+/* Of properties that say as much the first counts; without a value, the last. */
 static void offer(const struct usda_layer *layer, struct usda_named *named, uint32_t property)
 {
-    const struct usda_property *before = &layer->properties.items[named->attribute];
-    bool is_final = named->attribute && before->value.len && before->name.len == named->name.len;
-    if (!is_final)
+    unsigned before = rank_of(layer, named, named->attribute),
+             rank = rank_of(layer, named, property);
+    if (rank > before || !before)
         named->attribute = property;
+}
+
+/* Copies metadata to a property that has none. */
+static void copy_metadata(const struct usda_property *from, struct usda_property *to)
+{
+    to->bind_as = to->bind_as.len ? to->bind_as : from->bind_as;
+    to->interpolation = to->interpolation.len ? to->interpolation : from->interpolation;
+    to->color_space = to->color_space.len ? to->color_space : from->color_space;
+}
+
+/* The metadata of an attribute may stand at its value or at its time samples. */
+static void share_metadata(struct usda_layer *layer, const struct usda_named *named)
+{
+    struct usda_property *value = &layer->properties.items[named->first],
+                         *samples = &layer->properties.items[named->samples];
+    if (!named->first || !named->samples)
+        return;
+    copy_metadata(value, samples);
+    copy_metadata(samples, value);
 }
 
 void usda_index_property(struct usda_layer *layer, usda_prim_id prim, uint32_t property)
@@ -120,10 +148,15 @@ void usda_index_property(struct usda_layer *layer, usda_prim_id prim, uint32_t p
     if (!named->first)
         named->first = property;
     offer(layer, named, property);
+    share_metadata(layer, named);
     if (name.len <= end || memcmp(name.bytes + name.len - end, USDA_SAMPLES, end) != 0)
         return;
     name.len -= end;
-    offer(layer, add_named(layer, prim, name), property);
+    named = add_named(layer, prim, name);
+    if (!named->samples)
+        named->samples = property;
+    offer(layer, named, property);
+    share_metadata(layer, named);
 }
 
 void usda_index_rows(struct usda_layer *layer, const usda_prim_id *prims, struct arena *scratch)
@@ -146,6 +179,7 @@ void usda_index_rows(struct usda_layer *layer, const usda_prim_id *prims, struct
     for (uint32_t i = 0; i < layer->named.len; i++) {
         struct usda_named *named = &layer->named.items[i];
         named->first = named->first ? places[named->first] : 0;
+        named->samples = named->samples ? places[named->samples] : 0;
         named->attribute = places[named->attribute];
     }
     memcpy(layer->properties.items + 1, sorted + 1, (num - 1) * sizeof *sorted);

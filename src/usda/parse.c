@@ -150,7 +150,7 @@ static bool is_arc(struct text_word name)
 /* The metadata of a prim, a property or the layer that binding needs. */
 struct metadata {
     struct text_word references, arc, bind_as, interpolation, color_space, default_prim, up_axis,
-        unit;
+        unit, inactive_ids;
     bool is_inactive, is_instance;
 };
 
@@ -179,6 +179,8 @@ static void keep_metadata(struct metadata *out, struct text_word name, struct te
         out->references = value;
     else if (usda_is(name, "metersPerUnit"))
         out->unit = value;
+    else if (usda_is(name, "inactiveIds"))
+        out->inactive_ids = value;
     else if (usda_is(name, "active"))
         out->is_inactive = usda_is(value, "false") || usda_is(value, "0");
     else if (usda_is(name, "instanceable"))
@@ -254,6 +256,14 @@ static void count_element(struct parser *p)
              (unsigned)p->max_elements);
 }
 
+static void add_property(struct parser *p, struct usda_property property)
+{
+    count_element(p);
+    vec_push(p->layer->arena, &p->layer->properties, property);
+    vec_push(p->layer->arena, &p->owners, p->prim);
+    usda_index_property(p->layer, p->prim, p->layer->properties.len - 1);
+}
+
 static void read_property(struct parser *p)
 {
     struct usda_property property = {.line = p->token.line};
@@ -262,7 +272,8 @@ static void read_property(struct parser *p)
     while (is_word(p, "custom") || is_word(p, "uniform") || is_word(p, "varying")
            || is_word(p, "config"))
         next(p);
-    if (is_deletion && (is_word(p, "nameChildren") || is_word(p, "properties"))) {
+    if (is_deletion
+        && (is_word(p, "nameChildren") || is_word(p, "properties") || is_word(p, "rootPrims"))) {
         next(p);
         expect(p, '=', "'='");
         read_value(p);
@@ -285,10 +296,7 @@ static void read_property(struct parser *p)
     property.color_space = metadata.color_space;
     if (p->failed || is_deletion || p->num_variants)
         return;
-    count_element(p);
-    vec_push(p->layer->arena, &p->layer->properties, property);
-    vec_push(p->layer->arena, &p->owners, p->prim);
-    usda_index_property(p->layer, p->prim, p->layer->properties.len - 1);
+    add_property(p, property);
 }
 
 /* ---- Prims ---- */
@@ -346,6 +354,18 @@ static bool read_specifier(struct parser *p, uint8_t *out)
     return false;
 }
 
+/* The instances of a PointInstancer that are switched off, which are metadata, as a property. */
+static void add_inactive_ids(struct parser *p, struct text_word ids)
+{
+    static const char name[] = "inactiveIds", type[] = "int64[]";
+    if (ids.len)
+        add_property(p, (struct usda_property){.name = {name, sizeof name - 1},
+                                               .type = {type, sizeof type - 1},
+                                               .value = ids,
+                                               .line = p->layer->prims.items[p->prim].line,
+                                               .column = p->layer->prims.items[p->prim].column});
+}
+
 static void read_prim(struct parser *p, uint8_t specifier)
 {
     struct usda_prim prim = {.specifier = specifier, .line = p->token.line};
@@ -369,6 +389,8 @@ static void read_prim(struct parser *p, uint8_t specifier)
     prim.is_inactive = metadata.is_inactive;
     prim.is_instance = metadata.is_instance;
     add_prim(p, prim);
+    if (!p->num_variants)
+        add_inactive_ids(p, metadata.inactive_ids);
     open_body(p, 'p');
 }
 
@@ -418,7 +440,7 @@ static void read_statement(struct parser *p)
         read_prim(p, specifier);
     else if (is_word(p, "variantSet"))
         read_variant_set(p);
-    else if (p->bodies.len)
+    else if (p->bodies.len || is_word(p, "reorder")) /* of the prims at the root */
         read_property(p);
     else
         fail(p, "a prim: def, over or class");

@@ -41,6 +41,7 @@ struct usda_prim {
 struct usda_named {
     usda_prim_id prim;
     uint32_t first;     /* property of this name; 0: it has samples alone */
+    uint32_t samples;   /* the first property with its time samples; 0: none */
     uint32_t attribute; /* usda_find_attribute */
     struct text_word name;
 };
@@ -109,7 +110,7 @@ bool usda_next_number(struct text_word *at, double *out);
 #define USDA_SAMPLES ".timeSamples"
 const struct usda_property *usda_find_attribute(const struct usda_layer *layer,
                                                 const struct usda_prim *prim, const char *name);
-/* The value of a property: its own, or its first time sample; len 0: none. */
+/* The value of a property: its own, or its time sample with the least time; len 0: none. */
 struct text_word usda_value(const struct usda_property *property);
 
 static inline bool usda_is(struct text_word word, const char *text)

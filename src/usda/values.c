@@ -54,28 +54,45 @@ bool usda_next_number(struct text_word *at, double *out)
     return false;
 }
 
-/* The first value of "{ 1: value, 2: value }". */
-static struct text_word first_sample(struct text_word samples)
+/* Reads on to a mark that is in no brackets; the token before it is the last. */
+static struct text_word read_until(struct usda_lexer *lexer, const char *marks, char *out_mark)
 {
-    struct usda_lexer lexer;
-    struct usda_token token;
-    unsigned depth = 0;
-    usda_lexer_init(&lexer, samples.bytes, samples.len);
-    do
-        token = usda_next_token(&lexer);
-    while (token.kind != USDA_END && token.kind != USDA_BAD
-           && !(token.kind == USDA_MARK && *token.begin == ':'));
     const char *begin = NULL;
-    for (;;) {
-        token = usda_next_token(&lexer);
-        begin = begin ? begin : token.begin;
+    for (unsigned depth = 0;;) {
+        struct usda_token token = usda_next_token(lexer);
         bool is_mark = token.kind == USDA_MARK;
+        begin = begin ? begin : token.begin;
+        *out_mark = is_mark ? *token.begin : '\0';
         if (token.kind == USDA_END || token.kind == USDA_BAD
-            || (!depth && is_mark && strchr(",}", *token.begin)))
+            || (!depth && is_mark && strchr(marks, *token.begin)))
             return (struct text_word){begin, (size_t)(token.begin - begin)};
         depth += is_mark && strchr("[({", *token.begin);
         depth -= is_mark && strchr("])}", *token.begin);
     }
+}
+
+/* The value of "{ 2: value, 1: value }" with the least time. */
+static struct text_word first_sample(struct text_word samples)
+{
+    struct usda_lexer lexer;
+    struct text_word first = {0};
+    double first_time = INFINITY;
+    char mark;
+    usda_lexer_init(&lexer, samples.bytes, samples.len);
+    read_until(&lexer, "{", &mark);
+    while (mark == '{' || mark == ',') {
+        double time = INFINITY;
+        struct text_word at = read_until(&lexer, ":}", &mark);
+        if (mark != ':')
+            break;
+        usda_next_number(&at, &time);
+        struct text_word value = read_until(&lexer, ",}", &mark);
+        if (!first.bytes || time < first_time) {
+            first = value;
+            first_time = time;
+        }
+    }
+    return first;
 }
 
 static bool ends_with(struct text_word word, const char *end)

@@ -10,93 +10,7 @@ if ! has_device "$render"; then
     finish stage
 fi
 
-# Materials of one colour each, and two that show primvars.
-{
-    echo '<materialx version="1.39">'
-    while read -r name color; do
-        echo "<surface_unlit name='S$name' type='surfaceshader'><input name='emission_color' type='color3' value='$color'/></surface_unlit>
-          <surfacematerial name='$name' type='material'><input name='surfaceshader' type='surfaceshader' nodename='S$name'/></surfacematerial>"
-    done <<<'Red 1,0,0
-Green 0,1,0
-Blue 0,0,1'
-    for name in paint number; do
-        echo "<geompropvalue name='G$name' type='$([ $name = paint ] && echo color3 || echo integer)'><input name='geomprop' type='string' value='$name'/></geompropvalue>"
-    done
-    cat <<'XML'
-  <convert name="asfloat" type="float"><input name="in" type="integer" nodename="Gnumber"/></convert>
-  <combine3 name="numbered" type="color3"><input name="in3" type="float" nodename="asfloat"/></combine3>
-  <add name="sum" type="color3"><input name="in1" type="color3" nodename="Gpaint"/><input name="in2" type="color3" nodename="numbered"/></add>
-  <surface_unlit name="SP" type="surfaceshader"><input name="emission_color" type="color3" nodename="sum"/></surface_unlit>
-  <surfacematerial name="Painted" type="material"><input name="surfaceshader" type="surfaceshader" nodename="SP"/></surfacematerial>
-  <position name="where" type="vector3"><input name="space" type="string" value="object"/></position>
-  <convert name="local" type="color3"><input name="in" type="vector3" nodename="where"/></convert>
-  <surface_unlit name="SO" type="surfaceshader"><input name="emission_color" type="color3" nodename="local"/></surface_unlit>
-  <surfacematerial name="Object" type="material"><input name="surfaceshader" type="surfaceshader" nodename="SO"/></surfacematerial>
-  <look name="parts"><materialassign material="Red" geom="//left"/><materialassign material="Green" geom="//right"/></look>
-</materialx>
-XML
-} >colors.mtlx
-
-# A camera that sees -4..4 at z = 0, over cells of 8 pixels. square NAME X Y: a quad of side 0.8 in a cell.
-head='#usda 1.0
-( upAxis = "Y" metersPerUnit = 1 )
-def Camera "camera"
-{
-    float focalLength = 10
-    float horizontalAperture = 8
-    float verticalAperture = 8
-    double3 xformOp:translate = (0, 0, 10)
-    uniform token[] xformOpOrder = ["xformOp:translate"]
-}'
-head=${head/\( upAxis = \"Y\" metersPerUnit/(
- upAxis = \"Y\"
- metersPerUnit}
-quad='point3f[] points = [(-0.4, -0.4, 0), (0.4, -0.4, 0), (0.4, 0.4, 0), (-0.4, 0.4, 0)]
-    int[] faceVertexCounts = [4]
-    int[] faceVertexIndices = [0, 1, 2, 3]'
-at() { printf 'double3 xformOp:translate = (%s, %s, 0)\n    uniform token[] xformOpOrder = ["xformOp:translate"]' "$1" "$2"; }
-# cell FILE X Y: which colour is seen there: the letters of the channels above 100, or "-".
-cell() {
-    python3 - "$@" <<'P'
-import sys
-data = open(sys.argv[1], "rb").read()
-header, pixels = data.split(b"255\n", 1)
-width = int(header.split()[1])
-x, y = (int((float(v) + 4) * width / 8) for v in sys.argv[2:4])
-at = 3 * ((width - 1 - y) * width + x)
-print("".join(c for c, v in zip("rgb", pixels[at : at + 3]) if v > 100) or "-")
-P
-}
-# cell_of FILE X Y: the same for a pixel, from the left above.
-cell_of() {
-    python3 - "$@" <<'P'
-import sys
-header, pixels = open(sys.argv[1], "rb").read().split(b"255\n", 1)
-at = 3 * (int(sys.argv[3]) * int(header.split()[1]) + int(sys.argv[2]))
-print("".join(c for c, v in zip("rgb", pixels[at : at + 3]) if v > 100) or "-")
-P
-}
-# colors FILE: the letters of the channels that any pixel has.
-colors() {
-    python3 - "$1" <<'P'
-import sys
-pixels = open(sys.argv[1], "rb").read().split(b"255\n", 1)[1]
-print("".join(c for i, c in enumerate("rgb") if max(pixels[i::3]) > 100))
-P
-}
-# draw FILE ARGUMENT...: raster and path traced, to FILE.ppm and FILE.path.ppm.
-draw() {
-    exits 0 "$render" "${document:-colors.mtlx}" --stage "$1.usda" -s 64 --background environment --environment black.ppm -o "$1.ppm" "${@:2}" || return
-    exits 0 "$render" "${document:-colors.mtlx}" --stage "$1.usda" -s 64 --background environment --environment black.ppm -o "$1.path.ppm" --path-trace --paths 4 "${@:2}"
-}
-# sees WHAT FILE X Y COLOUR
-sees() {
-    local picture
-    for picture in "$2.ppm" "$2.path.ppm"; do
-        check "$picture shows $1" test "$(cell "$picture" "$3" "$4")" = "$5"
-    done
-}
-printf 'P3 2 1 255 0 0 0 0 0 0\n' >black.ppm
+. "$here/stage_common.sh"
 
 cat >scene.usda <<USD
 $head
@@ -314,6 +228,8 @@ indexed() {
 "$render" tangents.mtlx --stage tangents.usda --look l --camera 0,0 -s 64 -o plain.ppm
 check 'normals may have indices' eval "indexed '' && cmp indexed.ppm plain.ppm"
 check 'an index without a normal is an error' eval "! indexed 's/0, 0, 0\]/0, 0, 1]/' && grep -q 'indexed.usda:.*has an index without a value' err"
+check 'one normal may stand for all' eval 'sed "s|normal3f\[\] normals = .*|normal3f[] normals = [(0, 0, 1)] ( interpolation = \"constant\" )|" tangents.usda >constant.usda && exits 0 "$render" tangents.mtlx --stage constant.usda --look l --camera 0,0 -s 64 -o constant.ppm && cmp constant.ppm plain.ppm'
+check 'also as a primvar without a word' eval 'sed "s|normal3f\[\] normals = .*|normal3f[] primvars:normals = [(0, 0, 1)]|" tangents.usda >constant.usda && exits 0 "$render" tangents.mtlx --stage constant.usda --look l --camera 0,0 -s 64 -o constant.ppm && cmp constant.ppm plain.ppm'
 
 # Groups of a file of Assimp, assigned by a look.
 cat >two.obj <<'OBJ'
@@ -545,74 +461,6 @@ for place in '-2 0 r' '-1.7 0 r' '-1.3 0 -' '0 0 g' '0.8 0 g' '0 1.2 -' '2 0 b' 
     sees "a point or none at $x, $y" points "$x" "$y" "$color"
 done
 check 'widths for other points are an error' eval 'sed "s/\[1, 2, 0.2\]/[1, 2]/" points.usda >widths.usda; exits 1 "$render" colors.mtlx --stage widths.usda -s 16 -o widths.ppm && grep -F "[bad-geometry]" err | grep -qF "has 2 numbers for 3 points"'
-
-# ---- What a document says of geometry ----
-
-# Paint comes of a primvar or a <geominfo>, a picture of a token.
-{
-    echo '<materialx version="1.39">'
-    grep -A6 "name='Gpaint'" colors.mtlx
-    for name in red green; do echo "<geominfo name='I$name' geom='/$name'><token name='id' type='string' value='$name'/></geominfo>"; done
-    cat <<'XML'
-  <geominfo name="IG" geom="/green, /own, /among"><geomprop name="paint" type="color3" value="0, 1, 0"/><geomprop name="number" type="integer" value="0"/></geominfo>
-  <geominfo name="IB" geom="/among/deeper"><geomprop name="paint" type="color3" value="0, 0, 1"/></geominfo>
-  <geominfo name="IO" geom="/out"><token name="id" type="string" value="/../../black"/></geominfo>
-  <image name="picture" type="color3"><input name="file" type="filename" value="of_&lt;id&gt;.ppm"/></image>
-  <surface_unlit name="SF" type="surfaceshader"><input name="emission_color" type="color3" nodename="picture"/></surface_unlit>
-  <surfacematerial name="Pictured" type="material"><input name="surfaceshader" type="surfaceshader" nodename="SF"/></surfacematerial>
-</materialx>
-XML
-} >geominfo.mtlx
-printf 'P3 1 1 255 255 0 0\n' >of_red.ppm
-printf 'P3 1 1 255 0 255 0\n' >of_green.ppm
-cat >geominfo.usda <<USD
-$head
-def Mesh "green" { rel material:binding = </Painted>
-    $quad
-    $(at -3.5 3.5)
-}
-def Mesh "own" { color3f primvars:paint = (1, 0, 0)
-    rel material:binding = </Painted>
-    $quad
-    $(at -1.5 3.5)
-}
-def Xform "among" { rel material:binding = </Painted>
-    def Mesh "deeper" {
-        $quad
-        $(at 0.5 3.5)
-    }
-    def Mesh "beside" {
-        $quad
-        $(at 2.5 3.5)
-    }
-}
-USD
-document=geominfo.mtlx check 'properties of <geominfo> are drawn' draw geominfo
-check 'without a message' test ! -s err
-sees 'the property of the document' geominfo -3.5 3.5 g
-sees "the geometry's own primvar before that of the document" geominfo -1.5 3.5 r
-sees 'the property of a deeper primitive' geominfo 0.5 3.5 b
-sees 'the property of the primitive above' geominfo 2.5 3.5 g
-cat >tokens.usda <<USD
-$head
-def Mesh "red" { rel material:binding = </Pictured>
-    $quad
-    $(at -3.5 3.5)
-}
-def Mesh "green" { rel material:binding = </Pictured>
-    $quad
-    $(at -1.5 3.5)
-}
-USD
-document=geominfo.mtlx check 'tokens of <geominfo> name files' draw tokens
-check 'without a message' test ! -s err
-sees 'the file of the first primitive' tokens -3.5 3.5 r
-sees 'the file of the second' tokens -1.5 3.5 g
-mkdir -p inner/of_
-cp geominfo.mtlx of_green.ppm inner
-sed 's/"red"/"out"/' tokens.usda >inner/out.usda
-check 'the names that tokens make may lead out of the folder' exits 0 "$render" inner/geominfo.mtlx --stage inner/out.usda -s 16 -o out.ppm
-check 'a sandbox holds for these names' eval 'exits 1 "$render" inner/geominfo.mtlx --stage inner/out.usda --sandbox -s 16 -o out.ppm && grep -F "[missing-texture]" err | grep -qF "outside"'
 
 # ---- Many objects ----
 

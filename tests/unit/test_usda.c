@@ -35,6 +35,7 @@ static const struct layer {
      0, 0},
     {HEAD "def \"a\" { reorder nameChildren = [\"b\", \"c\"]\n reorder properties = [\"d\"] }", 0,
      0},
+    {HEAD "reorder rootPrims = [\"b\", \"a\"]\ndef \"a\" {}", 0, 0},
     {HEAD "# comment\n/* and\n one */ def \"a\" {} // end", 0, 0},
     {HEAD "def \"a\" { string s = 'it\\'s'; string t = '''\n'x'\n''' }", 0, 0},
     {"", 1, 1},
@@ -216,7 +217,7 @@ static void test_names(void)
         const char *name, *value;
         bool is_property; /* also without samples */
     } names[] = {
-        {"x", "1", true}, {"y", "5", true}, {"z", "", true}, {"z.timeSamples", "4 ", true}};
+        {"x", "1", true}, {"y", "5", true}, {"z", "4 ", true}, {"z.timeSamples", "4 ", true}};
     struct fixture f;
     struct usda_layer layer;
     if (setjmp(f.trap.place))
@@ -239,8 +240,40 @@ static void test_names(void)
     arena_finish(&f.arena);
 }
 
+/* A value and time samples, in both orders: the value counts, and both have the metadata. */
+static void test_samples(void)
+{
+    static const char text[] = HEAD "def \"a\" {\n"
+                                    "  float x = 1 (interpolation = \"vertex\")\n"
+                                    "  float x.timeSamples = { 0: 2 }\n"
+                                    "  float y.timeSamples = { 0: 2 }\n"
+                                    "  float y = 1 (interpolation = \"vertex\")\n"
+                                    "  float z.timeSamples = { 10: 2, -1.5: (3), 0: None, }\n}\n";
+    static const struct {
+        const char *name, *value, *interpolation;
+    } wanted[] = {{"x", "1", "vertex"},
+                  {"y", "1", "vertex"},
+                  {"x.timeSamples", "2 ", "vertex"},
+                  {"y.timeSamples", "2 ", "vertex"},
+                  {"z", "(3)", ""}};
+    struct fixture f;
+    struct usda_layer layer;
+    if (setjmp(f.trap.place))
+        return;
+    start(&f);
+    REQUIRE(usda_read(&layer, "t.usda", text, strlen(text), 16, &f.arena, &f.diags));
+    const struct usda_prim *a = &layer.prims.items[usda_find(&layer, "/a", 2)];
+    for (size_t i = 0; i < sizeof wanted / sizeof *wanted; i++) {
+        const struct usda_property *found = usda_find_attribute(&layer, a, wanted[i].name);
+        REQUIRE(found && usda_is(usda_value(found), wanted[i].value));
+        REQUIRE(usda_is(found->interpolation, wanted[i].interpolation));
+    }
+    arena_finish(&f.arena);
+}
+
 int main(void)
 {
+    test_samples();
     test_names();
     test_layers();
     test_damage();
