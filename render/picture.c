@@ -79,7 +79,7 @@ static bool fail_for_textures(struct painter *painter, const struct bind *bind,
     picture_tell_textures(painter, bind, subject);
     report_error(&painter->cli->report, bind->id,
                  "%s: %zu texture file%s cannot be read; '--missing-texture checker' draws %s",
-                 subject->element ? subject->element : subject->path, count, count == 1 ? "" : "s",
+                 subject_name(subject), count, count == 1 ? "" : "s",
                  count == 1 ? "a checker in its place" : "checkers in their place");
     return false;
 }
@@ -136,7 +136,7 @@ static bool fail(struct painter *painter, const struct part *part, const struct 
     const struct bind *bind = part->bind;
     if (bind && bind->id && strcmp(bind->id, "output-clash") == 0)
         painter->has_clash = true;
-    const char *name = subject->element ? subject->element : subject->path;
+    const char *name = subject_name(subject);
     if (bind && bind->id && strcmp(bind->id, "missing-texture") == 0)
         return fail_for_textures(painter, bind, subject);
     if (bind && bind->id && strcmp(bind->id, "no-uniform") == 0)

@@ -56,6 +56,12 @@ struct subject {
     const struct bind_tokens *tokens;   /* of the names of files; NULL: there are none */
 };
 
+/* The name of a subject in messages. */
+static inline const char *subject_name(const struct subject *subject)
+{
+    return subject->element ? subject->element : subject->path;
+}
+
 /* A subject on the device. */
 struct part {
     const struct subject *subject;

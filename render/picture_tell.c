@@ -79,7 +79,7 @@ static void tell_type(struct painter *painter, const struct bind_mistyped *misty
                    "the primvar '%s' of '%s'%s has the type '%.*s', and '%s' reads %u number%s; "
                    "%s",
                    primvar->name, mistyped->object, place, primvar->type_len, primvar->type,
-                   subject->element, mistyped->num_read, mistyped->num_read == 1 ? "" : "s",
+                   subject_name(subject), mistyped->num_read, mistyped->num_read == 1 ? "" : "s",
                    primvar->components ? "the first numbers of it count"
                                        : "the default, or 0, stands in");
 }
@@ -104,7 +104,7 @@ void picture_tell(struct painter *painter, const struct bind *bind, const struct
             &painter->cli->report, "missing-primvar",
             "'%s' has no primvar for '%s', which '%s' reads%s; its default, or 0, stands "
             "in",
-            bind->lacking, bind->lacked, subject->element,
+            bind->lacking, bind->lacked, subject_name(subject),
             bind->num_lacking > 1 ? " (and others)" : "");
     for (uint32_t i = 0; i < bind->num_mistyped; ++i)
         tell_type(painter, &bind->mistyped[i], subject);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What a document says of the primitives of a site in <geominfo>: its geomprops are constant
- * primvars where the geometry has none of the name, its tokens are parts of the names of files.
+ * Facts that a document states about the primitives of a site in <geominfo>: its geomprops are
+ * constant primvars where the geometry has none of the name, its tokens are parts of the names of
+ * files.
  */
 #ifndef MXG_RENDER_SITE_FACTS_H
 #define MXG_RENDER_SITE_FACTS_H

@@ -67,6 +67,7 @@ static bool has_version(const struct library *lib, const struct nodedef *def, st
 struct candidate {
     uint32_t nodedef;
     bool is_of_version, is_default;
+    bool is_marked;       /* it says that it is the default, and the node asks for no version */
     unsigned wrong_types; /* inputs of another type */
     unsigned before;      /* inputs of the right type before the first of another type */
     bool has_unknown;     /* the definition lacks an input of the node */
@@ -81,10 +82,12 @@ static bool is_wrong_type(const struct library *lib, elem_id input, const struct
 static struct candidate examine(const struct library *lib, uint32_t id, elem_id node)
 {
     struct candidate c = {.nodedef = id};
+    const struct nodedef *def = library_nodedef(lib, id);
     const struct port *ports = library_ports(lib, id, NULL);
-    c.is_of_version =
-        has_version(lib, library_nodedef(lib, id), doc_attr_value(&lib->doc, node, STR_version));
-    c.is_default = has_version(lib, library_nodedef(lib, id), 0);
+    str_id wanted = doc_attr_value(&lib->doc, node, STR_version);
+    c.is_of_version = has_version(lib, def, wanted);
+    c.is_default = has_version(lib, def, 0);
+    c.is_marked = def->is_default_version && !wanted;
     for (elem_id child = doc_element(&lib->doc, node)->first_child; child;
          child = doc_element(&lib->doc, child)->next) {
         const struct element *input = doc_element(&lib->doc, child);
@@ -115,7 +118,9 @@ static bool is_better(const struct candidate *c, const struct candidate *best)
         return c->wrong_types < best->wrong_types;
     if (c->wrong_types && c->before != best->before)
         return c->before > best->before;
-    return !c->has_unknown && best->has_unknown;
+    if (c->has_unknown != best->has_unknown)
+        return best->has_unknown;
+    return c->is_marked && !best->is_marked;
 }
 
 /* ---- Reports ---- */
@@ -348,7 +353,7 @@ uint32_t library_match(const struct library *lib, elem_id node, struct diag_list
     bool known = false;
     for (const struct library *layer = lib; layer && !is_exact(&best); layer = layer->base)
         for (uint32_t own = library_first_of_node(layer, category);
-             own != LIBRARY_NONE && !is_exact(&best);
+             own != LIBRARY_NONE && !(is_exact(&best) && best.is_marked);
              own = layer->nodedefs.items[own].next_same_node) {
             uint32_t id = layer->base_nodedefs + own;
             known = true;

@@ -112,7 +112,7 @@ static unsigned rank_of(const struct usda_layer *layer, const struct usda_named 
     return !property || !at->value.len ? 0 : at->name.len == named->name.len ? 2 : 1;
 }
 
-/* Of properties that say as much the first counts; without a value, the last. */
+/* The first of properties that say as much counts; without a value, the last. */
 static void offer(const struct usda_layer *layer, struct usda_named *named, uint32_t property)
 {
     unsigned before = rank_of(layer, named, named->attribute),
