@@ -185,17 +185,29 @@ static void report_finished_slots(struct check *check)
 
 /* ---- Work ---- */
 
+/* Adds a document to the hash of all of them, by which a merge knows the shards of one run. */
+static void hash_path(struct check *check, const char *path)
+{
+    struct store store = {0};
+    const char *name = check_root_name(&check->root, &store, path);
+    uint64_t *hash = &check->reports.run.list_hash;
+    *hash = names_hash(names_hash(*hash, *name ? name : path), "\n");
+    store_finish(&store);
+}
+
 /* The next document of this shard; NULL at the end. */
 static const char *next_path(struct check *check)
 {
     const struct check_run *run = &check->reports.run;
-    const char *path;
-    do
-        path = inputs_next(&check->inputs);
-    while (path
-           && check->num_found++ % (run->num_shards ? run->num_shards : 1) + 1
-                  != (run->num_shards ? run->shard : 1));
-    return path;
+    for (const char *path; (path = inputs_next(&check->inputs)) != NULL;) {
+        uint64_t number = check->num_found++;
+        if (!run->num_shards)
+            return path;
+        hash_path(check, path);
+        if (number % run->num_shards + 1 == run->shard)
+            return path;
+    }
+    return NULL;
 }
 
 /* The parts of the record that neither a report nor the document's budget needs. */

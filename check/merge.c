@@ -82,6 +82,24 @@ static bool is_same_run(const struct part *a, const struct part *b)
     return is_same;
 }
 
+static void tell_other(struct merge *merge, const struct part *part, const char *why)
+{
+    report_error(&merge->cli.report, "shard-other",
+                 "'%s' and '%s' are not shards of the same run%s", part->path, merge->parts[0].path,
+                 why);
+}
+
+/* Once all documents are read: all shards have seen the same list of documents. */
+static void compare_lists(struct merge *merge)
+{
+    for (size_t i = 1; i < merge->num_parts; ++i) {
+        const json_t *first = json_object_get(merge->parts[0].reader.tail, "summary"),
+                     *other = json_object_get(merge->parts[i].reader.tail, "summary");
+        if (strcmp(json_text_of(first, "list"), json_text_of(other, "list")) != 0)
+            tell_other(merge, &merge->parts[i], ": their lists of documents differ");
+    }
+}
+
 /* Reports shards of other runs, and shards that are there twice; fills in the first of each. */
 static void find_first(struct merge *merge, const struct part **first, uint64_t count)
 {
@@ -89,9 +107,7 @@ static void find_first(struct merge *merge, const struct part **first, uint64_t 
         const struct part *part = &merge->parts[i];
         uint64_t number = shard_of(part, "number");
         if (!is_same_run(part, &merge->parts[0]) || number < 1 || number > count)
-            report_error(&merge->cli.report, "shard-other",
-                         "'%s' and '%s' are not shards of the same run", part->path,
-                         merge->parts[0].path);
+            tell_other(merge, part, "");
         else if (first[number - 1])
             report_error(&merge->cli.report, "shard-twice",
                          "'%s' and '%s' are both shard %" PRIu64 " of %" PRIu64,
@@ -181,6 +197,7 @@ static void report_all(struct merge *merge)
         advance(merge, &merge->parts[i]);
     for (struct part *part; (part = find_next(merge)) != NULL; advance(merge, part))
         report_part(merge, part);
+    compare_lists(merge);
     gate_tell_gone(&merge->gate, &merge->reports);
 }
 

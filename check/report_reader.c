@@ -68,6 +68,16 @@ void reader_close(struct report_reader *reader)
         fclose(reader->in);
     json_decref(reader->header);
     json_decref(reader->document);
+    json_decref(reader->tail);
+}
+
+/* Reads what stands behind the documents: ',"summary":{…}}'. */
+static void read_tail(struct report_reader *reader)
+{
+    if (reader->fault || reader->tail || next_char(reader->in) != ',')
+        return;
+    ungetc('{', reader->in);
+    reader->tail = json_loadf(reader->in, 0, NULL);
 }
 
 bool reader_next(struct report_reader *reader, uint64_t *out_offset)
@@ -77,8 +87,10 @@ bool reader_next(struct report_reader *reader, uint64_t *out_offset)
     int c = reader->fault ? ']' : next_char(reader->in);
     if (c == ',')
         c = next_char(reader->in);
-    if (c == ']')
+    if (c == ']') {
+        read_tail(reader);
         return false;
+    }
     ungetc(c, reader->in);
     off_t at = ftello(reader->in);
     if (out_offset)

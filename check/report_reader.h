@@ -12,6 +12,7 @@ struct report_reader {
     FILE *in;
     json_t *header;    /* the members before the documents */
     json_t *document;  /* the current document; NULL: none */
+    json_t *tail;      /* the members behind the documents, once these are read; NULL: none */
     const char *fault; /* the reason why it is unreadable or no report */
 };
 

@@ -35,6 +35,7 @@ struct check_run {
     size_t num_targets;
     bool quiet, verbose, compiles;
     bool is_compared;           /* the run compares with a baseline */
+    uint64_t list_hash;         /* of the names of all documents, those of other shards too */
     bool accepts;               /* it writes the baseline: no change and no failure fails it */
     check_change_set fail_on;   /* the changes that fail it */
     struct progress *progress;  /* the text report erases it before it prints; NULL: none */

@@ -8,6 +8,9 @@
 #include "check/record_json.h"
 #include "check/sink.h"
 
+#include <inttypes.h>
+#include <stdio.h>
+
 /* Writes the members without the braces around them. */
 static void write_members(FILE *out, json_t *members)
 {
@@ -62,6 +65,13 @@ static json_t *make_counts(const char *const *names, const uint64_t *counts, siz
     return object;
 }
 
+static void put_list(json_t *summary, uint64_t hash)
+{
+    char text[17];
+    snprintf(text, sizeof text, "%016" PRIx64, hash);
+    json_set_text(summary, "list", text);
+}
+
 static void end(struct sink *sink, const struct check_totals *totals)
 {
     json_t *summary =
@@ -75,6 +85,8 @@ static void end(struct sink *sink, const struct check_totals *totals)
     if (sink->run->is_compared && sink->kind == &sink_json)
         json_object_set_new(summary, "changes",
                             make_counts(check_change_names, totals->changes, NUM_CHECK_CHANGES));
+    if (sink->run->num_shards)
+        put_list(summary, sink->run->list_hash);
     fputs("\n],", sink->out);
     write_members(sink->out, json_pack("{s:o}", "summary", summary));
     fputs("}\n", sink->out);

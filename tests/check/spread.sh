@@ -220,6 +220,13 @@ check 'the error names the shard with other targets' grep -q "'other3.json' and 
 check 'two whole reports fail the merge' exits 1 "$mxgen" check merge all.json none.json
 check 'the error of two whole reports is shard-other' grep -q '\[shard-other\]' err
 check 'one whole report merges into itself' eval 'exits 1 "$mxgen" check merge all.json --json all2.json && cmp all.json all2.json'
+mkdir partial
+cp -r show partial/show
+rm "$(find partial/show -name '*.mtlx' | sort | tail -n 1)"
+(cd partial && "$mxgen" check show --no-compile --shard 3/4 --json 3.json >/dev/null)
+check 'a shard of a folder that lacks a document fails the merge' exits 1 "$mxgen" check merge shards/[124].json partial/3.json --json partial.json
+check 'the error says that the lists differ' grep -q "are not shards of the same run: their lists of documents differ \[shard-other\]" err
+check 'it leads to no report' test ! -e partial.json
 head -c $(($(wc -c <shards/2.json) / 2)) shards/2.json >cut.json
 check 'half a shard fails the merge' exits 1 "$mxgen" check merge shards/[134].json cut.json --json half.json
 check 'the error of half a shard is report-unreadable' grep -q '\[report-unreadable\]' err
