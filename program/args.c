@@ -182,6 +182,16 @@ const char *args_closest(const char *word, const char *const *candidates, size_t
     return best;
 }
 
+/* The new name of an option that had another one; NULL: it is none. */
+static const char *new_name_of(const char *word)
+{
+    static const char *const renamed[][2] = {{"max-closures", "max-slabs"}};
+    for (size_t i = 0; i < sizeof renamed / sizeof *renamed; ++i)
+        if (strcmp(renamed[i][0], word) == 0)
+            return renamed[i][1];
+    return NULL;
+}
+
 static void print_unknown(const struct arg_parser *parser, const struct written *option)
 {
     struct arg_list names = {0};
@@ -194,7 +204,9 @@ static void print_unknown(const struct arg_parser *parser, const struct written 
     }
     char word[64];
     snprintf(word, sizeof word, "%.*s", (int)option->len, option->name);
-    const char *near = option->is_letter ? NULL : args_closest(word, names.items, names.len);
+    const char *near = parser->generation ? new_name_of(word) : NULL;
+    if (!near && !option->is_letter)
+        near = args_closest(word, names.items, names.len);
     if (near)
         fprintf(stderr, "mxgen: unknown option '%s' (did you mean '--%s'?)\n", option->text, near);
     else

@@ -415,8 +415,13 @@ static const char *why_not_emitted(const struct generation *g)
 
 bool generation_emit(struct generation *g)
 {
-    assert(g->root > 0 && g->root < g->result->graph.nodes.len);
     generation_start_closures(g);
+    return generation_light(g);
+}
+
+bool generation_light(struct generation *g)
+{
+    assert(g->root > 0 && g->root < g->result->graph.nodes.len);
     bool is_traced = g->role->returns == RETURNS_PATH;
     if (is_traced && g->result->shader.sources.leaves.len) {
         generation_report_not_renderable(

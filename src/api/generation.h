@@ -123,6 +123,7 @@ void generation_walk_slabs(struct generation *g);
 void generation_tell_media(struct generation *g);
 /* makes the effects of the stages; later steps cannot fail */
 bool generation_emit(struct generation *g);
+bool generation_light(struct generation *g);  /* the same after generation_start_closures */
 bool generation_finish(struct generation *g); /* scheduling and layout */
 bool generation_spell(struct generation *g);  /* source */
 /* all steps between build and source; false also where the description asks for none */

@@ -82,8 +82,11 @@ static void view_sheet(struct generation *g, struct text *out,
     generation_start_closures(g);
     struct slab_budget budget = generation_slab_budget(g);
     build_fill_sheet(g->builder, &g->closure_host, &g->estimates, &budget, g->root, &sheet);
-    if (generation_slabs_are_few(g, &sheet.report))
-        write(&sheet, out);
+    if (!generation_slabs_are_few(g, &sheet.report))
+        return;
+    write(&sheet, out);
+    if (g->role->returns == RETURNS_SLABS && sheet.report.is_met && !sheet.is_recognised)
+        generation_light(g); /* tells where no pixel stores the bytes of the sheet */
 }
 
 static void view_slabs(struct generation *g, struct text *out)

@@ -154,7 +154,7 @@ enum { DIAG_MAX_ALIASES = 4 }; /* of one word */
 struct diag_guess {
     struct diag_list *list;
     const char *word, *best;
-    const char *aliases[DIAG_MAX_ALIASES]; /* NULL after the last */
+    const struct diag_alias *aliases[DIAG_MAX_ALIASES]; /* NULL after the last */
     size_t len, best_distance, best_score;
 };
 bool diag_may_guess(const struct diag_list *list);

@@ -9,9 +9,13 @@ enum {
     MAX_GUESSES = 64, /* per list */
 };
 
-static const char *const aliases[][2] = {
-#define ALIAS(word, name) {word, name},
+static const struct diag_alias {
+    const char *word, *name, *more;
+} aliases[] = {
+#define ALIAS(word, name) {word, name, ""},
+#define ALIAS_WITH(word, name, more) {word, name, more},
 #include "diag/aliases.def"
+#undef ALIAS_WITH
 #undef ALIAS
 };
 
@@ -177,9 +181,9 @@ static void find_aliases(struct diag_guess *guess)
     struct word word = {guess->word, guess->len};
     size_t count = 0;
     for (size_t i = 0; i < sizeof aliases / sizeof *aliases; i++)
-        if (is_same_word(word, (struct word){aliases[i][0], strlen(aliases[i][0])})
+        if (is_same_word(word, (struct word){aliases[i].word, strlen(aliases[i].word)})
             && count < DIAG_MAX_ALIASES)
-            guess->aliases[count++] = aliases[i][1];
+            guess->aliases[count++] = &aliases[i];
 }
 
 bool diag_guess_begin(struct diag_guess *guess, struct diag_list *list, const char *word)
@@ -202,12 +206,13 @@ bool diag_guess_begin(struct diag_guess *guess, struct diag_list *list, const ch
     return true;
 }
 
-static bool is_alias(const struct diag_guess *guess, const char *candidate)
+/* The alias of the word that is a candidate; NULL: there is none. */
+static const struct diag_alias *alias_of(const struct diag_guess *guess, const char *candidate)
 {
     for (size_t i = 0; i < DIAG_MAX_ALIASES && guess->aliases[i]; i++)
-        if (strcmp(guess->aliases[i], candidate) == 0)
-            return true;
-    return false;
+        if (strcmp(guess->aliases[i]->name, candidate) == 0)
+            return guess->aliases[i];
+    return NULL;
 }
 
 static size_t score_of_misspelling(struct diag_guess *guess, const char *candidate, size_t len)
@@ -245,7 +250,7 @@ void diag_guess_add(struct diag_guess *guess, const char *candidate)
     if (!guess->len || len < 2 || len > MAX_WORD || strcmp(guess->word, candidate) == 0)
         return;
     size_t score =
-        is_alias(guess, candidate) ? SCORE_ALIAS : score_of_misspelling(guess, candidate, len);
+        alias_of(guess, candidate) ? SCORE_ALIAS : score_of_misspelling(guess, candidate, len);
     if (score == SCORE_NONE)
         score = score_of_words(guess, candidate, len);
     if (score < guess->best_score) {
@@ -260,7 +265,8 @@ const char *diag_guess_text(struct diag_guess *guess)
         return "";
     struct text text;
     text_init(&text, guess->list->arena);
-    text_fmt(&text, " (did you mean '%s'?)", guess->best);
+    const struct diag_alias *alias = alias_of(guess, guess->best);
+    text_fmt(&text, " (did you mean '%s'?)%s", guess->best, alias ? alias->more : "");
     return text_cstr(&text);
 }
 

@@ -67,12 +67,27 @@ static const float *stray_part(const struct ir_value *value, enum bounds in)
     return NULL;
 }
 
+/* The input that has the value of another one: that of the <constant> which it reads, or itself. */
+static elem_id valued_input(const struct document *doc, elem_id input)
+{
+    enum { MAX_CONSTANTS = 8 }; /* documents of errors have circles */
+    for (int i = 0; i < MAX_CONSTANTS; i++) {
+        elem_id node = doc_named_node(doc, input);
+        bool is_constant = node && doc_element(doc, node)->category == STR_constant;
+        elem_id value = is_constant ? doc_child(doc, node, STR_value) : 0;
+        if (!value)
+            break;
+        input = value;
+    }
+    return input;
+}
+
 /* The place of the value of an input in the document, or of the node that is given it otherwise. */
 static struct diag_place place_of_value(const mxg_build *build, str_id input)
 {
     const struct document *doc = &build->b->lib->doc;
     elem_id node = build->frame->node.element, given = doc_child(doc, node, input);
-    return given ? doc_attr_place(doc, given, STR_value) : doc_place(doc, node);
+    return given ? doc_attr_place(doc, valued_input(doc, given), STR_value) : doc_place(doc, node);
 }
 
 /* Values of the document, also where the host may change them. */

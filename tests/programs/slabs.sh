@@ -328,6 +328,10 @@ done
 check 'a weight above 1 counts as 1' eval 'grep -q "matter.y >= 0.5" covered.frag && grep -q "matter.y >= 0.5" double.frag'
 
 # Views
+check 'a sheet is inspected for the deferred pipeline' exits 0 "$mxgen" inspect --slabs --role deferred "$slabs" -e MilkySheet
+check 'a message says that no pixel stores its bytes' eval 'grep -q "1 closures, 16 bytes" out && says "drawn forward"'
+check 'a stored material has no message' eval 'exits 0 "$mxgen" inspect --slabs --role deferred "$slabs" -e CarPaint && test ! -s err'
+check 'the hint of the old option of a budget is the new one' eval 'exits 2 "$mxgen" "$slabs" --max-closures 1 && says "(did you mean '\''--max-slabs'\''?)"'
 check 'a material of slabs is inspected' exits 0 "$mxgen" inspect --slabs "$slabs" -e DustyFibre
 check 'the view has slabs and steps' eval 'grep -q "3 slabs, 2 tangent bases, 3 closures, 60 bytes" out && grep -q "; tangent basis 2; " out && grep -q "to one slab" out'
 check 'another material is inspected as slabs' exits 0 "$mxgen" inspect --slabs "$examples/marble.mtlx"
