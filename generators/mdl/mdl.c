@@ -116,7 +116,7 @@ const struct target target_mdl = {
     .materialx_name = "mdl", /* sources for genmdl need modules of MaterialX */
     .brief = "NVIDIA's Material Definition Language 1.8 and later",
     .caps = CAP_BITWISE | CAP_IMPLICIT_LOD | CAP_STRINGS | CAP_NAMED_WHOLES | CAP_TYPED_TEXTURES
-            | CAP_MISSING_COLORS | CAP_SCOPED_PARAMETERS | CAP_INDEXED_TANGENTS | CAP_METADATA,
+            | CAP_MISSING_COLORS | CAP_SCOPED_PARAMETERS | CAP_METADATA,
     .lacks_aovs = "a material of MDL has no outputs beside its closures",
     .versions = versions,
     .modules = modules,

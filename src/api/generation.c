@@ -416,6 +416,7 @@ static const char *why_not_emitted(const struct generation *g)
 bool generation_emit(struct generation *g)
 {
     generation_start_closures(g);
+    generation_tell_flat_patterns(g);
     return generation_light(g);
 }
 

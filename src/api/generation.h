@@ -210,6 +210,8 @@ elem_id generation_element_of(const struct generation *g, uint32_t origin);
 void generation_tell_lost(struct generation *g);
 /* Tells functions whose derivatives are 0 on paths. */
 void generation_tell_flat_calls(struct generation *g);
+/* Tells of patterns without the derivatives that they ask for: before closures add their own. */
+void generation_tell_flat_patterns(struct generation *g);
 /* Tells closures that stand for leaves which the language has no closure for. */
 void generation_tell_stand_ins(struct generation *g);
 /* capacity.c: warns about AOVs that a payload has no room for. */

@@ -25,16 +25,35 @@ void generation_tell_lost(struct generation *g)
     }
 }
 
+static void tell_flat(struct generation *g, elem_id node, const char *why)
+{
+    const struct document *doc = &g->document->layer.doc;
+    diag_add(diags_of(g), DIAG_ID_derivatives_left_out, doc_place(doc, node),
+             str_text(doc->strings, doc_element(doc, node)->category), why);
+}
+
 void generation_tell_flat_calls(struct generation *g)
 {
     const struct shader *shader = &g->result->shader;
-    const struct document *doc = &g->document->layer.doc;
     for (uint32_t i = 0; i < shader->reflection.flat_calls.len; i++) {
         const struct shader_flat_call *call = &shader->reflection.flat_calls.items[i];
-        elem_id node = generation_element_of(g, call->origin);
-        diag_add(diags_of(g), DIAG_ID_derivatives_left_out, doc_place(doc, node),
-                 str_text(shader->strings, call->function),
-                 str_text(doc->strings, doc_element(doc, node)->category));
+        struct text why;
+        text_init(&why, &g->scratch);
+        text_fmt(&why, "paths do not follow the loops or returns of its function '%s'",
+                 str_text(shader->strings, call->function));
+        tell_flat(g, generation_element_of(g, call->origin), text_cstr(&why));
+    }
+}
+
+void generation_tell_flat_patterns(struct generation *g)
+{
+    const struct ir_graph *graph = &g->result->graph;
+    elem_id last = 0;
+    for (uint32_t i = 0; !role_is_pass(g->role) && i < graph->flat_origins.len; i++) {
+        elem_id node = generation_element_of(g, graph->flat_origins.items[i]);
+        if (node != last)
+            tell_flat(g, node, "a function has no neighbouring pixels");
+        last = node;
     }
 }
 

@@ -71,8 +71,11 @@ ir_ref ir_build(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t
         const union ir_word *words = ir_constant_words(graph, args[0]);
         return ir_const_bool(graph, words && words->u);
     }
-    if (graph->has_no_neighbours && ir_is_difference(op))
+    if (graph->has_no_neighbours && ir_is_difference(op)) {
+        if (ir_get(graph, args[0])->op != IR_CONST && type != IR_TYPE_VEC2)
+            vec_push(graph->arena, &graph->flat_origins, graph->origin);
         return ir_const_splat(graph, type, 0.0f);
+    }
     if (graph->no_fold || num_args == 0 || num_args > MAX_FOLD_ARGS)
         return ir_intern(graph, op, type, attr, args, num_args);
     ir_ref own[MAX_FOLD_ARGS]; /* the simplifier adds nodes, and `args` may point into the graph */

@@ -284,6 +284,8 @@ struct ir_graph {
     VEC(uint32_t) outer_origins; /* origins below it on the stack */
     uint64_t num_builds;    /* calls of ir_build, also those that add nothing: the work so far */
     bool has_no_neighbours; /* derivatives are 0 */
+    /* of these derivatives, but for constants and coordinates, which choose levels of textures */
+    VEC(uint32_t) flat_origins;
     uint32_t max_nodes;     /* 0 = unlimited; beyond it ->overflow is set and POISON returned */
     bool overflow;
     bool exact;   /* only apply exact rules, which hold for infinities and NaN, too */

@@ -33,8 +33,8 @@ enum target_caps {
     /* each shader has its own scope of parameters, so names need no prefix */
     CAP_SCOPED_PARAMETERS = 1 << 16,
     /*
-     * a tangent belongs to the texture coordinates of its index; otherwise to the first ones, as in
-     * MaterialX
+     * a tangent belongs to the texture coordinates of its index, by derivatives; otherwise to the
+     * first ones, as in MaterialX
      */
     CAP_INDEXED_TANGENTS = 1 << 17,
     CAP_SETS = 1 << 18,              /* with CAP_BINDINGS: layout(set, binding) */

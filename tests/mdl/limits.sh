@@ -12,6 +12,8 @@ cat >gold.mtlx <<'END'
   <UsdUVTexture name="height" type="multioutput"/>
   <heighttonormal name="bumps" type="vector3"><input name="in" type="float" nodename="height" output="r"/></heighttonormal>
   <output name="slopes" type="vector3" nodename="bumps"/>
+  <tangent name="second" type="vector3"><input name="index" type="integer" value="1"/></tangent>
+  <output name="along" type="vector3" nodename="second"/>
   <constant name="word" type="string"><input name="value" type="string" value="x"/></constant>
   <output name="text" type="string" nodename="word"/>
   <constant name="grey" type="float"><input name="value" type="float" value="0.5"/></constant>
@@ -22,6 +24,7 @@ check 'a material knows no view' exits 1 "$mxgen" gold.mtlx --target mdl --eleme
 check 'the error says so' grep -q 'gold.mtlx:.*mdl has no viewPosition' err
 check 'a material has no derivatives' exits 1 "$mxgen" gold.mtlx --target mdl --element slopes -o none
 check 'the error says so' grep -q 'gold.mtlx:.*mdl has no slopes' err
+check 'a tangent is that of the first coordinates, without derivatives' eval '"$mxgen" gold.mtlx --target mdl --element along -q -o along && grep -q "texture_tangent_u(0)" along/along.mdl && ! grep -q "slope" along/along.mdl'
 check 'an AOV that a material cannot have is told' eval 'exits 0 "$mxgen" "$(dirname "$(realpath "$0")")/../golden/aov.mtlx" --target mdl -o aovs && grep -q "aov.mtlx:.* is left out: a material of MDL.*\[aov-left-out\]" err'
 check 'a text is no light' exits 1 "$mxgen" gold.mtlx --target mdl --element text -o none
 check 'a value is light' exits 0 "$mxgen" gold.mtlx --target mdl --element glow -o glow
