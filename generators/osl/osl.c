@@ -205,7 +205,7 @@ const struct target target_osl = {
     .brief = "Open Shading Language 1.14 and later",
     .caps = CAP_OVERLOADS | CAP_BITWISE | CAP_IMPLICIT_LOD | CAP_STRINGS | CAP_NAMED_WHOLES
             | CAP_TYPED_TEXTURES | CAP_MISSING_COLORS | CAP_SCOPED_PARAMETERS | CAP_INDEXED_TANGENTS
-            | CAP_METADATA,
+            | CAP_PICKS | CAP_DERIVATIVES | CAP_METADATA,
     .closures = &osl_closures,
     .network = &osl_network,
     .source = &osl_source,

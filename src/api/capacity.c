@@ -11,9 +11,9 @@ void generation_tell_lost_aovs(struct generation *g)
     for (uint32_t i = 0; i < shader->interface.aovs.len; i++) {
         const struct shader_aov *aov = &shader->interface.aovs.items[i];
         bool is_lost = lacks || (aov->is_output && g->role->returns == RETURNS_PAYLOAD);
-        if (is_lost && aov->element)
-            diag_add(diags_of(g), DIAG_ID_aov_left_out,
-                     doc_place(&g->document->layer.doc, aov->element),
+        elem_id place = lacks && !aov->element ? g->element : aov->element;
+        if (is_lost && place)
+            diag_add(diags_of(g), DIAG_ID_aov_left_out, doc_place(&g->document->layer.doc, place),
                      str_text(shader->strings, aov->name),
                      lacks ? lacks : "a payload holds one closure");
     }
@@ -49,6 +49,27 @@ bool generation_keeps_textures(struct generation *g)
         return true;
     diag_add(diags_of(g), DIAG_ID_texture_limit, doc_place(&g->document->layer.doc, g->element),
              (unsigned)num, (unsigned)target->max_textures, g->result->target->name, list_slots(g));
+    return false;
+}
+
+bool generation_keeps_attributes(struct generation *g)
+{
+    const struct shader *shader = &g->result->shader;
+    const struct shader_interface *interface = &shader->interface;
+    const struct target *target = g->result->target;
+    uint32_t num = 0;
+    struct text why;
+    for (uint32_t i = interface->first_of_block[BLOCK_APP_DATA];
+         i < interface->first_of_block[BLOCK_APP_DATA + 1]; i++)
+        num += ir_type_info(shader_interface_variable(shader, i)->type)->columns;
+    if (!target->max_attributes || num <= target->max_attributes)
+        return true;
+    text_init(&why, &g->scratch);
+    text_fmt(&why, "it reads %u vertex attributes, and a stage has %u at most in %s", (unsigned)num,
+             (unsigned)target->max_attributes, target->name);
+    const struct document *doc = &g->document->layer.doc;
+    diag_add(diags_of(g), DIAG_ID_not_renderable, doc_place(doc, g->element),
+             str_text(doc->strings, doc_element(doc, g->element)->name), text_cstr(&why));
     return false;
 }
 

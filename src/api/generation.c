@@ -657,8 +657,8 @@ static void drop_source(mxg_result *result)
 bool generation_shade(struct generation *g)
 {
     return generation_emit(g) && (!g->desc.only_diagnostics || g->desc.bindings)
-           && generation_finish(g) && generation_keeps_textures(g) && generation_keeps_outputs(g)
-           && !g->desc.only_diagnostics;
+           && generation_finish(g) && generation_keeps_textures(g) && generation_keeps_attributes(g)
+           && generation_keeps_outputs(g) && !g->desc.only_diagnostics;
 }
 
 void generation_run_all(struct generation *g)

@@ -218,6 +218,8 @@ void generation_tell_stand_ins(struct generation *g);
 void generation_tell_lost_aovs(struct generation *g);
 /* False, after a diagnostic, if a stack has more textures than the target can read. */
 bool generation_keeps_textures(struct generation *g);
+/* False, after a diagnostic, if the vertex stage has more attributes than the target can read. */
+bool generation_keeps_attributes(struct generation *g);
 /* False, after a diagnostic, if AOVs are more than the attachments of the host. */
 bool generation_keeps_outputs(struct generation *g);
 

@@ -38,8 +38,19 @@ static const struct ability {
                  {CAP_TWO_SOURCES, "blend with two sources"},
                  {CAP_HOST_FILES, "be a function in a file of the host"},
                  {CAP_LIGHTING, "compute light in the shader"},
+                 {CAP_PICKS, "pick a layer of a stack"},
+                 {CAP_DERIVATIVES, "take derivatives"},
                  {CAP_CLOSURES, "return closures"},
                  {CAP_MODULES, "have modules"}};
+
+/* Values of options that ask targets for more than their options do. */
+static const struct {
+    enum option_id option;
+    const char *value;
+    uint64_t caps;
+} asking[] = {{OPTION_transparency, "dual", CAP_TWO_SOURCES},
+              {OPTION_slots, "stochastic", CAP_PICKS},
+              {OPTION_rough_refraction, "blur", CAP_DERIVATIVES}};
 
 static void tell_clash(struct generation *g, const char *option, const char *value,
                        const char *other, const char *other_value, const char *why)
@@ -187,8 +198,9 @@ bool generation_find_role(struct generation *g)
         check_target(g, "pass", deferred_pass_name(g->result->pass), g->role->caps);
     else
         check_target(g, option_key(OPTION_role), asked->name, asked->caps);
-    if (has_value(g, OPTION_transparency, "dual"))
-        check_target(g, option_key(OPTION_transparency), "dual", CAP_TWO_SOURCES);
+    for (size_t i = 0; i < sizeof asking / sizeof *asking; i++)
+        if (has_value(g, asking[i].option, asking[i].value))
+            check_target(g, option_key(asking[i].option), asking[i].value, asking[i].caps);
     check_tasks(g, asked);
     check_values(g, asked);
     if (is_known)

@@ -286,7 +286,7 @@ struct ir_graph {
     bool has_no_neighbours; /* derivatives are 0 */
     /* of these derivatives, but for constants and coordinates, which choose levels of textures */
     VEC(uint32_t) flat_origins;
-    uint32_t max_nodes;     /* 0 = unlimited; beyond it ->overflow is set and POISON returned */
+    uint32_t max_nodes; /* 0 = unlimited; beyond it ->overflow is set and POISON returned */
     bool overflow;
     bool exact;   /* only apply exact rules, which hold for infinities and NaN, too */
     bool no_fold; /* no folding; for tests, and while a pass copies nodes */

@@ -58,5 +58,10 @@ enum target_caps {
 #define CAP_MODULES (UINT64_C(1) << 31)
 /* without CAP_BINDINGS: programs say where Vulkan binds their own images and buffers */
 #define CAP_PROGRAM_BINDINGS (UINT64_C(1) << 32)
+/* what computes light has these, too */
+/* a number picks one layer of a stack */
+#define CAP_PICKS (UINT64_C(1) << 33)
+/* how a value changes from a point to the points beside it */
+#define CAP_DERIVATIVES (UINT64_C(1) << 34)
 
 #endif

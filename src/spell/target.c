@@ -20,7 +20,8 @@ const struct role *role_find(const char *name)
 
 uint64_t target_capabilities(const struct target *target)
 {
-    return target->caps | (target->closures ? CAP_CLOSURES : CAP_LIGHTING)
+    return target->caps
+           | (target->closures ? CAP_CLOSURES : CAP_LIGHTING | CAP_PICKS | CAP_DERIVATIVES)
            | (target->network ? CAP_NETWORKS : 0u) | (target->modules ? CAP_MODULES : 0u);
 }
 

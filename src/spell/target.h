@@ -112,8 +112,9 @@ struct target {
     const struct target *base;  /* provides missing hooks and rows */
     const char *brief;          /* one line for --help and introspection */
     uint64_t caps;
-    uint32_t max_textures;  /* that a stage can read; 0: that of base, or no limit */
-    const char *lacks_aovs; /* why materials have none; NULL: they may have some */
+    uint32_t max_textures;   /* that a stage can read; 0: that of base, or no limit */
+    uint32_t max_attributes; /* locations that a vertex stage can read; 0: the device limits them */
+    const char *lacks_aovs;  /* why materials have none; NULL: they may have some */
     /* values of the option `version`, the default first; "#version" takes it */
     const char *const *versions;
     struct target_since since;
