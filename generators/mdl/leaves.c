@@ -275,12 +275,8 @@ static ir_ref index_of(const struct leaf *leaf)
     struct ir_graph *g = leaf->tree->graph;
     if (leaf->inputs[INPUT_ior])
         return ir_convert(g, IR_TYPE_VEC3, leaf->inputs[INPUT_ior]);
-    ir_ref frontal = FORMULA(leaf->tree->shader, "mx_mean", leaf->inputs[INPUT_color0]),
-           most = ir_const_float(g, 0.98f), none = ir_const_float(g, 0.0f),
-           one = ir_const_float(g, 1.0f);
-    ir_ref root = ir_op1(g, IR_SQRT, ir_op3(g, IR_CLAMP, frontal, none, most));
-    ir_ref above = ir_add(g, one, root), below = ir_sub(g, one, root);
-    return ir_convert(g, IR_TYPE_VEC3, ir_div(g, above, below));
+    ir_ref frontal = FORMULA(leaf->tree->shader, "mx_mean", leaf->inputs[INPUT_color0]);
+    return ir_convert(g, IR_TYPE_VEC3, FORMULA(leaf->tree->shader, "mx_index_of_frontal", frontal));
 }
 
 static void note_refraction(struct leaf *leaf)
@@ -371,8 +367,8 @@ static const struct mdl_light *cone(struct leaf *leaf)
     ir_ref angle = ir_op1(g, IR_RADIANS, leaf->inputs[INPUT_inner_angle]);
     ir_ref edf = mdl_call(t, "df::spot_edf(exponent: 1.0, spread: $0, global_distribution: false)",
                           IR_TYPE_EDF, &angle, 1);
-    ir_ref sine = ir_op1(g, IR_SIN, ir_scaled(g, angle, 0.5f));
-    return mdl_light(t, edf, ir_mul(g, leaf->inputs[INPUT_color], ir_mul(g, sine, sine)));
+    ir_ref share = FORMULA(t->shader, "mx_cone_share", angle);
+    return mdl_light(t, edf, ir_mul(g, leaf->inputs[INPUT_color], share));
 }
 
 /* An edf whose radiance depends on the angle, over its base. */
@@ -397,20 +393,13 @@ static struct mdl_parts factor(struct mdl_tree *t, ir_ref ref)
     return parts;
 }
 
-/*
- * The single-scattering albedo of a medium whose surface has a colour: Chiang, Kutz and Burley,
- * Practical and Controllable Subsurface Scattering for Production Path Tracing (2016), equation 1.
- * The radius is the mean free path.
- */
+/* The radius is the mean free path. */
 static void add_subsurface(struct leaf *leaf, struct mdl_parts *parts)
 {
     struct mdl_tree *t = leaf->tree;
     struct ir_graph *g = t->graph;
-    ir_ref c = leaf->inputs[INPUT_color], one = ir_white(g), tiny = ir_const_float(g, 1e-5f);
-    ir_ref inner = ir_add(g, ir_const_float(g, 2.61188f), ir_scaled(g, c, -4.31805f));
-    inner = ir_add(g, ir_const_float(g, -5.09406f), ir_mul(g, c, inner));
-    ir_ref albedo = ir_sub(g, one, ir_op1(g, IR_EXP, ir_mul(g, c, inner)));
-    ir_ref extinction = ir_div(g, one, ir_op2(g, IR_MAX, leaf->inputs[INPUT_radius], tiny));
+    ir_ref albedo = FORMULA(t->shader, "mx_scattering_albedo", leaf->inputs[INPUT_color]),
+           extinction = FORMULA(t->shader, "mx_extinction", leaf->inputs[INPUT_radius]);
     parts->scattering = ir_mul(g, albedo, extinction);
     parts->absorption = ir_sub(g, extinction, parts->scattering);
     parts->anisotropy = leaf->inputs[INPUT_anisotropy];

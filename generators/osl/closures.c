@@ -5,6 +5,8 @@
  */
 #include "generators/osl/tree.h"
 
+#include "shader/formula.h"
+
 #include <assert.h>
 
 /* ---- Shaders ---- */
@@ -31,8 +33,7 @@ static ir_ref unlit(struct osl_tree *t, ir_ref emitted, ir_ref transmitted, ir_r
 /* intensity · 2^exposure of the emitted light */
 static ir_ref light(struct osl_tree *t, ir_ref edf, ir_ref intensity, ir_ref exposure)
 {
-    ir_ref scale = ir_op2(t->graph, IR_MUL, intensity, ir_op1(t->graph, IR_EXP2, exposure));
-    return osl_scaled(t, edf, scale);
+    return osl_scaled(t, edf, FORMULA(t->shader, "mx_exposed", intensity, exposure));
 }
 
 /*

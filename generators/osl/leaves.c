@@ -400,16 +400,13 @@ static ir_ref rise(const struct leaf *leaf, ir_ref cosine)
     return FORMULA(shader, "mx_rise_dielectric", in[INPUT_ior], cosine);
 }
 
-/*
- * Light meets retroreflecting facets head-on at every angle to the surface. This factor is the
- * increase of reflectance at that angle.
- */
+/* The reflectance of facets that send light back, over that facing the viewer. */
 static ir_ref turned_factor(const struct leaf *leaf)
 {
     struct ir_graph *g = leaf->tree->graph;
     ir_ref view = closure_view(leaf->tree->shader, leaf->tree->host);
-    ir_ref cosine = ir_op1(g, IR_ABS, ir_op2(g, IR_DOT, leaf->inputs[INPUT_normal], view));
-    ir_ref more = rise(leaf, ir_op2(g, IR_MIN, cosine, ir_const_float(g, 1.0f)));
+    ir_ref cosine = FORMULA(leaf->tree->shader, "mx_rise_cosine", leaf->inputs[INPUT_normal], view);
+    ir_ref more = rise(leaf, cosine);
     ir_ref one = ir_const_splat(g, ir_type_of(g, more), 1.0f);
     return ir_build(g, IR_SELECT, ir_type_of(g, more), 0, (ir_ref[]){leaf->turned, more, one}, 3);
 }
@@ -464,12 +461,12 @@ static ir_ref seen_from_behind(struct leaf *leaf, const struct row *row)
 {
     struct osl_tree *t = leaf->tree;
     struct ir_graph *g = t->graph;
-    ir_ref f0 = leaf->inputs[INPUT_f0], black = ir_const_splat(g, IR_TYPE_VEC3, 0.0f);
-    ir_ref rise = ir_op2(g, IR_SUB, leaf->inputs[INPUT_f90], f0);
+    ir_ref f0 = leaf->inputs[INPUT_f0];
+    ir_ref more = FORMULA(t->shader, "mx_rise_above", f0, leaf->inputs[INPUT_f90]);
     leaf->inputs[INPUT_f0] = leaf->inputs[INPUT_f90] = ir_const_splat(g, IR_TYPE_VEC3, 1.0f);
     ir_ref even = osl_scaled(t, row_call(leaf, row), f0);
-    leaf->inputs[INPUT_f0] = black;
-    leaf->inputs[INPUT_f90] = ir_op2(g, IR_MAX, rise, black);
+    leaf->inputs[INPUT_f0] = ir_const_splat(g, IR_TYPE_VEC3, 0.0f);
+    leaf->inputs[INPUT_f90] = more;
     return osl_sum(t, even, row_call(leaf, row));
 }
 

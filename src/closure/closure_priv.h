@@ -80,7 +80,7 @@ void closure_put_under(struct shader *shader, const struct closure_host *host,
 /* The way of the light that a leaf reflects from the environment. */
 ir_ref closure_environment_way(struct shader *shader, const struct closure_host *host, ir_ref leaf);
 /* two_colours.c: the throughput of an operator whose operands let these fractions pass. */
-ir_ref closure_operator_throughput(struct ir_graph *graph, ir_ref operator_, ir_ref a, ir_ref b);
+ir_ref closure_operator_throughput(struct shader *shader, ir_ref operator_, ir_ref a, ir_ref b);
 
 /*
  * scatter.c: writes the function for path tracers, of a surface, or of the layers of a stack, of

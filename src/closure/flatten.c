@@ -141,7 +141,7 @@ static ir_ref operator_throughput(struct flattener *f, ir_ref ref)
     bool has_base = ir_get(f->graph, ref)->op != IR_CLOSURE_SCALE;
     ir_ref b = has_base ? ir_arg(f->graph, ref, 1) : 0;
     ir_ref of_a = through_of(f, ir_arg(f->graph, ref, 0)), of_b = through_of(f, b);
-    return closure_operator_throughput(f->graph, ref, of_a, of_b);
+    return closure_operator_throughput(f->shader, ref, of_a, of_b);
 }
 
 /* Only a layer keeps a power of two: a sum of two different ones is none. */

@@ -11,51 +11,20 @@
  * which may have picked another layer: so textures take explicit derivatives, which the scheduler
  * moves before the branch.
  *
- * The number is the host's, u_layerSample, or below 0 a hash of the point and the frame: pcg3d
- * (Jarzynski and Olano 2020, "Hash Functions for GPU Rendering").
+ * The number is the host's, u_layerSample, or below 0 a hash of the point and the frame.
  */
 #include "closure/closure_priv.h"
+#include "shader/formula.h"
 
 #include <assert.h>
 
 /* ---- The number ---- */
 
-static ir_ref uint_of(struct ir_graph *g, uint32_t value)
-{
-    struct ir_value v = {.type = IR_TYPE_UINT, .w[0].u = value};
-    return ir_const(g, &v);
-}
-
-/* v[i] += v[a] * v[b] */
-static void stir(struct ir_graph *g, ir_ref v[3], unsigned i, unsigned a, unsigned b)
-{
-    v[i] = ir_op2(g, IR_ADD, v[i], ir_op2(g, IR_MUL, v[a], v[b]));
-}
-
 static ir_ref hash_of(struct shader *shader, ir_ref point)
 {
-    struct ir_graph *g = shader->graph;
     ir_ref frame =
         shader_read(shader, shader_private_uniform(shader, STR_u_frame, IR_TYPE_FLOAT, 0));
-    ir_ref v[3];
-    for (unsigned i = 0; i < 3; i++) {
-        ir_ref bits = ir_build(g, IR_FLOAT_TO_UINT_BITS, IR_TYPE_UINT, 0,
-                               (ir_ref[]){ir_component(g, point, i)}, 1);
-        if (i == 2)
-            bits = ir_op2(g, IR_XOR, bits,
-                          ir_build(g, IR_FLOAT_TO_UINT_BITS, IR_TYPE_UINT, 0, &frame, 1));
-        v[i] = ir_op2(g, IR_ADD, ir_op2(g, IR_MUL, bits, uint_of(g, 1664525u)),
-                      uint_of(g, 1013904223u));
-    }
-    for (unsigned round = 0; round < 2; round++) {
-        for (unsigned i = 0; i < 3; i++)
-            stir(g, v, i, (i + 1) % 3, (i + 2) % 3);
-        for (unsigned i = 0; i < 3 && round == 0; i++)
-            v[i] = ir_op2(g, IR_XOR, v[i], ir_op2(g, IR_SHR, v[i], uint_of(g, 16)));
-    }
-    /* 24 bits are exact in a float */
-    ir_ref top = ir_convert(g, IR_TYPE_FLOAT, ir_op2(g, IR_SHR, v[0], uint_of(g, 8)));
-    return ir_op2(g, IR_MUL, top, ir_const_float(g, 1.0f / 16777216.0f));
+    return FORMULA(shader, "mx_layer_number", point, frame);
 }
 
 ir_ref closure_layer_number(struct shader *shader, ir_ref point)

@@ -6,6 +6,8 @@
  */
 #include "closure/closure_priv.h"
 
+#include "shader/formula.h"
+
 #include <assert.h>
 
 struct evaluation {
@@ -68,17 +70,13 @@ static struct closure_value leaf_value(struct evaluation *e, ir_ref leaf)
                                   closure_leaf_throughput(e->shader, e->host, leaf, &decay)};
 }
 
-ir_ref closure_operator_throughput(struct ir_graph *g, ir_ref ref, ir_ref a, ir_ref b)
+ir_ref closure_operator_throughput(struct shader *shader, ir_ref ref, ir_ref a, ir_ref b)
 {
+    struct ir_graph *g = shader->graph;
     switch (ir_get(g, ref)->op) {
     case IR_LAYER: return ir_op2(g, IR_MUL, a, b);
     case IR_CLOSURE_MIX: return ir_op3(g, IR_MIX, a, b, ir_arg(g, ref, 2));
-    case IR_CLOSURE_ADD: {
-        /* 1 - ((1 - Ta) + (1 - Tb)), which must not become negative */
-        ir_ref sum = ir_op2(g, IR_ADD, a, b);
-        ir_ref rest = ir_op2(g, IR_SUB, sum, ir_const_float(g, 1.0f));
-        return ir_op2(g, IR_MAX, rest, ir_const_float(g, 0.0f));
-    }
+    case IR_CLOSURE_ADD: return FORMULA(shader, "mx_added_throughput", a, b);
     default: /* scaling a closure does not change its throughput */ return a;
     }
 }
@@ -101,7 +99,7 @@ static struct closure_value operator_value(struct evaluation *e, ir_ref ref)
     default: out.response = multiply(e, a.response, ir_arg(g, ref, 1));
     }
     if (node.type == IR_TYPE_BSDF)
-        out.throughput = closure_operator_throughput(g, ref, a.throughput, b.throughput);
+        out.throughput = closure_operator_throughput(e->shader, ref, a.throughput, b.throughput);
     return out;
 }
 

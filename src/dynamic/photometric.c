@@ -7,6 +7,7 @@
 #include "build/build_priv.h"
 
 #include "base/num.h"
+#include "shader/formula.h"
 
 #include <math.h>
 
@@ -208,14 +209,9 @@ static ir_ref look_up(struct builder *b, const float table[LENGTH], ir_ref norma
         entries[i] = ir_const_float(g, table[i]);
     ir_ref array =
         ir_construct(g, (ir_type_id)ir_add_array(g, IR_TYPE_FLOAT, length), entries, length);
-    ir_ref from_viewer = view_direction(b);
-    ir_ref cosine =
-        ir_op1(g, IR_NEG, ir_op2(g, IR_DOT, ir_op1(g, IR_NORMALIZE, normal), from_viewer));
-    ir_ref least = ir_const_float(g, -1.0f), most = ir_const_float(g, 1.0f);
-    ir_ref angle =
-        ir_op1(g, IR_DEGREES, ir_op1(g, IR_ACOS, ir_op3(g, IR_CLAMP, cosine, least, most)));
-    ir_ref entry = ir_op2(g, IR_MUL, angle, ir_const_float(g, 1.0f / STEP));
-    ir_ref at = ir_op2(g, IR_MIN, entry, ir_const_float(g, (float)(length - 1)));
+    ir_ref per_degree = ir_const_float(g, 1.0f / STEP),
+           last = ir_const_float(g, (float)(length - 1));
+    ir_ref at = FORMULA(b->shader, "mx_profile_place", normal, view_direction(b), per_degree, last);
     ir_ref whole = ir_op1(g, IR_FLOOR, at),
            below = ir_op2(g, IR_MIN, whole, ir_const_float(g, (float)(length - 2)));
     ir_ref index = ir_convert(g, IR_TYPE_INT, below);

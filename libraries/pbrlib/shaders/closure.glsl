@@ -34,6 +34,12 @@ vec3 mx_weighted_throughput(vec3 throughput, vec3 weight)
     return 1.0 - (1.0 - throughput) * weight;
 }
 
+// Light that passes two closures whose responses add up.
+vec3 mx_added_throughput(vec3 a, vec3 b)
+{
+    return max(a + b - 1.0, 0.0);
+}
+
 // ---- ways through media ----------------------------------------------------------------------------------------------
 // A weight of light on a way x is A + B decay^x. Media have the index 1.5.
 
@@ -70,6 +76,19 @@ vec3 mx_transmittance(vec3 absorption)
 vec3 mx_absorption(vec3 transmittance)
 {
     return -log(max(transmittance, 1e-6));
+}
+
+// Coefficient of a medium with that mean free path.
+vec3 mx_extinction(vec3 mean_free_path)
+{
+    return 1.0 / max(mean_free_path, 1e-5);
+}
+
+// Albedo of one scattering in a medium whose surface has a colour (Chiang, Kutz and Burley 2016, "Practical and Controllable Subsurface
+// Scattering for Production Path Tracing", equation 1).
+vec3 mx_scattering_albedo(vec3 color)
+{
+    return 1.0 - exp(color * (-5.09406 + color * (2.61188 - 4.31805 * color)));
 }
 
 // True if light meets anything.
@@ -110,6 +129,26 @@ vec3 mx_volume_path(float depth, vec3 optical_depth, vec3 lost)
 
 // ---- lights ----------------------------------------------------------------------------------------------------------
 
+// Scale of emitted light by its exposure in stops.
+float mx_exposed(float intensity, float exposure)
+{
+    return intensity * exp2(exposure);
+}
+
+// Share of a cone whose axis is the normal in the light that its plane emits: sin^2 of half the angle across it.
+float mx_cone_share(float angle)
+{
+    float sine = sin(angle * 0.5);
+    return sine * sine;
+}
+
+// Place in a table of an emission by the angle to the normal, up to the number `last` of its entries.
+float mx_profile_place(vec3 N, vec3 from_viewer, float entries_per_degree, float last)
+{
+    float cosine = clamp(-dot(normalize(N), from_viewer), -1.0, 1.0);
+    return min(degrees(acos(cosine)) * entries_per_degree, last);
+}
+
 // Light of an emitter at a distance: emitted intensity 2^exposure / distance^2.
 vec3 mx_light_of_emitter(vec3 emitted, float intensity, float exposure, float way)
 {
@@ -142,6 +181,22 @@ vec3 mx_balanced(vec3 light, float density, float solid_angle)
 bool mx_is_in_front(vec3 N, vec3 V, vec3 L)
 {
     return dot(N, V) * dot(N, L) > 0.0;
+}
+
+// A number from 0 to below 1 for a point in a frame: pcg3d (Jarzynski and Olano 2020, "Hash Functions for GPU Rendering"). Its 24 bits are
+// exact.
+float mx_layer_number(vec3 point, float frame)
+{
+    uint x = floatBitsToUint(point.x) * 1664525u + 1013904223u;
+    uint y = floatBitsToUint(point.y) * 1664525u + 1013904223u;
+    uint z = (floatBitsToUint(point.z) ^ floatBitsToUint(frame)) * 1664525u + 1013904223u;
+    x += y * z;
+    y += z * x;
+    z += x * y;
+    x ^= x >> 16;
+    y ^= y >> 16;
+    z ^= z >> 16;
+    return float((x + y * z) >> 8) * (1.0 / 16777216.0);
 }
 
 // A random number of its own, 0 to below 1, of one that made a choice: below the chance, or not.

@@ -1,6 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reflectance of an interface at a cosine, over that facing the viewer. The compiler calls these functions for closures of a renderer
-// (generators/osl/leaves.c).
+// Interfaces. The compiler calls these functions for closures of a renderer (leaves.c of generators/osl and generators/mdl).
+
+// Index of refraction of a dielectric with that reflectance facing the viewer.
+float mx_index_of_frontal(float frontal)
+{
+    float root = sqrt(clamp(frontal, 0.0, 0.98));
+    return (1.0 + root) / (1.0 - root);
+}
+
+// Cosine at which facets that send light back reflect it: light meets them head-on at every angle to the surface.
+float mx_rise_cosine(vec3 N, vec3 V)
+{
+    return min(abs(dot(N, V)), 1.0);
+}
+
+// Reflectance that Schlick's curve adds to that facing the viewer.
+vec3 mx_rise_above(vec3 f0, vec3 f90)
+{
+    return max(f90 - f0, 0.0);
+}
 
 // Reflectance of Schlick's curve at a cosine, over that facing the viewer, `frontal`.
 vec3 mx_rise_schlick(vec3 frontal, vec3 edge, float exponent, float cosine)
