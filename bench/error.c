@@ -246,7 +246,7 @@ int main(int argc, char **argv)
     for (int i = 0; i < 2; ++i) {
         struct studio studio = STUDIO_DEFAULTS;
         struct studio_fault fault;
-        unsigned made;
+        struct mesh_parts made;
         studio.mesh = "sphere";
         studio.environment = argv[1 + i];
         studio.prefiltered = i == 1;

@@ -1,13 +1,45 @@
 // SPDX-License-Identifier: Apache-2.0
+#define _POSIX_C_SOURCE 200809L
 #include "import/gltf_source.h"
 
 #include "program/files.h"
+#include "program/gltf_inputs.h"
 #include "program/memory.h"
 
 #include <ctype.h>
 #include <errno.h>
+#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
+#include <sys/types.h>
+
+/* Limits of what a file causes: so many bytes, and so many for each byte that it has. */
+#define BASE_MEMORY ((uint64_t)256 << 20)
+#define MEMORY_PER_BYTE 160
+enum { MAX_BUFFERS = 4096 };
+
+/* ---- Faults ---- */
+
+bool gltf_source_fail(struct gltf_source *source, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    vsnprintf(source->fault, sizeof source->fault, format, args);
+    va_end(args);
+    for (char *c = source->fault; *c; ++c)
+        *c = (unsigned char)*c < ' ' ? '?' : *c; /* a text of the file does not end the line */
+    return false;
+}
+
+bool gltf_source_spend(struct gltf_source *source, uint64_t bytes)
+{
+    uint64_t limit = BASE_MEMORY + MEMORY_PER_BYTE * source->size;
+    if (bytes > limit || source->spent > limit - bytes)
+        return gltf_source_fail(source, "it needs too much memory for its size");
+    source->spent += bytes;
+    return true;
+}
 
 /* ---- URIs: RFC 3986, RFC 2397 and RFC 4648 ---- */
 
@@ -70,7 +102,7 @@ uint8_t *gltf_source_resolve(const struct gltf_source *source, const char *uri, 
     char *name = decode_percent(uri), *path = cli_beside(source->path, name);
     *out_fault = strchr(name, '\\')
                      ? "a URI has '/' between folders; documents read '\\' as that, too"
-                     : mxg_context_file_fault(source->cli->context, source->path, path);
+                     : mxg_context_file_fault(source->context, source->path, path);
     free(name);
     if (*out_fault)
         free(path);
@@ -94,16 +126,40 @@ size_t gltf_index_of(const json_t *object, const char *key)
                : SIZE_MAX;
 }
 
-static void read_buffer(struct gltf_source *source, size_t index, struct gltf_bytes *out)
+/* The bytes of a buffer before it that has the same URI. */
+static bool share_buffer(struct gltf_source *source, size_t index, const char *uri)
 {
-    const char *uri = json_text_of(gltf_source_item(source, "buffers", index), "uri"), *fault;
+    for (size_t i = 0; i < source->num_buffers; ++i) {
+        const struct gltf_bytes *other = &source->buffers[i];
+        if (i == index || !other->data || other->is_shared
+            || strcmp(json_text_of(gltf_source_item(source, "buffers", i), "uri"), uri) != 0)
+            continue;
+        source->buffers[index] = *other;
+        source->buffers[index].is_shared = true;
+        return true;
+    }
+    return false;
+}
+
+static void read_buffer(struct gltf_source *source, size_t index)
+{
+    const char *uri = json_text_of(gltf_source_item(source, "buffers", index), "uri"),
+               *fault = NULL;
+    struct gltf_bytes *out = &source->buffers[index];
     char *path = NULL;
     out->is_tried = true;
-    if (!*uri)
+    if (!*uri && index == 0) {
+        *out = source->chunk;
+        out->is_tried = out->is_shared = true;
+    }
+    if (!*uri || share_buffer(source, index, uri))
         return;
     out->data = gltf_source_resolve(source, uri, &out->size, &path, &fault);
-    if (path)
-        out->data = (uint8_t *)files_read(path, &out->size);
+    if (path && !(out->data = (uint8_t *)files_read(path, &out->size)))
+        fault = strerror(errno);
+    if (!out->data && fault)
+        out->fault = cli_format("'%.200s': %s", uri, fault);
+    source->size += out->size;
     free(path);
 }
 
@@ -112,15 +168,54 @@ const uint8_t *gltf_source_view(struct gltf_source *source, size_t index, size_t
     const json_t *view = gltf_source_item(source, "bufferViews", index);
     size_t number = gltf_index_of(view, "buffer"), begin = json_count_of(view, "byteOffset");
     *out_size = json_count_of(view, "byteLength");
-    if (number >= source->num_buffers)
+    if (number >= source->num_buffers) {
+        gltf_source_fail(source, "there is no bufferViews[%zd] with a buffer", (ssize_t)index);
         return NULL;
+    }
     struct gltf_bytes *bytes = &source->buffers[number];
     if (!bytes->is_tried)
-        read_buffer(source, number, bytes);
-    if (number == 0 && !bytes->data)
-        bytes = &source->chunk;
-    bool fits = bytes->data && begin <= bytes->size && *out_size <= bytes->size - begin;
-    return fits ? bytes->data + begin : NULL;
+        read_buffer(source, number);
+    if (bytes->data && begin <= bytes->size && *out_size <= bytes->size - begin)
+        return bytes->data + begin;
+    if (bytes->data)
+        gltf_source_fail(source, "bufferViews[%zu] ends behind the %zu bytes of buffers[%zu]",
+                         index, bytes->size, number);
+    else
+        gltf_source_fail(source, "buffers[%zu] has no bytes%s%s", number, bytes->fault ? ": " : "",
+                         bytes->fault ? bytes->fault : "");
+    return NULL;
+}
+
+/* ---- Extensions ---- */
+
+/* True if mxgen reads an extension, in meshes or in materials. */
+static bool is_known(const char *extension)
+{
+    static const char *const others[] = {"EXT_mesh_gpu_instancing", "KHR_lights_punctual",
+                                         "KHR_materials_unlit",     "KHR_materials_variants",
+                                         "KHR_mesh_quantization",   "KHR_texture_transform"};
+    for (size_t i = 0; i < sizeof others / sizeof *others; ++i)
+        if (strcmp(extension, others[i]) == 0)
+            return true;
+    for (size_t i = 0; i < gltf_num_inputs; ++i)
+        if (gltf_inputs[i].object && strcmp(extension, gltf_inputs[i].object) == 0)
+            return strncmp(extension, "KHR_", 4) == 0;
+    return false;
+}
+
+/* glTF 2.0, 3.12: a file that requires an unknown extension is not to be loaded. */
+static bool check_required(struct gltf_source *source)
+{
+    const json_t *required = json_object_get(source->root, "extensionsRequired");
+    for (size_t i = 0; i < json_array_size(required); ++i) {
+        const char *name = json_string_value(json_array_get(required, i));
+        if (!name || !is_known(name))
+            return gltf_source_fail(source,
+                                    "it requires the extension '%.100s' (extensionsRequired[%zu]), "
+                                    "which mxgen does not read; save it without that extension",
+                                    name ? name : "", i);
+    }
+    return true;
 }
 
 /* ---- The file ---- */
@@ -133,12 +228,6 @@ static uint32_t word_at(const char *data)
     return word;
 }
 
-static bool fail(const struct gltf_source *source, const char *why)
-{
-    report_error(&source->cli->report, "import-file", "cannot read '%s': %s", source->path, why);
-    return false;
-}
-
 static bool parse(struct gltf_source *source, const char *text, size_t size)
 {
     json_error_t error;
@@ -146,12 +235,11 @@ static bool parse(struct gltf_source *source, const char *text, size_t size)
     while (blanks < size && strchr(" \t\r\n", text[blanks]))
         blanks++;
     if (blanks == size || text[blanks] != '{')
-        return fail(source, "it is no glTF, the only format that import reads");
+        return gltf_source_fail(source, "it is no glTF");
     source->root = json_loadb(text, size, 0, &error);
     if (!source->root)
-        report_error(&source->cli->report, "import-file",
-                     "cannot read '%s': line %d, column %d of its JSON: %s", source->path,
-                     error.line, error.column, error.text);
+        gltf_source_fail(source, "line %d, column %d of its JSON: %s", error.line, error.column,
+                         error.text);
     return source->root != NULL;
 }
 
@@ -162,7 +250,7 @@ static bool parse_binary(struct gltf_source *source, const char *data, size_t si
     size_t length = size >= HEADER + CHUNK ? word_at(data + HEADER) : 0;
     if (size < HEADER + CHUNK || word_at(data + 4) != VERSION
         || memcmp(data + HEADER + 4, "JSON", 4) != 0 || length > size - HEADER - CHUNK)
-        return fail(source, "it is no binary glTF 2.0");
+        return gltf_source_fail(source, "it is no binary glTF 2.0");
     const char *next = data + HEADER + CHUNK + length;
     size_t left = size - HEADER - CHUNK - length;
     if (left >= CHUNK && memcmp(next + 4, "BIN", 4) == 0 && word_at(next) <= left - CHUNK) {
@@ -173,30 +261,52 @@ static bool parse_binary(struct gltf_source *source, const char *data, size_t si
     return parse(source, data + HEADER + CHUNK, length);
 }
 
-bool gltf_source_open(struct gltf_source *source, struct cli *cli, const char *path)
+bool gltf_source_is(const char *path)
 {
-    *source = (struct gltf_source){.cli = cli, .path = path};
-    const char *fault = mxg_context_file_fault(cli->context, path, path);
+    static const char *const endings[] = {".gltf", ".glb"};
+    const char *dot = strrchr(files_base_name(path), '.');
+    char begin[4] = "";
+    for (size_t i = 0; dot && i < sizeof endings / sizeof *endings; ++i)
+        if (strcasecmp(dot, endings[i]) == 0)
+            return true;
+    FILE *file = fopen(path, "rb");
+    bool is_binary = file && fread(begin, sizeof begin, 1, file) == 1
+                     && memcmp(begin, "glTF", sizeof begin) == 0;
+    if (file)
+        fclose(file);
+    return is_binary;
+}
+
+bool gltf_source_open(struct gltf_source *source, const mxg_context *context, const char *path)
+{
+    *source = (struct gltf_source){.context = context, .path = path};
     size_t size = 0;
-    char *data = fault ? NULL : files_read(path, &size);
+    char *data = files_read(path, &size);
     if (!data)
-        return fail(source, fault ? fault : strerror(errno));
+        return gltf_source_fail(source, "%s", strerror(errno));
+    source->size = size;
     bool is_binary = size >= 4 && memcmp(data, "glTF", 4) == 0,
          good = is_binary ? parse_binary(source, data, size) : parse(source, data, size);
     free(data);
     if (!good)
         return false;
     if (strncmp(json_text_of(json_object_get(source->root, "asset"), "version"), "2.", 2) != 0)
-        return fail(source, "its \"asset\" does not say the version 2.0 of glTF");
+        return gltf_source_fail(source, "its \"asset\" does not say the version 2.0 of glTF");
     source->num_buffers = json_array_size(json_object_get(source->root, "buffers"));
+    if (source->num_buffers > MAX_BUFFERS)
+        return gltf_source_fail(source, "it has %zu buffers; the limit is %d", source->num_buffers,
+                                MAX_BUFFERS);
     source->buffers = memory_alloc((source->num_buffers + 1) * sizeof *source->buffers);
-    return true;
+    return check_required(source);
 }
 
 void gltf_source_close(struct gltf_source *source)
 {
-    for (size_t i = 0; i < source->num_buffers; ++i)
-        free(source->buffers[i].data);
+    for (size_t i = 0; source->buffers && i < source->num_buffers; ++i) {
+        free(source->buffers[i].fault);
+        if (!source->buffers[i].is_shared)
+            free(source->buffers[i].data);
+    }
     free(source->buffers);
     free(source->chunk.data);
     json_decref(source->root);

@@ -20,7 +20,7 @@ void import_tell_loss(struct importing *importing, const char *of, const char *f
     va_end(args);
     for (char *c = text; *c; ++c)
         *c = *c == '\n' || *c == '\t' ? '?' : *c; /* a URI of the file does not end the line */
-    report_warning(&importing->source.cli->report, "import-loss",
+    report_warning(&importing->cli->report, "import-loss",
                    "'%s' of '%s' is not in the document as it is: %s", of, importing->source.path,
                    text);
 }
@@ -67,7 +67,7 @@ char *import_name(struct importing *importing, mxg_element parent, const char *w
 
 bool import_write_file(struct importing *importing, const char *name, const void *data, size_t size)
 {
-    struct report *report = &importing->source.cli->report;
+    struct report *report = &importing->cli->report;
     bool is_printed = strcmp(importing->output, "-") == 0;
     if (is_printed && strcmp(name, "-") != 0) {
         report_error(report, "output-failed",
@@ -95,15 +95,15 @@ static void add_materials(struct importing *importing)
     for (size_t i = 0; i < num; ++i)
         importing->materials[importing->num_materials++] = import_add_material(importing, i);
     if (!num)
-        report_error(&source->cli->report, "import-file", "cannot read '%s': it has no materials",
-                     source->path);
+        report_error(&importing->cli->report, "import-file",
+                     "cannot read '%s': it has no materials", source->path);
     import_add_looks(importing);
 }
 
 /* Writes the document that the edit makes. */
 static void write_document(struct importing *importing)
 {
-    struct cli *cli = importing->source.cli;
+    struct cli *cli = importing->cli;
     mxg_document *document = NULL;
     char reason[256] = "";
     size_t size = 0;
@@ -123,7 +123,7 @@ static void write_document(struct importing *importing)
 
 static void run(struct importing *importing)
 {
-    struct cli *cli = importing->source.cli;
+    struct cli *cli = importing->cli;
     size_t num = json_array_size(json_object_get(importing->source.root, "materials"));
     importing->folder = relocate_folder(importing->output);
     if (!importing->folder) {
@@ -147,9 +147,13 @@ static void run(struct importing *importing)
 
 void import_document(struct cli *cli, const char *path, const char *output)
 {
-    struct importing importing = {.output = output};
-    if (gltf_source_open(&importing.source, cli, path))
+    struct importing importing = {.cli = cli, .output = output};
+    const char *fault = mxg_context_file_fault(cli->context, path, path);
+    if (!fault && gltf_source_open(&importing.source, cli->context, path))
         run(&importing);
+    else
+        report_error(&cli->report, "import-file", "cannot read '%s': %s", path,
+                     fault ? fault : importing.source.fault);
     mxg_edit_destroy(importing.edit);
     gltf_source_close(&importing.source);
     outputs_finish(&importing.outputs);

@@ -17,6 +17,7 @@
 #include <mxgen/document.h>
 
 struct importing {
+    struct cli *cli;
     struct gltf_source source;
     const char *output; /* the path of the document */
     char *folder;       /* its folder, as relocate_folder gives it */

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
  * KHR_materials_variants as looks: each assigns a material to each primitive, by the paths that
- * `--stage` gives to the same file (render/site_import.c).
+ * `--stage` gives to the same file (import/gltf_nodes.c).
  */
+#include "import/gltf_nodes.h"
 #include "import/import.h"
 #include "program/memory.h"
-#include "program/node_path.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -18,28 +18,14 @@ struct assigned {
     const char *path;
 };
 
-/* A node to visit, with the path of its parent and the nodes above it. */
-struct visit {
-    size_t node;
-    const char *parent;
-    unsigned depth;
-};
-
-struct visits {
-    struct visit *items;
-    size_t len, capacity;
-};
-
 struct walk {
     struct importing *importing;
-    struct name_table known; /* paths */
-    char **paths;            /* of nodes and primitives, until the end */
-    size_t num_paths;
+    struct gltf_nodes nodes;
     struct assigned *items;
     size_t num_items;
     size_t *mapped_by; /* by look: the number of the last primitive that maps it */
     size_t num_primitives, num_looks, num_materials;
-    size_t left; /* bytes of paths and assignments that the document may still have */
+    size_t left; /* bytes of assignments that the document may still have */
     bool is_full;
 };
 
@@ -57,22 +43,6 @@ static bool spend(struct walk *walk, size_t size)
 static void *grow(void *items, size_t num, size_t size)
 {
     return num & (num - 1) ? items : memory_resize(items, (num ? num * 2 : 1) * size);
-}
-
-/* A path of its own below another one; NULL: the limit is reached. */
-static const char *add_path(struct walk *walk, const char *parent, const char *name)
-{
-    if (!spend(walk, strlen(parent) + strlen(name) + 1))
-        return NULL;
-    walk->paths = grow(walk->paths, walk->num_paths, sizeof *walk->paths);
-    return walk->paths[walk->num_paths++] = node_path_add(&walk->known, parent, name);
-}
-
-/* Names as Assimp has them. */
-static char *name_of(const json_t *object, const char *array, size_t index)
-{
-    const char *name = json_text_of(object, "name");
-    return *name ? cli_format("%s", name) : cli_format("%s[%zu]", array, index);
 }
 
 /* ---- Primitives ---- */
@@ -111,79 +81,19 @@ static void add_primitive(struct walk *walk, const json_t *primitive, const char
             assign(walk, look, material, path);
 }
 
-/* A mesh with one primitive is that of its node; others have one below it for each. */
-static void add_mesh(struct walk *walk, size_t index, const char *path)
+static bool visit_node(void *user_data, const struct gltf_node *node)
 {
-    const json_t *mesh = gltf_source_item(&walk->importing->source, "meshes", index),
+    struct walk *walk = user_data;
+    const json_t *mesh = gltf_source_item(&walk->importing->source, "meshes",
+                                          gltf_index_of(node->json, "mesh")),
                  *primitives = json_object_get(mesh, "primitives");
-    size_t num = json_array_size(primitives);
-    char *name = name_of(mesh, "meshes", index);
-    for (size_t i = 0; i < num && !walk->is_full; ++i) {
-        char *part = cli_format("%s-%zu", name, i);
-        const char *below = num > 1 ? add_path(walk, path, part) : path;
-        if (below)
-            add_primitive(walk, json_array_get(primitives, i), below);
-        free(part);
+    for (size_t i = 0; i < json_array_size(primitives) && !walk->is_full; ++i) {
+        const char *path = gltf_nodes_add_part(&walk->nodes, node, i);
+        if (!path)
+            return false;
+        add_primitive(walk, json_array_get(primitives, i), path);
     }
-    free(name);
-}
-
-/* ---- Nodes ---- */
-
-/* Adds a list of nodes, the first of which is visited first. */
-static void push(struct visits *visits, const json_t *nodes, const char *parent, unsigned depth)
-{
-    for (size_t i = json_array_size(nodes); i-- > 0;) {
-        const json_t *node = json_array_get(nodes, i);
-        if (!json_is_integer(node) || json_integer_value(node) < 0)
-            continue;
-        if (visits->len == visits->capacity) {
-            visits->capacity = 2 * visits->capacity + 16;
-            visits->items = memory_resize(visits->items, visits->capacity * sizeof *visits->items);
-        }
-        visits->items[visits->len++] =
-            (struct visit){(size_t)json_integer_value(node), parent, depth};
-    }
-}
-
-static void visit_node(struct walk *walk, const struct visit *visit, struct visits *visits)
-{
-    const json_t *node = gltf_source_item(&walk->importing->source, "nodes", visit->node);
-    char *name = name_of(node, "nodes", visit->node);
-    const char *path = add_path(walk, visit->parent, name);
-    if (path) {
-        add_mesh(walk, gltf_index_of(node, "mesh"), path);
-        push(visits, json_object_get(node, "children"), path, visit->depth + 1);
-    }
-    free(name);
-}
-
-/* A node has one parent, so it is visited once. */
-static void visit_nodes(struct walk *walk)
-{
-    enum { MAX_DEPTH = 1000 }; /* as in stages */
-    const struct gltf_source *source = &walk->importing->source;
-    const size_t num = json_array_size(json_object_get(source->root, "nodes"));
-    const json_t *scene =
-        gltf_source_item(source, "scenes", (size_t)json_count_of(source->root, "scene"));
-    bool *are_visited = memory_alloc(num + 1);
-    struct visits visits = {0};
-    push(&visits, json_object_get(scene, "nodes"), "", 1);
-    while (visits.len && !walk->is_full) {
-        struct visit visit = visits.items[--visits.len];
-        if (visit.depth > MAX_DEPTH) {
-            report_error(&source->cli->report, "import-file",
-                         "cannot read '%s': its nodes are nested more than %d deep", source->path,
-                         MAX_DEPTH);
-            break;
-        }
-        if (visit.node < num && !are_visited[visit.node]) {
-            are_visited[visit.node] = true;
-            visit_node(walk, &visit, &visits);
-        }
-    }
-    free(visits.items);
-    free(are_visited);
+    return !walk->is_full;
 }
 
 /* ---- Looks ---- */
@@ -236,17 +146,14 @@ static size_t add_look(const struct walk *walk, size_t index, const char *wanted
 
 static void finish(struct walk *walk)
 {
-    for (size_t i = 0; i < walk->num_paths; ++i)
-        free(walk->paths[i]);
-    free(walk->paths);
+    gltf_nodes_finish(&walk->nodes);
     free(walk->items);
     free(walk->mapped_by);
-    names_finish(&walk->known);
 }
 
 void import_add_looks(struct importing *importing)
 {
-    struct cli *cli = importing->source.cli;
+    struct cli *cli = importing->cli;
     const json_t *own = json_object_get(importing->source.root, "extensions"),
                  *variants = json_object_get(json_object_get(own, extension), "variants");
     struct walk walk = {.importing = importing,
@@ -256,12 +163,15 @@ void import_add_looks(struct importing *importing)
     if (!walk.num_looks || !walk.num_materials)
         return;
     walk.mapped_by = memory_alloc(walk.num_looks * sizeof *walk.mapped_by);
-    visit_nodes(&walk);
+    bool good = gltf_nodes_walk(&walk.nodes, &importing->source, visit_node, &walk);
     if (walk.is_full)
         report_error(&cli->report, "output-limit",
                      "the looks have more than %zu MiB; raise the limit 'max-output-size' if this "
                      "is intended",
                      cli_max_output_size(cli));
+    else if (!good)
+        report_error(&cli->report, "import-file", "cannot read '%s': %s", importing->source.path,
+                     importing->source.fault);
     else if (walk.num_items)
         qsort(walk.items, walk.num_items, sizeof *walk.items, compare);
     for (size_t i = 0, first = 0; i < walk.num_looks && !cli->report.errors; ++i)

@@ -1,35 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-#define _XOPEN_SOURCE 700 /* realpath */
 #include "render/import.h"
 
-#include "program/files.h"
-#include "program/memory.h"
 #include "render/import_files.h"
 
 #include <assimp/cimport.h>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #define TEXT_OF_VALUE(value) #value
 #define TEXT_OF(macro) TEXT_OF_VALUE(macro)
 #define CREASE_DEGREES 60.0f /* sharper edges stay edges where normals are made */
-#define MAX_TRIANGLES (1u << 26)
-#define MAX_DEPTH 1000   /* of nodes */
-#define MAX_CORNERS 4096 /* of a face: the time of triangulation grows with the square */
-
-static bool fail(struct mesh_fault *fault, const char *id, const char *text)
-{
-    fault->id = id;
-    snprintf(fault->text, sizeof fault->text, "%s", text);
-    return false;
-}
+#define MAX_DEPTH 1000       /* of nodes */
+#define MAX_CORNERS 4096     /* of a face: the time of triangulation grows with the square */
 
 static bool has_large_face(const struct aiScene *scene)
 {
@@ -110,14 +96,12 @@ static const char *reason_of_assimp(void)
 {
     const char *reason = aiGetErrorString();
     return strstr(reason, "No suitable reader")
-               ? "no reader knows this kind of file; a mesh may be OBJ, glTF, PLY or STL, and a "
-                 "stage of USD is for --stage"
+               ? "no reader knows this kind of file; it may be USD, glTF, OBJ, PLY or STL"
                : reason;
 }
 
 /* Reads a file, and makes triangles. NULL with a reason. */
-static const struct aiScene *read_file(struct import_files *files, bool keeps_nodes,
-                                       const char **out_reason)
+static const struct aiScene *read_file(struct import_files *files, const char **out_reason)
 {
     struct aiPropertyStore *properties = aiCreatePropertyStore();
     aiSetImportPropertyInteger(properties, AI_CONFIG_PP_SBP_REMOVE,
@@ -132,138 +116,23 @@ static const struct aiScene *read_file(struct import_files *files, bool keeps_no
         return NULL;
     }
     if (scene) /* this releases the scene if it fails */
-        scene = aiApplyPostProcessing(
-            scene, aiProcess_Triangulate | aiProcess_SortByPType
-                       | (keeps_nodes ? 0u : (unsigned)aiProcess_PreTransformVertices));
+        scene = aiApplyPostProcessing(scene, aiProcess_Triangulate | aiProcess_SortByPType);
     if (!scene && !*out_reason)
         *out_reason = reason_of_assimp();
     return scene;
 }
 
-const struct aiScene *import_read(const mxg_context *context, const char *path, bool keeps_nodes,
-                                  struct mesh_fault *fault)
+const struct aiScene *import_read(const mxg_context *context, const char *path, uint64_t *out_size,
+                                  char reason[IMPORT_MAX_REASON])
 {
-    if (!files_is_regular(path)) { /* a device or a pipe may never end */
-        fail(fault, "bad-mesh", access(path, F_OK) == 0 ? "it is not a file" : strerror(errno));
-        return NULL;
-    }
-    char *real = realpath(path, NULL); /* the sandbox does not hold for what the user names */
-    const char *reason = real ? mxg_context_file_fault(context, real, real) : strerror(errno);
-    free(real);
+    const char *why = NULL;
     struct import_files files;
     import_files_begin(&files, context, path);
-    const struct aiScene *scene = reason ? NULL : read_file(&files, keeps_nodes, &reason);
+    const struct aiScene *scene = read_file(&files, &why);
     import_files_end(&files);
+    *out_size = files.size;
     if (!scene)
-        fail(fault, "bad-mesh",
-             strstr(reason, "bad_alloc") ? "it needs too much memory for its size" : reason);
+        snprintf(reason, IMPORT_MAX_REASON, "%s",
+                 strstr(why, "bad_alloc") ? "it needs too much memory for its size" : why);
     return scene;
-}
-
-unsigned import_missing(const struct aiMesh *mesh)
-{
-    return (mesh->mNormals ? 0u : MESH_NORMALS) | (mesh->mTextureCoords[0] ? 0u : MESH_TEXCOORDS)
-           | (mesh->mTangents && mesh->mTextureCoords[0] ? 0u : MESH_TANGENTS);
-}
-
-/* Returns what any of the scene's meshes lacks. */
-static unsigned missing_parts(const struct aiScene *scene)
-{
-    unsigned missing = 0;
-    for (unsigned i = 0; i < scene->mNumMeshes; ++i)
-        missing |= import_missing(scene->mMeshes[i]);
-    return missing;
-}
-
-static bool count(const struct aiScene *scene, uint32_t *out_vertices, uint32_t *out_indices)
-{
-    uint64_t vertices = 0, triangles = 0;
-    for (unsigned i = 0; i < scene->mNumMeshes; ++i) {
-        vertices += scene->mMeshes[i]->mNumVertices;
-        triangles += scene->mMeshes[i]->mNumFaces;
-    }
-    *out_vertices = (uint32_t)vertices;
-    *out_indices = (uint32_t)triangles * 3;
-    return triangles <= MAX_TRIANGLES && vertices <= 3ull * MAX_TRIANGLES;
-}
-
-static void store(const struct aiVector3D *from, float out[3])
-{
-    out[0] = from->x, out[1] = from->y, out[2] = from->z;
-}
-
-void import_vertices(const struct aiMesh *from, struct vertex *to)
-{
-    for (unsigned v = 0; v < from->mNumVertices; ++v) {
-        store(&from->mVertices[v], to[v].position);
-        if (from->mNormals)
-            store(&from->mNormals[v], to[v].normal);
-        if (from->mTangents)
-            store(&from->mTangents[v], to[v].tangent);
-        if (from->mTextureCoords[0]) {
-            to[v].texcoord[0] = from->mTextureCoords[0][v].x;
-            to[v].texcoord[1] = from->mTextureCoords[0][v].y;
-        }
-    }
-}
-
-static void copy_scene(const struct aiScene *scene, struct mesh *out)
-{
-    uint32_t vertex = 0, index = 0;
-    for (unsigned i = 0; i < scene->mNumMeshes; ++i) {
-        const struct aiMesh *mesh = scene->mMeshes[i];
-        import_vertices(mesh, out->vertices + vertex);
-        for (unsigned f = 0; f < mesh->mNumFaces; ++f)
-            for (unsigned k = 0; mesh->mFaces[f].mNumIndices == 3 && k < 3; ++k)
-                out->indices[index++] = vertex + mesh->mFaces[f].mIndices[k];
-        vertex += mesh->mNumVertices;
-    }
-    out->num_indices = index;
-}
-
-static bool convert(const struct aiScene *scene, unsigned made, struct scene_object *object,
-                    struct mesh_fault *fault)
-{
-    struct mesh *out = &object->mesh;
-    uint32_t vertices, indices;
-    if (!count(scene, &vertices, &indices))
-        return fail(fault, "bad-mesh", "it has too many triangles");
-    if (!indices)
-        return fail(fault, "empty-mesh", "it has no triangles");
-    if (!mesh_allocate(out, vertices, indices))
-        return fail(fault, "bad-mesh", "out of memory");
-    copy_scene(scene, out);
-    mesh_fit(out);
-    if (!(mesh_area(out) > 1e-12))
-        return fail(fault, "empty-mesh", "its triangles have no area");
-    uint32_t *origins = NULL;
-    if (made & MESH_TEXCOORDS) { /* mesh_complete gives each corner a vertex of its own */
-        origins = memory_alloc(indices * sizeof *origins);
-        memcpy(origins, out->indices, indices * sizeof *origins);
-    }
-    bool good = mesh_complete(out, made & ~(unsigned)MESH_NORMALS);
-    if (good)
-        import_primvars(scene->mMeshes, scene->mNumMeshes, origins, object);
-    free(origins);
-    return good || fail(fault, "bad-mesh", "out of memory");
-}
-
-bool mesh_import(const mxg_context *context, const char *path, struct scene_object *out,
-                 unsigned *out_made, struct mesh_fault *fault)
-{
-    *out = (struct scene_object){0};
-    const struct aiScene *scene = import_read(context, path, false, fault);
-    if (!scene)
-        return false;
-    *out_made = missing_parts(scene);
-    if (*out_made & MESH_NORMALS)
-        scene = aiApplyPostProcessing(scene,
-                                      aiProcess_GenSmoothNormals | aiProcess_JoinIdenticalVertices);
-    if (!scene)
-        return fail(fault, "bad-mesh", aiGetErrorString());
-    bool good = convert(scene, *out_made, out, fault);
-    aiReleaseImport(scene);
-    if (!good)
-        object_finish(out);
-    return good;
 }

@@ -9,7 +9,7 @@
 #define OVERSAMPLING 2  /* samples per pixel and axis */
 #define MAX_LIGHTS 1024 /* of --max-lights */
 
-static bool note_parts(struct job *job, unsigned made)
+static bool note_parts(struct job *job, struct mesh_parts made)
 {
     static const struct {
         enum mesh_part part;
@@ -17,11 +17,12 @@ static bool note_parts(struct job *job, unsigned made)
     } parts[] = {{MESH_NORMALS, "normals"},
                  {MESH_TEXCOORDS, "texture coordinates"},
                  {MESH_TANGENTS, "tangents"}};
-    for (size_t i = 0; i < sizeof parts / sizeof *parts; ++i) {
-        if ((made & parts[i].part) && !job->cli.quiet)
-            fprintf(stderr, "note: the mesh '%s' has no %s; they were made\n",
-                    job->painter.studio.mesh, parts[i].name);
-    }
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; ++i)
+        if ((made.some & parts[i].part) && !job->cli.quiet)
+            fprintf(stderr, "note: %s '%s' %s no %s; they were made\n",
+                    made.all & parts[i].part ? "the mesh" : "parts of the mesh",
+                    job->painter.studio.mesh, made.all & parts[i].part ? "has" : "have",
+                    parts[i].name);
     return true;
 }
 
@@ -39,13 +40,14 @@ static bool make_scene(struct job *job)
     struct painter *painter = &job->painter;
     double aspect = (double)painter->width / painter->height;
     if (job->scene_kind == SCENE_STUDIO) {
-        unsigned made = 0;
+        struct mesh_parts made;
         struct studio_fault fault;
         if (studio_open(&painter->studio, aspect, &painter->scene, &made, &fault)) {
             job_tell_bad_environment(job, painter->studio.environment, &painter->scene.radiance);
             return note_parts(job, made);
         }
-        report_error(&job->cli.report, fault.id, "%s", fault.text);
+        if (fault.id)
+            report_error(&job->cli.report, fault.id, "%s", fault.text);
         return false;
     }
     bool good = job->scene_kind == SCENE_GRID    ? scene_init_grid(&painter->scene)

@@ -190,7 +190,7 @@ int main(int argc, char **argv)
         job.painter.cli = &job.cli;
         job.painter.files = &job.files;
         job.painter.studio.mesh = job.options.mesh;
-        job.painter.studio.context = job.cli.context;
+        job.painter.studio.cli = &job.cli;
         /*
          * llvmpipe's optimiser takes minutes for large shaders. Without it the pictures are the
          * same after seconds.

@@ -145,3 +145,23 @@ void matrix_point(struct matrix m, const double point[3], double out[3])
     for (int r = 0; r < 3; ++r)
         out[r] += m.m[3][r];
 }
+
+double matrix_determinant(struct matrix m)
+{
+    double across[3];
+    vector_cross(m.m[0], m.m[1], across);
+    return vector_dot(across, m.m[2]);
+}
+
+/* The inverse transpose is the matrix of cofactors, over the determinant. */
+void matrix_normal(struct matrix m, const double normal[3], double out[3])
+{
+    const double n[3] = {normal[0], normal[1], normal[2]},
+                 side = matrix_determinant(m) < 0 ? -1 : 1;
+    double x[3], y[3], z[3];
+    vector_cross(m.m[1], m.m[2], x);
+    vector_cross(m.m[2], m.m[0], y);
+    vector_cross(m.m[0], m.m[1], z);
+    for (size_t i = 0; i < 3; ++i)
+        out[i] = side * (x[i] * n[0] + y[i] * n[1] + z[i] * n[2]);
+}

@@ -27,6 +27,10 @@ struct matrix matrix_perspective(double vertical_degrees, double aspect, double 
 /* `out` may be `point`. */
 void matrix_point(struct matrix m, const double point[3], double out[3]);
 void matrix_direction(struct matrix m, const double direction[3], double out[3]);
+/* A normal of a surface that `m` moves, of any length; also of a matrix that cannot be inverted. */
+void matrix_normal(struct matrix m, const double normal[3], double out[3]);
+/* Of the part that turns and scales. */
+double matrix_determinant(struct matrix m);
 
 void vector_normalize(double v[3]);
 double vector_dot(const double a[3], const double b[3]);

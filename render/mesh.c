@@ -89,13 +89,9 @@ static bool make_normals(struct mesh *mesh)
     return true;
 }
 
-/*
- * Gives each triangle its own corners, because adjacent triangles may be projected along different
- * axes.
- */
-static bool split_corners(struct mesh *mesh)
+bool mesh_split(struct mesh *mesh)
 {
-    struct vertex *vertices = malloc(mesh->num_indices * sizeof *vertices);
+    struct vertex *vertices = malloc(mesh->num_indices * sizeof *vertices + 1);
     if (!vertices)
         return false;
     for (uint32_t i = 0; i < mesh->num_indices; ++i) {
@@ -108,10 +104,9 @@ static bool split_corners(struct mesh *mesh)
     return true;
 }
 
-static bool make_texcoords(struct mesh *mesh)
+/* Adjacent triangles may be projected along different axes, so each has its own corners. */
+static void make_texcoords(struct mesh *mesh)
 {
-    if (!split_corners(mesh))
-        return false;
     for (uint32_t first = 0; first + 2 < mesh->num_indices; first += 3) {
         double n[3];
         face_normal(mesh, first, n);
@@ -127,7 +122,6 @@ static bool make_texcoords(struct mesh *mesh)
             vertex->texcoord[1] = (float)(0.5 + 0.5 * (axis == 1 ? -t : t));
         }
     }
-    return true;
 }
 
 /*
@@ -292,14 +286,22 @@ bool mesh_complete(struct mesh *mesh, unsigned missing)
 {
     if ((missing & MESH_NORMALS) && !make_normals(mesh))
         return false;
-    if ((missing & MESH_TEXCOORDS) && !make_texcoords(mesh))
+    if ((missing & MESH_TEXCOORDS) && !mesh_split(mesh))
         return false;
+    if (missing & MESH_TEXCOORDS)
+        make_texcoords(mesh);
     if ((missing & MESH_TANGENTS) && !make_tangents(mesh))
         return false;
     for (uint32_t i = 0; i < mesh->num_vertices; ++i)
         memcpy(mesh->vertices[i].parameter, mesh->vertices[i].texcoord,
                sizeof mesh->vertices[i].parameter);
     return true;
+}
+
+bool mesh_project(struct mesh *mesh)
+{
+    make_texcoords(mesh);
+    return mesh_complete(mesh, MESH_TANGENTS);
 }
 
 /* ---- Changes of the whole ---- */

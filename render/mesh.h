@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Triangles with vertex attributes. Meshes come from formulas (shapes.c) or files (import.c). */
+/* Triangles with vertex attributes. Meshes come from formulas (shapes.c) or files (site.h). */
 #ifndef MXG_RENDER_MESH_H
 #define MXG_RENDER_MESH_H
 
@@ -24,6 +24,11 @@ struct mesh {
 /* Parts that a mesh may lack; mesh_complete adds them. */
 enum mesh_part { MESH_NORMALS = 1, MESH_TEXCOORDS = 2, MESH_TANGENTS = 4 };
 
+/* Parts that some objects of a mesh lack, and those that all lack: bits of enum mesh_part. */
+struct mesh_parts {
+    unsigned some, all;
+};
+
 bool mesh_allocate(struct mesh *mesh, uint32_t num_vertices, uint32_t num_indices);
 void mesh_finish(struct mesh *mesh);
 
@@ -35,6 +40,14 @@ void mesh_finish(struct mesh *mesh);
  * memory.
  */
 bool mesh_complete(struct mesh *mesh, unsigned missing);
+/*
+ * Makes texture coordinates and tangents again, after a mesh moved that has a vertex for each
+ * corner. false: as above.
+ */
+bool mesh_project(struct mesh *mesh);
+/* Gives each corner a vertex of its own: vertex i is then the former indices[i]. false: as above.
+ */
+bool mesh_split(struct mesh *mesh);
 
 /* The total area of the triangles. */
 double mesh_area(const struct mesh *mesh);
@@ -72,9 +85,4 @@ uint32_t *mesh_sorted(const struct mesh *mesh, const double eye[3]);
 const char *const *shape_names(void); /* NULL after the last */
 bool shape_make(const char *name, unsigned detail, struct mesh *out);
 
-/* Why a file is no mesh: an id and a reason. */
-struct mesh_fault {
-    const char *id;
-    char text[256];
-};
 #endif

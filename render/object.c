@@ -28,6 +28,54 @@ void object_finish(struct scene_object *object)
     mesh_finish(&object->mesh);
 }
 
+struct primvar *object_add_primvar(struct scene_object *object, const char *name, const char *type,
+                                   unsigned components)
+{
+    struct primvar *primvars =
+        realloc(object->primvars, (object->num_primvars + 1) * sizeof *primvars);
+    struct primvar made = {.components = components,
+                           .type = type,
+                           .type_len = (int)strlen(type),
+                           .num = object->mesh.num_vertices};
+    object->primvars = primvars ? primvars : object->primvars;
+    made.name = malloc(strlen(name) + 1);
+    made.values = calloc((size_t)made.num + 1, sizeof *made.values);
+    if (!primvars || !made.name || !made.values) {
+        free(made.name);
+        free(made.values);
+        return NULL;
+    }
+    memcpy(made.name, name, strlen(name) + 1);
+    primvars[object->num_primvars] = made;
+    return &primvars[object->num_primvars++];
+}
+
+/* Values of vertices become those of corners. */
+static bool split_values(struct primvar *primvar, const struct mesh *mesh)
+{
+    float(*values)[4] = malloc((size_t)mesh->num_indices * sizeof *values + 1);
+    for (uint32_t i = 0; values && i < mesh->num_indices; ++i)
+        memcpy(values[i], primvar->values[mesh->indices[i]], sizeof *values);
+    if (!values)
+        return false;
+    free(primvar->values);
+    primvar->values = values;
+    primvar->num = mesh->num_indices;
+    return true;
+}
+
+bool object_complete(struct scene_object *object, unsigned missing, bool is_flat)
+{
+    bool good = true;
+    if ((missing & MESH_TEXCOORDS) || is_flat) {
+        for (uint32_t i = 0; good && i < object->num_primvars; ++i)
+            good =
+                object->primvars[i].num == 1 || split_values(&object->primvars[i], &object->mesh);
+        good = good && mesh_split(&object->mesh);
+    }
+    return good && mesh_complete(&object->mesh, missing);
+}
+
 /* malloc; NULL: out of memory. */
 static void *copy_of(const void *data, size_t size)
 {

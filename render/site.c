@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
+#define _XOPEN_SOURCE 700 /* realpath */
 #include "render/site.h"
 
+#include "import/gltf_source.h"
+#include "program/files.h"
 #include "program/memory.h"
 #include "program/scene_file.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #define DEGREE (3.14159265358979323846 / 180.0)
 
@@ -47,20 +53,27 @@ struct scene_object *site_add(struct site *site, uint32_t primitive, struct matr
     return &added->object;
 }
 
+bool site_share(struct site *site, uint32_t object, uint32_t primitive, struct matrix world)
+{
+    struct site_object again = site->objects[object];
+    if (!site_has_room(site, primitive, again.object.mesh.num_indices / 3))
+        return false;
+    struct scene_object *added = site_add(site, primitive, world);
+    struct site_object *last = &site->objects[site->num_objects - 1];
+    again.object.path = added->path;
+    again.object.world = world;
+    again.object.num_primvars -= again.num_own_primvars;
+    *added = again.object;
+    last->made = again.made;
+    last->shares_mesh = last->shares_primvars = true;
+    return true;
+}
+
 void site_repeat(struct site *site, uint32_t first, uint32_t num, struct matrix world)
 {
-    for (uint32_t i = first; i < first + num; ++i) {
-        struct site_object again = site->objects[i];
-        if (!site_has_room(site, again.primitive, again.object.mesh.num_indices / 3))
+    for (uint32_t i = first; i < first + num; ++i)
+        if (!site_share(site, i, site->objects[i].primitive, world))
             return;
-        struct scene_object *added = site_add(site, again.primitive, world);
-        again.object.path = added->path;
-        again.object.world = world;
-        again.object.num_primvars -= again.num_own_primvars;
-        *added = again.object;
-        site->objects[site->num_objects - 1].shares_mesh = true;
-        site->objects[site->num_objects - 1].shares_primvars = true;
-    }
 }
 
 /* Names the subject of a message: "'/a.points' (a.usda:3:5)", or the path. The caller frees it. */
@@ -111,6 +124,25 @@ void site_add_light(struct site *site, struct scene_light light)
     site->lights[site->num_lights++] = light;
 }
 
+void site_add_lamp(struct site *site, struct scene_light light)
+{
+    /* the radiance of a small sphere with the intensity I is I / (π r²) */
+    const double radius = 1e-4, area = 3.14159265358979323846 * radius * radius;
+    bool is_far = light.type == LIGHT_DIRECTIONAL;
+    light.type = is_far ? LIGHT_DIRECTIONAL : LIGHT_SPHERE;
+    light.intensity = is_far ? 1 : 1 / area;
+    light.radius = radius;
+    site_add_light(site, light);
+}
+
+void site_add_camera(struct site *site, const char *path, struct matrix world, double width,
+                     double height)
+{
+    site->cameras = memory_resize(site->cameras, (site->num_cameras + 1) * sizeof *site->cameras);
+    site->cameras[site->num_cameras++] = (struct site_camera){
+        .world = world, .width = width, .height = height, .path = cli_format("%s", path)};
+}
+
 /* ---- Files ---- */
 
 static bool open_usd(struct site *site, struct cli *cli, const char *path, const char *purpose)
@@ -118,10 +150,36 @@ static bool open_usd(struct site *site, struct cli *cli, const char *path, const
     site->scene = scene_file_load(cli, path, purpose);
     if (!site->scene)
         return false;
+    struct stat info;
+    site->file_size = stat(path, &info) == 0 ? (uint64_t)info.st_size : 0;
     site->meters_per_unit = mxg_scene_meters_per_unit(site->scene);
     site_read_usd(site);
     site->is_z_up = mxg_scene_up_axis(site->scene) == 'Z';
     return !site->has_fault;
+}
+
+/* Why a file may not be read; NULL: it may. The sandbox does not hold for what the user names. */
+static const char *file_fault(const mxg_context *context, const char *path)
+{
+    if (!files_is_regular(path)) /* a device or a pipe may never end */
+        return access(path, F_OK) == 0 ? "it is not a file" : strerror(errno);
+    char *real = realpath(path, NULL);
+    const char *fault = real ? mxg_context_file_fault(context, real, real) : strerror(errno);
+    free(real);
+    return fault;
+}
+
+/* A file with paths and meshes alone. */
+static bool open_other(struct site *site, const char *path)
+{
+    const char *fault = file_fault(site->context, path);
+    if (fault) {
+        report_error(site->report, "bad-mesh", "cannot use '%s': %s", path, fault);
+        return false;
+    }
+    if (!report_status(site->report, mxg_scene_create(site->context, &site->scene)))
+        return false;
+    return gltf_source_is(path) ? site_read_gltf(site) : site_import(site);
 }
 
 bool site_open(struct site *site, struct cli *cli, const char *path, const char *purpose)
@@ -129,10 +187,10 @@ bool site_open(struct site *site, struct cli *cli, const char *path, const char 
     struct report *report = &cli->report;
     *site = (struct site){.report = report, .context = cli->context, .file = path};
     if (!(scene_file_kind(path) == SCENE_FILE_USD ? open_usd(site, cli, path, purpose)
-                                                  : site_import(site, cli->context, path)))
+                                                  : open_other(site, path)))
         return false;
     if (!site->num_objects)
-        report_error(report, "empty-mesh", "the stage '%s' has no visible geometry", path);
+        report_error(report, "empty-mesh", "'%s' has no visible geometry", path);
     return site->num_objects != 0;
 }
 
@@ -194,8 +252,7 @@ static void bound(const struct site *site, double centre[3], double *out_radius)
     *out_radius = square > 0 ? sqrt(square) : 1;
 }
 
-/* From the site to a world with y upwards. */
-static struct matrix upright(const struct site *site)
+struct matrix site_upright(const struct site *site)
 {
     return site->is_z_up ? matrix_rotation((const double[3]){1, 0, 0}, -90) : matrix_identity();
 }
@@ -329,7 +386,7 @@ bool site_aim(struct site *site, const struct studio *studio, const char *camera
         return false;
     }
     bound(site, centre, &radius);
-    struct matrix up = upright(site);
+    struct matrix up = site_upright(site);
     if (found)
         use_camera(found, aspect, radius, centre, scene);
     else

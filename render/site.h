@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
  * The site of `--stage`: the objects of a scene, one for each primitive with geometry, and a
- * camera. Files of USD come through mxgen.h, other files through Assimp.
+ * camera. Files of USD come through mxgen.h, those of glTF through import/, others through Assimp.
  */
 #ifndef MXG_RENDER_SITE_H
 #define MXG_RENDER_SITE_H
@@ -24,6 +24,7 @@ struct site_object {
     bool shares_mesh;          /* an object before it has the mesh */
     bool shares_primvars;      /* and the primvars, without the last ones: */
     uint32_t num_own_primvars; /* those of an instance alone */
+    unsigned made;             /* parts that its mesh lacks in the file: bits of enum mesh_part */
 };
 
 struct site_camera {
@@ -35,8 +36,9 @@ struct site_camera {
 
 struct site {
     struct report *report;
-    const mxg_context *context; /* which says what the stage may refer to */
+    mxg_context *context; /* which says what the stage may refer to */
     const char *file;
+    uint64_t file_size; /* bytes of the file and of those that it refers to */
     mxg_scene *scene;
     struct site_object *objects;
     uint32_t num_objects, capacity;
@@ -91,6 +93,8 @@ bool site_aim(struct site *site, const struct studio *studio, const char *camera
 bool site_has_room(struct site *site, uint32_t primitive, uint64_t num_triangles);
 /* A new object of a primitive, which the caller fills: its path is set. */
 struct scene_object *site_add(struct site *site, uint32_t primitive, struct matrix world);
+/* Adds an object again, for a primitive and in a place. false: there is no room. */
+bool site_share(struct site *site, uint32_t object, uint32_t primitive, struct matrix world);
 /*
  * Adds objects again in another place, as an instance does: `num` of them from `first` on.
  */
@@ -113,13 +117,35 @@ __attribute__((format(printf, 5, 6)))
 void site_warn(struct site *site, const char *id, uint32_t primitive, const char *property,
                 const char *format, ...);
 void site_add_light(struct site *site, struct scene_light light);
+/*
+ * Adds a light of glTF (KHR_lights_punctual) or Assimp: the colour of a directional one is its
+ * illuminance, that of a LIGHT_POINT its intensity.
+ */
+void site_add_lamp(struct site *site, struct scene_light light);
+void site_add_camera(struct site *site, const char *path, struct matrix world, double width,
+                     double height);
+/* From the site to a world with y upwards. */
+struct matrix site_upright(const struct site *site);
 /* Rotation and place without scale. */
 struct matrix site_rigid(struct matrix m);
 
 /* site_usd.c: adds the objects, cameras and lights of a scene of USD. */
 void site_read_usd(struct site *site);
-/* site_import.c: reads a file through Assimp, with its hierarchy as paths. */
-bool site_import(struct site *site, mxg_context *context, const char *path);
+/*
+ * site_gltf.c and site_import.c: read a file of glTF, or another one through Assimp, with its
+ * hierarchy as paths. false after reporting an error.
+ */
+bool site_read_gltf(struct site *site);
+bool site_import(struct site *site);
+
+/* ---- One mesh ---- */
+
+/*
+ * site_mesh.c: reads a file, and joins its objects to one with their primvars, which fits into the
+ * unit sphere. false after reporting an error. Call object_finish in any case.
+ */
+bool site_open_mesh(struct cli *cli, const char *path, struct scene_object *out,
+                    struct mesh_parts *out_made);
 
 /* A numeric value of USD, or `otherwise`; an error if it is not finite. */
 double usd_number(struct site *site, uint32_t primitive, const char *name, double otherwise);

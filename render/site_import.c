@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * A site from a file that Assimp reads. Its nodes are primitives; a node with several meshes (the
- * materials of one glTF mesh) has a primitive for each below it.
+ * A site from a file that Assimp reads. Its nodes are primitives; a node with several meshes has a
+ * primitive for each below it.
  */
 #include "render/import.h"
+#include "render/import_primvars.h"
 #include "render/site.h"
 
 #include "program/memory.h"
@@ -27,7 +28,8 @@ struct index {
 struct importer {
     struct site *site;
     const struct aiScene *scene;
-    bool is_gltf, good;
+    bool *lack_normals; /* meshes, in the file */
+    bool good;
     struct name_table paths;
     struct index cameras, lights;
 };
@@ -57,39 +59,73 @@ static struct matrix matrix_of(const struct aiMatrix4x4 *m)
                             {m->a4, m->b4, m->c4, m->d4}}};
 }
 
-static void add_object(struct importer *in, const struct aiMesh *mesh, const char *path,
-                       struct matrix world)
+static void store(const struct aiVector3D *from, float out[3])
 {
-    struct mesh made;
+    out[0] = from->x, out[1] = from->y, out[2] = from->z;
+}
+
+static void copy_mesh(const struct aiMesh *from, struct mesh *to)
+{
     uint32_t index = 0;
+    for (unsigned f = 0; f < from->mNumFaces; ++f)
+        for (unsigned k = 0; from->mFaces[f].mNumIndices == 3 && k < 3; ++k)
+            to->indices[index++] = from->mFaces[f].mIndices[k];
+    to->num_indices = index;
+    for (unsigned v = 0; v < from->mNumVertices; ++v) {
+        struct vertex *vertex = &to->vertices[v];
+        store(&from->mVertices[v], vertex->position);
+        if (from->mNormals)
+            store(&from->mNormals[v], vertex->normal);
+        if (from->mTangents)
+            store(&from->mTangents[v], vertex->tangent);
+        if (from->mTextureCoords[0]) {
+            vertex->texcoord[0] = from->mTextureCoords[0][v].x;
+            vertex->texcoord[1] = from->mTextureCoords[0][v].y;
+        }
+    }
+}
+
+static void add_primvars(struct scene_object *object, const struct aiMesh *mesh)
+{
+    for (unsigned set = 0; set < AI_MAX_NUMBER_OF_TEXTURECOORDS; ++set) {
+        float(*values)[4] =
+            mesh->mTextureCoords[set] ? import_add_primvar(object, IMPORT_TEXCOORDS, set) : NULL;
+        for (unsigned v = 0; values && v < mesh->mNumVertices; ++v)
+            memcpy(values[v], &mesh->mTextureCoords[set][v], 2 * sizeof(float));
+    }
+    for (unsigned set = 0; set < AI_MAX_NUMBER_OF_COLOR_SETS; ++set) {
+        float(*values)[4] =
+            mesh->mColors[set] ? import_add_primvar(object, IMPORT_COLORS, set) : NULL;
+        for (unsigned v = 0; values && v < mesh->mNumVertices; ++v)
+            memcpy(values[v], &mesh->mColors[set][v], 4 * sizeof(float));
+    }
+}
+
+static void add_object(struct importer *in, unsigned number, const char *path, struct matrix world)
+{
+    const struct aiMesh *mesh = in->scene->mMeshes[number];
     uint32_t primitive = mxg_scene_find_primitive(in->site->scene, path);
+    struct mesh copy;
     if (!site_has_room(in->site, primitive, mesh->mNumFaces)) {
         in->good = false;
         return;
     }
-    if (!mesh_allocate(&made, mesh->mNumVertices, 3 * mesh->mNumFaces))
+    if (!mesh_allocate(&copy, mesh->mNumVertices, 3 * mesh->mNumFaces))
         memory_fail();
-    import_vertices(mesh, made.vertices);
-    for (unsigned f = 0; f < mesh->mNumFaces; ++f)
-        for (unsigned k = 0; mesh->mFaces[f].mNumIndices == 3 && k < 3; ++k)
-            made.indices[index++] = mesh->mFaces[f].mIndices[k];
-    made.num_indices = index;
-    if (!index) {
-        mesh_finish(&made);
+    copy_mesh(mesh, &copy);
+    if (!copy.num_indices) {
+        mesh_finish(&copy);
         return;
     }
     struct scene_object *object = site_add(in->site, primitive, world);
-    unsigned missing = import_missing(mesh);
-    uint32_t *origins = NULL;
-    if (missing & MESH_TEXCOORDS) { /* mesh_complete gives each corner a vertex of its own */
-        origins = memory_alloc(index * sizeof *origins);
-        memcpy(origins, made.indices, index * sizeof *origins);
-    }
-    object->mesh = made;
-    if (!mesh_complete(&object->mesh, missing))
+    object->mesh = copy;
+    add_primvars(object, mesh);
+    unsigned made = (in->lack_normals[number] ? MESH_NORMALS : 0u)
+                    | (mesh->mTextureCoords[0] ? 0u : MESH_TEXCOORDS)
+                    | (mesh->mTangents && mesh->mTextureCoords[0] ? 0u : MESH_TANGENTS);
+    if (!object_complete(object, mesh->mNormals ? made & ~(unsigned)MESH_NORMALS : made, false))
         memory_fail();
-    import_primvars((struct aiMesh *const[]){(struct aiMesh *)(uintptr_t)mesh}, 1, origins, object);
-    free(origins);
+    in->site->objects[in->site->num_objects - 1].made = made;
 }
 
 /* A node's meshes are its own, or several primitives below it. */
@@ -99,7 +135,7 @@ static void add_node(struct importer *in, const struct aiNode *node, const char 
     for (unsigned i = 0; i < node->mNumMeshes; ++i) {
         const struct aiMesh *mesh = in->scene->mMeshes[node->mMeshes[i]];
         char *below = node->mNumMeshes > 1 ? add_primitive(in, path, mesh->mName.data) : NULL;
-        add_object(in, mesh, below ? below : path, world);
+        add_object(in, node->mMeshes[i], below ? below : path, world);
         free(below);
     }
 }
@@ -159,30 +195,15 @@ static void add_camera(struct importer *in, const struct aiNode *node, const cha
         if (!(camera->mHorizontalFOV > 0.0f))
             continue;
         double width = tan((double)camera->mHorizontalFOV / 2), aspect = (double)camera->mAspect;
-        struct site *site = in->site;
-        /* Assimp 5 multiplies the angle of glTF, which is vertical, by the aspect */
-        if (in->is_gltf && aspect > 0)
-            width = aspect * tan((double)camera->mHorizontalFOV / aspect / 2);
-        site->cameras =
-            memory_resize(site->cameras, (site->num_cameras + 1) * sizeof *site->cameras);
-        site->cameras[site->num_cameras++] =
-            (struct site_camera){.world = world,
-                                 .width = width,
-                                 .height = aspect > 0 ? width / aspect : 0,
-                                 .path = cli_format("%s", path)};
+        site_add_camera(in->site, path, world, width, aspect > 0 ? width / aspect : 0);
     }
 }
 
 /* ---- Lights ---- */
 
-/*
- * Lights of glTF (KHR_lights_punctual): a directional one has its illuminance, the others their
- * intensity, which a small sphere has if its radiance is I / (π r²).
- */
 static void add_light(struct importer *in, const struct aiNode *node, const char *path,
                       struct matrix world)
 {
-    const double radius = 1e-4, area = 3.14159265358979323846 * radius * radius;
     struct site *site = in->site;
     for (uint32_t i = first_of(in, &in->lights, node); i; i = in->lights.next[i - 1]) {
         const struct aiLight *light = in->scene->mLights[i - 1];
@@ -197,11 +218,9 @@ static void add_light(struct importer *in, const struct aiNode *node, const char
             continue;
         }
         struct scene_light added = {
-            .type = is_far ? LIGHT_DIRECTIONAL : LIGHT_SPHERE,
+            .type = is_far ? LIGHT_DIRECTIONAL : LIGHT_POINT,
             .color = {(double)light->mColorDiffuse.r, (double)light->mColorDiffuse.g,
                       (double)light->mColorDiffuse.b},
-            .intensity = is_far ? 1 : 1 / area,
-            .radius = radius,
             .inner = is_spot ? cos((double)light->mAngleInnerCone) : NO_CONE,
             .outer = is_spot ? cos((double)light->mAngleOuterCone) : NO_CONE};
         const double along[3] = {(double)light->mDirection.x, (double)light->mDirection.y,
@@ -210,28 +229,23 @@ static void add_light(struct importer *in, const struct aiNode *node, const char
                               (double)light->mPosition.z};
         matrix_direction(world, along, added.direction);
         matrix_point(world, at, added.position);
-        site_add_light(site, added);
+        site_add_lamp(site, added);
     }
 }
 
 /* ---- The walk ---- */
 
-/*
- * True if the root is the scene itself, and no node of the file. glTF has several roots; if there
- * is just one, Assimp makes no other.
- */
-static bool is_made_root(const struct importer *in)
+/* True if the root is the scene itself, and no node of the file. */
+static bool is_made_root(const struct importer *in, const struct aiNode *node)
 {
-    const struct aiNode *root = in->scene->mRootNode;
-    return !root->mNumMeshes && (!in->is_gltf || strcmp(root->mName.data, "ROOT") == 0);
+    return node == in->scene->mRootNode && !node->mNumMeshes;
 }
 
 /* Adds what a node has. Its path; free. */
 static char *visit_node(struct importer *in, const struct visit *at, struct matrix world)
 {
-    bool is_root = at->node == in->scene->mRootNode && is_made_root(in);
-    char *path =
-        is_root ? cli_format("%s", "") : add_primitive(in, at->parent, at->node->mName.data);
+    char *path = is_made_root(in, at->node) ? cli_format("%s", "")
+                                            : add_primitive(in, at->parent, at->node->mName.data);
     add_node(in, at->node, path, world);
     add_camera(in, at->node, path, world);
     add_light(in, at->node, path, world);
@@ -263,29 +277,34 @@ static void walk(struct importer *in)
     free(visits);
 }
 
-bool site_import(struct site *site, mxg_context *context, const char *path)
+/* Makes normals where meshes lack them, which Assimp does with edges. NULL: it cannot. */
+static const struct aiScene *make_normals(struct importer *in, const struct aiScene *scene)
 {
-    struct mesh_fault fault = {"bad-mesh", "it has no normals"};
-    if (!report_status(site->report, mxg_scene_create(context, &site->scene)))
-        return false;
-    const struct aiScene *scene = import_read(context, path, true, &fault);
-    bool has_normals = true;
-    for (unsigned i = 0; scene && i < scene->mNumMeshes; ++i)
-        has_normals = has_normals && scene->mMeshes[i]->mNormals;
-    if (scene && !has_normals)
-        scene = aiApplyPostProcessing(scene,
-                                      aiProcess_GenSmoothNormals | aiProcess_JoinIdenticalVertices);
-    if (!scene) {
-        report_error(site->report, fault.id, "cannot use the stage '%s': %s", path, fault.text);
-        return false;
+    bool lacks = false;
+    in->lack_normals = memory_alloc(scene->mNumMeshes + 1);
+    for (unsigned i = 0; i < scene->mNumMeshes; ++i)
+        lacks |= in->lack_normals[i] = !scene->mMeshes[i]->mNormals;
+    return lacks ? aiApplyPostProcessing(scene, aiProcess_GenSmoothNormals
+                                                    | aiProcess_JoinIdenticalVertices)
+                 : scene;
+}
+
+bool site_import(struct site *site)
+{
+    char reason[IMPORT_MAX_REASON] = "it has no normals";
+    struct importer in = {.site = site, .good = true};
+    const struct aiScene *scene = import_read(site->context, site->file, &site->file_size, reason);
+    if (scene)
+        scene = make_normals(&in, scene);
+    if (scene) {
+        in.scene = scene;
+        index_names(&in);
+        walk(&in);
+        finish_indices(&in);
+        aiReleaseImport(scene);
+    } else {
+        report_error(site->report, "bad-mesh", "cannot use '%s': %s", site->file, reason);
     }
-    const char *dot = strrchr(path, '.');
-    struct importer in = {.site = site, .scene = scene, .good = true};
-    in.is_gltf = dot && (strcmp(dot, ".gltf") == 0 || strcmp(dot, ".glb") == 0);
-    site->meters_per_unit = in.is_gltf ? 1 : 0;
-    index_names(&in);
-    walk(&in);
-    finish_indices(&in);
-    aiReleaseImport(scene);
-    return in.good;
+    free(in.lack_normals);
+    return scene && in.good;
 }

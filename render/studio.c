@@ -2,8 +2,8 @@
 #define _POSIX_C_SOURCE 200809L
 #include "render/studio.h"
 
-#include "render/import.h"
 #include "render/prefilter.h"
+#include "render/site.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -45,21 +45,19 @@ static bool fail(struct studio_fault *fault, const char *id, const char *what, c
     return false;
 }
 
-static bool open_mesh(const struct studio *studio, struct scene_object *out, unsigned *out_made,
-                      struct studio_fault *fault)
+static bool open_mesh(const struct studio *studio, struct scene_object *out,
+                      struct mesh_parts *out_made, struct studio_fault *fault)
 {
-    *out_made = 0;
+    *out_made = (struct mesh_parts){0};
     *out = (struct scene_object){0};
+    *fault = (struct studio_fault){0};
     if (args_is_one_of(studio->mesh, shape_names()))
         return shape_make(studio->mesh, 1, &out->mesh)
                || fail(fault, "render-failed", "cannot make", studio->mesh, "out of memory");
-    struct mesh_fault mesh_fault;
-    if (mesh_import(studio->context, studio->mesh, out, out_made, &mesh_fault))
-        return true;
-    return strpbrk(studio->mesh, "./")
-               ? fail(fault, mesh_fault.id, "cannot use the mesh", studio->mesh, mesh_fault.text)
-               : fail(fault, mesh_fault.id, "there is no shape", studio->mesh,
-                      "write ball, sphere, plane, cube, cloth, or the name of a file");
+    if (!strpbrk(studio->mesh, "./") && !files_is_regular(studio->mesh))
+        return fail(fault, "bad-mesh", "there is no shape", studio->mesh,
+                    "write ball, sphere, plane, cube, cloth, or the name of a file");
+    return site_open_mesh(studio->cli, studio->mesh, out, out_made);
 }
 
 bool studio_read_map(const struct studio *studio, struct image *out, struct studio_fault *fault)
@@ -125,11 +123,10 @@ bool studio_open_light(const struct studio *studio, struct image map, struct sce
 }
 
 bool studio_open(const struct studio *studio, double aspect, struct scene *scene,
-                 unsigned *out_made, struct studio_fault *fault)
+                 struct mesh_parts *out_made, struct studio_fault *fault)
 {
     struct scene_object object;
     *scene = (struct scene){0};
-    *out_made = 0;
     bool good = open_mesh(studio, &object, out_made, fault);
     good = good && studio_open_light(studio, (struct image){0}, scene, fault);
     scene->object = object;

@@ -3,6 +3,7 @@
 #ifndef MXG_RENDER_STUDIO_H
 #define MXG_RENDER_STUDIO_H
 
+#include "program/cli.h"
 #include "render/scene.h"
 
 #include <mxgen/mxgen.h>
@@ -15,8 +16,8 @@ struct studio {
     double distance, fov;
     /* file of a latitude-longitude map, or a baked folder; NULL: the built-in sky with lights */
     const char *environment;
-    bool prefiltered;           /* shaders read prefiltered maps */
-    const mxg_context *context; /* whose sandbox holds for the files of a mesh */
+    bool prefiltered; /* shaders read prefiltered maps */
+    struct cli *cli;  /* reads meshes, and reports their faults */
 };
 
 #define STUDIO_DEFAULTS \
@@ -32,9 +33,12 @@ struct studio_fault {
 /* Parses "AZIMUTH,ELEVATION[,DISTANCE[,FOV]]"; false if invalid. */
 bool studio_parse_camera(struct studio *studio, const char *text);
 
-/* Makes the scene. *out_made: the parts that the mesh lacked. Call scene_finish in any case. */
+/*
+ * Makes the scene. *out_made: the parts that the mesh lacked. false after a fault, or after
+ * reporting an error: the fault then has no id. Call scene_finish in any case.
+ */
 bool studio_open(const struct studio *studio, double aspect, struct scene *scene,
-                 unsigned *out_made, struct studio_fault *fault);
+                 struct mesh_parts *out_made, struct studio_fault *fault);
 
 /*
  * Opens a studio without a mesh: light, and the environment. `map` is the environment, which the
