@@ -15,8 +15,8 @@ static const struct kind {
     unsigned size;
     double most;
     bool is_signed, is_float;
-} kinds[] = {{5120, 1, 127, true, false},   {5121, 1, 255, false, false},
-             {5122, 2, 32767, true, false}, {5123, 2, 65535, false, false},
+} kinds[] = {{5120, 1, 127, true, false},           {5121, 1, 255, false, false},
+             {5122, 2, 32767, true, false},         {5123, 2, 65535, false, false},
              {5125, 4, 4294967295.0, false, false}, {5126, 4, 1, true, true}};
 enum { NUM_KINDS = sizeof kinds / sizeof *kinds };
 
@@ -60,8 +60,9 @@ static const uint8_t *find_elements(struct gltf_source *source, const json_t *us
     if (!data)
         return NULL;
     if (*out_stride < size) {
-        gltf_source_fail(source, "bufferViews[%zu].byteStride is %zu; an element of %s has %zu bytes",
-                         view, stride, path, size);
+        gltf_source_fail(source,
+                         "bufferViews[%zu].byteStride is %zu; an element of %s has %zu bytes", view,
+                         stride, path, size);
         return NULL;
     }
     if (begin > view_size || size > view_size - begin
@@ -94,16 +95,16 @@ static bool check_sparse(struct gltf_source *source, const struct gltf_accessor 
     for (size_t i = 0; i < sparse->count; ++i) {
         uint64_t index = sparse_index(sparse, i);
         if (index >= accessor->count || (i && index <= sparse_index(sparse, i - 1)))
-            return gltf_source_fail(source,
-                                    "accessors[%zu].sparse.indices has %llu as number %zu; expected "
-                                    "rising indices below %zu",
-                                    accessor->index, (unsigned long long)index, i, accessor->count);
+            return gltf_source_fail(
+                source,
+                "accessors[%zu].sparse.indices has %llu as number %zu; expected "
+                "rising indices below %zu",
+                accessor->index, (unsigned long long)index, i, accessor->count);
     }
     return true;
 }
 
-static bool open_sparse(struct gltf_source *source, const json_t *sparse,
-                        struct gltf_accessor *out)
+static bool open_sparse(struct gltf_source *source, const json_t *sparse, struct gltf_accessor *out)
 {
     const json_t *indices = json_object_get(sparse, "indices"),
                  *values = json_object_get(sparse, "values");
@@ -123,8 +124,7 @@ static bool open_sparse(struct gltf_source *source, const json_t *sparse,
                                 out->index, count, out->count);
     snprintf(path, sizeof path, "accessors[%zu].sparse", out->index);
     out->sparse = (struct gltf_sparse){.count = count, .index_kind = kind};
-    out->sparse.indices =
-        find_elements(source, indices, path, count, kinds[kind].size, &stride);
+    out->sparse.indices = find_elements(source, indices, path, count, kinds[kind].size, &stride);
     out->sparse.values =
         out->sparse.indices ? find_elements(source, values, path, count, size, &stride) : NULL;
     return out->sparse.values && gltf_source_spend(source, count) && check_sparse(source, out);
@@ -216,8 +216,7 @@ static const uint8_t *find_sparse(const struct gltf_accessor *accessor, size_t a
                : NULL;
 }
 
-void gltf_accessor_read(const struct gltf_accessor *accessor, size_t at,
-                        double out[GLTF_MAX_WIDTH])
+void gltf_accessor_read(const struct gltf_accessor *accessor, size_t at, double out[GLTF_MAX_WIDTH])
 {
     const struct kind *kind = &kinds[accessor->kind];
     const uint8_t *from = find_sparse(accessor, at);

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_DEPTH = 1000 };
+enum { MAX_DEPTH = 1000, PATH_WORK = 16 /* of a byte of a path, which stages look up by name */ };
 
 /* A node to visit, with those above it. */
 struct visit {
@@ -32,7 +32,7 @@ static void *grow(void *items, size_t num, size_t size)
 /* A path of its own below another one. NULL after a fault. */
 static const char *add_path(struct gltf_nodes *nodes, const char *parent, const char *name)
 {
-    if (!gltf_source_spend(nodes->source, strlen(parent) + strlen(name) + 1))
+    if (!gltf_source_spend(nodes->source, PATH_WORK * (strlen(parent) + strlen(name) + 1)))
         return NULL;
     nodes->paths = grow(nodes->paths, nodes->num_paths, sizeof *nodes->paths);
     return nodes->paths[nodes->num_paths++] = node_path_add(&nodes->known, parent, name);
@@ -81,8 +81,8 @@ static bool is_new(struct gltf_source *source, const struct visit *visit, bool *
                    size_t num)
 {
     if (visit->node >= num)
-        return gltf_source_fail(source, "a list of children, or its scene, has a node that is none of its %zu",
-                                num);
+        return gltf_source_fail(
+            source, "a list of children, or its scene, has a node that is none of its %zu", num);
     if (are_visited[visit->node])
         return gltf_source_fail(source, "nodes[%zu] stands below two nodes, or below itself",
                                 visit->node);

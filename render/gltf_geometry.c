@@ -108,7 +108,9 @@ static bool read_triangles(struct reading *in, struct gltf_numbering *numbering)
         return gltf_source_fail(in->source, "accessors[%zu] has no unsigned integers as indices",
                                 index);
     count = has_indices ? indices.count : count;
-    size_t num = mode_of(in->shape->primitive) == TRIANGLES ? count / 3 : count < 3 ? 0 : count - 2,
+    size_t num = mode_of(in->shape->primitive) == TRIANGLES ? count / 3
+                 : count < 3                                ? 0
+                                                            : count - 2,
            num_used = 3 * num < in->num_vertices ? 3 * num : in->num_vertices;
     if (num > MAX_VERTICES / 3)
         return gltf_source_fail(in->source, "a primitive has %zu triangles; the limit is %d", num,

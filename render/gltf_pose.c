@@ -49,9 +49,9 @@ bool gltf_pose_numbers(struct gltf_source *source, const json_t *object, const c
 struct matrix gltf_pose_matrix(const double shift[3], const double turn[4], const double scale[3])
 {
     const double orientation[4] = {turn[3], turn[0], turn[1], turn[2]};
-    return matrix_multiply(
-        matrix_translation(shift[0], shift[1], shift[2]),
-        matrix_multiply(matrix_orientation(orientation), matrix_scale(scale[0], scale[1], scale[2])));
+    return matrix_multiply(matrix_translation(shift[0], shift[1], shift[2]),
+                           matrix_multiply(matrix_orientation(orientation),
+                                           matrix_scale(scale[0], scale[1], scale[2])));
 }
 
 static bool is_finite(const struct matrix *m)
@@ -77,13 +77,11 @@ bool gltf_pose_place(struct gltf_pose *pose, size_t node, size_t parent)
         memcpy(&local, columns, sizeof local);
     else
         local = gltf_pose_matrix(shift, turn, scale);
-    pose->worlds[node] =
-        parent == SIZE_MAX ? local : matrix_multiply(pose->worlds[parent], local);
+    pose->worlds[node] = parent == SIZE_MAX ? local : matrix_multiply(pose->worlds[parent], local);
     pose->are_placed[node] = true;
     return is_finite(&pose->worlds[node])
-           || gltf_source_fail(source,
-                               "nodes[%zu] has a matrix with numbers that are NaN or infinite",
-                               node);
+           || gltf_source_fail(
+               source, "nodes[%zu] has a matrix with numbers that are NaN or infinite", node);
 }
 
 /* ---- Skins ---- */

@@ -72,12 +72,12 @@ static bool add_camera(struct importer *in, const struct gltf_node *node, uint32
 static bool add_light(struct importer *in, const struct gltf_node *node)
 {
     static const char extension[] = "KHR_lights_punctual";
-    const json_t *user =
-        json_object_get(json_object_get(node->json, "extensions"), extension);
+    const json_t *user = json_object_get(json_object_get(node->json, "extensions"), extension);
     const json_t *own = json_object_get(json_object_get(in->source.root, "extensions"), extension);
     size_t index = gltf_index_of(user, "light");
     const json_t *light = json_array_get(json_object_get(own, "lights"), index),
-                 *spot = json_object_get(light, "spot"), *outer = json_object_get(spot, "outerConeAngle"),
+                 *spot = json_object_get(light, "spot"),
+                 *outer = json_object_get(spot, "outerConeAngle"),
                  *intensity = json_object_get(light, "intensity");
     const char *type = json_text_of(light, "type");
     bool is_far = strcmp(type, "directional") == 0, is_spot = strcmp(type, "spot") == 0;
@@ -114,8 +114,8 @@ static bool add_part(struct importer *in, const struct gltf_node *node, size_t m
     const char *path = gltf_nodes_add_part(&in->nodes, node, index);
     if (!path)
         return false;
-    uint32_t primitive = path == node->path ? mxg_scene_find_primitive(in->site->scene, path)
-                                            : add_path(in, path);
+    uint32_t primitive =
+        path == node->path ? mxg_scene_find_primitive(in->site->scene, path) : add_path(in, path);
     if (primitive == MXG_NONE)
         return false;
     if (in->num_parts == in->capacity) {
@@ -154,8 +154,9 @@ static bool make_object(struct importer *in, const struct part *part,
     unsigned parts;
     *out_object = MXG_NONE;
     bool good = gltf_geometry_read(&in->source, shape, &in->numbering, &made, &parts);
-    good = good && (!made.mesh.num_indices
-                    || site_has_room(in->site, part->primitive, made.mesh.num_indices / 3));
+    good = good
+           && (!made.mesh.num_indices
+               || site_has_room(in->site, part->primitive, made.mesh.num_indices / 3));
     if (!good || !made.mesh.num_indices) {
         object_finish(&made);
         return good;
@@ -212,8 +213,8 @@ static bool open_instances(struct importer *in, const json_t *attributes, struct
         const char *name;
         unsigned width;
         struct gltf_accessor *accessor;
-    } members[] = {{"TRANSLATION", 3, &out->shifts}, {"ROTATION", 4, &out->turns},
-                   {"SCALE", 3, &out->scales}};
+    } members[] = {
+        {"TRANSLATION", 3, &out->shifts}, {"ROTATION", 4, &out->turns}, {"SCALE", 3, &out->scales}};
     size_t count = 0;
     *out = (struct instances){0};
     for (size_t i = 0; i < sizeof members / sizeof *members; ++i) {
@@ -253,8 +254,8 @@ static bool read_instance(struct importer *in, const struct instances *from, siz
 /* Adds a part once, or for each instance that its node has. */
 static bool add_part_objects(struct importer *in, const struct part *part)
 {
-    const json_t *own = json_object_get(json_object_get(part->node, "extensions"),
-                                        "EXT_mesh_gpu_instancing");
+    const json_t *own =
+        json_object_get(json_object_get(part->node, "extensions"), "EXT_mesh_gpu_instancing");
     struct matrix world = in->pose.worlds[part->number];
     struct instances instances;
     if (!own)

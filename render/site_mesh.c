@@ -76,8 +76,7 @@ static void copy_values(const struct scene_object *object, const struct primvar 
     bool is_texcoord = strcmp(to->name, "st") == 0;
     for (uint32_t v = 0; v < object->mesh.num_vertices; ++v) {
         if (from)
-            memcpy(to->values[first + v], from->values[from->num == 1 ? 0 : v],
-                   sizeof *to->values);
+            memcpy(to->values[first + v], from->values[from->num == 1 ? 0 : v], sizeof *to->values);
         else if (is_texcoord)
             memcpy(to->values[first + v], object->mesh.vertices[v].texcoord, 2 * sizeof(float));
     }

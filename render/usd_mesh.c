@@ -263,7 +263,10 @@ static void add_object(struct usd_mesh *mesh, int32_t subset, uint32_t primitive
         const struct primvar *texcoords = find_texcoords(object);
         for (uint32_t i = 0; texcoords && i < list.count; ++i)
             memcpy(object->mesh.vertices[i].texcoord, texcoords->values[i], 2 * sizeof(float));
-        mesh_complete(&object->mesh, MESH_TANGENTS | (texcoords ? 0u : MESH_TEXCOORDS));
+        unsigned made = MESH_TANGENTS | (texcoords ? 0u : MESH_TEXCOORDS);
+        if (!mesh_complete(&object->mesh, made))
+            memory_fail();
+        mesh->site->objects[mesh->site->num_objects - 1].made = made;
     }
     free(list.faces);
     free(list.points);

@@ -62,6 +62,24 @@ gltf("missing.gltf", uri=os.path.join(SECRET, "missing.bin"))
 os.symlink(os.path.join("..", SECRET, "there.bin"), os.path.join(FOLDER, "inside", "link.bin"))
 gltf("link.gltf", uri="inside/link.bin")
 gltf("large.gltf", uri="large.bin", size=2 << 20)
+ZEROS = {"componentType": 5126, "count": 1 << 20, "type": "VEC3"}
+
+
+def bare(name, **members):
+    """A file of nodes that share mesh 0, which has the given primitives over accessor 0: zeros without bytes."""
+    write(name, json.dumps({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}], "accessors": [ZEROS],
+                            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}]} | members))
+
+
+bare("zeros.gltf", accessors=[ZEROS | {"count": 1 << 28}])
+bare("reuse.gltf", meshes=[{"primitives": [{"attributes": {"POSITION": 0}}] * 2000}])
+bare("weights.gltf", meshes=[{"primitives": [{"attributes": {"POSITION": 0}, "targets": [{"POSITION": 0}]}]}], nodes=[{"mesh": 0, "weights": [1]}] * 2000,
+     scenes=[{"nodes": list(range(2000))}])
+bare("targets.gltf", meshes=[{"primitives": [{"attributes": {"POSITION": 0}, "targets": [{"POSITION": 0}] * 5000}], "weights": [1] * 5000}])
+bare("names.gltf", nodes=[{"name": "n" * 1000, "children": [i + 1]} for i in range(900)] + [{"children": list(range(901, 10000))}] + [{}] * 9099)
+bare("instances.gltf", nodes=[{"mesh": 0, "extensions": {"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": 0}}}}])
+bare("buffers.gltf", buffers=[{"byteLength": 1, "uri": "large.bin"}] * 5000)
+bare("joints.gltf", nodes=[{"mesh": 0, "skin": 0}], skins=[{"joints": [0] * 10, "inverseBindMatrices": 0}])
 write("deep.json.gltf", '{"asset":' + "[" * 200000 + "]" * 200000 + "}")
 write("deep.dae", '<COLLADA version="1.4.1"><library_visual_scenes><visual_scene id="s">' + "<node>" * 50000 + "</node>" * 50000
       + '</visual_scene></library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>')
