@@ -4,6 +4,7 @@
 
 #include "program/files.h"
 #include "program/gltf_inputs.h"
+#include "program/limit.h"
 #include "program/memory.h"
 
 #include <ctype.h>
@@ -14,9 +15,6 @@
 #include <strings.h>
 #include <sys/types.h>
 
-/* Limits of what a file causes: so many bytes, and so many for each byte that it has. */
-#define BASE_MEMORY ((uint64_t)256 << 20)
-#define MEMORY_PER_BYTE 160
 enum { MAX_BUFFERS = 4096 };
 
 /* ---- Faults ---- */
@@ -34,7 +32,7 @@ bool gltf_source_fail(struct gltf_source *source, const char *format, ...)
 
 bool gltf_source_spend(struct gltf_source *source, uint64_t bytes)
 {
-    uint64_t limit = BASE_MEMORY + MEMORY_PER_BYTE * source->size;
+    uint64_t limit = limit_of_file(source->size);
     if (bytes > limit || source->spent > limit - bytes)
         return gltf_source_fail(source, "it needs too much memory for its size");
     source->spent += bytes;

@@ -18,6 +18,12 @@
 #define HAS_ADDRESS_SANITIZER false
 #endif
 
+uint64_t limit_of_file(uint64_t size)
+{
+    const uint64_t base = (uint64_t)256 << 20;
+    return size > (UINT64_MAX - base) / 160 ? UINT64_MAX : base + 160 * size;
+}
+
 void limit_data(uint64_t bytes)
 {
     static struct rlimit first;

@@ -14,6 +14,12 @@
  */
 void limit_data(uint64_t bytes);
 
+/*
+ * The bytes that a program may take for what it makes of a file of so many bytes: 256 MiB, and 160
+ * for each.
+ */
+uint64_t limit_of_file(uint64_t size);
+
 /* The bytes of data that the process has now; 0: unknown. */
 uint64_t limit_data_used(void);
 

@@ -26,7 +26,7 @@ enum scene_file_kind scene_file_kind(const char *path)
     return strncmp(dot, ".usd", 4) == 0 ? SCENE_FILE_USD : SCENE_FILE_OTHER;
 }
 
-/* ---- Files of Assimp ---- */
+/* ---- Files that mxgen-render reads ---- */
 
 /* Adds a path for each line that the program writes. */
 static mxg_status read_paths(FILE *in, mxg_scene *scene)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The file of `--stage`. The library reads lists of paths and text files of USD. Assimp reads all
- * others, in the program mxgen-render.
+ * The file of `--stage`. The library reads lists of paths and text files of USD. The program
+ * mxgen-render reads all others: glTF, and what Assimp knows.
  */
 #ifndef MXG_PROGRAM_SCENE_FILE_H
 #define MXG_PROGRAM_SCENE_FILE_H

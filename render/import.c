@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/import.h"
 
+#include "program/memory.h"
 #include "render/import_files.h"
 
 #include <assimp/cimport.h>
@@ -100,8 +101,21 @@ static const char *reason_of_assimp(void)
                : reason;
 }
 
-/* Reads a file, and makes triangles. NULL with a reason. */
-static const struct aiScene *read_file(struct import_files *files, const char **out_reason)
+/* Makes normals where meshes lack them, except at sharp edges. NULL: it cannot. */
+static const struct aiScene *make_normals(const struct aiScene *scene, bool **out_lack_normals)
+{
+    bool lacks = false;
+    bool *lack_normals = *out_lack_normals = memory_alloc(scene->mNumMeshes + 1);
+    for (unsigned i = 0; i < scene->mNumMeshes; ++i)
+        lacks |= lack_normals[i] = !scene->mMeshes[i]->mNormals;
+    return lacks ? aiApplyPostProcessing(scene, aiProcess_GenSmoothNormals
+                                                    | aiProcess_JoinIdenticalVertices)
+                 : scene;
+}
+
+/* Reads a file, and makes triangles with normals. NULL with a reason. */
+static const struct aiScene *read_file(struct import_files *files, bool **out_lack_normals,
+                                       const char **out_reason)
 {
     struct aiPropertyStore *properties = aiCreatePropertyStore();
     aiSetImportPropertyInteger(properties, AI_CONFIG_PP_SBP_REMOVE,
@@ -117,18 +131,21 @@ static const struct aiScene *read_file(struct import_files *files, const char **
     }
     if (scene) /* this releases the scene if it fails */
         scene = aiApplyPostProcessing(scene, aiProcess_Triangulate | aiProcess_SortByPType);
+    if (scene)
+        scene = make_normals(scene, out_lack_normals);
     if (!scene && !*out_reason)
         *out_reason = reason_of_assimp();
     return scene;
 }
 
 const struct aiScene *import_read(const mxg_context *context, const char *path, uint64_t *out_size,
-                                  char reason[IMPORT_MAX_REASON])
+                                  bool **out_lack_normals, char reason[IMPORT_MAX_REASON])
 {
     const char *why = NULL;
+    *out_lack_normals = NULL;
     struct import_files files;
     import_files_begin(&files, context, path);
-    const struct aiScene *scene = read_file(&files, &why);
+    const struct aiScene *scene = read_file(&files, out_lack_normals, &why);
     import_files_end(&files);
     *out_size = files.size;
     if (!scene)

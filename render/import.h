@@ -7,15 +7,17 @@
 
 #include <assimp/scene.h>
 
+#include <stdbool.h>
 #include <stdint.h>
 
 enum { IMPORT_MAX_REASON = 256 };
 
 /*
- * Triangles in nodes; lines and points are dropped. *out_size are the bytes of the files.
- * aiReleaseImport frees it. NULL with a reason.
+ * Triangles in nodes, with normals; lines and points are dropped. *out_size are the bytes of the
+ * files; *out_lack_normals, by mesh, are those whose normals were made, which the caller frees in
+ * any case. aiReleaseImport frees the scene. NULL with a reason.
  */
 const struct aiScene *import_read(const mxg_context *context, const char *path, uint64_t *out_size,
-                                  char reason[IMPORT_MAX_REASON]);
+                                  bool **out_lack_normals, char reason[IMPORT_MAX_REASON]);
 
 #endif

@@ -14,13 +14,6 @@
 enum { MAX_OPENED = 4096 };
 
 /*
- * A reader may take so much memory, and so many bytes for each byte of its files. Nodes of Assimp
- * have 1.2 kB, and glTF writes one in 11 bytes.
- */
-#define BASE_MEMORY ((uint64_t)256 << 20)
-#define MEMORY_PER_BYTE 160
-
-/*
  * So much time of the processor may it take, and for each MiB of its files: it reads most in a
  * tenth of that, but some of its work grows with the square, as that for properties of a node.
  */
@@ -153,7 +146,7 @@ static struct aiFile *open_file(struct aiFileIO *io, const char *path, const cha
                             .FlushProc = flush_none,
                             .UserData = (aiUserData)(void *)stream};
     files->size += size_of(file);
-    limit_data(files->data_before + BASE_MEMORY + MEMORY_PER_BYTE * files->size);
+    limit_data(files->data_before + limit_of_file(files->size));
     limit_seconds(BASE_SECONDS + SECONDS_PER_MIB * (files->size >> 20));
     return file;
 }
@@ -170,7 +163,7 @@ void import_files_begin(struct import_files *files, const mxg_context *context, 
     *files = (struct import_files){.context = context, .path = path};
     files->io = (struct aiFileIO){open_file, close_file, (aiUserData)(void *)files};
     files->data_before = limit_data_used();
-    limit_data(files->data_before + BASE_MEMORY);
+    limit_data(files->data_before + limit_of_file(0));
     catch_crashes(path);
     limit_seconds(BASE_SECONDS);
 }

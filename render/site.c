@@ -174,7 +174,7 @@ static bool open_other(struct site *site, const char *path)
 {
     const char *fault = file_fault(site->context, path);
     if (fault) {
-        report_error(site->report, "bad-mesh", "cannot use '%s': %s", path, fault);
+        report_error(site->report, "bad-mesh", "cannot use the mesh '%s': %s", path, fault);
         return false;
     }
     if (!report_status(site->report, mxg_scene_create(site->context, &site->scene)))
@@ -190,7 +190,8 @@ bool site_open(struct site *site, struct cli *cli, const char *path, const char 
                                                   : open_other(site, path)))
         return false;
     if (!site->num_objects)
-        report_error(report, "empty-mesh", "'%s' has no visible geometry", path);
+        report_error(report, "empty-mesh", "cannot use the mesh '%s': it has no visible geometry",
+                     path);
     return site->num_objects != 0;
 }
 

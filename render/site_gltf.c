@@ -178,11 +178,13 @@ static bool add_object(struct importer *in, const struct part *part, struct matr
     struct gltf_shape shape = {
         .primitive = json_array_get(json_object_get(mesh, "primitives"), part->index),
         .weights = own_weights ? own_weights : json_object_get(mesh, "weights")};
-    size_t skin = gltf_index_of(part->node, "skin");
+    size_t skin = gltf_index_of(part->node, "skin"),
+           size = sizeof(struct site_object)
+                  + mxg_scene_primitive_path(in->site->scene, part->primitive, NULL, 0);
+    if (!gltf_source_spend(&in->source, size)) /* instances may be many */
+        return false;
     if (skin != SIZE_MAX && !(shape.skin = gltf_pose_skin(&in->pose, skin)))
         return false;
-    if (!gltf_geometry_has_triangles(shape.primitive) && !in->num_undrawn++)
-        in->first_undrawn = part->primitive;
     /* joints place a mesh in the world */
     struct matrix place = shape.skin ? matrix_identity() : world;
     char *key = cli_format("%zu/%zu/%zu/%zu", part->mesh, part->index, skin,
@@ -256,8 +258,14 @@ static bool add_part_objects(struct importer *in, const struct part *part)
 {
     const json_t *own =
         json_object_get(json_object_get(part->node, "extensions"), "EXT_mesh_gpu_instancing");
+    const json_t *mesh = gltf_source_item(&in->source, "meshes", part->mesh),
+                 *primitive = json_array_get(json_object_get(mesh, "primitives"), part->index);
     struct matrix world = in->pose.worlds[part->number];
     struct instances instances;
+    if (!gltf_geometry_has_triangles(primitive)) {
+        in->first_undrawn = in->num_undrawn++ ? in->first_undrawn : part->primitive;
+        return true;
+    }
     if (!own)
         return add_object(in, part, world);
     if (!open_instances(in, json_object_get(own, "attributes"), &instances))
@@ -313,7 +321,8 @@ bool site_read_gltf(struct site *site)
         gltf_pose_finish(&in.pose);
     }
     if (*in.source.fault)
-        report_error(site->report, "bad-mesh", "cannot use '%s': %s", site->file, in.source.fault);
+        report_error(site->report, "bad-mesh", "cannot use the mesh '%s': %s", site->file,
+                     in.source.fault);
     site->meters_per_unit = 1;
     site->file_size = in.source.size;
     gltf_nodes_finish(&in.nodes);

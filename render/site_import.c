@@ -11,7 +11,6 @@
 #include "program/node_path.h"
 
 #include <assimp/cimport.h>
-#include <assimp/postprocess.h>
 
 #include <math.h>
 #include <stdlib.h>
@@ -277,34 +276,19 @@ static void walk(struct importer *in)
     free(visits);
 }
 
-/* Makes normals where meshes lack them, which Assimp does with edges. NULL: it cannot. */
-static const struct aiScene *make_normals(struct importer *in, const struct aiScene *scene)
-{
-    bool lacks = false;
-    in->lack_normals = memory_alloc(scene->mNumMeshes + 1);
-    for (unsigned i = 0; i < scene->mNumMeshes; ++i)
-        lacks |= in->lack_normals[i] = !scene->mMeshes[i]->mNormals;
-    return lacks ? aiApplyPostProcessing(scene, aiProcess_GenSmoothNormals
-                                                    | aiProcess_JoinIdenticalVertices)
-                 : scene;
-}
-
 bool site_import(struct site *site)
 {
-    char reason[IMPORT_MAX_REASON] = "it has no normals";
+    char reason[IMPORT_MAX_REASON];
     struct importer in = {.site = site, .good = true};
-    const struct aiScene *scene = import_read(site->context, site->file, &site->file_size, reason);
-    if (scene)
-        scene = make_normals(&in, scene);
-    if (scene) {
-        in.scene = scene;
+    in.scene = import_read(site->context, site->file, &site->file_size, &in.lack_normals, reason);
+    if (in.scene) {
         index_names(&in);
         walk(&in);
         finish_indices(&in);
-        aiReleaseImport(scene);
+        aiReleaseImport(in.scene);
     } else {
-        report_error(site->report, "bad-mesh", "cannot use '%s': %s", site->file, reason);
+        report_error(site->report, "bad-mesh", "cannot use the mesh '%s': %s", site->file, reason);
     }
     free(in.lack_normals);
-    return scene && in.good;
+    return in.scene && in.good;
 }

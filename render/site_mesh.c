@@ -2,15 +2,12 @@
 /* A site as one mesh: each object where it stands, with the parts that it has by itself. */
 #include "render/site.h"
 
+#include "program/limit.h"
 #include "program/memory.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* So much memory may the mesh take, and for each byte of the file: instances may be many. */
-#define BASE_MEMORY ((uint64_t)256 << 20)
-#define MEMORY_PER_BYTE 160
 
 /* ---- Places ---- */
 
@@ -114,11 +111,11 @@ static void join_primvars(const struct site *site, struct scene_object *out)
 
 static bool fail(const struct site *site, const char *id, const char *why)
 {
-    report_error(site->report, id, "cannot use '%s': %s", site->file, why);
+    report_error(site->report, id, "cannot use the mesh '%s': %s", site->file, why);
     return false;
 }
 
-/* Makes room for all vertices. false after an error. */
+/* Makes room for all vertices. false after an error: instances may be many. */
 static bool allocate(const struct site *site, struct mesh *out)
 {
     uint64_t vertices = 0, indices = 0, size = 0;
@@ -130,8 +127,7 @@ static bool allocate(const struct site *site, struct mesh *out)
                     * (sizeof *out->vertices + object->num_primvars * sizeof(float[4]))
                 + object->mesh.num_indices * sizeof *out->indices;
     }
-    if (size > BASE_MEMORY + MEMORY_PER_BYTE * site->file_size || vertices > UINT32_MAX
-        || indices > UINT32_MAX)
+    if (size > limit_of_file(site->file_size) || vertices > UINT32_MAX || indices > UINT32_MAX)
         return fail(site, "bad-mesh", "it needs too much memory for its size");
     if (!mesh_allocate(out, (uint32_t)vertices, (uint32_t)indices))
         memory_fail();

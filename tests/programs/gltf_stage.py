@@ -216,6 +216,27 @@ if picture:
         check(all(abs(f - e) < 0.01 for f, e in zip(found, expected)), f"texture coordinates of a file stay beside those that are made: {found}, expected {expected}")
 check("note: parts of the mesh 'mixed.obj' have no texture coordinates; they were made" in told, f"the note about parts:\n{told}")
 
+# a stage of USD is such a mesh, too: its z is upwards
+(AT / "up.usda").write_text("""#usda 1.0
+( upAxis = "Z" )
+def Xform "x" {
+  double3 xformOp:scale = (-4, 4, 4)
+  uniform token[] xformOpOrder = ["xformOp:scale"]
+  def Mesh "quad" {
+    point3f[] points = [(-1, 0, -1), (1, 0, -1), (1, 0, 1), (-1, 0, 1)]
+    int[] faceVertexCounts = [4]
+    int[] faceVertexIndices = [3, 2, 1, 0]
+    texCoord2f[] primvars:st = [(0, 0), (1, 0), (1, 1), (0, 1)] (interpolation = "vertex")
+  }
+}
+""")
+picture, told = draw("-m", "up.usda", "-e", "M", "--camera", "0,0", size=32)
+half = math.sqrt(2) * 1.04 / math.cos(math.radians(15))
+for column, row in (12, 12), (20, 14), (18, 20):
+    expected = [(1 - ((column + 0.5) / 16 - 1) * half) / 2, ((1 - (row + 0.5) / 16) * half + 1) / 2]
+    found = [picture[c][row][column] for c in "RG"] if picture else [2, 2]
+    check(all(abs(f - e) < 0.01 for f, e in zip(found, expected)), f"a mesh of USD: {found}, expected {expected}")
+
 # ---- Names that nodes share ----
 
 lamp = {"KHR_lights_punctual": {"lights": [{"type": "point", "color": [1, 0, 0], "intensity": 10}, {"type": "point", "color": [0, 1, 0], "intensity": 10}]}}
