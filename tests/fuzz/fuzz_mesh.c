@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
  * A file of glTF as `--stage` and `--mesh` read it: what comes of it are triangles of finite
- * vertices, with a value of each primvar for each of them.
+ * vertices, with a value of each primvar for each of them, or one for all.
  */
 #include "fuzz.h"
 
@@ -21,7 +21,8 @@ static void require_object(const struct scene_object *object)
         for (size_t i = 0; i < 3; i++)
             FUZZ_REQUIRE(isfinite(mesh->vertices[v].position[i]));
     for (uint32_t i = 0; i < object->num_primvars; i++)
-        FUZZ_REQUIRE(object->primvars[i].num == mesh->num_vertices);
+        FUZZ_REQUIRE(object->primvars[i].num == mesh->num_vertices
+                     || object->primvars[i].num == 1);
 }
 
 static void read_stage(struct cli *cli, const char *path)

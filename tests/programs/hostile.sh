@@ -200,7 +200,8 @@ if [ -x "$render" ]; then
         (ulimit -v 8000000; exits 1 timeout 60 "$mxgen" bind look.mtlx --stage "$file" "$@") && grep -q "\[$id\]" err
     }
     for file in nan_*.gltf deep.gltf deeper.gltf deep.dae deep.json.gltf expo.gltf fifo.gltf; do check "$file is an error" fails bad-mesh "$file"; done
-    for file in zeros reuse weights targets names instances buffers joints; do check "$file.gltf is an error" fails bad-mesh "$file.gltf"; done
+    for file in zeros reuse weights targets names buffers joints; do check "$file.gltf is an error" fails bad-mesh "$file.gltf"; done
+    check 'instances.gltf is an error' fails bad-geometry instances.gltf
     check 'a whole mesh is bound' exits 0 "$mxgen" bind look.mtlx --stage whole.gltf --sandbox
     for file in outside.gltf missing.gltf link.gltf outside.obj; do
         check "$file: --sandbox refuses it" fails bad-mesh "$file" --sandbox
