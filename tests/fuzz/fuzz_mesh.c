@@ -21,8 +21,7 @@ static void require_object(const struct scene_object *object)
         for (size_t i = 0; i < 3; i++)
             FUZZ_REQUIRE(isfinite(mesh->vertices[v].position[i]));
     for (uint32_t i = 0; i < object->num_primvars; i++)
-        FUZZ_REQUIRE(object->primvars[i].num == mesh->num_vertices
-                     || object->primvars[i].num == 1);
+        FUZZ_REQUIRE(object->primvars[i].num == mesh->num_vertices || object->primvars[i].num == 1);
 }
 
 static void read_stage(struct cli *cli, const char *path)
