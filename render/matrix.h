@@ -29,7 +29,7 @@ void matrix_point(struct matrix m, const double point[3], double out[3]);
 void matrix_direction(struct matrix m, const double direction[3], double out[3]);
 /* A normal of a surface that `m` moves, of any length; also of a matrix that cannot be inverted. */
 void matrix_normal(struct matrix m, const double normal[3], double out[3]);
-/* Of the part that turns and scales. */
+/* The determinant of the part that turns and scales. */
 double matrix_determinant(struct matrix m);
 
 void vector_normalize(double v[3]);
