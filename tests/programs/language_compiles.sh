@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # A language's compiler accepts the shaders of all roles that the language has.
-# Arguments: mxgen, mxgen-compile, the target, roles that it lacks ("deferred,depth"; none: ''), a part and the number of parts, and documents or
-# folders of documents, of which the test takes this part.
-mxgen=$(realpath "$1") compile=$(realpath "$2") target=$3 lacking=$4 part=$5 parts=$6
-shift 6
+# Arguments: mxgen, mxgen-compile, the target, roles that it lacks ("deferred,depth"; none: ''), "all" or "roles", a part and the number of parts, and
+# documents or folders of documents, of which the test takes this part. "roles" compiles them in other roles than raster, and nothing else.
+mxgen=$(realpath "$1") compile=$(realpath "$2") target=$3 lacking=$4 kind=$5 part=$6 parts=$7
+shift 7
 mapfile -d '' all < <(realpath -z "$@" | xargs -0 -I{} find {} -name "*.mtlx" -print0 | sort -z)
 documents=()
 for i in "${!all[@]}"; do ((i % parts != part - 1)) || documents+=("${all[i]}"); done
@@ -42,7 +42,6 @@ if grep -q '^note: .* no compiler' err; then
     skip "no compiler for $target is installed: nothing is compiled"
     finish "$target"
 fi
-check 'all documents compile' compiles "${documents[@]}" --trust --interfaces complete,reduced # the compiler starts once for all
 cat >coat.mtlx <<'END'
 <materialx version="1.39">
   <slab name="metal" type="BSDF"><input name="f0" type="color3" value="0.9, 0.6, 0.3"/></slab>
@@ -65,6 +64,12 @@ roles() {
     done
     [ -z "$list" ] || check "$what, roles ${list#,}" compiles "$@" --roles "${list#,}"
 }
+if [ "$kind" = roles ]; then
+    roles 'documents' path scatter function deferred depth payload -- "${documents[@]}" --trust --interfaces complete,reduced
+    roles 'documents' pack -- "${documents[@]}" --trust --interfaces complete,reduced --slabs --transparency opaque
+    finish "$target"
+fi
+check 'all documents compile' compiles "${documents[@]}" --trust --interfaces complete,reduced # the compiler starts once for all
 balls=(gold.mtlx coat.mtlx)
 roles 'shaders' path scatter function depth payload -- "${balls[@]}" --interfaces complete,reduced
 roles 'slabs' deferred -- "${balls[@]}" --interfaces complete,reduced --slabs
