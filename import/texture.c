@@ -176,6 +176,24 @@ static struct import_port apply(struct import_material *material, const char *ca
     return (struct import_port){node, NULL};
 }
 
+/*
+ * The texel of a colour times its factor. It is a node of its own, because the factor is linear
+ * (glTF 2.0, 3.9.2), and a file is converted from sRGB behind the node that reads it.
+ */
+static struct import_port tint(struct import_material *material, const struct gltf_input *row,
+                               struct import_port port, const float factor[3])
+{
+    mxg_edit *edit = material->importing->edit;
+    if (factor[0] == 1 && factor[1] == 1 && factor[2] == 1)
+        return port;
+    char *name = cli_format("%s_multiply", row->name);
+    mxg_element node = import_node(material, "multiply", name, "color3");
+    mxg_edit_connect_input(edit, node, "in1", port.node, port.output);
+    mxg_edit_set_numbers(edit, node, "in2", "color3", factor, 3);
+    free(name);
+    return (struct import_port){node, NULL};
+}
+
 /* bg + mix (fg - bg), where the texel is `mix` or `fg`. */
 static struct import_port blend(struct import_material *material, const struct gltf_input *row,
                                 struct import_port port, double bg, const char *other, double value)
@@ -256,7 +274,6 @@ static struct import_port number(struct import_material *material, const struct 
 struct import_port import_texture(struct import_material *material, const struct gltf_input *row,
                                   const json_t *info, const float *factor, const float color[4])
 {
-    mxg_edit *edit = material->importing->edit;
     bool is_base = row->image == GLTF_BASE, is_srgb = gltf_images[row->image].is_srgb,
          is_color = is_srgb && row->count == 3;
     mxg_element reader = make_reader(material, row, is_base ? "gltf_colorimage" : "gltf_image",
@@ -267,14 +284,16 @@ struct import_port import_texture(struct import_material *material, const struct
                                      info);
     if (!reader)
         return (struct import_port){0, NULL};
-    if (is_base) {
-        mxg_edit_set_numbers(edit, reader, "color", "color4", color, 4);
-        return (struct import_port){reader, row->channel == ALPHA ? "outa" : "outcolor"};
+    if (is_base && row->channel == ALPHA) {
+        struct import_port alpha = {reader, "outa"};
+        return color[ALPHA] == 1
+                   ? alpha
+                   : apply(material, "multiply", row, alpha, "in2", (double)color[ALPHA]);
     }
-    if (is_color) {
-        mxg_edit_set_numbers(edit, reader, "factor", "color3", factor, 3);
-        return (struct import_port){reader, NULL};
-    }
+    if (is_base)
+        return tint(material, row, (struct import_port){reader, "outcolor"}, color);
+    if (is_color)
+        return tint(material, row, (struct import_port){reader, NULL}, factor);
     return row->count == 3 ? map_of_normals(material, row, reader, info)
                            : number(material, row, info, reader, *factor);
 }

@@ -84,8 +84,25 @@ for y in range(8):
         assert all(abs(40 + 50 * d - f) <= 1 for d, f in zip(dot, found)), (x, y, dot, list(found))
 END
 }
+# tinted: factors multiply linear values (glTF 2.0, 3.9.2): decoded, times (0.5, 0.25), encoded
+tinted() {
+    python3 make.py 0 0 0 1 1 && sed 's/"baseColorTexture"/"baseColorFactor": [0.5, 0.25, 1, 1], &/' placed.gltf >tinted.gltf || return
+    imports tinted.gltf -o tinted.mtlx && rm -rf tint && exits 0 "$mxgen" bake tinted.mtlx -o tint --size 4 --samples 1 --format png || return
+    PYTHONPATH=$here python3 - <<'END'
+import pathlib, gltf
+linear = lambda c: c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4
+encoded = lambda c: 12.92 * c if c <= 0.0031308 else 1.055 * c ** (1 / 2.4) - 0.055
+width, rows, channels = gltf.unpack(next(pathlib.Path("tint").glob("*.png")).read_bytes())
+for y in range(4):
+    for x in range(4):
+        for channel, (at, factor) in enumerate([(x, 0.5), (y, 0.25)]):
+            wanted = 255 * encoded(factor * linear((40 + 50 * at) / 255))
+            assert abs(rows[y][channels * x + channel] - wanted) <= 1.5, (x, y, channel, wanted, list(rows[y]))
+END
+}
 if has_device "$render"; then
     check 'an image lies where it is' placed 0 0 0 1 1
+    check 'a factor multiplies decoded colours' tinted
     check 'an image is scaled and shifted' placed 0 0.25 0.5 0.5 2
     check "an image is turned: the specification's example" placed 1.5707963 0 1 0.5 0.5
     check 'an image is turned by any angle' placed 0.6 0.3 0.1 1.5 0.7
