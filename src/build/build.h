@@ -20,7 +20,8 @@ enum build_interface { INTERFACE_COMPLETE, INTERFACE_AUTHORED, INTERFACE_REDUCED
 /* Where <ambientocclusion> comes from: the option `ambient-occlusion`. */
 enum build_occlusion { OCCLUSION_MAP, OCCLUSION_PRIMVAR, OCCLUSION_NONE };
 
-enum { TEXTURE_MODES_BUT_BORDERS = 3 }; /* libraries/stdlib/image.glsl lists all values */
+/* libraries/stdlib/image.glsl lists all values */
+enum { TEXTURE_MODES_SHARED = 1, TEXTURE_MODES_BUT_BORDERS = 3 };
 
 struct mxg_node_code; /* mxgen/node.h */
 

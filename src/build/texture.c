@@ -106,10 +106,20 @@ static void note_input(struct builder *b, const struct port *file, const struct 
     }
 }
 
+/* The mode of a sampler whose border the shader makes: what it blends at the border is the image.
+ */
+static str_id without_border(const struct builder *b, str_id mode)
+{
+    bool is_border = mode && strcmp(build_text(b, mode), "constant") == 0;
+    return is_border && b->options->texture_modes == TEXTURE_MODES_SHARED ? STR_clamp : mode;
+}
+
 /* Drops sampling values that have no effect. */
-static void leave_out_defaults(struct shader_variable *texture)
+static void leave_out_defaults(const struct builder *b, struct shader_variable *texture)
 {
     struct shader_sampling *s = &texture->sampling;
+    s->uaddressmode = without_border(b, s->uaddressmode);
+    s->vaddressmode = without_border(b, s->vaddressmode);
     if (texture->num_tiles) /* an array layer ends at its border */
         s->uaddressmode = s->vaddressmode = STR_clamp;
     if (!s->framerange)
@@ -174,7 +184,7 @@ static void note_reader(struct builder *b, const struct nodedef *def, const stru
     memset(&wanted.value, 0, sizeof wanted.value);
     for (uint32_t i = 0; i < def->num_inputs; i++)
         note_input(b, &ports[file], &ports[i], args[i], &wanted);
-    leave_out_defaults(&wanted);
+    leave_out_defaults(b, &wanted);
     args[file] =
         ir_build(b->graph, IR_TEXTURE, wanted.type, variable_for(b, index, &wanted), NULL, 0);
 }

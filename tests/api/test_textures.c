@@ -368,6 +368,25 @@ static void test_two_ways(void)
     finish(&shot);
 }
 
+/* A border of the default's colour: the sampler makes it, or the shader over one that clamps. */
+static void test_borders(void)
+{
+    static const char *const modes[][2] = {
+        {"sampler", "constant"}, {"shared", "clamp"}, {"shader", "constant"}};
+    for (size_t i = 0; i < sizeof modes / sizeof *modes; i++) {
+        struct shot shot;
+        mxg_variable file;
+        shoot(&shot,
+              IMAGE("a.png", "<input name='uaddressmode' type='string' value='constant'/>"
+                             "<input name='vaddressmode' type='string' value='mirror'/>"),
+              false, "texture-modes", modes[i][0], MXG_OK);
+        find(&shot, "i/file", &file);
+        REQUIRE_STR(file.uaddressmode, modes[i][1]);
+        REQUIRE_STR(file.vaddressmode, "mirror");
+        finish(&shot);
+    }
+}
+
 #define NAME(type, value) "<input name='" type "' type='string' value='" value "'/>"
 #define CONSTANT(value) "<constant name='c' type='string'>" NAME("value", value) "</constant>"
 #define READ(name, from) \
@@ -555,6 +574,7 @@ int main(void)
     test_frame_names();
     test_texels_of_budgets();
     test_two_ways();
+    test_borders();
     test_strings();
     test_string_of_two_readers();
     return test_report("api-textures");
