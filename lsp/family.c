@@ -204,20 +204,77 @@ bool family_can_name(const struct lsp_query *of, uint32_t target)
     return root != MODEL_NONE && of->model->elements[named_of(of, target)].parent == root;
 }
 
+struct span family_local_name(const struct lsp_query *query, struct span name)
+{
+    for (uint32_t at = name.end; at > name.start; --at)
+        if (query->text->bytes[at - 1] == ':')
+            return (struct span){at, name.end};
+    return name;
+}
+
+/* The namespace of a text; empty: it has none. */
+static struct span namespace_of(const struct lsp_query *query)
+{
+    uint32_t root = query_root(query);
+    return root == MODEL_NONE ? (struct span){0, 0} : query_value(query, root, "namespace");
+}
+
+/* True if a name of one text is, with its namespace, that of an element of the other one. */
+static bool is_full_name(const struct lsp_query *of, struct span own, const struct lsp_query *in,
+                         struct span name)
+{
+    const struct span local = family_local_name(in, name), space = namespace_of(of),
+                      written = {name.start,
+                                 local.start > name.start ? local.start - 1 : name.start};
+    bool has_space = written.start < written.end;
+    return is_same(of, own, in, local)
+           && (has_space ? is_same(of, space, in, written)
+                         : space.start == space.end || is_same(of, space, in, namespace_of(in)));
+}
+
 bool family_names(const struct lsp_query *of, uint32_t target, const struct lsp_query *in,
-                  uint32_t element, const struct model_attribute *attribute, struct span name)
+                  uint32_t element, const struct model_attribute *attribute, struct span *name)
 {
     uint32_t named = named_of(of, target);
+    struct span own = query_value(of, target, "name"), whole = *name;
     bool is_output = query_equals(in->text, attribute->name, "output");
-    if (is_output != (named != target) || !names_is_reference(in, element, attribute)
-        || query_equals(in->text, attribute->name, "interfacename")
-        || !is_same(of, query_value(of, target, "name"), in, name))
+    if (!family_can_name(of, target) || is_output != (named != target)
+        || !names_is_reference(in, element, attribute)
+        || query_equals(in->text, attribute->name, "interfacename"))
         return false;
     if (is_output) {
         const struct model_attribute *graph = query_attribute(in, element, "nodegraph");
-        return graph && family_names(of, named, in, element, graph, graph->value);
+        struct span of_graph = graph ? graph->value : whole;
+        return graph && is_same(of, own, in, whole)
+               && family_names(of, named, in, element, graph, &of_graph);
     }
+    *name = family_local_name(in, whole);
     bool is_node = query_equals(in->text, attribute->name, "nodename");
-    return names_target_of(in, element, attribute, name) == MODEL_NONE
+    return is_full_name(of, own, in, whole)
+           && names_target_of(in, element, attribute, whole) == MODEL_NONE
            && (!is_node || names_scope(in, element) == query_root(in));
+}
+
+bool family_uses_input(const struct family *family, const struct lsp_query *of, uint32_t target)
+{
+    uint32_t nodedef = of->model->elements[target].parent;
+    if (!query_is(of, target, "input") || !query_is(of, nodedef, "nodedef"))
+        return false;
+    const struct span own = query_value(of, nodedef, "name"),
+                      category = query_value(of, nodedef, "node");
+    for (size_t i = 0; i < family->num_files; ++i) {
+        struct lsp_query in;
+        if (!family_query(family, i, of->session, &in) || in.document == of->document)
+            continue;
+        for (uint32_t e = 0; e < in.model->num_elements; ++e) {
+            const struct span names[] = {query_value(&in, e, "nodedef"),
+                                         query_value(&in, e, "inherit")};
+            bool is_node =
+                is_same(of, category, &in, family_local_name(&in, in.model->elements[e].name));
+            if (is_node || is_full_name(of, own, &in, names[0])
+                || is_full_name(of, own, &in, names[1]))
+                return true;
+        }
+    }
+    return false;
 }

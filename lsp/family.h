@@ -35,10 +35,17 @@ bool family_query(const struct family *family, size_t index, struct lsp_session 
 
 /*
  * True if a name in an attribute of another file is that of the target: an element at the root of
- * the text of `of`, or an output of a nodegraph there.
+ * the text of `of`, or an output of a nodegraph there. *name then is without its namespace.
  */
 bool family_names(const struct lsp_query *of, uint32_t target, const struct lsp_query *in,
-                  uint32_t element, const struct model_attribute *attribute, struct span name);
+                  uint32_t element, const struct model_attribute *attribute, struct span *name);
+/* The part of a name behind its namespace: "gold" of "studio:gold". */
+struct span family_local_name(const struct lsp_query *query, struct span name);
+/*
+ * True if another file of the family may use the target, an input of a definition: it has nodes of
+ * this definition, or it names the definition.
+ */
+bool family_uses_input(const struct family *family, const struct lsp_query *of, uint32_t target);
 /* True for an element that other files can name. */
 bool family_can_name(const struct lsp_query *of, uint32_t target);
 

@@ -102,6 +102,19 @@ static uint32_t child_of(const struct lsp_query *query, uint32_t parent, const c
     return child;
 }
 
+/* The input of a definition, or of one that it inherits from. */
+static uint32_t input_of_nodedef(const struct lsp_query *query, uint32_t nodedef, struct span name)
+{
+    enum { MAX_DEPTH = 64 }; /* of definitions that inherit; they may be a circle */
+    uint32_t found = MODEL_NONE;
+    for (unsigned i = 0; i < MAX_DEPTH && nodedef != MODEL_NONE && found == MODEL_NONE; ++i) {
+        found = child_of(query, nodedef, "input", name);
+        struct span from = query_value(query, nodedef, "inherit");
+        nodedef = from.start == from.end ? MODEL_NONE : at_root(query, nodedef, from);
+    }
+    return found;
+}
+
 /* The element that implements or defines the interface of a nodegraph. */
 static uint32_t definition_of(const struct lsp_query *query, uint32_t graph)
 {
@@ -115,7 +128,7 @@ static uint32_t input_of_graph(const struct lsp_query *query, uint32_t element, 
              found = child_of(query, graph, "input", name);
     if (found != MODEL_NONE || graph == MODEL_NONE)
         return found;
-    return child_of(query, definition_of(query, graph), "input", name);
+    return input_of_nodedef(query, definition_of(query, graph), name);
 }
 
 static uint32_t output_of_source(const struct lsp_query *query, uint32_t element, struct span name)
@@ -144,7 +157,7 @@ static uint32_t input_of_definition(const struct lsp_query *query, uint32_t elem
            && !(query_is(query, child, "nodedef")
                 && query_equals(query->text, query_value(query, child, "name"), nodedef.name)))
         child = model_next(query->model, child);
-    return child_of(query, child, "input", name);
+    return input_of_nodedef(query, child, name);
 }
 
 /* Attributes that name elements, and who finds what they name. */

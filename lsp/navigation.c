@@ -98,11 +98,14 @@ static void aim_at_included(struct aim *aim, const struct lsp_query *query)
         if (!family_query(&aim->family, i, query->session, &of)
             || strcmp(of.document->path, info.file) != 0)
             continue;
+        const char *colon = strrchr(info.name, ':');
         for (uint32_t child = model_first(of.model, query_root(&of)); child != MODEL_NONE;
              child = model_next(of.model, child))
-            if (query_equals(of.text, query_value(&of, child, "name"), info.name)) {
+            if (query_equals(of.text, query_value(&of, child, "name"),
+                             colon ? colon + 1 : info.name)) {
                 aim->query = of;
                 aim->target = child;
+                aim->name = family_local_name(query, aim->name);
             }
     }
 }
@@ -112,7 +115,8 @@ static bool find_aim(const struct lsp_query *query, struct aim *out)
 {
     *out = (struct aim){.query = *query};
     out->target = references_target(query, &out->name);
-    if (out->target == MODEL_NONE || family_can_name(query, out->target))
+    if (out->target == MODEL_NONE || family_can_name(query, out->target)
+        || query_is(query, out->target, "input"))
         family_find(query->session, query->document, &out->family);
     if (out->target == MODEL_NONE)
         aim_at_included(out, query);
@@ -170,9 +174,11 @@ static void collect_in(struct places *places, const struct aim *aim)
             const struct model_attribute *attribute =
                 &in->model->attributes[element->first_attribute + a];
             struct span value = attribute->value, item = {value.start, value.start};
-            while (names_next_item(in, value, &item))
-                if (family_names(&aim->query, aim->target, in, i, attribute, item))
-                    take_place(places, i, attribute, item);
+            while (names_next_item(in, value, &item)) {
+                struct span name = item;
+                if (family_names(&aim->query, aim->target, in, i, attribute, &name))
+                    take_place(places, i, attribute, name);
+            }
         }
     }
 }
@@ -254,7 +260,8 @@ json_t *handle_prepare_rename(struct lsp_session *session, const json_t *params,
     json_t *result = NULL;
     if (!lsp_query(session, params, &query, error))
         return NULL;
-    if (find_aim(&query, &aim) && can_rename(&aim.query, aim.target)) {
+    if (find_aim(&query, &aim) && can_rename(&aim.query, aim.target)
+        && !family_uses_input(&aim.family, &aim.query, aim.target)) {
         result = json_object();
         json_object_set_new(result, "range", wire_range(session, query.text, aim.name));
         json_object_set_new(result, "placeholder", wire_span(query.text, aim.name));
@@ -318,6 +325,8 @@ json_t *handle_rename(struct lsp_session *session, const json_t *params, struct 
         return NULL;
     const char *fault = !find_aim(&query, &aim) || !can_rename(&aim.query, aim.target)
                             ? "there is no name here that can change"
+                        : family_uses_input(&aim.family, &aim.query, aim.target)
+                            ? "other files use this input of the definition, and would lose it"
                         : !is_name(new_name)
                             ? "a name has letters, digits and '_', and no digit first"
                         : is_taken(&aim, new_name) ? "another element has this name"

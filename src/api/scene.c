@@ -108,7 +108,7 @@ static mxg_status load_scene(mxg_context *context, struct scene_load *load, mxg_
 {
     if (out_scene)
         *out_scene = NULL;
-    if (!load->path)
+    if (!load->path || !out_scene)
         return MXG_ERROR_ARGUMENT;
     mxg_status status = mxg_scene_create(context, &load->scene);
     if (status != MXG_OK)

@@ -200,31 +200,59 @@ uint32_t maker_node(struct maker *m, usda_prim_id prim)
     return m->nodes.len;
 }
 
+/* Connects an input of a node, which has no element for it yet. */
+static void connect_input(struct maker *m, const struct made_node *node, const char *name,
+                          const struct source *from)
+{
+    const struct usda_prim *at = &m->layer->prims.items[node->prim];
+    str_id id = str_intern_z(m->doc->strings, name);
+    elem_id input = maker_add(m, node->element, "input", id, at->line, at->column);
+    int index = library_find_input(m->lib, node->nodedef, id);
+    doc_type type = library_ports(m->lib, node->nodedef, NULL)[index].type;
+    maker_set(m, input, "type", library_type_name(m->lib, type));
+    maker_connect(m, input, node->element, from);
+}
+
+/* Adds a node for the prim of another one, named after it; node 0: it has no definition. */
+static struct source add_node(struct maker *m, const struct made_node *of, const char *nodedef,
+                              const char *suffix)
+{
+    uint32_t found = library_nodedef_by_name(m->lib, str_intern_z(m->doc->strings, nodedef)), num;
+    if (found == LIBRARY_NONE)
+        return (struct source){0};
+    const struct port *outputs = maker_outputs(m, found, &num);
+    struct text name;
+    text_init(&name, m->scratch);
+    text_fmt(&name, "%s_%s", str_text(m->doc->strings, doc_element(m->doc, of->element)->name),
+             suffix);
+    const char *category = str_text(m->doc->strings, library_nodedef(m->lib, found)->node);
+    elem_id element =
+        maker_add_free(m, maker_graph(m), category, &name, &m->layer->prims.items[of->prim]);
+    maker_set(m, element, "type", type_of(m, outputs, num));
+    maker_set(m, element, "nodedef", library_nodedef(m->lib, found)->name);
+    vec_push(m->scratch, &m->nodes,
+             (struct made_node){
+                 .prim = of->prim, .element = element, .nodedef = found, .is_made = true});
+    return (struct source){.node = m->nodes.len, .port = outputs[0].name};
+}
+
 struct source maker_add_after(struct maker *m, const struct source *from, const char *nodedef,
                               const char *input, const char *suffix)
 {
     const struct made_node before = m->nodes.items[from->node - 1];
-    const struct usda_prim *at = &m->layer->prims.items[before.prim];
-    uint32_t found = library_nodedef_by_name(m->lib, str_intern_z(m->doc->strings, nodedef)), num;
-    str_id input_name = str_intern_z(m->doc->strings, input);
-    if (found == LIBRARY_NONE)
+    struct source added = add_node(m, &before, nodedef, suffix);
+    if (!added.node)
         return *from;
-    const struct port *outputs = maker_outputs(m, found, &num);
-    const struct port *inputs = library_ports(m->lib, found, NULL);
-    struct text name;
-    text_init(&name, m->scratch);
-    text_fmt(&name, "%s_%s", str_text(m->doc->strings, doc_element(m->doc, before.element)->name),
-             suffix);
-    const char *category = str_text(m->doc->strings, library_nodedef(m->lib, found)->node);
-    elem_id element = maker_add_free(m, maker_graph(m), category, &name, at);
-    maker_set(m, element, "type", type_of(m, outputs, num));
-    maker_set(m, element, "nodedef", library_nodedef(m->lib, found)->name);
-    elem_id added = maker_add(m, element, "input", input_name, at->line, at->column);
-    doc_type type = inputs[library_find_input(m->lib, found, input_name)].type;
-    maker_set(m, added, "type", library_type_name(m->lib, type));
-    maker_connect(m, added, element, from);
-    vec_push(m->scratch, &m->nodes,
-             (struct made_node){
-                 .prim = before.prim, .element = element, .nodedef = found, .is_made = true});
-    return (struct source){.node = m->nodes.len, .port = outputs[0].name};
+    const struct made_node after = m->nodes.items[added.node - 1];
+    connect_input(m, &after, input, from);
+    return added;
+}
+
+struct source maker_add_before(struct maker *m, const struct made_node *node, const char *nodedef,
+                               const char *input, const char *suffix)
+{
+    struct source added = add_node(m, node, nodedef, suffix);
+    if (added.node)
+        connect_input(m, node, input, &added);
+    return added;
 }

@@ -85,6 +85,12 @@ uint32_t maker_node(struct maker *m, usda_prim_id prim);
  */
 struct source maker_add_after(struct maker *m, const struct source *from, const char *nodedef,
                               const char *input, const char *suffix);
+/*
+ * A new node likewise that an input of another one reads, which has no such input yet; without a
+ * node: the library lacks the definition.
+ */
+struct source maker_add_before(struct maker *m, const struct made_node *node, const char *nodedef,
+                               const char *input, const char *suffix);
 
 /* ---- materials.c ---- */
 

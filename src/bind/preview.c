@@ -18,15 +18,16 @@ static const struct preview_shader shaders[] = {
 
 /* A texture is an image, whose colours are decoded before the scale and bias of usd_shaders.c. */
 static const struct preview_input inputs[] = {
-    {"UsdPreviewSurface", "opacityMode", "opacityMode", NULL, true},
-    {"UsdPreviewSurface", "displacement", NULL, NULL, false}, /* a node of its own */
-    {"UsdUVTexture", "st", "texcoord", NULL, false},
-    {"UsdUVTexture", "wrapS", "uaddressmode", "constant", true},
-    {"UsdUVTexture", "wrapT", "vaddressmode", "constant", true},
-    {"UsdUVTexture", "fallback", "default", "0, 0, 0, 1", false},
-    {"UsdUVTexture", "scale", NULL, NULL, false},
-    {"UsdUVTexture", "bias", NULL, NULL, false},
-    {"UsdUVTexture", "sourceColorSpace", NULL, NULL, true},
+    {"UsdPreviewSurface", "opacityMode", "opacityMode", NULL, true, NULL},
+    {"UsdPreviewSurface", "displacement", NULL, NULL, false, NULL}, /* a node of its own */
+    /* without a connection the input of MaterialX is a property of the geometry */
+    {"UsdUVTexture", "st", "texcoord", NULL, false, "ND_constant_vector2"},
+    {"UsdUVTexture", "wrapS", "uaddressmode", "constant", true, NULL},
+    {"UsdUVTexture", "wrapT", "vaddressmode", "constant", true, NULL},
+    {"UsdUVTexture", "fallback", "default", "0, 0, 0, 1", false, NULL},
+    {"UsdUVTexture", "scale", NULL, NULL, false, NULL},
+    {"UsdUVTexture", "bias", NULL, NULL, false, NULL},
+    {"UsdUVTexture", "sourceColorSpace", NULL, NULL, true, NULL},
 };
 
 /* Nobody reads the wrapping that a file may have, so useMetadata is black, as without metadata. */

@@ -18,6 +18,7 @@ struct preview_input {
     const char *name;       /* of the input in MaterialX; NULL: it has none */
     const char *otherwise;  /* the value where the stage has none; NULL: that of the definition */
     bool has_tokens;        /* preview_next_token lists them */
+    const char *constant;   /* the definition of the node that a value becomes; NULL: it is one */
 };
 
 struct preview_token {

@@ -7,17 +7,37 @@
 
 /* ---- Tokens ---- */
 
-/* The value of an input, also through its connection; NULL: it has none. */
-static const struct usda_property *value_of(struct maker *m, usda_prim_id prim, const char *name)
+/* The connection of an input; NULL: it has none. */
+static const struct usda_property *connection_of(struct maker *m, usda_prim_id prim,
+                                                 const char *name)
 {
     struct text text;
     text_init(&text, m->scratch);
     text_fmt(&text, "inputs:%s", name);
-    const struct usda_property *connection =
-        maker_connection(m, prim, (struct text_word){text.data, text.len});
-    return connection
-               ? maker_follow(m, connection).value
-               : usda_find_attribute(m->layer, &m->layer->prims.items[prim], text_cstr(&text));
+    return maker_connection(m, prim, (struct text_word){text.data, text.len});
+}
+
+/* The property with the value of an input itself; NULL: it has none. */
+static const struct usda_property *own_value(struct maker *m, usda_prim_id prim, const char *name)
+{
+    struct text text;
+    text_init(&text, m->scratch);
+    text_fmt(&text, "inputs:%s", name);
+    return usda_find_attribute(m->layer, &m->layer->prims.items[prim], text_cstr(&text));
+}
+
+/* The property that gives an input its value or connection; NULL: none. */
+static const struct usda_property *given(struct maker *m, usda_prim_id prim, const char *name)
+{
+    const struct usda_property *connection = connection_of(m, prim, name);
+    return connection ? connection : own_value(m, prim, name);
+}
+
+/* The value of an input, also through its connection; NULL: it has none. */
+static const struct usda_property *value_of(struct maker *m, usda_prim_id prim, const char *name)
+{
+    const struct usda_property *connection = connection_of(m, prim, name);
+    return connection ? maker_follow(m, connection).value : own_value(m, prim, name);
 }
 
 /* The token that a property has; len 0: it has none. */
@@ -48,6 +68,15 @@ static const char *word_of(struct maker *m, const struct made_node *node, const 
 
 /* ---- Inputs ---- */
 
+/* True if the input has a value, or none, and the value is a node of its own. */
+static bool is_constant(struct maker *m, const struct made_node *node,
+                        const struct preview_input *row)
+{
+    const struct usda_property *connection =
+        row->constant ? connection_of(m, node->prim, row->input) : NULL;
+    return row->constant && !(connection && maker_follow(m, connection).node);
+}
+
 str_id usd_input(struct maker *m, const struct made_node *node, struct text_word name)
 {
     const struct preview_input *row =
@@ -56,7 +85,9 @@ str_id usd_input(struct maker *m, const struct made_node *node, struct text_word
         return maker_intern(m, name);
     /* a value of older files, which is no token, is one of MaterialX */
     bool is_word = row->has_tokens && token_of(value_of(m, node->prim, row->input)).len;
-    return row->name && !is_word ? str_intern_z(m->doc->strings, row->name) : 0;
+    return row->name && !is_word && !is_constant(m, node, row)
+               ? str_intern_z(m->doc->strings, row->name)
+               : 0;
 }
 
 static void add_value(struct maker *m, const struct made_node *node, const char *name,
@@ -72,6 +103,17 @@ static void add_value(struct maker *m, const struct made_node *node, const char 
     maker_set(m, input, "value", str_intern_z(m->doc->strings, value));
 }
 
+/* Makes the node that the value of an input is. */
+static void add_constant(struct maker *m, const struct made_node *node,
+                         const struct preview_input *row)
+{
+    const struct usda_property *property = given(m, node->prim, row->input);
+    struct source made = maker_add_before(m, node, row->constant, row->name, row->input);
+    const struct made_node constant = made.node ? m->nodes.items[made.node - 1] : *node;
+    if (made.node && property)
+        maker_read_input(m, &constant, property, STR_value);
+}
+
 void usd_add_values(struct maker *m, const struct made_node *node)
 {
     const struct preview_input *row = NULL;
@@ -82,6 +124,8 @@ void usd_add_values(struct maker *m, const struct made_node *node)
         bool is_given = value_of(m, node->prim, row->input) != NULL;
         if (word || (row->otherwise && !is_given))
             add_value(m, node, row->name, word ? word : row->otherwise);
+        if (is_constant(m, node, row))
+            add_constant(m, node, row);
     }
 }
 
@@ -107,20 +151,11 @@ void usd_set_color_space(struct maker *m, const struct made_node *node, elem_id 
 
 /* ---- Outputs ---- */
 
-/* The property that gives an input its value or connection; NULL: none. */
-static const struct usda_property *given(struct maker *m, usda_prim_id prim, const char *name)
-{
-    const struct usda_property *connection =
-        maker_connection(m, prim, (struct text_word){name, strlen(name)});
-    return connection ? connection
-                      : usda_find_attribute(m->layer, &m->layer->prims.items[prim], name);
-}
-
 /* The texture after its scale and bias. */
 static struct source scaled_texture(struct maker *m, uint32_t texture)
 {
-    static const char *const steps[][3] = {{"inputs:scale", "ND_multiply_color4", "scaled"},
-                                           {"inputs:bias", "ND_add_color4", "biased"}};
+    static const char *const steps[][3] = {{"scale", "ND_multiply_color4", "scaled"},
+                                           {"bias", "ND_add_color4", "biased"}};
     const struct made_node node = m->nodes.items[texture - 1];
     struct source at = {.node = texture,
                         .port = maker_outputs(m, node.nodedef, &(uint32_t){0})[0].name};
@@ -156,7 +191,7 @@ struct source usd_texture_output(struct maker *m, uint32_t texture, struct text_
 
 struct source usd_displacement(struct maker *m, const struct made_node *surface)
 {
-    const struct usda_property *property = given(m, surface->prim, "inputs:displacement");
+    const struct usda_property *property = given(m, surface->prim, "displacement");
     uint32_t nodedef =
         library_nodedef_by_name(m->lib, str_intern_z(m->doc->strings, "ND_displacement_float"));
     if (!property || nodedef == LIBRARY_NONE)

@@ -112,6 +112,8 @@ static void test_refused_objects(const struct objects *o)
     REFUSED(mxg_document_load(o->context, NULL, "main.mtlx", &document));
     REFUSED(mxg_document_load(o->context, o->library, NULL, &document));
     REFUSED(mxg_document_load(o->context, o->library, "main.mtlx", NULL));
+    REFUSED(mxg_scene_load(o->context, "main.usda", NULL, NULL));
+    REFUSED(mxg_scene_parse(o->context, "main.usda", "", 0, NULL, NULL));
     REFUSED(mxg_document_parse(o->context, o->library, NULL, "", 0, &document));
     REFUSED(mxg_document_parse(o->context, o->library, "x.mtlx", NULL, 1, &document));
     REFUSED(mxg_options_create(NULL, &options));

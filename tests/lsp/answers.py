@@ -286,6 +286,19 @@ def check_navigation(client):
     at = client.texts[URI].index('"in"') + 1
     edits = client.at("textDocument/rename", URI, at, newName="value")["changes"][URI]
     same(edited(client.texts[URI], edits), definition.replace("¦", "").replace('"in"', '"value"'), "an input of an interface renamed")
+    heir = """  <nodedef name="ND_heir" node="twice" version="2" inherit="ND_twice"/>
+  <nodegraph name="NG_heir" nodedef="ND_heir">
+    <dot name="same" type="float"><input name="in" type="float" interfacename="in"/></dot>
+    <output name="out" type="float" nodename="same"/>
+  </nodegraph>
+</materialx>
+"""
+    at = open_text(client, definition.replace("twi¦ce", "twice").replace("</materialx>\n", heir).replace('name="in" type="float"/>', 'name="i¦n" type="float"/>', 1))
+    client.diagnostics(URI)
+    edits = client.at("textDocument/rename", URI, at, newName="value")["changes"][URI]
+    changed = edited(client.texts[URI], edits)
+    same((changed.count('interfacename="value"'), changed.count('interfacename="in"')), (3, 0), "an input in the graph of a definition that inherits it")
+    open_text(client, definition)
     at = client.texts[URI].index('"out"') + 1
     same(client.at("textDocument/prepareRename", URI, at), None, "outputs of a definition have their names in two places")
     (WORK / "part.mtlx").write_text('<materialx version="1.39">\n  <constant name="é" type="float"/>\n  <constant name="far" type="float"/>\n</materialx>\n')
@@ -332,6 +345,28 @@ def check_families(client):
     changes = client.at("textDocument/rename", uri_of(part), place, newName="value")["changes"]
     same(edited(far.read_text(), changes[uri_of(far)]), far.read_text().replace('output="out"', 'output="value"'), "an output of a graph")
     same(sorted(uri.rsplit("/", 1)[1] for uri in changes), ["family_far.mtlx", "family_part.mtlx"], "and its own file")
+    named, main = WORK / "family_named.mtlx", WORK / "family_main.mtlx"
+    named.write_text('<materialx version="1.39" namespace="studio">\n  <nodedef name="ND_two" node="two"><input name="in" type="float"/><output name="out" type="float"/></nodedef>\n'
+                     '  <surfacematerial name="Paint" type="material"/>\n  <look name="base"><materialassign name="m" material="Paint" geom="/"/></look>\n</materialx>\n')
+    main.write_text(include.format(named.name, '  <surfacematerial name="Paint" type="material"/>\n  <look name="own" inherit="studio:base"><materialassign name="a" material="studio:Paint" geom="/a"/>'
+                                   '<materialassign name="b" material="Paint" geom="/b"/></look>\n  <studio:two name="t" type="float"/>\n'))
+    client.open(uri_of(named), named.read_text())
+    for old, new in (("Paint", "Lack"), ("base", "ground")):
+        changes = client.at("textDocument/rename", uri_of(named), named.read_text().index(f'name="{old}"') + 7, newName=new)["changes"]
+        same(edited(main.read_text(), changes[uri_of(main)]), main.read_text().replace(f'"studio:{old}"', f'"studio:{new}"'), f"{old} keeps its namespace in another file")
+    client.open(uri_of(main), main.read_text())
+    client.diagnostics(uri_of(main))
+    place = main.read_text().index("studio:Paint") + 9
+    same(client.at("textDocument/prepareRename", uri_of(main), place)["placeholder"], "Paint", "the name behind a namespace can change")
+    changes = client.at("textDocument/rename", uri_of(main), place, newName="Lack")["changes"]
+    same(edited(named.read_text(), changes[uri_of(named)]), named.read_text().replace('"Paint"', '"Lack"'), "in the file that has it")
+    place = named.read_text().index('"in"') + 1
+    same(client.at("textDocument/prepareRename", uri_of(named), place), None, "an input that nodes of another file have stays")
+    try:
+        client.at("textDocument/rename", uri_of(named), place, newName="value")
+        check(False, "a rename would take an input from nodes of another file")
+    except Failure as failure:
+        same(failure.args[0]["message"], "other files use this input of the definition, and would lose it", "a rename that would take an input from another file")
     inside = part.read_text().index('"tone" type="float"/><output') + 2
     same(list(client.at("textDocument/rename", uri_of(part), inside, newName="deep")["changes"]), [uri_of(part)], "names inside of a graph are its own")
 

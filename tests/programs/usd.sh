@@ -228,6 +228,8 @@ main() { exits 0 "$mxgen" nothing.mtlx --stage "$1" --target vulkan --interface 
 check 'a network of all shaders of USD gives a shader' main preview.usda
 check 'sRGB textures are decoded before scale and bias' grep -qF 'vec4(mx_srgb_texture_to_lin_rec709(image.xyz), image.w) * vec4(2.0, 3.0, 4.0, 1.0)' main.txt
 check 'raw textures are not' grep -qF 'vec3 normal_map = texture(x000_n_file' main.txt
+check 'without a connection the coordinates are 0, as in USD' grep -qF 'texture(x000_n_file, vec2(0.0))' main.txt
+check 'a value of them is one place' eval 'sed "/def Shader \"n\"/,/}/s/float3 outputs:rgb/&\n        float2 inputs:st = (0.25, 0.75)/" preview.usda >placed.usda; main placed.usda && grep -qF "texture(x000_n_file, vec2(0.25, 0.75))" main.txt && main preview.usda'
 check 'scale and bias count' grep -qF '+ vec4(5.0, 6.0, 7.0, 0.0)' main.txt
 check 'a primvar has the name that a token gives' grep -qF 'vd.geomprop_st' main.txt
 check 'coordinates are scaled, turned and moved' eval 'grep -qF "scaled = vd.geomprop_st * vec2(8.0, 9.0)" main.txt && grep -qF "vec2(-scaled.y, scaled.x) + vec2(10.0, 11.0)" main.txt'
