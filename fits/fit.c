@@ -26,7 +26,7 @@ void fit_print_form(const char *name, const double p[FIT_PARAMETERS], double sca
     printf("const mat4 %s = mat4(", name);
     for (int j = 0; j < FIT_TERMS; ++j)
         for (int i = 0; i < FIT_TERMS; ++i)
-            printf("%.4f%s", scale * p[i * FIT_TERMS + j],
+            printf("%.6f%s", scale * p[i * FIT_TERMS + j],
                    i == FIT_TERMS - 1 && j == FIT_TERMS - 1 ? ");\n" : ", ");
 }
 

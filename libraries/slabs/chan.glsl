@@ -35,8 +35,8 @@ float mx_chan_even(float c)
 // The program fits/chan.c makes the constants.
 float mx_chan_share(float c, float g)
 {
-    const mat4 FIT = mat4(0.7111, 0.0005, 0.4749, 0.0263, 0.1526, 0.0031, 1.0260, -0.7185, 0.1026, -0.0048, -2.2232, 0.3473,
-                          -0.0538, 0.0016, 2.0696, -0.4921);
+    const mat4 FIT = mat4(0.711052, 0.000476, 0.474855, 0.026280, 0.152583, 0.003146, 1.026027, -0.718545, 0.102579, -0.004832, -2.223248,
+                          0.347306, -0.053764, 0.001611, 2.069558, -0.492125);
     vec4 fit = FIT * vec4(1.0, c, c * c, c * c * c);
     vec2 bump = mx_chan_bump(g);
     float plain = mix(fit.x, 27.0 / 28.0 * mx_chan_even(c), mx_chan_smoothness(g)); // even: exactly, the mean of (1 - x)^5 is 1/21

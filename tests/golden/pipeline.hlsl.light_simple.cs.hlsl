@@ -575,8 +575,8 @@ float mx_chan_lobe(float g, float cos_v, float cos_l, float cos_d, float even)
 float mx_chan_share(float c, float g)
 {
     float4 fit = mul(float4(1.0, c, c * c, c * c * c),
-        float4x4(0.7111, 0.0005, 0.4749, 0.0263, 0.1526, 0.0031, 1.026, -0.7185, 0.1026, -0.0048, -2.2232, 0.3473,
-        -0.0538, 0.0016, 2.0696, -0.4921));
+        float4x4(0.711052, 0.000476, 0.474855, 0.02628, 0.152583, 0.003146, 1.026027, -0.718545, 0.102579, -0.004832,
+        -2.223248, 0.347306, -0.053764, 0.001611, 2.069558, -0.492125));
     float2 bump = mx_chan_bump(g);
     return 1.0 / (3.1415927 * (lerp(fit.x, 0.96428573 * (1.0 - 0.75 * mx_power5(1.0 - c)),
         clamp(2.2 * g - 0.5, 0.0, 1.0)) + bump.x * exp2((8.9 - bump.y) * fit.z) * fit.y / (fit.w + c)));

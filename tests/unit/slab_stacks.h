@@ -340,4 +340,34 @@ static inline struct stack_light stack_walk(const struct stack *stack, double co
                                 sum.straight / num_paths};
 }
 
+/*
+ * Even light that comes back from a mirror below a white medium: the share of it that nothing has
+ * scattered on its way.
+ */
+static inline double stack_straight_share(double depth, double f0, int num_paths)
+{
+    double all = 0.0, straight = 0.0;
+    for (int i = 0; i < num_paths; ++i) {
+        double down = 1.0 / stack_way(sqrt(stack_random())), at = 0.0, carried = 1.0;
+        int is_scattered = 0, is_mirrored = 0;
+        while (carried > 1e-6) {
+            at -= log(stack_random()) * down;
+            if (at <= 0.0)
+                break;
+            if (at >= depth) {
+                at = depth;
+                down = -down;
+                carried *= f0;
+                is_mirrored = 1;
+            } else {
+                down = 2.0 * stack_random() - 1.0;
+                is_scattered = 1;
+            }
+        }
+        all += is_mirrored ? carried : 0.0;
+        straight += is_mirrored && !is_scattered ? carried : 0.0;
+    }
+    return straight / all;
+}
+
 #endif

@@ -7,6 +7,7 @@
 #include "api/generation.h"
 
 #include "lower/lower.h"
+#include "slab_facets.h"
 #include "slab_stacks.h"
 #include "test.h"
 
@@ -26,6 +27,7 @@ struct run {
     struct generation *generation;
     double view, light;           /* cosines */
     double view_turn, light_turn; /* around the normal, from the tangent */
+    int fineness;                 /* of integrals over light */
     enum role_id role;            /* whose slabs: light walks through those of scatter */
     void (*look)(struct run *run);
     void *wanted; /* of `look` */
@@ -404,16 +406,16 @@ static ir_ref response_of(struct run *run)
  */
 static void integrate(struct run *run)
 {
-    enum { ALONG = 24, AROUND = 32 };
+    const int along = 24 * run->fineness, around = 16 * (1 + run->fineness);
     ir_ref sum = response_of(run);
     double total = 0.0;
-    for (int i = 0; i < ALONG; ++i)
-        for (int j = 0; j < AROUND; ++j) {
-            run->light = sqrt((i + 0.5) / ALONG);
-            run->light_turn = 2.0 * 3.14159265358979 * (j + 0.5) / AROUND;
+    for (int i = 0; i < along; ++i)
+        for (int j = 0; j < around; ++j) {
+            run->light = sqrt((i + 0.5) / along);
+            run->light_turn = 2.0 * 3.14159265358979 * (j + 0.5) / around;
             total += value_of(run, sum) / run->light; /* d omega = d(cos^2) d turn / (2 cos) */
         }
-    *(double *)run->wanted = total * 3.14159265358979 / (ALONG * AROUND);
+    *(double *)run->wanted = total * 3.14159265358979 / (along * around);
 }
 
 static void test_lights(struct run *run)
@@ -437,68 +439,6 @@ static void test_lights(struct run *run)
 }
 
 /* ---- White metal in a furnace ---- */
-
-static const double pi = 3.14159265358979323846;
-
-struct vector {
-    double x, y, z;
-};
-
-static struct vector vector_to(double cosine, double turn)
-{
-    double sine = sqrt(1.0 - cosine * cosine);
-    return (struct vector){sine * cos(turn), sine * sin(turn), cosine};
-}
-
-/* A lobe of GGX's facets with the roughness along x and y. */
-struct facets {
-    double x, y;
-};
-
-static struct facets facets_of(double roughness, double anisotropy)
-{
-    double width = roughness * roughness;
-    return (struct facets){fmin(width * (1.0 + anisotropy), 1.0),
-                           fmin(width * (1.0 - anisotropy), 1.0)};
-}
-
-/* cos (1 + 2 Lambda) (Heitz 2014, equations 72 and 80). */
-static double masking(struct facets a, struct vector v)
-{
-    return sqrt(a.x * a.x * v.x * v.x + a.y * a.y * v.y * v.y + v.z * v.z);
-}
-
-/* The part of the light from l that one reflection sends to v, times the cosine of l (Heitz 2014,
- * equation 99). */
-static double reflected_once(struct facets a, struct vector v, struct vector l)
-{
-    struct vector h = {v.x + l.x, v.y + l.y, v.z + l.z};
-    double square = h.x * h.x + h.y * h.y + h.z * h.z,
-           stretched = h.x * h.x / (a.x * a.x) + h.y * h.y / (a.y * a.y) + h.z * h.z;
-    return square * square / (pi * a.x * a.y * stretched * stretched)
-           * (0.5 * l.z / (v.z * masking(a, l) + l.z * masking(a, v)));
-}
-
-/* Its integral over light, by normals that are visible from v (Heitz 2018, by the caps of Dupuy and
- * Benyoub 2023). */
-static double returned_once(struct facets a, struct vector v)
-{
-    enum { COUNT = 4096 };
-    double sum = 0.0, reach = masking(a, v);
-    for (int i = 0; i < COUNT; ++i) {
-        double turn = 2.0 * pi * 0.618033988749895 * i, part = (i + 0.5) / COUNT,
-               top = part * (1.0 + v.z / reach), z = top - v.z / reach,
-               around = sqrt(fmax(1.0 - z * z, 0.0));
-        struct vector h = {a.x * (a.x * v.x / reach + around * cos(turn)),
-                           a.y * (a.y * v.y / reach + around * sin(turn)), top};
-        double mirror =
-            2.0 * (v.x * h.x + v.y * h.y + v.z * h.z) / (h.x * h.x + h.y * h.y + h.z * h.z);
-        struct vector l = {mirror * h.x - v.x, mirror * h.y - v.y, mirror * h.z - v.z};
-        if (l.z > 0.0)
-            sum += l.z * (v.z + reach) / (v.z * masking(a, l) + l.z * reach);
-    }
-    return sum / COUNT;
-}
 
 /* Metal of two lobes: the least and the most that returns of even light, over all views. */
 struct furnace {
@@ -572,6 +512,70 @@ static void test_metal(struct run *run, const char *role)
     REQUIRE(least > 0.995 && most < 1.005);
 }
 
+/*
+ * White matter below an interface returns all light at the edge of the fits, too: by its lobes in
+ * each direction of the light.
+ */
+static void test_white(struct run *run)
+{
+    static const double roughnesses[] = {0.9, 1.0}, views[] = {0.1, 0.2, 0.5, 1.0};
+    double least = 1.0, most = 1.0;
+    run->fineness = 4;
+    for (int i = 0; i < 2 * 4; ++i) {
+        struct stack stack = {.num_nodes = 1};
+        double whole = 0.0;
+        stack.nodes[0] = (struct stack_node){
+            .kind = STACK_SLAB, .albedo = 1.0, .f0 = 0.04, .roughness = roughnesses[i / 4]};
+        run->view = views[i % 4];
+        generate(run, &stack, integrate, &whole);
+        least = fmin(least, whole);
+        most = fmax(most, whole);
+    }
+    run->fineness = 1;
+    printf("white dielectrics in a furnace: %.4f to %.4f\n", least, most);
+    REQUIRE(least > 0.995 && most < 1.005);
+}
+
+/* ---- Mirrors below white media ---- */
+
+/* Sums what the interfaces reflect. */
+static void look_at_mirrors(struct run *run)
+{
+    struct generation *g = run->generation;
+    struct shader *shader = &g->result->shader;
+    struct closure_list list = lobes_of(run);
+    double *out = run->wanted;
+    *out = 0.0;
+    for (uint32_t i = 0; i < list.leaves.len; i++) {
+        ir_ref leaf = list.leaves.items[i].leaf;
+        if (!closure_has(shader, &g->closure_host, leaf, LEAF_WAY))
+            *out += value_of(run, closure_call(shader, &g->closure_host, leaf, LEAF_ALBEDO, NULL));
+    }
+}
+
+/* The share of the light from a mirror below a white medium that went straight both ways. */
+static void test_mirrors(struct run *run)
+{
+    static const double depths[] = {0.1, 0.2, 0.5, 1.0}, f0s[] = {0.5, 0.8, 1.0};
+    double worst = 0.0;
+    REQUIRE(mxg_options_set(run->options, "role", "raster") == MXG_OK);
+    for (int i = 0; i < 4 * 3; ++i) {
+        double depth = depths[i % 4], f0 = f0s[i / 4], mirrored;
+        struct stack stack = {.num_nodes = 3};
+        stack.nodes[0] = (struct stack_node){.kind = STACK_SLAB, .f0 = f0, .roughness = 0.1};
+        stack.nodes[1] =
+            (struct stack_node){.kind = STACK_SLAB, .albedo = 1.0, .mfp = 0.01 / depth};
+        stack.nodes[2] =
+            (struct stack_node){.kind = STACK_LAYER, .a = 1, .b = 0, .thickness = 0.01};
+        run->view = 1.0;
+        generate(run, &stack, look_at_mirrors, &mirrored);
+        double truth = stack_straight_share(depth, f0, 4 * NUM_PATHS);
+        worst = fmax(worst, fabs(mirrored / f0 - truth));
+    }
+    printf("light of mirrors below white media that went straight: within %.4f\n", worst);
+    REQUIRE(worst < 0.05);
+}
+
 /* ---- Light from behind sheets ---- */
 
 struct behind {
@@ -639,7 +643,8 @@ static void test_deep_sheet(struct run *run)
 /* Argument: the page to write. */
 int main(int argc, char **argv)
 {
-    struct run run = {.page = argc > 1 ? fopen(argv[1], "w") : NULL, .role = ROLE_scatter};
+    struct run run = {
+        .page = argc > 1 ? fopen(argv[1], "w") : NULL, .role = ROLE_scatter, .fineness = 1};
     if (run.page)
         begin_page(run.page);
     REQUIRE(mxg_context_create(NULL, &run.context) == MXG_OK);
@@ -661,6 +666,9 @@ int main(int argc, char **argv)
     test_lights(&run);
     test_metal(&run, "scatter");
     test_metal(&run, "raster");
+    test_white(&run);
+    run.role = ROLE_raster;
+    test_mirrors(&run);
     mxg_options_destroy(run.options);
     mxg_library_unref(run.library);
     mxg_context_destroy(run.context);
