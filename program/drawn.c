@@ -3,6 +3,7 @@
 #include "program/drawn.h"
 #include "program/files.h"
 #include "program/memory.h"
+#include "program/scratch.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -128,10 +129,13 @@ static struct drawn_picture draw(const struct drawn_subject *subject, int steps)
 
 static bool fail(struct drawn_comparison *comparison, const struct drawn_picture *picture)
 {
-    const char *log =
-        picture->log && *picture->log ? picture->log : "mxgen-render could not be started, or died";
+    const char *log = picture->log && *picture->log ? picture->log : NULL;
     if (!comparison->fault)
-        comparison->fault = cli_copy(log, strcspn(log, "\n"));
+        comparison->fault =
+            log ? cli_copy(log, strcspn(log, "\n"))
+                : cli_format("mxgen-render left no message: it could not be started, died, or had "
+                             "no room in '%s'",
+                             scratch_root());
     return false;
 }
 
