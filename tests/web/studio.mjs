@@ -293,6 +293,7 @@ test("meshes that are damaged, too large, or of another kind are told", () => {
         ["x.glb", glbOf(gltf => { gltf.nodes[1].children = [0]; }), /nested more than 100 deep/], ["x.glb", glbOf(gltf => { gltf.buffers[0].uri = "x.bin"; }), /in another file/],
         ["x.glb", glbOf(gltf => { gltf.accessors[0].sparse = {}; }), /sparse or compressed/], ["x.glb", glbOf(gltf => { gltf.meshes[0].primitives[0].extensions = { KHR_draco_mesh_compression: {} }; }), /Draco/],
         ["x.glb", glbOf(gltf => { gltf.meshes[0].primitives[0].mode = 1; }), /no triangles/],
+        ["x.glb", glbOf(gltf => { gltf.extensionsRequired = ["KHR_mesh_quantization", "EXT_foo"]; }), /requires the extension 'EXT_foo'/],
     ];
     for (const [name, bytes, message] of faults)
         assert.throws(() => readMesh(name, bytes), message, String(message));
@@ -318,6 +319,19 @@ test("texture coordinates of glTF may be integers", () => {
     const [{ mesh: { texcoord: one } }, { mesh: { texcoord: other } }] = [false, true].map(isShort => readMesh("x.glb", glbOf(() => {}, isShort)));
     close([...other], [...one], 1e-5, "texcoord");
     assert(Math.max(...one) > 0.99);
+});
+
+test("a part without texture coordinates leaves those of others", () => {
+    const quad = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n";
+    const bare = glbOf(gltf => { gltf.meshes[0].primitives.push({ attributes: { POSITION: 0 }, indices: 3 }); });
+    for (const [name, alone, both] of [["x.obj", ascii(quad), ascii(`${quad}v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nf 5 6 7\n`)], ["x.glb", glbOf(), bare]]) {
+        const { mesh: { texcoord: one } } = readMesh(name, alone), { mesh: { texcoord: two, normal, indices, position }, notes } = readMesh(name, both);
+        assert.deepEqual(notes, ["has parts with no texture coordinates; they were made"]);
+        assert.deepEqual([...two.subarray(0, one.length)], [...one], name);
+        const [a, b, c] = [...indices.subarray(-3)], across = [0, 1, 2].map(k => [b, c].map(i => position[3 * i + k] - position[3 * a + k]));
+        for (let k = 0; k < 2 && name === "x.glb"; k++) // without normals glTF is flat
+            close([across.reduce((sum, edge, axis) => sum + edge[k] * normal[3 * a + axis], 0)], [0], 1e-5, "the normal of a triangle");
+    }
 });
 
 /** Colours that show texture coordinates. */

@@ -111,30 +111,26 @@ function primitiveOf(file, { attributes, indices, mode = 4, extensions }, matrix
     return made;
 }
 
-const concat = (parts, name, Type = Float32Array) => {
-    const all = new Type(parts.reduce((sum, part) => sum + part[name].length, 0));
-    parts.reduce((at, part) => {
-        all.set(part[name], at);
-        return at + part[name].length;
-    }, 0);
-    return all;
-};
+/** glTF 2.0, 3.12: a file that requires what is not read is not to be loaded. Extensions of materials and textures change no triangles. */
+function checkRequired({ extensionsRequired = [] }) {
+    const unknown = extensionsRequired.find(name => !/^(KHR_mesh_quantization|KHR_lights_punctual|KHR_materials_.*|KHR_texture_.*|EXT_texture_.*)$/.test(name));
+    if (unknown !== undefined)
+        throw new Unreadable(`it requires the extension '${unknown}', which the page does not read`);
+}
 
-/** Position, normal and texcoord (null: a part lacks it), and indices of triangles. `allow(count)` throws if they are too many. */
+/** Parts with position, normal and texcoord (null: it lacks them; without normals it is flat), and indices of triangles. `allow(count)` throws if they are too many. */
 export function readGlb(bytes, allow) {
     const chunks = chunksOf(bytes), file = { gltf: JSON.parse(new TextDecoder().decode(chunks.get(JSON_CHUNK))), binary: chunks.get(BINARY_CHUNK) };
     const parts = [];
-    let triangles = 0, vertices = 0;
+    let triangles = 0;
+    checkRequired(file.gltf);
     for (const [mesh, matrix] of placedMeshes(file.gltf))
         for (const primitive of mesh.primitives) {
             const part = primitiveOf(file, primitive, matrix, count => allow(triangles + count));
             if (!part)
                 continue;
             triangles += part.indices.length / 3;
-            part.indices = part.indices.map(index => index + vertices);
-            vertices += part.position.length / 3;
-            parts.push(part);
+            parts.push({ ...part, isFlat: !part.normal });
         }
-    const optional = name => parts.every(part => part[name]) ? concat(parts, name) : null;
-    return { position: concat(parts, "position"), normal: optional("normal"), texcoord: optional("texcoord"), indices: concat(parts, "indices", Uint32Array) };
+    return parts;
 }

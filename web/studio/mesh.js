@@ -19,20 +19,23 @@ const at = (values, index) => [values[3 * index], values[3 * index + 1], values[
 const unit = (v, otherwise) => dot(v, v) > 1e-40 ? normalize(v) : otherwise;
 const add = (sums, index, v) => v.forEach((x, c) => { sums[3 * index + c] += x; });
 
-/** Moves a mesh to the middle, and scales it into the unit sphere. */
-function fit({ position }) {
+/** Moves the parts of a mesh to the middle, and scales them into the unit sphere. */
+function fit(parts) {
     const low = [Infinity, Infinity, Infinity], high = low.map(x => -x);
-    position.forEach((x, i) => {
-        low[i % 3] = Math.min(low[i % 3], x);
-        high[i % 3] = Math.max(high[i % 3], x);
-    });
+    for (const { position } of parts)
+        position.forEach((x, i) => {
+            low[i % 3] = Math.min(low[i % 3], x);
+            high[i % 3] = Math.max(high[i % 3], x);
+        });
     const middle = low.map((x, c) => (x + high[c]) / 2);
     let square = 0;
-    for (let i = 0; i < position.length; i += 3)
-        square = Math.max(square, middle.reduce((sum, x, c) => sum + (position[i + c] - x) ** 2, 0));
+    for (const { position } of parts)
+        for (let i = 0; i < position.length; i += 3)
+            square = Math.max(square, middle.reduce((sum, x, c) => sum + (position[i + c] - x) ** 2, 0));
     if (!(square > 0 && Number.isFinite(square)))
         throw new Unreadable("its triangles have no area, or numbers that are infinite");
-    position.forEach((x, i) => { position[i] = (x - middle[i % 3]) / Math.sqrt(square); });
+    for (const { position } of parts)
+        position.forEach((x, i) => { position[i] = (x - middle[i % 3]) / Math.sqrt(square); });
 }
 
 /** Gives each corner of a triangle a vertex of its own. */
@@ -122,6 +125,15 @@ function makeNormals(mesh) {
     return made;
 }
 
+/** Each triangle has its own normal. */
+function makeFlat(mesh) {
+    const made = split(mesh);
+    made.normal = new Float32Array(made.position.length);
+    for (let corner = 0; corner < made.indices.length; corner++)
+        made.normal.set(faceNormal(made, corner - corner % 3), 3 * corner);
+    return made;
+}
+
 /** Projects each triangle along the axis that it looks to most. */
 function makeTexcoords(mesh) {
     const made = split(mesh);
@@ -157,18 +169,40 @@ function makeTangents(mesh) {
     return tangent;
 }
 
-/** The mesh of a file, as makeMesh of scene.js makes them, and notes for the user. */
-export function readMesh(name, bytes) {
-    let mesh = /\.glb$/i.test(name) ? readGlb(bytes, allow) : readObj(bytes, allow);
-    if (!mesh.indices.length)
-        throw new Unreadable("it has no triangles");
-    fit(mesh);
-    const notes = mesh.texcoord ? [] : ["has no texture coordinates; they were made"];
-    mesh = mesh.normal ? mesh : makeNormals(mesh);
+/** A part with all that it lacks. */
+function complete(part) {
+    let mesh = part.normal ? part : part.isFlat ? makeFlat(part) : makeNormals(part);
     for (let i = 0; i < mesh.normal.length / 3; i++)
         mesh.normal.set(unit(at(mesh.normal, i), [0, 1, 0]), 3 * i);
     mesh = mesh.texcoord ? mesh : makeTexcoords(mesh);
-    return { mesh: { ...mesh, tangent: makeTangents(mesh), count: mesh.position.length / 3 }, notes };
+    return { ...mesh, tangent: makeTangents(mesh) };
+}
+
+/** One mesh of all parts. */
+function join(parts) {
+    const count = parts.reduce((sum, { position }) => sum + position.length / 3, 0);
+    const mesh = { position: new Float32Array(3 * count), normal: new Float32Array(3 * count), tangent: new Float32Array(3 * count), texcoord: new Float32Array(2 * count), count };
+    const indices = new Uint32Array(parts.reduce((sum, part) => sum + part.indices.length, 0));
+    let vertex = 0, corner = 0;
+    for (const part of parts) {
+        for (const [name, size] of [["position", 3], ["normal", 3], ["tangent", 3], ["texcoord", 2]])
+            mesh[name].set(part[name], size * vertex);
+        for (const index of part.indices)
+            indices[corner++] = vertex + index;
+        vertex += part.position.length / 3;
+    }
+    return { ...mesh, indices };
+}
+
+/** The mesh of a file, as makeMesh of scene.js makes them, and notes for the user. Each part of it has by itself what it lacks. */
+export function readMesh(name, bytes) {
+    const parts = (/\.glb$/i.test(name) ? readGlb : readObj)(bytes, allow).filter(part => part.indices.length);
+    if (!parts.length)
+        throw new Unreadable("it has no triangles");
+    fit(parts);
+    const numBare = parts.filter(part => !part.texcoord).length;
+    const notes = numBare ? [`has ${numBare < parts.length ? "parts with " : ""}no texture coordinates; they were made`] : [];
+    return { mesh: join(parts.map(complete)), notes };
 }
 
 // ---- Displacement ----

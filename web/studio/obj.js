@@ -34,9 +34,10 @@ function addNumbers(list, words, size, line) {
     }
 }
 
+/** The lists of numbers, and the faces in parts, of which one has texture coordinates, or normals, at all corners, and another has not. */
 function readLines(text, allow) {
-    const lists = [[], [], []], numbers = new Map(), corners = [], indices = [];
-    let line = 0;
+    const lists = [[], [], []], known = new Map(), parts = new Map();
+    let line = 0, triangles = 0;
     for (const content of linesOf(text)) {
         line++;
         const [kind, ...words] = content.trim().split(/\s+/), list = KINDS.indexOf(kind);
@@ -44,22 +45,36 @@ function readLines(text, allow) {
             addNumbers(lists[list], words, SIZES[list], line);
         if (kind !== "f")
             continue;
-        const face = words.map(word => {
+        const keys = words.map(word => {
             const key = word.includes("-") ? cornerOf(word, lists, line).join() : word; // what counts from the end means another corner each time
+            if (!known.has(key))
+                known.set(key, cornerOf(word, lists, line));
+            return key;
+        });
+        const kinds = [1, 2].map(list => keys.every(key => known.get(key)[list] >= 0)).join();
+        if (!parts.has(kinds))
+            parts.set(kinds, { numbers: new Map(), corners: [], indices: [] });
+        const { numbers, corners, indices } = parts.get(kinds);
+        const face = keys.map(key => {
             if (!numbers.has(key))
-                numbers.set(key, corners.push(cornerOf(word, lists, line)) - 1);
+                numbers.set(key, corners.push(known.get(key)) - 1);
             return numbers.get(key);
         });
         for (let k = 2; k < face.length; k++)
             indices.push(face[0], face[k - 1], face[k]);
-        allow(indices.length / 3);
+        triangles += Math.max(face.length - 2, 0);
+        allow(triangles);
     }
-    return { lists, corners, indices };
+    return { lists, parts: [...parts.values()] };
 }
 
-/** Position, normal and texcoord (null: a corner lacks it), and indices of triangles. `allow(count)` throws if they are too many. */
+/** Parts with position, normal and texcoord (null: a corner lacks it), and indices of triangles. `allow(count)` throws if they are too many. */
 export function readObj(bytes, allow) {
-    const { lists, corners, indices } = readLines(new TextDecoder().decode(bytes), allow);
+    const { lists, parts } = readLines(new TextDecoder().decode(bytes), allow);
+    return parts.map(part => partOf(lists, part));
+}
+
+function partOf(lists, { corners, indices }) {
     const values = list => {
         const size = SIZES[list], made = new Float32Array(size * corners.length);
         for (let i = 0; i < corners.length; i++)
