@@ -414,7 +414,7 @@ cat >badge.mtlx <<'END'
 END
 check 'a patch of 3 % of a ball is seen' eval 'exits 0 "$mxgen" inspect --slabs badge.mtlx --features -fuzz && grep -qE "no fuzz: .* estimated error 0\.[1-9]" out'
 check 'a small error keeps its fuzz' eval 'exits 0 "$mxgen" badge.mtlx --max-error 0.1 -Wbudget-step -o made && ! says "no fuzz"'
-# The gold of this one has fuzz that is 1.1 off where it faces the viewer (`slab-faults` draws it).
+# The gold of this one has fuzz that is 1.1 off where it faces the viewer (`slab-faults-drawn` draws it).
 check 'a patch counts as where it faces the viewer' eval 'exits 0 "$mxgen" inspect --slabs "$examples/../tests/slabs/faults/small_patch_estimate.mtlx" --features -fuzz && grep -qE "no fuzz: .* estimated error 0\.[3-9]" out'
 check 'a small error keeps the fuzz of a patch' eval 'exits 0 "$mxgen" "$examples/../tests/slabs/faults/small_patch_estimate.mtlx" --max-error 0.1 -Wbudget-step -o made && says "one slab" && ! says "no fuzz"'
 check 'bytes may go with a feature before a blend' eval 'exits 0 "$mxgen" "$slabs" -e WrappedSilk --max-bytes 56 -Wbudget-step -o made && says "no fuzz" && ! says "one slab"'
