@@ -441,14 +441,19 @@ static const struct lang_pieces *store_index_form(struct osl *osl, const struct 
  */
 static const struct lang_pieces *own_value_form(struct osl *osl, const struct lang_use *use)
 {
-    if (!osl_is_struct(use->type))
+    bool is_of_library = osl_is_library_struct(osl->spell, use->type);
+    if (!is_of_library && !osl_is_struct(use->type))
         return NULL;
-    const char *type = osl_type(osl, use->type);
+    const char *type = is_of_library ? osl->spell->user_types[use->type - IR_TYPE_FIRST_USER]
+                                     : osl_type(osl, use->type);
     struct text text;
     text_init(&text, osl->spell->scratch);
     text_fmt(&text, "%s copied(%s value)\n{\n    %s copy = value;\n    return copy;\n}\n", type,
              type, type);
-    osl_add_helper(osl, text_cstr(&text));
+    if (is_of_library)
+        osl_add_copier(osl, use->type, text_cstr(&text));
+    else
+        osl_add_helper(osl, text_cstr(&text));
     return call_form(osl, "copied", 1, NULL);
 }
 

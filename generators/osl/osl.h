@@ -15,6 +15,12 @@ struct osl_macro {
 };
 
 /* State while a file is written. */
+/* A function that copies a struct of a library. */
+struct osl_copier {
+    ir_type_id type;
+    const char *text;
+};
+
 struct osl {
     struct spell *spell;
     /* by interface variable: the array parameter of a stream with several components */
@@ -28,6 +34,7 @@ struct osl {
     bool *read;                /* per portable global */
     uint32_t types;            /* 1 << type of each built-in type */
     VEC(const char *) helpers; /* functions that the file declares, callees first */
+    VEC(struct osl_copier) copiers;
 };
 
 /*
@@ -78,6 +85,10 @@ void osl_write_functions(struct osl *osl, struct text *out); /* call this last *
 /* structs.c: the structs of the document's functions, with the makers that are called */
 void osl_name_makers(struct osl *osl);
 const char *osl_maker(void *user_data, const char *type); /* lang_names.maker */
+/* True for a type of a library that is no array. */
+bool osl_is_library_struct(const struct spell *spell, ir_type_id type);
+/* Adds the function of a type once; it is written with the structs. */
+void osl_add_copier(struct osl *osl, ir_type_id type, const char *text);
 void osl_write_structs(struct osl *osl, struct text *out);
 
 /*

@@ -6,11 +6,23 @@
  */
 #include "generators/osl/osl.h"
 
+bool osl_is_library_struct(const struct spell *spell, ir_type_id type)
+{
+    return type >= IR_TYPE_FIRST_USER
+           && !lang_user_type(spell->shader->unit, type, NULL)->array_length;
+}
+
 static bool is_struct(const struct spell *spell, ir_type_id type)
 {
-    if (type >= IR_TYPE_FIRST_USER)
-        return !lang_user_type(spell->shader->unit, type, NULL)->array_length;
-    return osl_is_struct(type);
+    return osl_is_struct(type) || osl_is_library_struct(spell, type);
+}
+
+void osl_add_copier(struct osl *osl, ir_type_id type, const char *text)
+{
+    for (uint32_t i = 0; i < osl->copiers.len; i++)
+        if (osl->copiers.items[i].type == type)
+            return;
+    vec_push(osl->spell->scratch, &osl->copiers, (struct osl_copier){type, text});
 }
 
 static bool has_struct(const struct spell *spell, ir_type_id type)
@@ -52,6 +64,9 @@ void osl_write_structs(struct osl *osl, struct text *out)
             text_char(out, '\n');
             spell_write_maker(spell, maker, out);
         }
+        for (uint32_t k = 0; k < osl->copiers.len; k++)
+            if (osl->copiers.items[k].type == type)
+                text_fmt(out, "\n%s", osl->copiers.items[k].text);
         text_char(out, '\n');
     }
 }
