@@ -73,6 +73,42 @@ static bool is_false(const struct mdl_tree *t, ir_ref value)
     return !value || (ir_get_const(t->graph, value, &constant) && constant.w[0].u == 0);
 }
 
+/* True if a value is divided by what the weight is made of. */
+static bool divides_by(const struct mdl_tree *t, ir_ref weight, ir_ref value)
+{
+    const uint8_t *of_weight = ir_mark(t->graph, &weight, 1, t->shader->arena),
+                  *needed = ir_mark(t->graph, &value, 1, t->shader->arena);
+    for (ir_ref ref = 1; ref <= value; ref++) {
+        if (!needed[ref] || ir_get(t->graph, ref)->op != IR_DIV)
+            continue;
+        ir_ref divisor = ir_arg(t->graph, ref, 1);
+        if (divisor <= weight && of_weight[divisor] && !ir_is_const(t->graph, divisor))
+            return true;
+    }
+    return false;
+}
+
+/*
+ * Graphs divide by the weight of a closure, such as for a colour without its intensity. A weight of
+ * 0 does not hide what that gives: in MDL it is no number.
+ */
+static void define_inputs(struct leaf *leaf)
+{
+    struct ir_graph *g = leaf->tree->graph;
+    ir_ref zero = ir_const_float(g, 0.0f);
+    if (ir_is_const(g, leaf->weight))
+        return;
+    for (unsigned i = 0; i < NUM_INPUTS; i++) {
+        ir_ref value = leaf->inputs[i];
+        ir_type_id type = value ? ir_type_of(g, value) : IR_TYPE_VOID;
+        if (!value || !ir_type_is_float(type) || !divides_by(leaf->tree, leaf->weight, value))
+            continue;
+        ir_ref args[3] = {ir_op2(g, IR_GT, leaf->weight, zero), value,
+                          ir_const_splat(g, type, 0.0f)};
+        leaf->inputs[i] = ir_build(g, IR_SELECT, type, 0, args, 3);
+    }
+}
+
 static struct leaf leaf_of(struct mdl_tree *t, ir_ref ref)
 {
     const struct ir_node node = *ir_get(t->graph, ref);
@@ -82,6 +118,7 @@ static struct leaf leaf_of(struct mdl_tree *t, ir_ref ref)
         leaf.inputs[i] = mdl_leaf_input(t, ref, input_names[i]);
     const char *mode = word_of(t, leaf.inputs[INPUT_scatter_mode]);
     leaf.mode = mode ? mode : "R";
+    define_inputs(&leaf);
     return leaf;
 }
 

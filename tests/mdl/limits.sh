@@ -30,6 +30,10 @@ check 'a text is no light' exits 1 "$mxgen" gold.mtlx --target mdl --element tex
 check 'a value is light' exits 0 "$mxgen" gold.mtlx --target mdl --element glow -o glow
 check 'a value is the intensity of an edf' grep -q 'emission: material_emission(emission: surface_emission' glow/glow.mdl
 
+# The colour of gltf_pbr's sheen is divided by its weight, which is 0 by default.
+echo '<materialx version="1.39"><gltf_pbr name="plain" type="surfaceshader"/></materialx>' >plain.mtlx
+check 'a colour over a weight of 0 is a number' eval '"$mxgen" plain.mtlx --target mdl --element plain -q -o plain && grep -q "tint: color(weight > 0.0 ? float3(sheen_color) / sheen_weight : float3(0.0))" plain/plain.mdl'
+
 # A hard range holds the default: MDL refuses a value outside.
 sed 's/name="metalness" type="float" value="1"/name="metalness" type="float" value="1.5"/' gold.mtlx >outside.mtlx
 check 'a value outside of its range' exits 0 "$mxgen" outside.mtlx --target mdl --element gold --interface authored -o outside
