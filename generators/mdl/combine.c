@@ -3,6 +3,7 @@
 #include "generators/mdl/tree.h"
 
 #include "ir/arithmetic.h"
+#include "shader/formula.h"
 
 #include <assert.h>
 
@@ -153,6 +154,7 @@ struct mdl_parts mdl_parts_scaled(struct mdl_tree *t, struct mdl_parts p, ir_ref
         return p;
     p.bsdf = mdl_scaled(t, p.bsdf, factor);
     p.light = lights_scaled(t, p.light, factor);
+    p.into = times(t, p.into, is_float(t, factor) ? factor : FORMULA(t->shader, "mx_mean", factor));
     if (is_medium) {
         p.absorption = times(t, p.absorption, factor);
         p.scattering = times(t, p.scattering, factor);
@@ -175,6 +177,19 @@ static ir_ref mean_anisotropy(struct mdl_tree *t, const struct mdl_parts *a,
     return ir_mix(g, a->anisotropy, b->anisotropy, share);
 }
 
+/* The media of two ways into a body, each for its part of the light. */
+static void share_body(struct mdl_tree *t, struct mdl_parts *a, struct mdl_parts *b)
+{
+    struct ir_graph *g = t->graph;
+    ir_ref all = ir_add(g, a->into, b->into),
+           share = ir_div(g, b->into, ir_op2(g, IR_MAX, all, ir_const_float(g, 1e-6f))),
+           rest = ir_one_minus(g, share);
+    a->absorption = times(t, a->absorption, rest);
+    a->scattering = times(t, a->scattering, rest);
+    b->absorption = times(t, b->absorption, share);
+    b->scattering = times(t, b->scattering, share);
+}
+
 struct mdl_parts mdl_parts_sum(struct mdl_tree *t, struct mdl_parts a, struct mdl_parts b)
 {
     /* One statement each: an initializer has no order of evaluation, and the order of ops is that
@@ -182,6 +197,9 @@ struct mdl_parts mdl_parts_sum(struct mdl_tree *t, struct mdl_parts a, struct md
     struct mdl_parts sum = {.hair = a.hair ? a.hair : b.hair};
     sum.bsdf = mdl_sum(t, a.bsdf, b.bsdf);
     sum.light = lights_sum(t, a.light, b.light);
+    sum.into = ir_sum(t->graph, a.into, b.into);
+    if (a.into && b.into)
+        share_body(t, &a, &b);
     sum.absorption = ir_sum(t->graph, a.absorption, b.absorption);
     sum.scattering = ir_sum(t->graph, a.scattering, b.scattering);
     sum.anisotropy = mean_anisotropy(t, &a, &b);
@@ -192,12 +210,12 @@ struct mdl_parts mdl_parts_mixed(struct mdl_tree *t, struct mdl_parts bg, struct
                                  ir_ref mix, bool is_medium)
 {
     ir_ref bsdf = mdl_mixed(t, bg.bsdf, fg.bsdf, mix);
-    bool both = (bg.absorption || bg.scattering) && (fg.absorption || fg.scattering);
+    ir_ref into = bg.into == fg.into ? bg.into : 0; /* of closures that differ in a film alone */
     bg.bsdf = fg.bsdf = 0;
-    is_medium |= both;
     struct mdl_parts behind = mdl_parts_scaled(t, bg, ir_one_minus(t->graph, mix), is_medium);
     struct mdl_parts before = mdl_parts_scaled(t, fg, mix, is_medium);
     struct mdl_parts sum = mdl_parts_sum(t, behind, before);
     sum.bsdf = bsdf;
+    sum.into = into ? into : sum.into;
     return sum;
 }

@@ -440,6 +440,7 @@ static void add_subsurface(struct leaf *leaf, struct mdl_parts *parts)
     parts->scattering = ir_mul(g, albedo, extinction);
     parts->absorption = ir_sub(g, extinction, parts->scattering);
     parts->anisotropy = leaf->inputs[INPUT_anisotropy];
+    parts->into = leaf->weight;
 }
 
 static struct mdl_parts medium(struct mdl_tree *t, ir_ref ref)
@@ -491,6 +492,8 @@ static struct mdl_parts bsdf_leaf(struct mdl_tree *t, ir_ref ref, struct leaf *l
         return hair(leaf);
     if (strcmp(leaf->family, "mx_subsurface_bsdf") == 0)
         add_subsurface(leaf, &parts);
+    else if (leaf->inputs[INPUT_scatter_mode] && strcmp(leaf->mode, "R") != 0)
+        parts.into = leaf->weight;
     parts.bsdf = bsdf_over(leaf, 0);
     parts.bsdf = mdl_scaled(t, parts.bsdf, closure_call(t->shader, t->host, ref, LEAF_TINT, NULL));
     parts.light = mdl_light(t, 0, closure_call(t->shader, t->host, ref, LEAF_EMISSION, NULL));

@@ -21,6 +21,7 @@ struct mdl_parts {
     const struct mdl_light *light;
     ir_ref absorption, scattering; /* vec3, per unit of the scene */
     ir_ref anisotropy;             /* float, of the scattering */
+    ir_ref into;                   /* float: the weight of what goes into the body */
 };
 
 struct mdl_tree {
@@ -53,7 +54,8 @@ ir_ref mdl_transparent(struct mdl_tree *tree, ir_ref color);
 
 /*
  * A factor or mix weighs what a surface scatters, not the medium behind it; of closures that are
- * media (`is_medium`) it weighs the coefficients. Two media of a surface are mixed.
+ * media (`is_medium`) it weighs the coefficients. A body that light enters through several closures
+ * has the mean of their media, of which refraction alone has none.
  */
 struct mdl_parts mdl_parts_scaled(struct mdl_tree *tree, struct mdl_parts parts, ir_ref factor,
                                   bool is_medium);

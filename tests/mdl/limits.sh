@@ -34,6 +34,11 @@ check 'a value is the intensity of an edf' grep -q 'emission: material_emission(
 echo '<materialx version="1.39"><gltf_pbr name="plain" type="surfaceshader"/></materialx>' >plain.mtlx
 check 'a colour over a weight of 0 is a number' eval '"$mxgen" plain.mtlx --target mdl --element plain -q -o plain && grep -q "tint: color(weight > 0.0 ? float3(sheen_color) / sheen_weight : float3(0.0))" plain/plain.mdl'
 
+# Glass that is clear, and a body that scatters where it is asked for: shares of the light that enters.
+check 'a surface refracts or scatters below' exits 0 "$mxgen" gold.mtlx --target mdl --element gold -o body
+check 'a medium takes the share of the closure that has it' eval 'tr -d "\n " <body/gold.mdl | grep -q "product=(1.0-clamped_transmission/math::max(clamped_transmission+clamped_subsurface\*(1.0-thin)\*(1.0-clamped_transmission),1e-6))"'
+check 'glass has no medium' eval 'sed "s/name=.metalness./name=\"transmission\"/" gold.mtlx >clear.mtlx && "$mxgen" clear.mtlx --target mdl --interface reduced --element gold -q -o clear && ! grep -q _coefficient clear/gold.mdl'
+
 # A hard range holds the default: MDL refuses a value outside.
 sed 's/name="metalness" type="float" value="1"/name="metalness" type="float" value="1.5"/' gold.mtlx >outside.mtlx
 check 'a value outside of its range' exits 0 "$mxgen" outside.mtlx --target mdl --element gold --interface authored -o outside
