@@ -1,0 +1,157 @@
+// Varnish · surfacematerial · mxgen 0.1 · msl · reduced · 2 closures · 0 textures
+// Metal Shading Language 2.3
+#include <metal_stdlib>
+using namespace metal;
+
+struct mx_GgxLobe {
+    float3 N;
+    float cosine;
+    float3 x;
+    float2 alpha;
+    float masking;
+};
+struct PrivateUniforms {
+    float4x4 u_worldMatrix;
+    float4x4 u_worldInverseTransposeMatrix;
+    float4x4 u_viewProjectionMatrix;
+    float3 u_viewPosition;
+};
+struct VertexData {
+    float4 pos [[position]];
+    float3 positionWorld [[user(positionWorld)]];
+    float3 normalWorld [[user(normalWorld)]];
+};
+struct PixelOutputs {
+    float4 out1 [[color(0)]];
+};
+
+mx_GgxLobe make_mx_GgxLobe(float3 N, float cosine, float3 x, float2 alpha, float masking)
+{
+    mx_GgxLobe made;
+    made.N = N;
+    made.cosine = cosine;
+    made.x = x;
+    made.alpha = alpha;
+    made.masking = masking;
+    return made;
+}
+
+// A cubic polynomial of x and y with the coefficients m, to which directional albedos are fitted.
+float mx_bicubic(float4x4 m, float x, float y)
+{
+    return dot(float4(1.0, x, x * x, x * x * x), m * float4(1.0, y, y * y, y * y * y));
+}
+
+// The light that a white GGX lobe of roughness a reflects at the viewer's cosine c (x), and the mean of (1 - cos)^5
+// over it (y).
+// Here a = 0.04.
+float2 mx_ggx_albedo_fit(float c)
+{
+    float x = clamp(1.0 - c - 0.04 * mx_bicubic(float4x4(-0.2174, 5.3819, -3.911, 0.2674, -9.7298, 3.9904, 3.8225,
+        -0.0277, 36.4897, -72.9122, 58.0878, -20.917, -31.4763, 79.0768, -73.9706, 26.5429), 0.04 / (0.04 + c), 0.04),
+        0.0, 1.0);
+    float u = 0.04 / (0.04 + 0.6 * c);
+    return float2(min(1.0017 - u * u * mx_bicubic(float4x4(-0.0334, 3.1441, -6.1576, 3.0758, 0.6997, 7.8981, -14.3238,
+        8.7382, 4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, 0.04 * c), 1.0), x * x * x
+        * x * x);
+}
+
+// Unpolarised reflectance of an interface whose squared index is `re`, with c for the cosine in front of it:
+//     F = ((c - g)^2 / (c + g)^2) (1 + (cg - s)^2 / (cg + s)^2) / 2
+//     s = 1 - c^2,  g^2 = c^2 + 2k,  2k = re - 1
+// Here re = 2.1025.
+float mx_fresnel_permittivity(float cosine)
+{
+    float c2 = cosine * cosine;
+    float s = 1.0 - c2;
+    float cg2 = c2 * (c2 + 1.1025002);
+    float r = 0.5512501 / (1.55125 * (c2 + sqrt(cg2)) + 0.5512501);
+    return (cg2 + s * s) * (r * r);
+}
+
+// The square of the length of the facet's normal H after the roughness divided its parts along the surface, times the
+// product of the roughness along x and y; cos_h is its part along N.
+// Here is_round = true, is_wide = true.
+float mx_ggx_stretched(mx_GgxLobe lobe, float cos_h, float square)
+{
+    return square - (1.0 - lobe.alpha.x * lobe.alpha.y) * (cos_h * cos_h);
+}
+
+// The GGX lobe towards the light L, without Fresnel's factor: distribution, visibility and the cosine over one divisor.
+// Here is_round = true, is_wide = true.
+float mx_ggx_light(mx_GgxLobe lobe, float3 V, float3 L)
+{
+    float area = lobe.alpha.x * lobe.alpha.y;
+    float cos_l = max(dot(lobe.N, L), 1e-8);
+    float square = 2.0 + 2.0 * dot(V, L);
+    float e = mx_ggx_stretched(lobe, lobe.cosine + dot(lobe.N, L), square);
+    return area / 6.2831855 * square * square * cos_l
+        / (e * e * (lobe.cosine * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * lobe.masking));
+}
+
+struct GlobalContext {
+    constant PrivateUniforms& u_prv;
+    MxgHost mxg_host;
+    VertexData vd;
+    PixelOutputs out;
+
+// Light that the lobe reflects, from a map whose levels of detail are filtered for rising roughness; with refract_ior >
+// 0 light through a solid sphere of that index.
+// Here roughness = float2(0.04), by_direction = false, refract_ior = 0.0, model = "dielectric", n = float3(1.45),
+// k = float3(0.0), f90 = float3(1.0), exponent = 0.0, film = 0.0, film_ior = 1.5.
+float3 mx_ggx_prefiltered(float3 N, float3 V)
+{
+    float2 albedo = mx_ggx_albedo_fit(max(abs(dot(N, V)), 1e-8));
+    return mix(float3(0.03373595), float3(1.0), albedo.y) * albedo.x
+        * mxg_host.mxg_radiance(vd.positionWorld, reflect(-V, faceforward(N, -V, N)), 0.2);
+}
+
+void FragmentMain()
+{
+    float3 color = float3(0.0);
+    // lights
+    float3 N = normalize(vd.normalWorld);
+    float3 V = normalize(u_prv.u_viewPosition - vd.positionWorld);
+    float cos_v = max(abs(dot(N, V)), 1e-8);
+    float2 albedo = mx_ggx_albedo_fit(cos_v);
+    float scale = (1.0 / albedo.x - 1.0) * 0.079748526 + 1.0;
+    float3 h = faceforward(N, -V, N);
+    float ggx_masking = sqrt(cos_v * cos_v * 0.9984 + 0.0016);
+    mx_GgxLobe coat_vector = make_mx_GgxLobe(h, cos_v, float3(0.0), float2(0.04), ggx_masking);
+    float paint_weight = (1.0 - mix(0.03373595, 1.0, albedo.y) * albedo.x * scale) * 0.75;
+    float3 paint_product = paint_weight * 0.31830987 * float3(0.6, 0.1, 0.05);
+    // from the last light, so that drivers do not unroll the loop
+    for (int i = mxg_host.mxg_light_count() - 1; i >= 0; --i) {
+        // coat, paint
+        float3 light_L, light_radiance;
+        mxg_host.mxg_light(i, vd.positionWorld, light_L, light_radiance);
+        float v_dot_l = dot(V, light_L);
+        float coat_product = scale * mx_fresnel_permittivity(sqrt(clamp(v_dot_l * 0.5 + 0.500001, 0.0, 1.0)));
+        float cos_l = max(dot(light_L, h), 1e-8);
+        float3 paint_response = paint_product
+            * (cos_l * (max(v_dot_l - cos_v * cos_l, 0.0) * 0.225 / max(cos_l, cos_v) + 0.89285713));
+        color += light_radiance * (coat_product * mx_ggx_light(coat_vector, V, light_L) + paint_response);
+    }
+    // environment: coat, paint
+    float3 scaled_environment_irradiance = mxg_host.mxg_irradiance(vd.positionWorld, normalize(h))
+        * float3(0.6, 0.1, 0.05);
+    float2 fit = (cos_v * float2(-0.7632, -0.4993) - float2(0.4297, 0.6076) + float2(0.43155, 0.60945)) * 0.3
+        + float2(1.0);
+    float3 paint_response = scaled_environment_irradiance * (paint_weight * clamp(fit.x / fit.y, 0.0, 1.0));
+    float3 sum = scale * mx_ggx_prefiltered(N, V) + paint_response;
+    color += mxg_host.mxg_ambient_occlusion(vd.positionWorld, N) * sum;
+    out.out1 = float4(color, 1.0);
+}
+};
+
+fragment PixelOutputs FragmentMain(
+    VertexData vd [[stage_in]],
+    constant PrivateUniforms& u_prv [[buffer(0)]],
+    constant MxgHost& mxg_host [[buffer(30)]])
+{
+    MxgHost host = mxg_host;
+    host.mxg_pixel = int2(vd.pos.xy);
+    GlobalContext context = {u_prv, host, vd, {}};
+    context.FragmentMain();
+    return context.out;
+}
