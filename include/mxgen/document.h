@@ -175,7 +175,10 @@ MXG_API mxg_status mxg_edit_rename_element(mxg_edit *edit, mxg_element element, 
  */
 MXG_API mxg_status mxg_edit_set_value(mxg_edit *edit, mxg_element node, const char *input,
                                       const char *type, const char *value);
-/* Sets a number, integer, boolean, colour, vector or matrix. */
+/*
+ * Sets a number, integer, boolean, colour, vector or matrix. An integer is whole and from -2^24 to
+ * 2^24, where floats have all of them; others are set as text. A boolean is 0 or 1.
+ */
 MXG_API mxg_status mxg_edit_set_numbers(mxg_edit *edit, mxg_element node, const char *input,
                                         const char *type, const float *values, uint32_t num_values);
 /*

@@ -167,8 +167,8 @@ typedef struct mxg_context_desc {
     uint32_t max_nodes;         /* IR nodes of one generation; 0 = 64,000,000 */
     uint32_t max_output_mib;    /* 0 = 256 */
     uint32_t max_errors;        /* errors that a call keeps, with their notes; 0 = 20 */
-    uint32_t max_depth;         /* nesting of elements, up to 200; 0 = 128 */
-    uint32_t max_include_depth; /* nesting of includes, up to 200; 0 = 16 */
+    uint32_t max_depth;         /* nesting of elements; more than 200 is 200; 0 = 128 */
+    uint32_t max_include_depth; /* nesting of includes; more than 200 is 200; 0 = 16 */
     uint32_t max_includes;      /* files that a document includes; 0 = 4,096 */
     /*
      * Changes the severity of diagnostics. Words, separated by commas: "error" makes all warnings

@@ -232,7 +232,8 @@ MXG_API mxg_status mxg_result_pack_block(const mxg_result *result, const mxg_doc
  * Writes the value of one variable to its place in such a buffer; `element` is the light of a
  * member of LightData, or the element of an array, else 0. Integers and booleans come as numbers.
  * MXG_ERROR_ARGUMENT if the variable is in no buffer, the number of values is not that of its type,
- * or `capacity` is too small.
+ * an integer has a fraction or lies beyond 2^24 (mxg_result_pack_block writes all integers), or
+ * `capacity` is too small.
  */
 MXG_API mxg_status mxg_result_pack_value(const mxg_result *result, uint32_t variable,
                                          uint32_t element, const float *values, uint32_t num_values,

@@ -211,7 +211,7 @@ export class Shader extends Owner {
             const copy = native.newBytes(data), status = native.lib.mxg_result_pack_value(this._pointer, index, element,
                 native.newFloats(components), components.length, copy, data.length);
             native.check(status, status === STATUS.errorArgument
-                ? `'${variable.name}' is in no buffer, has another number of values, or has no room in the buffer` : "");
+                ? `'${variable.name}' is in no buffer, has another number of values or no room in the buffer, or is an integer, and the value has a fraction or lies beyond 2^24` : "");
             data.set(native.bytes(copy, data.length));
         });
     }

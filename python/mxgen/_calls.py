@@ -213,6 +213,12 @@ class Native:
     def _is_open(self) -> bool:
         return "_handle" in vars(self)
 
+    def __repr__(self) -> str:
+        return self._shown() if self._is_open else f"<{type(self).__name__}: ended>"
+
+    def _shown(self) -> str:
+        return f"<{type(self).__name__}>"
+
     def __getattr__(self, name: str) -> Any:
         if name == "_handle":
             raise Error(f"the {type(self).__name__.lower()} has ended")

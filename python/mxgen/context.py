@@ -153,6 +153,8 @@ class Context(Native):
         self._user: int | None = None
         if isinstance(include_roots, str):
             raise TypeError("include_roots must be a sequence of paths, not str")
+        for word, value in ("trust", trust), ("sandbox", sandbox):
+            check_type(value, bool, word)
         limits = {"max_file_mib": max_file_mib, "max_elements": max_elements, "max_nodes": max_nodes, "max_output_mib": max_output_mib,
                   "max_errors": max_errors, "max_depth": max_depth, "max_include_depth": max_include_depth, "max_includes": max_includes}
         desc = new("mxg_context_desc", max_memory=c_number(max_memory, "max_memory", 64),
@@ -194,9 +196,6 @@ class Context(Native):
             made.append(new("mxg_texel_reader", read_texels=callback("read_texels", host.read, False)))
             desc.texels = ctypes.addressof(made[-1])
         return made
-
-    def __repr__(self) -> str:
-        return "<Context>"
 
     # ---- Calls ----
 

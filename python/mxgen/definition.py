@@ -177,7 +177,7 @@ class Library(Native):
             raise ValueError(f"'{nodedef.name}' is not a definition of this library")
         return bool(lib.mxg_library_has_implementation(self._handle.pointer, nodedef._index, c_text(target, "target")))
 
-    def __repr__(self) -> str:
+    def _shown(self) -> str:
         return f"<Library: {lib.mxg_library_num_nodedefs(self._handle.pointer)} definitions>"
 
     def image(self) -> bytes:

@@ -306,7 +306,7 @@ class Element:
         return hash((id(self.document), self.number))
 
     def __repr__(self) -> str:
-        return f"<Element {self.category} '{self.path}'>"
+        return f"<Element {self.category} '{self.path}'>" if self.document._is_open else "<Element: its document has ended>"
 
 
 class Document(Native):
@@ -365,7 +365,7 @@ class Document(Native):
         """Whether the document has an element, or one of a path."""
         return item.document is self if isinstance(item, Element) else isinstance(item, str) and self.find(item) is not None
 
-    def __repr__(self) -> str:
+    def _shown(self) -> str:
         return f"<Document '{self.files[0]}': {len(self)} elements>"
 
     def walk(self) -> Iterator[Element]:

@@ -77,10 +77,13 @@ class Draft:
     def value(self, input: str, value: NewValue, type: str | None = None) -> Draft:
         """Gives an input of a node a value, and removes its connection. `type` None: the type of the input, or that of the definition."""
         name, kind = c_text(input, "input"), optional_text(type, "type")
-        if isinstance(value, (str, int)):
+        value = value.tolist() if hasattr(value, "tolist") else value # an array of NumPy may have no dimension
+        if isinstance(value, (list, tuple)) and len(value) == 1 and isinstance(value[0], int):
+            value = value[0]
+        if isinstance(value, (str, int)): # a float has not every integer
             self.edit._change(lib.mxg_edit_set_value, self.number, name, kind, _text_of(value))
         else:
-            numbers = _numbers_of(value.tolist() if hasattr(value, "tolist") else value) # an array of NumPy may have no dimension
+            numbers = _numbers_of(value)
             self.edit._change(lib.mxg_edit_set_numbers, self.number, name, kind, (ctypes.c_float * len(numbers))(*numbers), len(numbers))
         return self
 

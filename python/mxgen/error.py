@@ -2,6 +2,7 @@
 """Exceptions. Each has a text that names the fault."""
 from __future__ import annotations
 
+from errno import ENOENT
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -52,6 +53,10 @@ class DocumentError(Error):
 
 class MissingFileError(DocumentError, FileNotFoundError):
     """The file that the caller names does not exist, or one that it includes."""
+
+    def __init__(self, diagnostics: Diagnostics, document: Document | None = None) -> None:
+        super().__init__(diagnostics, document)
+        self.errno = ENOENT
 
 
 def document_error(diagnostics: Diagnostics, document: Document | None = None) -> DocumentError:

@@ -165,7 +165,7 @@ class Primitive:
         return hash((id(self.scene), self.number))
 
     def __repr__(self) -> str:
-        return f"<Primitive '{self.path}'>"
+        return f"<Primitive '{self.path}'>" if self.scene._is_open else "<Primitive: its scene has ended>"
 
 
 def _read_property(struct: Any) -> Property:
@@ -351,7 +351,7 @@ class Scene(Native):
         return (Primitive(self, number) for number in range(lib.mxg_scene_num_primitives(pointer))
                 if lib.mxg_scene_primitive(pointer, number, out) == lib.MXG_OK)
 
-    def __repr__(self) -> str:
+    def _shown(self) -> str:
         return f"<Scene: {len(self)} primitives>"
 
     @property
@@ -501,7 +501,7 @@ class Bindings(Native):
         """The diagnostics of finding the layers."""
         return Diagnostics(lib.mxg_bindings_diagnostics(self._handle.pointer), self)
 
-    def __repr__(self) -> str:
+    def _shown(self) -> str:
         return f"<Bindings: {lib.mxg_bindings_num_stacks(self._handle.pointer)} stacks>"
 
     @property

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from .document import Document
 
 #: The value of an option of generation; a sequence gives several values of a list.
-OptionValue = Union[bool, int, str, Sequence[str]]
+OptionValue = Union[bool, int, float, str, Sequence[str]]
 
 
 class Stage(enum.IntEnum):
@@ -306,7 +306,7 @@ class Shader(Native):
     def __init__(self, handle: Handle) -> None:
         self._handle = handle
 
-    def __repr__(self) -> str:
+    def _shown(self) -> str:
         values = record("mxg_shader_info", lib.mxg_result_info, self._handle.pointer)
         return f"<Shader '{values['name']}' for {values['target']}>" if values else "<Shader: diagnostics only>"
 
@@ -488,7 +488,8 @@ class Shader(Native):
         status = lib.mxg_result_pack_value(self._handle.pointer, variable._index, c_number(element, "element"), numbers, len(numbers),
                                            (ctypes.c_char * len(data)).from_buffer(data), len(data))
         if status == lib.MXG_ERROR_ARGUMENT:
-            raise ArgumentError(f"'{variable.name}' is in no buffer, has another number of values, or has no room in the buffer")
+            raise ArgumentError(f"'{variable.name}' is in no buffer, has another number of values or no room in the buffer, or is an integer, and "
+                                "the value has a fraction or lies beyond 2^24 (pack_from takes it from a document)")
         if status != lib.MXG_OK:
             raise error_of(status)
 
@@ -560,7 +561,7 @@ def make_options(context: Context, values: Mapping[str, OptionValue]) -> _Option
     for key, value in values.items():
         if isinstance(value, bool):
             made.set(key, "true" if value else "false")
-        elif isinstance(value, int):
+        elif isinstance(value, Real):
             made.set(key, str(value))
         elif isinstance(value, str):
             made.set(key, value)
@@ -568,5 +569,5 @@ def make_options(context: Context, values: Mapping[str, OptionValue]) -> _Option
             for item in value:
                 made.set(key, item)
         else:
-            raise TypeError(f"option '{key}' must be bool, int, str or a sequence of str, not {type(value).__name__}")
+            raise TypeError(f"option '{key}' must be bool, int, float, str or a sequence of str, not {type(value).__name__}")
     return made

@@ -2,6 +2,8 @@
 /* Blocks of uniforms: their places, and their bytes for upload. */
 #include "api/generation.h"
 
+#include "base/num.h"
+
 static bool has_block(const mxg_result *result, mxg_block block)
 {
     return result && result->has_shader && (unsigned)block < MXG_NUM_BLOCKS;
@@ -75,16 +77,17 @@ void block_pack(const mxg_result *result, mxg_block block, void *bytes)
     }
 }
 
-static union ir_word word_of(ir_type_id scalar, float number)
+/* False: the number is no value of the type. */
+static bool word_of(ir_type_id scalar, float number, union ir_word *out)
 {
-    union ir_word word = {.f = number};
+    out->f = number;
     if (scalar == IR_TYPE_BOOL)
-        word.u = number != 0;
-    else if (scalar != IR_TYPE_FLOAT)
-        word.i = number >= 2147483648.0f   ? INT32_MAX
-                 : number > -2147483648.0f ? (int32_t)number
-                                           : INT32_MIN;
-    return word;
+        out->u = number != 0;
+    else if (scalar != IR_TYPE_FLOAT && num_is_exact_integer(number))
+        out->i = (int32_t)number;
+    else
+        return scalar == IR_TYPE_FLOAT;
+    return true;
 }
 
 /* Where element `element` of a variable begins in its buffer; false: it has no such element. */
@@ -116,7 +119,8 @@ mxg_status mxg_result_pack_value(const mxg_result *result, uint32_t variable, ui
     union ir_word words[16];
     assert(num_values <= sizeof words / sizeof *words && offset < buffer->size);
     for (uint32_t i = 0; i < num_values; i++)
-        words[i] = word_of(ir_type_info(v->type)->scalar, values[i]);
+        if (!word_of(ir_type_info(v->type)->scalar, values[i], &words[i]))
+            return MXG_ERROR_ARGUMENT;
     block_write_words(v, words, (char *)bytes + offset);
     return MXG_OK;
 }

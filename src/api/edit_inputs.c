@@ -2,6 +2,8 @@
 /* Values and connections of inputs in an edit. */
 #include "api/edit.h"
 
+#include "base/num.h"
+
 #include <math.h>
 
 /* ---- Inputs ---- */
@@ -162,6 +164,13 @@ static void set_numbers(void *arg)
     for (uint32_t i = 0; !c->failed && i < num; i++)
         if (!isfinite(c->numbers[i]))
             edit_fail(c, "a value of '%s' is infinite or not a number", c->name);
+        else if (type == DOC_TYPE_boolean && c->numbers[i] != 0 && c->numbers[i] != 1)
+            edit_fail(c, "the boolean '%s' is 0 or 1 as a number", c->name);
+        else if (type == DOC_TYPE_integer && !num_is_exact_integer(c->numbers[i]))
+            edit_fail(c,
+                      "the integer '%s' has a fraction, or more digits than a float; "
+                      "mxg_edit_set_value takes it as text",
+                      c->name);
     if (c->failed)
         return;
     struct text text;

@@ -25,4 +25,11 @@ size_t num_parse_float(const char *text, size_t len, float *out_value);
 /* Parses a decimal or 0x integer with an optional sign; 0 if there is none or it does not fit. */
 size_t num_parse_int(const char *text, size_t len, int64_t *out_value);
 
+/* True for a whole number from -2^24 to 2^24; between these floats have every integer. */
+static inline bool num_is_exact_integer(float value)
+{
+    const float most = 16777216.0f;
+    return value >= -most && value <= most && value == (float)(int32_t)value;
+}
+
 #endif

@@ -449,6 +449,10 @@ static void test_refused(struct fixture *f)
     REFUSED(mxg_edit_set_value(e, shader, "coat", "float", "much"), "'much' is no value");
     REFUSED(mxg_edit_set_value(e, 0, "coat", "float", "1"), "no such element");
     REFUSED(mxg_edit_set_numbers(e, shader, "coat", "color3", numbers, 3), "not a number");
+    const float half = 0.5f, large = 16777218.0f;
+    REFUSED(mxg_edit_set_numbers(e, shader, "n", "integer", &half, 1), "has a fraction");
+    REFUSED(mxg_edit_set_numbers(e, shader, "n", "integer", &large, 1), "more digits");
+    REFUSED(mxg_edit_set_numbers(e, shader, "n", "boolean", &half, 1), "0 or 1");
     REFUSED(mxg_edit_set_numbers(e, shader, "coat", "color3", numbers, 2),
             "'coat' is color3, which does not have 2 components");
     REFUSED(mxg_edit_set_numbers(e, shader, "coat", "surfaceshader", numbers, 1),

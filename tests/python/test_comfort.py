@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a user of Python expects of objects, files, values and notebooks."""
+import errno
 import gc
 import io
 import pathlib
@@ -76,6 +77,7 @@ class Containers(unittest.TestCase):
                 use()
         document.close()
         self.assertIn("void main", shader.pixel)  # what was made from it stays
+        self.assertEqual((repr(document), repr(context)), ("<Document: ended>", "<Context: ended>"))
         with self.assertRaises(AttributeError):
             document.nothing
 
@@ -119,6 +121,19 @@ class Values(unittest.TestCase):
             edit["SR"].value("base_color", numpy.array([1, 0.5, 0])).value("coat", numpy.float32(0.25)).value("base", numpy.array(0.5))
         values = [edit.document[f"SR/{name}"].value for name in ("base_color", "coat", "base")]
         self.assertEqual(values, [(1, 0.5, 0), 0.25, 0.5])
+
+    def test_integers(self):
+        class Number:  # as numpy.int64, which is no int
+            def tolist(self):
+                return 16777219
+
+        with self.gold.edit() as edit:
+            for name, value in (("A", 16777217), ("B", [16777217]), ("C", Number())):
+                edit.add("constant", name, "integer").value("value", value)
+            for kind, value in (("integer", 1.5), ("integer", 3e7), ("boolean", 0.5)):
+                with self.assertRaisesRegex(mxgen.EditError, "fraction|0 or 1"):
+                    edit.add("constant", None, kind).value("value", value)
+        self.assertEqual([edit.document[f"{name}/value"].value for name in "ABC"], [16777217, 16777217, 16777219])
 
     def test_names(self):
         edit = self.gold.edit()
@@ -168,6 +183,7 @@ class Files(unittest.TestCase):
                 call()
             self.assertIsInstance(caught.exception, mxgen.MissingFileError)
             self.assertIn("none", str(caught.exception))
+            self.assertEqual(caught.exception.errno, errno.ENOENT)
 
     def test_save(self):
         gold = mxgen.Context().parse(common.GOLD)

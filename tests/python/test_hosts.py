@@ -156,7 +156,7 @@ class Types(unittest.TestCase):
                 lambda: context.rewrite(mxgen.Rewriting.FORMAT, "a", 5), lambda: document.find(5), lambda: document[5],
                 lambda: document.look_materials(None), lambda: document.generate(5), lambda: document.generate(None),
                 lambda: document.generate("glsl", 5), lambda: document.generate("glsl", options=5),
-                lambda: document.generate("glsl", options={"interface": 1.5}), lambda: document.generate("glsl", options={5: "x"}),
+                lambda: document.generate("glsl", options={"interface": 1j}), lambda: document.generate("glsl", options={5: "x"}),
                 lambda: document.generate("glsl", options={"constant": [5]}), lambda: document.generate("glsl", options={"constant": b"x"}),
                 lambda: document.generate("glsl", context=5), lambda: document.root.child(5), lambda: document.root.get(5),
                 lambda: mxgen.Element(5, 1), lambda: mxgen.Element(document, "x"), lambda: shader.find_variable(5),

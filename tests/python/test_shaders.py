@@ -152,6 +152,15 @@ class Shaders(unittest.TestCase):
         for wrong, error in (((1, 2), mxgen.ArgumentError), (1, mxgen.ArgumentError), (("x",), TypeError), (None, TypeError)):
             with self.assertRaises(error):
                 shader.pack_value(data, stone, wrong)
+        counted = self.context.parse("<materialx version='1.39'><nodegraph name='G'><input name='n' type='integer' value='3'/><convert name='c' type='float'>"
+                                     "<input name='in' type='integer' interfacename='n'/></convert><output name='out' type='float' nodename='c'/>"
+                                     "</nodegraph></materialx>").generate("vulkan")
+        number, integers = counted.find_variable("G/n"), counted.pack(mxgen.Block.PUBLIC_UNIFORMS)
+        counted.pack_value(integers, number, 7)
+        self.assertEqual(struct.unpack_from("<i", integers, number.offset), (7,))
+        for inexact in 1.5, 16777218, float("nan"):
+            with self.assertRaises(mxgen.ArgumentError):
+                counted.pack_value(integers, number, inexact)
         with self.assertRaises(mxgen.ArgumentError):
             shader.pack_value(bytearray(4), stone, (1, 1, 1))
         with self.assertRaises(TypeError):
