@@ -54,8 +54,8 @@ static inline bool deferred_is_decal(const struct deferred_layout *layout)
 uint32_t deferred_layout_number(const struct deferred_layout *layout);
 
 /*
- * closure_host.why_no_room: a slab may weigh more than the 1 that a pixel has room for, as in a sum
- * of equal slabs; or a sheet is lit from behind.
+ * closure_host.why_no_room: a slab of a material pass may weigh more than the 1 that a pixel has
+ * room for, as in a sum of equal slabs; or a sheet is lit from behind.
  */
 const char *deferred_why_no_room(const struct shader *shader, const struct closure_list *list);
 

@@ -510,7 +510,10 @@ static ir_ref weighed(struct shader *shader, ir_ref mark, enum mark_operand oper
     return ir_op2(g, IR_MIN, value, ir_white(g));
 }
 
-/* A payload has no weights above 1, as a sum of equal slabs has: their albedo and f0 are more. */
+/*
+ * No word has a weight above 1, as a sum of equal slabs has: their albedo and f0 are more. That is
+ * for payloads and functions; a material pass draws such a sum forward, which is exact.
+ */
 static void take_weights(struct shader *shader, struct closure_list *marks)
 {
     struct ir_graph *g = shader->graph;
@@ -571,7 +574,8 @@ static void put_decal(struct shader *shader, const struct closure_host *host,
 
 const char *deferred_why_no_room(const struct shader *shader, const struct closure_list *list)
 {
-    for (uint32_t i = 0; i < list->leaves.len; i++)
+    bool may_be_forward = shader->role->returns == RETURNS_SLABS;
+    for (uint32_t i = 0; may_be_forward && i < list->leaves.len; i++)
         if (deferred_is_mark(shader, list->leaves.items[i].leaf)
             && !is_light_enough(shader->graph, &list->leaves.items[i]))
             return "a sum of equal slabs may weigh more than 1";
@@ -588,10 +592,9 @@ void deferred_store(struct shader *shader, const struct closure_host *host,
     closure_flatten(shader, &spreading, surface->bsdf, &spread);
     struct closure_list marks = marks_of(shader, surface->bsdf, surface->list);
     ir_ref emission = deferred_painted_light(shader, layout, surface->emission);
-    if (layout->role->returns == RETURNS_PAYLOAD) {
-        take_weights(shader, &marks);
+    take_weights(shader, &marks);
+    if (layout->role->returns == RETURNS_PAYLOAD)
         premultiply(shader, surface, &marks, &emission);
-    }
     shader->reflection.closures.len = 0; /* lights of slabs are no closures of their own here */
     deferred_note_lost(shader, layout, surface->list, &marks);
     if (deferred_is_decal(layout)) {

@@ -407,19 +407,30 @@ X
     "$mxgen" "$name.mtlx" -e SR --target vulkan --role deferred -o sum 2>&1
 }
 weighed_as() {
-    local words=$1
-    shift
+    local role=$1 words=$2
+    shift 2
     sums "$@" >/dev/null
-    "$mxgen" sum.mtlx -e SR --target vulkan --role payload --stdout >payload.glsl 2>payload.err && tr -d '\n' <payload.glsl | tr -s ' ' | grep -qF "stored = mx_store_closure(stored, $words"
+    "$mxgen" sum.mtlx -e SR --target vulkan --role "$role" --stdout >payload.glsl 2>payload.err && tr -d '\n' <payload.glsl | tr -s ' ' | grep -qF "stored = mx_store_closure(stored, $words"
 }
 too_heavy() { sums "$@" | grep -q 'drawn forward: a sum of equal slabs may weigh more than 1'; }
 check "a sum of equal slabs is drawn forward" too_heavy sum a b whole
 check "so is one that is too heavy in places" too_heavy sum mixed rest whole
-check "a payload adds their albedos and f0" weighed_as 'vec3(0.36), vec3(0.08), vec3(1.0),' sum a b whole
+check "a function of pixels adds their albedos and f0" weighed_as pack 'vec3(0.36), vec3(0.08), vec3(1.0),' sum a b whole
+check "a payload adds their albedos and f0" weighed_as payload 'vec3(0.36), vec3(0.08), vec3(1.0),' sum a b whole
 check "and tells nothing" eval '! grep -q slab-left-out payload.err'
-check "halves stay one slab there" weighed_as 'vec3(0.18), vec3(0.04), vec3(1.0),' sum half rest whole
+check "halves stay one slab there" weighed_as payload 'vec3(0.18), vec3(0.04), vec3(1.0),' sum half rest whole
 sed -i 's|<slab name="\(.\)" type="BSDF"/>|<slab name="\1" type="BSDF"><input name="f0" type="color3" value="0.7, 0.7, 0.7"/></slab>|g; s|nodename="half"/><input name="in2"|nodename="a"/><input name="in2"|; s|nodename="rest"/></add>|nodename="b"/></add>|' sum.mtlx
 check "what goes beyond 1 is told" eval '"$mxgen" sum.mtlx -e SR --target vulkan --role payload --stdout 2>&1 >payload.glsl | grep -q "f0.*slab-left-out"'
+cat >coated.mtlx <<'X'
+<materialx version="1.39">
+  <slab name="a" type="BSDF"/><slab name="b" type="BSDF"/>
+  <add name="whole" type="BSDF"><input name="in1" type="BSDF" nodename="a"/><input name="in2" type="BSDF" nodename="b"/></add>
+  <slab name="coat" type="BSDF"><input name="diffuse_albedo" type="color3" value="0, 0, 0"/><input name="mean_free_path" type="vector3" value="0.02, 0.02, 0.02"/></slab>
+  <slab_layer name="coated" type="BSDF"><input name="top" type="BSDF" nodename="coat"/><input name="base" type="BSDF" nodename="whole"/></slab_layer>
+  <slab_surface name="SR" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="coated"/></slab_surface>
+</materialx>
+X
+check "a sum below a coat is told, too" eval '"$mxgen" coated.mtlx -e SR --target vulkan --role pack --stdout 2>&1 >payload.glsl | grep -q "diffuse_albedo.*slab-left-out"'
 check "halves of equal slabs are stored" exits 1 too_heavy sum half rest whole
 check "mixes of equal slabs are stored" exits 1 too_heavy sum a b again
 for target in essl essl310 osl; do
