@@ -11,7 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SLACK 1e-3f /* values so far outside 0 to 1 are rounded */
+#define SLACK 1e-3f           /* values so far outside 0 to 1 are rounded */
+#define MOST_OF_HALF 65504.0f /* the largest number of a float of 16 bits */
 
 static bool is_color(const struct bake_drawing *drawing)
 {
@@ -37,6 +38,19 @@ static void measure(struct bake_drawing *drawing, const struct spool *spools, ui
 
 /* ---- Formats ---- */
 
+static void tell_clamped(struct baking *baking, const struct bake_drawing *drawing,
+                         const char *format, double low, double high)
+{
+    report_warning(&baking->cli.report, "bake-clamped",
+                   "'%s' has values from %g to %g; %s keeps those from %g to %g", drawing->path,
+                   (double)drawing->low, (double)drawing->high, format, low, high);
+}
+
+static bool fits_half(const struct bake_drawing *drawing)
+{
+    return drawing->low >= -MOST_OF_HALF && drawing->high <= MOST_OF_HALF;
+}
+
 static const char *ending_of(struct baking *baking, const struct bake_drawing *drawing)
 {
     const char *said = baking->options.format;
@@ -44,9 +58,7 @@ static const char *ending_of(struct baking *baking, const struct bake_drawing *d
     if (!said)
         return is_within && bake_channels(drawing->type) < 4 ? "png" : "exr";
     if (!is_within && strcmp(said, "exr") != 0)
-        report_warning(&baking->cli.report, "bake-clamped",
-                       "'%s' has values from %g to %g; %s keeps those from 0 to 1", drawing->path,
-                       (double)drawing->low, (double)drawing->high, said);
+        tell_clamped(baking, drawing, said, 0, 1);
     return said;
 }
 
@@ -57,14 +69,17 @@ static uint32_t file_channels(const struct bake_drawing *drawing)
     return channels == 2 ? 3 : channels;
 }
 
-static struct image_format format_of(const struct baking *baking,
-                                     const struct bake_drawing *drawing, const char *ending,
-                                     uint32_t size)
+static struct image_format format_of(struct baking *baking, const struct bake_drawing *drawing,
+                                     const char *ending, uint32_t size)
 {
     bool is_float = strcmp(ending, "exr") == 0;
     uint32_t said = (uint32_t)baking->options.depth;
-    uint32_t float_depth = said == 32 || (!said && !is_color(drawing)) ? 32 : 16,
+    bool is_half = said ? said < 32 : is_color(drawing) && fits_half(drawing);
+    uint32_t float_depth = is_half ? 16 : 32,
              whole_depth = said >= 16 && strcmp(ending, "png") == 0 ? 16 : 8;
+    if (is_float && is_half && !fits_half(drawing))
+        tell_clamped(baking, drawing, "exr with 16 bits", (double)-MOST_OF_HALF,
+                     (double)MOST_OF_HALF);
     return (struct image_format){.width = size,
                                  .height = size,
                                  .channels = file_channels(drawing),
@@ -81,6 +96,15 @@ static float encode_srgb(float linear)
     return x <= 0.0031308f ? 12.92f * x : 1.055f * powf(x, 1 / 2.4f) - 0.055f;
 }
 
+/* A number as the file keeps it. */
+static float keep(const struct image_format *format, float value)
+{
+    if (format->is_float && format->depth == 32)
+        return value;
+    return format->is_float ? fminf(fmaxf(value, -MOST_OF_HALF), MOST_OF_HALF)
+                            : fminf(fmaxf(value, 0.0f), 1.0f);
+}
+
 /* Texels of a spool as those of a file. */
 static void convert(const struct image_format *format, uint32_t channels, size_t count,
                     const float *in, float *out)
@@ -88,9 +112,7 @@ static void convert(const struct image_format *format, uint32_t channels, size_t
     for (size_t i = 0; i < count; ++i, in += channels, out += format->channels)
         for (uint32_t c = 0; c < format->channels; ++c) {
             float value = c < channels ? in[c] : 0.0f;
-            out[c] = format->is_srgb && c < 3 ? encode_srgb(value)
-                     : format->is_float       ? value
-                                              : fminf(fmaxf(value, 0.0f), 1.0f);
+            out[c] = format->is_srgb && c < 3 ? encode_srgb(value) : keep(format, value);
         }
 }
 

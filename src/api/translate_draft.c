@@ -257,8 +257,9 @@ const char *translate_uniforms(const struct translation *t, uint32_t more)
     return text_cstr(&list);
 }
 
-void translate_generate(struct translation *t, const mxg_document *document, const char *path,
-                        const char *uniforms, void steps(struct generation *g), void *user_data)
+static void generate_for(struct translation *t, const struct target *target,
+                         const mxg_document *document, const char *path, const char *uniforms,
+                         void steps(struct generation *g), void *user_data)
 {
     mxg_options_destroy(t->options); /* lists grow */
     t->options = NULL;
@@ -266,7 +267,7 @@ void translate_generate(struct translation *t, const mxg_document *document, con
                             && mxg_options_set(t->options, "interface", "reduced") == MXG_OK
                             && mxg_options_set(t->options, "uniform", uniforms) == MXG_OK);
     mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
-    desc.target = targets[0]->name; /* any: only the graph of the shader is read */
+    desc.target = target->name;
     desc.element = path;
     desc.options = t->options;
     desc.without_source = true;
@@ -274,6 +275,13 @@ void translate_generate(struct translation *t, const mxg_document *document, con
     t->value = NULL;
     translate_expect(t, generation_run(t->context, document, &desc, steps, user_data, &t->value)
                             != MXG_ERROR_MEMORY);
+}
+
+void translate_generate(struct translation *t, const mxg_document *document, const char *path,
+                        const char *uniforms, void steps(struct generation *g), void *user_data)
+{
+    /* any target: only the graph of the shader is read */
+    generate_for(t, targets[0], document, path, uniforms, steps, user_data);
 }
 
 ir_ref translate_build_path(struct translation *t, const mxg_document *document, const char *path,
@@ -298,10 +306,16 @@ bool translate_surface_reads(struct translation *t, unsigned step, const char *i
     struct text path;
     text_init(&path, t->arena);
     text_fmt(&path, "%s/%s", translate_step_name(t, step), input);
-    translate_generate(t, t->draft, translate_step_name(t, step), uniforms, generation_run_all,
-                       NULL);
-    return !t->value->has_shader
-           || mxg_result_find_variable(t->value, text_cstr(&path)) != MXG_NONE;
+    for (size_t i = 0; targets[i]; i++) {
+        if (i && !targets[i]->closures) /* rasters read alike; renderers with closures read more */
+            continue;
+        generate_for(t, targets[i], t->draft, translate_step_name(t, step), uniforms,
+                     generation_run_all, NULL);
+        if (!t->value->has_shader
+            || mxg_result_find_variable(t->value, text_cstr(&path)) != MXG_NONE)
+            return true;
+    }
+    return false;
 }
 
 ir_ref translate_build(struct translation *t, unsigned step, const char *output, uint32_t more)

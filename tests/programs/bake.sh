@@ -192,6 +192,17 @@ check 'a boolean that varies is told' bad by_side '(bad.mtlx:12:57)' '[bake-type
 check 'a missing texture is told' bad by_file 'bad.mtlx:9:' '[missing-texture]'
 check 'a pattern alone has nothing to bake' bad wide '[nothing-to-bake]'
 check 'values that a format cannot have are told' eval 'exits 0 "$mxgen" bake bad.mtlx -e by_range -o wide --size 8 -f png && has err "[bake-clamped]"'
+cat >huge.mtlx <<'EOF'
+<?xml version="1.0"?>
+<materialx version="1.39">
+  <ramplr name="nits" type="color3"><input name="valuel" type="color3" value="0, 0, 0"/><input name="valuer" type="color3" value="200000, 100000, 0"/></ramplr>
+  <standard_surface name="SR" type="surfaceshader"><input name="emission" type="float" value="1"/><input name="emission_color" type="color3" nodename="nits"/></standard_surface>
+</materialx>
+EOF
+# most FILE: the greatest number of an EXR
+most() { python3 -c 'import sys; sys.path.insert(0, sys.argv[1]); import exr; print(max(max(row) for rows in exr.read(sys.argv[2])[2].values() for row in rows))' "$here" "$1"; }
+check 'colours beyond half floats have 32 bits' eval 'exits 0 "$mxgen" bake huge.mtlx -o huge --size 8 && ! grep -q bake-clamped err && [ "$(most huge/*.exr)" = 187500.0 ]'
+check 'with 16 bits they are told, and stay finite' eval 'exits 0 "$mxgen" bake huge.mtlx -o half --size 8 --depth 16 && has err "exr with 16 bits keeps those from -65504 to 65504 [bake-clamped]" && [ "$(most half/*.exr)" = 65504.0 ]'
 cat >outputs.mtlx <<'EOF'
 <?xml version="1.0"?>
 <materialx version="1.39">

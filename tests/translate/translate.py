@@ -218,6 +218,17 @@ def test_inputs_of_others():
     check("occlusion" not in said, "a default is no loss")
 
 
+def test_inputs_of_renderers():
+    """What renderers with closures read alone, and no raster, stays, there and back."""
+    pairs = (("standard_surface", "subsurface", "subsurface_anisotropy"), ("open_pbr_surface", "subsurface_weight", "subsurface_scatter_anisotropy"))
+    for (model, weight, name), (other, other_weight, other_name) in (pairs, pairs[::-1]):
+        text = flat(model, {weight: ("float", "0.9"), name: ("float", "0.8")})
+        root, said, _ = translate(text, other, name)
+        check((values(root).get(other_weight), values(root).get(other_name)) == ([0.9], [0.8]), f"{name} stays as {other_name}: {values(root)}")
+        _, said, _ = translate(text, "gltf_pbr", name)
+        check(f"'{name}'" in said and "[translation-loss]" in said, f"{name} is told where it is lost: {said[:300]}")
+
+
 def test_spaces():
     inputs = {"base_color": ("color3", "0.5, 0.5, 0.5"), "metalness": ("float", "0.5")}
     text = f'<?xml version="1.0"?><materialx version="1.39" colorspace="srgb_texture">{flat("standard_surface", inputs)}</materialx>'
@@ -285,6 +296,7 @@ test_graphs()
 test_choices()
 test_losses()
 test_inputs_of_others()
+test_inputs_of_renderers()
 test_spaces()
 test_studio()
 test_files()
