@@ -51,6 +51,8 @@ void text_set(struct text *text, const char *bytes, size_t len)
     reserve_lines(text, 1);
     text->lines[0] = 0;
     text->num_lines = 1;
+    text->last = text->last ? text->last : memory_alloc(sizeof *text->last);
+    *text->last = (struct text_count){0};
     for (uint32_t at = 0; (at = next_line(text, at + 1, text->len)) != 0;) {
         reserve_lines(text, text->num_lines + 1);
         text->lines[text->num_lines++] = at;
@@ -61,6 +63,7 @@ void text_finish(struct text *text)
 {
     free(text->bytes);
     free(text->lines);
+    free(text->last);
     *text = (struct text){0};
 }
 
@@ -103,6 +106,7 @@ bool text_replace(struct text *text, struct span part, const char *bytes, size_t
     for (uint32_t at = part.start, i = kept; (at = next_line(text, at, end)) != 0; ++at)
         text->lines[i++] = at;
     text->num_lines = kept + num + num_rest;
+    *text->last = (struct text_count){0};
     for (uint32_t i = kept + num; i < text->num_lines; ++i)
         text->lines[i] = text->lines[i] - part.end + end;
     return true;
@@ -155,14 +159,20 @@ uint32_t text_offset(const struct text *text, struct position position, bool is_
 struct position text_position(const struct text *text, uint32_t offset, bool is_utf8)
 {
     offset = offset < text->len ? offset : text->len;
-    struct position position = {text_line(text, offset), 0};
-    for (uint32_t at = text->lines[position.line]; at < offset;) {
-        uint32_t len = length_of(text, at);
-        at += len;
-        if (at <= offset)
-            position.column += units_of(len, is_utf8);
+    const uint32_t line = text_line(text, offset);
+    struct text_count count = *text->last;
+    if (count.line != line || count.offset > offset || count.is_utf8 != is_utf8
+        || count.offset < text->lines[line])
+        count = (struct text_count){line, text->lines[line], 0, is_utf8};
+    while (count.offset < offset) {
+        uint32_t len = length_of(text, count.offset);
+        if (count.offset + len > offset)
+            break;
+        count.offset += len;
+        count.column += units_of(len, is_utf8);
     }
-    return position;
+    *text->last = count;
+    return (struct position){line, count.column};
 }
 
 uint32_t text_skip(const struct text *text, uint32_t offset, uint32_t code_points)

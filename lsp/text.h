@@ -15,11 +15,18 @@ struct span {
     uint32_t start, end;
 };
 
+/* Where columns were counted last: parts of a long line are asked for one after the other. */
+struct text_count {
+    uint32_t line, offset, column;
+    bool is_utf8;
+};
+
 struct text {
     char *bytes; /* with a NUL after them */
     uint32_t len, capacity;
     uint32_t *lines; /* where each line begins; the first one at 0 */
     uint32_t num_lines, capacity_lines;
+    struct text_count *last; /* text_position keeps it */
 };
 
 struct position {
@@ -38,7 +45,10 @@ bool text_replace(struct text *text, struct span part, const char *bytes, size_t
 
 /* The offset of a position; a position after the end of its line is the end of the line. */
 uint32_t text_offset(const struct text *text, struct position position, bool is_utf8);
-/* The position of an offset; one inside of a character is that of the character. */
+/*
+ * The position of an offset; one inside of a character is that of the character. Positions in the
+ * order of the text take time linear in its length, in any lines. Of one thread at a time.
+ */
 struct position text_position(const struct text *text, uint32_t offset, bool is_utf8);
 
 /* The number of the line, from 0, that has the offset. */

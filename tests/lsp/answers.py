@@ -529,6 +529,12 @@ def check_format(client):
     edits = client.of("textDocument/formatting", URI, options=options)
     same(edited(client.texts[URI], edits), GRAPH, "a text formatted")
     same(line_of(edits[0]["range"]), 8, "the edit has the lines that differ")
+    windows = within(GRAPH, '    <constant name="grey" type="float"/>', '  <constant   type="float"  name="grey"></constant>').replace("\n", "\r\n")
+    open_text(client, windows)
+    edits = client.of("textDocument/formatting", URI, options=options)
+    same(edited(client.texts[URI], edits), GRAPH.replace("\n", "\r\n"), "a text with the line ends of Windows keeps them")
+    open_text(client, GRAPH.replace("\n", "\r\n"))
+    same(client.of("textDocument/formatting", URI, options=options), [], "and stays once it is formatted")
     open_text(client, "<materialx")
     same(client.of("textDocument/formatting", URI, options=options), None, "a text that is not XML")
 

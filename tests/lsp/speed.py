@@ -74,6 +74,16 @@ def type_letter(client, lines, letter, method, before):
     return (end - begin) * 1e3, end_spent - begin_spent
 
 
+def tokens_of(client, name, text):
+    """Milliseconds of the processor for the colours of a text."""
+    uri = f"file:///somewhere/{name}.mtlx"
+    client.open(uri, text)
+    client.diagnostics(uri)
+    begin = spent(client)
+    client.of("textDocument/semanticTokens/full", uri)
+    return spent(client) - begin
+
+
 text = '<?xml version="1.0"?>\n<materialx version="1.39">\n' + "".join(MATERIAL.format(n) for n in range(MATERIALS)) + "</materialx>\n"
 lines = {before: [(number, line.index(before) + len(before)) for number, line in enumerate(text.split("\n")) if before in line] for before, _ in TYPED}
 client = Client(MXGEN, None, textDocument={"completion": {"completionItem": {"snippetSupport": True}}})
@@ -94,5 +104,9 @@ for side, name in enumerate(("by the clock", "of the processor")):
               f"99 % {percentile(part, 0.99):.2f}, most {max(part):.2f}")
 worst = percentile([taken[1] for taken in times], 0.99)
 check(worst <= BOUND, f"99 % of keystrokes take {worst:.2f} ms of the processor; {BOUND} is the limit")
+constants = [f'<constant name="c{n}" type="float"><input name="value" type="float" value="0.5"/></constant>' for n in range(1500)]
+many, one = (tokens_of(client, name, f'<materialx version="1.39">{end.join(constants)}</materialx>') for name, end in (("many", "\n"), ("one", " ")))
+print(f"the colours of 1,500 lines take {many:.1f} ms of the processor, those of the same in one line {one:.1f}")
+check(one <= 3 * many + 10, "a long line takes as long as many short ones")
 check(client.end() == 0, "the server ends well")
 finish("lsp-speed")

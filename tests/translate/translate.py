@@ -229,6 +229,15 @@ def test_inputs_of_renderers():
         check(f"'{name}'" in said and "[translation-loss]" in said, f"{name} is told where it is lost: {said[:300]}")
 
 
+def test_coloured_opacity():
+    """The luminance counts, as the model draws it; a grey is exact."""
+    for model, name in (("open_pbr_surface", "geometry_opacity"), ("gltf_pbr", "alpha"), ("UsdPreviewSurface", "opacity")):
+        for colour, wanted in (("0, 1, 0", 0.6740818), ("0, 0, 1", 0.0536895), ("0.3, 0.3, 0.3", 0.3)):
+            root, _, _ = translate(flat("standard_surface", {"opacity": ("color3", colour)}), model, "an opacity")
+            found = values(root).get(name, [None])[0]
+            check(found is not None and abs(found - wanted) <= (0 if wanted == 0.3 else 1e-6), f"opacity {colour} is {found} as {name}")
+
+
 def test_spaces():
     inputs = {"base_color": ("color3", "0.5, 0.5, 0.5"), "metalness": ("float", "0.5")}
     text = f'<?xml version="1.0"?><materialx version="1.39" colorspace="srgb_texture">{flat("standard_surface", inputs)}</materialx>'
@@ -297,6 +306,7 @@ test_choices()
 test_losses()
 test_inputs_of_others()
 test_inputs_of_renderers()
+test_coloured_opacity()
 test_spaces()
 test_studio()
 test_files()
