@@ -97,11 +97,25 @@ static struct span word_at(const struct lsp_query *query)
     return word;
 }
 
-/* The end tag that is being written closes the innermost element that is open. */
+/* The innermost element that is open where an end tag begins. */
+static uint32_t open_at(const struct lsp_query *query, uint32_t end_tag)
+{
+    const char *bytes = query->text->bytes;
+    uint32_t found = MODEL_NONE;
+    for (uint32_t i = 0; i < query->model->num_elements; ++i) {
+        const struct model_element *element = &query->model->elements[i];
+        bool is_empty = element->tag_end >= 2 && bytes[element->tag_end - 2] == '/';
+        if (!element->is_comment && !is_empty && element->tag_end <= end_tag
+            && end_tag <= element->close)
+            found = i;
+    }
+    return found;
+}
+
 static void complete_end(struct completion *completion)
 {
     const struct lsp_query *query = &completion->query;
-    uint32_t open = completion->place.element;
+    uint32_t open = open_at(query, completion->replaced.start - 2);
     char name[QUERY_NAME], text[QUERY_NAME + 1];
     if (open == MODEL_NONE)
         return;

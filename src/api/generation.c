@@ -226,7 +226,7 @@ bool generation_start(struct generation *g)
     if (good) {
         g->options = options_for(g->result->target, g->desc.options, &g->result->object.arena,
                                  context_dialect(g->result->object.context, g->result->target));
-        bool has_names = generation_check_names(g), fits = generation_find_role(g);
+        bool fits = generation_find_role(g), has_names = generation_check_names(g);
         good = check_version(g) && fits && has_names;
     }
     g->element = g->desc.bindings ? element_of_stack(g)

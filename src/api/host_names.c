@@ -44,6 +44,8 @@ static const char *fault_of(const struct generation *g, const struct name_rules 
         return "FROM=TO, where TO is an identifier without '__' and 'gl_'";
     if (lang_syntax_is_reserved(g->result->target->syntax, pair->to, strlen(pair->to)))
         return "a name that is no word of the language";
+    if (strcmp(pair->to, g->role->entry) == 0)
+        return "a name that is not that of the shader's own function";
     for (uint32_t k = 0; k < i; k++)
         if (strcmp(rules->renamed[k].to, pair->to) == 0
             || strcmp(rules->renamed[k].from, pair->from) == 0)

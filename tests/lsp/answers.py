@@ -177,6 +177,7 @@ def check_completion(client):
     same(labels(client, within(GRAPH, '<input name="in1" type="color3" nodename="picture"/>', "<¦")),
          ["input in1", "input", "output", "token"], "elements in a node")
     same(labels(client, within(GRAPH, "</nodegraph>", "</¦")), ["nodegraph"], "an end tag")
+    same(labels(client, GRAPH.split("</nodegraph>")[0] + "</¦"), ["nodegraph"], "an end tag at the end of what is written")
     same(labels(client, within(GRAPH, 'version="1.39"', 'version="¦"')), ["1.39"], "versions")
     many = within(GRAPH, "</materialx>", "".join(f'<noise2d name="n{n}" type="float"/>' for n in range(500)) + '<add name="a" type="float"><input name="in1" type="float" nodename="¦"/></add></materialx>')
     at = open_text(client, many)
