@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /* From a name to its element and back: definition, references, highlights, rename. */
+#include "lsp/diagnostics.h"
 #include "lsp/family.h"
 #include "lsp/handlers.h"
 #include "lsp/references.h"
@@ -14,6 +15,17 @@ static struct span name_of(const struct lsp_query *query, uint32_t element)
 {
     struct span name = query_value(query, element, "name");
     return name.start < name.end ? name : query->model->elements[element].name;
+}
+
+/* A query of a document whose included files are known: the first one waits for its check. */
+static bool query_files(struct lsp_session *session, const json_t *params, struct lsp_query *out,
+                        struct lsp_error *error)
+{
+    if (!lsp_query(session, params, out, error))
+        return false;
+    if (!out->document->parsed)
+        diagnostics_settle(session, out->document);
+    return true;
 }
 
 /* The place of an element of another file. */
@@ -61,7 +73,7 @@ json_t *handle_definition(struct lsp_session *session, const json_t *params,
     struct lsp_query query;
     struct span name;
     mxg_element_info info;
-    if (!lsp_query(session, params, &query, error))
+    if (!query_files(session, params, &query, error))
         return NULL;
     uint32_t target = references_target(&query, &name);
     struct place place = query_place(&query);
@@ -199,7 +211,7 @@ json_t *handle_references(struct lsp_session *session, const json_t *params,
 {
     struct lsp_query query, in;
     struct aim aim;
-    if (!lsp_query(session, params, &query, error))
+    if (!query_files(session, params, &query, error))
         return NULL;
     const json_t *context = json_object_get(params, "context");
     struct places places = {&aim.query, json_array(), make_location, NULL};
@@ -217,7 +229,7 @@ json_t *handle_highlight(struct lsp_session *session, const json_t *params, stru
 {
     struct lsp_query query;
     struct span name;
-    if (!lsp_query(session, params, &query, error))
+    if (!query_files(session, params, &query, error))
         return NULL;
     uint32_t target = references_target(&query, &name);
     struct places places = {&query, json_array(), make_highlight, NULL};
@@ -258,7 +270,7 @@ json_t *handle_prepare_rename(struct lsp_session *session, const json_t *params,
     struct lsp_query query;
     struct aim aim;
     json_t *result = NULL;
-    if (!lsp_query(session, params, &query, error))
+    if (!query_files(session, params, &query, error))
         return NULL;
     if (find_aim(&query, &aim) && can_rename(&aim.query, aim.target)
         && !family_uses_input(&aim.family, &aim.query, aim.target)) {
@@ -321,7 +333,7 @@ json_t *handle_rename(struct lsp_session *session, const json_t *params, struct 
     struct lsp_query query;
     struct aim aim;
     const char *new_name = json_text_of(params, "newName");
-    if (!lsp_query(session, params, &query, error))
+    if (!query_files(session, params, &query, error))
         return NULL;
     const char *fault = !find_aim(&query, &aim) || !can_rename(&aim.query, aim.target)
                             ? "there is no name here that can change"
