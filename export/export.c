@@ -96,7 +96,7 @@ struct exporting {
     struct scratch scratch; /* of the flat document */
     const mxg_document *source;
     const char *path; /* of the source */
-    struct stage stage;
+    struct dressed_site stage;
 };
 
 /* Formats lack objects to look at without a mesh. */
@@ -273,17 +273,18 @@ static bool parse(struct exporting *exporting)
 static mxg_document *load(struct exporting *exporting)
 {
     struct cli *cli = &exporting->baking.cli;
-    struct stage *stage = &exporting->stage;
+    struct dressed_site *stage = &exporting->stage;
     const struct export_options *options = &exporting->options;
     const char *path = cli->parser.inputs.len ? cli->parser.inputs.items[0] : NULL;
     mxg_document *own = path ? cli_load(cli, path) : NULL;
     if (!options->stage || (path && !own))
         return own;
-    mxg_document *whole = stage_open(stage, cli, options->stage)
+    mxg_document *whole = dressed_site_open(stage, cli, options->stage)
                               ? scene_file_document(cli, own, stage->site.scene)
                               : NULL;
     bool is_bound =
-        whole && stage_bind(stage, cli, whole, options->look, exporting->format->has_variants);
+        whole
+        && dressed_site_bind(stage, cli, whole, options->look, exporting->format->has_variants);
     mxg_document_destroy(own);
     if (is_bound)
         return whole;
@@ -317,7 +318,7 @@ static void run(struct exporting *exporting)
     mxg_document_destroy(kept);
     mxg_document_destroy(translated);
     mxg_document_destroy(source);
-    stage_close(&exporting->stage);
+    dressed_site_close(&exporting->stage);
     bake_finish(baking);
 }
 

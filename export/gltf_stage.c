@@ -54,7 +54,7 @@ static void add_primitive(struct gltf *gltf, json_t *node, json_t *primitive)
 
 static void add_variants(struct gltf *gltf)
 {
-    const struct stage *stage = gltf->writing->stage;
+    const struct dressed_site *stage = gltf->writing->stage;
     json_t *variants =
         gltf_array(gltf_object(gltf_object(gltf->root, "extensions"), extension), "variants");
     gltf_add(gltf_array(gltf->root, "extensionsUsed"), json_string(extension));
@@ -66,7 +66,7 @@ static void add_variants(struct gltf *gltf)
 static size_t material_of(const struct gltf *gltf, size_t look, uint32_t object)
 {
     return flat_find_material(gltf->flat,
-                              stage_dress(gltf->writing->stage, look, object)->material);
+                              dressed_site_dress(gltf->writing->stage, look, object)->material);
 }
 
 /* Adds a look to the mapping of its material. */
@@ -86,7 +86,7 @@ static void map(json_t *mappings, size_t material, size_t look)
 /* A variant changes materials alone. */
 static void tell_hidden(const struct gltf *gltf, uint32_t object, size_t look)
 {
-    const struct stage *stage = gltf->writing->stage;
+    const struct dressed_site *stage = gltf->writing->stage;
     report_warning(gltf->flat->report, "export-loss",
                    "'%s/%s' (%s) is not in the file as it is: the look hides it, and a variant "
                    "hides nothing",
@@ -96,12 +96,12 @@ static void tell_hidden(const struct gltf *gltf, uint32_t object, size_t look)
 /* Sets the material of a primitive, and those of its variants. */
 static void dress(struct gltf *gltf, uint32_t object, json_t *primitive)
 {
-    const struct stage *stage = gltf->writing->stage;
+    const struct dressed_site *stage = gltf->writing->stage;
     const size_t none = gltf->flat->num_materials;
     json_t *mappings = json_array();
     size_t first = none;
     for (size_t i = stage->num_looks; i-- > 0;)
-        if (!stage_dress(stage, i, object)->is_hidden)
+        if (!dressed_site_dress(stage, i, object)->is_hidden)
             first = material_of(gltf, i, object);
         else
             tell_hidden(gltf, object, i);
@@ -132,12 +132,12 @@ static bool needs_tangents(const struct gltf *gltf, uint32_t object, const bool 
 
 void gltf_add_stage(struct gltf *gltf, const bool *tangents)
 {
-    const struct stage *stage = gltf->writing->stage;
+    const struct dressed_site *stage = gltf->writing->stage;
     struct name_table nodes = {0};
     if (stage->num_looks > 1)
         add_variants(gltf);
     for (uint32_t i = 0; i < stage->site.num_objects; ++i) {
-        if (!stage_shows(stage, i))
+        if (!dressed_site_shows(stage, i))
             continue;
         const struct scene_object *object = &stage->site.objects[i].object;
         json_t *primitive = gltf_make_primitive(gltf, object, needs_tangents(gltf, i, tangents));

@@ -102,9 +102,9 @@ static void put_samples(struct usd *usd, char *const *paths, struct name_table *
 /* The objects that the look shows. A material of another model is none of the file. */
 static void put_stage(struct usd *usd, char *const *paths, struct name_table *names)
 {
-    const struct stage *stage = usd->writing->stage;
+    const struct dressed_site *stage = usd->writing->stage;
     for (uint32_t i = 0; i < stage->site.num_objects; ++i) {
-        const struct stage_dress *dress = stage_dress(stage, 0, i);
+        const struct site_dress *dress = dressed_site_dress(stage, 0, i);
         const struct scene_object *object = write_object(usd->writing, i);
         if (dress->is_hidden)
             continue;

@@ -4,7 +4,7 @@
 #define MXG_EXPORT_WRITE_H
 
 #include "export/flat.h"
-#include "export/stage.h"
+#include "export/dressed_site.h"
 #include "program/batch.h"
 #include "program/outputs.h"
 #include "render/bake_surface.h"
@@ -13,7 +13,7 @@ struct writing {
     struct cli *cli;
     const char *path;                   /* of the file */
     const struct bake_surface *surface; /* whose objects have each material; NULL: */
-    const struct stage *stage;          /* its objects have materials of their own */
+    const struct dressed_site *stage;   /* its objects have materials of their own */
     const mxg_document *source;         /* the document of the user, with its graphs */
     const char *source_path;
     struct batch files;

@@ -80,10 +80,16 @@ ir_ref mdl_mixed(struct mdl_tree *t, ir_ref bg, ir_ref fg, ir_ref mix)
 
 ir_ref mdl_attenuated(struct mdl_tree *t, ir_ref base, const ir_ref *through)
 {
+    static const char *const names[MDL_ANGLES] = {"passed_at_0_degrees",  "passed_at_15_degrees",
+                                                  "passed_at_30_degrees", "passed_at_45_degrees",
+                                                  "passed_at_60_degrees", "passed_at_75_degrees",
+                                                  "passed_at_90_degrees"};
     ir_ref args[MDL_ANGLES + 1];
     bool all_white = true, all_black = true;
     for (unsigned i = 0; i < MDL_ANGLES; i++) {
         args[i] = through[i];
+        ir_suggest_name(t->graph, args[i], str_intern_z(t->shader->strings, names[i]),
+                        IR_NAME_ROLE);
         all_white &= ir_const_is(t->graph, through[i], 1.0f);
         all_black &= ir_const_is(t->graph, through[i], 0.0f);
     }

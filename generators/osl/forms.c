@@ -571,6 +571,12 @@ static bool mixes_kinds(const struct osl *osl, const struct lang_use *use)
     return false;
 }
 
+/* True if stdosl.h has the function for vectors alone, to which oslc turns normals and points. */
+static bool takes_vectors(enum ir_op op)
+{
+    return op == IR_CROSS || op == IR_REFLECT || op == IR_REFRACT || op == IR_FACEFORWARD;
+}
+
 /*
  * The type to which a form must cast an operand, so that calls do not mix colours and vectors;
  * NULL: no cast.
@@ -588,6 +594,8 @@ static const char *cast_of(const struct osl *osl, const struct lang_use *use, un
         return NULL;
     if (is_color)
         return have != OSL_ANY && have != OSL_COLOR ? "color" : NULL;
+    if (takes_vectors(use->op))
+        return have == OSL_COLOR ? "vector" : NULL;
     bool is_ambiguous = use->type == IR_TYPE_VEC3 && mixes_kinds(osl, use);
     return is_ambiguous && is_no_vector(osl, use, index) ? "vector" : NULL;
 }

@@ -260,7 +260,9 @@ static const char *stream_value(const char *name)
 static void write_fill(const struct shader *surface, const char *instance, struct text *out)
 {
     static const char prefix[] = "geomprop_";
-    text_str(out, "void mx_fill(MxClosure closure, vec3 point, vec3 top, float open)\n{\n");
+    text_str(out,
+             "// Gives surface() a closure at a point, below a top with this normal and opacity.\n"
+             "void mx_fill(MxClosure closure, vec3 point, vec3 top, float open)\n{\n");
     for (EACH_STREAM(i, surface)) {
         const struct shader_variable *v = shader_interface_variable(surface, i);
         const char *name = str_text(surface->strings, v->name), *value = stream_value(name);

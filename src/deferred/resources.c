@@ -256,7 +256,8 @@ void deferred_declare(enum deferred_binding binding, const struct deferred_layou
 
 /* Passes call these to read and to write a buffer; passes/buffers.glsl has them for programs. */
 static const char *const readers[NUM_RESOURCES] = {
-    [RESOURCE_TILES] = "uint mx_tile_at(uint i)\n{\n    return mx_tile[i];\n}\n",
+    [RESOURCE_TILES] = "// The tile number i of the list of the pass.\nuint mx_tile_at(uint "
+                       "i)\n{\n    return mx_tile[i];\n}\n",
     [RESOURCE_PAYLOADS] = "MxPayload mx_payload_at(uint i)\n{\n    return mx_payloads[i];\n}\n",
     [RESOURCE_RAYS] = "MxRay mx_ray_at(uint i)\n{\n    return mx_rays[i];\n}\n",
 };

@@ -313,7 +313,8 @@ static void store_leaf(struct shader *shader, const struct closure_leaf *leaf, b
 }
 
 /* Outputs of a program are those of the shader. finished: the result of mx_finish_closures. */
-static const char stored_word[] = "uint mx_stored_word(int finished, int index)\n{\n"
+static const char stored_word[] = "// A word of the targets, after the closures.\n"
+                                  "uint mx_stored_word(int finished, int index)\n{\n"
                                   "    return index == 0 ? mx_word0 : index == 1 ? mx_word1 "
                                   ": mx_word2;\n}\n";
 

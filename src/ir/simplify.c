@@ -147,6 +147,9 @@ static ir_ref simplify_swizzle(struct ir_graph *graph, ir_type_id type, uint32_t
     union ir_word words[4];
     for (unsigned i = 0; i < count; i++) {
         const struct ir_node *node = ir_get(graph, list[i].source);
+        if (node->op == IR_NEG && count == 1) /* a sign is cheaper on a part */
+            return ir_op1(graph, IR_NEG,
+                          ir_component(graph, ir_arg(graph, list[i].source, 0), list[i].index));
         if (node->op != IR_CONST)
             return join(graph, type, list, count);
         words[i] = graph->words.items[node->attr];

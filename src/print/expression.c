@@ -249,6 +249,10 @@ static void print_formed(struct printer *p, const struct lang_pieces *form,
                          enum lang_precedence least)
 {
     bool parenthesised = form->precedence < least;
+    if (lang_is_operand(form)) {
+        print_expression(p, operands[0], least);
+        return;
+    }
     if (parenthesised)
         text_char(p->out, '(');
     print_form(p, form, node->type, operands);

@@ -169,6 +169,14 @@ struct lang_pieces {
     struct text_word rest; /* characters after the last operand */
 };
 
+/* True for the form "$0", whose text is that of its operand, with parentheses where that needs
+ * them. */
+static inline bool lang_is_operand(const struct lang_pieces *form)
+{
+    return form->num == 1 && !form->pieces[0].before.len && !form->rest.len
+           && form->pieces[0].index != LANG_PIECE_TYPE;
+}
+
 struct lang_style {
     const struct lang_syntax *syntax;
     struct arena *arena;

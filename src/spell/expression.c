@@ -280,9 +280,13 @@ static void write_form(struct spell *spell, const struct ir_node *node,
 {
     assert(form->text);
     bool parentheses = (enum lang_precedence)form->precedence < least;
+    const ir_ref *args = spell->shader->graph->args.items + node->first_arg;
+    if (lang_is_operand(form)) {
+        write_operand(spell, args[0], least);
+        return;
+    }
     if (parentheses)
         text_char(spell->out, '(');
-    const ir_ref *args = spell->shader->graph->args.items + node->first_arg;
     const struct lang_piece *piece = form->pieces, *end = piece + form->num;
     for (; piece < end; piece++) {
         if (piece->before.len)

@@ -204,16 +204,35 @@ static struct spell_name name_by_operand(struct spell *spell, ir_ref ref)
     return verb ? joined(spell, word(verb), "_", operand) : (struct spell_name){0};
 }
 
+/* "ggx_lobe" of the struct mx_GgxLobe. */
+static struct spell_name struct_name(const struct spell *spell, str_id id)
+{
+    struct spell_name type = bare_name(spell, id);
+    struct text name;
+    text_init(&name, spell->scratch);
+    for (size_t i = 0; i < type.len; i++) {
+        bool is_capital = isupper((unsigned char)type.text[i]) != 0;
+        text_str(&name, i && is_capital ? "_" : "");
+        text_char(&name, (char)tolower((unsigned char)type.text[i]));
+    }
+    return (struct spell_name){text_cstr(&name), name.len};
+}
+
 static struct spell_name name_by_operation(const struct spell *spell, ir_ref ref)
 {
-    const struct ir_node *node = ir_get(spell->shader->graph, ref);
+    const struct ir_graph *graph = spell->shader->graph;
+    const struct ir_user_type *user_types = graph->user_types.items;
+    const struct ir_node *node = ir_get(graph, ref);
     switch (node->op) {
     case IR_CALL: {
         uint32_t id = shader_callee(spell->shader, ref);
         return bare_name(spell, lang_function(spell->shader->unit, id, NULL)->name);
     }
-    case IR_GRAPH_CALL:
-        return bare_name(spell, spell->shader->graph->functions.items[node->attr].name);
+    case IR_GRAPH_CALL: return bare_name(spell, graph->functions.items[node->attr].name);
+    case IR_CONSTRUCT:
+        if (node->type < IR_TYPE_FIRST_USER || !user_types[node->type - IR_TYPE_FIRST_USER].name)
+            return word(nouns[IR_CONSTRUCT].alone);
+        return struct_name(spell, user_types[node->type - IR_TYPE_FIRST_USER].name);
     default: return word(nouns[node->op].alone ? nouns[node->op].alone : "value");
     }
 }

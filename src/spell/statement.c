@@ -21,6 +21,15 @@ static void write_assignment(struct spell *spell, unsigned indent, struct spell_
     text_mem(spell->out, ";\n", 2);
 }
 
+/* "color += light;", or "pick -= share;" for the sum with a negative value. */
+static void write_accumulation(struct spell *spell, unsigned indent, const struct effect *effect)
+{
+    const struct ir_graph *graph = spell->shader->graph;
+    bool subtracts = ir_get(graph, effect->value)->op == IR_NEG && !spell->local_of[effect->value];
+    write_assignment(spell, indent, spell->locals[effect->index], subtracts ? " -= " : " += ",
+                     subtracts ? ir_arg(graph, effect->value, 0) : effect->value);
+}
+
 /* ---- Locals ---- */
 
 /* Nodes of several layers of a stack often have one name: then the slot tells them apart. */
@@ -543,9 +552,7 @@ void spell_effect(struct spell *spell, unsigned indent, const struct effect *eff
     switch ((enum effect_kind)effect->kind) {
     case EFFECT_LET: write_let(spell, indent, effect->value); break;
     case EFFECT_VAR: write_variable(spell, indent, effect); break;
-    case EFFECT_ACCUMULATE:
-        write_assignment(spell, indent, spell->locals[effect->index], " += ", effect->value);
-        break;
+    case EFFECT_ACCUMULATE: write_accumulation(spell, indent, effect); break;
     case EFFECT_ASSIGN:
         write_assignment(spell, indent, spell->locals[effect->index], " = ", effect->value);
         break;

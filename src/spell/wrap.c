@@ -53,11 +53,11 @@ static const uint8_t meanings[256] = {
 /*
  * Finds the break of [from, end), which starts at column `column`. Among the places within
  * MAX_COLUMNS it is the last one with the fewest open brackets; where there is none, it is behind
- * the sign of an assignment. NULL: there is no such place either.
+ * the sign of an assignment, or before MIN_COLUMNS. NULL: there is no such place either.
  */
 static const char *find_break(const char *from, const char *end, size_t column)
 {
-    const char *best = NULL, *assigned = NULL,
+    const char *best = NULL, *assigned = NULL, *early = NULL,
                *first = column < MIN_COLUMNS ? from + (MIN_COLUMNS - column) : from;
     size_t room = column < MAX_COLUMNS ? MAX_COLUMNS - column + 1 : 0;
     const char *stop = (size_t)(end - from) < room ? end : from + room;
@@ -73,13 +73,15 @@ static const char *find_break(const char *from, const char *end, size_t column)
             return NULL;
         else if (meaning == SPACE && at > from + 1 && at[-1] == '=' && at[-2] == ' ')
             assigned = at;
+        else if (meaning == SPACE && at < first && at > from && may_break(at, end))
+            early = at;
         else if (meaning == SPACE && at >= first && at > from && (!best || depth <= best_depth)
                  && may_break(at, end)) {
             best = at;
             best_depth = depth;
         }
     }
-    return best ? best : assigned;
+    return best ? best : assigned ? assigned : early;
 }
 
 /* Copies the text before `to` that is not copied yet. */

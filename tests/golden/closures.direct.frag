@@ -86,7 +86,7 @@ void main()
     float ggx_compensation = (1.0 / albedo.x - 1.0) * 0.079748526 + 1.0;
     vec3 facing = faceforward(N, -V, N);
     float ggx_masking = sqrt(cos_v * cos_v * 0.9984 + 0.0016);
-    mx_GgxLobe coat_vector = mx_GgxLobe(facing, cos_v, vec3(0.0), vec2(0.04), ggx_masking);
+    mx_GgxLobe coat_ggx_lobe = mx_GgxLobe(facing, cos_v, vec3(0.0), vec2(0.04), ggx_masking);
     vec3 paint_product = (1.0 - mix(0.03373595, 1.0, albedo.y) * albedo.x * ggx_compensation) * 0.75 * 0.31830987
         * vec3(0.6, 0.1, 0.05);
     // from the last light, so that drivers do not unroll the loop
@@ -100,7 +100,7 @@ void main()
         float cos_l = max(dot(L, facing), 1e-8);
         vec3 paint_response = paint_product
             * (cos_l * (max(v_dot_l - cos_v * cos_l, 0.0) * 0.225 / max(cos_l, cos_v) + 0.89285713));
-        vec3 sum = coat_product * mx_ggx_light(coat_vector, V, L) + paint_response;
+        vec3 sum = coat_product * mx_ggx_light(coat_ggx_lobe, V, L) + paint_response;
         color += u_lightData[i].color * ((u_lightData[i].type == 1 ? light_intensity : 0.0) * sum);
     }
     out1 = vec4(color, 1.0);

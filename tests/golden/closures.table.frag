@@ -120,7 +120,7 @@ void main()
     float scale = (1.0 / albedo.x - 1.0) * 0.079748526 + 1.0;
     vec3 h = faceforward(N, -V, N);
     float ggx_masking = sqrt(cos_v * cos_v * 0.9984 + 0.0016);
-    mx_GgxLobe coat_vector = mx_GgxLobe(h, cos_v, vec3(0.0), vec2(0.04), ggx_masking);
+    mx_GgxLobe coat_ggx_lobe = mx_GgxLobe(h, cos_v, vec3(0.0), vec2(0.04), ggx_masking);
     float paint_weight = (1.0 - mix(0.03373595, 1.0, albedo.y) * albedo.x * scale) * 0.75;
     vec3 paint_product = paint_weight * 0.31830987 * vec3(0.6, 0.1, 0.05);
     // from the last light, so that drivers do not unroll the loop
@@ -151,7 +151,8 @@ void main()
         float cos_l = max(dot(L, h), 1e-8);
         vec3 paint_response = paint_product
             * (cos_l * (max(v_dot_l - cos_v * cos_l, 0.0) * 0.225 / max(cos_l, cos_v) + 0.89285713));
-        color += u_lightData[i].color * (intensity * (coat_product * mx_ggx_light(coat_vector, V, L) + paint_response));
+        color += u_lightData[i].color * (intensity
+            * (coat_product * mx_ggx_light(coat_ggx_lobe, V, L) + paint_response));
     }
     // environment: coat, paint
     vec3 paint_product_2 = textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * h)), 0.0).xyz

@@ -125,7 +125,7 @@ void main()
     float scale = (1.0 / coat_albedo.x - 1.0) * 0.079748526 + 1.0;
     vec3 h = faceforward(N, -V, N);
     float ggx_masking = sqrt(cos_v * cos_v * 0.9984 + 0.0016);
-    mx_GgxLobe coat_vector = mx_GgxLobe(h, cos_v, vec3(0.0), vec2(0.04), ggx_masking);
+    mx_GgxLobe coat_ggx_lobe = mx_GgxLobe(h, cos_v, vec3(0.0), vec2(0.04), ggx_masking);
     float coat_throughput = 1.0 - mix(0.03373595, 1.0, coat_albedo.y) * coat_albedo.x * scale;
     // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 1) - 1; i >= 0; --i) {
@@ -141,7 +141,7 @@ void main()
         vec3 paint_response = coat_throughput
             * (1.0 - mix(0.03373595, 1.0, coat_albedo_2.y) * coat_albedo_2.x * ggx_compensation) * 0.75 * paint_product
             * vec3(0.19098593, 0.03183099, 0.015915494);
-        vec3 sum = coat_product * mx_ggx_light(coat_vector, V, L) + paint_response;
+        vec3 sum = coat_product * mx_ggx_light(coat_ggx_lobe, V, L) + paint_response;
         color += u_lightData[i].color * ((u_lightData[i].type == 1 ? light_intensity : 0.0) * sum);
     }
     // environment: coat, paint

@@ -19,12 +19,13 @@ same() {
 }
 
 run_line() {
-    local document=$1 name=$2 files=frag target=glsl interface=complete option options=()
+    local document=$1 name=$2 files=frag target=glsl role=raster interface=complete option options=()
     shift 2
     for option in "$@"; do
         case $option in
             files=*) files=${option#*=} ;;
             target=*) target=${option#*=} ;;
+            role=*) role=${option#*=} options+=("--$option") ;;
             interface=*) interface=${option#*=} ;;
             *) options+=("--$option") ;;
         esac
@@ -37,6 +38,7 @@ run_line() {
             local element=${file##*/}
             [ ${#made[@]} -eq 1 ] && element= || element=.${element%."$ending"}
             kept[$title$element.$ending]=1
+            written[$ending.$role]=1
             check "$title$element.$ending stays as it is" same "$golden/$title$element.$ending" "$file"
             [ -z "$update" ] || cat check.log
         done
@@ -46,7 +48,7 @@ run_line() {
     if grep -q '^note: .* no compiler' check.log; then missing[$target]=1; fi
 }
 
-declare -A kept missing
+declare -A kept written missing
 cp -R "$golden"/*.mtlx "$golden/parts" .
 for document in *.mtlx; do
     while read -r line; do
@@ -65,6 +67,17 @@ targets=$("$mxgen" --help | sed -n '/^Targets:/,$ s/^  \([a-z][^ ]*\) .*/\1/p')
 check 'there are targets' test -n "$targets"
 for target in $targets; do # the shading models in every language
     check "models.mtlx has a run '$target'" ls "$golden/models.$target".standard_surface.*
+done
+mapfile -t roles < <("$mxgen" --help all | sed -n 's/^ *--role \([a-z|]*\)$/\1/p' | tr '|' '\n')
+check 'there are roles' test ${#roles[@]} -gt 5
+for target in $targets; do # each role in every language; dialects have one ending
+    for role in "${roles[@]}"; do
+        "$mxgen" roles.mtlx --target "$target" --role "$role" --element Cup --interface reduced -q -o roles.d >roles.log 2>&1 || continue
+        for file in roles.d/Cup.{frag*,ps.hlsl}; do
+            [ ! -e "$file" ] || check "a run makes a file .${file#roles.d/Cup.} for the role $role" test -n "${written[${file#roles.d/Cup.}.$role]:-}"
+        done
+        rm -rf roles.d
+    done
 done
 for file in "$golden"/*.vert "$golden"/*.frag "$golden"/*.comp "$golden"/*.{hlsl,slang,metal,wgsl,osl,oslgroup,mdl,json}; do # what no run makes any more
     [ -n "${kept[${file##*/}]:-}" ] && continue

@@ -99,14 +99,14 @@ void main()
     vec3 scaled_ggx_compensation = ((1.0 / mx_ggx_albedo_fit(cosine).x - 1.0) * vec3(0.94687766, 0.78681135, 0.40318817)
         + vec3(1.0)) * 0.15;
     float ggx_masking = sqrt(cosine * cosine * 0.9975 + 0.0025);
-    mx_GgxLobe metal_vector = mx_GgxLobe(faceforward(N, -V, N), cosine, vec3(0.0), vec2(0.05), ggx_masking);
+    mx_GgxLobe metal_ggx_lobe = mx_GgxLobe(faceforward(N, -V, N), cosine, vec3(0.0), vec2(0.05), ggx_masking);
     // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 1) - 1; i >= 0; --i) {
         // metal
         float light_intensity = u_lightData[i].intensity;
         vec3 fresnel = mx_fresnel_conductor(sqrt(clamp(dot(-u_lightData[i].direction, V) * 0.5 + 0.500001, 0.0, 1.0)));
         vec3 metal_response = scaled_ggx_compensation
-            * (fresnel * mx_ggx_light(metal_vector, V, -u_lightData[i].direction));
+            * (fresnel * mx_ggx_light(metal_ggx_lobe, V, -u_lightData[i].direction));
         color += u_lightData[i].color * ((u_lightData[i].type == 1 ? light_intensity : 0.0) * metal_response);
     }
     out1 = vec4(color, 1.0);

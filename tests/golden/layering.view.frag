@@ -100,7 +100,7 @@ void main()
     vec3 scaled_ggx_compensation = ((1.0 / mx_ggx_albedo_fit(cos_v).x - 1.0) * vec3(0.94687766, 0.78681135, 0.40318817)
         + vec3(1.0)) * 0.15;
     float ggx_masking = sqrt(cos_v * cos_v * 0.9975 + 0.0025);
-    mx_GgxLobe metal_vector = mx_GgxLobe(facing, cos_v, vec3(0.0), vec2(0.05), ggx_masking);
+    mx_GgxLobe metal_ggx_lobe = mx_GgxLobe(facing, cos_v, vec3(0.0), vec2(0.05), ggx_masking);
     // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 1) - 1; i >= 0; --i) {
         // metal, red, blue
@@ -108,7 +108,7 @@ void main()
         vec3 L = -u_lightData[i].direction;
         float cos_l = max(dot(L, facing), 1e-8);
         vec3 fresnel = mx_fresnel_conductor(sqrt(clamp(dot(L, V) * 0.5 + 0.500001, 0.0, 1.0)));
-        vec3 metal_response = scaled_ggx_compensation * (fresnel * mx_ggx_light(metal_vector, V, L));
+        vec3 metal_response = scaled_ggx_compensation * (fresnel * mx_ggx_light(metal_ggx_lobe, V, L));
         vec3 sum = cos_l * vec3(0.007957747, 0.015915494, 0.09549297)
             + (metal_response + cos_l * vec3(0.066845074, 0.011140846, 0.005570423));
         color += u_lightData[i].color * ((u_lightData[i].type == 1 ? light_intensity : 0.0) * sum);

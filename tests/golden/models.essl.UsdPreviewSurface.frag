@@ -328,7 +328,7 @@ void main()
     vec3 diffuse_product = SR_UsdPreviewSurface_diffuseColor * (body_weight * diffuse_weight * 0.31830987);
     float coating_ggx_masking = sqrt(coat_roughness * coat_roughness + (1.0 - coat_roughness * coat_roughness)
         * (cos_v * cos_v));
-    mx_GgxLobe coating_vector = mx_GgxLobe(N, cos_v, vec3(0.0), vec2(coat_roughness), coating_ggx_masking);
+    mx_GgxLobe coating_ggx_lobe = mx_GgxLobe(N, cos_v, vec3(0.0), vec2(coat_roughness), coating_ggx_masking);
     vec3 metal_ior, metal_extinction;
     mx_artistic_ior(SR_UsdPreviewSurface_diffuseColor, SR_UsdPreviewSurface_diffuseColor, metal_ior, metal_extinction);
     vec3 re = metal_ior * metal_ior - metal_extinction * metal_extinction;
@@ -337,7 +337,7 @@ void main()
         * (substrate_metal_weight * coating_throughput);
     float ggx_masking = sqrt(specular_roughness * specular_roughness + cos_v * cos_v
         * (1.0 - specular_roughness * specular_roughness));
-    mx_GgxLobe vector = mx_GgxLobe(N, cos_v, vec3(0.0), vec2(specular_roughness), ggx_masking);
+    mx_GgxLobe ggx_lobe = mx_GgxLobe(N, cos_v, vec3(0.0), vec2(specular_roughness), ggx_masking);
     bool reflection_visible = 1.0 - substrate_metal_weight > 0.0;
     vec3 reflection_product = reflection_scale * (coating_throughput * (1.0 - substrate_metal_weight));
     // from the last light, so that drivers do not unroll the loop
@@ -368,12 +368,12 @@ void main()
         // coating
         float cosine = sqrt(clamp(dot(V, L) * 0.5 + 0.500001, 0.0, 1.0));
         if (coating_weight > 0.0) {
-            float coating_product = mx_ggx_light(coating_vector, V, L) * (coating_weight * coating_scale);
+            float coating_product = mx_ggx_light(coating_ggx_lobe, V, L) * (coating_weight * coating_scale);
             color += light_color * (intensity
                 * (mx_fresnel_schlick(cosine, vec3(coating_fresnel_f0), vec3(1.0)) * coating_product));
         }
         // metal
-        float ggx_light = mx_ggx_light(vector, V, L);
+        float ggx_light = mx_ggx_light(ggx_lobe, V, L);
         if (substrate_metal_weight > 0.0)
             color += light_color * (intensity * (metal_product * (mx_fresnel_conductor(cosine, re, im) * ggx_light)));
         // reflection

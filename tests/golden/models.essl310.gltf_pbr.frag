@@ -452,7 +452,7 @@ void main()
     float diffuse_weight = (1.0 - metal_weight) * (1.0 - clamped_transmission);
     vec3 diffuse_product = SR_gltf_pbr_base_color * (body_weight * diffuse_weight * 0.31830987);
     float ggx_masking = sqrt(coat_lobe * coat_lobe + (1.0 - coat_lobe * coat_lobe) * (cos_v * cos_v));
-    mx_GgxLobe coating_vector = mx_GgxLobe(Nf, cos_v, vec3(0.0), vec2(coat_lobe), ggx_masking);
+    mx_GgxLobe coating_ggx_lobe = mx_GgxLobe(Nf, cos_v, vec3(0.0), vec2(coat_lobe), ggx_masking);
     float s = 1.0 / max(sheen_rough, 0.005);
     vec3 fuzz_product = SR_gltf_pbr_sheen_color / sheen_weight * (fuzz_weight * coating_throughput);
     bool metal_film_visible = clamped_iridescence * metal_weight > 0.0;
@@ -502,7 +502,7 @@ void main()
         float cosine = sqrt(clamp(v_dot_l * 0.5 + 0.500001, 0.0, 1.0));
         if (coating_weight > 0.0) {
             float coating_product = mx_fresnel_permittivity(cosine, 2.25) * (coating_weight * coating_scale);
-            color += light_color * (intensity * (mx_ggx_light(coating_vector, V, L) * coating_product));
+            color += light_color * (intensity * (mx_ggx_light(coating_ggx_lobe, V, L) * coating_product));
         }
         // fuzz
         if (fuzz_weight > 0.0) {

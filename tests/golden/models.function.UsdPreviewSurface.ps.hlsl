@@ -267,7 +267,7 @@ Surface surface(float3 positionWorld, float3 normalWorld)
     float scale = (1.0 / albedo.x - 1.0) * 0.08571429 + 1.0;
     float3 N = faceforward(shading_normal, -V, shading_normal);
     float ggx_masking = sqrt(cos_v * cos_v * 0.9375 + 0.0625);
-    mx_GgxLobe reflection_vector = make_mx_GgxLobe(N, cos_v, float3(0.0, 0.0, 0.0), float2(0.25, 0.25), ggx_masking);
+    mx_GgxLobe reflection_ggx_lobe = make_mx_GgxLobe(N, cos_v, float3(0.0, 0.0, 0.0), float2(0.25, 0.25), ggx_masking);
     float reflection_throughput = 1.0 - dot((float3)(lerp(0.04, 1.0, albedo.y) * albedo.x * scale),
         float3(0.33333334, 0.33333334, 0.33333334));
     float diffuse_product = reflection_throughput * 0.31830987 * 0.18;
@@ -277,7 +277,7 @@ Surface surface(float3 positionWorld, float3 normalWorld)
         float3 light_L, light_radiance;
         mxg_light(i, positionWorld, light_L, light_radiance);
         float3 reflection_product = scale * mx_fresnel_schlick(sqrt(clamp(dot(V, light_L) * 0.5 + 0.500001, 0.0, 1.0)));
-        float3 reflection_response = reflection_product * mx_ggx_light(reflection_vector, V, light_L);
+        float3 reflection_response = reflection_product * mx_ggx_light(reflection_ggx_lobe, V, light_L);
         color += light_radiance * (reflection_response + max(dot(light_L, N), 1e-8) * diffuse_product);
     }
     // environment: diffuse

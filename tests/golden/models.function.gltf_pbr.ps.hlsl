@@ -260,7 +260,7 @@ Surface surface(float3 positionWorld, float3 normalWorld)
     // SR_gltf_pbr
     float cosine = max(abs(dot(axis, V)), 1e-8);
     float scale = 1.0 / mx_ggx_albedo_fit(cosine).x;
-    mx_GgxLobe metal_bare_vector = make_mx_GgxLobe(faceforward(axis, -V, axis), cosine, float3(0.0, 0.0, 0.0),
+    mx_GgxLobe metal_bare_ggx_lobe = make_mx_GgxLobe(faceforward(axis, -V, axis), cosine, float3(0.0, 0.0, 0.0),
         float2(1.0, 1.0), 1.0);
     // from the last light, so that drivers do not unroll the loop
     for (int i = mxg_light_count() - 1; i >= 0; --i) {
@@ -268,7 +268,7 @@ Surface surface(float3 positionWorld, float3 normalWorld)
         float3 light_L, light_radiance;
         mxg_light(i, positionWorld, light_L, light_radiance);
         float3 metal_bare_product = scale * mx_fresnel_schlick(sqrt(clamp(dot(light_L, V) * 0.5 + 0.500001, 0.0, 1.0)));
-        color += light_radiance * (metal_bare_product * mx_ggx_light(metal_bare_vector, V, light_L));
+        color += light_radiance * (metal_bare_product * mx_ggx_light(metal_bare_ggx_lobe, V, light_L));
     }
     // environment: metal_bare
     float2 turn = float2(1.0, 0.0);

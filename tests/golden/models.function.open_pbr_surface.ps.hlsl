@@ -272,7 +272,7 @@ Surface surface(float3 positionWorld, float3 normalWorld)
     float scale = (1.0 / albedo.x - 1.0) * 0.08571429 + 1.0;
     float3 N = faceforward(normal_N, -V, normal_N);
     float ggx_masking = sqrt(cos_v * cos_v * 0.9919 + 0.0081);
-    mx_GgxLobe reflection_bare_vector = make_mx_GgxLobe(N, cos_v, float3(0.0, 0.0, 0.0), float2(0.09, 0.09),
+    mx_GgxLobe reflection_bare_ggx_lobe = make_mx_GgxLobe(N, cos_v, float3(0.0, 0.0, 0.0), float2(0.09, 0.09),
         ggx_masking);
     float reflection_bare_throughput = 1.0 - lerp(0.04, 1.0, albedo.y) * albedo.x * scale;
     float diffuse_product = reflection_bare_throughput * 0.31830987 * 0.8;
@@ -283,7 +283,7 @@ Surface surface(float3 positionWorld, float3 normalWorld)
         mxg_light(i, positionWorld, light_L, light_radiance);
         float reflection_bare_product = scale
             * mx_fresnel_permittivity(sqrt(clamp(dot(V, light_L) * 0.5 + 0.500001, 0.0, 1.0)));
-        float reflection_bare_response = reflection_bare_product * mx_ggx_light(reflection_bare_vector, V, light_L);
+        float reflection_bare_response = reflection_bare_product * mx_ggx_light(reflection_bare_ggx_lobe, V, light_L);
         color += light_radiance * (reflection_bare_response + max(dot(light_L, N), 1e-8) * diffuse_product);
     }
     // environment: diffuse

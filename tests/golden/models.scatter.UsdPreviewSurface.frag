@@ -189,7 +189,7 @@ void scatter()
         inside = is_in_front ? 0.0 : 1.0;
         density = is_in_front ? reflection_pdf * (reflection_share / sum) : 0.0;
     }
-    pick += -reflection_share;
+    pick -= reflection_share;
     vec3 N = faceforward(shading_normal, -vd.viewWorld, shading_normal);
     if (pick >= 0.0 && pick < diffuse_share) {
         mat3 any_frame = mx_frame(N, abs(N.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0));
@@ -202,7 +202,7 @@ void scatter()
             * (sum / diffuse_share));
         density = pdf * (diffuse_share / sum);
     }
-    pick += -diffuse_share;
+    pick -= diffuse_share;
     out1 = vec4(0.0, 0.0, 0.0, 1.0);
     out2 = vec4(L, inside);
     out3 = vec4(weight, density);

@@ -183,7 +183,7 @@ void scatter()
         inside = is_in_front ? 0.0 : 1.0;
         density = is_in_front ? metal_bare_pdf * scaled_metal_bare_share : 0.0;
     }
-    pick += -metal_bare_share;
+    pick -= metal_bare_share;
     out1 = vec4(0.0, 0.0, 0.0, 1.0);
     out2 = vec4(L, inside);
     out3 = vec4(weight, density);

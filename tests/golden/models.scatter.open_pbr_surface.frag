@@ -211,7 +211,7 @@ void scatter()
         inside = is_in_front ? 0.0 : 1.0;
         density = is_in_front ? reflection_bare_pdf * (reflection_bare_share / sum) : 0.0;
     }
-    pick += -reflection_bare_share;
+    pick -= reflection_bare_share;
     vec3 N_2 = faceforward(N, -vd.viewWorld, N);
     if (pick >= 0.0 && pick < diffuse_share) {
         mat3 any_frame = mx_frame(N_2, abs(N_2.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0));
@@ -224,7 +224,7 @@ void scatter()
             * (sum / diffuse_share));
         density = pdf * (diffuse_share / sum);
     }
-    pick += -diffuse_share;
+    pick -= diffuse_share;
     out1 = vec4(0.0, 0.0, 0.0, 1.0);
     out2 = vec4(L, inside);
     out3 = vec4(weight, density);

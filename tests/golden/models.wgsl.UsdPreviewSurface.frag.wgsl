@@ -354,7 +354,7 @@ fn main(vd: VertexData) -> @location(0) vec4f
     let diffuse_product: vec3f = diffuseColor * (body_weight * diffuse_weight * 0.31830987);
     let coating_ggx_masking: f32 = sqrt(coat_roughness * coat_roughness + (1.0 - coat_roughness * coat_roughness)
         * (cos_v * cos_v));
-    let coating_vector: mx_GgxLobe = mx_GgxLobe(N, cos_v, vec3f(0.0), vec2f(coat_roughness), coating_ggx_masking);
+    let coating_ggx_lobe: mx_GgxLobe = mx_GgxLobe(N, cos_v, vec3f(0.0), vec2f(coat_roughness), coating_ggx_masking);
     var metal_ior: vec3f;
     var metal_extinction: vec3f;
     mx_artistic_ior(diffuseColor, diffuseColor, &metal_ior, &metal_extinction);
@@ -364,7 +364,7 @@ fn main(vd: VertexData) -> @location(0) vec4f
         + vec3f(1.0)) * (substrate_metal_weight * coating_throughput);
     let ggx_masking: f32 = sqrt(specular_roughness * specular_roughness + cos_v * cos_v
         * (1.0 - specular_roughness * specular_roughness));
-    let vector: mx_GgxLobe = mx_GgxLobe(N, cos_v, vec3f(0.0), vec2f(specular_roughness), ggx_masking);
+    let ggx_lobe: mx_GgxLobe = mx_GgxLobe(N, cos_v, vec3f(0.0), vec2f(specular_roughness), ggx_masking);
     let reflection_visible: bool = 1.0 - substrate_metal_weight > 0.0;
     let reflection_product: vec3f = reflection_scale * (coating_throughput * (1.0 - substrate_metal_weight));
     // from the last light, so that drivers do not unroll the loop
@@ -394,12 +394,12 @@ fn main(vd: VertexData) -> @location(0) vec4f
         // coating
         let cosine: f32 = sqrt(clamp(dot(V, L) * 0.5 + 0.500001, 0.0, 1.0));
         if (coating_weight > 0.0) {
-            let coating_product: f32 = mx_ggx_light(coating_vector, V, L) * (coating_weight * coating_scale);
+            let coating_product: f32 = mx_ggx_light(coating_ggx_lobe, V, L) * (coating_weight * coating_scale);
             color += light_color * (intensity
                 * (mx_fresnel_schlick(cosine, vec3f(coating_fresnel_f0), vec3f(1.0)) * coating_product));
         }
         // metal
-        let ggx_light: f32 = mx_ggx_light(vector, V, L);
+        let ggx_light: f32 = mx_ggx_light(ggx_lobe, V, L);
         if (substrate_metal_weight > 0.0) {
             color += light_color * (intensity * (metal_product * (mx_fresnel_conductor_2(cosine, re, im) * ggx_light)));
         }

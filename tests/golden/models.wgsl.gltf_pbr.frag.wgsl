@@ -471,7 +471,7 @@ fn main(vd: VertexData) -> @location(0) vec4f
     let diffuse_weight: f32 = (1.0 - metal_weight) * (1.0 - clamped_transmission);
     let diffuse_product: vec3f = u_pub.SR_gltf_pbr_base_color * (body_weight * diffuse_weight * 0.31830987);
     let ggx_masking: f32 = sqrt(coat_lobe * coat_lobe + (1.0 - coat_lobe * coat_lobe) * (cos_v * cos_v));
-    let coating_vector: mx_GgxLobe = mx_GgxLobe(Nf, cos_v, vec3f(0.0), vec2f(coat_lobe), ggx_masking);
+    let coating_ggx_lobe: mx_GgxLobe = mx_GgxLobe(Nf, cos_v, vec3f(0.0), vec2f(coat_lobe), ggx_masking);
     let s: f32 = 1.0 / max(sheen_rough, 0.005);
     let fuzz_product: vec3f = u_pub.SR_gltf_pbr_sheen_color / sheen_weight * (fuzz_weight * coating_throughput);
     let metal_film_visible: bool = clamped_iridescence * metal_weight > 0.0;
@@ -521,7 +521,7 @@ fn main(vd: VertexData) -> @location(0) vec4f
         let cosine: f32 = sqrt(clamp(v_dot_l * 0.5 + 0.500001, 0.0, 1.0));
         if (coating_weight > 0.0) {
             let coating_product: f32 = mx_fresnel_permittivity(cosine, 2.25) * (coating_weight * coating_scale);
-            color += light_color * (intensity * (mx_ggx_light(coating_vector, V, L) * coating_product));
+            color += light_color * (intensity * (mx_ggx_light(coating_ggx_lobe, V, L) * coating_product));
         }
         // fuzz
         if (fuzz_weight > 0.0) {

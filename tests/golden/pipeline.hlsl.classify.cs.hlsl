@@ -18,6 +18,7 @@ int2 mx_pixel_in(uint2 group, uint2 place)
     return 8 * int2(group) + int2(place);
 }
 
+// True beyond the edge of the picture, where tiles may reach.
 bool mx_is_outside(int2 pixel)
 {
     return any(pixel >= int2(mx_size));
@@ -25,6 +26,7 @@ bool mx_is_outside(int2 pixel)
 
 groupshared uint mx_bits;
 
+// The bits of all invocations of a group.
 uint mx_or_in_group(uint bits, uint index)
 {
     if (index == 0u)
@@ -35,6 +37,7 @@ uint mx_or_in_group(uint bits, uint index)
     return mx_bits;
 }
 
+// The class of a pixel by its first word.
 uint mx_class(uint first)
 {
     return (first >> 20u & 1024u) != 0u ? 4u : first >> 28u;
@@ -64,6 +67,7 @@ void mx_add_tile(uint class_, uint tile)
     mx_tiles_store(20u + class_ * mx_num_tiles + at, tile);
 }
 
+// Notes the class of a pixel; the first invocations of a tile add it to the lists.
 void mx_run(uint2 group, uint2 place)
 {
     int2 pixel = mx_pixel_in(group, place);

@@ -227,6 +227,7 @@ uint mx_tiles_load(uint at)
     return mx_tiles.Load(4 * at);
 }
 
+// The tile number i of the list of the pass.
 uint mx_tile_at(uint i)
 {
     return mx_tiles_load(20u + i);
@@ -239,6 +240,7 @@ int2 mx_pixel_of(uint class_, uint group, uint2 place)
     return 8 * int2(int(tile % mx_tiles_per_row), int(tile / mx_tiles_per_row)) + int2(place);
 }
 
+// True beyond the edge of the picture, where tiles may reach.
 bool mx_is_outside(int2 pixel)
 {
     return any(pixel >= int2(mx_size));
@@ -259,11 +261,13 @@ uint4 mx_word2_load(int2 at)
     return uint4(mx_word2[at], 0u, 0u, 1u);
 }
 
+// The class of a pixel by its first word.
 uint mx_class(uint first)
 {
     return (first >> 20u & 1024u) != 0u ? 4u : first >> 28u;
 }
 
+// A direction from its place in the octahedral square.
 float3 mx_of_octahedral(float2 square)
 {
     float2 p = square * 2.0 - 1.0;
@@ -273,21 +277,25 @@ float3 mx_of_octahedral(float2 square)
     return normalize(n);
 }
 
+// A number from 0 to 1 from its bits of a word.
 float mx_uncut(uint word, uint shift, uint bits)
 {
     return float(word >> shift & (1u << bits) - 1u) / float((1u << bits) - 1u);
 }
 
+// A direction from its bits.
 float3 mx_uncut_normal(uint word, uint bits)
 {
     return mx_of_octahedral(float2(mx_uncut(word, 0u, bits), mx_uncut(word, bits, bits)));
 }
 
+// The normal of the closure on top.
 float3 mx_top_normal(uint word)
 {
     return mx_uncut_normal(word & 16777215u, 12u);
 }
 
+// Begins to read the closures of a pixel, from the top down.
 MxReader mx_open(int2 pixel)
 {
     MxReader reader;
@@ -319,6 +327,7 @@ uint4 mx_words_load(int3 at)
     return uint4(mx_words[at], 0u, 0u, 1u);
 }
 
+// Reads the next word behind the targets.
 uint mx_get(inout MxReader reader)
 {
     uint kept = reader.at;
@@ -332,17 +341,20 @@ uint mx_features(uint core)
     return core >> 20u & ((core >> 20u & 1024u) != 0u ? 1023u : 255u);
 }
 
+// A colour from its 20 bits.
 float3 mx_uncut_color(uint word)
 {
     return float3(mx_uncut(word, 0u, 7u), mx_uncut(word, 7u, 7u), mx_uncut(word, 14u, 6u));
 }
 
+// A colour from its encoding of IEC 61966-2-1.
 float3 mx_linear(float3 srgb)
 {
     return choose(pow((srgb + 0.055) / 1.055, float3(2.4, 2.4, 2.4)), srgb / 12.92, srgb
         < float3(0.04045, 0.04045, 0.04045));
 }
 
+// A number from -1 to 1 from its bits of a word.
 float mx_uncut_signed(uint word, uint shift, uint bits)
 {
     float most = float((1u << bits - 1u) - 1u);
@@ -367,11 +379,13 @@ float2 mx_octahedral(float3 n)
     return (n.z < 0.0 ? folded : p) * 0.5 + 0.5;
 }
 
+// The blur from its three bits.
 float mx_blur_of(uint bits)
 {
     return bits == 0u ? 0.0 : exp2(float(bits) - 8.0);
 }
 
+// A closure from its words, with the normal and roughness that other words have.
 MxClosure mx_unpack(MxRecord r, float3 normal, float roughness)
 {
     MxClosure c;
@@ -414,6 +428,7 @@ MxClosure mx_unpack(MxRecord r, float3 normal, float roughness)
     return c;
 }
 
+// The roughness of the closure on top.
 float mx_top_roughness(uint word)
 {
     return mx_uncut(word, 24u, 8u);
@@ -465,6 +480,7 @@ MxClosure mx_next(inout MxReader reader)
     return mx_unpack(r, normal, is_top ? mx_top_roughness(reader.top) : mx_uncut(r.body, 20u, 8u));
 }
 
+// Gives surface() a closure at a point, below a top with this normal and opacity.
 void mx_fill(MxClosure closure, float3 point_, float3 top, float open)
 {
     vd.positionWorld = point_;
@@ -481,6 +497,7 @@ void mx_lit_store(int2 at, float4 value)
     mx_lit[at] = value;
 }
 
+// Lights a pixel of the class.
 void mx_run(uint2 group, uint2 place)
 {
     int2 pixel = mx_pixel_of(1u, group.x, place);
@@ -705,7 +722,7 @@ void surface()
     float3 facing = faceforward(vd.geomprop_normal, -V, vd.geomprop_normal);
     float ggx_masking = sqrt(reflection_alpha * reflection_alpha + (1.0 - reflection_alpha * reflection_alpha)
         * (cos_v * cos_v));
-    mx_GgxLobe reflection_vector = make_mx_GgxLobe(facing, cos_v, float3(0.0, 0.0, 0.0), (float2)reflection_alpha,
+    mx_GgxLobe reflection_ggx_lobe = make_mx_GgxLobe(facing, cos_v, float3(0.0, 0.0, 0.0), (float2)reflection_alpha,
         ggx_masking);
     float square = clamp(alpha, 0.001, 1.0);
     float chan_gloss = clamp(log2(2.0 / (square * square) - 1.0) / 18.0, 0.0, 1.0);
@@ -743,7 +760,7 @@ void surface()
         float3 medium_response = cos_l * mx_chan_lobe(chan_gloss, cos_v, cos_l, cosine, medium_difference)
             * medium_product;
         color += u_lightData[i].color * (intensity
-            * (reflection_product * mx_ggx_light(reflection_vector, V, L) + medium_response));
+            * (reflection_product * mx_ggx_light(reflection_ggx_lobe, V, L) + medium_response));
     }
     // environment: medium
     bool medium_is_below = max(vd.geomprop_diffuse_albedo.x,

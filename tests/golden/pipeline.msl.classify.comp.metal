@@ -22,6 +22,7 @@ int2 mx_pixel_in(uint2 group, uint2 place)
     return 8 * int2(group) + int2(place);
 }
 
+// True beyond the edge of the picture, where tiles may reach.
 bool mx_is_outside(int2 pixel)
 {
     return any(pixel >= int2(mx_uniforms.mx_size));
@@ -29,6 +30,7 @@ bool mx_is_outside(int2 pixel)
 
 threadgroup atomic_uint* mx_bits;
 
+// The bits of all invocations of a group.
 uint mx_or_in_group(uint bits, uint index)
 {
     if (index == 0u)
@@ -39,6 +41,7 @@ uint mx_or_in_group(uint bits, uint index)
     return atomic_load_explicit(mx_bits, memory_order_relaxed);
 }
 
+// The class of a pixel by its first word.
 uint mx_class(uint first)
 {
     return (first >> 20u & 1024u) != 0u ? 4u : first >> 28u;
@@ -66,6 +69,7 @@ void mx_add_tile(uint class_, uint tile_)
     mx_tiles_store(20u + class_ * mx_uniforms.mx_num_tiles + at, tile_);
 }
 
+// Notes the class of a pixel; the first invocations of a tile add it to the lists.
 void mx_run(uint2 group, uint2 place)
 {
     int2 pixel = mx_pixel_in(group, place);

@@ -247,7 +247,7 @@ void main()
         + vec3(1.0);
     vec3 metal_bare_facing = faceforward(bent, -V, bent);
     float ggx_masking = sqrt(alpha * alpha + (1.0 - alpha * alpha) * (cosine * cosine));
-    mx_GgxLobe metal_bare_vector = mx_GgxLobe(metal_bare_facing, cosine, vec3(0.0), vec2(alpha), ggx_masking);
+    mx_GgxLobe metal_bare_ggx_lobe = mx_GgxLobe(metal_bare_facing, cosine, vec3(0.0), vec2(alpha), ggx_masking);
     // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         vec3 L;
@@ -273,7 +273,7 @@ void main()
         // metal_bare
         vec3 metal_bare_product = scale * mx_fresnel_schlick(sqrt(clamp(dot(L, V) * 0.5 + 0.500001, 0.0, 1.0)),
             fresnel_facing);
-        color += u_lightData[i].color * (intensity * (metal_bare_product * mx_ggx_light(metal_bare_vector, V, L)));
+        color += u_lightData[i].color * (intensity * (metal_bare_product * mx_ggx_light(metal_bare_ggx_lobe, V, L)));
     }
     // environment: metal_bare
     vec2 turn = vec2(1.0, 0.0);

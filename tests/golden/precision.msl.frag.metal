@@ -323,7 +323,8 @@ void FragmentMain()
         * (1.0 / mx_ggx_albedo_fit(alpha, cosine).x - 1.0) + float3(1.0);
     float3 metal_bare_facing = faceforward(bent, -V, bent);
     float ggx_masking = sqrt(alpha * alpha + (1.0 - alpha * alpha) * (cosine * cosine));
-    mx_GgxLobe metal_bare_vector = make_mx_GgxLobe(metal_bare_facing, cosine, float3(0.0), float2(alpha), ggx_masking);
+    mx_GgxLobe metal_bare_ggx_lobe = make_mx_GgxLobe(metal_bare_facing, cosine, float3(0.0), float2(alpha),
+        ggx_masking);
     // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_prv.u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         float3 L;
@@ -352,7 +353,7 @@ void FragmentMain()
         float3 metal_bare_product = scale
             * mx_fresnel_schlick(sqrt(clamp(dot(L, V) * 0.5 + 0.500001, 0.0, 1.0)), float3(fresnel_facing));
         color += u_lightData.u_lightData[i].color
-            * (intensity * (metal_bare_product * mx_ggx_light(metal_bare_vector, V, L)));
+            * (intensity * (metal_bare_product * mx_ggx_light(metal_bare_ggx_lobe, V, L)));
     }
     // environment: metal_bare
     float2 turn = float2(1.0, 0.0);

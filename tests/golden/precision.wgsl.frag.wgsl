@@ -266,7 +266,7 @@ fn main(vd: VertexData) -> @location(0) vec4f
         * (1.0 / mx_ggx_albedo_fit(alpha, cosine).x - 1.0) + vec3f(1.0);
     let metal_bare_facing: vec3f = faceForward(bent, -V, bent);
     let ggx_masking: f32 = sqrt(alpha * alpha + (1.0 - alpha * alpha) * (cosine * cosine));
-    let metal_bare_vector: mx_GgxLobe = mx_GgxLobe(metal_bare_facing, cosine, vec3f(0.0), vec2f(alpha), ggx_masking);
+    let metal_bare_ggx_lobe: mx_GgxLobe = mx_GgxLobe(metal_bare_facing, cosine, vec3f(0.0), vec2f(alpha), ggx_masking);
     // from the last light, so that drivers do not unroll the loop
     for (var i: i32 = min(u_prv.u_numActiveLightSources, 3) - 1; i >= 0; i--) {
         var L: vec3f;
@@ -291,7 +291,7 @@ fn main(vd: VertexData) -> @location(0) vec4f
         // metal_bare
         let metal_bare_product: vec3f = scale
             * mx_fresnel_schlick(sqrt(clamp(dot(L, V) * 0.5 + 0.500001, 0.0, 1.0)), vec3f(fresnel_facing));
-        color += u_lightData[i].color * (intensity * (metal_bare_product * mx_ggx_light(metal_bare_vector, V, L)));
+        color += u_lightData[i].color * (intensity * (metal_bare_product * mx_ggx_light(metal_bare_ggx_lobe, V, L)));
     }
     // environment: metal_bare
     var turn: vec2f = vec2f(1.0, 0.0);

@@ -119,7 +119,7 @@ void scatter()
     vec2 uv_sum_2 = vd.texcoord_0 + vd.dy_texcoord_0;
     vec2 tiles_difference_2 = uv_sum_2 - vd.texcoord_0;
     vec2 tiles_ratio_2 = mx_rotate2d(tiles_difference_2, -tiles_angle) / tiles_size;
-    mx_HexTile tiles_vector = mx_HexTile(tiles_sum, tiles_ratio, tiles_ratio_2, tiles_angle);
+    mx_HexTile tiles_hex_tile = mx_HexTile(tiles_sum, tiles_ratio, tiles_ratio_2, tiles_angle);
     vec2 tiles_random_2 = mx_hextile_random(tiles_corner2);
     vec2 tiles_center_2 = vec2(tiles_corner2.x + tiles_corner2.y * 0.5, tiles_corner2.y / 1.1547005) / vec2(3.4641016);
     float tiles_angle_2 = radians(tiles_random_2.x * 360.0);
@@ -128,7 +128,7 @@ void scatter()
         / tiles_size_2);
     vec2 tiles_ratio_3 = mx_rotate2d(tiles_difference, -tiles_angle_2) / tiles_size_2;
     vec2 tiles_ratio_4 = mx_rotate2d(tiles_difference_2, -tiles_angle_2) / tiles_size_2;
-    mx_HexTile tiles_vector_2 = mx_HexTile(tiles_sum_2, tiles_ratio_3, tiles_ratio_4, tiles_angle_2);
+    mx_HexTile tiles_hex_tile_2 = mx_HexTile(tiles_sum_2, tiles_ratio_3, tiles_ratio_4, tiles_angle_2);
     vec2 tiles_random_3 = mx_hextile_random(tiles_corner3);
     vec2 tiles_center_3 = vec2(tiles_corner3.x + tiles_corner3.y * 0.5, tiles_corner3.y / 1.1547005) / vec2(3.4641016);
     float tiles_angle_3 = radians(tiles_random_3.x * 360.0);
@@ -137,9 +137,9 @@ void scatter()
         / tiles_size_3);
     vec2 tiles_ratio_5 = mx_rotate2d(tiles_difference, -tiles_angle_3) / tiles_size_3;
     vec2 tiles_ratio_6 = mx_rotate2d(tiles_difference_2, -tiles_angle_3) / tiles_size_3;
-    mx_HexTile tiles_vector_3 = mx_HexTile(tiles_sum_3, tiles_ratio_5, tiles_ratio_6, tiles_angle_3);
+    mx_HexTile tiles_hex_tile_3 = mx_HexTile(tiles_sum_3, tiles_ratio_5, tiles_ratio_6, tiles_angle_3);
     vec3 tiles_part = mx_hextiledimage(tiles_file,
-        mx_HexTiles(tiles_vector, tiles_vector_2, tiles_vector_3, tiles)).xyz;
+        mx_HexTiles(tiles_hex_tile, tiles_hex_tile_2, tiles_hex_tile_3, tiles)).xyz;
     float edge_product = length(vec2(uv_sum.x - vd.texcoord_0.x, uv_sum_2.x - vd.texcoord_0.x)) * 0.70710677;
     bool edge_is_below = 0.5 - edge_product < edge_product + 0.5;
     float edge_transition = smoothstep(0.5 - edge_product, edge_product + 0.5, vd.texcoord_0.x);

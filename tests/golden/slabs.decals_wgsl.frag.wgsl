@@ -97,6 +97,7 @@ fn mx_gradient_noise(pixel: vec2f) -> f32
     return fract(52.982918 * fract(dot(pixel, vec2f(0.06711056, 0.00583715))));
 }
 
+// Chooses the noise of a pixel, before its numbers are cut.
 fn mx_start_noise(pixel: vec2f)
 {
     mx_noise = u32(8.0 * mx_gradient_noise(pixel));
@@ -110,6 +111,7 @@ fn mx_octahedral(n: vec3f) -> vec2f
     return select(p, folded, n.z < 0.0) * 0.5 + 0.5;
 }
 
+// A direction in so many bits for each axis of the octahedral square.
 fn mx_cut_normal(normal: vec3f, bits: u32) -> u32
 {
     let p: vec2u = vec2u(round(mx_octahedral(normal) * f32((1u << bits) - 1u)));
@@ -129,11 +131,13 @@ fn mx_noise_of(channel: u32) -> u32
     return (mx_noise + 5u * channel) & 7u;
 }
 
+// A number from 0 to 1 in so many bits. Each channel has noise of its own.
 fn mx_cut(value: f32, bits: u32, channel: u32) -> u32
 {
     return (mx_eighths(value, bits) + mx_noise_of(channel)) >> 3u;
 }
 
+// The third word of a pixel: normal and roughness of the closure on top.
 fn mx_top(normal: vec3f, roughness: f32) -> u32
 {
     return mx_cut_normal(normal, 12u) | (mx_cut(roughness, 8u, 3u) << 24u);
@@ -144,6 +148,7 @@ fn mx_words_store(at: vec3i, value: vec4u)
     textureStore(mx_words, at.xy, at.z, value);
 }
 
+// Writes the next word behind the targets.
 fn mx_put(word: u32)
 {
     let kept: u32 = mx_num_words;
@@ -230,6 +235,7 @@ fn mx_cut_signed(value: f32, bits: u32) -> u32
     return u32(i32(round(clamp(value, -1.0, 1.0) * most))) & ((1u << bits) - 1u);
 }
 
+// The word of a medium: free path, anisotropy of its phase function, and whether it is a body. 0 for opaque matter.
 fn mx_medium_word(c: MxClosure) -> u32
 {
     if (max(c.free_path.x, max(c.free_path.y, c.free_path.z)) <= 0.0
@@ -240,6 +246,7 @@ fn mx_medium_word(c: MxClosure) -> u32
         | select(0u, 67108864u, c.is_thick > 0.0);
 }
 
+// The word of the lobes: the second roughness with its weight, and the hue of f90.
 fn mx_lobes_word(c: MxClosure) -> u32
 {
     let weight: u32 = mx_cut(c.second_roughness_weight, 6u, 4u);
@@ -256,6 +263,7 @@ fn mx_srgb(linear: vec3f) -> vec3f
     return select(1.055 * pow(c, vec3f(0.41666666)) - 0.055, 12.92 * c, c < vec3f(0.0031308));
 }
 
+// The word of fuzz: amount, colour and roughness. 0 without fuzz.
 fn mx_fuzz_word(c: MxClosure) -> u32
 {
     let amount: u32 = mx_cut(c.fuzz_amount, 6u, 9u);
@@ -315,6 +323,7 @@ fn mx_core(c: MxClosure) -> u32
     return mx_cut_color(sqrt(clamp(c.f0, vec3f(0.0), vec3f(1.0))));
 }
 
+// The second word of a closure: diffuse albedo and roughness.
 fn mx_body(c: MxClosure) -> u32
 {
     return mx_cut_color(mx_srgb(c.diffuse_albedo)) | (mx_cut(c.roughness, 8u, 3u) << 20u);
@@ -345,6 +354,7 @@ fn mx_pack(c: MxClosure, stored_normal: vec3f) -> MxRecord
     return r;
 }
 
+// A direction from its place in the octahedral square.
 fn mx_of_octahedral(square: vec2f) -> vec3f
 {
     let p: vec2f = square * 2.0 - 1.0;
@@ -354,21 +364,25 @@ fn mx_of_octahedral(square: vec2f) -> vec3f
     return normalize(n);
 }
 
+// A number from 0 to 1 from its bits of a word.
 fn mx_uncut(word: u32, shift: u32, bits: u32) -> f32
 {
     return f32((word >> shift) & ((1u << bits) - 1u)) / f32((1u << bits) - 1u);
 }
 
+// A direction from its bits.
 fn mx_uncut_normal(word: u32, bits: u32) -> vec3f
 {
     return mx_of_octahedral(vec2f(mx_uncut(word, 0u, bits), mx_uncut(word, bits, bits)));
 }
 
+// The normal of the closure on top.
 fn mx_top_normal(word: u32) -> vec3f
 {
     return mx_uncut_normal((word & 16777215u), 12u);
 }
 
+// The class of a pixel by its first word.
 fn mx_class(first: u32) -> u32
 {
     return select(first >> 28u, 4u, ((first >> 20u) & 1024u) != 0u);
@@ -450,6 +464,7 @@ fn mx_class_of(has: u32) -> u32
     return u32(select(select(1, 2, has != 0u), 3, (has & 17u) != 0u));
 }
 
+// Writes the last closure, and the words of the targets, from the number of closures that are stored.
 fn mx_finish_closures(stored: i32) -> i32
 {
     mx_word0 = 0u;
@@ -464,6 +479,7 @@ fn mx_finish_closures(stored: i32) -> i32
     return stored;
 }
 
+// A word of the targets, after the closures.
 fn mx_stored_word(finished: i32, index: i32) -> u32
 {
     return select(select(mx_word2, mx_word1, index == 1), mx_word0, index == 0);

@@ -96,6 +96,7 @@ float mx_gradient_noise(float2 pixel)
     return frac(52.982918 * frac(dot(pixel, float2(0.06711056, 0.00583715))));
 }
 
+// Chooses the noise of a pixel, before its numbers are cut.
 void mx_start_noise(float2 pixel)
 {
     mx_noise = uint(8.0 * mx_gradient_noise(pixel));
@@ -109,6 +110,7 @@ float2 mx_octahedral(float3 n)
     return (n.z < 0.0 ? folded : p) * 0.5 + 0.5;
 }
 
+// A direction in so many bits for each axis of the octahedral square.
 uint mx_cut_normal(float3 normal, uint bits)
 {
     uint2 p = uint2(round(mx_octahedral(normal) * float((1u << bits) - 1u)));
@@ -128,11 +130,13 @@ uint mx_noise_of(uint channel)
     return mx_noise + 5u * channel & 7u;
 }
 
+// A number from 0 to 1 in so many bits. Each channel has noise of its own.
 uint mx_cut(float value, uint bits, uint channel)
 {
     return mx_eighths(value, bits) + mx_noise_of(channel) >> 3u;
 }
 
+// The third word of a pixel: normal and roughness of the closure on top.
 uint mx_top(float3 normal, float roughness)
 {
     return mx_cut_normal(normal, 12u) | mx_cut(roughness, 8u, 3u) << 24u;
@@ -143,6 +147,7 @@ void mx_words_store(int3 at, uint4 value)
     mx_words[at] = value.x;
 }
 
+// Writes the next word behind the targets.
 void mx_put(uint word)
 {
     uint kept = mx_num_words;
@@ -220,6 +225,7 @@ uint mx_cut_signed(float value, uint bits)
     return uint(int(round(clamp(value, -1.0, 1.0) * most))) & (1u << bits) - 1u;
 }
 
+// The word of a medium: free path, anisotropy of its phase function, and whether it is a body. 0 for opaque matter.
 uint mx_medium_word(MxClosure c)
 {
     if (max(c.free_path.x, max(c.free_path.y, c.free_path.z)) <= 0.0
@@ -229,6 +235,7 @@ uint mx_medium_word(MxClosure c)
         | (c.is_thick > 0.0 ? 67108864u : 0u);
 }
 
+// The word of the lobes: the second roughness with its weight, and the hue of f90.
 uint mx_lobes_word(MxClosure c)
 {
     uint weight = mx_cut(c.second_roughness_weight, 6u, 4u);
@@ -246,6 +253,7 @@ float3 mx_srgb(float3 linear_)
         < float3(0.0031308, 0.0031308, 0.0031308));
 }
 
+// The word of fuzz: amount, colour and roughness. 0 without fuzz.
 uint mx_fuzz_word(MxClosure c)
 {
     uint amount = mx_cut(c.fuzz_amount, 6u, 9u);
@@ -303,6 +311,7 @@ uint mx_core(MxClosure c)
     return mx_cut_color(sqrt(clamp(c.f0, 0.0, 1.0)));
 }
 
+// The second word of a closure: diffuse albedo and roughness.
 uint mx_body(MxClosure c)
 {
     return mx_cut_color(mx_srgb(c.diffuse_albedo)) | mx_cut(c.roughness, 8u, 3u) << 20u;
@@ -333,6 +342,7 @@ MxRecord mx_pack(MxClosure c, float3 stored_normal)
     return r;
 }
 
+// A direction from its place in the octahedral square.
 float3 mx_of_octahedral(float2 square)
 {
     float2 p = square * 2.0 - 1.0;
@@ -342,21 +352,25 @@ float3 mx_of_octahedral(float2 square)
     return normalize(n);
 }
 
+// A number from 0 to 1 from its bits of a word.
 float mx_uncut(uint word, uint shift, uint bits)
 {
     return float(word >> shift & (1u << bits) - 1u) / float((1u << bits) - 1u);
 }
 
+// A direction from its bits.
 float3 mx_uncut_normal(uint word, uint bits)
 {
     return mx_of_octahedral(float2(mx_uncut(word, 0u, bits), mx_uncut(word, bits, bits)));
 }
 
+// The normal of the closure on top.
 float3 mx_top_normal(uint word)
 {
     return mx_uncut_normal(word & 16777215u, 12u);
 }
 
+// The class of a pixel by its first word.
 uint mx_class(uint first)
 {
     return (first >> 20u & 1024u) != 0u ? 4u : first >> 28u;
@@ -436,6 +450,7 @@ uint mx_class_of(uint has)
     return uint((has & 17u) != 0u ? 3 : has != 0u ? 2 : 1);
 }
 
+// Writes the last closure, and the words of the targets, from the number of closures that are stored.
 int mx_finish_closures(int stored)
 {
     mx_word0 = 0u;
@@ -449,6 +464,7 @@ int mx_finish_closures(int stored)
     return stored;
 }
 
+// A word of the targets, after the closures.
 uint mx_stored_word(int finished, int index)
 {
     return index == 0 ? mx_word0 : index == 1 ? mx_word1 : mx_word2;

@@ -84,6 +84,7 @@ struct GlobalContext {
 uint mx_noise = 4u;
 array<uint, 16> mx_payload_words;
 
+// The class of a pixel by its first word.
 uint mx_class(uint first)
 {
     return (first >> 20u & 1024u) != 0u ? 4u : first >> 28u;
@@ -102,6 +103,7 @@ float mx_gradient_noise(float2 pixel)
     return fract(52.982918 * fract(dot(pixel, float2(0.06711056, 0.00583715))));
 }
 
+// Chooses the noise of a pixel, before its numbers are cut.
 void mx_start_noise(float2 pixel)
 {
 }
@@ -119,11 +121,13 @@ uint mx_eighths(float value, uint bits)
     return uint(clamp(value, 0.0, 1.0) * 8.0 * float((1u << bits) - 1u) + nearest);
 }
 
+// A number from 0 to 1 in so many bits. Each channel has noise of its own.
 uint mx_cut(float value, uint bits, uint channel)
 {
     return mx_eighths(value, bits) + mx_noise_of(channel) >> 3u;
 }
 
+// A number from 0 to 1 from its bits of a word.
 float mx_uncut(uint word, uint shift, uint bits)
 {
     return float(word >> shift & (1u << bits) - 1u) / float((1u << bits) - 1u);
@@ -137,6 +141,7 @@ uint mx_cut_color(float3 color)
     return eighths >> 3u & 127u | (eighths >> 13u & 127u) << 7u | (eighths >> 23u & 63u) << 14u;
 }
 
+// A colour from its 20 bits.
 float3 mx_uncut_color(uint word)
 {
     return float3(mx_uncut(word, 0u, 7u), mx_uncut(word, 7u, 7u), mx_uncut(word, 14u, 6u));
@@ -149,6 +154,7 @@ uint mx_cut_signed(float value, uint bits)
     return uint(int(rint(clamp(value, -1.0, 1.0) * most))) & (1u << bits) - 1u;
 }
 
+// A number from -1 to 1 from its bits of a word.
 float mx_uncut_signed(uint word, uint shift, uint bits)
 {
     float most = float((1u << bits - 1u) - 1u);
@@ -162,6 +168,7 @@ float3 mx_srgb(float3 linear)
     return select(1.055 * pow(c, float3(0.41666666)) - 0.055, 12.92 * c, c < float3(0.0031308));
 }
 
+// A colour from its encoding of IEC 61966-2-1.
 float3 mx_linear(float3 srgb)
 {
     return select(pow((srgb + 0.055) / 1.055, float3(2.4)), srgb / 12.92, srgb < float3(0.04045));
@@ -175,6 +182,7 @@ float2 mx_octahedral(float3 n)
     return (n.z < 0.0 ? folded : p) * 0.5 + 0.5;
 }
 
+// A direction from its place in the octahedral square.
 float3 mx_of_octahedral(float2 square)
 {
     float2 p = square * 2.0 - 1.0;
@@ -184,12 +192,14 @@ float3 mx_of_octahedral(float2 square)
     return normalize(n);
 }
 
+// A direction in so many bits for each axis of the octahedral square.
 uint mx_cut_normal(float3 normal, uint bits)
 {
     uint2 p = uint2(rint(mx_octahedral(normal) * float((1u << bits) - 1u)));
     return p.x | p.y << bits;
 }
 
+// A direction from its bits.
 float3 mx_uncut_normal(uint word, uint bits)
 {
     return mx_of_octahedral(float2(mx_uncut(word, 0u, bits), mx_uncut(word, bits, bits)));
@@ -205,21 +215,25 @@ void mx_across(float3 n, thread float3& x, thread float3& y)
     y = float3(b, side + n.y * n.y * a, -n.y);
 }
 
+// The third word of a pixel: normal and roughness of the closure on top.
 uint mx_top(float3 normal, float roughness)
 {
     return mx_cut_normal(normal, 12u) | mx_cut(roughness, 8u, 3u) << 24u;
 }
 
+// The normal of the closure on top.
 float3 mx_top_normal(uint word)
 {
     return mx_uncut_normal(word & 16777215u, 12u);
 }
 
+// The roughness of the closure on top.
 float mx_top_roughness(uint word)
 {
     return mx_uncut(word, 24u, 8u);
 }
 
+// The word of a medium: free path, anisotropy of its phase function, and whether it is a body. 0 for opaque matter.
 uint mx_medium_word(MxClosure c)
 {
     if (max(c.free_path.x, max(c.free_path.y, c.free_path.z)) <= 0.0
@@ -229,6 +243,7 @@ uint mx_medium_word(MxClosure c)
         | (c.is_thick > 0.0 ? 67108864u : 0u);
 }
 
+// The word of the lobes: the second roughness with its weight, and the hue of f90.
 uint mx_lobes_word(MxClosure c)
 {
     uint weight = mx_cut(c.second_roughness_weight, 6u, 4u);
@@ -238,6 +253,7 @@ uint mx_lobes_word(MxClosure c)
         | mx_cut(1.0 - hue.z, 6u, 8u) << 26u;
 }
 
+// The word of fuzz: amount, colour and roughness. 0 without fuzz.
 uint mx_fuzz_word(MxClosure c)
 {
     uint amount = mx_cut(c.fuzz_amount, 6u, 9u);
@@ -286,6 +302,7 @@ uint mx_blur_bits(float blur)
     return mx_cut(steps / 7.0, 3u, 12u);
 }
 
+// The blur from its three bits.
 float mx_blur_of(uint bits)
 {
     return bits == 0u ? 0.0 : exp2(float(bits) - 8.0);
@@ -305,6 +322,7 @@ uint mx_core(MxClosure c)
     return mx_cut_color(sqrt(clamp(c.f0, 0.0, 1.0)));
 }
 
+// The second word of a closure: diffuse albedo and roughness.
 uint mx_body(MxClosure c)
 {
     return mx_cut_color(mx_srgb(c.diffuse_albedo)) | mx_cut(c.roughness, 8u, 3u) << 20u;
@@ -335,6 +353,7 @@ MxRecord mx_pack(MxClosure c, float3 stored_normal)
     return r;
 }
 
+// A closure from its words, with the normal and roughness that other words have.
 MxClosure mx_unpack(MxRecord r, float3 normal, float roughness)
 {
     MxClosure c;
@@ -393,6 +412,7 @@ uint packHalf2x16(float2 v)
     return as_type<uint>(half2(v));
 }
 
+// Adds emission and opacity to the words. Without a closure all others are 0.
 int mx_finish_payload(int stored, float3 emission, float alpha)
 {
     float most = 65504.0;
@@ -405,7 +425,7 @@ int mx_finish_payload(int stored, float3 emission, float alpha)
     return stored;
 }
 
-// finished: the result of mx_finish_payload.
+// A word, after mx_finish_payload, whose result is `finished`.
 uint mx_payload_word(int finished, int index)
 {
     return mx_payload_words[index];

@@ -325,13 +325,13 @@ void main()
     vec3 milk_medium_decaying = milk_medium_difference / (vec3(1.0) - milk_medium_decay);
     vec3 milk_medium_steady = milk_reflection_throughput * drops_throughput - milk_medium_decaying;
     float scaled_cos_v = cos_v * cos_v;
-    mx_GgxLobe milk_reflection_vector = mx_GgxLobe(N_2, cos_v, vec3(0.0), vec2(0.25071993),
+    mx_GgxLobe milk_reflection_ggx_lobe = mx_GgxLobe(N_2, cos_v, vec3(0.0), vec2(0.25071993),
         sqrt(scaled_cos_v * 0.9371395 + 0.0628605));
     vec2 metal_reflection_albedo = mx_ggx_albedo_fit(0.29886922, cos_v);
     vec3 metal_reflection_scale = (1.0 / metal_reflection_albedo.x - 1.0) * vec3(0.6821221, 0.48832548, 0.27722293)
         + vec3(1.0);
     const vec3 metal_constant = vec3(0.66622823, 0.46274176, 0.24108408);
-    mx_GgxLobe metal_reflection_vector = mx_GgxLobe(N_2, cos_v, vec3(0.0), vec2(0.29886922),
+    mx_GgxLobe metal_reflection_ggx_lobe = mx_GgxLobe(N_2, cos_v, vec3(0.0), vec2(0.29886922),
         sqrt(scaled_cos_v * 0.9106772 + 0.08932281));
     vec3 milk_medium_transmitted;
     vec3 milk_medium = mx_medium_layer(closure_way, milk_medium_transmitted);
@@ -399,10 +399,10 @@ void main()
         vec3 milk_reflection_weight = milk_reflection_steady + decaying
             * pow(milk_reflection_decay, vec3(closure_way_2));
         vec3 milk_reflection_product = milk_reflection_weight
-            * (milk_reflection_scale * mx_ggx_light(milk_reflection_vector, V, L));
+            * (milk_reflection_scale * mx_ggx_light(milk_reflection_ggx_lobe, V, L));
         vec3 metal_reflection_weight = metal_reflection_steady + metal_reflection_decaying
             * pow(metal_reflection_decay, vec3(closure_way_2));
-        vec3 metal_reflection_product = mx_ggx_light(metal_reflection_vector, V, L) * metal_reflection_weight;
+        vec3 metal_reflection_product = mx_ggx_light(metal_reflection_ggx_lobe, V, L) * metal_reflection_weight;
         float cos_l = max(l_dot_n_2, 1e-8);
         vec3 metal_medium_weight = metal_bare_metal_medium_weight - metal_medium_decaying + metal_medium_decaying
             * pow(metal_medium_decay, vec3(closure_way_2));
@@ -451,7 +451,7 @@ void main()
         turn_2 = vec2(-turn_2.y, turn_2.x) * 0.6754903 - turn_2 * 0.7373689;
     }
     // lights: coat_reflection
-    mx_GgxLobe coat_reflection_vector = mx_GgxLobe(N_2, cos_v, vec3(0.0), vec2(0.01),
+    mx_GgxLobe coat_reflection_ggx_lobe = mx_GgxLobe(N_2, cos_v, vec3(0.0), vec2(0.01),
         sqrt(scaled_cos_v * 0.9999 + 0.00010000001));
     // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
@@ -481,7 +481,7 @@ void main()
             vec3(0.04));
         color += u_lightData[i].color * (intensity
             * (milk_reflection_fresnel_schlick
-            * (coat_reflection_scale * 0.5 * mx_ggx_light_2(coat_reflection_vector, V, L))));
+            * (coat_reflection_scale * 0.5 * mx_ggx_light_2(coat_reflection_ggx_lobe, V, L))));
     }
     // environment: coat_reflection
     vec2 turn_3 = vec2(1.0, 0.0);

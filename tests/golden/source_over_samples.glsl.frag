@@ -248,7 +248,7 @@ void main()
     vec3 color = vec3(0.0);
     // lights
     float ggx_masking = sqrt(cosine * cosine * 0.9975 + 0.0025);
-    mx_GgxLobe gloss_vector = mx_GgxLobe(faceforward(N, -V, N), cosine, vec3(0.0), vec2(0.05), ggx_masking);
+    mx_GgxLobe gloss_ggx_lobe = mx_GgxLobe(faceforward(N, -V, N), cosine, vec3(0.0), vec2(0.05), ggx_masking);
     vec3 dielectric_bsdf_throughput = vec3(1.0 - scale * (albedo.x * mix(0.04, 1.0, albedo.y)));
     // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
@@ -275,9 +275,9 @@ void main()
         // fogged
         ClosureData closure_data = ClosureData(1, L, V, N, vd.positionWorld, 1.0);
         float gloss_product = scale * mx_fresnel_permittivity(sqrt(clamp(dot(L, V) * 0.5 + 0.500001, 0.0, 1.0)));
-        BSDF vector = BSDF(vec3(gloss_product * mx_ggx_light(gloss_vector, V, L)), dielectric_bsdf_throughput);
+        BSDF b_s_d_f = BSDF(vec3(gloss_product * mx_ggx_light(gloss_ggx_lobe, V, L)), dielectric_bsdf_throughput);
         BSDF fogged = BSDF(vec3(0.0), vec3(1.0));
-        fogged_bsdf(closure_data, vector, 0.25, fogged);
+        fogged_bsdf(closure_data, b_s_d_f, 0.25, fogged);
         color += u_lightData[i].color * (intensity * fogged.response);
     }
     // environment: fogged

@@ -138,7 +138,7 @@ void main()
     vec2 albedo = mx_ggx_albedo_fit(cosine);
     float scale = (1.0 / albedo.x - 1.0) * 0.08817142 + 1.0;
     vec3 facing = faceforward(axis, -V, axis);
-    mx_GgxLobe reflection_vector = mx_GgxLobe(facing, cosine, vec3(0.0), vec2(0.0001), sqrt(cosine * cosine + 1e-8));
+    mx_GgxLobe reflection_ggx_lobe = mx_GgxLobe(facing, cosine, vec3(0.0), vec2(0.0001), sqrt(cosine * cosine + 1e-8));
     // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         vec3 L;
@@ -163,7 +163,7 @@ void main()
         }
         // reflection
         float reflection_product = scale * mx_fresnel_permittivity(sqrt(clamp(dot(V, L) * 0.5 + 0.500001, 0.0, 1.0)));
-        color += u_lightData[i].color * (intensity * (reflection_product * mx_ggx_light(reflection_vector, V, L)));
+        color += u_lightData[i].color * (intensity * (reflection_product * mx_ggx_light(reflection_ggx_lobe, V, L)));
     }
     // environment: reflection, refraction
     mx_GgxLight reflection_light = mx_mirrored(axis, V);

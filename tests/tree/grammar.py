@@ -133,6 +133,35 @@ def check_layout():
         check(not broken, f"{header.name}: '{broken and broken.group().strip()}' is alone on a line; put the comment above the declaration")
 
 
+def check_user_interface():
+    """The data of an input for user interfaces is a table, src/shader/ui.def; languages that cannot include it have the same rows."""
+    def text(path):
+        return COMMENT.sub("", (ROOT / path).read_text(encoding="utf-8"))
+
+    def block(path, begin, end):
+        return re.search(rf"{begin}(.*?){end}", (ROOT / path).read_text(encoding="utf-8"), re.DOTALL).group(1)
+
+    rows = re.findall(r"^UI\((\w+), (\w+), ", text("src/shader/ui.def"), re.MULTILINE)
+    members, attributes = [row[0] for row in rows], [row[1] for row in rows]
+    check(len(rows) > 8, "src/shader/ui.def has rows")
+    camel = [re.sub(r"_(\w)", lambda found: found[1].upper(), member) for member in members]
+    page = block("js/mxgen/index.d.ts", r"interface UserInterface \{", r"\n\}")
+    python = block("python/mxgen/definition.py", r"class UserInterface:", r"@dataclass")
+    for path, names, found in [
+        ("js/mxgen/index.d.ts", camel, re.findall(r"^ +(\w+): string;", page, re.MULTILINE)),
+        ("python/mxgen/definition.py", members, re.findall(r"^    (\w+): str$", python, re.MULTILINE)),
+    ]:
+        check(sorted(names) == sorted(found), f"{path}: UserInterface has {sorted(set(names) ^ set(found))} more or less than src/shader/ui.def")
+    for struct in "mxg_variable", "mxg_port", "mxg_compiled_input":
+        header = "library.h" if struct == "mxg_port" else "reflection.h"
+        body = block(f"include/mxgen/{header}", rf"typedef struct {struct} \{{", rf"\}} {struct};")
+        missing = [member for member in members if not re.search(rf"\b{member}\b", body)]
+        check(not missing, f"include/mxgen/{header}: {struct} has no {missing}")
+    for path, quote in ("lsp/attributes.def", '"'), ("src/document/attributes.def", ""):
+        known = set(re.findall(rf"^ATTRIBUTE\({quote}(\w+){quote}, ", text(path), re.MULTILINE))
+        check(not set(attributes) - known, f"{path} has no {sorted(set(attributes) - known)}")
+
+
 def check_room(functions):
     """The room api defines all of them: who reads it has seen what a host can call."""
     defined = {}
@@ -163,6 +192,7 @@ def main():
     check(len(functions) > 150, f"the headers declare {len(functions)} functions only")
     check_layout()
     check_room(functions)
+    check_user_interface()
     print(f"{len(functions)} functions of {len(objects)} objects")
     finish("grammar")
 

@@ -156,6 +156,8 @@ static const struct {
      "%r = clamp float %f, %g, 1.0\nreturn %r"},
     /* swizzles, constructors, conversions */
     {"%r = swizzle vec3 .xyz %v", "return %v"},
+    {"%a = neg vec3 %v\n%r = swizzle float .y %a",
+     "%a = swizzle float .y %v\n%r = neg float %a\nreturn %r"},
     {"%r = swizzle float .x %f", "return %f"},
     {"%r = swizzle vec3 .xxx %f", "%r = construct vec3 %f\nreturn %r"},
     {"%r = swizzle vec2 .xy %v", "%r = swizzle vec2 .xy %v\nreturn %r"},

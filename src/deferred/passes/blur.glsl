@@ -4,6 +4,7 @@
 
 const int MX_NUM_SAMPLES = 48;
 
+// Blurs the light below the surface of a pixel.
 void mx_run(uvec2 group, uvec2 place)
 {
     ivec2 pixel = mx_pixel_in(group, place);

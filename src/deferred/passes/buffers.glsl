@@ -2,6 +2,7 @@
 
 uint mx_or_in_group(uint bits, uint index); // passes/group.glsl has it in GLSL
 
+// The tile number i of the list of the pass.
 uint mx_tile_at(uint i)
 {
     return mx_tiles_load(uint(MX_FIRST_TILE) + i);
@@ -14,6 +15,7 @@ void mx_add_tile(uint class_, uint tile)
     mx_tiles_store(uint(MX_FIRST_TILE) + class_ * mx_num_tiles + at, tile);
 }
 
+// The payload number i of the buffer.
 MxPayload mx_payload_at(uint i)
 {
     MxPayload payload;
@@ -22,11 +24,13 @@ MxPayload mx_payload_at(uint i)
     return payload;
 }
 
+// A number of the buffer of rays.
 float mx_rays_value(uint at)
 {
     return uintBitsToFloat(mx_rays_load(at));
 }
 
+// The ray number i of the buffer.
 MxRay mx_ray_at(uint i)
 {
     MxRay ray;

@@ -1,5 +1,6 @@
 // One group per tile: adds it to the lists of all classes that it has.
 
+// Notes the class of a pixel; the first invocations of a tile add it to the lists.
 void mx_run(uvec2 group, uvec2 place)
 {
     ivec2 pixel = mx_pixel_in(group, place);

@@ -25,11 +25,13 @@ float mx_distance(float u, float d)
     return u < 0.25 ? -d * log(1.0 - 4.0 * u) : -3.0 * d * log(1.0 - (4.0 * u - 1.0) / 3.0);
 }
 
+// The profile of light at a distance, up to a factor.
 vec3 mx_profile(float r, vec3 d)
 {
     return (exp(-r / d) + exp(-r / (3.0 * d))) / d;
 }
 
+// Spreads the light of the bodies around a pixel.
 void mx_run(uvec2 group, uvec2 place)
 {
     ivec2 pixel = mx_pixel_in(group, place);

@@ -3,6 +3,7 @@
 @// The pixel that is lit, for functions of the host.
 @ivec2 mxg_pixel;
 @
+// True beyond the edge of the picture, where tiles may reach.
 bool mx_is_outside(ivec2 pixel)
 {
     return any(greaterThanEqual(pixel, ivec2(mx_size)));

@@ -12,6 +12,7 @@ vec3 mx_split(MxClosure closure, vec3 point, vec3 top, float open)
 }
 #endif
 
+// Lights a pixel of the class.
 void mx_run(uvec2 group, uvec2 place)
 {
     ivec2 pixel = mx_pixel_of(uint(MX_CLASS), group.x, place);

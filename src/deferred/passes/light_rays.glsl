@@ -13,6 +13,7 @@ vec4 mx_light_payload(MxPayload payload, MxRay ray)
     return vec4(lit.xyz + out1.xyz, lit.w);
 }
 
+// Lights the payload of a pixel.
 void mx_run(uvec2 group, uvec2 place)
 {
     ivec2 pixel = mx_pixel_in(group, place);

@@ -107,6 +107,7 @@ void mx_store_over(ivec2 pixel, MxPayload payload)
     imageStore(mx_word2, pixel, uvec4(mx_packed2));
 }
 
+// Stores a surface over those of a pixel, where there is one.
 void mx_run(uvec2 group, uvec2 place)
 {
     ivec2 pixel = mx_pixel_in(group, place);

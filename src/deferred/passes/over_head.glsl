@@ -3,6 +3,7 @@
 ivec2 mx_over;          // the pixel at hand
 bool mx_is_dry = false;  // words are counted, not written
 
+// Writes a word behind the targets.
 void mx_put_at(uint index, uint word)
 {
     if (!mx_is_dry)

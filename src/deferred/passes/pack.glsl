@@ -13,6 +13,7 @@ void mx_keep(MxClosure c)
                                               r.lobes, r.fuzz, r.anisotropy, word, 0u, 0u, 0u, 0u, 0u, 0u, 0u);
 }
 
+// Adds emission and opacity to the words. Without a closure all others are 0.
 int mx_finish_payload(int stored, vec3 emission, float alpha)
 {
     const float most = 65504.0; // of a half
@@ -24,7 +25,7 @@ int mx_finish_payload(int stored, vec3 emission, float alpha)
     return stored;
 }
 
-// finished: the result of mx_finish_payload.
+// A word, after mx_finish_payload, whose result is `finished`.
 uint mx_payload_word(int finished, int index)
 {
     return mx_payload_words[index];

@@ -2,6 +2,7 @@
 
 const float MX_GOLDEN_ANGLE = 2.3999632; // Vogel's spiral covers a disk evenly
 
+// The point of the world that a pixel shows.
 vec3 mx_point(ivec2 pixel)
 {
     vec4 point = mx_to_world * vec4(vec2(pixel) + 0.5, texelFetch(mx_depth, pixel, 0).x, 1.0);

@@ -9,23 +9,27 @@ struct MxReader
     vec3 normals[3];                 // of the top, and the last two with words of their own
 };
 
+// Reads the next word behind the targets.
 uint mx_get(inout MxReader reader)
 {
     return imageLoad(mx_words, ivec3(reader.pixel, int(reader.at++))).x;
 }
 
 #if MX_STORAGE == 2
+// Reads a number that is stored whole.
 void mx_get(inout MxReader reader, out float value)
 {
     value = uintBitsToFloat(mx_get(reader));
 }
 
+// Reads two numbers that are stored whole.
 void mx_get(inout MxReader reader, out vec2 value)
 {
     value.x = uintBitsToFloat(mx_get(reader));
     value.y = uintBitsToFloat(mx_get(reader));
 }
 
+// Reads three numbers that are stored whole.
 void mx_get(inout MxReader reader, out vec3 value)
 {
     value.x = uintBitsToFloat(mx_get(reader));
@@ -36,6 +40,7 @@ void mx_get(inout MxReader reader, out vec3 value)
 MxClosure mx_get_whole(inout MxReader reader);
 #endif
 
+// Begins to read the closures of a pixel, from the top down.
 MxReader mx_open(ivec2 pixel)
 {
     MxReader reader;

@@ -16,6 +16,7 @@ struct MxRecord
     uint core, body, weights[2], medium, lobes, fuzz, anisotropy, tint, glints[4], normal;
 };
 
+// The class of a pixel by its first word.
 uint mx_class(uint first)
 {
     return (first >> 20u & MX_IS_SPECIAL) != 0u ? uint(MX_SPECIAL) : first >> 28u;
@@ -38,6 +39,7 @@ float mx_gradient_noise(vec2 pixel)
 // From 0 to 7 eighths: what is added before a number is cut off. A constant number costs one addition.
 uint mx_noise = 4u;
 
+// Chooses the noise of a pixel, before its numbers are cut.
 void mx_start_noise(vec2 pixel)
 {
 #if MX_STORAGE == 0
@@ -66,11 +68,13 @@ uint mx_eighths(float value, uint bits)
     return uint(clamp(value, 0.0, 1.0) * 8.0 * float((1u << bits) - 1u) + nearest);
 }
 
+// A number from 0 to 1 in so many bits. Each channel has noise of its own.
 uint mx_cut(float value, uint bits, uint channel)
 {
     return mx_eighths(value, bits) + mx_noise_of(channel) >> 3u;
 }
 
+// A number from 0 to 1 from its bits of a word.
 float mx_uncut(uint word, uint shift, uint bits)
 {
     return float(word >> shift & (1u << bits) - 1u) / float((1u << bits) - 1u);
@@ -84,6 +88,7 @@ uint mx_cut_color(vec3 color)
     return eighths >> 3u & 0x7fu | (eighths >> 13u & 0x7fu) << 7u | (eighths >> 23u & 0x3fu) << 14u;
 }
 
+// A colour from its 20 bits.
 vec3 mx_uncut_color(uint word)
 {
     return vec3(mx_uncut(word, 0u, 7u), mx_uncut(word, 7u, 7u), mx_uncut(word, 14u, 6u));
@@ -96,6 +101,7 @@ uint mx_cut_signed(float value, uint bits)
     return uint(int(round(clamp(value, -1.0, 1.0) * most))) & (1u << bits) - 1u;
 }
 
+// A number from -1 to 1 from its bits of a word.
 float mx_uncut_signed(uint word, uint shift, uint bits)
 {
     float most = float((1u << bits - 1u) - 1u);
@@ -109,6 +115,7 @@ vec3 mx_srgb(vec3 linear)
     return mix(1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, 12.92 * c, lessThan(c, vec3(0.0031308)));
 }
 
+// A colour from its encoding of IEC 61966-2-1.
 vec3 mx_linear(vec3 srgb)
 {
     return mix(pow((srgb + 0.055) / 1.055, vec3(2.4)), srgb / 12.92, lessThan(srgb, vec3(0.04045)));
@@ -122,6 +129,7 @@ vec2 mx_octahedral(vec3 n)
     return (n.z < 0.0 ? folded : p) * 0.5 + 0.5;
 }
 
+// A direction from its place in the octahedral square.
 vec3 mx_of_octahedral(vec2 square)
 {
     vec2 p = square * 2.0 - 1.0;
@@ -131,12 +139,14 @@ vec3 mx_of_octahedral(vec2 square)
     return normalize(n);
 }
 
+// A direction in so many bits for each axis of the octahedral square.
 uint mx_cut_normal(vec3 normal, uint bits)
 {
     uvec2 p = uvec2(round(mx_octahedral(normal) * float((1u << bits) - 1u)));
     return p.x | p.y << bits;
 }
 
+// A direction from its bits.
 vec3 mx_uncut_normal(uint word, uint bits)
 {
     return mx_of_octahedral(vec2(mx_uncut(word, 0u, bits), mx_uncut(word, bits, bits)));
@@ -152,21 +162,25 @@ void mx_across(vec3 n, out vec3 x, out vec3 y)
 
 // ---- words -----------------------------------------------------------------------------------------------------------
 
+// The third word of a pixel: normal and roughness of the closure on top.
 uint mx_top(vec3 normal, float roughness)
 {
     return mx_cut_normal(normal, 12u) | mx_cut(roughness, 8u, 3u) << 24u;
 }
 
+// The normal of the closure on top.
 vec3 mx_top_normal(uint word)
 {
     return mx_uncut_normal(word & 0xffffffu, 12u);
 }
 
+// The roughness of the closure on top.
 float mx_top_roughness(uint word)
 {
     return mx_uncut(word, 24u, 8u);
 }
 
+// The word of a medium: free path, anisotropy of its phase function, and whether it is a body. 0 for opaque matter.
 uint mx_medium_word(MxClosure c)
 {
     if (max(c.free_path.x, max(c.free_path.y, c.free_path.z)) <= 0.0
@@ -176,6 +190,7 @@ uint mx_medium_word(MxClosure c)
          | (c.is_thick > 0.0 ? 1u << 26u : 0u);
 }
 
+// The word of the lobes: the second roughness with its weight, and the hue of f90.
 uint mx_lobes_word(MxClosure c)
 {
     uint weight = mx_cut(c.second_roughness_weight, 6u, 4u);
@@ -185,6 +200,7 @@ uint mx_lobes_word(MxClosure c)
          | mx_cut(1.0 - hue.z, 6u, 8u) << 26u;
 }
 
+// The word of fuzz: amount, colour and roughness. 0 without fuzz.
 uint mx_fuzz_word(MxClosure c)
 {
     uint amount = mx_cut(c.fuzz_amount, 6u, 9u);
@@ -231,6 +247,7 @@ uint mx_blur_bits(float blur)
     return mx_cut(steps / 7.0, 3u, 12u);
 }
 
+// The blur from its three bits.
 float mx_blur_of(uint bits)
 {
     return bits == 0u ? 0.0 : exp2(float(bits) - 8.0);
@@ -250,6 +267,7 @@ uint mx_core(MxClosure c)
     return mx_cut_color(sqrt(clamp(c.f0, 0.0, 1.0)));
 }
 
+// The second word of a closure: diffuse albedo and roughness.
 uint mx_body(MxClosure c)
 {
     return mx_cut_color(mx_srgb(c.diffuse_albedo)) | mx_cut(c.roughness, 8u, 3u) << 20u;
@@ -282,6 +300,7 @@ MxRecord mx_pack(MxClosure c, vec3 stored_normal)
     return r;
 }
 
+// A closure from its words, with the normal and roughness that other words have.
 MxClosure mx_unpack(MxRecord r, vec3 normal, float roughness)
 {
     MxClosure c;

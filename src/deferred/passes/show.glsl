@@ -7,6 +7,7 @@ vec3 mx_heat(float value)
     return clamp(vec3(2.0 * x - 1.0, 1.0 - abs(2.0 * x - 1.0), 1.0 - 2.0 * x), 0.0, 1.0);
 }
 
+// Draws the value of a pixel that the host chose.
 void mx_run(uvec2 group, uvec2 place)
 {
     ivec2 pixel = mx_pixel_in(group, place);

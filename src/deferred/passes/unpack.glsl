@@ -2,6 +2,7 @@
 
 vec3 mx_view; // of the ray at hand
 
+// The closure of a payload.
 MxClosure mx_open_payload(MxPayload p)
 {
     MxRecord r = MxRecord(p.words[0], p.words[1], uint[2](p.words[2], p.words[3]), p.words[4], p.words[5], p.words[6], p.words[7],

@@ -2,6 +2,7 @@
 
 uint mx_packed[MX_WORDS];
 
+// Keeps a word behind the first three, which are variables.
 void mx_put_at(uint index, uint word)
 {
     mx_packed[index + 3u] = word;

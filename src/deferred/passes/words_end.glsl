@@ -16,7 +16,7 @@ int mx_begin_words(vec2 place)
     return 0;
 }
 
-// finished: the result of mx_finish_closures.
+// A word, after mx_finish_closures, whose result is `finished`.
 uint mx_packed_word(int finished, int index)
 {
     return index == 0 ? mx_word0 : index == 1 ? mx_word1 : index == 2 ? mx_word2 : mx_packed[index];

@@ -21,23 +21,27 @@ bool mx_is_special = false;     // a closure has glints or a tint
 MxClosure mx_whole;
 #endif
 
+// Writes the next word behind the targets.
 void mx_put(uint word)
 {
 %    imageStore(mx_words, ivec3(ivec2(gl_FragCoord.xy), int(mx_num_words++)), uvec4(word));
 @    mx_put_at(mx_num_words++, word);
 }
 
+// Writes a whole number.
 void mx_put(float value)
 {
     mx_put(floatBitsToUint(value));
 }
 
+// Writes two whole numbers.
 void mx_put(vec2 value)
 {
     mx_put(value.x);
     mx_put(value.y);
 }
 
+// Writes three whole numbers.
 void mx_put(vec3 value)
 {
     mx_put(value.x);
@@ -122,6 +126,7 @@ void mx_keep(MxClosure c)
     ++mx_num_closures;
 }
 
+// Writes the last closure, and the words of the targets, from the number of closures that are stored.
 int mx_finish_closures(int stored)
 {
     mx_word0 = 0u;

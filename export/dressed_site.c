@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "export/stage.h"
+#include "export/dressed_site.h"
 
 #include "program/memory.h"
 #include "render/look_parts.h"
@@ -8,13 +8,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-bool stage_open(struct stage *stage, struct cli *cli, const char *path)
+bool dressed_site_open(struct dressed_site *stage, struct cli *cli, const char *path)
 {
-    *stage = (struct stage){0};
+    *stage = (struct dressed_site){0};
     return site_open(&stage->site, cli, path, NULL);
 }
 
-void stage_close(struct stage *stage)
+void dressed_site_close(struct dressed_site *stage)
 {
     for (size_t i = 0; stage->dresses && i < stage->num_looks * stage->site.num_objects; ++i)
         free(stage->dresses[i].material);
@@ -25,15 +25,16 @@ void stage_close(struct stage *stage)
     site_close(&stage->site);
 }
 
-const struct stage_dress *stage_dress(const struct stage *stage, size_t look, uint32_t object)
+const struct site_dress *dressed_site_dress(const struct dressed_site *stage, size_t look,
+                                            uint32_t object)
 {
     return &stage->dresses[look * stage->site.num_objects + object];
 }
 
-bool stage_shows(const struct stage *stage, uint32_t object)
+bool dressed_site_shows(const struct dressed_site *stage, uint32_t object)
 {
     for (size_t i = 0; i < stage->num_looks; ++i)
-        if (!stage_dress(stage, i, object)->is_hidden)
+        if (!dressed_site_dress(stage, i, object)->is_hidden)
             return true;
     return false;
 }
@@ -62,7 +63,7 @@ static struct layers read_layers(const mxg_bindings *bindings, uint32_t primitiv
 }
 
 /* Tells lost layers once, with the first primitive that has them. */
-static void tell_lost(struct stage *stage, uint32_t primitive, const struct layers *layers)
+static void tell_lost(struct dressed_site *stage, uint32_t primitive, const struct layers *layers)
 {
     const mxg_layer *lost = &layers->lost;
     char *path = site_path(stage->site.scene, primitive),
@@ -87,7 +88,7 @@ static void tell_lost(struct stage *stage, uint32_t primitive, const struct laye
 
 /* ---- Looks ---- */
 
-static void add_look(struct stage *stage, const char *name)
+static void add_look(struct dressed_site *stage, const char *name)
 {
     stage->looks = memory_resize(stage->looks, (stage->num_looks + 1) * sizeof *stage->looks);
     stage->looks[stage->num_looks++] = name;
@@ -96,7 +97,7 @@ static void add_look(struct stage *stage, const char *name)
 /* Layers are told where they are lost: tell_lost. */
 static void tell_variant(void *user_data, const char *look, const mxg_element_info *part)
 {
-    const struct stage *stage = user_data;
+    const struct dressed_site *stage = user_data;
     if (strcmp(part->category, "variantassign") == 0)
         report_warning(stage->site.report, "export-loss",
                        "'%s/%s' (%s:%u) is not in the file: its materials have their own values, "
@@ -104,7 +105,7 @@ static void tell_variant(void *user_data, const char *look, const mxg_element_in
                        look, part->name, part->file, (unsigned)part->line);
 }
 
-static void list_looks(struct stage *stage, const mxg_document *document, const char *look,
+static void list_looks(struct dressed_site *stage, const mxg_document *document, const char *look,
                        bool has_variants)
 {
     mxg_element_info info = {sizeof info};
@@ -126,7 +127,8 @@ static void list_looks(struct stage *stage, const mxg_document *document, const 
         look_parts(document, stage->looks[i], tell_variant, stage);
 }
 
-static void dress(struct stage *stage, const mxg_bindings *bindings, struct stage_dress *dresses)
+static void dress(struct dressed_site *stage, const mxg_bindings *bindings,
+                  struct site_dress *dresses)
 {
     for (uint32_t i = 0; i < stage->site.num_objects; ++i) {
         uint32_t primitive = site_bound_primitive(&stage->site, &stage->site.objects[i]);
@@ -145,17 +147,17 @@ static void dress(struct stage *stage, const mxg_bindings *bindings, struct stag
 }
 
 /* False after reporting an error: the looks hide all that the stage has. */
-static bool shows_any(struct stage *stage)
+static bool shows_any(struct dressed_site *stage)
 {
     for (uint32_t i = 0; i < stage->site.num_objects; ++i)
-        if (stage_shows(stage, i))
+        if (dressed_site_shows(stage, i))
             return true;
     report_error(stage->site.report, "empty-mesh", "the look hides all primitives of the stage");
     return false;
 }
 
-bool stage_bind(struct stage *stage, struct cli *cli, const mxg_document *document,
-                const char *look, bool has_variants)
+bool dressed_site_bind(struct dressed_site *stage, struct cli *cli, const mxg_document *document,
+                       const char *look, bool has_variants)
 {
     bool good = true;
     list_looks(stage, document, look, has_variants);
