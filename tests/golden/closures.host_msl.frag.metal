@@ -117,7 +117,7 @@ void FragmentMain()
     float scale = (1.0 / albedo.x - 1.0) * 0.079748526 + 1.0;
     float3 h = faceforward(N, -V, N);
     float ggx_masking = sqrt(cos_v * cos_v * 0.9984 + 0.0016);
-    mx_GgxLobe coat_vector = make_mx_GgxLobe(h, cos_v, float3(0.0), float2(0.04), ggx_masking);
+    mx_GgxLobe coat_ggx_lobe = make_mx_GgxLobe(h, cos_v, float3(0.0), float2(0.04), ggx_masking);
     float paint_weight = (1.0 - mix(0.03373595, 1.0, albedo.y) * albedo.x * scale) * 0.75;
     float3 paint_product = paint_weight * 0.31830987 * float3(0.6, 0.1, 0.05);
     // from the last light, so that drivers do not unroll the loop
@@ -130,7 +130,7 @@ void FragmentMain()
         float cos_l = max(dot(light_L, h), 1e-8);
         float3 paint_response = paint_product
             * (cos_l * (max(v_dot_l - cos_v * cos_l, 0.0) * 0.225 / max(cos_l, cos_v) + 0.89285713));
-        color += light_radiance * (coat_product * mx_ggx_light(coat_vector, V, light_L) + paint_response);
+        color += light_radiance * (coat_product * mx_ggx_light(coat_ggx_lobe, V, light_L) + paint_response);
     }
     // environment: coat, paint
     float3 scaled_environment_irradiance = mxg_host.mxg_irradiance(vd.positionWorld, normalize(h))
