@@ -58,18 +58,10 @@ static void place_object(const struct scene_object *object, struct matrix world,
 
 /* ---- Primvars ---- */
 
-static struct primvar *find_primvar(const struct scene_object *object, const char *name)
-{
-    for (uint32_t i = 0; i < object->num_primvars; ++i)
-        if (strcmp(object->primvars[i].name, name) == 0)
-            return &object->primvars[i];
-    return NULL;
-}
-
 /* Values of an object, whose texture coordinates are its st; a primvar that it lacks is 0. */
 static void copy_values(const struct scene_object *object, const struct primvar *to, uint32_t first)
 {
-    const struct primvar *from = find_primvar(object, to->name);
+    const struct primvar *from = object_primvar(object, to->name);
     bool is_texcoord = strcmp(to->name, "st") == 0;
     for (uint32_t v = 0; v < object->mesh.num_vertices; ++v) {
         if (from)
@@ -96,7 +88,7 @@ static void join_primvars(const struct site *site, struct scene_object *out)
     for (uint32_t o = 0; o < site->num_objects; ++o) {
         const struct scene_object *object = &site->objects[o].object;
         for (uint32_t i = 0; i < object->num_primvars; ++i)
-            if (object->primvars[i].components && !find_primvar(out, object->primvars[i].name))
+            if (object->primvars[i].components && !object_primvar(out, object->primvars[i].name))
                 add_primvar(out, &object->primvars[i]);
     }
     for (uint32_t o = 0; o < site->num_objects; ++o) {
