@@ -127,6 +127,20 @@ static bool read_triangles(struct reading *in, struct gltf_numbering *numbering)
 
 /* ---- Attributes ---- */
 
+/* Opens an accessor with an element for each vertex. false after a fault. */
+static bool open_attribute(struct reading *in, size_t index, unsigned least, unsigned most,
+                           struct gltf_accessor *out)
+{
+    if (!gltf_accessor_open(in->source, index, least, most, out)
+        || !gltf_source_spend(in->source, in->num_used * sizeof(float[4])))
+        return false;
+    if (out->count != in->num_vertices)
+        return gltf_source_fail(in->source,
+                                "accessors[%zu] has %zu elements; its primitive has %zu vertices",
+                                index, out->count, in->num_vertices);
+    return true;
+}
+
 /* Adds the differences of a morph target times its weight. */
 static bool add_target(struct reading *in, const json_t *target, const char *name, double weight,
                        struct numbers *out)
@@ -137,13 +151,8 @@ static bool add_target(struct reading *in, const json_t *target, const char *nam
     if (index == SIZE_MAX || weight == 0)
         return true;
     /* the sign of a tangent does not change */
-    if (!gltf_accessor_open(in->source, index, most == 4 ? 3 : most, most, &accessor)
-        || !gltf_source_spend(in->source, in->num_used * sizeof *out->values))
+    if (!open_attribute(in, index, most == 4 ? 3 : most, most, &accessor))
         return false;
-    if (accessor.count != in->num_vertices)
-        return gltf_source_fail(in->source,
-                                "accessors[%zu] has %zu elements; its primitive has %zu vertices",
-                                index, accessor.count, in->num_vertices);
     for (uint32_t i = 0; i < in->num_used; ++i) {
         float change[GLTF_MAX_WIDTH];
         if (!gltf_accessor_floats(in->source, &accessor, in->used[i], change))
@@ -163,13 +172,8 @@ static bool read_attribute(struct reading *in, const char *name, unsigned least,
     *out = (struct numbers){0};
     if (index == SIZE_MAX)
         return true;
-    if (!gltf_accessor_open(in->source, index, least, most, &accessor)
-        || !gltf_source_spend(in->source, in->num_used * sizeof *out->values))
+    if (!open_attribute(in, index, least, most, &accessor))
         return false;
-    if (accessor.count != in->num_vertices)
-        return gltf_source_fail(in->source,
-                                "accessors[%zu] has %zu elements; its primitive has %zu vertices",
-                                index, accessor.count, in->num_vertices);
     out->width = accessor.width;
     out->values = memory_alloc(in->num_used * sizeof *out->values + 1);
     for (uint32_t i = 0; i < in->num_used; ++i) {
@@ -278,9 +282,8 @@ static bool open_influences(struct reading *in, unsigned set, struct influences 
                && gltf_source_fail(in->source,
                                    "a node has a skin, and a primitive of its mesh has no JOINTS_0 "
                                    "and WEIGHTS_0");
-    return gltf_accessor_open(in->source, of_joints, 4, 4, &out->joints)
-           && gltf_accessor_open(in->source, of_weights, 4, 4, &out->weights)
-           && gltf_source_spend(in->source, 32ull * in->num_used);
+    return open_attribute(in, of_joints, 4, 4, &out->joints)
+           && open_attribute(in, of_weights, 4, 4, &out->weights);
 }
 
 /* Adds the matrices of one set; *total are the weights. false after a fault. */

@@ -310,6 +310,9 @@ fails("no such accessor", attributes(POSITION=77), "there are no accessors[77]; 
 fails("a view beyond its buffer", lambda root: root["bufferViews"][0].update(byteLength=10**6), "bufferViews[0] ends behind the")
 fails("a short stride", lambda root: root["bufferViews"][0].update(byteStride=4), "bufferViews[0].byteStride is 4; an element of accessors[0] has 12 bytes")
 fails("a skin without joints", node(skin=0), "a node has a skin, and a primitive of its mesh has no JOINTS_0 and WEIGHTS_0")
+fails("joints of fewer vertices", lambda root: (root["accessors"].append({"bufferView": 0, "componentType": 5126, "count": 1, "type": "VEC4"}),
+                                              attributes(JOINTS_0=4, WEIGHTS_0=4)(root), root["nodes"][0].update(skin=0)),
+      "accessors[4] has 1 elements; its primitive has 4 vertices")
 fails("no such skin", node(skin=5), "there are no skins[5] with joints")
 fails("a joint that is missing", lambda root: (root["nodes"][0].update(skin=0), root["skins"][0].update(joints=[9])), "joint 0 of a skin is no node of the scene")
 fails("no such mesh", node(mesh=4), "nodes[0] has the mesh 4, which is missing")
