@@ -7,23 +7,27 @@
 
 /* ---- Tokens ---- */
 
+/* The property of an input: "inputs:st". */
+static const char *property_name(struct maker *m, const char *input)
+{
+    struct text text;
+    text_init(&text, m->scratch);
+    text_fmt(&text, "inputs:%s", input);
+    return text_cstr(&text);
+}
+
 /* The connection of an input; NULL: it has none. */
 static const struct usda_property *connection_of(struct maker *m, usda_prim_id prim,
                                                  const char *name)
 {
-    struct text text;
-    text_init(&text, m->scratch);
-    text_fmt(&text, "inputs:%s", name);
-    return maker_connection(m, prim, (struct text_word){text.data, text.len});
+    const char *property = property_name(m, name);
+    return maker_connection(m, prim, (struct text_word){property, strlen(property)});
 }
 
 /* The property with the value of an input itself; NULL: it has none. */
 static const struct usda_property *own_value(struct maker *m, usda_prim_id prim, const char *name)
 {
-    struct text text;
-    text_init(&text, m->scratch);
-    text_fmt(&text, "inputs:%s", name);
-    return usda_find_attribute(m->layer, &m->layer->prims.items[prim], text_cstr(&text));
+    return usda_find_attribute(m->layer, &m->layer->prims.items[prim], property_name(m, name));
 }
 
 /* The property that gives an input its value or connection; NULL: none. */
