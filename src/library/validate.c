@@ -144,6 +144,7 @@ void library_validate(const struct library *lib, struct arena *scratch, struct d
     for (elem_id e = v.doc->root; e; e = doc_next_in_tree(v.doc, v.doc->root, e))
         check_element(&v, e);
     validate_implementations(&v, scratch);
+    validate_default_versions(&v);
     if (diags->num_errors == 0) /* errors hide connections */
         check_use(&v);
     for (uint32_t i = 0; lib->deferred && i < lib->deferred->items.len; i++)

@@ -38,6 +38,8 @@ void validate_declaration(struct validate *v, elem_id element);
 void validate_space(struct validate *v, elem_id node, const struct port *port, elem_id input);
 /* Reports two implementations of one definition for the same target. */
 void validate_implementations(struct validate *v, struct arena *scratch);
+/* Reports two versions of one definition that both say that they are the default. */
+void validate_default_versions(struct validate *v);
 void validate_unit(struct validate *v, elem_id node, const struct port *port, elem_id input);
 /* The type of an element has the unit or the colour space that the element says. */
 void validate_type_of_meaning(struct validate *v, elem_id element);

@@ -322,6 +322,43 @@ void validate_implementations(struct validate *v, struct arena *scratch)
                      text_of(v, doc_element(v->doc, claims[i - 1].element)->name));
 }
 
+/* The version of `a` that a node without a version gets may be `b`, too: alike outputs, and no
+ * input of another type. */
+static bool is_rival(const struct library *lib, const struct nodedef *a, const struct nodedef *b)
+{
+    const struct port *of_a = &lib->ports.items[a->first_port];
+    const struct port *of_b = &lib->ports.items[b->first_port];
+    if (a->num_outputs != b->num_outputs || a->target != b->target)
+        return false;
+    for (uint32_t i = 0; i < a->num_outputs; i++)
+        if (of_a[a->num_inputs + i].type != of_b[b->num_inputs + i].type)
+            return false;
+    for (uint32_t i = 0; i < a->num_inputs; i++)
+        for (uint32_t k = 0; k < b->num_inputs; k++)
+            if (of_a[i].name == of_b[k].name && of_a[i].type != of_b[k].type)
+                return false;
+    return true;
+}
+
+void validate_default_versions(struct validate *v)
+{
+    const struct library *lib = v->lib;
+    for (uint32_t i = 0; i < lib->nodedefs.len; i++) {
+        const struct nodedef *first = &lib->nodedefs.items[i];
+        uint32_t next = first->is_default_version ? first->next_same_node : LIBRARY_NONE;
+        for (; next != LIBRARY_NONE; next = lib->nodedefs.items[next].next_same_node) {
+            const struct nodedef *other = &lib->nodedefs.items[next];
+            if (other->is_default_version && is_rival(lib, first, other)) {
+                diag_add(v->diags, DIAG_ID_two_default_versions,
+                         doc_attr_place(v->doc, other->element, STR_isdefaultversion),
+                         text_of(v, first->name), text_of(v, other->name), text_of(v, first->node),
+                         text_of(v, first->name));
+                break;
+            }
+        }
+    }
+}
+
 /* "Units": floats, vectors and filenames. */
 static bool can_have_unit(doc_type type)
 {
