@@ -189,9 +189,10 @@ static ir_ref build_plain(struct ir_graph *g, enum ir_op op, ir_type_id wanted, 
 /* IR_NUM_OPS: there is no op of this name that node.h offers. */
 static enum ir_op find_op(const char *name)
 {
-    unsigned op = 0;
-    while (op < IR_NUM_OPS && (!name || strcmp(ir_op_info((enum ir_op)op)->text, name) != 0))
-        op++;
+    unsigned op = name ? 0 : IR_NUM_OPS;
+    for (const char *text; op < IR_NUM_OPS; op++)
+        if (*(text = ir_op_info((enum ir_op)op)->text) == *name && strcmp(text, name) == 0)
+            break;
     bool is_source = op <= IR_POISON, is_special = op == IR_SWIZZLE || op == IR_MEMBER,
          is_call = op >= IR_CALL && op <= IR_LEAF;
     return is_source || is_special || is_call ? IR_NUM_OPS : (enum ir_op)op;

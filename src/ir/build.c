@@ -93,6 +93,9 @@ ir_ref ir_build(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t
         result = fold(graph, op, type, attr, own, num_args);
     if (!result && (op == IR_MUL || flags & OP_COMMUTES))
         sort_operands(graph, op, own);
+    struct ir_content content = {op, type, attr, num_args, own, 0};
+    if (!result) /* no rule applied to an equal node when it was made */
+        result = ir_find(graph, &content);
     if (!result)
         result = ir_apply_rules(graph, op, type, own, num_args);
     if (!result && num_consts && (op == IR_ADD || op == IR_SUB || op == IR_DIV))
@@ -101,7 +104,7 @@ ir_ref ir_build(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t
         result = ir_simplify_abs(graph, own[0]);
     if (!result && may_simplify(op, type))
         result = ir_simplify(graph, op, type, attr, own, num_args);
-    return result ? result : ir_intern(graph, op, type, attr, own, num_args);
+    return result ? result : ir_add(graph, &content);
 }
 
 static ir_ref build_by_rule(struct ir_graph *graph, enum ir_op op, const ir_ref *args,

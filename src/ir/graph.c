@@ -7,21 +7,12 @@
 #include <assert.h>
 
 /* a shading model has a few hundred nodes */
-enum { FIRST_NODES = 768 };
+enum { FIRST_NODES = 1280 };
 
-/* The identity of a node: all of struct ir_node except flags and origin. */
-struct content {
-    enum ir_op op;
-    ir_type_id type;
-    uint32_t attr; /* 0 for a constant, whose attr is the index of its words */
-    uint32_t count;
-    const uint32_t *data; /* the operands, or the words of a constant */
-};
-
-static struct content content_of(const struct ir_graph *graph, ir_ref ref)
+static struct ir_content content_of(const struct ir_graph *graph, ir_ref ref)
 {
     const struct ir_node *node = ir_get(graph, ref);
-    struct content c = {.op = (enum ir_op)node->op, .type = node->type};
+    struct ir_content c = {.op = (enum ir_op)node->op, .type = node->type};
     assert(node->op < IR_NUM_OPS);
     if (node->op == IR_CONST) {
         c.count = ir_type_info(node->type)->components;
@@ -36,38 +27,37 @@ static struct content content_of(const struct ir_graph *graph, ir_ref ref)
     return c;
 }
 
-static inline uint32_t hash_content(struct content c)
+static inline uint32_t hash_of(const struct ir_content *c)
 {
-    uint64_t h = hash_mix(0, (uint64_t)c.attr << 32 | (uint64_t)c.op << 16 | c.type);
-    const uint32_t *data = c.data, *end = data + (c.count & ~1u);
+    uint64_t h = hash_mix(0, (uint64_t)c->attr << 32 | (uint64_t)c->op << 16 | c->type);
+    const uint32_t *data = c->data, *end = data + (c->count & ~1u);
     for (; data < end; data += 2)
         h = hash_mix(h, (uint64_t)data[0] << 32 | data[1]);
-    if (c.count & 1)
+    if (c->count & 1)
         h = hash_mix(h, *data);
     return (uint32_t)(h ^ (h >> 32));
 }
 
-static inline bool has_content(const struct ir_graph *graph, ir_ref ref, struct content c)
+static inline bool has_content(const struct ir_graph *graph, ir_ref ref, const struct ir_content *c)
 {
     const struct ir_node *node = ir_get(graph, ref);
-    if (node->op != c.op || node->type != c.type)
+    if (node->op != c->op || node->type != c->type)
         return false;
     const uint32_t *data = &graph->words.items[node->attr].u;
-    if (c.op != IR_CONST) {
-        if (node->attr != c.attr || node->num_args != c.count)
+    if (c->op != IR_CONST) {
+        if (node->attr != c->attr || node->num_args != c->count)
             return false;
         data = graph->args.items + node->first_arg;
     }
-    for (uint32_t i = 0; i < c.count; i++)
-        if (data[i] != c.data[i])
+    for (uint32_t i = 0; i < c->count; i++)
+        if (data[i] != c->data[i])
             return false;
     return true;
 }
 
-/* The node with this content; 0 if there is none. */
-static inline ir_ref find(const struct ir_graph *graph, struct content c, uint32_t hash)
+static inline ir_ref find(const struct ir_graph *graph, const struct ir_content *c)
 {
-    for (uint32_t at = hash, ref; (ref = table_next(&graph->table, hash, &at));)
+    for (uint32_t at = c->hash, ref; (ref = table_next(&graph->table, c->hash, &at));)
         if (has_content(graph, ref, c))
             return ref;
     return 0;
@@ -75,8 +65,9 @@ static inline ir_ref find(const struct ir_graph *graph, struct content c, uint32
 
 ir_ref ir_find_equal(const struct ir_graph *graph, ir_ref ref)
 {
-    struct content c = content_of(graph, ref);
-    return find(graph, c, hash_content(c));
+    struct ir_content c = content_of(graph, ref);
+    c.hash = hash_of(&c);
+    return find(graph, &c);
 }
 
 /* Reserves n more nodes. All other code sees the array as constant. */
@@ -150,19 +141,20 @@ static const uint8_t flags_of_ops[IR_NUM_OPS] = {
 };
 
 /* The flags of the node itself, without the flags that it inherits from operands. */
-static unsigned own_flags(const struct ir_graph *graph, struct content c)
+static unsigned own_flags(const struct ir_graph *graph, const struct ir_content *c)
 {
-    unsigned flags = flags_of_ops[c.op];
+    unsigned flags = flags_of_ops[c->op];
     if (flags & IR_NODE_PARTIAL) {
-        bool divides = c.op == IR_DIV || c.op == IR_MOD;
-        if (is_bounded(graph, c.data[divides], divides))
+        bool divides = c->op == IR_DIV || c->op == IR_MOD;
+        if (is_bounded(graph, c->data[divides], divides))
             flags = 0;
-    } else if (c.op == IR_CALL || c.op == IR_VERBATIM || c.op == IR_LEAF) {
-        flags |= graph->callees.items[c.attr].derivative ? IR_NODE_DERIVATIVE : 0u;
-    } else if (c.op == IR_GRAPH_CALL) {
-        flags |= function_flags(graph, &graph->functions.items[c.attr]);
+    } else if (c->op == IR_CALL || c->op == IR_VERBATIM || c->op == IR_LEAF) {
+        flags |= graph->callees.items[c->attr].derivative ? IR_NODE_DERIVATIVE : 0u;
+    } else if (c->op == IR_GRAPH_CALL) {
+        flags |= function_flags(graph, &graph->functions.items[c->attr]);
     }
-    return flags | (ir_type_is_closure(c.type) || ir_type_is_shader(c.type) ? IR_NODE_CLOSURE : 0u);
+    return flags
+           | (ir_type_is_closure(c->type) || ir_type_is_shader(c->type) ? IR_NODE_CLOSURE : 0u);
 }
 
 unsigned ir_flags_of(const struct ir_graph *graph, ir_ref ref)
@@ -173,7 +165,8 @@ unsigned ir_flags_of(const struct ir_graph *graph, ir_ref ref)
     unsigned inherited = 0;
     for (uint32_t i = 0; i < node->num_args; i++)
         inherited |= ir_get(graph, ir_arg(graph, ref, i))->flags;
-    return own_flags(graph, content_of(graph, ref)) | (inherited & IR_NODE_INHERITED);
+    struct ir_content c = content_of(graph, ref);
+    return own_flags(graph, &c) | (inherited & IR_NODE_INHERITED);
 }
 
 /*
@@ -227,37 +220,45 @@ static inline ir_ref add(struct ir_graph *graph, struct ir_node node, uint32_t h
     return ref;
 }
 
+ir_ref ir_find(struct ir_graph *graph, struct ir_content *c)
+{
+    c->hash = hash_of(c);
+    ir_ref equal = find(graph, c);
+    if (equal && graph->origin && ir_get(graph, equal)->origin != graph->origin)
+        graph->labels.items[equal].is_shared = true;
+    return equal;
+}
+
+ir_ref ir_add(struct ir_graph *graph, const struct ir_content *c)
+{
+    assert(c->op != IR_CONST && c->op < IR_NUM_OPS);
+    assert(c->type < IR_TYPE_FIRST_USER + graph->user_types.len);
+    if (!has_room(graph, c->op))
+        return ir_poison(graph, c->type);
+    struct ir_node node = {.op = (uint8_t)c->op,
+                           .type = c->type,
+                           .attr = c->attr,
+                           .origin = graph->origin,
+                           .num_args = c->count,
+                           .first_arg = graph->args.len};
+    node.flags = (uint8_t)(own_flags(graph, c) | push_args(graph, c->data, c->count));
+    return add(graph, node, c->hash);
+}
+
 ir_ref ir_intern(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t attr,
                  const ir_ref *args, unsigned num_args)
 {
-    assert(op != IR_CONST);
-    struct content c = {op, type, attr, num_args, args};
-    assert(op < IR_NUM_OPS && type < IR_TYPE_FIRST_USER + graph->user_types.len);
-    uint32_t hash = hash_content(c);
-    ir_ref equal = find(graph, c, hash);
-    if (equal) {
-        bool is_other = graph->origin && ir_get(graph, equal)->origin != graph->origin;
-        graph->labels.items[equal].is_shared |= is_other;
-        return equal;
-    }
-    if (!has_room(graph, op))
-        return ir_poison(graph, type);
-    struct ir_node node = {.op = (uint8_t)op,
-                           .type = type,
-                           .attr = attr,
-                           .origin = graph->origin,
-                           .num_args = num_args,
-                           .first_arg = graph->args.len};
-    node.flags = (uint8_t)(own_flags(graph, c) | push_args(graph, args, num_args));
-    return add(graph, node, hash);
+    struct ir_content c = {op, type, attr, num_args, args, 0};
+    ir_ref equal = ir_find(graph, &c);
+    return equal ? equal : ir_add(graph, &c);
 }
 
 ir_ref ir_intern_const(struct ir_graph *graph, ir_type_id type, const union ir_word *words)
 {
     assert(ir_type_info(type)->components > 0);
-    struct content c = {IR_CONST, type, 0, ir_type_info(type)->components, &words->u};
-    uint32_t hash = hash_content(c);
-    ir_ref equal = find(graph, c, hash);
+    struct ir_content c = {IR_CONST, type, 0, ir_type_info(type)->components, &words->u, 0};
+    c.hash = hash_of(&c);
+    ir_ref equal = find(graph, &c);
     if (equal)
         return equal;
     if (!has_room(graph, IR_CONST))
@@ -265,7 +266,7 @@ ir_ref ir_intern_const(struct ir_graph *graph, ir_type_id type, const union ir_w
     struct ir_node node = {
         .op = IR_CONST, .type = type, .attr = graph->words.len, .origin = graph->origin};
     push_words(graph, c.data, c.count);
-    return add(graph, node, hash);
+    return add(graph, node, c.hash);
 }
 
 uint32_t ir_add_origin(struct ir_graph *graph, str_id name, uint32_t element, uint32_t parent)

@@ -11,7 +11,21 @@
  */
 bool ir_is_linear_mul(ir_type_id a, ir_type_id b);
 
-/* graph.c: the node with this content; adds it if there is none. Does not fold. */
+/* The identity of a node: all of struct ir_node except flags and origin. */
+struct ir_content {
+    enum ir_op op;
+    ir_type_id type;
+    uint32_t attr; /* 0 for a constant, whose attr is the index of its words */
+    uint32_t count;
+    const uint32_t *data; /* the operands, or the words of a constant */
+    uint32_t hash;        /* of all this: ir_find */
+};
+
+/* graph.c: the node with this content; 0 if there is none. Sets the hash. */
+ir_ref ir_find(struct ir_graph *graph, struct ir_content *content);
+/* Adds the node that ir_find did not find. */
+ir_ref ir_add(struct ir_graph *graph, const struct ir_content *content);
+/* Both. Does not fold. */
 ir_ref ir_intern(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t attr,
                  const ir_ref *args, unsigned num_args);
 /* ir_intern for a constant of a built-in type. */
@@ -62,12 +76,14 @@ enum rule_token {
     RULE_END
 };
 
-enum { RULE_LENGTH = 10, RULE_DEPTH = 3, RULE_VARIABLES = RULE_E - RULE_A + 1 };
+enum { RULE_LENGTH = 10, RULE_DEPTH = 3, RULE_VARIABLES = RULE_E - RULE_A + 1, RULE_OPERANDS = 3 };
 
 struct rule {
     const char *name;
     /* holds for every input; otherwise for finite values, up to rounding and the sign of 0 */
     bool exact;
+    /* the first operand that is no variable, and its op; any operands: RULE_OPERANDS */
+    uint8_t at, op;
     uint8_t pattern[RULE_LENGTH], replacement[RULE_LENGTH]; /* RULE_END ends them */
 };
 

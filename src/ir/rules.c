@@ -30,8 +30,22 @@ enum {
 enum { FINITE, EXACT };
 
 #define TOKENS(...) __VA_ARGS__, RULE_END
+#define OPERANDS(...) __VA_ARGS__, A, A
+#define IS_VARIABLE(token) ((token) >= A && (token) < K)
+#define OP_OF(token) ((token) < A ? (token) : CONST)
+/* Operands behind one that has operands of its own stand elsewhere in the pattern. */
+#define CHECKED_(op, a, b, c, ...) \
+    !IS_VARIABLE(a)   ? 0 \
+    : !IS_VARIABLE(b) ? 1 \
+    : !IS_VARIABLE(c) ? 2 \
+                      : RULE_OPERANDS, \
+        OP_OF(!IS_VARIABLE(a)   ? (a) \
+              : !IS_VARIABLE(b) ? (b) \
+              : !IS_VARIABLE(c) ? (c) \
+                                : K)
+#define CHECKED(...) CHECKED_(__VA_ARGS__, 0)
 #define RULE(name, exactness, pattern, replacement) \
-    {#name, exactness, {TOKENS pattern}, {TOKENS replacement}},
+    {#name, exactness, CHECKED(OPERANDS pattern), {TOKENS pattern}, {TOKENS replacement}},
 
 #define RULES(op, ...) static const struct rule rules_of_##op[] = {__VA_ARGS__};
 #include "ir/rules.def"
@@ -186,9 +200,14 @@ ir_ref ir_apply_rules(struct ir_graph *graph, enum ir_op op, ir_type_id type, co
 {
     const struct rule *rules = ir_rules[op].rules, *end = rules + ir_rules[op].num;
     struct match m = {.graph = graph};
+    uint8_t ops[RULE_OPERANDS + 1] = {[RULE_OPERANDS] = IR_CONST};
+    for (unsigned i = 0; rules < end && i < num_args; i++)
+        ops[i] = ir_get(graph, args[i])->op;
     if (op == IR_MUL)
         m.linear = ir_is_linear_mul(ir_type_of(graph, args[0]), ir_type_of(graph, args[1]));
     for (const struct rule *rule = rules; rule < end; rule++) {
+        if (ops[rule->at] != rule->op)
+            continue;
         m.exact = rule->exact;
         if ((graph->exact && !rule->exact) || !match(&m, rule, args, num_args))
             continue;

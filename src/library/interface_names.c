@@ -147,7 +147,6 @@ int library_resolve_interface(const struct library *lib, elem_id asker, uint32_t
         ports && binding->input < library_nodedef(lib, nodedef)->num_inputs ? binding->input : -1;
     if (ports && (index < 0 || ports[index].name != name))
         index = library_find_input(lib, nodedef, name);
-    struct diag_place place = doc_attr_place(&lib->doc, asker, STR_interfacename);
     if (index < 0) {
         report_dangling(lib, asker, nodedef, name, diags);
         return -1;
@@ -156,8 +155,9 @@ int library_resolve_interface(const struct library *lib, elem_id asker, uint32_t
          is_fitting = port->type == DOC_TYPE_NONE || ports[index].type == port->type
                       || (!is_output && library_accepts(port->type, ports[index].type));
     if (!is_fitting) {
-        diag_add(diags, DIAG_ID_type_mismatch, place, is_output ? "output" : "input",
-                 text_of(lib, port->name), text_of(lib, library_type_name(lib, port->type)),
+        diag_add(diags, DIAG_ID_type_mismatch, doc_attr_place(&lib->doc, asker, STR_interfacename),
+                 is_output ? "output" : "input", text_of(lib, port->name),
+                 text_of(lib, library_type_name(lib, port->type)),
                  text_of(lib, library_type_name(lib, ports[index].type)));
         diag_add(diags, DIAG_ID_connected_here, doc_name_place(&lib->doc, ports[index].element),
                  text_of(lib, name));

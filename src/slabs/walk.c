@@ -532,6 +532,11 @@ static uint8_t *find_layers(const struct walk *w)
     return is_layer;
 }
 
+static bool is_slab(const struct ir_node *node)
+{
+    return node->op == IR_SLAB || node->op == IR_SLAB_LAYER || node->op == IR_SLAB_SURFACE;
+}
+
 /* Marks the nodes that depend on a slab. */
 static uint8_t *find_slabs(const struct shader *shader, const struct slab_nodes *nodes)
 {
@@ -540,7 +545,7 @@ static uint8_t *find_slabs(const struct shader *shader, const struct slab_nodes 
     for (uint32_t at = 1; at < nodes->items.len; at++) {
         ir_ref ref = nodes->items.items[at];
         const struct ir_node *node = ir_get(g, ref);
-        has[at] = node->op == IR_SLAB || node->op == IR_SLAB_LAYER || node->op == IR_SLAB_SURFACE;
+        has[at] = is_slab(node);
         for (uint32_t i = 0; i < node->num_args; i++)
             has[at] |= has[slab_node_at(nodes, ir_arg(g, ref, i))];
     }
@@ -614,6 +619,11 @@ static void find_scattering(struct walk *w)
 bool slabs_has(const struct shader *shader, ir_ref ref)
 {
     struct slab_nodes nodes;
+    ir_ref any = ref;
+    while (any && !is_slab(ir_get(shader->graph, any)))
+        any--;
+    if (!any)
+        return false;
     slabs_find_nodes(shader->graph, ref, shader->arena, &nodes);
     return find_slabs(shader, &nodes)[nodes.items.len - 1];
 }
@@ -636,10 +646,10 @@ ir_ref slabs_walk(struct shader *shader, const struct slabs_host *host, ir_ref r
 {
     struct ir_graph *g = shader->graph;
     struct walk w = {.shader = shader, .graph = g, .host = host};
+    if (!slabs_has(shader, root))
+        return root;
     slabs_find_nodes(g, root, shader->arena, &w.nodes);
     w.has_slabs = find_slabs(shader, &w.nodes);
-    if (!has_slabs(&w, root))
-        return root;
     w.spreads = find_variances(&w, SLAB_ROUGHNESS, slab_spread);
     w.slopes = find_variances(&w, SLAB_REFRACTION, slab_slope);
     if (!host->walks)

@@ -46,6 +46,12 @@ static bool names(const char *text, const char *end, const char *name)
     return false;
 }
 
+/* True for a printable character of ASCII that continues no line. */
+static inline bool is_plain(char c)
+{
+    return (unsigned char)(c - ' ') < 0x7f - ' ' && c != '\\';
+}
+
 /*
  * The bytes at `text` that end a line or join it with the next one; 0: it is another character. The
  * line ends of Unicode (U+0085, U+2028 and U+2029) end comments of WGSL.
@@ -67,11 +73,9 @@ void spell_comment(struct spell *spell, const char *text, size_t len)
     size_t begin = spell->out->len;
     text_mem(spell->out, text, len);
     char *out = spell->out->data + begin;
-    for (size_t i = 0, step; i < len; i += step) {
-        size_t ends = ends_line(out + i, len - i);
-        memset(out + i, '?', ends);
-        step = ends ? ends : 1;
-    }
+    for (size_t i = 0; i < len; i++)
+        if (!is_plain(out[i]))
+            memset(out + i, '?', ends_line(out + i, len - i));
 }
 
 /* True if a sentence names a parameter that the version lacks and that is no constant. */
@@ -87,11 +91,11 @@ static bool explains_absent(const struct subject *s, const char *text, const cha
 /* The end of the sentence or line at `text`. */
 static const char *end_of_sentence(const char *text, const char *end)
 {
-    for (const char *at = text; at < end; at++) {
-        bool stops = *at == '.' && at + 2 < end && at[1] == ' ' && isupper((unsigned char)at[2]);
-        if (*at == '\n' || stops)
-            return at + (*at == '.');
-    }
+    for (const char *at = text; at < end; at++)
+        if (*at == '\n')
+            return at;
+        else if (*at == '.' && at + 2 < end && at[1] == ' ' && isupper((unsigned char)at[2]))
+            return at + 1;
     return end;
 }
 

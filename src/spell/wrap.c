@@ -19,19 +19,31 @@ struct wrapper {
     const char *copied; /* `out` has the text before this */
 };
 
+/* The role of a character in the search for a break. */
+enum meaning { PLAIN, OPERATOR, OPENS, CLOSES, QUOTE, SLASH, SPACE };
+
+static const uint8_t meanings[256] = {
+    ['('] = OPENS,    ['['] = OPENS,    ['{'] = OPENS,    [')'] = CLOSES,   [']'] = CLOSES,
+    ['}'] = CLOSES,   ['"'] = QUOTE,    ['/'] = SLASH,    [' '] = SPACE,    ['+'] = OPERATOR,
+    ['-'] = OPERATOR, ['*'] = OPERATOR, ['%'] = OPERATOR, ['<'] = OPERATOR, ['>'] = OPERATOR,
+    ['='] = OPERATOR, ['!'] = OPERATOR, ['&'] = OPERATOR, ['|'] = OPERATOR, ['^'] = OPERATOR,
+    ['?'] = OPERATOR, [':'] = OPERATOR,
+};
+
 /*
  * True if a line may break at this space, beside an operator or a comma. The break replaces the
  * space.
  */
 static bool may_break(const char *at, const char *end)
 {
-    if (*at != ' ' || at + 2 >= end)
+    if (at + 2 >= end)
         return false;
     if (at[-1] == ',')
         return true;
-    bool is_operator = strchr("+-*/%<>=!&|^?:", at[1]) && at[1] != '\0';
+    if (meanings[(unsigned char)at[1]] != OPERATOR && at[1] != '/')
+        return false;
     bool ends = at[2] == ' ' || (at + 3 < end && at[3] == ' ' && ispunct((unsigned char)at[2]));
-    return is_operator && ends && !(at[1] == '=' && at[2] == ' ');
+    return ends && !(at[1] == '=' && at[2] == ' ');
 }
 
 /* The closing quote of the string that starts at `at`. */
@@ -41,14 +53,6 @@ static const char *end_of_string(const char *at, const char *end)
         ;
     return at;
 }
-
-/* The role of a character in the search for a break. */
-enum meaning { PLAIN, OPENS, CLOSES, QUOTE, SLASH, SPACE };
-
-static const uint8_t meanings[256] = {
-    ['('] = OPENS,  ['['] = OPENS, ['{'] = OPENS, [')'] = CLOSES, [']'] = CLOSES,
-    ['}'] = CLOSES, ['"'] = QUOTE, ['/'] = SLASH, [' '] = SPACE,
-};
 
 /*
  * Finds the break of [from, end), which starts at column `column`. Among the places within
@@ -64,21 +68,24 @@ static const char *find_break(const char *from, const char *end, size_t column)
     int depth = 0, best_depth = 0;
     for (const char *at = from; at < stop; at++) {
         enum meaning meaning = meanings[(unsigned char)*at];
-        if (meaning == PLAIN)
+        if (meaning <= OPERATOR)
             continue;
-        depth += (meaning == OPENS) - (meaning == CLOSES);
-        if (meaning == QUOTE)
-            at = end_of_string(at, end);
-        else if (meaning == SLASH && at + 1 < end && at[1] == '/')
-            return NULL;
-        else if (meaning == SPACE && at > from + 1 && at[-1] == '=' && at[-2] == ' ')
+        if (meaning != SPACE) {
+            depth += (meaning == OPENS) - (meaning == CLOSES);
+            if (meaning == QUOTE)
+                at = end_of_string(at, end);
+            else if (meaning == SLASH && at + 1 < end && at[1] == '/')
+                return NULL;
+        } else if (at > from + 1 && at[-1] == '=' && at[-2] == ' ') {
             assigned = at;
-        else if (meaning == SPACE && at < first && at > from && may_break(at, end))
-            early = at;
-        else if (meaning == SPACE && at >= first && at > from && (!best || depth <= best_depth)
-                 && may_break(at, end)) {
-            best = at;
-            best_depth = depth;
+        } else if (at > from && (at < first || !best || depth <= best_depth)
+                   && may_break(at, end)) {
+            if (at < first) {
+                early = at;
+            } else {
+                best = at;
+                best_depth = depth;
+            }
         }
     }
     return best ? best : assigned ? assigned : early;

@@ -45,8 +45,10 @@ static bool walk(const struct walk *w, lang_ref ref, unsigned access)
     if (!w->visit(w->user_data, ref, access))
         return false;
     const struct lang_node *node = ast_node(w->unit, ref);
-    const uint32_t firsts[] = {node->a, node->b, node->c};
     unsigned fields = child_fields[node->kind];
+    if (!fields)
+        return true;
+    const uint32_t firsts[] = {node->a, node->b, node->c};
     for (unsigned field = 0; fields >> field; field++) {
         uint32_t index = 0;
         lang_ref child = fields >> field & 1 ? firsts[field] : 0;
