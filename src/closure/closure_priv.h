@@ -180,12 +180,11 @@ enum closure_variation closure_variation_of(struct shader *shader, const ir_ref 
 struct closure_light {
     ir_ref direction;          /* unit, to the light */
     ir_ref intensity;          /* radiance that arrives */
-    struct effect_list choice; /* what sets the variables of both, first in the loop */
+    ir_ref distance;           /* for RETURNS_PATH; lights without a position are infinitely far */
+    struct effect_list choice; /* what sets the variables of these, first in the loop */
 };
 void closure_sample_light(struct shader *shader, const struct closure_host *host,
                           struct closure_light *out);
-/* The distance of the current light; lights without a position are infinitely far. */
-ir_ref closure_light_distance(struct shader *shader, const struct closure_host *host);
 
 /* A contribution of a leaf: a value and its weight. */
 struct closure_part {

@@ -21,6 +21,8 @@
 /* Light functions are inlined: each has one call. */
 enum { MAX_LIGHT_NODES = 400 };
 
+#define FAR 1e30f /* the distance of a light without a position */
+
 static ir_ref member(struct shader *shader, uint32_t variable)
 {
     assert(shader->interface.variables.items[variable].block == BLOCK_LIGHT_DATA);
@@ -28,18 +30,26 @@ static ir_ref member(struct shader *shader, uint32_t variable)
                     variable, NULL, 0);
 }
 
-/* Direction and intensity from the function of one light shader. */
+/*
+ * Direction and intensity from the function of one light shader; of one of its points, with its
+ * distance, if the light has a size.
+ */
 static void call_function(struct shader *shader, const struct closure_host *host,
                           const struct shader_light *light, ir_ref *results)
 {
     assert(light->first_member + light->num_members <= shader->interface.light_members.len);
     struct lang_host see_through = *host->lang;
     see_through.max_inline_nodes = MAX_LIGHT_NODES;
-    ir_ref *args = ARENA_ARRAY(shader->arena, ir_ref, light->num_members + 1);
+    bool has_size = light->sample != LANG_NONE;
+    ir_ref *args = ARENA_ARRAY(shader->arena, ir_ref, light->num_members + 2);
     for (uint32_t i = 0; i < light->num_members; i++)
         args[i] = member(shader, shader->interface.light_members.items[light->first_member + i]);
     args[light->num_members] = closure_position(shader, host);
-    lang_lower_call(shader->unit, shader->graph, &see_through, light->function, args, results);
+    if (has_size)
+        args[light->num_members + 1] = ir_convert(shader->graph, IR_TYPE_VEC2,
+                                                  shader_stream(shader, STR_random, IR_TYPE_VEC4));
+    lang_lower_call(shader->unit, shader->graph, &see_through,
+                    has_size ? light->sample : light->function, args, results);
 }
 
 /*
@@ -160,14 +170,35 @@ static ir_ref type_of_light(struct shader *shader)
 /* One type of light. */
 struct one_light {
     ir_ref is_this; /* bool */
-    ir_ref direction, intensity;
+    ir_ref direction, intensity, distance;
 };
+
+/* True if the role asks for distances, and for lights of a size at one of their points. */
+static bool is_for_paths(const struct shader *shader)
+{
+    return shader->role->returns == RETURNS_PATH;
+}
+
+/* The distance of a light without a size. */
+static ir_ref distance_of(struct shader *shader, const struct closure_host *host,
+                          const struct shader_light *light)
+{
+    if (light->shader)
+        return ir_op1(shader->graph, IR_LENGTH, to_light(shader, host, light->position));
+    for (uint32_t m = 0; m < light->num_members; m++) {
+        uint32_t variable = shader->interface.light_members.items[light->first_member + m];
+        const struct shader_variable *v = &shader->interface.variables.items[variable];
+        if (v->name == STR_position && v->type == IR_TYPE_VEC3)
+            return ir_op1(shader->graph, IR_LENGTH, to_light(shader, host, variable));
+    }
+    return ir_const_float(shader->graph, FAR);
+}
 
 static void sample_one(struct shader *shader, const struct closure_host *host,
                        const struct shader_light *light, struct one_light *out)
 {
     struct ir_graph *g = shader->graph;
-    ir_ref results[2], type = type_of_light(shader);
+    ir_ref results[3] = {0}, type = type_of_light(shader);
     ir_push_name(g, light->name);
     if (light->shader)
         sample_emitter(shader, host, light, results);
@@ -177,7 +208,10 @@ static void sample_one(struct shader *shader, const struct closure_host *host,
         call_function(shader, host, light, results);
     *out = (struct one_light){.is_this = ir_op2(g, IR_EQ, type, ir_const_int(g, light->type)),
                               .direction = results[0],
-                              .intensity = results[1]};
+                              .intensity = results[1],
+                              .distance = results[2]};
+    if (is_for_paths(shader) && !out->distance)
+        out->distance = distance_of(shader, host, light);
     ir_pop_origin(g);
 }
 
@@ -247,7 +281,9 @@ static void choose_light(struct shader *shader, struct one_light *lights, uint32
     ir_ref color = split_color(g, lights, num);
     uint32_t direction = declare(shader, out, STR_L, lights->direction),
              intensity = declare(shader, out, STR_intensity, lights->intensity);
-    bool has_direction = false;
+    bool has_direction = false, has_distance = lights->distance != 0;
+    uint32_t distance =
+        has_distance ? declare(shader, out, STR_distance, lights->distance) : UINT32_MAX;
     for (uint32_t i = 0; i < num; i++) {
         bool is_common = !has_direction && have_one_direction(&lights[i], num - i);
         if (is_common)
@@ -258,6 +294,8 @@ static void choose_light(struct shader *shader, struct one_light *lights, uint32
         if (!has_direction)
             choose(shader, out, EFFECT_ASSIGN, direction, lights[i].direction);
         choose(shader, out, EFFECT_ASSIGN, intensity, lights[i].intensity);
+        if (has_distance)
+            choose(shader, out, EFFECT_ASSIGN, distance, lights[i].distance);
         if (i + 1 < num)
             choose(shader, out, EFFECT_ELSE, 0, 0);
     }
@@ -265,6 +303,7 @@ static void choose_light(struct shader *shader, struct one_light *lights, uint32
         choose(shader, out, EFFECT_END, 0, 0);
     out->direction = read_variable(shader, direction);
     out->intensity = ir_product(g, color, read_variable(shader, intensity));
+    out->distance = has_distance ? read_variable(shader, distance) : 0;
 }
 
 void closure_sample_light(struct shader *shader, const struct closure_host *host,
@@ -272,7 +311,7 @@ void closure_sample_light(struct shader *shader, const struct closure_host *host
 {
     struct ir_graph *g = shader->graph;
     closure_position(shader, host); /* once, outside the loop */
-    *out = (struct closure_light){0};
+    *out = (struct closure_light){.distance = ir_const_float(g, FAR)};
     if (shader->lights == LIGHTS_OF_HOST) {
         call_host(shader, host, out);
         return;
@@ -291,33 +330,7 @@ void closure_sample_light(struct shader *shader, const struct closure_host *host
     }
     out->direction = last->direction;
     out->intensity = last->intensity;
+    out->distance = last->distance;
     ir_suggest_name(g, out->direction, STR_L, IR_NAME_ROLE);
     ir_suggest_name(g, out->intensity, STR_light, IR_NAME_ROLE);
-}
-
-static ir_ref distance_to(struct shader *shader, const struct closure_host *host, uint32_t position)
-{
-    return ir_op1(shader->graph, IR_LENGTH, to_light(shader, host, position));
-}
-
-ir_ref closure_light_distance(struct shader *shader, const struct closure_host *host)
-{
-    struct ir_graph *g = shader->graph;
-    ir_ref type = type_of_light(shader), far = ir_const_float(g, 1e30f), distance = far;
-    for (uint32_t i = shader->interface.lights.len; i-- > 0;) {
-        const struct shader_light *light = &shader->interface.lights.items[i];
-        ir_ref this_one = far;
-        if (light->shader)
-            this_one = distance_to(shader, host, light->position);
-        for (uint32_t m = 0; m < light->num_members; m++) {
-            uint32_t variable = shader->interface.light_members.items[light->first_member + m];
-            const struct shader_variable *v = &shader->interface.variables.items[variable];
-            if (v->name == STR_position && v->type == IR_TYPE_VEC3)
-                this_one = distance_to(shader, host, variable);
-        }
-        distance = ir_op3(g, IR_SELECT, ir_op2(g, IR_EQ, type, ir_const_int(g, light->type)),
-                          this_one, distance);
-    }
-    assert(ir_type_of(g, distance) == IR_TYPE_FLOAT);
-    return distance;
 }

@@ -369,7 +369,7 @@ static void consider_light(struct closure_scatter *s, const struct closure_light
            is_it = scatter_op2(s, IR_LT, point, mean);
     scatter_effect(s, EFFECT_IF, 0, is_it);
     scatter_effect(s, EFFECT_ASSIGN, c->to_light, light->direction);
-    scatter_effect(s, EFFECT_ASSIGN, c->away, closure_light_distance(s->shader, s->host));
+    scatter_effect(s, EFFECT_ASSIGN, c->away, light->distance);
     for (uint32_t p = 0; p < s->num_parts; p++)
         scatter_effect(s, EFFECT_ASSIGN, c->kept[p], scatter_op2(s, IR_DIV, s->parts[p].lit, mean));
     scatter_effect(s, EFFECT_END, 0, 0);

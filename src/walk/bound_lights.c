@@ -4,6 +4,7 @@
  */
 #include "base/num.h"
 #include "build/build_priv.h"
+#include "parse/parse.h"
 
 #include <assert.h>
 
@@ -44,6 +45,7 @@ static struct shader_light start_light(struct builder *b, uint32_t nodedef, int3
     struct shader_light light = {.type = type,
                                  .name = def->node,
                                  .function = LANG_NONE,
+                                 .sample = LANG_NONE,
                                  .source = UINT32_MAX,
                                  .first_member = shader->interface.light_members.len};
     for (uint32_t i = 0; i < def->num_inputs; i++)
@@ -101,6 +103,31 @@ static ir_ref shader_of(struct builder *b, uint32_t nodedef, const struct shader
     return result && ir_get(b->graph, result)->op == IR_LIGHT_SHADER ? result : 0;
 }
 
+/*
+ * The function NAME_sample beside the function of a light, with the same inputs; LANG_NONE: the
+ * light has no size.
+ */
+static uint32_t find_sample(const struct builder *b, const struct shader_light *light)
+{
+    const struct shader *shader = b->shader;
+    const struct lang_function *fn = lang_function(shader->unit, light->function, NULL);
+    ir_type_id *types = ARENA_ARRAY(b->arena, ir_type_id, light->num_members + 5);
+    uint32_t num = 0;
+    for (; num < light->num_members; num++)
+        types[num] = shader->interface.variables
+                         .items[shader->interface.light_members.items[light->first_member + num]]
+                         .type;
+    static const ir_type_id others[] = {IR_TYPE_VEC3, IR_TYPE_VEC2, IR_TYPE_VEC3, IR_TYPE_VEC3,
+                                        IR_TYPE_FLOAT};
+    for (unsigned i = 0; i < 5; i++)
+        types[num++] = others[i];
+    struct text name;
+    text_init(&name, b->arena);
+    text_fmt(&name, "%s_sample", str_text(shader->strings, fn->name));
+    str_id id = str_find(shader->strings, text_cstr(&name), name.len);
+    return id ? lang_find_function(shader->unit, fn->file, id, types, num) : LANG_NONE;
+}
+
 /* Adds a light shader by its definition: a function, or nodes over the members. */
 static bool add_defined_light(struct builder *b, uint32_t nodedef, int32_t type)
 {
@@ -109,6 +136,8 @@ static bool add_defined_light(struct builder *b, uint32_t nodedef, int32_t type)
     bool is_source = impl && impl->kind == IMPL_VERBATIM && build_is_light_source(b, impl);
     if (impl && impl->kind == IMPL_FUNCTION)
         light.function = impl->ref;
+    if (light.function != LANG_NONE && b->shader->role->returns == RETURNS_PATH)
+        light.sample = find_sample(b, &light);
     if (is_source && (light.source = build_light_source(b, impl)) == UINT32_MAX)
         return false;
     if (light.function == LANG_NONE && !is_source) {
@@ -134,6 +163,7 @@ static bool add_light_element(struct builder *b, const char *path, int32_t type)
     struct shader_light light = {.type = type,
                                  .name = doc_element(doc, element)->name,
                                  .function = LANG_NONE,
+                                 .sample = LANG_NONE,
                                  .source = UINT32_MAX};
     light.shader = build_element(b, element, 0);
     if (!light.shader || ir_get(b->graph, light.shader)->op != IR_LIGHT_SHADER

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Lights of a stage: a matt floor reflects what the formulas of UsdLux and glTF say. Argument: mxgen-render."""
+"""Lights of a stage: a matt floor reflects what the formulas of UsdLux and glTF say. Arguments: mxgen-render, and "shadows" for those of path tracing alone."""
 import json
 import math
 import pathlib
@@ -80,6 +80,47 @@ def tells(name, text, *expected):
         check(part in messages, f"{name}: '{part}' is in\n{messages}")
 
 
+def shadows():
+    """Half way to a light at (2, 2, 0) a lid hides what lies below its edge. A path tracer draws the shadow of the whole light."""
+    radius, radiance, steps = 0.3, 300, 200
+    across, away = (-math.sqrt(0.5), math.sqrt(0.5)), math.sqrt(8)  # in the plane z = 0: from the lid's edge upwards; to the light
+
+    def lid(edge):
+        at = [1 + (edge - 1) * c for c in across]
+        return f"""def Plane "lid" {{
+  token axis = "Y"
+  double width = 2
+  double length = 2
+  double3 xformOp:translate = ({at[0]}, {at[1]}, 0)
+  double xformOp:rotateZ = -45
+  uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateZ"]
+}}
+"""
+
+    def reflected(edge, is_disk):
+        """The sum over points of the disk that is seen: of the light, or of the cone around a sphere, at a distance of 1."""
+        size = radius / away if is_disk else math.tan(math.asin(radius / away))
+        total, cell = 0, (2 * size / steps) ** 2
+        for i in range(steps):
+            for k in range(steps):
+                up, aside = ((2 * n + 1) / steps * size - size for n in (i, k))
+                if math.hypot(up, aside) <= size and up > edge / (away / 2):
+                    length = math.sqrt(1 + up * up + aside * aside)
+                    total += math.sqrt(0.5) * (1 + up) / length * cell / length ** 3  # the floor's cosine; the solid angle
+        return ALBEDO / math.pi * radiance * total
+
+    size = f"float inputs:radius = {radius}", f"float inputs:intensity = {radiance}"
+    sees("half of a sphere", light("SphereLight", *size, place=(2, 2, 0)) + lid(0), reflected(0, False), *TRACED, tolerance=0.03)
+    disk = light("DiskLight", *size, place=(2, 2, 0)).replace("double xformOp:rotateX = -90", "double3 xformOp:rotateXYZ = (-90, 0, -45)")
+    sees("a fifth of a disk", disk.replace('"xformOp:rotateX"', '"xformOp:rotateXYZ"') + lid(0.075), reflected(0.075, True), *TRACED, tolerance=0.04)
+
+
+TRACED = "--path-trace", "--paths", "4096", "-s", "3"  # the last size counts
+if sys.argv[2:]:
+    FLOOR = FLOOR.replace("20.955", "400")  # pixels that are small beside the half shadow
+    shadows()
+    finish("stage-shadows")
+
 sun = math.pi * math.sin(math.radians(0.265)) ** 2
 sees("the sun of the schema", light("DistantLight"), ALBEDO / math.pi * 50000 * sun, traced=True)
 sees("a wide sun", light("DistantLight", "float inputs:angle = 220", "float inputs:intensity = 0.2"),
@@ -94,7 +135,7 @@ sees("a point by its power", light("SphereLight", "bool inputs:normalize = 1", "
                                    "bool treatAsPoint = 1"), ALBEDO / math.pi * 16 / 4 / 4)
 cone = ("float inputs:radius = 0.1", "float inputs:intensity = 300", "float inputs:shaping:cone:angle = 20")
 sees("a cone to the floor", light("SphereLight", *cone, turn=-75), ALBEDO * 300 * 0.01 / 4)
-sees("and beside it", light("SphereLight", *cone, turn=-65), 0, traced=True)
+sees("and beside it", light("SphereLight", *cone, turn=-60), 0, traced=True)
 sees("a disk", light("DiskLight", "float inputs:radius = 0.2", "float inputs:intensity = 80"), ALBEDO * 80 * 0.04 / 4.04, traced=True)
 sees("its back", light("DiskLight", "float inputs:radius = 0.2", "float inputs:intensity = 80", turn=90), 0)
 sees("a rectangle", light("RectLight", "float inputs:width = 0.2", "float inputs:height = 0.1", "float inputs:intensity = 400"),
