@@ -256,23 +256,27 @@ void scatter()
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         float3 L_4;
         float intensity;
+        float distance_2;
         int light_type = u_lightData[i].type;
-        float3 d = u_lightData[i].position - vd.positionWorld;
-        float magnitude_d = length(d);
         if (light_type == 1) {
             L_4 = -u_lightData[i].direction;
             intensity = u_lightData[i].intensity;
+            distance_2 = 1e30;
         } else {
+            float3 d = u_lightData[i].position - vd.positionWorld;
             float3 to_light = normalize(d);
             L_4 = to_light;
+            float magnitude_d = length(d);
             float ratio = u_lightData[i].intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
             if (light_type == 2) {
                 intensity = ratio;
+                distance_2 = magnitude_d;
             } else {
                 float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
                 intensity = light_type == 3
                     ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,
                     -dot(u_lightData[i].direction, to_light)) * ratio : 0.0;
+                distance_2 = magnitude_d;
             }
         }
         float glaze_product_2 = ggx_compensation
@@ -285,7 +289,7 @@ void scatter()
         sum_4 += brightness;
         if (sum_4 * chance < brightness) {
             L_3 = L_4;
-            distance_ = light_type == 1 ? 1e30 : light_type == 3 || light_type == 2 ? magnitude_d : 1e30;
+            distance_ = distance_2;
             light = lit_ / brightness;
         }
         if (brightness > 0.0) {

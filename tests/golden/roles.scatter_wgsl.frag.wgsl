@@ -254,22 +254,26 @@ fn scatter()
     for (var i: i32 = min(u_prv.u_numActiveLightSources, 3) - 1; i >= 0; i--) {
         var L_4: vec3f;
         var intensity: f32;
+        var distance_2: f32;
         let light_type_: i32 = u_lightData[i].type_;
-        let d: vec3f = u_lightData[i].position - vd.positionWorld;
-        let magnitude_d: f32 = length(d);
         if (light_type_ == 1) {
             L_4 = -u_lightData[i].direction;
             intensity = u_lightData[i].intensity;
+            distance_2 = 1e30;
         } else {
+            let d: vec3f = u_lightData[i].position - vd.positionWorld;
             let to_light: vec3f = normalize(d);
             L_4 = to_light;
+            let magnitude_d: f32 = length(d);
             let ratio: f32 = u_lightData[i].intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
             if (light_type_ == 2) {
                 intensity = ratio;
+                distance_2 = magnitude_d;
             } else {
                 let spot_light_difference: f32 = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
                 intensity = select(0.0, smoothstep(spot_light_difference, u_lightData[i].inner_angle,
                     -dot(u_lightData[i].direction, to_light)) * ratio, light_type_ == 3);
+                distance_2 = magnitude_d;
             }
         }
         let glaze_product_2: f32 = ggx_compensation
@@ -282,7 +286,7 @@ fn scatter()
         sum_4 += brightness;
         if (sum_4 * chance < brightness) {
             L_3 = L_4;
-            distance_ = select(select(1e30, magnitude_d, light_type_ == 3 || light_type_ == 2), 1e30, light_type_ == 1);
+            distance_ = distance_2;
             light = lit / brightness;
         }
         if (brightness > 0.0) {

@@ -60,7 +60,7 @@ def check_library():
     distribution of facets, ours has two, and the nodes of slabs, slots and AOVs, and the formulas that the compiler calls."""
     sizes = {endings: sum(len(lines(path)) for path in files("libraries", *endings)) for endings in ((".mtlx",), (".glsl", ".inline"))}
     whole = sum(sizes.values())
-    check(whole <= 13000, f"libraries: {whole} lines; 13,000 is the budget")
+    check(whole <= 13100, f"libraries: {whole} lines; 13,100 is the budget")
     print(f"libraries: {whole} lines,", ", ".join(f"{size} of {endings[0]}" for endings, size in sizes.items()))
     for path in files("libraries", ".mtlx"):
         bound = [str(number) for number, line in enumerate(lines(path), 1) if "target=" in line and "<!-- only there:" not in line]
