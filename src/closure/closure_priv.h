@@ -232,11 +232,14 @@ struct closure_copies {
     struct shader *shader;
     VEC(ir_ref) became; /* by node: its copy; 0: itself */
     uint32_t loop;      /* of lights or samples */
+    ir_ref first;       /* the oldest node with a copy */
 };
 /* `became` with room for the nodes up to `last`. */
 ir_ref *closure_room_for_copies(struct closure_copies *c, ir_ref last);
 /* The copy of a node, with one more operand if `last` is not 0. The room suffices for the node. */
 ir_ref closure_over_copies(struct closure_copies *c, ir_ref ref, ir_ref last);
+/* The next values share no copies with earlier ones. */
+void closure_forget_copies(struct closure_copies *c);
 /* The next values are those of another loop. */
 void closure_enter_loop(struct closure_copies *c, uint32_t loop);
 /*
@@ -266,9 +269,10 @@ void closure_find_sample_loops(struct shader *shader, const struct closure_parts
 /*
  * The number of samples that a value is to be added up for; 0: it is no value per sample, and
  * whole. Where the value is `index < count ? x : 0`, it becomes x, and where the count is 1, x of
- * the first sample, which is whole. Other values per sample are added up for all samples.
+ * the first sample, which is whole. Other values per sample are added up for all samples. Forgets
+ * the copies.
  */
-ir_ref closure_num_samples(struct shader *shader, ir_ref *value);
+ir_ref closure_num_samples(struct closure_copies *c, ir_ref *value);
 /*
  * The turn of samples, a unit vector: the golden angle further around from sample to sample. That
  * of the first sample, and that of the next one; 0: the parts do not read it.

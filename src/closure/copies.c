@@ -62,6 +62,7 @@ static ir_ref open_needed(struct closure_copies *c, ir_ref root)
         for (uint32_t i = 0; i < ir_get(g, ref)->num_args; i++)
             num_open += open(c, ir_arg(g, ref, i));
     }
+    c->first = ref < c->first ? ref : c->first;
     return ref;
 }
 
@@ -70,10 +71,17 @@ static ir_ref copy_of(const struct closure_copies *c, ir_ref ref)
     return c->became.items[ref] ? c->became.items[ref] : ref;
 }
 
+void closure_forget_copies(struct closure_copies *c)
+{
+    if (c->first < c->became.len)
+        memset(c->became.items + c->first, 0, (c->became.len - c->first) * sizeof(ir_ref));
+    c->first = UINT32_MAX;
+}
+
 void closure_enter_loop(struct closure_copies *c, uint32_t loop)
 {
     if (c->loop != loop)
-        c->became.len = 0;
+        closure_forget_copies(c);
     c->loop = loop;
 }
 

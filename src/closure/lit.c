@@ -246,7 +246,7 @@ static bool add_surrounding_part(struct emitter *e, const struct closure_list *l
 {
     const struct closure_leaf *leaf = &list->leaves.items[order];
     ir_ref way = value && leaf->decay ? closure_environment_way(e->shader, e->host, leaf->leaf) : 0;
-    ir_ref count = closure_num_samples(e->shader, &value);
+    ir_ref count = closure_num_samples(&e->copies, &value);
     value = weighted(e, leaf, value, way);
     add_part(e, count ? PLACE_SAMPLE : PLACE_WHOLE, list, order, value, count);
     return value != 0;

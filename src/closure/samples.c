@@ -113,22 +113,26 @@ static bool is_per_sample(const struct ir_graph *g, ir_ref value)
     return value && ir_get(g, value)->flags & IR_NODE_LOOP;
 }
 
-ir_ref closure_num_samples(struct shader *shader, ir_ref *value)
+ir_ref closure_num_samples(struct closure_copies *c, ir_ref *value)
 {
-    struct ir_graph *g = shader->graph;
+    struct ir_graph *g = c->shader->graph;
     if (!is_per_sample(g, *value))
         return 0;
-    struct closure_copies seen = {.shader = shader}, later = seen, sooner = seen;
-    ir_ref is_sooner = closure_last_sample(&seen, *value);
-    if (!is_sooner || !ir_const_is(g, closure_chosen(&later, *value, is_sooner, false), 0.0f))
+    closure_forget_copies(c);
+    ir_ref is_sooner = closure_last_sample(c, *value);
+    closure_forget_copies(c);
+    bool ends = is_sooner && ir_const_is(g, closure_chosen(c, *value, is_sooner, false), 0.0f);
+    closure_forget_copies(c);
+    if (!ends)
         return shader_read(
-            shader, shader_private_uniform(shader, STR_u_envRadianceSamples, IR_TYPE_INT, 0));
+            c->shader, shader_private_uniform(c->shader, STR_u_envRadianceSamples, IR_TYPE_INT, 0));
     ir_ref count = ir_arg(g, is_sooner, 1);
-    *value = closure_chosen(&sooner, *value, is_sooner, true);
+    *value = closure_chosen(c, *value, is_sooner, true);
+    closure_forget_copies(c);
     if (count != ir_const_int(g, 1))
         return count;
-    struct closure_copies first = {.shader = shader};
-    *value = closure_at_first_sample(&first, *value);
+    *value = closure_at_first_sample(c, *value);
+    closure_forget_copies(c);
     return 0;
 }
 
@@ -163,7 +167,8 @@ ir_ref closure_gathered(struct shader *shader, ir_ref value)
 {
     struct ir_graph *g = shader->graph;
     assert(ir_type_of(g, value) == IR_TYPE_VEC3);
-    ir_ref count = closure_num_samples(shader, &value);
+    struct closure_copies copies = {.shader = shader};
+    ir_ref count = closure_num_samples(&copies, &value);
     if (!count)
         return value;
     uint32_t sum = shader_add_local(shader, STR_gathered, IR_TYPE_VEC3);
@@ -171,7 +176,7 @@ ir_ref closure_gathered(struct shader *shader, ir_ref value)
     struct closure_parts parts = {0};
     vec_push(shader->arena, &parts.parts, (struct closure_part){.value = value});
     ir_ref turn = closure_next_turn(shader, &parts);
-    struct closure_copies copies = {.shader = shader, .loop = shader->effects.num_sample_loops++};
+    closure_enter_loop(&copies, shader->effects.num_sample_loops++);
     value = closure_in_loop(&copies, value);
     turn = closure_in_loop(&copies, turn);
     struct effect effects[] = {{.kind = EFFECT_VAR, .index = sum, .value = nothing},

@@ -289,7 +289,7 @@ struct ir_graph {
     uint32_t max_nodes; /* 0 = unlimited; beyond it ->overflow is set and POISON returned */
     bool overflow;
     bool exact;   /* only apply exact rules, which hold for infinities and NaN, too */
-    bool no_fold; /* no folding; for tests, and while a pass copies nodes */
+    bool no_fold; /* no folding; for tests */
 };
 
 void ir_graph_init(struct ir_graph *graph, struct arena *arena, struct strpool *strings);
@@ -485,9 +485,9 @@ ir_ref ir_replace(struct ir_graph *graph, ir_ref root, ir_ref from, ir_ref to, s
 struct ir_pass {
     void *user_data;
     /*
-     * Builds the new node for the node `old`, of the same type. `node` is the content of `old`;
-     * `args` are the new operands, which the function may overwrite. The rebuild does not fold, and
-     * copies constants without this call.
+     * Builds the new node for the node `old`, of the same type; 0: a copy, which does not fold.
+     * `node` is the content of `old`; `args` are the new operands, which the function may
+     * overwrite. Constants are copied without this call.
      */
     ir_ref (*build)(void *user_data, struct ir_graph *graph, ir_ref old, const struct ir_node *node,
                     ir_ref *args);

@@ -54,13 +54,17 @@ static ir_ref copy_node(struct rebuild *r, ir_ref ref)
         return ir_const_words(r->graph, node->type, ir_constant_words(&r->old, ref));
     if (node->op == IR_GRAPH_CALL)
         complete_function(r, node->attr);
+    const ir_ref *from = ir_args(&r->old, ref);
     r->args.len = 0;
+    vec_reserve(r->arena, &r->args, node->num_args);
     for (uint32_t i = 0; i < node->num_args; i++) {
-        ir_ref arg = ir_arg(&r->old, ref, i);
-        assert(arg < ref && !arg == !r->copies[arg]);
-        vec_push(r->arena, &r->args, r->copies[arg]);
+        assert(from[i] < ref && !from[i] == !r->copies[from[i]]);
+        r->args.items[i] = r->copies[from[i]];
     }
-    return r->pass->build(r->pass->user_data, r->graph, ref, node, r->args.items);
+    ir_ref other = r->pass->build(r->pass->user_data, r->graph, ref, node, r->args.items);
+    return other ? other
+                 : ir_intern(r->graph, (enum ir_op)node->op, node->type, node->attr, r->args.items,
+                             node->num_args);
 }
 
 /*
@@ -83,17 +87,16 @@ const ir_ref *ir_rebuild(struct ir_graph *graph, const uint8_t *needed, const st
                          struct arena *arena)
 {
     struct rebuild r = {.graph = graph, .old = *graph, .pass = pass, .arena = arena};
-    assert(graph->outer_origins.len == 0);
+    assert(graph->outer_origins.len == 0 && graph->origin == 0);
     r.copies = ARENA_ARRAY(arena, ir_ref, graph->nodes.len);
     ir_graph_init(graph, r.old.arena, r.old.strings);
     keep_tables(graph, &r.old);
-    graph->no_fold = true;
     for (ir_ref ref = 1; ref < r.old.nodes.len; ref++) {
         if (!needed[ref])
             continue;
-        ir_push_origin(graph, ir_get(&r.old, ref)->origin);
+        graph->origin = ir_get(&r.old, ref)->origin;
         r.copies[ref] = copy_node(&r, ref);
-        ir_pop_origin(graph);
+        graph->origin = 0;
         label_copy(&r, ref);
         assert(ir_type_of(graph, r.copies[ref]) == ir_type_of(&r.old, ref));
     }

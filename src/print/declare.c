@@ -6,10 +6,11 @@
 
 char lang_next(const char **phrase, struct text *out)
 {
-    const char *from = *phrase, *mark = strchr(from, '$'), *end = mark ? mark : from + strlen(from);
-    text_mem(out, from, (size_t)(end - from));
-    *phrase = mark ? mark + 2 : end;
-    return mark ? mark[1] : '\0';
+    const char *at = *phrase;
+    for (; *at && *at != '$'; at++)
+        text_char(out, *at);
+    *phrase = *at ? at + 2 : at;
+    return *at ? at[1] : '\0';
 }
 
 void lang_put_phrase(const char *phrase, struct text_word operand, struct text *out)

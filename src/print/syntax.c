@@ -163,6 +163,11 @@ const char *lang_syntax_beginning(const struct lang_syntax *syntax, const char *
     return is_refused ? "x" : "";
 }
 
+static inline int first_two(const char *text, size_t len)
+{
+    return (unsigned char)text[0] << 8 | (len > 1 ? (unsigned char)text[1] : 0);
+}
+
 /* The list of a target replaces that of its base: a word may be reserved in the base alone. */
 bool lang_syntax_is_reserved(const struct lang_syntax *syntax, const char *name, size_t len)
 {
@@ -174,10 +179,11 @@ bool lang_syntax_is_reserved(const struct lang_syntax *syntax, const char *name,
         return true;
     while (!syntax->reserved && syntax->base)
         syntax = syntax->base;
+    int begin = first_two(name, len);
     for (uint32_t low = 0, high = syntax->num_reserved; low < high;) {
         uint32_t middle = (low + high) / 2;
         const char *word = syntax->reserved[middle];
-        int order = (unsigned char)name[0] - (unsigned char)word[0];
+        int order = begin - first_two(word, 2);
         if (order == 0)
             order = strncmp(name, word, len);
         if (order == 0 && word[len] == '\0')

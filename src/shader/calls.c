@@ -147,11 +147,8 @@ static bool may_fold(const struct final_pass *pass, const ir_ref *args, uint32_t
 static ir_ref build_folded(struct final_pass *pass, struct ir_graph *graph,
                            const struct ir_node *node, const ir_ref *args)
 {
-    bool no_fold = graph->no_fold;
-    graph->no_fold = false;
     ir_ref ref =
         ir_build(graph, (enum ir_op)node->op, node->type, node->attr, args, node->num_args);
-    graph->no_fold = no_fold;
     if (ir_get(graph, ref)->op == IR_CONST)
         vec_push(pass->shader->arena, &pass->constants, ref);
     return ref;
@@ -168,7 +165,7 @@ static ir_ref build_node(void *user_data, struct ir_graph *graph, ir_ref old,
         return ir_build(graph, IR_TEX, node->type, 0, ir_args(graph, *args), 2);
     if (may_fold(pass, args, node->num_args))
         return build_folded(pass, graph, node, args);
-    return ir_build(graph, (enum ir_op)node->op, node->type, node->attr, args, node->num_args);
+    return 0;
 }
 
 void shader_specialise_calls(struct shader *shader, bool typed_textures)

@@ -132,16 +132,12 @@ static lang_ref overwriting(const struct spec *s, uint32_t slot, uint32_t list)
     return overwrites ? ref : 0;
 }
 
-/* Moves the declaration of the variable to this statement. */
-static bool moves_down(struct spec *s, uint32_t slot, uint32_t list)
+/* Moves the declaration of the variable to a statement. */
+static void move_down(struct spec *s, uint32_t slot, lang_ref to)
 {
-    lang_ref next = overwriting(s, slot, list);
-    if (!next)
-        return false;
-    spec_node(s, next)->kind = LANG_DECLARE;
-    spec_node(s, next)->a = slot;
-    vec_push(s->unit->arena, &s->vars, next);
-    return true;
+    spec_node(s, to)->kind = LANG_DECLARE;
+    spec_node(s, to)->a = slot;
+    vec_push(s->unit->arena, &s->vars, to);
 }
 
 static bool sweep_declare(struct spec *s, lang_ref ref, uint32_t list)
@@ -157,8 +153,11 @@ static bool sweep_declare(struct spec *s, lang_ref ref, uint32_t list)
     if (!is_read && !is_written)
         if (!value || becomes_call(s, ref, value))
             return value != 0;
-    if ((!value || !has_live_effects(s, value)) && moves_down(s, slot, list))
+    lang_ref next = overwriting(s, slot, list);
+    if (next && (!value || !has_live_effects(s, value))) {
+        move_down(s, slot, next);
         return false;
+    }
     spec_node(s, ref)->b = value;
     if (value) {
         use_tree(s, value, LANG_READ);
