@@ -87,7 +87,7 @@ const ir_ref *ir_rebuild(struct ir_graph *graph, const uint8_t *needed, const st
                          struct arena *arena)
 {
     struct rebuild r = {.graph = graph, .old = *graph, .pass = pass, .arena = arena};
-    assert(graph->outer_origins.len == 0 && graph->origin == 0);
+    assert(graph->outer_origins.len == 0);
     r.copies = ARENA_ARRAY(arena, ir_ref, graph->nodes.len);
     ir_graph_init(graph, r.old.arena, r.old.strings);
     keep_tables(graph, &r.old);
