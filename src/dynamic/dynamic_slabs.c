@@ -2,6 +2,7 @@
 /* The nodes of slabs (docs/slabs.md): each is an op of the IR, which the walk of src/slabs reads.
  */
 #include "dynamic/dynamic.h"
+#include "slabs/hidden.h"
 #include "slabs/regime.h"
 
 #include <math.h>
@@ -220,11 +221,10 @@ bool dynamic_slab(void *user_data, mxg_build *build, mxg_ref *results)
     return finish(build, IR_SLAB, attr, args, NUM_SLAB_OPERANDS, results);
 }
 
-/* True for a slab, without a coverage, that no light goes through, by the values of the document.
- */
-static bool hides_base(struct builder *b, ir_ref top)
+/* By the values of the document. */
+static bool is_opaque(void *user_data, ir_ref slab)
 {
-    return top && ir_get(b->graph, top)->op == IR_SLAB && !needs_thickness(b, top);
+    return !needs_thickness(user_data, slab);
 }
 
 void dynamic_check_base(const mxg_build *build, ir_ref top)
@@ -232,7 +232,7 @@ void dynamic_check_base(const mxg_build *build, ir_ref top)
     struct builder *b = build->b;
     elem_id node = build->frame->node.element;
     bool has_base = doc_child(&b->lib->doc, node, STR_base) != 0;
-    if (!has_base || hides_base(b, top))
+    if (!has_base || slabs_hides(b->graph, top, is_opaque, b, b->arena))
         diag_add(b->diags, has_base ? DIAG_ID_slab_hides_base : DIAG_ID_slab_without_base,
                  doc_place(&b->lib->doc, node), build_text(b, build->def->node));
 }

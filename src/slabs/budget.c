@@ -2,6 +2,7 @@
 #include "slabs/budget.h"
 
 #include "slabs/features.h"
+#include "slabs/hidden.h"
 #include "slabs/recognise.h"
 #include "slabs/search.h"
 #include "slabs/joined_surfaces.h"
@@ -142,6 +143,7 @@ static void recognise(struct spender *s)
         return;
     const struct slab_saver *saver = &s->saver;
     ir_ref root = slabs_recognise(saver->shader, saver->host, has_limits(s->budget), saver->root);
+    root = slabs_visible(saver->graph, root, saver->shader->arena);
     if (root != saver->root)
         take(s, (struct slab_step){.kind = SLAB_STEP_RECOGNISE}, root);
 }
@@ -163,6 +165,7 @@ ir_ref slabs_budget(struct shader *shader, const struct slabs_host *host,
         return root;
     if (has_limits(budget))
         root = slabs_join_stacks(shader, host, root);
+    root = slabs_visible(shader->graph, root, shader->arena);
     struct spender s = {slab_saver_of(shader, host, budget->off, root), budget, out};
     out->before = out->after = s.saver.cost;
     out->is_too_much = slabs_has(shader, root)

@@ -94,7 +94,12 @@ ir_ref slabs_replace(struct ir_graph *g, const struct slab_nodes *nodes, const i
                      struct arena *scratch)
 {
     ir_ref *copies = ARENA_ARRAY(scratch, ir_ref, nodes->items.len);
-    for (uint32_t i = 1; i < nodes->items.len; i++)
-        copies[i] = by[i] ? by[i] : copy_of(g, nodes, nodes->items.items[i], copies, scratch);
+    for (uint32_t i = 1; i < nodes->items.len; i++) {
+        uint32_t at = by[i] < nodes->items.items[i] ? slab_node_at(nodes, by[i]) : 0;
+        if (at)
+            copies[i] = copies[at];
+        else
+            copies[i] = by[i] ? by[i] : copy_of(g, nodes, nodes->items.items[i], copies, scratch);
+    }
     return copies[nodes->items.len - 1];
 }

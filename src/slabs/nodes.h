@@ -19,7 +19,10 @@ void slabs_find_nodes(const struct ir_graph *graph, ir_ref root, struct arena *a
 /* The index of a node; 0: the tree does not have it. */
 uint32_t slab_node_at(const struct slab_nodes *nodes, ir_ref ref);
 
-/* The tree with other closures in the places of some. by: per node; 0: it stays. */
+/*
+ * The tree with other closures in the places of some. by: per node; 0: it stays. An operand that
+ * takes the place of its operator has its own replacements.
+ */
 ir_ref slabs_replace(struct ir_graph *graph, const struct slab_nodes *nodes, const ir_ref *by,
                      struct arena *scratch);
 

@@ -3,6 +3,7 @@
 
 #include "slabs/bytes.h"
 #include "slabs/estimate.h"
+#include "slabs/hidden.h"
 #include "slabs/recognise.h"
 #include "slabs/joined_surfaces.h"
 
@@ -306,6 +307,7 @@ void slabs_fill_sheet(struct shader *shader, const struct slabs_host *host,
     out->is_recognised = root && !slabs_has(shader, root);
     if (out->is_recognised)
         root = slabs_recognise(shader, host, false, root);
+    root = slabs_visible(shader->graph, root, shader->arena);
     if (!slabs_has(shader, root))
         return;
     struct filler f = {.sheet = out, .shader = shader, .graph = g, .host = host};

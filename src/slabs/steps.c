@@ -2,6 +2,7 @@
 #include "slabs/steps.h"
 
 #include "slabs/features.h"
+#include "slabs/hidden.h"
 
 /* ---- The tree ---- */
 
@@ -108,10 +109,12 @@ static uint32_t depth_of(const struct slab_saver *s, ir_ref ref)
     return s->spots.depth[slab_node_at(&s->spots.nodes, ref)];
 }
 
-/* The saver's tree with other closures in the places of some; by: per node of its spots. */
+/* What others of the saver's tree leave visible in the places of some; by: per node of its spots.
+ */
 static ir_ref replaced(const struct slab_saver *s, const ir_ref *by)
 {
     ir_ref root = slabs_replace(s->graph, &s->spots.nodes, by, scratch_of(s));
+    root = slabs_visible(s->graph, root, scratch_of(s));
     empty_scratch(s);
     return root;
 }

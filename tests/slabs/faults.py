@@ -65,6 +65,28 @@ def check_budgets():
     check("nothing keeps to the budget; the least are 1 slabs, 12 bytes" in report(soup, "--max-bytes", 3), "3 bytes are possible, or the least is not told")
 
 
+def hidden(name, *command):
+    """The output for a material of hidden.mtlx, without the names in which it differs from the one without a base."""
+    done = run(MXGEN, *command, HERE / "hidden.mtlx", "-q", "-e", name)
+    check(done.returncode == 0, f"{name} with {command}: {done.stderr}")
+    return " ".join(done.stdout.replace("_alone", "").split())
+
+
+def check_hidden():
+    """A base that opaque matter hides is no slab in any role, budget or report."""
+    deferred = ("--stdout", "--role", "deferred", "--target", "vulkan", "--slabs")
+    pack = ("--stdout", "--role", "pack", "--target", "vulkan", "--slabs", "--interface", "reduced")
+    shaders = (("--stdout",), ("--stdout", "--max-slabs", 1), deferred, (*deferred, "--max-slabs", 2), ("--stdout", "--role", "payload", "--target", "vulkan"),
+               pack, ("--stdout", "--role", "scatter"))
+    reports = (("inspect", "--slabs"), ("inspect", "--slabs", "--max-bytes", 36), ("inspect", "--slabs", "--max-error", 0.2))
+    for name in "Constant", "Covered", "Nested", "Closures":
+        for way in shaders if name == "Closures" else shaders + reports:
+            check(hidden(name, *way) == hidden(f"{name}_alone", *way), f"{name} with {way} is not {name}_alone")
+    check("4 slabs, 1 tangent bases, 4 closures, 64 bytes" in hidden("Nested", "inspect", "--slabs"), "the coat and three opaque slabs count")
+    for name, num in ("Partly", 3), ("Splashed", 2):
+        check(f" {num} slabs" in hidden(name, "inspect", "--slabs"), f"the base of {name} is seen, so it counts")
+
+
 # ---- Pictures ----
 
 def draw(path, document, *options):
@@ -109,6 +131,7 @@ def check_patch(folder):
 
 check_shaders()
 check_budgets()
+check_hidden()
 with tempfile.TemporaryDirectory() as name:
     if not RENDER:
         skip("nothing is drawn")
