@@ -15,6 +15,7 @@
 
 #include "deferred/deferred_priv.h"
 #include "deferred/texts.h"
+#include "shader/formula.h"
 #include "shader/verbatim.h"
 #include "slabs/bytes.h"
 
@@ -496,24 +497,39 @@ static void premultiply(struct shader *shader, const struct closure_stored *surf
         *emission = times(g, *emission, surface->alpha);
 }
 
-/* An input of a slab times a weight above 1, as far as there is light for it. */
-static ir_ref weighed(struct shader *shader, ir_ref mark, enum mark_operand operand,
-                      const char *name, ir_ref weight)
+/* An input of a slab as far as there is light for it; what goes beyond is told. */
+static ir_ref limited(struct shader *shader, ir_ref mark, const char *name, ir_ref value)
 {
     struct ir_graph *g = shader->graph;
     const float rounding = 1e-4f;
-    ir_ref value = ir_mul(g, ir_arg(g, mark, operand), weight);
     struct ir_value known = {.type = IR_TYPE_VOID};
     bool is_too_much = ir_get_const(g, value, &known)
                        && fmaxf(fmaxf(known.w[0].f, known.w[1].f), known.w[2].f) > 1 + rounding;
     if (is_too_much)
         deferred_note_lost_weight(shader, mark, name);
-    return ir_op2(g, IR_MIN, value, ir_white(g));
+    return ir_op2(g, IR_MIN, value, ir_const_splat(g, ir_type_of(g, value), 1.0f));
+}
+
+/* A mark with as much light as one with a weight of 1 or more has: args are its operands. */
+static void weigh(struct shader *shader, ir_ref mark, ir_ref weight, ir_ref *args)
+{
+    struct ir_graph *g = shader->graph;
+    ir_ref diffuse = FORMULA(shader, "mx_blend_diffuse", args[MARK_f0], args[MARK_diffuse_albedo],
+                             weight);
+    args[MARK_f0] = limited(shader, mark, "f0", ir_mul(g, args[MARK_f0], weight));
+    args[MARK_diffuse_albedo] =
+        limited(shader, mark, "diffuse_albedo",
+                FORMULA(shader, "mx_blend_albedo", args[MARK_f0], diffuse));
+    if (!deferred_has_part(g, mark, MARK_fuzz_amount))
+        return;
+    ir_ref mean = FORMULA(shader, "mx_mean", weight);
+    args[MARK_fuzz_amount] =
+        limited(shader, mark, "fuzz_amount", ir_mul(g, args[MARK_fuzz_amount], mean));
 }
 
 /*
- * No word has a weight above 1, as a sum of equal slabs has: their albedo and f0 are more. That is
- * for payloads and functions; a material pass draws such a sum forward, which is exact.
+ * No word has a weight above 1, as a sum of equal slabs has: their albedo, f0 and fuzz are more.
+ * That is for payloads and functions; a material pass draws such a sum forward, which is exact.
  */
 static void take_weights(struct shader *shader, struct closure_list *marks)
 {
@@ -527,12 +543,9 @@ static void take_weights(struct shader *shader, struct closure_list *marks)
             deferred_note_lost_weight(shader, leaf->leaf, "diffuse_albedo");
             continue;
         }
-        ir_ref weight = times(g, leaf->color, leaf->scalar),
-               more = ir_op2(g, IR_MAX, weight, ir_white(g));
+        ir_ref weight = times(g, leaf->color, leaf->scalar);
         memcpy(args, ir_args(g, leaf->leaf), sizeof args);
-        args[MARK_diffuse_albedo] =
-            weighed(shader, leaf->leaf, MARK_diffuse_albedo, "diffuse_albedo", more);
-        args[MARK_f0] = weighed(shader, leaf->leaf, MARK_f0, "f0", more);
+        weigh(shader, leaf->leaf, ir_op2(g, IR_MAX, weight, ir_white(g)), args);
         const struct ir_node *node = ir_get(g, leaf->leaf);
         leaf->color = ir_op2(g, IR_MIN, weight, ir_white(g));
         leaf->scalar = ir_const_float(g, 1.0f);

@@ -109,7 +109,9 @@ static uint32_t depth_of(const struct slab_saver *s, ir_ref ref)
     return s->spots.depth[slab_node_at(&s->spots.nodes, ref)];
 }
 
-/* What others of the saver's tree leave visible in the places of some; by: per node of its spots.
+/*
+ * The saver's tree with other closures in the places of some, as far as it is visible; by: per node
+ * of its spots.
  */
 static ir_ref replaced(const struct slab_saver *s, const ir_ref *by)
 {

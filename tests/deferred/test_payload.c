@@ -87,6 +87,37 @@ static void test_payload(struct bench *b, const char *element, int expected)
     mxg_options_set(b->options, "max-slabs", "0");
 }
 
+/* A sum of equal slabs weighs 2, which the albedo and f0 of a payload take. */
+static const char sum[] =
+    "<materialx version='1.39'><slab name='chalk' type='BSDF'>"
+    "<input name='diffuse_albedo' type='color3' value='0.4, 0.3, 0.1'/></slab>"
+    "<add name='both' type='BSDF'><input name='in1' type='BSDF' nodename='chalk'/>"
+    "<input name='in2' type='BSDF' nodename='chalk'/></add>"
+    "<slab_surface name='Sum' type='surfaceshader'>"
+    "<input name='bsdf' type='BSDF' nodename='both'/></slab_surface></materialx>";
+
+/*
+ * The sum sends back as much light as forward, of all pixels: but for its edges, where no slab
+ * reflects more than 1.
+ */
+static void test_sum(struct bench *b)
+{
+    struct drawing forward = {0}, rays = {0};
+    if (bench_parse(b, "sum.mtlx", sum) && drawing_open(b, "Sum", NULL, UINT32_MAX, &forward)
+        && draw_rays(b, "Sum", &rays))
+        for (size_t c = 0; c < 3; ++c) {
+            double drawn = 0, expected = 0;
+            for (size_t i = 0; i < PIXELS; ++i) {
+                drawn += hits_faces(i) ? (double)rays.pixels[4 * i + c] : 0;
+                expected += hits_faces(i) ? (double)forward.pixels[4 * i + c] : 0;
+            }
+            printf("sum of equal slabs, channel %zu: %.4f of forward\n", c, drawn / expected);
+            REQUIRE(fabs(drawn / expected - 1) < 0.015);
+        }
+    drawing_close(&rays);
+    drawing_close(&forward);
+}
+
 /* ---- Words by a function ---- */
 
 /* The words of a material by the function of the role `pack`, of all pixels of rays. */
@@ -251,6 +282,7 @@ int main(int argc, char **argv)
         document = rows[i].document;
         test_payload(&b, rows[i].element, rows[i].expected);
     }
+    test_sum(&b);
     if (bench_load(&b, argv[1], "examples/deferred.mtlx")) {
         test_pack(&b, "Plain", 3, false, 0.6);
         test_pack(&b, "Lacquered", 10, false, 0.6);
