@@ -514,12 +514,11 @@ static ir_ref limited(struct shader *shader, ir_ref mark, const char *name, ir_r
 static void weigh(struct shader *shader, ir_ref mark, ir_ref weight, ir_ref *args)
 {
     struct ir_graph *g = shader->graph;
-    ir_ref diffuse = FORMULA(shader, "mx_blend_diffuse", args[MARK_f0], args[MARK_diffuse_albedo],
-                             weight);
+    ir_ref diffuse =
+        FORMULA(shader, "mx_blend_diffuse", args[MARK_f0], args[MARK_diffuse_albedo], weight);
     args[MARK_f0] = limited(shader, mark, "f0", ir_mul(g, args[MARK_f0], weight));
-    args[MARK_diffuse_albedo] =
-        limited(shader, mark, "diffuse_albedo",
-                FORMULA(shader, "mx_blend_albedo", args[MARK_f0], diffuse));
+    args[MARK_diffuse_albedo] = limited(shader, mark, "diffuse_albedo",
+                                        FORMULA(shader, "mx_blend_albedo", args[MARK_f0], diffuse));
     if (!deferred_has_part(g, mark, MARK_fuzz_amount))
         return;
     ir_ref mean = FORMULA(shader, "mx_mean", weight);

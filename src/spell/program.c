@@ -118,9 +118,19 @@ static void reach(struct spell_program *program, str_id name, bool all)
     }
 }
 
+/*
+ * True for a pass with functions of its host behind it, which may read what the pixel stores. Where
+ * they are members of a struct above the pass, they cannot.
+ */
+static bool is_read_by_host(const struct spell *spell)
+{
+    return spell->shader->reflection.host_functions.len && !*spell_host_prefix(spell);
+}
+
 /* The stage of a pass calls the function that runs it, or its host may call all. */
 static void find_pass(struct spell *spell)
 {
+    static const char top[] = "mx_read_top";
     const struct source_pass *pass = &spell->shader->sources.pass;
     if (!pass->program)
         return;
@@ -128,6 +138,8 @@ static void find_pass(struct spell *spell)
         program_of(spell, &spell->shader->sources.all.items[pass->program - 1]);
     const str_id run = str_find(spell->shader->strings, "mx_run", strlen("mx_run"));
     reach(program, run, !pass->runs);
+    if (is_read_by_host(spell))
+        reach(program, str_find(spell->shader->strings, top, sizeof top - 1), false);
 }
 
 void spell_find_programs(struct spell *spell)
