@@ -69,7 +69,7 @@ static bool has_hidden_base(const struct hiding *h, ir_ref ref)
            && ir_type_of(g, ir_arg(g, ref, 1)) == IR_TYPE_BSDF;
 }
 
-/* What hides a base has no medium that would need the thickness of the layer. */
+/* The top that hides a base has no medium that would need the thickness of the layer. */
 ir_ref slabs_visible(struct ir_graph *g, ir_ref root, struct arena *scratch)
 {
     struct slab_nodes nodes;
