@@ -29,12 +29,12 @@ bool dynamic_slab_select(void *user_data, mxg_build *build, mxg_ref *results);
 bool dynamic_slab_surface(void *user_data, mxg_build *build, mxg_ref *results);
 /* True if the light of a slab in a closure depends on the thickness that the closure gets. */
 bool dynamic_needs_thickness(const mxg_build *build, ir_ref closure);
-/* Warns that the node gives none. instead: what the thickness is, for the message: "0.01 cm". */
 /*
  * Warns of a layer without a base, and of one whose top hides the base. A base that the values of
  * the document hide is one, too.
  */
 void dynamic_check_base(const mxg_build *build, ir_ref top);
+/* Warns that the node gives none. instead: what the thickness is, for the message: "0.01 cm". */
 void dynamic_warn_of_thickness(const mxg_build *build, const char *instead);
 
 #endif
