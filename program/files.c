@@ -228,6 +228,24 @@ static int fault_of(FILE *out)
     return write(fileno(out), "", 1) < 0 ? errno : EIO;
 }
 
+/*
+ * Closes the stream, which has been flushed, and gives its temporary file the final name; 0 or
+ * errno. A copy of the descriptor keeps the lock until then, because other processes remove a
+ * temporary file that nobody locks.
+ */
+static int close_and_rename(const struct files_stream *stream)
+{
+    int lock = stream->temporary ? fcntl(fileno(stream->out), F_DUPFD_CLOEXEC, 0) : -1;
+    int reason = stream->temporary && lock < 0 ? errno : 0;
+    if (fclose(stream->out) != 0 && !reason)
+        reason = errno;
+    if (!reason && stream->temporary && rename(stream->temporary, stream->path) != 0)
+        reason = errno;
+    if (lock >= 0)
+        close(lock);
+    return reason;
+}
+
 const char *files_end(struct files_stream *stream, bool keep)
 {
     if (!stream->out)
@@ -236,9 +254,9 @@ const char *files_end(struct files_stream *stream, bool keep)
     bool is_kept = keep && !reason && !stream->is_direct;
     if (is_kept && !stream->temporary)
         reason = name_file(stream);
-    if (stream->out != stdout && fclose(stream->out) != 0 && !reason)
-        reason = errno;
-    if (is_kept && !reason && stream->temporary && rename(stream->temporary, stream->path) != 0)
+    if (is_kept && !reason)
+        reason = close_and_rename(stream);
+    else if (stream->out != stdout && fclose(stream->out) != 0 && !reason)
         reason = errno;
     if (stream->temporary && (!is_kept || reason))
         unlink(stream->temporary);
