@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Renders OSL closures on balls under a uniform sky with OSL's testrender and with mxgen's path tracer; the means agree within 3 percent.
 Tints of slabs follow the light, so these balls are also under a lamp, which is above them.
-Rows of furnace.tsv: a material of furnace.mtlx or a document of the examples; the ratio of the means if the models differ; settings that
+Rows of furnace.tsv: a material of furnace.mtlx, a document of tests/slabs/faults or of the examples; the ratio of the means if the models differ; settings that
 make them agree (then the ratio is 1, which proves the reason); the reason. Some are also rendered as shader groups. The example materials
 of slabs, and a stack of layers, are the same as whole shaders and as shader groups. Arguments: mxgen, the folder of MaterialX's examples ('' or absent: none), and
 optionally names. Skipped (77) without oslc and testrender, or a Vulkan device."""
@@ -171,12 +171,12 @@ for line in (HERE / "furnace.tsv").read_text(encoding="utf-8").splitlines()[1:]:
     name, ratio, alike, _ = (line.split("\t") + ["", "", ""])[:4]
     if NAMES and name not in NAMES:
         continue
-    is_example = name.endswith(".mtlx")
-    document = pathlib.Path(EXAMPLES) / name if is_example else HERE / "furnace.mtlx"
-    if is_example and not (EXAMPLES and document.exists()):
+    is_whole, is_ours = name.endswith(".mtlx"), name.startswith("slabs/")
+    document = (HERE.parent if is_ours else pathlib.Path(EXAMPLES)) / name if is_whole else HERE / "furnace.mtlx"
+    if is_whole and not ((EXAMPLES or is_ours) and document.exists()):
         skip(f"there is no {document}")
         continue
-    element = [] if is_example else ["--element", name]
+    element = [] if is_whole else ["--element", name]
     compare(name, document, element, float(ratio or 1))
     if alike.startswith("--"):
         compare(f"{name}, alike", document, element + alike.split(), 1)
