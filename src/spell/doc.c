@@ -91,10 +91,10 @@ static bool explains_absent(const struct subject *s, const char *text, const cha
 /* The end of the sentence or line at `text`. */
 static const char *end_of_sentence(const char *text, const char *end)
 {
-    for (const char *at = text; at < end; at++)
-        if (*at == '\n')
-            return at;
-        else if (*at == '.' && at + 2 < end && at[1] == ' ' && isupper((unsigned char)at[2]))
+    const char *newline = memchr(text, '\n', (size_t)(end - text));
+    end = newline ? newline : end;
+    for (const char *at = text; (at = memchr(at, '.', (size_t)(end - at))); at++)
+        if (at + 2 < end && at[1] == ' ' && isupper((unsigned char)at[2]))
             return at + 1;
     return end;
 }
