@@ -89,7 +89,7 @@ ir_ref mdl_attenuated(struct mdl_tree *t, ir_ref base, const ir_ref *through)
     for (unsigned i = 0; i < MDL_ANGLES; i++) {
         args[i] = through[i];
         ir_suggest_name(t->graph, args[i], str_intern_z(t->shader->strings, names[i]),
-                        IR_NAME_ROLE);
+                        IR_NAME_COPY);
         all_white &= ir_const_is(t->graph, through[i], 1.0f);
         all_black &= ir_const_is(t->graph, through[i], 0.0f);
     }

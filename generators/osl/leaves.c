@@ -288,11 +288,7 @@ static ir_ref component(struct ir_graph *g, ir_ref value, unsigned index, unsign
         if (ir_type_info(ir_type_of(g, args[i]))->components > 1)
             args[i] = component(g, args[i], index, depth - 1);
     }
-    ir_push_origin(g, node.origin);
-    ir_ref built = ir_build(g, (enum ir_op)node.op, ir_type_info(node.type)->scalar, node.attr,
-                            args, node.num_args);
-    ir_pop_origin(g);
-    return built;
+    return ir_copy_as(g, value, ir_type_info(node.type)->scalar, node.attr, args, node.num_args);
 }
 
 static ir_ref facet_of(const struct leaf *leaf)

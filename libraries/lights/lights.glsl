@@ -30,7 +30,8 @@ void mx_point_light(vec3 position, vec3 color, float intensity, float decay_rate
 // The edge is never quite sharp, where smoothstep would be undefined.
 float mx_cone(vec3 to_light, vec3 direction, float inner_angle, float outer_angle)
 {
-    return smoothstep(min(inner_angle, outer_angle) - 1e-5, inner_angle, -dot(to_light, direction));
+    float edge = min(inner_angle, outer_angle) - 1e-5;
+    return smoothstep(edge, inner_angle, -dot(to_light, direction));
 }
 
 // A light at a position that shines into a cone; inner_angle and outer_angle are cosines.

@@ -309,8 +309,11 @@ ir_ref closure_differentials(struct shader *shader, ir_ref root);
 /* alpha.c: the possible values of an alpha that is not constant 1. */
 enum shader_alpha closure_alpha(struct shader *shader, ir_ref alpha);
 
-/* product.c: ir_product with the loop-invariant factors first. */
-ir_ref closure_product(struct ir_graph *graph, ir_ref value, ir_ref weight);
+/*
+ * product.c: ir_product with the loop-invariant factors first. out_invariant, if not NULL: their
+ * product, 0 if there is none.
+ */
+ir_ref closure_product(struct ir_graph *graph, ir_ref value, ir_ref weight, ir_ref *out_invariant);
 /* guard.c: finds the parts that need a branch. in_loop: considers only code inside the loop. */
 void closure_find_guarded(struct shader *shader, struct closure_parts *list, bool in_loop);
 /* Mixes two closures of one type; 0 is an absent closure. */

@@ -34,7 +34,7 @@ ir_ref closure_over_copies(struct closure_copies *c, ir_ref ref, ir_ref last)
     }
     if (last)
         args[n++] = last;
-    return changed ? ir_build(g, (enum ir_op)node.op, node.type, node.attr, args, n) : ref;
+    return changed ? ir_copy_as(g, ref, node.type, node.attr, args, n) : ref;
 }
 
 static bool open(struct closure_copies *c, ir_ref ref)
@@ -96,9 +96,7 @@ ir_ref closure_in_loop(struct closure_copies *c, ir_ref root)
             continue;
         const struct ir_node *node = ir_get(g, ref);
         bool is_source = (node->op == IR_CONTEXT || node->op == IR_SAMPLE) && !node->num_args;
-        ir_push_origin_of(g, ref);
         c->became.items[ref] = closure_over_copies(c, ref, is_source ? number : 0);
-        ir_pop_origin(g);
     }
     return copy_of(c, root);
 }
@@ -109,11 +107,9 @@ ir_ref closure_chosen(struct closure_copies *c, ir_ref root, ir_ref choice, bool
     for (ir_ref ref = open_needed(c, root); ref <= root; ref++) {
         if (c->became.items[ref] != OPEN)
             continue;
-        ir_push_origin_of(g, ref);
         bool is_choice = ir_get(g, ref)->op == IR_SELECT && ir_arg(g, ref, 0) == choice;
         c->became.items[ref] = is_choice ? copy_of(c, ir_arg(g, ref, is_true ? 1 : 2))
                                          : closure_over_copies(c, ref, 0);
-        ir_pop_origin(g);
     }
     return copy_of(c, root);
 }

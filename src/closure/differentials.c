@@ -68,9 +68,7 @@ static ir_ref rebuilt(struct differ *d, ir_ref ref, const ir_ref *became)
         args[i] = became[ir_arg(d->graph, ref, i)];
         changed |= args[i] != ir_arg(d->graph, ref, i);
     }
-    return changed
-               ? ir_build(d->graph, (enum ir_op)node.op, node.type, node.attr, args, node.num_args)
-               : ref;
+    return changed ? ir_copy(d->graph, ref, args) : ref;
 }
 
 static ir_ref difference(struct differ *d, ir_ref arg, unsigned axis)

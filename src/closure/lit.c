@@ -49,8 +49,11 @@ static ir_ref weighted(struct emitter *e, const struct closure_leaf *leaf, ir_re
     ir_push_origin_of(g, leaf->leaf);
     ir_ref weight = weight_along(e, leaf, way);
     closure_name(e->shader, weight, leaf->leaf, "weight");
-    value = closure_product(g, value, weight);
+    ir_ref invariant;
+    value = closure_product(g, value, weight, &invariant);
     closure_name(e->shader, value, leaf->leaf, "response");
+    if (invariant && !ir_label(g, invariant)->name)
+        closure_name(e->shader, invariant, leaf->leaf, "factor");
     ir_pop_origin(g);
     return value;
 }
@@ -84,7 +87,7 @@ static void accumulate(struct emitter *e, ir_ref factor, ir_ref value)
     assert(e->lit.color < e->shader->effects.locals.len);
     ir_push_origin_of(e->graph, value);
     if (factor) /* of the numbers of both a GPU makes one, before it comes to vectors */
-        value = closure_product(e->graph, factor, value);
+        value = closure_product(e->graph, factor, value, NULL);
     emitter_effect(e, EFFECT_ACCUMULATE, e->lit.color, emitter_vec3(e, value));
     ir_pop_origin(e->graph);
 }
@@ -127,8 +130,10 @@ static void accumulate_parts(struct emitter *e, const char *section,
 {
     struct ir_graph *g = e->graph;
     ir_ref sum = 0;
-    for (uint32_t i = 0; i < count; i++)
+    for (uint32_t i = 0; i < count; i++) {
         sum = ir_sum(g, sum, parts[i].value);
+        ir_suggest_name(g, sum, i ? STR_response : 0, IR_NAME_ROLE);
+    }
     comment_leaves(e, section, parts, count);
     if (guard) {
         ir_ref condition = ir_op2(g, IR_GT, guard, ir_const_float(g, 0.0f));
@@ -310,8 +315,9 @@ static void loop_lights(struct emitter *e, struct closure_parts *lit, bool is_on
     uint32_t local = 0;
     bool has_map = e->lighting->shadow == DARKENED_BY_MAP;
     if (e->lighting->shadow == DARKENED_BY_HOST)
-        factor = closure_product(e->graph, factor,
-                                 closure_host_shadow(e->shader, e->host, e->lit.light.direction));
+        factor =
+            closure_product(e->graph, factor,
+                            closure_host_shadow(e->shader, e->host, e->lit.light.direction), NULL);
     if (has_map) {
         local = shader_add_local(e->shader, STR_occlusion, IR_TYPE_FLOAT);
         emitter_effect(e, EFFECT_VAR, local, closure_shadow(e->shader, e->host));

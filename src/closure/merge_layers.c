@@ -205,10 +205,7 @@ static void build_closure(struct merging *m, const struct closure_host *host, ui
             refs[i] = ir_arg(m->graph, refs_of(m, item)[i], k);
         args[k] = became(m, refs, name_of(m, host, first, k));
     }
-    ir_push_origin_of(m->graph, first);
-    m->items.items[item].became =
-        ir_build(m->graph, (enum ir_op)node.op, node.type, node.attr, args, node.num_args);
-    ir_pop_origin(m->graph);
+    m->items.items[item].became = ir_copy(m->graph, first, args);
 }
 
 struct place {

@@ -79,8 +79,10 @@ static ir_ref product_of(struct ir_graph *g, const struct factors *f, unsigned k
     return product;
 }
 
-ir_ref closure_product(struct ir_graph *g, ir_ref value, ir_ref weight)
+ir_ref closure_product(struct ir_graph *g, ir_ref value, ir_ref weight, ir_ref *out_invariant)
 {
+    ir_ref unused, *invariant = out_invariant ? out_invariant : &unused;
+    *invariant = 0;
     if (!weight)
         return value;
     struct factors f = {.count = 1};
@@ -88,7 +90,7 @@ ir_ref closure_product(struct ir_graph *g, ir_ref value, ir_ref weight)
     insert(g, &f, is_splat(g, weight) ? ir_arg(g, weight, 0) : weight);
     assert(f.counts[0] + f.counts[1] + f.counts[2] + f.counts[3] + 1 == f.count);
     ir_ref constant = product_of(g, &f, IS_VECTOR, 0);
-    constant = ir_product(g, constant, product_of(g, &f, 0, 0));
+    constant = *invariant = ir_product(g, constant, product_of(g, &f, 0, 0));
     bool is_number = constant && ir_type_of(g, constant) == IR_TYPE_FLOAT;
     /* numbers before vectors, the last one first: Fresnel's factor is often one number in three */
     ir_ref product = product_of(g, &f, VARIES, is_number ? constant : 0);

@@ -107,6 +107,7 @@ ir_ref scatter_balanced(struct closure_scatter *s, ir_ref value, ir_ref density,
 static ir_ref weight_along(struct closure_scatter *s, const struct closure_leaf *leaf, ir_ref way)
 {
     ir_ref weight = ir_product(s->graph, closure_weight(s->shader, leaf, way), s->scale);
+    closure_name(s->shader, weight, leaf->leaf, "weight");
     return ir_convert(s->graph, IR_TYPE_VEC3, weight);
 }
 
@@ -323,7 +324,7 @@ static ir_ref response(struct closure_scatter *s, uint32_t part, ir_ref directio
         }
         if (has(s, leaf->leaf, LEAF_REFRACTION))
             value = through_surface(s, leaf->in[part], direction, value, !solid_angle);
-        sum = scatter_op2(s, IR_ADD, sum, value);
+        sum = scatter_named(s, scatter_op2(s, IR_ADD, sum, value), "response");
     }
     return sum;
 }

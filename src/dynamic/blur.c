@@ -160,8 +160,7 @@ static void move_node(struct blur *blur, ir_ref ref)
             ir_ref arg = ir_arg(g, ref, i), moved = moved_of(blur, arg)[tap];
             args[i] = moved ? moved : arg;
         }
-        moved_of(blur, ref)[tap] =
-            ir_build(g, (enum ir_op)node.op, node.type, node.attr, args, node.num_args);
+        moved_of(blur, ref)[tap] = ir_copy(g, ref, args);
     }
 }
 

@@ -100,10 +100,7 @@ static ir_ref filmed(struct film *f, ir_ref ref)
         *ior = over(f, is_bare, f->ior, *ior);
         *thickness = over(f, is_bare, f->thickness, *thickness);
     }
-    ir_push_origin(g, node.origin);
-    ir_ref result = ir_build(g, (enum ir_op)node.op, node.type, node.attr, args, node.num_args);
-    ir_pop_origin(g);
-    return result;
+    return ir_copy(g, ref, args);
 }
 
 static ir_ref left_out(struct builder *b, ir_ref base, elem_id node)

@@ -107,6 +107,24 @@ ir_ref ir_build(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t
     return result ? result : ir_add(graph, &content);
 }
 
+ir_ref ir_copy_as(struct ir_graph *graph, ir_ref ref, ir_type_id type, uint32_t attr,
+                  const ir_ref *args, unsigned num_args)
+{
+    uint32_t num_nodes = graph->nodes.len;
+    ir_push_origin_of(graph, ref);
+    ir_ref copy = ir_build(graph, (enum ir_op)ir_get(graph, ref)->op, type, attr, args, num_args);
+    ir_pop_origin(graph);
+    if (copy >= num_nodes)
+        graph->labels.items[copy] = graph->labels.items[ref];
+    return copy;
+}
+
+ir_ref ir_copy(struct ir_graph *graph, ir_ref ref, const ir_ref *args)
+{
+    const struct ir_node node = *ir_get(graph, ref);
+    return ir_copy_as(graph, ref, node.type, node.attr, args, node.num_args);
+}
+
 static ir_ref build_by_rule(struct ir_graph *graph, enum ir_op op, const ir_ref *args,
                             unsigned num_args)
 {

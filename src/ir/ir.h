@@ -347,6 +347,12 @@ static inline ir_type_id ir_type_of(const struct ir_graph *graph, ir_ref ref)
  */
 ir_ref ir_build(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint32_t attr,
                 const ir_ref *args, unsigned num_args);
+/* Builds a node over other operands. If it is new, it has the origin and the name of the old one.
+ */
+ir_ref ir_copy_as(struct ir_graph *graph, ir_ref ref, ir_type_id type, uint32_t attr,
+                  const ir_ref *args, unsigned num_args);
+/* ir_copy_as with the type, the attribute and the number of operands of the old node */
+ir_ref ir_copy(struct ir_graph *graph, ir_ref ref, const ir_ref *args);
 
 /* Builds an op and derives the type by its rule; 0 if the operands do not match. */
 ir_ref ir_op1(struct ir_graph *graph, enum ir_op op, ir_ref a);
@@ -405,6 +411,7 @@ enum ir_name_rank {
     IR_NAME_FUNCTION = 100, /* of a library function that returns the value */
     IR_NAME_LOCAL = 150,    /* of a local variable of a library function */
     IR_NAME_ROLE = 200,     /* its role in the shader: a weight, a throughput */
+    IR_NAME_COPY = 220,     /* of one of several copies of a value: at one angle */
     IR_NAME_RESULT = 250,   /* of a document's node */
     IR_NAME_MAX_DEPTH = 49, /* deeper functions rank as this */
 };

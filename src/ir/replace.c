@@ -69,10 +69,7 @@ static ir_ref copy_node(struct replacement *r, ir_ref ref, const ir_ref *copies,
         attr = r->copied[attr] - 1;
         args[num_args++] = to;
     }
-    ir_push_origin(r->graph, node.origin);
-    ir_ref copy = ir_build(r->graph, (enum ir_op)node.op, node.type, attr, args, num_args);
-    ir_pop_origin(r->graph);
-    return copy;
+    return ir_copy_as(r->graph, ref, node.type, attr, args, num_args);
 }
 
 /* The nodes that the roots depend on, without the bodies of functions. */

@@ -9,6 +9,17 @@ static inline void copy_leaves(const ir_ref *from, uint32_t count, ir_ref *out)
         out[i] = from[i];
 }
 
+/* An operation or call that stands in the place of a variable or function has its name. */
+static inline void name_value(struct lower *lo, const struct lang_node *node, const ir_ref *leaves)
+{
+    bool has_name = node->kind == LANG_OP || node->kind == LANG_CALL;
+    if (!has_name || !node->c || lo->failed)
+        return;
+    bool is_function = node->c & LANG_OF_FUNCTION;
+    lower_name(lo, node->type, *leaves, node->c & ~LANG_OF_FUNCTION,
+               is_function ? IR_NAME_FUNCTION : IR_NAME_LOCAL);
+}
+
 /* True if one more tree node may run. */
 static inline bool may_go_on(struct lower *lo)
 {
@@ -358,6 +369,7 @@ static void lower_other(struct lower *lo, const struct lang_node *node, ir_ref *
     case LANG_CALL: lower_nested_call(lo, node, out); break;
     default: lower_op(lo, node, out);
     }
+    name_value(lo, node, out);
 }
 
 void lower_expression(struct lower *lo, const struct lang_node *node, ir_ref *out)

@@ -20,7 +20,7 @@ ir_ref build_over(struct builder *b, ir_ref ref, const ir_ref *left)
         return ir_other_operand(b->graph, (enum ir_op)node.op, args[0], args[1]);
     if (ir_type_is_closure(node.type) && !has_operand)
         return 0;
-    return ir_build(b->graph, (enum ir_op)node.op, node.type, node.attr, args, node.num_args);
+    return ir_copy(b->graph, ref, args);
 }
 
 ir_ref build_with_parts(struct builder *b, ir_ref root, ir_ref (*part)(void *user_data, ir_ref ref),

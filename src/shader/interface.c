@@ -533,7 +533,11 @@ static ir_ref vertex_expression(struct shader *shader, const struct stream_row *
     }
     ir_ref a = attribute(shader, row, suffix, type);
     switch ((enum stream_space)row->space) {
-    case SPACE_POINT: return xyz(graph, transform(shader, STR_u_worldMatrix, a, 1));
+    case SPACE_POINT: {
+        ir_ref point = transform(shader, STR_u_worldMatrix, a, 1);
+        ir_suggest_name(graph, point, STR_positionWorld, IR_NAME_ROLE);
+        return xyz(graph, point);
+    }
     case SPACE_VECTOR:
         return ir_op1(graph, IR_NORMALIZE, xyz(graph, transform(shader, STR_u_worldMatrix, a, 0)));
     case SPACE_NORMAL:

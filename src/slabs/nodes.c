@@ -84,10 +84,7 @@ static ir_ref copy_of(struct ir_graph *g, const struct slab_nodes *nodes, ir_ref
     ir_ref *args = ARENA_ARRAY(scratch, ir_ref, node.num_args);
     for (uint32_t i = 0; i < node.num_args; i++)
         args[i] = operand_of(g, nodes, ref, i, copies);
-    ir_push_origin_of(g, ref);
-    ir_ref copy = ir_build(g, (enum ir_op)node.op, node.type, node.attr, args, node.num_args);
-    ir_pop_origin(g);
-    return copy;
+    return ir_copy(g, ref, args);
 }
 
 ir_ref slabs_replace(struct ir_graph *g, const struct slab_nodes *nodes, const ir_ref *by,

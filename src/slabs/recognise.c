@@ -201,8 +201,7 @@ static ir_ref recognise_node(const struct recogniser *r, ir_ref ref)
     bool has_volume = is_layer && args[1] && !is_bsdf(g, args[1]);
     if (!any && !(has_volume && r->takes_all))
         return ref;
-    return is_layer ? recognised_layer(r, args[0], args[1])
-                    : ir_build(g, (enum ir_op)node.op, node.type, node.attr, args, node.num_args);
+    return is_layer ? recognised_layer(r, args[0], args[1]) : ir_copy(g, ref, args);
 }
 
 ir_ref slabs_recognise(struct shader *shader, const struct slabs_host *host, bool takes_all,

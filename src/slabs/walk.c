@@ -392,7 +392,7 @@ static bool visit_operands(struct walk *w, ir_ref ref, struct where where, ir_re
     if (node.op == IR_CLOSURE_MIX)
         args[2] = seen_at(w, args[2], &where);
     uint32_t attr = node.op == IR_LEAF ? node.attr : 0; /* elsewhere it asks to blend parameters */
-    *out_result = ir_build(g, (enum ir_op)node.op, node.type, attr, args, node.num_args);
+    *out_result = ir_copy_as(g, ref, node.type, attr, args, node.num_args);
     return true;
 }
 
@@ -513,7 +513,7 @@ static ir_ref rewrite_root(struct walk *w, ir_ref ref, bool is_on_matter, const 
         else if (known_for(w, replaced, args[i]))
             args[i] = known_for(w, replaced, args[i]);
     }
-    return ir_build(g, (enum ir_op)node.op, node.type, node.attr, args, node.num_args);
+    return ir_copy(g, ref, args);
 }
 
 /* Marks surfaces that lie on others: all layers of stacks, because light goes on to those below. */

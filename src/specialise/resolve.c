@@ -102,6 +102,8 @@ static void resolve(struct spec *s, lang_ref ref)
         shorter = spec_inline(s, &call);
     s->changed |= shorter != 0;
     struct lang_node node = shorter ? *spec_node(s, shorter) : call;
+    if (shorter && node.kind == LANG_OP && !node.c)
+        node.c = lang_function(s->unit, call.a, NULL)->name | LANG_OF_FUNCTION;
     node.next = call.next;
     *spec_node(s, ref) = node;
 }

@@ -6,7 +6,7 @@
  *     vec2 v = vec2(a, b);  return vec3(v, c);   →      return vec3(a, b, c);
  *
  * A value moves if its declaration and its read are in one list of statements, and nothing assigns
- * to its operands.
+ * to its operands. It keeps the name of the variable, for the lowering.
  */
 #include "specialise/spec.h"
 
@@ -66,6 +66,8 @@ static bool replace_variable(void *user_data, lang_ref ref, unsigned access)
         return true;
     assert(f->reads[node->a] == 1);
     struct lang_node value = *spec_node(f->s, spec_node(f->s, declaration)->b);
+    if (value.kind == LANG_OP || value.kind == LANG_CALL)
+        value.c = ast_slot(f->s->layer, &f->s->fn, node->a)->name;
     f->declared[node->a] = 0;
     f->s->slots[node->a].uses = 0;
     spec_node(f->s, declaration)->b = 0; /* marks the declaration as removed */

@@ -29,10 +29,11 @@ enum lang_kind {
     LANG_INPUT,  /* a: slot of an inline expression's {{input}} */
     /*
      * op: enum ir_op (operators and built-ins; attr in b for SWIZZLE and MEMBER); first operand a,
-     * chained by next
+     * chained by next; c: the str_id of the variable in whose place it stands, or that of the
+     * function + LANG_OF_FUNCTION, or 0
      */
     LANG_OP,
-    LANG_CALL, /* a: function id; first argument b, chained by next */
+    LANG_CALL, /* a: function id; first argument b, chained by next; c: as in OP */
     /* statements */
     LANG_DECLARE, /* a: slot; b: initialiser or 0 */
     /*
@@ -53,6 +54,8 @@ enum lang_kind {
     LANG_CONTINUE,
     LANG_NUM_KINDS
 };
+
+#define LANG_OF_FUNCTION (1u << 31)
 
 struct lang_node {
     uint8_t kind;

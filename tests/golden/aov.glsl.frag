@@ -66,7 +66,7 @@ void main()
     vec3 facet_2 = normalize(cross(dFdx(vd.positionWorld), dFdy(vd.positionWorld)));
     vec3 displaced_normal = normalize(Ng + (facet_normal - faceforward(facet_2, -Ng, facet_2)));
     // SR/base
-    vec3 N = faceforward(displaced_normal, -normalize(u_viewPosition - P), displaced_normal);
+    vec3 facing = faceforward(displaced_normal, -normalize(u_viewPosition - P), displaced_normal);
     // SR
     const vec3 base_constant = vec3(0.8, 0.1, 0.1);
     // from the last light, so that drivers do not unroll the loop
@@ -81,21 +81,21 @@ void main()
             vec3 d = u_lightData[i].position - P;
             vec3 to_light = normalize(d);
             L = to_light;
-            float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+            float falloff = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
             if (light_type == 2) {
-                intensity = ratio;
+                intensity = falloff;
             } else {
-                float difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+                float edge = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
                 intensity = light_type == 3
-                    ? smoothstep(difference, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
-                    * ratio : 0.0;
+                    ? smoothstep(edge, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light)) * falloff
+                    : 0.0;
             }
         }
         // diffuse
-        color += u_lightData[i].color * (intensity * (max(dot(L, N), 1e-8) * 0.31830987 * base_constant));
+        color += u_lightData[i].color * (intensity * (max(dot(L, facing), 1e-8) * 0.31830987 * base_constant));
     }
     // environment: diffuse
-    vec3 diffuse_response = textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * N)), 0.0).xyz
+    vec3 diffuse_response = textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * facing)), 0.0).xyz
         * u_envLightIntensity * base_constant;
     color += diffuse_response;
     vec3 color_2 = vec3(0.0);
@@ -109,22 +109,20 @@ void main()
             L = -u_lightData[i].direction;
             intensity = u_lightData[i].intensity;
         } else {
-            vec3 spot_light_difference = u_lightData[i].position - P;
-            vec3 spot_light_direction = normalize(spot_light_difference);
-            L = spot_light_direction;
-            float spot_light_ratio = u_lightData[i].intensity
-                / pow(length(spot_light_difference) + 1.0, u_lightData[i].decay_rate);
+            vec3 d = u_lightData[i].position - P;
+            vec3 to_light = normalize(d);
+            L = to_light;
+            float falloff = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
             if (light_type == 2) {
-                intensity = spot_light_ratio;
+                intensity = falloff;
             } else {
-                float spot_light_difference_2 = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
-                intensity = light_type == 3 ? spot_light_ratio
-                    * smoothstep(spot_light_difference_2, u_lightData[i].inner_angle,
-                    -dot(u_lightData[i].direction, spot_light_direction)) : 0.0;
+                float edge = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+                intensity = light_type == 3 ? falloff
+                    * smoothstep(edge, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light)) : 0.0;
             }
         }
         // diffuse (2)
-        color_2 += u_lightData[i].color * (intensity * (max(dot(N, L), 1e-8) * 0.31830987 * base_constant));
+        color_2 += u_lightData[i].color * (intensity * (max(dot(facing, L), 1e-8) * 0.31830987 * base_constant));
     }
     // environment: diffuse (2)
     color_2 += diffuse_response;

@@ -53,7 +53,7 @@ void main(
     float3 facet_2 = normalize(cross(ddx(vd.positionWorld), ddy(vd.positionWorld)));
     float3 displaced_normal = normalize(Ng + (facet_normal - faceforward(facet_2, -Ng, facet_2)));
     // SR/base
-    float3 diffuse_facing = faceforward(displaced_normal, -normalize(u_viewPosition - P), displaced_normal);
+    float3 facing = faceforward(displaced_normal, -normalize(u_viewPosition - P), displaced_normal);
     // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         float3 L;
@@ -66,19 +66,18 @@ void main(
             float3 d = u_lightData[i].position - P;
             float3 to_light = normalize(d);
             L = to_light;
-            float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+            float falloff = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
             if (light_type == 2) {
-                intensity = ratio;
+                intensity = falloff;
             } else {
-                float difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+                float edge = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
                 intensity = light_type == 3
-                    ? smoothstep(difference, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
-                    * ratio : 0.0;
+                    ? smoothstep(edge, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light)) * falloff
+                    : 0.0;
             }
         }
         // diffuse
-        color += u_lightData[i].color * (intensity
-            * (max(dot(L, diffuse_facing), 1e-8) * 0.31830987 * float3(0.8, 0.1, 0.1)));
+        color += u_lightData[i].color * (intensity * (max(dot(L, facing), 1e-8) * 0.31830987 * float3(0.8, 0.1, 0.1)));
     }
     float3 color_2 = float3(0.0, 0.0, 0.0);
     // lights (2)
@@ -91,23 +90,21 @@ void main(
             L = -u_lightData[i].direction;
             intensity = u_lightData[i].intensity;
         } else {
-            float3 spot_light_difference = u_lightData[i].position - P;
-            float3 spot_light_direction = normalize(spot_light_difference);
-            L = spot_light_direction;
-            float spot_light_ratio = u_lightData[i].intensity
-                / pow(length(spot_light_difference) + 1.0, u_lightData[i].decay_rate);
+            float3 d = u_lightData[i].position - P;
+            float3 to_light = normalize(d);
+            L = to_light;
+            float falloff = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
             if (light_type == 2) {
-                intensity = spot_light_ratio;
+                intensity = falloff;
             } else {
-                float spot_light_difference_2 = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
-                intensity = light_type == 3 ? spot_light_ratio
-                    * smoothstep(spot_light_difference_2, u_lightData[i].inner_angle,
-                    -dot(u_lightData[i].direction, spot_light_direction)) : 0.0;
+                float edge = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+                intensity = light_type == 3 ? falloff
+                    * smoothstep(edge, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light)) : 0.0;
             }
         }
         // diffuse (2)
         color_2 += u_lightData[i].color * (intensity
-            * (max(dot(diffuse_facing, L), 1e-8) * 0.31830987 * float3(0.8, 0.1, 0.1)));
+            * (max(dot(facing, L), 1e-8) * 0.31830987 * float3(0.8, 0.1, 0.1)));
     }
     // opacity
     if (0.5 < u_alphaThreshold)

@@ -50,17 +50,17 @@ void scatter()
     vec3 medium = vec3(1.0);
     vec3 N = normalize(vd.normalMoved);
     // SR/base
-    vec3 diffuse_N = faceforward(N, -vd.viewWorld, N);
+    vec3 facing = faceforward(N, -vd.viewWorld, N);
     // SR
     const vec3 base_constant = vec3(0.8, 0.1, 0.1);
     if (pick >= 0.0 && pick < 0.4) {
-        mat3 any_frame = mx_frame(diffuse_N, abs(diffuse_N.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0));
-        vec2 diffuse_product = sqrt(vd.random.x) * cos((vd.random.y - vec2(0.0, 0.25)) * 6.2831855);
-        vec3 L_2 = any_frame * vec3(diffuse_product, sqrt(1.0 - vd.random.x));
+        mat3 any_frame = mx_frame(facing, abs(facing.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0));
+        vec2 polar = sqrt(vd.random.x) * cos((vd.random.y - vec2(0.0, 0.25)) * 6.2831855);
+        vec3 L_2 = any_frame * vec3(polar, sqrt(1.0 - vd.random.x));
         L = L_2;
-        float diffuse_n_dot_l_2 = dot(diffuse_N, L_2);
-        float pdf = max(diffuse_n_dot_l_2, 0.0) / 3.1415927;
-        vec3 weight_3 = max(diffuse_n_dot_l_2, 1e-8) * 0.31830987 * base_constant / max(pdf, 1e-8);
+        float facing_dot_l_2 = dot(facing, L_2);
+        float pdf = max(facing_dot_l_2, 0.0) / 3.1415927;
+        vec3 weight_3 = max(facing_dot_l_2, 1e-8) * 0.31830987 * base_constant / max(pdf, 1e-8);
         weight = weight_3;
         weight_2 = weight_3;
         density = pdf;
@@ -70,10 +70,10 @@ void scatter()
     out2 = vec4(L, inside);
     out3 = vec4(weight, density);
     out4 = vec4(medium, 0.0);
-    float diffuse_n_dot_l = dot(diffuse_N, vd.lightWorld.xyz);
-    float sum = vd.lightWorld.w * (max(diffuse_n_dot_l, 0.0) / 3.1415927) + 1.0;
-    vec3 balanced = max(diffuse_n_dot_l, 1e-8) * 0.31830987 * base_constant / sum;
-    out5 = vec4(balanced, 0.0);
+    float facing_dot_l = dot(facing, vd.lightWorld.xyz);
+    float both = vd.lightWorld.w * (max(facing_dot_l, 0.0) / 3.1415927) + 1.0;
+    vec3 response = max(facing_dot_l, 1e-8) * 0.31830987 * base_constant / both;
+    out5 = vec4(response, 0.0);
     aov_diffuse = vec3(0.0);
     aov_glow = vec3(0.1, 0.2, 0.3);
     aov_base_albedo = base_constant;
@@ -83,5 +83,5 @@ void scatter()
     aov_id = 7;
     aov_normal = normalize(vd.normalObject);
     aov_weight_diffuse = weight_2;
-    aov_response_diffuse = balanced;
+    aov_response_diffuse = response;
 }

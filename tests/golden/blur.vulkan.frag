@@ -16,20 +16,20 @@ void main()
     vec2 soft_behind_2 = vd.texcoord_0 + vec2(0.0, 0.028867513);
     vec2 soft_before_2 = vd.texcoord_0 + vec2(0.0, -0.028867513);
     vec2 soft_blur_footprint_2 = abs(dFdy(vd.texcoord_0)) + abs((soft_behind_2 - soft_before_2) * 0.5);
-    vec3 soft_product = textureGrad(wood_file, vd.texcoord_0 - vec2(0.028867513), soft_blur_footprint,
+    vec3 scaled_wood = textureGrad(wood_file, vd.texcoord_0 - vec2(0.028867513), soft_blur_footprint,
         soft_blur_footprint_2).xyz * 0.01388889;
-    vec3 soft_product_2 = textureGrad(wood_file, vd.texcoord_0 + vec2(0.028867513, -0.028867513), soft_blur_footprint,
+    vec3 scaled_wood_2 = textureGrad(wood_file, vd.texcoord_0 + vec2(0.028867513, -0.028867513), soft_blur_footprint,
         soft_blur_footprint_2).xyz * 0.01388889;
-    vec3 soft_sum = soft_product + textureGrad(wood_file, soft_before_2, soft_blur_footprint, soft_blur_footprint_2).xyz
-        * 0.05555556 + soft_product_2;
+    vec3 soft_sum = scaled_wood + textureGrad(wood_file, soft_before_2, soft_blur_footprint, soft_blur_footprint_2).xyz
+        * 0.05555556 + scaled_wood_2;
     vec3 soft_sum_2 = soft_sum + textureGrad(wood_file, soft_before, soft_blur_footprint, soft_blur_footprint_2).xyz
         * 0.05555556;
     vec3 soft_sum_3 = soft_sum_2 + textureGrad(wood_file, vd.texcoord_0, soft_blur_footprint, soft_blur_footprint_2).xyz
         * 0.22222224;
-    vec3 soft_product_3 = textureGrad(wood_file, vd.texcoord_0 + vec2(-0.028867513, 0.028867513), soft_blur_footprint,
+    vec3 scaled_wood_3 = textureGrad(wood_file, vd.texcoord_0 + vec2(-0.028867513, 0.028867513), soft_blur_footprint,
         soft_blur_footprint_2).xyz * 0.01388889;
     vec3 soft_sum_4 = soft_sum_3 + textureGrad(wood_file, soft_behind, soft_blur_footprint, soft_blur_footprint_2).xyz
-        * 0.05555556 + soft_product_3;
+        * 0.05555556 + scaled_wood_3;
     vec3 soft_sum_5 = soft_sum_4 + textureGrad(wood_file, soft_behind_2, soft_blur_footprint, soft_blur_footprint_2).xyz
         * 0.05555556;
     out1 = vec4(soft_sum_5 + textureGrad(wood_file, vd.texcoord_0 + vec2(0.028867513), soft_blur_footprint,

@@ -87,7 +87,7 @@ void main()
     vec3 facing = faceforward(N, -V, N);
     float ggx_masking = sqrt(cos_v * cos_v * 0.9984 + 0.0016);
     mx_GgxLobe coat_ggx_lobe = mx_GgxLobe(facing, cos_v, vec3(0.0), vec2(0.04), ggx_masking);
-    vec3 paint_product = (1.0 - mix(0.03373595, 1.0, albedo.y) * albedo.x * ggx_compensation) * 0.75 * 0.31830987
+    vec3 paint_factor = (1.0 - mix(0.03373595, 1.0, albedo.y) * albedo.x * ggx_compensation) * 0.75 * 0.31830987
         * vec3(0.6, 0.1, 0.05);
     // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 1) - 1; i >= 0; --i) {
@@ -98,10 +98,10 @@ void main()
         float coat_product = ggx_compensation
             * mx_fresnel_permittivity(sqrt(clamp(v_dot_l * 0.5 + 0.500001, 0.0, 1.0)));
         float cos_l = max(dot(L, facing), 1e-8);
-        vec3 paint_response = paint_product
+        vec3 paint_response = paint_factor
             * (cos_l * (max(v_dot_l - cos_v * cos_l, 0.0) * 0.225 / max(cos_l, cos_v) + 0.89285713));
-        vec3 sum = coat_product * mx_ggx_light(coat_ggx_lobe, V, L) + paint_response;
-        color += u_lightData[i].color * ((u_lightData[i].type == 1 ? light_intensity : 0.0) * sum);
+        vec3 response = coat_product * mx_ggx_light(coat_ggx_lobe, V, L) + paint_response;
+        color += u_lightData[i].color * ((u_lightData[i].type == 1 ? light_intensity : 0.0) * response);
     }
     out1 = vec4(color, 1.0);
 }

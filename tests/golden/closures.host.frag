@@ -99,7 +99,7 @@ void main()
     float ggx_masking = sqrt(cos_v * cos_v * 0.9984 + 0.0016);
     mx_GgxLobe coat_ggx_lobe = mx_GgxLobe(h, cos_v, vec3(0.0), vec2(0.04), ggx_masking);
     float paint_weight = (1.0 - mix(0.03373595, 1.0, albedo.y) * albedo.x * scale) * 0.75;
-    vec3 paint_product = paint_weight * 0.31830987 * vec3(0.6, 0.1, 0.05);
+    vec3 paint_factor = paint_weight * 0.31830987 * vec3(0.6, 0.1, 0.05);
     // from the last light, so that drivers do not unroll the loop
     for (int i = mxg_light_count() - 1; i >= 0; --i) {
         // coat, paint
@@ -108,7 +108,7 @@ void main()
         float v_dot_l = dot(V, light_L);
         float coat_product = scale * mx_fresnel_permittivity(sqrt(clamp(v_dot_l * 0.5 + 0.500001, 0.0, 1.0)));
         float cos_l = max(dot(light_L, h), 1e-8);
-        vec3 paint_response = paint_product
+        vec3 paint_response = paint_factor
             * (cos_l * (max(v_dot_l - cos_v * cos_l, 0.0) * 0.225 / max(cos_l, cos_v) + 0.89285713));
         color += light_radiance * (coat_product * mx_ggx_light(coat_ggx_lobe, V, light_L) + paint_response);
     }
@@ -116,7 +116,7 @@ void main()
     vec3 scaled_environment_irradiance = mxg_irradiance(vd.positionWorld, normalize(h)) * vec3(0.6, 0.1, 0.05);
     vec2 fit = (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + vec2(0.43155, 0.60945)) * 0.3 + vec2(1.0);
     vec3 paint_response = scaled_environment_irradiance * (paint_weight * clamp(fit.x / fit.y, 0.0, 1.0));
-    vec3 sum = scale * mx_ggx_prefiltered(N, V) + paint_response;
-    color += mxg_ambient_occlusion(vd.positionWorld, N) * sum;
+    vec3 response = scale * mx_ggx_prefiltered(N, V) + paint_response;
+    color += mxg_ambient_occlusion(vd.positionWorld, N) * response;
     out1 = vec4(color, 1.0);
 }

@@ -119,7 +119,7 @@ void FragmentMain()
     float ggx_masking = sqrt(cos_v * cos_v * 0.9984 + 0.0016);
     mx_GgxLobe coat_ggx_lobe = make_mx_GgxLobe(h, cos_v, float3(0.0), float2(0.04), ggx_masking);
     float paint_weight = (1.0 - mix(0.03373595, 1.0, albedo.y) * albedo.x * scale) * 0.75;
-    float3 paint_product = paint_weight * 0.31830987 * float3(0.6, 0.1, 0.05);
+    float3 paint_factor = paint_weight * 0.31830987 * float3(0.6, 0.1, 0.05);
     // from the last light, so that drivers do not unroll the loop
     for (int i = mxg_host.mxg_light_count() - 1; i >= 0; --i) {
         // coat, paint
@@ -128,7 +128,7 @@ void FragmentMain()
         float v_dot_l = dot(V, light_L);
         float coat_product = scale * mx_fresnel_permittivity(sqrt(clamp(v_dot_l * 0.5 + 0.500001, 0.0, 1.0)));
         float cos_l = max(dot(light_L, h), 1e-8);
-        float3 paint_response = paint_product
+        float3 paint_response = paint_factor
             * (cos_l * (max(v_dot_l - cos_v * cos_l, 0.0) * 0.225 / max(cos_l, cos_v) + 0.89285713));
         color += light_radiance * (coat_product * mx_ggx_light(coat_ggx_lobe, V, light_L) + paint_response);
     }
@@ -138,8 +138,8 @@ void FragmentMain()
     float2 fit = (cos_v * float2(-0.7632, -0.4993) - float2(0.4297, 0.6076) + float2(0.43155, 0.60945)) * 0.3
         + float2(1.0);
     float3 paint_response = scaled_environment_irradiance * (paint_weight * clamp(fit.x / fit.y, 0.0, 1.0));
-    float3 sum = scale * mx_ggx_prefiltered(N, V) + paint_response;
-    color += mxg_host.mxg_ambient_occlusion(vd.positionWorld, N) * sum;
+    float3 response = scale * mx_ggx_prefiltered(N, V) + paint_response;
+    color += mxg_host.mxg_ambient_occlusion(vd.positionWorld, N) * response;
     out.out1 = float4(color, 1.0);
 }
 };

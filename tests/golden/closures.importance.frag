@@ -215,16 +215,16 @@ void main()
 {
     vec3 color = vec3(0.0);
     // lights
-    vec3 normal_N = normalize(vd.normalWorld);
+    vec3 N = normalize(vd.normalWorld);
     vec3 V = normalize(u_viewPosition - vd.positionWorld);
-    float cos_v = max(abs(dot(normal_N, V)), 1e-8);
+    float cos_v = max(abs(dot(N, V)), 1e-8);
     vec2 albedo = mx_ggx_albedo_fit(cos_v);
     float scale = (1.0 / albedo.x - 1.0) * 0.079748526 + 1.0;
-    vec3 N = faceforward(normal_N, -V, normal_N);
+    vec3 facing = faceforward(N, -V, N);
     float ggx_masking = sqrt(cos_v * cos_v * 0.9984 + 0.0016);
-    mx_GgxLobe coat_ggx_lobe = mx_GgxLobe(N, cos_v, vec3(0.0), vec2(0.04), ggx_masking);
+    mx_GgxLobe coat_ggx_lobe = mx_GgxLobe(facing, cos_v, vec3(0.0), vec2(0.04), ggx_masking);
     float paint_weight = (1.0 - mix(0.03373595, 1.0, albedo.y) * albedo.x * scale) * 0.75;
-    vec3 paint_product = paint_weight * 0.31830987 * vec3(0.6, 0.1, 0.05);
+    vec3 paint_factor = paint_weight * 0.31830987 * vec3(0.6, 0.1, 0.05);
     // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         vec3 L;
@@ -237,34 +237,34 @@ void main()
             vec3 d = u_lightData[i].position - vd.positionWorld;
             vec3 to_light = normalize(d);
             L = to_light;
-            float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+            float falloff = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
             if (light_type == 2) {
-                intensity = ratio;
+                intensity = falloff;
             } else {
-                float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+                float edge = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
                 intensity = light_type == 3
-                    ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,
-                    -dot(u_lightData[i].direction, to_light)) * ratio : 0.0;
+                    ? smoothstep(edge, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light)) * falloff
+                    : 0.0;
             }
         }
         // coat, paint
         float v_dot_l = dot(V, L);
         float coat_product = scale * mx_fresnel_permittivity(sqrt(clamp(v_dot_l * 0.5 + 0.500001, 0.0, 1.0)));
-        float cos_l = max(dot(L, N), 1e-8);
-        vec3 paint_response = paint_product
+        float cos_l = max(dot(L, facing), 1e-8);
+        vec3 paint_response = paint_factor
             * (cos_l * (max(v_dot_l - cos_v * cos_l, 0.0) * 0.225 / max(cos_l, cos_v) + 0.89285713));
         color += u_lightData[i].color * (intensity
             * (coat_product * mx_ggx_light(coat_ggx_lobe, V, L) + paint_response));
     }
     // environment: paint
-    vec3 paint_product_2 = textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * N)), 0.0).xyz
+    vec3 paint_product = textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * facing)), 0.0).xyz
         * vec3(0.6, 0.1, 0.05);
     vec2 fit = (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + vec2(0.43155, 0.60945)) * 0.3 + vec2(1.0);
-    color += paint_product_2 * (u_envLightIntensity * (paint_weight * clamp(fit.x / fit.y, 0.0, 1.0)));
+    color += paint_product * (u_envLightIntensity * (paint_weight * clamp(fit.x / fit.y, 0.0, 1.0)));
     // environment: coat
     vec2 turn = vec2(1.0, 0.0);
     int count = mx_sample_count();
-    mx_GgxSamples coat_ggx_samples = mx_ggx_samples(count, normal_N, V);
+    mx_GgxSamples coat_ggx_samples = mx_ggx_samples(count, N, V);
     for (int i = 0; i < count; ++i) {
         mx_GgxLight light = mx_ggx_reflected(coat_ggx_samples, i, turn);
         color += light.color * (light.weight * (scale * mx_fresnel_permittivity(light.cosine)));

@@ -122,7 +122,7 @@ void main()
     float ggx_masking = sqrt(cos_v * cos_v * 0.9984 + 0.0016);
     mx_GgxLobe coat_ggx_lobe = mx_GgxLobe(h, cos_v, vec3(0.0), vec2(0.04), ggx_masking);
     float paint_weight = (1.0 - mix(0.03373595, 1.0, albedo.y) * albedo.x * scale) * 0.75;
-    vec3 paint_product = paint_weight * 0.31830987 * vec3(0.6, 0.1, 0.05);
+    vec3 paint_factor = paint_weight * 0.31830987 * vec3(0.6, 0.1, 0.05);
     // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         vec3 L;
@@ -135,30 +135,30 @@ void main()
             vec3 d = u_lightData[i].position - vd.positionWorld;
             vec3 to_light = normalize(d);
             L = to_light;
-            float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+            float falloff = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
             if (light_type == 2) {
-                intensity = ratio;
+                intensity = falloff;
             } else {
-                float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+                float edge = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
                 intensity = light_type == 3
-                    ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,
-                    -dot(u_lightData[i].direction, to_light)) * ratio : 0.0;
+                    ? smoothstep(edge, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light)) * falloff
+                    : 0.0;
             }
         }
         // coat, paint
         float v_dot_l = dot(V, L);
         float coat_product = scale * mx_fresnel_permittivity(sqrt(clamp(v_dot_l * 0.5 + 0.500001, 0.0, 1.0)));
         float cos_l = max(dot(L, h), 1e-8);
-        vec3 paint_response = paint_product
+        vec3 paint_response = paint_factor
             * (cos_l * (max(v_dot_l - cos_v * cos_l, 0.0) * 0.225 / max(cos_l, cos_v) + 0.89285713));
         color += u_lightData[i].color * (intensity
             * (coat_product * mx_ggx_light(coat_ggx_lobe, V, L) + paint_response));
     }
     // environment: coat, paint
-    vec3 paint_product_2 = textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * h)), 0.0).xyz
+    vec3 paint_product = textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * h)), 0.0).xyz
         * vec3(0.6, 0.1, 0.05);
     vec2 fit = (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + vec2(0.43155, 0.60945)) * 0.3 + vec2(1.0);
-    vec3 paint_response = paint_product_2 * (u_envLightIntensity * (paint_weight * clamp(fit.x / fit.y, 0.0, 1.0)));
+    vec3 paint_response = paint_product * (u_envLightIntensity * (paint_weight * clamp(fit.x / fit.y, 0.0, 1.0)));
     color += scale * mx_ggx_prefiltered(N, V) + paint_response;
     out1 = vec4(color, 1.0);
 }

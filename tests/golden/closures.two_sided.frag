@@ -141,8 +141,8 @@ void main()
         vec3 paint_response = coat_throughput
             * (1.0 - mix(0.03373595, 1.0, coat_albedo_2.y) * coat_albedo_2.x * ggx_compensation) * 0.75 * paint_product
             * vec3(0.19098593, 0.03183099, 0.015915494);
-        vec3 sum = coat_product * mx_ggx_light(coat_ggx_lobe, V, L) + paint_response;
-        color += u_lightData[i].color * ((u_lightData[i].type == 1 ? light_intensity : 0.0) * sum);
+        vec3 response = coat_product * mx_ggx_light(coat_ggx_lobe, V, L) + paint_response;
+        color += u_lightData[i].color * ((u_lightData[i].type == 1 ? light_intensity : 0.0) * response);
     }
     // environment: coat, paint
     vec3 paint_product = textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * h)), 0.0).xyz

@@ -73,11 +73,11 @@ void main()
     vec2 ab = PublicUniforms_2 * PublicUniforms_2 * vec2(-0.5, 0.45)
         / (PublicUniforms_2 * PublicUniforms_2 + vec2(0.33, 0.09)) + vec2(1.0, 0.0);
     vec3 V = normalize(u_viewPosition - vd.positionWorld);
-    vec3 normal_N = normalize(vd.normalWorld);
-    vec3 diffuse_N = faceforward(normal_N, -V, normal_N);
-    float cos_v = max(abs(dot(normal_N, V)), 1e-8);
+    vec3 N = normalize(vd.normalWorld);
+    vec3 facing = faceforward(N, -V, N);
+    float cos_v = max(abs(dot(N, V)), 1e-8);
     float diffuse_weight = clamp(scatter_2(), 0.0, 1.0);
-    float diffuse_product = diffuse_weight * 0.31830987 * 0.18;
+    float diffuse_factor = diffuse_weight * 0.31830987 * 0.18;
     // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         vec3 L;
@@ -90,29 +90,29 @@ void main()
             vec3 d = u_lightData[i].position - vd.positionWorld;
             vec3 to_light = normalize(d);
             L = to_light;
-            float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+            float falloff = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
             if (light_type == 2) {
-                intensity = ratio;
+                intensity = falloff;
             } else {
-                float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+                float edge = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
                 intensity = light_type == 3
-                    ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,
-                    -dot(u_lightData[i].direction, to_light)) * ratio : 0.0;
+                    ? smoothstep(edge, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light)) * falloff
+                    : 0.0;
             }
         }
         // diffuse
-        float cos_l = max(dot(L, diffuse_N), 1e-8);
-        float diffuse_product_2 = intensity
-            * ((ab.x + ab.y * max(dot(L, V) - cos_l * cos_v, 0.0) / max(cos_l, cos_v)) * (cos_l * diffuse_product));
-        color += u_lightData[i].color * diffuse_product_2;
+        float cos_l = max(dot(L, facing), 1e-8);
+        float diffuse_product = intensity
+            * ((ab.x + ab.y * max(dot(L, V) - cos_l * cos_v, 0.0) / max(cos_l, cos_v)) * (cos_l * diffuse_factor));
+        color += u_lightData[i].color * diffuse_product;
     }
     // environment: diffuse
     if (diffuse_weight > 0.0) {
         vec2 fit = PublicUniforms_2 * (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + PublicUniforms_2
             * vec2(1.4385, 2.0315)) + vec2(1.0);
-        float diffuse_product_3 = u_envLightIntensity * (clamp(fit.x / fit.y, 0.0, 1.0) * (diffuse_weight * 0.18));
-        color += textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * diffuse_N)), 0.0).xyz
-            * diffuse_product_3;
+        float diffuse_product = u_envLightIntensity * (clamp(fit.x / fit.y, 0.0, 1.0) * (diffuse_weight * 0.18));
+        color += textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * facing)), 0.0).xyz
+            * diffuse_product;
     }
     // opacity
     float opacity = clamp(surface_opacity, 0.0, 1.0);

@@ -62,8 +62,8 @@ void scatter()
 {
     float diffuse_weight = clamp(scatter_2(), 0.0, 1.0);
     float PublicUniforms_2 = vd_2(vd.texcoord_0.y);
-    vec3 normal_N = normalize(vd.normalWorld);
-    float cos_v = max(abs(dot(normal_N, vd.viewWorld)), 1e-8);
+    vec3 N = normalize(vd.normalWorld);
+    float cos_v = max(abs(dot(N, vd.viewWorld)), 1e-8);
     vec2 fit = PublicUniforms_2 * (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + PublicUniforms_2
         * vec2(1.4385, 2.0315)) + vec2(1.0);
     float diffuse_share = max(dot(vec3(diffuse_weight * (clamp(fit.x / fit.y, 0.0, 1.0) * 0.18 * 0.9 + 0.1)),
@@ -74,20 +74,20 @@ void scatter()
     vec3 weight = vec3(0.0);
     float density = 0.0;
     vec3 medium = vec3(1.0);
-    vec3 diffuse_N = faceforward(normal_N, -vd.viewWorld, normal_N);
+    vec3 facing = faceforward(N, -vd.viewWorld, N);
     vec2 ab = PublicUniforms_2 * PublicUniforms_2 * vec2(-0.5, 0.45)
         / (PublicUniforms_2 * PublicUniforms_2 + vec2(0.33, 0.09)) + vec2(1.0, 0.0);
     float scaled_diffuse_share = diffuse_share / diffuse_share;
     if (pick >= 0.0 && pick < diffuse_share) {
-        mat3 any_frame = mx_frame(diffuse_N, abs(diffuse_N.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0));
-        vec2 diffuse_product = sqrt(vd.random.x) * cos((vd.random.y - vec2(0.0, 0.25)) * 6.2831855);
-        vec3 L_2 = any_frame * vec3(diffuse_product, sqrt(1.0 - vd.random.x));
+        mat3 any_frame = mx_frame(facing, abs(facing.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0));
+        vec2 polar = sqrt(vd.random.x) * cos((vd.random.y - vec2(0.0, 0.25)) * 6.2831855);
+        vec3 L_2 = any_frame * vec3(polar, sqrt(1.0 - vd.random.x));
         L = L_2;
-        float diffuse_n_dot_l_2 = dot(diffuse_N, L_2);
-        float diffuse_cos_l = max(diffuse_n_dot_l_2, 1e-8);
+        float facing_dot_l_2 = dot(facing, L_2);
+        float diffuse_cos_l = max(facing_dot_l_2, 1e-8);
         float diffuse_sum = ab.x + ab.y * max(dot(vd.viewWorld, L_2) - cos_v * diffuse_cos_l, 0.0)
             / max(diffuse_cos_l, cos_v);
-        float pdf = max(diffuse_n_dot_l_2, 0.0) / 3.1415927;
+        float pdf = max(facing_dot_l_2, 0.0) / 3.1415927;
         weight = vec3(diffuse_weight * (diffuse_cos_l * 0.31830987 * 0.18 * diffuse_sum / max(pdf, 1e-8))
             * scaled_diffuse_share);
         density = pdf * scaled_diffuse_share;
@@ -97,15 +97,15 @@ void scatter()
     out2 = vec4(L, inside);
     out3 = vec4(weight, density);
     out4 = vec4(medium, 0.0);
-    float diffuse_n_dot_l = dot(diffuse_N, vd.lightWorld.xyz);
-    float diffuse_cos_l = max(diffuse_n_dot_l, 1e-8);
+    float facing_dot_l = dot(facing, vd.lightWorld.xyz);
+    float diffuse_cos_l = max(facing_dot_l, 1e-8);
     float diffuse_sum = ab.x + ab.y * max(dot(vd.viewWorld, vd.lightWorld.xyz) - cos_v * diffuse_cos_l, 0.0)
         / max(diffuse_cos_l, cos_v);
-    float sum = vd.lightWorld.w * (scaled_diffuse_share * (max(diffuse_n_dot_l, 0.0) / 3.1415927)) + 1.0;
-    float balanced = diffuse_weight * (diffuse_cos_l * 0.31830987 * 0.18 * diffuse_sum) / sum;
-    out5 = vec4(balanced, balanced, balanced, 0.0);
+    float both = vd.lightWorld.w * (scaled_diffuse_share * (max(facing_dot_l, 0.0) / 3.1415927)) + 1.0;
+    float response = diffuse_weight * (diffuse_cos_l * 0.31830987 * 0.18 * diffuse_sum) / both;
+    out5 = vec4(response, response, response, 0.0);
     float chance = fract(vd.random.w * 4096.0);
-    float sum_2 = 0.0;
+    float sum = 0.0;
     vec3 light = vec3(0.0);
     vec3 L_3 = vec3(0.0);
     float distance_ = 0.0;
@@ -124,35 +124,35 @@ void scatter()
             vec3 to_light = normalize(d);
             L_4 = to_light;
             float magnitude_d = length(d);
-            float ratio = u_lightData[i].intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
+            float falloff = u_lightData[i].intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
             if (light_type == 2) {
-                intensity = ratio;
+                intensity = falloff;
                 distance_2 = magnitude_d;
             } else {
-                float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+                float edge = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
                 intensity = light_type == 3
-                    ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,
-                    -dot(u_lightData[i].direction, to_light)) * ratio : 0.0;
+                    ? smoothstep(edge, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light)) * falloff
+                    : 0.0;
                 distance_2 = magnitude_d;
             }
         }
-        float diffuse_cos_l_2 = max(dot(diffuse_N, L_4), 1e-8);
+        float diffuse_cos_l_2 = max(dot(facing, L_4), 1e-8);
         float diffuse_sum_2 = ab.x + ab.y * max(dot(vd.viewWorld, L_4) - cos_v * diffuse_cos_l_2, 0.0)
             / max(diffuse_cos_l_2, cos_v);
-        float product = diffuse_weight * (diffuse_cos_l_2 * 0.31830987 * 0.18 * diffuse_sum_2);
-        vec3 lit = u_lightData[i].color * intensity * product;
+        float response_2 = diffuse_weight * (diffuse_cos_l_2 * 0.31830987 * 0.18 * diffuse_sum_2);
+        vec3 lit = u_lightData[i].color * intensity * response_2;
         float brightness = max(dot(lit, vec3(0.33333334)), 0.0);
-        sum_2 += brightness;
-        if (sum_2 * chance < brightness) {
+        sum += brightness;
+        if (sum * chance < brightness) {
             L_3 = L_4;
             distance_ = distance_2;
             light = lit / brightness;
         }
         if (brightness > 0.0) {
-            float ratio = (sum_2 * chance - brightness) / (sum_2 - brightness);
-            chance = sum_2 * chance < brightness ? sum_2 * chance / brightness : ratio;
+            float ratio = (sum * chance - brightness) / (sum - brightness);
+            chance = sum * chance < brightness ? sum * chance / brightness : ratio;
         }
     }
     out6 = vec4(L_3, distance_);
-    out7 = vec4(sum_2 * light, 0.0);
+    out7 = vec4(sum * light, 0.0);
 }

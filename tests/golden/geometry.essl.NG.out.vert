@@ -19,11 +19,11 @@ flat out int vd_geomprop_part;
 void main()
 {
     vd_normalObject = i_normal;
-    vec4 positionWorld_product = u_worldMatrix * vec4(i_position, 1.0);
-    vd_positionWorld = positionWorld_product.xyz;
+    vec4 positionWorld = u_worldMatrix * vec4(i_position, 1.0);
+    vd_positionWorld = positionWorld.xyz;
     vd_tangentObject = i_tangent;
     vd_geomprop_wear = i_geomprop_wear;
     vd_geomprop_part = i_geomprop_part;
     vd_color_0 = i_color_0;
-    gl_Position = u_viewProjectionMatrix * positionWorld_product;
+    gl_Position = u_viewProjectionMatrix * positionWorld;
 }

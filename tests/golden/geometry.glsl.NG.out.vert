@@ -21,11 +21,11 @@ out VertexData {
 void main()
 {
     vd.normalObject = i_normal;
-    vec4 positionWorld_product = u_worldMatrix * vec4(i_position, 1.0);
-    vd.positionWorld = positionWorld_product.xyz;
+    vec4 positionWorld = u_worldMatrix * vec4(i_position, 1.0);
+    vd.positionWorld = positionWorld.xyz;
     vd.tangentObject = i_tangent;
     vd.geomprop_wear = i_geomprop_wear;
     vd.geomprop_part = i_geomprop_part;
     vd.color_0 = i_color_0;
-    gl_Position = u_viewProjectionMatrix * positionWorld_product;
+    gl_Position = u_viewProjectionMatrix * positionWorld;
 }

@@ -28,11 +28,11 @@ void main(
     out VertexData vd)
 {
     vd.normalObject = i_normal;
-    float4 positionWorld_product = mul(float4(i_position, 1.0), u_worldMatrix);
-    vd.positionWorld = positionWorld_product.xyz;
+    float4 positionWorld = mul(float4(i_position, 1.0), u_worldMatrix);
+    vd.positionWorld = positionWorld.xyz;
     vd.tangentObject = i_tangent;
     vd.geomprop_wear = i_geomprop_wear;
     vd.geomprop_part = i_geomprop_part;
     vd.color_0 = i_color_0;
-    vd.position = mul(positionWorld_product, u_viewProjectionMatrix);
+    vd.position = mul(positionWorld, u_viewProjectionMatrix);
 }

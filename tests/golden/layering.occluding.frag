@@ -96,7 +96,7 @@ void main()
     vec3 N = normalize(vd.normalWorld);
     vec3 V = normalize(u_viewPosition - vd.positionWorld);
     float cosine = max(abs(dot(N, V)), 1e-8);
-    vec3 scaled_ggx_compensation = ((1.0 / mx_ggx_albedo_fit(cosine).x - 1.0) * vec3(0.94687766, 0.78681135, 0.40318817)
+    vec3 metal_factor = ((1.0 / mx_ggx_albedo_fit(cosine).x - 1.0) * vec3(0.94687766, 0.78681135, 0.40318817)
         + vec3(1.0)) * 0.15;
     float ggx_masking = sqrt(cosine * cosine * 0.9975 + 0.0025);
     mx_GgxLobe metal_ggx_lobe = mx_GgxLobe(faceforward(N, -V, N), cosine, vec3(0.0), vec2(0.05), ggx_masking);
@@ -105,8 +105,7 @@ void main()
         // metal
         float light_intensity = u_lightData[i].intensity;
         vec3 fresnel = mx_fresnel_conductor(sqrt(clamp(dot(-u_lightData[i].direction, V) * 0.5 + 0.500001, 0.0, 1.0)));
-        vec3 metal_response = scaled_ggx_compensation
-            * (fresnel * mx_ggx_light(metal_ggx_lobe, V, -u_lightData[i].direction));
+        vec3 metal_response = metal_factor * (fresnel * mx_ggx_light(metal_ggx_lobe, V, -u_lightData[i].direction));
         color += u_lightData[i].color * ((u_lightData[i].type == 1 ? light_intensity : 0.0) * metal_response);
     }
     out1 = vec4(color, 1.0);

@@ -97,7 +97,7 @@ void main()
     vec3 V = normalize(u_viewPosition - vd.positionWorld);
     vec3 facing = faceforward(N, -V, N);
     float cos_v = max(abs(dot(N, V)), 1e-8);
-    vec3 scaled_ggx_compensation = ((1.0 / mx_ggx_albedo_fit(cos_v).x - 1.0) * vec3(0.94687766, 0.78681135, 0.40318817)
+    vec3 metal_factor = ((1.0 / mx_ggx_albedo_fit(cos_v).x - 1.0) * vec3(0.94687766, 0.78681135, 0.40318817)
         + vec3(1.0)) * 0.15;
     float ggx_masking = sqrt(cos_v * cos_v * 0.9975 + 0.0025);
     mx_GgxLobe metal_ggx_lobe = mx_GgxLobe(facing, cos_v, vec3(0.0), vec2(0.05), ggx_masking);
@@ -108,10 +108,10 @@ void main()
         vec3 L = -u_lightData[i].direction;
         float cos_l = max(dot(L, facing), 1e-8);
         vec3 fresnel = mx_fresnel_conductor(sqrt(clamp(dot(L, V) * 0.5 + 0.500001, 0.0, 1.0)));
-        vec3 metal_response = scaled_ggx_compensation * (fresnel * mx_ggx_light(metal_ggx_lobe, V, L));
-        vec3 sum = cos_l * vec3(0.007957747, 0.015915494, 0.09549297)
+        vec3 metal_response = metal_factor * (fresnel * mx_ggx_light(metal_ggx_lobe, V, L));
+        vec3 response = cos_l * vec3(0.007957747, 0.015915494, 0.09549297)
             + (metal_response + cos_l * vec3(0.066845074, 0.011140846, 0.005570423));
-        color += u_lightData[i].color * ((u_lightData[i].type == 1 ? light_intensity : 0.0) * sum);
+        color += u_lightData[i].color * ((u_lightData[i].type == 1 ? light_intensity : 0.0) * response);
     }
     out1 = vec4(color, 1.0);
 }

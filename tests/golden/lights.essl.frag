@@ -27,7 +27,7 @@ void main()
     vec3 color = vec3(0.0);
     // lights
     vec3 N = normalize(vd_normalWorld);
-    vec3 bsdf_facing = faceforward(N, -normalize(u_viewPosition - vd_positionWorld), N);
+    vec3 facing = faceforward(N, -normalize(u_viewPosition - vd_positionWorld), N);
     // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         vec3 L;
@@ -39,11 +39,11 @@ void main()
             intensity = u_lightData[i].tint * (u_lightData[i].power / (way * way));
         } else {
             L = normalize(d);
-            float point_light_ratio = u_lightData[i].intensity / pow(way + 1.0, u_lightData[i].decay_rate);
-            intensity = u_lightData[i].color * (u_lightData[i].type == 2 ? point_light_ratio : 0.0);
+            float falloff = u_lightData[i].intensity / pow(way + 1.0, u_lightData[i].decay_rate);
+            intensity = u_lightData[i].color * (u_lightData[i].type == 2 ? falloff : 0.0);
         }
         // bsdf
-        color += intensity * (max(dot(L, bsdf_facing), 1e-8) * 0.31830987 * 0.8);
+        color += intensity * (max(dot(L, facing), 1e-8) * 0.31830987 * 0.8);
     }
     // opacity
     float opacity = clamp(S_opacity, 0.0, 1.0);

@@ -17,13 +17,13 @@ wall_Surface wall_surface(vec3 positionWorld, vec3 normalWorld)
     vec3 color = vec3(0.0);
     // lights
     vec3 N = normalize(normalWorld);
-    vec3 bsdf_facing = faceforward(N, -normalize(wall_u_viewPosition - positionWorld), N);
+    vec3 facing = faceforward(N, -normalize(wall_u_viewPosition - positionWorld), N);
     // from the last light, so that drivers do not unroll the loop
     for (int i = mxg_light_count() - 1; i >= 0; --i) {
         // bsdf
         vec3 light_L, light_radiance;
         mxg_light(i, positionWorld, light_L, light_radiance);
-        color += light_radiance * (max(dot(light_L, bsdf_facing), 1e-8) * 0.31830987 * 0.8);
+        color += light_radiance * (max(dot(light_L, facing), 1e-8) * 0.31830987 * 0.8);
     }
     result.color = color;
     result.alpha = 1.0;

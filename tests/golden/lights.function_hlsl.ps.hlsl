@@ -20,13 +20,13 @@ Surface surface(float3 positionWorld, float3 normalWorld)
     float3 color = float3(0.0, 0.0, 0.0);
     // lights
     float3 N = normalize(normalWorld);
-    float3 bsdf_facing = faceforward(N, -normalize(u_viewPosition - positionWorld), N);
+    float3 facing = faceforward(N, -normalize(u_viewPosition - positionWorld), N);
     // from the last light, so that drivers do not unroll the loop
     for (int i = mxg_light_count() - 1; i >= 0; --i) {
         // bsdf
         float3 light_L, light_radiance;
         mxg_light(i, positionWorld, light_L, light_radiance);
-        color += light_radiance * (max(dot(light_L, bsdf_facing), 1e-8) * 0.31830987 * 0.8);
+        color += light_radiance * (max(dot(light_L, facing), 1e-8) * 0.31830987 * 0.8);
     }
     result.color = color;
     result.alpha = 1.0;

@@ -15,14 +15,14 @@ fn surface(positionWorld: vec3f, normalWorld: vec3f) -> Surface
     var color: vec3f = vec3f(0.0);
     // lights
     let N: vec3f = normalize(normalWorld);
-    let bsdf_facing: vec3f = faceForward(N, -normalize(u_prv.u_viewPosition - positionWorld), N);
+    let facing: vec3f = faceForward(N, -normalize(u_prv.u_viewPosition - positionWorld), N);
     // from the last light, so that drivers do not unroll the loop
     for (var i: i32 = mxg_light_count() - 1; i >= 0; i--) {
         // bsdf
         var light_L: vec3f;
         var light_radiance: vec3f;
         mxg_light(i, positionWorld, &light_L, &light_radiance);
-        color += light_radiance * (max(dot(light_L, bsdf_facing), 1e-8) * 0.31830987 * 0.8);
+        color += light_radiance * (max(dot(light_L, facing), 1e-8) * 0.31830987 * 0.8);
     }
     result.color = color;
     result.alpha = 1.0;

@@ -22,7 +22,7 @@ void main()
     vec3 color = vec3(0.0);
     // lights
     vec3 N = normalize(vd.normalWorld);
-    vec3 bsdf_facing = faceforward(N, -normalize(u_viewPosition - vd.positionWorld), N);
+    vec3 facing = faceforward(N, -normalize(u_viewPosition - vd.positionWorld), N);
     // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         vec3 L;
@@ -39,7 +39,7 @@ void main()
             intensity = u_lightData[i].tint * (u_lightData[i].type == 4 ? bulb_ratio : 0.0);
         }
         // bsdf
-        color += intensity * (max(dot(L, bsdf_facing), 1e-8) * 0.31830987 * 0.8);
+        color += intensity * (max(dot(L, facing), 1e-8) * 0.31830987 * 0.8);
     }
     out1 = vec4(color, 1.0);
 }

@@ -33,7 +33,7 @@ void main(
     float3 color = float3(0.0, 0.0, 0.0);
     // lights
     float3 N = normalize(vd.normalWorld);
-    float3 bsdf_facing = faceforward(N, -normalize(u_viewPosition - vd.positionWorld), N);
+    float3 facing = faceforward(N, -normalize(u_viewPosition - vd.positionWorld), N);
     // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         float3 L;
@@ -50,7 +50,7 @@ void main(
             intensity = u_lightData[i].tint * (u_lightData[i].type == 4 ? bulb_ratio : 0.0);
         }
         // bsdf
-        color += intensity * (max(dot(L, bsdf_facing), 1e-8) * 0.31830987 * 0.8);
+        color += intensity * (max(dot(L, facing), 1e-8) * 0.31830987 * 0.8);
     }
     out1 = float4(color, 1.0);
 }

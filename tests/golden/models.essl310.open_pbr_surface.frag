@@ -566,13 +566,13 @@ void main()
     vec2 alpha = clamp(roughness, 1e-8, 1.0);
     float cos_v = max(absolute, 1e-8);
     vec2 albedo = mx_ggx_albedo_fit(sqrt(alpha.x * alpha.y), cos_v);
-    float product = mix(r * r, 1.0, albedo.y) * albedo.x;
-    float difference = 1.0 / albedo.x - 1.0;
-    float reflection_bare_scale = difference * mix(r * r, 1.0, 0.04761905) + 1.0;
+    float single = mix(r * r, 1.0, albedo.y) * albedo.x;
+    float lost = 1.0 / albedo.x - 1.0;
+    float reflection_bare_scale = lost * mix(r * r, 1.0, 0.04761905) + 1.0;
     float film_thickness = SR_open_pbr_surface_thin_film_thickness * 1000.0;
     float thin_film_ior = SR_open_pbr_surface_thin_film_ior;
     vec3 reflection_film_scale = mix(mx_fresnel_facing(vec3(ior), film_thickness, thin_film_ior), vec3(1.0), 0.04761905)
-        * difference + vec3(1.0);
+        * lost + vec3(1.0);
     float clamped_thin_film_weight = clamp(SR_open_pbr_surface_thin_film_weight, 0.0, 1.0);
     vec3 clamped_darkened = clamp(mx_open_pbr_coat_darkening(SR_open_pbr_surface_base_color,
         SR_open_pbr_surface_base_metalness, SR_open_pbr_surface_specular_weight, SR_open_pbr_surface_subsurface_weight,
@@ -596,7 +596,7 @@ void main()
         * coating_scale));
     vec3 substrate_weight = clamped_darkened
         * (clamp(mix(vec3(1.0), SR_open_pbr_surface_coat_color, coat_weight), 0.0, 1.0) * coated_weight);
-    vec3 body_weight = mix(vec3(1.0 - product * reflection_bare_scale), vec3(1.0) - product * reflection_film_scale,
+    vec3 body_weight = mix(vec3(1.0 - single * reflection_bare_scale), vec3(1.0) - single * reflection_film_scale,
         clamped_thin_film_weight) * substrate_weight;
     float clamped_backward_share = clamp((1.0 - SR_open_pbr_surface_subsurface_scatter_anisotropy) * 0.5, 0.0, 1.0);
     float thin = float(SR_open_pbr_surface_geometry_thin_walled);
@@ -611,35 +611,34 @@ void main()
     vec2 ab = base_diffuse_roughness * base_diffuse_roughness * vec2(-0.5, 0.45)
         / (base_diffuse_roughness * base_diffuse_roughness + vec2(0.33, 0.09)) + vec2(1.0, 0.0);
     float sheet_back_weight = sheet_weight * (1.0 - clamped_backward_share);
-    vec3 sheet_back_product = subsurface_positive * (body_weight * sheet_back_weight);
+    vec3 sheet_back_factor = subsurface_positive * (body_weight * sheet_back_weight);
     float limited_cos_v = min(cos_v, 1.0);
-    vec3 fuzz_product_3 = SR_open_pbr_surface_fuzz_color * fuzz_product_2;
+    vec3 fuzz_factor = SR_open_pbr_surface_fuzz_color * fuzz_product_2;
     vec3 X = normalize(vd_tangentWorld);
     mx_GgxLobe coating_lobe = mx_ggx_lobe(coat_lobe, N, X, V);
-    float coating_product = coating_scale * (coating_weight * (1.0 - fuzz_product_2));
+    float coating_factor = coating_scale * (coating_weight * (1.0 - fuzz_product_2));
     float clamped_specular_weight = clamp(SR_open_pbr_surface_specular_weight, 0.0, 1.0);
     float metal_film_weight = clamped_specular_weight * (clamped_thin_film_weight * metal_weight);
     vec3 fresnel_facing = max(SR_open_pbr_surface_base_weight * SR_open_pbr_surface_base_color, 0.0);
-    vec3 metal_film_product = (difference
-        * mix(mx_fresnel_facing_2(fresnel_facing, film_thickness, thin_film_ior), vec3(1.0), 0.04761905) + vec3(1.0))
-        * (substrate_weight * metal_film_weight);
+    vec3 metal_film_factor = (lost * mix(mx_fresnel_facing_2(fresnel_facing, film_thickness, thin_film_ior), vec3(1.0),
+        0.04761905) + vec3(1.0)) * (substrate_weight * metal_film_weight);
     vec3 limited_specular_color = max(SR_open_pbr_surface_specular_color, 0.0);
     vec3 schlick_bend = mix(fresnel_facing, vec3(1.0), 0.4626644) * (vec3(1.0) - limited_specular_color) * 17.651384;
     mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, X, V);
     float metal_bare_weight = clamped_specular_weight * (metal_weight * (1.0 - clamped_thin_film_weight));
-    vec3 metal_bare_product = (difference * mix(fresnel_facing, vec3(1.0), 0.04761905) + vec3(1.0))
+    vec3 metal_bare_factor = (lost * mix(fresnel_facing, vec3(1.0), 0.04761905) + vec3(1.0))
         * (substrate_weight * metal_bare_weight);
     float reflection_film_weight = clamped_thin_film_weight * (1.0 - metal_weight);
-    vec3 reflection_film_product = substrate_weight * reflection_film_weight
+    vec3 reflection_film_factor = substrate_weight * reflection_film_weight
         * (reflection_film_scale * limited_specular_color);
     float reflection_bare_weight = (1.0 - metal_weight) * (1.0 - clamped_thin_film_weight);
-    vec3 reflection_bare_product = reflection_bare_scale
+    vec3 reflection_bare_factor = reflection_bare_scale
         * (limited_specular_color * (substrate_weight * reflection_bare_weight));
     float scaled_ior = ior * ior;
     float scatter_weight = clamped_subsurface_weight * opaque_weight * (1.0 - thin);
     vec3 scatter_radius = SR_open_pbr_surface_subsurface_radius * SR_open_pbr_surface_subsurface_radius_scale;
     float curvature = max(length(fwidth(Nf)) / max(length(fwidth(vd_positionWorld)), 1e-20), 0.01);
-    vec3 scatter_product = subsurface_positive * (body_weight * scatter_weight);
+    vec3 scatter_factor = subsurface_positive * (body_weight * scatter_weight);
     float diffuse_weight = clamp(SR_open_pbr_surface_base_weight, 0.0, 1.0)
         * (opaque_weight * (1.0 - clamped_subsurface_weight));
     vec3 base_positive = max(SR_open_pbr_surface_base_color, 0.0);
@@ -648,8 +647,8 @@ void main()
     float mean = (base_diffuse_roughness * 0.0724882 + 1.0) / diffuse_sum;
     vec3 fujii_multiple = base_positive * mean / (vec3(1.0) - base_positive * max(1.0 - mean, 0.0));
     float diffuse_fujii_albedo = mx_fujii_albedo(cos_v, base_diffuse_roughness);
-    float diffuse_greater = max(1.0 - diffuse_fujii_albedo, 1e-8);
-    float diffuse_greater_2 = max(1.0 - mean, 1e-8);
+    float lost_v = max(1.0 - diffuse_fujii_albedo, 1e-8);
+    float diffuse_lost = max(1.0 - mean, 1e-8);
     // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         vec3 L;
@@ -662,14 +661,14 @@ void main()
             vec3 d = u_lightData[i].position - vd_positionWorld;
             vec3 to_light = normalize(d);
             L = to_light;
-            float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+            float falloff = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
             if (light_type == 2) {
-                intensity = ratio;
+                intensity = falloff;
             } else {
-                float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+                float edge = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
                 intensity = light_type == 3
-                    ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,
-                    -dot(u_lightData[i].direction, to_light)) * ratio : 0.0;
+                    ? smoothstep(edge, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light)) * falloff
+                    : 0.0;
             }
         }
         // sheet_front, sheet_back
@@ -681,45 +680,44 @@ void main()
         float greater = max(cos_l_2, cos_v);
         vec3 sheet_front_response = sheet_front_product * 0.31830987
             * (cos_l_2 * (ab.x + ab.y * max(s, 0.0) / greater));
-        color += light_color * (intensity * (sheet_front_response + max(-cos_l, 0.0) / 3.1415927 * sheet_back_product));
+        color += light_color * (intensity * (sheet_front_response + max(-cos_l, 0.0) / 3.1415927 * sheet_back_factor));
         // fuzz
         if (fuzz_weight > 0.0)
-            color += light_color * (intensity * (mx_sheen_zeltner(Nf, V, L, limited_cos_v, fuzz_r) * fuzz_product_3));
+            color += light_color * (intensity * (mx_sheen_zeltner(Nf, V, L, limited_cos_v, fuzz_r) * fuzz_factor));
         // coating
-        float cosine = sqrt(clamp(v_dot_l * 0.5 + 0.500001, 0.0, 1.0));
+        float half_cosine = sqrt(clamp(v_dot_l * 0.5 + 0.500001, 0.0, 1.0));
         if (coating_weight > 0.0) {
-            float coating_product_2 = mx_fresnel_permittivity(cosine, coat_ior * coat_ior) * coating_product;
-            color += light_color * (intensity * (mx_ggx_light(coating_lobe, V, L) * coating_product_2));
+            float coating_product = mx_fresnel_permittivity(half_cosine, coat_ior * coat_ior) * coating_factor;
+            color += light_color * (intensity * (mx_ggx_light(coating_lobe, V, L) * coating_product));
         }
         // metal_film
         float ggx_light = mx_ggx_light(lobe, V, L);
         if (metal_film_weight > 0.0)
             color += light_color * (intensity
-                * (metal_film_product * (mx_fresnel(cosine, fresnel_facing, schlick_bend, film_thickness, thin_film_ior)
-                * ggx_light)));
+                * (metal_film_factor * (mx_fresnel(half_cosine, fresnel_facing, schlick_bend, film_thickness,
+                thin_film_ior) * ggx_light)));
         // metal_bare
         if (metal_bare_weight > 0.0)
             color += light_color * (intensity
-                * (metal_bare_product * (ggx_light * mx_fresnel_schlick(cosine, fresnel_facing, schlick_bend))));
+                * (metal_bare_factor * (ggx_light * mx_fresnel_schlick(half_cosine, fresnel_facing, schlick_bend))));
         // reflection_film
         if (reflection_film_weight > 0.0)
             color += light_color * (intensity
-                * (reflection_film_product
-                * (ggx_light * mx_fresnel(cosine, vec3(ior), film_thickness, thin_film_ior))));
+                * (reflection_film_factor
+                * (ggx_light * mx_fresnel(half_cosine, vec3(ior), film_thickness, thin_film_ior))));
         // reflection_bare
         if (reflection_bare_weight > 0.0)
             color += light_color * (intensity
-                * (reflection_bare_product * (ggx_light * mx_fresnel_permittivity(cosine, scaled_ior))));
+                * (reflection_bare_factor * (ggx_light * mx_fresnel_permittivity(half_cosine, scaled_ior))));
         // scatter
         if (scatter_weight > 0.0)
             color += light_color * (intensity
-                * (mx_subsurface_light(scatter_radius, curvature, cos_l) * scatter_product));
+                * (mx_subsurface_light(scatter_radius, curvature, cos_l) * scatter_factor));
         // diffuse
         if (diffuse_weight > 0.0) {
             float diffuse_s = s / greater;
             vec3 diffuse_product_2 = fujii_multiple
-                * (diffuse_greater * max(1.0 - mx_fujii_albedo(cos_l_2, base_diffuse_roughness), 1e-8)
-                / diffuse_greater_2);
+                * (lost_v * max(1.0 - mx_fujii_albedo(cos_l_2, base_diffuse_roughness), 1e-8) / diffuse_lost);
             color += light_color * (intensity
                 * (diffuse_product * 0.31830987
                 * (cos_l_2 * ((base_diffuse_roughness * (s > 0.0 ? diffuse_s : s) + 1.0) / diffuse_sum
@@ -732,11 +730,11 @@ void main()
     vec2 fit = base_diffuse_roughness * (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + base_diffuse_roughness
         * vec2(1.4385, 2.0315)) + vec2(1.0);
     vec3 sheet_front_response = sheet_front_product * part * (envLightIntensity * clamp(fit.x / fit.y, 0.0, 1.0));
-    vec3 sum = SR_open_pbr_surface_fuzz_color * part * (fuzz_product_2 * envLightIntensity) + sheet_front_response;
-    color += envLightIntensity * (scatter_product * part) + sum;
+    vec3 response = SR_open_pbr_surface_fuzz_color * part * (fuzz_product_2 * envLightIntensity) + sheet_front_response;
+    color += envLightIntensity * (scatter_factor * part) + response;
     // environment: sheet_back
     if (sheet_back_weight > 0.0)
-        color += envLightIntensity * (sheet_back_product
+        color += envLightIntensity * (sheet_back_factor
             * textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * -Nf)), 0.0).xyz);
     // environment: diffuse
     if (diffuse_weight > 0.0)
@@ -748,9 +746,10 @@ void main()
         int coating_count = mx_sample_count(coating_alpha);
         mx_GgxSamples coating_ggx_samples = mx_ggx_samples(coat_lobe, coating_count, N, X, V);
         for (int i = 0; i < coating_count; ++i) {
-            mx_GgxLight light = mx_ggx_reflected(coating_ggx_samples, i, turn);
-            color += light.color * (mx_fresnel_permittivity(light.cosine, coat_ior * coat_ior)
-                * (coating_product * light.weight));
+            mx_GgxLight coating_light = mx_ggx_reflected(coating_ggx_samples, i, turn);
+            color += coating_light.color
+                * (mx_fresnel_permittivity(coating_light.cosine, coat_ior * coat_ior)
+                * (coating_factor * coating_light.weight));
             turn = vec2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
         }
     }
@@ -762,46 +761,36 @@ void main()
         if (film_thickness > 0.0) {
             vec2 turn = vec2(1.0, 0.0);
             for (int i = 0; i < count; ++i) {
-                mx_GgxLight metal_film_ggx_reflected = mx_ggx_reflected(samples, i, turn);
+                mx_GgxLight light = mx_ggx_reflected(samples, i, turn);
                 if (metal_film_weight > 0.0)
-                    color += metal_film_product
-                        * (metal_film_ggx_reflected.color
-                        * (metal_film_ggx_reflected.weight
-                        * mx_film_schlick(metal_film_ggx_reflected.cosine, fresnel_facing, schlick_bend, film_thickness,
-                        thin_film_ior)));
+                    color += metal_film_factor
+                        * (light.color * (light.weight
+                        * mx_film_schlick(light.cosine, fresnel_facing, schlick_bend, film_thickness, thin_film_ior)));
                 if (metal_bare_weight > 0.0)
-                    color += metal_bare_product
-                        * (metal_film_ggx_reflected.color
-                        * (metal_film_ggx_reflected.weight
-                        * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_facing, schlick_bend)));
+                    color += metal_bare_factor
+                        * (light.color * (light.weight
+                        * mx_fresnel_schlick(light.cosine, fresnel_facing, schlick_bend)));
                 if (reflection_film_weight > 0.0)
-                    color += reflection_film_product
-                        * (metal_film_ggx_reflected.color
-                        * (metal_film_ggx_reflected.weight
-                        * mx_film_index(metal_film_ggx_reflected.cosine, vec3(scaled_ior), film_thickness,
-                        thin_film_ior)));
+                    color += reflection_film_factor
+                        * (light.color * (light.weight
+                        * mx_film_index(light.cosine, vec3(scaled_ior), film_thickness, thin_film_ior)));
                 if (reflection_bare_weight > 0.0)
-                    color += reflection_bare_product
-                        * (metal_film_ggx_reflected.color
-                        * (metal_film_ggx_reflected.weight
-                        * mx_fresnel_permittivity(metal_film_ggx_reflected.cosine, scaled_ior)));
+                    color += reflection_bare_factor
+                        * (light.color * (light.weight * mx_fresnel_permittivity(light.cosine, scaled_ior)));
                 turn = vec2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
             }
         } else {
             vec2 turn = vec2(1.0, 0.0);
             for (int i = 0; i < count; ++i) {
-                mx_GgxLight metal_film_ggx_reflected = mx_ggx_reflected(samples, i, turn);
-                vec3 metal_bare_product_2 = metal_film_ggx_reflected.color
-                    * (metal_film_ggx_reflected.weight
-                    * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_facing, schlick_bend));
-                color += metal_bare_product * metal_bare_product_2 + metal_film_product * metal_bare_product_2;
-                vec3 reflection_bare_product_2 = metal_film_ggx_reflected.color
-                    * (metal_film_ggx_reflected.weight
-                    * mx_fresnel_permittivity(metal_film_ggx_reflected.cosine, scaled_ior));
+                mx_GgxLight light = mx_ggx_reflected(samples, i, turn);
+                vec3 product = light.color
+                    * (light.weight * mx_fresnel_schlick(light.cosine, fresnel_facing, schlick_bend));
+                color += metal_bare_factor * product + metal_film_factor * product;
+                vec3 product_2 = light.color * (light.weight * mx_fresnel_permittivity(light.cosine, scaled_ior));
                 if (reflection_film_weight > 0.0)
-                    color += reflection_film_product * reflection_bare_product_2;
+                    color += reflection_film_factor * product_2;
                 if (reflection_bare_weight > 0.0)
-                    color += reflection_bare_product * reflection_bare_product_2;
+                    color += reflection_bare_factor * product_2;
                 turn = vec2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
             }
         }
@@ -815,39 +804,34 @@ void main()
             : SR_open_pbr_surface_transmission_color, 0.0);
         vec3 absorbed = -(SR_open_pbr_surface_transmission_scatter + log(SR_open_pbr_surface_transmission_color))
             / SR_open_pbr_surface_transmission_depth;
-        vec3 product_2 = exp(-(SR_open_pbr_surface_transmission_depth > 0.0 ? absorbed
+        vec3 product = exp(-(SR_open_pbr_surface_transmission_depth > 0.0 ? absorbed
             - min(min(min(absorbed.x, absorbed.y), absorbed.z), 0.0) : vec3(0.0))) * tint;
-        vec3 product_3 = (u_refractionTwoSided ? tint : vec3(1.0)) * product_2;
-        vec3 refraction_film_product = body_weight * (clamped_thin_film_weight * filled_weight) * product_3;
-        vec3 refraction_bare_product = product_3 * (body_weight * refraction_bare_weight);
+        vec3 product_2 = (u_refractionTwoSided ? tint : vec3(1.0)) * product;
+        vec3 refraction_film_factor = body_weight * (clamped_thin_film_weight * filled_weight) * product_2;
+        vec3 refraction_bare_factor = product_2 * (body_weight * refraction_bare_weight);
         if (film_thickness > 0.0) {
             vec2 turn = vec2(1.0, 0.0);
             for (int i = 0; i < count; ++i) {
-                mx_GgxLight refraction_film_ggx_transmitted = mx_ggx_transmitted(samples, ior, i, turn);
+                mx_GgxLight light = mx_ggx_transmitted(samples, ior, i, turn);
                 if (refraction_film_visible)
-                    color += refraction_film_product
-                        * (refraction_film_ggx_transmitted.color
-                        * (refraction_film_ggx_transmitted.weight
-                        * (vec3(1.0) - mx_film_index(refraction_film_ggx_transmitted.cosine, vec3(scaled_ior),
-                        film_thickness, thin_film_ior))));
+                    color += refraction_film_factor
+                        * (light.color * (light.weight
+                        * (vec3(1.0) - mx_film_index(light.cosine, vec3(scaled_ior), film_thickness, thin_film_ior))));
                 if (refraction_bare_weight > 0.0)
-                    color += refraction_bare_product
-                        * (refraction_film_ggx_transmitted.color
-                        * (refraction_film_ggx_transmitted.weight
-                        * (1.0 - mx_fresnel_permittivity(refraction_film_ggx_transmitted.cosine, scaled_ior))));
+                    color += refraction_bare_factor
+                        * (light.color * (light.weight * (1.0 - mx_fresnel_permittivity(light.cosine, scaled_ior))));
                 turn = vec2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
             }
         } else {
             vec2 turn = vec2(1.0, 0.0);
             for (int i = 0; i < count; ++i) {
-                mx_GgxLight refraction_film_ggx_transmitted = mx_ggx_transmitted(samples, ior, i, turn);
-                vec3 refraction_bare_product_2 = refraction_film_ggx_transmitted.color
-                    * (refraction_film_ggx_transmitted.weight
-                    * (1.0 - mx_fresnel_permittivity(refraction_film_ggx_transmitted.cosine, scaled_ior)));
+                mx_GgxLight light = mx_ggx_transmitted(samples, ior, i, turn);
+                vec3 product_3 = light.color
+                    * (light.weight * (1.0 - mx_fresnel_permittivity(light.cosine, scaled_ior)));
                 if (refraction_film_visible)
-                    color += refraction_film_product * refraction_bare_product_2;
+                    color += refraction_film_factor * product_3;
                 if (refraction_bare_weight > 0.0)
-                    color += refraction_bare_product * refraction_bare_product_2;
+                    color += refraction_bare_factor * product_3;
                 turn = vec2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
             }
         }

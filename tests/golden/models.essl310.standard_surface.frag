@@ -486,9 +486,9 @@ void main()
     vec2 alpha = clamp(roughness, 1e-8, 1.0);
     float cos_v = max(absolute, 1e-8);
     vec2 albedo = mx_ggx_albedo_fit(sqrt(alpha.x * alpha.y), cos_v);
-    float difference = 1.0 / albedo.x - 1.0;
+    float lost = 1.0 / albedo.x - 1.0;
     vec3 reflection_scale = mix(mx_fresnel_facing(vec3(specular_IOR), thin_film_thickness, thin_film_IOR), vec3(1.0),
-        0.04761905) * difference + vec3(1.0);
+        0.04761905) * lost + vec3(1.0);
     float reflection_weight = clamp(SR_standard_surface_specular, 0.0, 1.0);
     float reflection_r = (1.0 - specular_IOR) / (specular_IOR + 1.0);
     vec3 clamped_coat_tint = clamp(mix(vec3(1.0), SR_standard_surface_coat_color, SR_standard_surface_coat), 0.0, 1.0);
@@ -518,11 +518,11 @@ void main()
     float r2 = SR_standard_surface_diffuse_roughness * SR_standard_surface_diffuse_roughness;
     vec2 ab = r2 * vec2(-0.5, 0.45) / (r2 + vec2(0.33, 0.09)) + vec2(1.0, 0.0);
     float s = 1.0 / max(SR_standard_surface_sheen_roughness, 0.005);
-    vec3 fuzz_product = SR_standard_surface_sheen_color * (body_weight * (fuzz_weight * opaque_weight));
+    vec3 fuzz_factor = SR_standard_surface_sheen_color * (body_weight * (fuzz_weight * opaque_weight));
     vec3 scatter_color = pow(max(SR_standard_surface_subsurface_color, 0.0), vector_coat_gamma);
     float thin = float(SR_standard_surface_thin_walled);
     float translucent_weight = thin * (clamped_subsurface * opaque_weight);
-    vec3 translucent_product = scatter_color * (body_weight * (fuzz_throughput * translucent_weight));
+    vec3 translucent_factor = scatter_color * (body_weight * (fuzz_throughput * translucent_weight));
     vec3 tangent_direction = normalize(vd_tangentWorld);
     vec3 coat_tangent = mx_rotate3d(tangent_direction, radians(SR_standard_surface_coat_rotation * 360.0), N);
     mx_GgxLobe coating_lobe = mx_ggx_lobe(coat_lobe, N, coat_tangent, V);
@@ -531,18 +531,18 @@ void main()
         * SR_standard_surface_specular_color, metal_ior, metal_extinction);
     vec3 re = metal_ior * metal_ior - metal_extinction * metal_extinction;
     vec3 im = metal_extinction * (metal_ior * 2.0);
-    vec3 metal_scale = difference * mix(mx_fresnel_facing(re, im, thin_film_thickness, thin_film_IOR), vec3(1.0),
-        0.04761905) + vec3(1.0);
-    vec3 metal_product = metal_scale * (clamped_coat_tint * (metal_weight * coating_throughput));
+    vec3 metal_scale = lost * mix(mx_fresnel_facing(re, im, thin_film_thickness, thin_film_IOR), vec3(1.0), 0.04761905)
+        + vec3(1.0);
+    vec3 metal_factor = metal_scale * (clamped_coat_tint * (metal_weight * coating_throughput));
     vec3 specular_tangent = mx_rotate3d(tangent_direction, radians(SR_standard_surface_specular_rotation * 360.0), N);
     mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, specular_tangent, V);
     float reflection_weight_2 = reflection_weight * (1.0 - metal_weight);
-    vec3 reflection_product = clamped_coat_tint * (coating_throughput * reflection_weight_2)
+    vec3 reflection_factor = clamped_coat_tint * (coating_throughput * reflection_weight_2)
         * (reflection_scale * max(SR_standard_surface_specular_color, 0.0));
     float scatter_weight = clamped_subsurface * opaque_weight * (1.0 - thin);
     vec3 scatter_radius = SR_standard_surface_subsurface_radius * SR_standard_surface_subsurface_scale;
     float curvature = max(length(fwidth(Nf)) / max(length(fwidth(vd_positionWorld)), 1e-20), 0.01);
-    vec3 scatter_product = scatter_color * (body_weight * (fuzz_throughput * scatter_weight));
+    vec3 scatter_factor = scatter_color * (body_weight * (fuzz_throughput * scatter_weight));
     // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         vec3 L;
@@ -555,14 +555,14 @@ void main()
             vec3 d = u_lightData[i].position - vd_positionWorld;
             vec3 to_light = normalize(d);
             L = to_light;
-            float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+            float falloff = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
             if (light_type == 2) {
-                intensity = ratio;
+                intensity = falloff;
             } else {
-                float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+                float edge = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
                 intensity = light_type == 3
-                    ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,
-                    -dot(u_lightData[i].direction, to_light)) * ratio : 0.0;
+                    ? smoothstep(edge, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light)) * falloff
+                    : 0.0;
             }
         }
         // fuzz, translucent, diffuse
@@ -573,15 +573,15 @@ void main()
         vec3 diffuse_response = diffuse_product * 0.31830987
             * (cos_l_2 * (ab.x + ab.y * max(v_dot_l - cos_v * cos_l_2, 0.0) / max(cos_l_2, cos_v)));
         float scaled_along = (cos_v + cos_l) * (cos_v + cos_l);
-        float fuzz_product_2 = cos_l_2 * ((s + 2.0)
+        float fuzz_product = cos_l_2 * ((s + 2.0)
             * pow(clamp(1.0 - scaled_along / max(v_dot_l * 2.0 + 2.0, 1e-8), 0.0, 1.0), s * 0.5) / 6.2831855);
-        vec3 fuzz_response = fuzz_product_2 / ((cos_v + cos_l_2 - cos_v * cos_l_2) * 4.0) * fuzz_product;
+        vec3 fuzz_response = fuzz_product / ((cos_v + cos_l_2 - cos_v * cos_l_2) * 4.0) * fuzz_factor;
         color += light_color * (intensity
-            * (diffuse_response + (fuzz_response + max(-cos_l, 0.0) / 3.1415927 * translucent_product)));
+            * (diffuse_response + (fuzz_response + max(-cos_l, 0.0) / 3.1415927 * translucent_factor)));
         // coating
-        float cosine = sqrt(clamp(v_dot_l * 0.5 + 0.500001, 0.0, 1.0));
+        float half_cosine = sqrt(clamp(v_dot_l * 0.5 + 0.500001, 0.0, 1.0));
         if (coat_weight > 0.0) {
-            float coating_product = mx_fresnel_permittivity(cosine, coat_IOR * coat_IOR)
+            float coating_product = mx_fresnel_permittivity(half_cosine, coat_IOR * coat_IOR)
                 * (coat_weight * coating_scale);
             color += light_color * (intensity * (mx_ggx_light(coating_lobe, V, L) * coating_product));
         }
@@ -589,16 +589,16 @@ void main()
         float ggx_light = mx_ggx_light(lobe, V, L);
         if (metal_weight > 0.0)
             color += light_color * (intensity
-                * (metal_product * (mx_fresnel(cosine, re, im, thin_film_thickness, thin_film_IOR) * ggx_light)));
+                * (metal_factor * (mx_fresnel(half_cosine, re, im, thin_film_thickness, thin_film_IOR) * ggx_light)));
         // reflection
         if (reflection_weight_2 > 0.0)
             color += light_color * (intensity
-                * (reflection_product * (ggx_light
-                * mx_fresnel(cosine, vec3(specular_IOR), thin_film_thickness, thin_film_IOR))));
+                * (reflection_factor * (ggx_light
+                * mx_fresnel(half_cosine, vec3(specular_IOR), thin_film_thickness, thin_film_IOR))));
         // scatter
         if (scatter_weight > 0.0)
             color += light_color * (intensity
-                * (mx_subsurface_light(scatter_radius, curvature, cos_l) * scatter_product));
+                * (mx_subsurface_light(scatter_radius, curvature, cos_l) * scatter_factor));
     }
     // environment: fuzz, scatter, diffuse
     vec3 part = textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * Nf)), 0.0).xyz;
@@ -606,11 +606,11 @@ void main()
         * (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + SR_standard_surface_diffuse_roughness
         * vec2(1.4385, 2.0315)) + vec2(1.0);
     vec3 diffuse_response = diffuse_product * part * (u_envLightIntensity * clamp(fit.x / fit.y, 0.0, 1.0));
-    vec3 fuzz_response = fuzz_product * part * (sheen_albedo * u_envLightIntensity);
-    color += diffuse_response + (fuzz_response + u_envLightIntensity * (scatter_product * part));
+    vec3 fuzz_response = fuzz_factor * part * (sheen_albedo * u_envLightIntensity);
+    color += diffuse_response + (fuzz_response + u_envLightIntensity * (scatter_factor * part));
     // environment: translucent
     if (translucent_weight > 0.0)
-        color += u_envLightIntensity * (translucent_product
+        color += u_envLightIntensity * (translucent_factor
             * textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * -Nf)), 0.0).xyz);
     // environment: coating
     if (coat_weight > 0.0) {
@@ -618,9 +618,9 @@ void main()
         int coating_count = mx_sample_count(coating_alpha);
         mx_GgxSamples coating_ggx_samples = mx_ggx_samples(coat_lobe, coating_count, N, coat_tangent, V);
         for (int i = 0; i < coating_count; ++i) {
-            mx_GgxLight light = mx_ggx_reflected(coating_ggx_samples, i, turn);
-            float fresnel_bare = mx_fresnel_permittivity(light.cosine, coat_IOR * coat_IOR);
-            color += light.color * (fresnel_bare * (coat_weight * coating_scale * light.weight));
+            mx_GgxLight coating_light = mx_ggx_reflected(coating_ggx_samples, i, turn);
+            float fresnel_bare = mx_fresnel_permittivity(coating_light.cosine, coat_IOR * coat_IOR);
+            color += coating_light.color * (fresnel_bare * (coat_weight * coating_scale * coating_light.weight));
             turn = vec2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
         }
     }
@@ -632,33 +632,27 @@ void main()
         if (thin_film_thickness > 0.0) {
             vec2 turn = vec2(1.0, 0.0);
             for (int i = 0; i < count; ++i) {
-                mx_GgxLight metal_ggx_reflected = mx_ggx_reflected(ggx_samples, i, turn);
+                mx_GgxLight light = mx_ggx_reflected(ggx_samples, i, turn);
                 if (metal_weight > 0.0)
-                    color += metal_product
-                        * (metal_ggx_reflected.color
-                        * (metal_ggx_reflected.weight
-                        * mx_film_index(metal_ggx_reflected.cosine, re, im, thin_film_thickness, thin_film_IOR)));
+                    color += metal_factor
+                        * (light.color * (light.weight
+                        * mx_film_index(light.cosine, re, im, thin_film_thickness, thin_film_IOR)));
                 if (reflection_weight_2 > 0.0)
-                    color += reflection_product
-                        * (metal_ggx_reflected.color
-                        * (metal_ggx_reflected.weight
-                        * mx_film_index(metal_ggx_reflected.cosine, vec3(scaled_specular_IOR), vec3(0.0),
-                        thin_film_thickness, thin_film_IOR)));
+                    color += reflection_factor
+                        * (light.color * (light.weight
+                        * mx_film_index(light.cosine, vec3(scaled_specular_IOR), vec3(0.0), thin_film_thickness,
+                        thin_film_IOR)));
                 turn = vec2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
             }
         } else {
             vec2 turn = vec2(1.0, 0.0);
             for (int i = 0; i < count; ++i) {
-                mx_GgxLight metal_ggx_reflected = mx_ggx_reflected(ggx_samples, i, turn);
+                mx_GgxLight light = mx_ggx_reflected(ggx_samples, i, turn);
                 if (metal_weight > 0.0)
-                    color += metal_product
-                        * (metal_ggx_reflected.color
-                        * (metal_ggx_reflected.weight * mx_fresnel_conductor(metal_ggx_reflected.cosine, re, im)));
+                    color += metal_factor * (light.color * (light.weight * mx_fresnel_conductor(light.cosine, re, im)));
                 if (reflection_weight_2 > 0.0)
-                    color += reflection_product
-                        * (metal_ggx_reflected.color
-                        * (metal_ggx_reflected.weight
-                        * mx_fresnel_permittivity(metal_ggx_reflected.cosine, scaled_specular_IOR)));
+                    color += reflection_factor
+                        * (light.color * (light.weight * mx_fresnel_permittivity(light.cosine, scaled_specular_IOR)));
                 turn = vec2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
             }
         }
@@ -673,13 +667,13 @@ void main()
             SR_standard_surface_specular_anisotropy);
         int refraction_count = mx_sample_count(clamp(transmission_roughness, 1e-8, 1.0));
         vec3 tint = max(SR_standard_surface_transmission_color, 0.0);
-        vec3 refraction_product = tint * (u_refractionTwoSided ? tint : vec3(1.0)) * (body_weight * refraction_weight);
+        vec3 refraction_factor = tint * (u_refractionTwoSided ? tint : vec3(1.0)) * (body_weight * refraction_weight);
         mx_GgxSamples samples = mx_ggx_samples(transmission_roughness, refraction_count, N, specular_tangent, V);
         for (int i = 0; i < refraction_count; ++i) {
-            mx_GgxLight refraction_ggx_transmitted = mx_ggx_transmitted(samples, specular_IOR, i, turn);
-            color += refraction_product * (refraction_ggx_transmitted.color
-                * (refraction_ggx_transmitted.weight
-                * (1.0 - mx_fresnel_permittivity(refraction_ggx_transmitted.cosine, scaled_specular_IOR))));
+            mx_GgxLight refraction_light = mx_ggx_transmitted(samples, specular_IOR, i, turn);
+            color += refraction_factor * (refraction_light.color
+                * (refraction_light.weight
+                * (1.0 - mx_fresnel_permittivity(refraction_light.cosine, scaled_specular_IOR))));
             turn = vec2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
         }
     }

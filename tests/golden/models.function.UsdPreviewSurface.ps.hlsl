@@ -265,12 +265,13 @@ Surface surface(float3 positionWorld, float3 normalWorld)
     float cos_v = max(abs(dot(shading_normal, V)), 1e-8);
     float2 albedo = mx_ggx_albedo_fit(cos_v);
     float scale = (1.0 / albedo.x - 1.0) * 0.08571429 + 1.0;
-    float3 N = faceforward(shading_normal, -V, shading_normal);
+    float3 facing = faceforward(shading_normal, -V, shading_normal);
     float ggx_masking = sqrt(cos_v * cos_v * 0.9375 + 0.0625);
-    mx_GgxLobe reflection_ggx_lobe = make_mx_GgxLobe(N, cos_v, float3(0.0, 0.0, 0.0), float2(0.25, 0.25), ggx_masking);
+    mx_GgxLobe reflection_ggx_lobe = make_mx_GgxLobe(facing, cos_v, float3(0.0, 0.0, 0.0), float2(0.25, 0.25),
+        ggx_masking);
     float reflection_throughput = 1.0 - dot((float3)(lerp(0.04, 1.0, albedo.y) * albedo.x * scale),
         float3(0.33333334, 0.33333334, 0.33333334));
-    float diffuse_product = reflection_throughput * 0.31830987 * 0.18;
+    float diffuse_factor = reflection_throughput * 0.31830987 * 0.18;
     // from the last light, so that drivers do not unroll the loop
     for (int i = mxg_light_count() - 1; i >= 0; --i) {
         // reflection, diffuse
@@ -278,11 +279,11 @@ Surface surface(float3 positionWorld, float3 normalWorld)
         mxg_light(i, positionWorld, light_L, light_radiance);
         float3 reflection_product = scale * mx_fresnel_schlick(sqrt(clamp(dot(V, light_L) * 0.5 + 0.500001, 0.0, 1.0)));
         float3 reflection_response = reflection_product * mx_ggx_light(reflection_ggx_lobe, V, light_L);
-        color += light_radiance * (reflection_response + max(dot(light_L, N), 1e-8) * diffuse_product);
+        color += light_radiance * (reflection_response + max(dot(light_L, facing), 1e-8) * diffuse_factor);
     }
     // environment: diffuse
     float3 diffuse_part = u_envIrradiance.SampleLevel(u_envIrradiance_sampler,
-        mx_map_point(normalize(mul(N, (float3x3)u_envMatrix))), 0.0).xyz;
+        mx_map_point(normalize(mul(facing, (float3x3)u_envMatrix))), 0.0).xyz;
     color += diffuse_part * (u_envLightIntensity * (reflection_throughput * 0.18));
     // environment: reflection
     float2 turn = float2(1.0, 0.0);

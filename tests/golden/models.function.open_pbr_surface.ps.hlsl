@@ -264,18 +264,18 @@ Surface surface(float3 positionWorld, float3 normalWorld)
     Surface result;
     float3 color = float3(0.0, 0.0, 0.0);
     // lights
-    float3 normal_N = normalize(normalWorld);
+    float3 N = normalize(normalWorld);
     float3 V = normalize(u_viewPosition - positionWorld);
     // SR_open_pbr_surface
-    float cos_v = max(abs(dot(normal_N, V)), 1e-8);
+    float cos_v = max(abs(dot(N, V)), 1e-8);
     float2 albedo = mx_ggx_albedo_fit(cos_v);
     float scale = (1.0 / albedo.x - 1.0) * 0.08571429 + 1.0;
-    float3 N = faceforward(normal_N, -V, normal_N);
+    float3 facing = faceforward(N, -V, N);
     float ggx_masking = sqrt(cos_v * cos_v * 0.9919 + 0.0081);
-    mx_GgxLobe reflection_bare_ggx_lobe = make_mx_GgxLobe(N, cos_v, float3(0.0, 0.0, 0.0), float2(0.09, 0.09),
+    mx_GgxLobe reflection_bare_ggx_lobe = make_mx_GgxLobe(facing, cos_v, float3(0.0, 0.0, 0.0), float2(0.09, 0.09),
         ggx_masking);
     float reflection_bare_throughput = 1.0 - lerp(0.04, 1.0, albedo.y) * albedo.x * scale;
-    float diffuse_product = reflection_bare_throughput * 0.31830987 * 0.8;
+    float diffuse_factor = reflection_bare_throughput * 0.31830987 * 0.8;
     // from the last light, so that drivers do not unroll the loop
     for (int i = mxg_light_count() - 1; i >= 0; --i) {
         // reflection_bare, diffuse
@@ -284,16 +284,16 @@ Surface surface(float3 positionWorld, float3 normalWorld)
         float reflection_bare_product = scale
             * mx_fresnel_permittivity(sqrt(clamp(dot(V, light_L) * 0.5 + 0.500001, 0.0, 1.0)));
         float reflection_bare_response = reflection_bare_product * mx_ggx_light(reflection_bare_ggx_lobe, V, light_L);
-        color += light_radiance * (reflection_bare_response + max(dot(light_L, N), 1e-8) * diffuse_product);
+        color += light_radiance * (reflection_bare_response + max(dot(light_L, facing), 1e-8) * diffuse_factor);
     }
     // environment: diffuse
     float3 diffuse_part = u_envIrradiance.SampleLevel(u_envIrradiance_sampler,
-        mx_map_point(normalize(mul(N, (float3x3)u_envMatrix))), 0.0).xyz;
+        mx_map_point(normalize(mul(facing, (float3x3)u_envMatrix))), 0.0).xyz;
     color += diffuse_part * (u_envLightIntensity * (reflection_bare_throughput * 0.8));
     // environment: reflection_bare
     float2 turn = float2(1.0, 0.0);
     int count = mx_sample_count();
-    mx_GgxSamples reflection_bare_ggx_samples = mx_ggx_samples(count, normal_N, V);
+    mx_GgxSamples reflection_bare_ggx_samples = mx_ggx_samples(count, N, V);
     for (int i = 0; i < count; ++i) {
         mx_GgxLight light = mx_ggx_reflected(reflection_bare_ggx_samples, i, turn);
         color += light.color * (light.weight * (scale * mx_fresnel_permittivity(light.cosine)));

@@ -270,11 +270,12 @@ Surface surface(float3 positionWorld, float3 normalWorld)
     float cos_v = max(abs(dot(axis, V)), 1e-8);
     float2 albedo = mx_ggx_albedo_fit(cos_v);
     float scale = (1.0 / albedo.x - 1.0) * 0.08571429 + 1.0;
-    float3 N = faceforward(axis, -V, axis);
+    float3 facing = faceforward(axis, -V, axis);
     float ggx_masking = sqrt(cos_v * cos_v * 0.9984 + 0.0016000002);
-    mx_GgxLobe reflection_ggx_lobe = make_mx_GgxLobe(N, cos_v, float3(0.0, 0.0, 0.0), float2(0.04, 0.04), ggx_masking);
+    mx_GgxLobe reflection_ggx_lobe = make_mx_GgxLobe(facing, cos_v, float3(0.0, 0.0, 0.0), float2(0.04, 0.04),
+        ggx_masking);
     float reflection_throughput = 1.0 - lerp(0.04, 1.0, albedo.y) * albedo.x * scale;
-    float diffuse_product = reflection_throughput * 0.31830987 * 0.8;
+    float diffuse_factor = reflection_throughput * 0.31830987 * 0.8;
     // from the last light, so that drivers do not unroll the loop
     for (int i = mxg_light_count() - 1; i >= 0; --i) {
         // reflection, diffuse
@@ -283,11 +284,11 @@ Surface surface(float3 positionWorld, float3 normalWorld)
         float reflection_product = scale
             * mx_fresnel_permittivity(sqrt(clamp(dot(V, light_L) * 0.5 + 0.500001, 0.0, 1.0)));
         float reflection_response = reflection_product * mx_ggx_light(reflection_ggx_lobe, V, light_L);
-        color += light_radiance * (reflection_response + max(dot(light_L, N), 1e-8) * diffuse_product);
+        color += light_radiance * (reflection_response + max(dot(light_L, facing), 1e-8) * diffuse_factor);
     }
     // environment: diffuse
     float3 diffuse_part = u_envIrradiance.SampleLevel(u_envIrradiance_sampler,
-        mx_map_point(normalize(mul(N, (float3x3)u_envMatrix))), 0.0).xyz;
+        mx_map_point(normalize(mul(facing, (float3x3)u_envMatrix))), 0.0).xyz;
     color += diffuse_part * (u_envLightIntensity * (reflection_throughput * 0.8));
     // environment: reflection
     float2 turn = float2(1.0, 0.0);

@@ -359,7 +359,7 @@ void main(
     float3 shading_normal = mx_normalmap(SR_UsdPreviewSurface_normal * 0.5 + float3(0.5, 0.5, 0.5),
         normalize(vd.normalWorld), normalize(vd.tangentWorld), normalize(vd.bitangentWorld));
     float3 V = normalize(u_viewPosition - vd.positionWorld);
-    float3 N = faceforward(shading_normal, -V, shading_normal);
+    float3 facing = faceforward(shading_normal, -V, shading_normal);
     float3 diffuseColor = SR_UsdPreviewSurface_diffuseColor;
     float coating_weight = clamp(SR_UsdPreviewSurface_clearcoat, 0.0, 1.0);
     float ior = SR_UsdPreviewSurface_ior;
@@ -380,8 +380,8 @@ void main(
     float3 f90 = max(is_equal_useSpecularWorkflow ? float3(1.0, 1.0, 1.0) : grazing_metallic, 0.0);
     float specular_roughness = clamp(SR_UsdPreviewSurface_roughness * SR_UsdPreviewSurface_roughness, 1e-8, 1.0);
     float2 albedo = mx_ggx_albedo_fit(specular_roughness, cos_v);
-    float difference = 1.0 / albedo.x - 1.0;
-    float3 reflection_scale = lerp(reflection_fresnel_f0, f90, 0.04761905) * difference + float3(1.0, 1.0, 1.0);
+    float lost = 1.0 / albedo.x - 1.0;
+    float3 reflection_scale = lerp(reflection_fresnel_f0, f90, 0.04761905) * lost + float3(1.0, 1.0, 1.0);
     float body_weight = coating_throughput
         * (1.0 - dot(lerp(reflection_fresnel_f0, f90, albedo.y) * albedo.x * reflection_scale,
         float3(0.33333334, 0.33333334, 0.33333334)));
@@ -392,22 +392,23 @@ void main(
     float substrate_metal_weight = clamp(metal_weight, 0.0, 1.0);
     float diffuse_weight = clamp(1.0 - metal_weight, 0.0, 1.0)
         * (clamped_opaque_weight * (1.0 - substrate_metal_weight));
-    float3 diffuse_product = diffuseColor * (body_weight * diffuse_weight * 0.31830987);
+    float3 diffuse_factor = diffuseColor * (body_weight * diffuse_weight * 0.31830987);
     float coating_ggx_masking = sqrt(coat_roughness * coat_roughness + (1.0 - coat_roughness * coat_roughness)
         * (cos_v * cos_v));
-    mx_GgxLobe coating_ggx_lobe = make_mx_GgxLobe(N, cos_v, float3(0.0, 0.0, 0.0), (float2)coat_roughness,
+    mx_GgxLobe coating_ggx_lobe = make_mx_GgxLobe(facing, cos_v, float3(0.0, 0.0, 0.0), (float2)coat_roughness,
         coating_ggx_masking);
     float3 metal_ior, metal_extinction;
     mx_artistic_ior(diffuseColor, diffuseColor, metal_ior, metal_extinction);
     float3 re = metal_ior * metal_ior - metal_extinction * metal_extinction;
     float3 im = metal_extinction * (metal_ior * 2.0);
-    float3 metal_product = (difference * lerp(mx_fresnel_conductor(1.0, re, im), float3(1.0, 1.0, 1.0), 0.04761905)
+    float3 metal_factor = (lost * lerp(mx_fresnel_conductor(1.0, re, im), float3(1.0, 1.0, 1.0), 0.04761905)
         + float3(1.0, 1.0, 1.0)) * (substrate_metal_weight * coating_throughput);
     float ggx_masking = sqrt(specular_roughness * specular_roughness + cos_v * cos_v
         * (1.0 - specular_roughness * specular_roughness));
-    mx_GgxLobe ggx_lobe = make_mx_GgxLobe(N, cos_v, float3(0.0, 0.0, 0.0), (float2)specular_roughness, ggx_masking);
+    mx_GgxLobe ggx_lobe = make_mx_GgxLobe(facing, cos_v, float3(0.0, 0.0, 0.0), (float2)specular_roughness,
+        ggx_masking);
     bool reflection_visible = 1.0 - substrate_metal_weight > 0.0;
-    float3 reflection_product = reflection_scale * (coating_throughput * (1.0 - substrate_metal_weight));
+    float3 reflection_factor = reflection_scale * (coating_throughput * (1.0 - substrate_metal_weight));
     // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         float3 L;
@@ -420,41 +421,43 @@ void main(
             float3 d = u_lightData[i].position - vd.positionWorld;
             float3 to_light = normalize(d);
             L = to_light;
-            float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+            float falloff = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
             if (light_type == 2) {
-                intensity = ratio;
+                intensity = falloff;
             } else {
-                float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+                float edge = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
                 intensity = light_type == 3
-                    ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,
-                    -dot(u_lightData[i].direction, to_light)) * ratio : 0.0;
+                    ? smoothstep(edge, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light)) * falloff
+                    : 0.0;
             }
         }
         // diffuse
         float3 light_color = u_lightData[i].color;
-        color += light_color * (intensity * (max(dot(L, N), 1e-8) * diffuse_product));
+        color += light_color * (intensity * (max(dot(L, facing), 1e-8) * diffuse_factor));
         // coating
-        float cosine = sqrt(clamp(dot(V, L) * 0.5 + 0.500001, 0.0, 1.0));
+        float half_cosine = sqrt(clamp(dot(V, L) * 0.5 + 0.500001, 0.0, 1.0));
         if (coating_weight > 0.0) {
             float coating_product = mx_ggx_light(coating_ggx_lobe, V, L) * (coating_weight * coating_scale);
             color += light_color * (intensity
-                * (mx_fresnel_schlick(cosine, (float3)coating_fresnel_f0, float3(1.0, 1.0, 1.0)) * coating_product));
+                * (mx_fresnel_schlick(half_cosine, (float3)coating_fresnel_f0, float3(1.0, 1.0, 1.0))
+                * coating_product));
         }
         // metal
         float ggx_light = mx_ggx_light(ggx_lobe, V, L);
         if (substrate_metal_weight > 0.0)
-            color += light_color * (intensity * (metal_product * (mx_fresnel_conductor(cosine, re, im) * ggx_light)));
+            color += light_color * (intensity
+                * (metal_factor * (mx_fresnel_conductor(half_cosine, re, im) * ggx_light)));
         // reflection
         if (reflection_visible)
             color += light_color * (intensity
-                * (reflection_product * (ggx_light * mx_fresnel_schlick(cosine, reflection_fresnel_f0, f90))));
+                * (reflection_factor * (ggx_light * mx_fresnel_schlick(half_cosine, reflection_fresnel_f0, f90))));
     }
     // environment: diffuse
     if (diffuse_weight > 0.0) {
-        float3 diffuse_product_2 = diffuseColor
+        float3 diffuse_product = diffuseColor
             * u_envIrradiance.SampleLevel(u_envIrradiance_sampler,
-            mx_map_point(normalize(mul(N, (float3x3)u_envMatrix))), 0.0).xyz;
-        color += diffuse_product_2 * (body_weight * diffuse_weight * u_envLightIntensity);
+            mx_map_point(normalize(mul(facing, (float3x3)u_envMatrix))), 0.0).xyz;
+        color += diffuse_product * (body_weight * diffuse_weight * u_envLightIntensity);
     }
     // environment: refraction
     float refraction_weight = (1.0 - substrate_metal_weight) * (1.0 - clamped_opaque_weight);
@@ -482,15 +485,12 @@ void main(
         int count = mx_sample_count((float2)specular_roughness);
         mx_GgxSamples ggx_samples = mx_ggx_samples((float2)specular_roughness, count, shading_normal, V);
         for (int i = 0; i < count; ++i) {
-            mx_GgxLight metal_ggx_reflected = mx_ggx_reflected(ggx_samples, i, turn);
+            mx_GgxLight light = mx_ggx_reflected(ggx_samples, i, turn);
             if (substrate_metal_weight > 0.0)
-                color += metal_product * (metal_ggx_reflected.color
-                    * (metal_ggx_reflected.weight * mx_fresnel_conductor(metal_ggx_reflected.cosine, re, im)));
+                color += metal_factor * (light.color * (light.weight * mx_fresnel_conductor(light.cosine, re, im)));
             if (reflection_visible)
-                color += reflection_product
-                    * (metal_ggx_reflected.color
-                    * (metal_ggx_reflected.weight
-                    * mx_fresnel_schlick(metal_ggx_reflected.cosine, reflection_fresnel_f0, f90)));
+                color += reflection_factor
+                    * (light.color * (light.weight * mx_fresnel_schlick(light.cosine, reflection_fresnel_f0, f90)));
             turn = float2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
         }
     }

@@ -221,11 +221,11 @@ void main()
     // SR_UsdPreviewSurface
     vec2 albedo = mx_ggx_albedo_fit(max(abs(dot(shading_normal, V)), 1e-8));
     float scale = (1.0 / albedo.x - 1.0) * 0.08571429 + 1.0;
-    vec3 N = faceforward(shading_normal, -V, shading_normal);
-    mat3 reflection_frame = mx_frame(N, normalize(vd.tangentWorld));
+    vec3 facing = faceforward(shading_normal, -V, shading_normal);
+    mat3 reflection_frame = mx_frame(facing, normalize(vd.tangentWorld));
     float reflection_throughput = 1.0 - dot(mx_fresnel_schlick(max(1.0 - pow(albedo.y, 0.2), 1e-8))
         * (albedo.x * scale), vec3(0.33333334));
-    float diffuse_product = reflection_throughput * 0.31830987 * 0.18;
+    float diffuse_factor = reflection_throughput * 0.31830987 * 0.18;
     // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         vec3 L;
@@ -238,23 +238,24 @@ void main()
             vec3 d = u_lightData[i].position - vd.positionWorld;
             vec3 to_light = normalize(d);
             L = to_light;
-            float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+            float falloff = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
             if (light_type == 2) {
-                intensity = ratio;
+                intensity = falloff;
             } else {
-                float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+                float edge = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
                 intensity = light_type == 3
-                    ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,
-                    -dot(u_lightData[i].direction, to_light)) * ratio : 0.0;
+                    ? smoothstep(edge, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light)) * falloff
+                    : 0.0;
             }
         }
         // reflection, diffuse
         vec3 reflection_product = scale * mx_fresnel_schlick(sqrt(clamp(dot(V, L) * 0.5 + 0.500001, 0.0, 1.0)));
         vec3 reflection_response = reflection_product * mx_ggx_smith_lobe(reflection_frame, V, L);
-        color += u_lightData[i].color * (intensity * (reflection_response + max(dot(L, N), 1e-8) * diffuse_product));
+        color += u_lightData[i].color * (intensity
+            * (reflection_response + max(dot(L, facing), 1e-8) * diffuse_factor));
     }
     // environment: diffuse
-    vec3 diffuse_part = textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * N)), 0.0).xyz;
+    vec3 diffuse_part = textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * facing)), 0.0).xyz;
     color += diffuse_part * (u_envLightIntensity * (reflection_throughput * 0.18));
     // environment: reflection
     vec2 turn = vec2(1.0, 0.0);

@@ -230,14 +230,14 @@ void main()
             vec3 d = u_lightData[i].position - vd.positionWorld;
             vec3 to_light = normalize(d);
             L = to_light;
-            float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+            float falloff = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
             if (light_type == 2) {
-                intensity = ratio;
+                intensity = falloff;
             } else {
-                float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+                float edge = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
                 intensity = light_type == 3
-                    ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,
-                    -dot(u_lightData[i].direction, to_light)) * ratio : 0.0;
+                    ? smoothstep(edge, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light)) * falloff
+                    : 0.0;
             }
         }
         // metal_bare

@@ -221,21 +221,21 @@ void main()
 {
     vec3 color = vec3(0.0);
     // lights
-    vec3 normal_N = normalize(vd.normalWorld);
+    vec3 N = normalize(vd.normalWorld);
     vec3 V = normalize(u_viewPosition - vd.positionWorld);
     // SR_open_pbr_surface
-    float normal_n_dot_v = dot(normal_N, V);
-    float index_ahead = normal_n_dot_v < 0.0 ? 0.6666667 : 1.5;
+    float n_dot_v = dot(N, V);
+    float index_ahead = n_dot_v < 0.0 ? 0.6666667 : 1.5;
     float r = (1.0 - index_ahead) / (index_ahead + 1.0);
-    vec2 albedo = mx_ggx_albedo_fit(max(abs(normal_n_dot_v), 1e-8));
-    float reflection_bare_difference = 1.0 / albedo.x - 1.0;
-    float ggx_compensation = mix(r * r, 1.0, 0.04761905) * reflection_bare_difference + 1.0;
-    vec3 N = faceforward(normal_N, -V, normal_N);
-    mat3 reflection_bare_frame = mx_frame(N, normalize(vd.tangentWorld));
+    vec2 albedo = mx_ggx_albedo_fit(max(abs(n_dot_v), 1e-8));
+    float lost = 1.0 / albedo.x - 1.0;
+    float ggx_compensation = mix(r * r, 1.0, 0.04761905) * lost + 1.0;
+    vec3 facing = faceforward(N, -V, N);
+    mat3 reflection_bare_frame = mx_frame(facing, normalize(vd.tangentWorld));
     float reflection_bare_throughput = 1.0
         - mx_fresnel_permittivity(max(1.0 - pow(albedo.y, 0.2), 1e-8), index_ahead * index_ahead) * albedo.x
         * ggx_compensation;
-    float diffuse_product = reflection_bare_throughput * 0.31830987 * 0.8;
+    float diffuse_factor = reflection_bare_throughput * 0.31830987 * 0.8;
     // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         vec3 L;
@@ -248,31 +248,32 @@ void main()
             vec3 d = u_lightData[i].position - vd.positionWorld;
             vec3 to_light = normalize(d);
             L = to_light;
-            float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+            float falloff = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
             if (light_type == 2) {
-                intensity = ratio;
+                intensity = falloff;
             } else {
-                float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+                float edge = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
                 intensity = light_type == 3
-                    ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,
-                    -dot(u_lightData[i].direction, to_light)) * ratio : 0.0;
+                    ? smoothstep(edge, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light)) * falloff
+                    : 0.0;
             }
         }
         // reflection_bare, diffuse
-        float cosine = sqrt(clamp(dot(V, L) * 0.5 + 0.500001, 0.0, 1.0));
-        float reflection_bare_product = ggx_compensation * mx_fresnel_permittivity(cosine, index_ahead * index_ahead);
+        float half_cosine = sqrt(clamp(dot(V, L) * 0.5 + 0.500001, 0.0, 1.0));
+        float reflection_bare_product = ggx_compensation
+            * mx_fresnel_permittivity(half_cosine, index_ahead * index_ahead);
         float reflection_bare_response = reflection_bare_product * mx_ggx_smith_lobe(reflection_bare_frame, V, L);
         color += u_lightData[i].color * (intensity
-            * (reflection_bare_response + max(dot(L, N), 1e-8) * diffuse_product));
+            * (reflection_bare_response + max(dot(L, facing), 1e-8) * diffuse_factor));
     }
     // environment: diffuse
-    vec3 diffuse_part = textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * N)), 0.0).xyz;
+    vec3 diffuse_part = textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * facing)), 0.0).xyz;
     color += diffuse_part * (u_envLightIntensity * (reflection_bare_throughput * 0.8));
     // environment: reflection_bare
     vec2 turn = vec2(1.0, 0.0);
     int count = mx_sample_count();
-    mx_GgxSamples reflection_bare_ggx_samples = mx_ggx_samples(count, normal_N, V);
-    float scale = reflection_bare_difference * 0.08571429 + 1.0;
+    mx_GgxSamples reflection_bare_ggx_samples = mx_ggx_samples(count, N, V);
+    float scale = lost * 0.08571429 + 1.0;
     for (int i = 0; i < count; ++i) {
         mx_GgxLight light = mx_ggx_reflected(reflection_bare_ggx_samples, i, turn);
         color += light.color * (light.weight * (scale * mx_fresnel_permittivity(light.cosine, 2.25)));

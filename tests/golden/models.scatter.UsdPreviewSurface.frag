@@ -190,15 +190,15 @@ void scatter()
         density = is_in_front ? reflection_pdf * (reflection_share / sum) : 0.0;
     }
     pick -= reflection_share;
-    vec3 N = faceforward(shading_normal, -vd.viewWorld, shading_normal);
+    vec3 facing = faceforward(shading_normal, -vd.viewWorld, shading_normal);
     if (pick >= 0.0 && pick < diffuse_share) {
-        mat3 any_frame = mx_frame(N, abs(N.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0));
-        vec2 diffuse_product = sqrt(vd.random.x) * cos((vd.random.y - vec2(0.0, 0.25)) * 6.2831855);
-        vec3 L_2 = any_frame * vec3(diffuse_product, sqrt(1.0 - vd.random.x));
+        mat3 any_frame = mx_frame(facing, abs(facing.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0));
+        vec2 polar = sqrt(vd.random.x) * cos((vd.random.y - vec2(0.0, 0.25)) * 6.2831855);
+        vec3 L_2 = any_frame * vec3(polar, sqrt(1.0 - vd.random.x));
         L = L_2;
-        float n_dot_l_2 = dot(N, L_2);
-        float pdf = max(n_dot_l_2, 0.0) / 3.1415927;
-        weight = vec3(reflection_throughput * (max(n_dot_l_2, 1e-8) * 0.31830987 * 0.18 / max(pdf, 1e-8))
+        float facing_dot_l_2 = dot(facing, L_2);
+        float pdf = max(facing_dot_l_2, 0.0) / 3.1415927;
+        weight = vec3(reflection_throughput * (max(facing_dot_l_2, 1e-8) * 0.31830987 * 0.18 / max(pdf, 1e-8))
             * (sum / diffuse_share));
         density = pdf * (diffuse_share / sum);
     }
@@ -208,16 +208,16 @@ void scatter()
     out3 = vec4(weight, density);
     out4 = vec4(medium, 0.0);
     vec3 fresnel = mx_fresnel_schlick(sqrt(clamp(dot(vd.viewWorld, vd.lightWorld.xyz) * 0.5 + 0.500001, 0.0, 1.0)));
-    mat3 frame = mx_frame(N, tangent);
-    float sum_2 = vd.lightWorld.w * (reflection_share / sum
+    mat3 frame = mx_frame(facing, tangent);
+    float both = vd.lightWorld.w * (reflection_share / sum
         * mx_ggx_pdf(shading_normal, tangent, vd.viewWorld, vd.lightWorld.xyz)) + 1.0;
-    vec3 balanced = fresnel * (ggx_compensation * mx_ggx_smith_lobe(frame, vd.viewWorld, vd.lightWorld.xyz)) / sum_2;
-    vec3 choice = shading_normal_dot_lobe_view * dot(shading_normal, vd.lightWorld.xyz) > 0.0 ? balanced : vec3(0.0);
-    float n_dot_l = dot(N, vd.lightWorld.xyz);
-    float sum_3 = vd.lightWorld.w * (diffuse_share / sum * (max(n_dot_l, 0.0) / 3.1415927)) + 1.0;
-    out5 = vec4(choice + reflection_throughput * (max(n_dot_l, 1e-8) * 0.31830987 * 0.18) / sum_3, 0.0);
+    vec3 balanced = fresnel * (ggx_compensation * mx_ggx_smith_lobe(frame, vd.viewWorld, vd.lightWorld.xyz)) / both;
+    vec3 response = shading_normal_dot_lobe_view * dot(shading_normal, vd.lightWorld.xyz) > 0.0 ? balanced : vec3(0.0);
+    float facing_dot_l = dot(facing, vd.lightWorld.xyz);
+    float both_2 = vd.lightWorld.w * (diffuse_share / sum * (max(facing_dot_l, 0.0) / 3.1415927)) + 1.0;
+    out5 = vec4(response + reflection_throughput * (max(facing_dot_l, 1e-8) * 0.31830987 * 0.18) / both_2, 0.0);
     float chance = fract(vd.random.w * 4096.0);
-    float sum_4 = 0.0;
+    float sum_2 = 0.0;
     vec3 light = vec3(0.0);
     vec3 L_3 = vec3(0.0);
     float distance_ = 0.0;
@@ -236,36 +236,36 @@ void scatter()
             vec3 to_light = normalize(d);
             L_4 = to_light;
             float magnitude_d = length(d);
-            float ratio = u_lightData[i].intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
+            float falloff = u_lightData[i].intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
             if (light_type == 2) {
-                intensity = ratio;
+                intensity = falloff;
                 distance_2 = magnitude_d;
             } else {
-                float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+                float edge = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
                 intensity = light_type == 3
-                    ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,
-                    -dot(u_lightData[i].direction, to_light)) * ratio : 0.0;
+                    ? smoothstep(edge, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light)) * falloff
+                    : 0.0;
                 distance_2 = magnitude_d;
             }
         }
         vec3 reflection_product_2 = ggx_compensation
             * mx_fresnel_schlick(sqrt(clamp(dot(vd.viewWorld, L_4) * 0.5 + 0.500001, 0.0, 1.0)));
         bool is_in_front = shading_normal_dot_lobe_view * dot(shading_normal, L_4) > 0.0;
-        vec3 product = reflection_product_2 * (is_in_front ? mx_ggx_smith_lobe(frame, vd.viewWorld, L_4) : 0.0);
-        vec3 sum_5 = product + reflection_throughput * (max(dot(N, L_4), 1e-8) * 0.31830987 * 0.18);
-        vec3 lit = u_lightData[i].color * intensity * sum_5;
+        vec3 response_2 = reflection_product_2 * (is_in_front ? mx_ggx_smith_lobe(frame, vd.viewWorld, L_4) : 0.0);
+        vec3 response_3 = response_2 + reflection_throughput * (max(dot(facing, L_4), 1e-8) * 0.31830987 * 0.18);
+        vec3 lit = u_lightData[i].color * intensity * response_3;
         float brightness = max(dot(lit, vec3(0.33333334)), 0.0);
-        sum_4 += brightness;
-        if (sum_4 * chance < brightness) {
+        sum_2 += brightness;
+        if (sum_2 * chance < brightness) {
             L_3 = L_4;
             distance_ = distance_2;
             light = lit / brightness;
         }
         if (brightness > 0.0) {
-            float ratio = (sum_4 * chance - brightness) / (sum_4 - brightness);
-            chance = sum_4 * chance < brightness ? sum_4 * chance / brightness : ratio;
+            float ratio = (sum_2 * chance - brightness) / (sum_2 - brightness);
+            chance = sum_2 * chance < brightness ? sum_2 * chance / brightness : ratio;
         }
     }
     out6 = vec4(L_3, distance_);
-    out7 = vec4(sum_4 * light, 0.0);
+    out7 = vec4(sum_2 * light, 0.0);
 }

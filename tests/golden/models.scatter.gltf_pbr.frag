@@ -190,12 +190,12 @@ void scatter()
     out4 = vec4(medium, 0.0);
     vec3 fresnel = mx_fresnel_schlick(sqrt(clamp(dot(vd.viewWorld, vd.lightWorld.xyz) * 0.5 + 0.500001, 0.0, 1.0)));
     mat3 frame = mx_frame(faceforward(axis, -vd.viewWorld, axis), specular_tangent);
-    float sum = vd.lightWorld.w * (scaled_metal_bare_share
+    float both = vd.lightWorld.w * (scaled_metal_bare_share
         * mx_ggx_pdf(axis, specular_tangent, vd.viewWorld, vd.lightWorld.xyz)) + 1.0;
-    vec3 balanced = fresnel * (ggx_compensation * mx_ggx_smith_lobe(frame, vd.viewWorld, vd.lightWorld.xyz)) / sum;
+    vec3 balanced = fresnel * (ggx_compensation * mx_ggx_smith_lobe(frame, vd.viewWorld, vd.lightWorld.xyz)) / both;
     out5 = vec4(axis_dot_lobe_view * dot(axis, vd.lightWorld.xyz) > 0.0 ? balanced : vec3(0.0), 0.0);
     float chance = fract(vd.random.w * 4096.0);
-    float sum_2 = 0.0;
+    float sum = 0.0;
     vec3 light = vec3(0.0);
     vec3 L_2 = vec3(0.0);
     float distance_ = 0.0;
@@ -214,35 +214,35 @@ void scatter()
             vec3 to_light = normalize(d);
             L_3 = to_light;
             float magnitude_d = length(d);
-            float ratio = u_lightData[i].intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
+            float falloff = u_lightData[i].intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
             if (light_type == 2) {
-                intensity = ratio;
+                intensity = falloff;
                 distance_2 = magnitude_d;
             } else {
-                float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+                float edge = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
                 intensity = light_type == 3
-                    ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,
-                    -dot(u_lightData[i].direction, to_light)) * ratio : 0.0;
+                    ? smoothstep(edge, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light)) * falloff
+                    : 0.0;
                 distance_2 = magnitude_d;
             }
         }
         vec3 metal_bare_product = ggx_compensation
             * mx_fresnel_schlick(sqrt(clamp(dot(vd.viewWorld, L_3) * 0.5 + 0.500001, 0.0, 1.0)));
         bool is_in_front = axis_dot_lobe_view * dot(axis, L_3) > 0.0;
-        vec3 product = metal_bare_product * (is_in_front ? mx_ggx_smith_lobe(frame, vd.viewWorld, L_3) : 0.0);
-        vec3 lit = u_lightData[i].color * intensity * product;
+        vec3 response = metal_bare_product * (is_in_front ? mx_ggx_smith_lobe(frame, vd.viewWorld, L_3) : 0.0);
+        vec3 lit = u_lightData[i].color * intensity * response;
         float brightness = max(dot(lit, vec3(0.33333334)), 0.0);
-        sum_2 += brightness;
-        if (sum_2 * chance < brightness) {
+        sum += brightness;
+        if (sum * chance < brightness) {
             L_2 = L_3;
             distance_ = distance_2;
             light = lit / brightness;
         }
         if (brightness > 0.0) {
-            float ratio = (sum_2 * chance - brightness) / (sum_2 - brightness);
-            chance = sum_2 * chance < brightness ? sum_2 * chance / brightness : ratio;
+            float ratio = (sum * chance - brightness) / (sum - brightness);
+            chance = sum * chance < brightness ? sum * chance / brightness : ratio;
         }
     }
     out6 = vec4(L_2, distance_);
-    out7 = vec4(sum_2 * light, 0.0);
+    out7 = vec4(sum * light, 0.0);
 }

@@ -212,15 +212,15 @@ void scatter()
         density = is_in_front ? reflection_bare_pdf * (reflection_bare_share / sum) : 0.0;
     }
     pick -= reflection_bare_share;
-    vec3 N_2 = faceforward(N, -vd.viewWorld, N);
+    vec3 facing = faceforward(N, -vd.viewWorld, N);
     if (pick >= 0.0 && pick < diffuse_share) {
-        mat3 any_frame = mx_frame(N_2, abs(N_2.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0));
-        vec2 diffuse_product = sqrt(vd.random.x) * cos((vd.random.y - vec2(0.0, 0.25)) * 6.2831855);
-        vec3 L_2 = any_frame * vec3(diffuse_product, sqrt(1.0 - vd.random.x));
+        mat3 any_frame = mx_frame(facing, abs(facing.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0));
+        vec2 polar = sqrt(vd.random.x) * cos((vd.random.y - vec2(0.0, 0.25)) * 6.2831855);
+        vec3 L_2 = any_frame * vec3(polar, sqrt(1.0 - vd.random.x));
         L = L_2;
-        float n_2_dot_l_2 = dot(N_2, L_2);
-        float pdf = max(n_2_dot_l_2, 0.0) / 3.1415927;
-        weight = vec3((1.0 - dielectric_bsdf_albedo) * (max(n_2_dot_l_2, 1e-8) * 0.31830987 * 0.8 / max(pdf, 1e-8))
+        float facing_dot_l_2 = dot(facing, L_2);
+        float pdf = max(facing_dot_l_2, 0.0) / 3.1415927;
+        weight = vec3((1.0 - dielectric_bsdf_albedo) * (max(facing_dot_l_2, 1e-8) * 0.31830987 * 0.8 / max(pdf, 1e-8))
             * (sum / diffuse_share));
         density = pdf * (diffuse_share / sum);
     }
@@ -232,16 +232,16 @@ void scatter()
     float reflection_bare_product = ggx_compensation
         * mx_fresnel_permittivity(sqrt(clamp(dot(vd.viewWorld, vd.lightWorld.xyz) * 0.5 + 0.500001, 0.0, 1.0)),
         scaled_eta);
-    mat3 frame = mx_frame(N_2, X);
-    float sum_2 = vd.lightWorld.w * (reflection_bare_share / sum
+    mat3 frame = mx_frame(facing, X);
+    float both = vd.lightWorld.w * (reflection_bare_share / sum
         * mx_ggx_pdf(N, X, vd.viewWorld, vd.lightWorld.xyz, eta)) + 1.0;
-    vec3 balanced = vec3(reflection_bare_product * mx_ggx_smith_lobe(frame, vd.viewWorld, vd.lightWorld.xyz) / sum_2);
-    float n_2_dot_l = dot(N_2, vd.lightWorld.xyz);
-    float sum_3 = vd.lightWorld.w * (diffuse_share / sum * (max(n_2_dot_l, 0.0) / 3.1415927)) + 1.0;
-    float balanced_2 = (1.0 - dielectric_bsdf_albedo) * (max(n_2_dot_l, 1e-8) * 0.31830987 * 0.8) / sum_3;
+    vec3 balanced = vec3(reflection_bare_product * mx_ggx_smith_lobe(frame, vd.viewWorld, vd.lightWorld.xyz) / both);
+    float facing_dot_l = dot(facing, vd.lightWorld.xyz);
+    float both_2 = vd.lightWorld.w * (diffuse_share / sum * (max(facing_dot_l, 0.0) / 3.1415927)) + 1.0;
+    float balanced_2 = (1.0 - dielectric_bsdf_albedo) * (max(facing_dot_l, 1e-8) * 0.31830987 * 0.8) / both_2;
     out5 = vec4((n_dot_lobe_view * dot(N, vd.lightWorld.xyz) > 0.0 ? balanced : vec3(0.0)) + balanced_2, 0.0);
     float chance = fract(vd.random.w * 4096.0);
-    float sum_4 = 0.0;
+    float sum_2 = 0.0;
     vec3 light = vec3(0.0);
     vec3 L_3 = vec3(0.0);
     float distance_ = 0.0;
@@ -260,36 +260,36 @@ void scatter()
             vec3 to_light = normalize(d);
             L_4 = to_light;
             float magnitude_d = length(d);
-            float ratio = u_lightData[i].intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
+            float falloff = u_lightData[i].intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
             if (light_type == 2) {
-                intensity = ratio;
+                intensity = falloff;
                 distance_2 = magnitude_d;
             } else {
-                float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+                float edge = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
                 intensity = light_type == 3
-                    ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,
-                    -dot(u_lightData[i].direction, to_light)) * ratio : 0.0;
+                    ? smoothstep(edge, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light)) * falloff
+                    : 0.0;
                 distance_2 = magnitude_d;
             }
         }
         float reflection_bare_product_2 = ggx_compensation
             * mx_fresnel_permittivity(sqrt(clamp(dot(vd.viewWorld, L_4) * 0.5 + 0.500001, 0.0, 1.0)), scaled_eta);
         vec3 dielectric_bsdf_eval = vec3(reflection_bare_product_2 * mx_ggx_smith_lobe(frame, vd.viewWorld, L_4));
-        float product = (1.0 - dielectric_bsdf_albedo) * (max(dot(N_2, L_4), 1e-8) * 0.31830987 * 0.8);
-        vec3 sum_5 = (n_dot_lobe_view * dot(N, L_4) > 0.0 ? dielectric_bsdf_eval : vec3(0.0)) + product;
-        vec3 lit = u_lightData[i].color * intensity * sum_5;
+        float product = (1.0 - dielectric_bsdf_albedo) * (max(dot(facing, L_4), 1e-8) * 0.31830987 * 0.8);
+        vec3 response = (n_dot_lobe_view * dot(N, L_4) > 0.0 ? dielectric_bsdf_eval : vec3(0.0)) + product;
+        vec3 lit = u_lightData[i].color * intensity * response;
         float brightness = max(dot(lit, vec3(0.33333334)), 0.0);
-        sum_4 += brightness;
-        if (sum_4 * chance < brightness) {
+        sum_2 += brightness;
+        if (sum_2 * chance < brightness) {
             L_3 = L_4;
             distance_ = distance_2;
             light = lit / brightness;
         }
         if (brightness > 0.0) {
-            float ratio = (sum_4 * chance - brightness) / (sum_4 - brightness);
-            chance = sum_4 * chance < brightness ? sum_4 * chance / brightness : ratio;
+            float ratio = (sum_2 * chance - brightness) / (sum_2 - brightness);
+            chance = sum_2 * chance < brightness ? sum_2 * chance / brightness : ratio;
         }
     }
     out6 = vec4(L_3, distance_);
-    out7 = vec4(sum_4 * light, 0.0);
+    out7 = vec4(sum_2 * light, 0.0);
 }

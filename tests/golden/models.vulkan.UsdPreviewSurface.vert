@@ -30,7 +30,7 @@ void main()
     vec3 direction_2 = normalize((u_worldMatrix * vec4(i_tangent, 0.0)).xyz);
     vd.tangentWorld = direction_2;
     vd.bitangentWorld = cross(direction, direction_2);
-    vec4 positionWorld_product = u_worldMatrix * vec4(i_position, 1.0);
-    vd.positionWorld = positionWorld_product.xyz;
-    gl_Position = u_viewProjectionMatrix * positionWorld_product;
+    vec4 positionWorld = u_worldMatrix * vec4(i_position, 1.0);
+    vd.positionWorld = positionWorld.xyz;
+    gl_Position = u_viewProjectionMatrix * positionWorld;
 }

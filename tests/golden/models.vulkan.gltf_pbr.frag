@@ -422,14 +422,14 @@ void main()
     vec2 alpha = clamp(specular_roughness, 1e-8, 1.0);
     float cos_v = max(abs(dot(N, V)), 1e-8);
     vec2 albedo = mx_ggx_albedo_fit(sqrt(alpha.x * alpha.y), cos_v);
-    vec3 product = mix(fresnel_f0, f90, albedo.y) * albedo.x;
-    float difference = 1.0 / albedo.x - 1.0;
-    vec3 reflection_scale = difference * mix(fresnel_f0, f90, 0.04761905) + vec3(1.0);
-    float reflection_throughput = 1.0 - dot(product * reflection_scale, vec3(0.33333334));
+    vec3 single = mix(fresnel_f0, f90, albedo.y) * albedo.x;
+    float lost = 1.0 / albedo.x - 1.0;
+    vec3 reflection_scale = lost * mix(fresnel_f0, f90, 0.04761905) + vec3(1.0);
+    float reflection_throughput = 1.0 - dot(single * reflection_scale, vec3(0.33333334));
     float iridescence_thickness = SR_gltf_pbr_iridescence_thickness;
     float iridescence_ior = SR_gltf_pbr_iridescence_ior;
     vec3 reflection_film_scale = mix(mx_fresnel_facing(fresnel_f0, iridescence_thickness, iridescence_ior), f90,
-        0.04761905) * difference + vec3(1.0);
+        0.04761905) * lost + vec3(1.0);
     float clamped_iridescence = clamp(SR_gltf_pbr_iridescence, 0.0, 1.0);
     float coating_weight = clamp(SR_gltf_pbr_clearcoat, 0.0, 1.0);
     float coat_lobe = clamp(SR_gltf_pbr_clearcoat_roughness * SR_gltf_pbr_clearcoat_roughness, 1e-8, 1.0);
@@ -444,31 +444,31 @@ void main()
         4.0691, -17.882, 25.6639, -12.0167, -0.5833, 2.6552, -3.9393, 1.8999), 1.0 / (cos_v + 1.0), 1.0
         / (sheen_rough + 0.2)), 0.0, 1.0);
     float substrate_weight = coating_throughput * (1.0 - fuzz_weight * sheen_albedo);
-    float body_weight = mix(reflection_throughput, 1.0 - dot(product * reflection_film_scale, vec3(0.33333334)),
+    float body_weight = mix(reflection_throughput, 1.0 - dot(single * reflection_film_scale, vec3(0.33333334)),
         clamped_iridescence) * substrate_weight;
     float metal_weight = clamp(SR_gltf_pbr_metallic, 0.0, 1.0);
     float clamped_transmission = clamp(SR_gltf_pbr_transmission, 0.0, 1.0);
     float diffuse_weight = (1.0 - metal_weight) * (1.0 - clamped_transmission);
-    vec3 diffuse_product = SR_gltf_pbr_base_color * (body_weight * diffuse_weight * 0.31830987);
+    vec3 diffuse_factor = SR_gltf_pbr_base_color * (body_weight * diffuse_weight * 0.31830987);
     float ggx_masking = sqrt(coat_lobe * coat_lobe + (1.0 - coat_lobe * coat_lobe) * (cos_v * cos_v));
     mx_GgxLobe coating_ggx_lobe = mx_GgxLobe(Nf, cos_v, vec3(0.0), vec2(coat_lobe), ggx_masking);
     float s = 1.0 / max(sheen_rough, 0.005);
-    vec3 fuzz_product = SR_gltf_pbr_sheen_color / sheen_weight * (fuzz_weight * coating_throughput);
+    vec3 fuzz_factor = SR_gltf_pbr_sheen_color / sheen_weight * (fuzz_weight * coating_throughput);
     bool metal_film_visible = clamped_iridescence * metal_weight > 0.0;
     vec3 fresnel_facing = max(SR_gltf_pbr_base_color, 0.0);
-    vec3 metal_film_scale = difference * mix(mx_fresnel_facing(fresnel_facing, iridescence_thickness, iridescence_ior),
+    vec3 metal_film_scale = lost * mix(mx_fresnel_facing(fresnel_facing, iridescence_thickness, iridescence_ior),
         vec3(1.0), 0.04761905) + vec3(1.0);
-    vec3 metal_film_product = metal_film_scale * (substrate_weight * (clamped_iridescence * metal_weight));
+    vec3 metal_film_factor = metal_film_scale * (substrate_weight * (clamped_iridescence * metal_weight));
     vec3 specular_tangent = mx_rotate3d(normalize(vd.tangentWorld),
         radians(SR_gltf_pbr_anisotropy_rotation * -57.29578), N);
     mx_GgxLobe lobe = mx_ggx_lobe(specular_roughness, N, specular_tangent, V);
     float metal_bare_weight = metal_weight * (1.0 - clamped_iridescence);
-    vec3 metal_bare_product = (difference * mix(fresnel_facing, vec3(1.0), 0.04761905) + vec3(1.0))
+    vec3 metal_bare_factor = (lost * mix(fresnel_facing, vec3(1.0), 0.04761905) + vec3(1.0))
         * (substrate_weight * metal_bare_weight);
     float reflection_film_weight = clamped_iridescence * (1.0 - metal_weight);
-    vec3 reflection_film_product = reflection_film_scale * (substrate_weight * reflection_film_weight);
+    vec3 reflection_film_factor = reflection_film_scale * (substrate_weight * reflection_film_weight);
     float reflection_weight = (1.0 - metal_weight) * (1.0 - clamped_iridescence);
-    vec3 reflection_product = reflection_scale * (substrate_weight * reflection_weight);
+    vec3 reflection_factor = reflection_scale * (substrate_weight * reflection_weight);
     // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         vec3 L;
@@ -481,62 +481,60 @@ void main()
             vec3 d = u_lightData[i].position - vd.positionWorld;
             vec3 to_light = normalize(d);
             L = to_light;
-            float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+            float falloff = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
             if (light_type == 2) {
-                intensity = ratio;
+                intensity = falloff;
             } else {
-                float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+                float edge = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
                 intensity = light_type == 3
-                    ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,
-                    -dot(u_lightData[i].direction, to_light)) * ratio : 0.0;
+                    ? smoothstep(edge, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light)) * falloff
+                    : 0.0;
             }
         }
         // diffuse
         vec3 light_color = u_lightData[i].color;
         float l_dot_nf = dot(L, Nf);
         float cos_l = max(l_dot_nf, 1e-8);
-        color += light_color * (intensity * (cos_l * diffuse_product));
+        color += light_color * (intensity * (cos_l * diffuse_factor));
         // coating
         float v_dot_l = dot(V, L);
-        float cosine = sqrt(clamp(v_dot_l * 0.5 + 0.500001, 0.0, 1.0));
+        float half_cosine = sqrt(clamp(v_dot_l * 0.5 + 0.500001, 0.0, 1.0));
         if (coating_weight > 0.0) {
-            float coating_product = mx_fresnel_permittivity(cosine, 2.25) * (coating_weight * coating_scale);
+            float coating_product = mx_fresnel_permittivity(half_cosine, 2.25) * (coating_weight * coating_scale);
             color += light_color * (intensity * (mx_ggx_light(coating_ggx_lobe, V, L) * coating_product));
         }
         // fuzz
         if (fuzz_weight > 0.0) {
             float scaled_along = (cos_v + l_dot_nf) * (cos_v + l_dot_nf);
-            float fuzz_product_2 = cos_l
-                * ((s + 2.0) * pow(clamp(1.0 - scaled_along / max(v_dot_l * 2.0 + 2.0, 1e-8), 0.0, 1.0), s * 0.5)
-                / 6.2831855);
-            color += light_color * (intensity
-                * (fuzz_product_2 / ((cos_v + cos_l - cos_v * cos_l) * 4.0) * fuzz_product));
+            float fuzz_product = cos_l * ((s + 2.0)
+                * pow(clamp(1.0 - scaled_along / max(v_dot_l * 2.0 + 2.0, 1e-8), 0.0, 1.0), s * 0.5) / 6.2831855);
+            color += light_color * (intensity * (fuzz_product / ((cos_v + cos_l - cos_v * cos_l) * 4.0) * fuzz_factor));
         }
         // metal_film
         float ggx_light = mx_ggx_light_2(lobe, V, L);
         if (metal_film_visible)
             color += light_color * (intensity
-                * (metal_film_product * (mx_fresnel(cosine, fresnel_facing, vec3(1.0), iridescence_thickness,
+                * (metal_film_factor * (mx_fresnel(half_cosine, fresnel_facing, vec3(1.0), iridescence_thickness,
                 iridescence_ior) * ggx_light)));
         // metal_bare
         if (metal_bare_weight > 0.0)
             color += light_color * (intensity
-                * (metal_bare_product * (ggx_light * mx_fresnel_schlick(cosine, fresnel_facing, vec3(1.0)))));
+                * (metal_bare_factor * (ggx_light * mx_fresnel_schlick(half_cosine, fresnel_facing, vec3(1.0)))));
         // reflection_film
         if (reflection_film_weight > 0.0)
             color += light_color * (intensity
-                * (reflection_film_product
-                * (ggx_light * mx_fresnel(cosine, fresnel_f0, f90, iridescence_thickness, iridescence_ior))));
+                * (reflection_film_factor
+                * (ggx_light * mx_fresnel(half_cosine, fresnel_f0, f90, iridescence_thickness, iridescence_ior))));
         // reflection
         if (reflection_weight > 0.0)
             color += light_color * (intensity
-                * (reflection_product * (ggx_light * mx_fresnel_schlick(cosine, fresnel_f0, f90))));
+                * (reflection_factor * (ggx_light * mx_fresnel_schlick(half_cosine, fresnel_f0, f90))));
     }
     // environment: fuzz
     vec3 part = textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * Nf)), 0.0).xyz;
     if (fuzz_weight > 0.0) {
-        float fuzz_product_3 = u_envLightIntensity * (sheen_albedo * (fuzz_weight * coating_throughput));
-        color += SR_gltf_pbr_sheen_color / sheen_weight * part * fuzz_product_3;
+        float fuzz_product = u_envLightIntensity * (sheen_albedo * (fuzz_weight * coating_throughput));
+        color += SR_gltf_pbr_sheen_color / sheen_weight * part * fuzz_product;
     }
     // environment: diffuse
     if (diffuse_weight > 0.0)
@@ -547,9 +545,10 @@ void main()
         int coating_count = mx_sample_count(vec2(coat_lobe));
         mx_GgxSamples coating_ggx_samples = mx_ggx_samples(vec2(coat_lobe), coating_count, N, V);
         for (int i = 0; i < coating_count; ++i) {
-            mx_GgxLight light = mx_ggx_reflected(coating_ggx_samples, i, turn);
-            color += light.color * (mx_fresnel_permittivity(light.cosine, 2.25)
-                * (coating_weight * coating_scale * light.weight));
+            mx_GgxLight coating_light = mx_ggx_reflected(coating_ggx_samples, i, turn);
+            color += coating_light.color
+                * (mx_fresnel_permittivity(coating_light.cosine, 2.25)
+                * (coating_weight * coating_scale * coating_light.weight));
             turn = vec2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
         }
     }
@@ -560,46 +559,36 @@ void main()
         if (iridescence_thickness > 0.0) {
             vec2 turn = vec2(1.0, 0.0);
             for (int i = 0; i < count; ++i) {
-                mx_GgxLight metal_film_ggx_reflected = mx_ggx_reflected(samples, i, turn);
+                mx_GgxLight light = mx_ggx_reflected(samples, i, turn);
                 if (metal_film_visible)
-                    color += metal_film_product
-                        * (metal_film_ggx_reflected.color
-                        * (metal_film_ggx_reflected.weight
-                        * mx_film_schlick(metal_film_ggx_reflected.cosine, fresnel_facing, vec3(1.0),
-                        iridescence_thickness, iridescence_ior)));
-                if (metal_bare_weight > 0.0)
-                    color += metal_bare_product
-                        * (metal_film_ggx_reflected.color
-                        * (metal_film_ggx_reflected.weight
-                        * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_facing, vec3(1.0))));
-                if (reflection_film_weight > 0.0)
-                    color += reflection_film_product
-                        * (metal_film_ggx_reflected.color
-                        * (metal_film_ggx_reflected.weight
-                        * mx_film_schlick(metal_film_ggx_reflected.cosine, fresnel_f0, f90, iridescence_thickness,
+                    color += metal_film_factor
+                        * (light.color * (light.weight
+                        * mx_film_schlick(light.cosine, fresnel_facing, vec3(1.0), iridescence_thickness,
                         iridescence_ior)));
+                if (metal_bare_weight > 0.0)
+                    color += metal_bare_factor
+                        * (light.color * (light.weight * mx_fresnel_schlick(light.cosine, fresnel_facing, vec3(1.0))));
+                if (reflection_film_weight > 0.0)
+                    color += reflection_film_factor
+                        * (light.color * (light.weight
+                        * mx_film_schlick(light.cosine, fresnel_f0, f90, iridescence_thickness, iridescence_ior)));
                 if (reflection_weight > 0.0)
-                    color += reflection_product
-                        * (metal_film_ggx_reflected.color
-                        * (metal_film_ggx_reflected.weight
-                        * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_f0, f90)));
+                    color += reflection_factor
+                        * (light.color * (light.weight * mx_fresnel_schlick(light.cosine, fresnel_f0, f90)));
                 turn = vec2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
             }
         } else {
             vec2 turn = vec2(1.0, 0.0);
             for (int i = 0; i < count; ++i) {
-                mx_GgxLight metal_film_ggx_reflected = mx_ggx_reflected(samples, i, turn);
-                vec3 metal_bare_product_2 = metal_film_ggx_reflected.color
-                    * (metal_film_ggx_reflected.weight
-                    * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_facing, vec3(1.0)));
-                color += metal_bare_product * metal_bare_product_2 + metal_film_product * metal_bare_product_2;
-                vec3 reflection_product_2 = metal_film_ggx_reflected.color
-                    * (metal_film_ggx_reflected.weight
-                    * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_f0, f90));
+                mx_GgxLight light = mx_ggx_reflected(samples, i, turn);
+                vec3 product = light.color
+                    * (light.weight * mx_fresnel_schlick(light.cosine, fresnel_facing, vec3(1.0)));
+                color += metal_bare_factor * product + metal_film_factor * product;
+                vec3 product_2 = light.color * (light.weight * mx_fresnel_schlick(light.cosine, fresnel_f0, f90));
                 if (reflection_film_weight > 0.0)
-                    color += reflection_film_product * reflection_product_2;
+                    color += reflection_film_factor * product_2;
                 if (reflection_weight > 0.0)
-                    color += reflection_product * reflection_product_2;
+                    color += reflection_factor * product_2;
                 turn = vec2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
             }
         }
@@ -608,13 +597,12 @@ void main()
     float refraction_weight = clamped_transmission * (1.0 - metal_weight);
     if (refraction_weight > 0.0) {
         vec2 turn = vec2(1.0, 0.0);
-        vec3 refraction_product = fresnel_facing * (u_refractionTwoSided ? fresnel_facing : vec3(1.0))
+        vec3 refraction_factor = fresnel_facing * (u_refractionTwoSided ? fresnel_facing : vec3(1.0))
             * (body_weight * refraction_weight);
         for (int i = 0; i < count; ++i) {
-            mx_GgxLight refraction_ggx_transmitted = mx_ggx_transmitted(samples, ior, i, turn);
-            color += refraction_product * (refraction_ggx_transmitted.color
-                * (refraction_ggx_transmitted.weight
-                * (1.0 - mx_fresnel_permittivity(refraction_ggx_transmitted.cosine, ior * ior))));
+            mx_GgxLight refraction_light = mx_ggx_transmitted(samples, ior, i, turn);
+            color += refraction_factor * (refraction_light.color
+                * (refraction_light.weight * (1.0 - mx_fresnel_permittivity(refraction_light.cosine, ior * ior))));
             turn = vec2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
         }
     }

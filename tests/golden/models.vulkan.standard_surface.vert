@@ -27,7 +27,7 @@ void main()
 {
     vd.normalWorld = normalize((u_worldInverseTransposeMatrix * vec4(i_normal, 0.0)).xyz);
     vd.tangentWorld = normalize((u_worldMatrix * vec4(i_tangent, 0.0)).xyz);
-    vec4 positionWorld_product = u_worldMatrix * vec4(i_position, 1.0);
-    vd.positionWorld = positionWorld_product.xyz;
-    gl_Position = u_viewProjectionMatrix * positionWorld_product;
+    vec4 positionWorld = u_worldMatrix * vec4(i_position, 1.0);
+    vd.positionWorld = positionWorld.xyz;
+    gl_Position = u_viewProjectionMatrix * positionWorld;
 }

@@ -316,7 +316,7 @@ fn main(vd: VertexData) -> @location(0) vec4f
     let shading_normal: vec3f = mx_normalmap(u_pub.SR_UsdPreviewSurface_normal * 0.5 + vec3f(0.5),
         normalize(vd.normalWorld), normalize(vd.tangentWorld), normalize(vd.bitangentWorld));
     let V: vec3f = normalize(u_prv.u_viewPosition - vd.positionWorld);
-    let N: vec3f = faceForward(shading_normal, -V, shading_normal);
+    let facing: vec3f = faceForward(shading_normal, -V, shading_normal);
     let diffuseColor: vec3f = u_pub.SR_UsdPreviewSurface_diffuseColor;
     let coating_weight: f32 = clamp(u_pub.SR_UsdPreviewSurface_clearcoat, 0.0, 1.0);
     let ior: f32 = u_pub.SR_UsdPreviewSurface_ior;
@@ -339,8 +339,8 @@ fn main(vd: VertexData) -> @location(0) vec4f
     let specular_roughness: f32 = clamp(u_pub.SR_UsdPreviewSurface_roughness * u_pub.SR_UsdPreviewSurface_roughness,
         1e-8, 1.0);
     let albedo: vec2f = mx_ggx_albedo_fit(specular_roughness, cos_v);
-    let difference: f32 = 1.0 / albedo.x - 1.0;
-    let reflection_scale: vec3f = mix(reflection_fresnel_f0, f90, 0.04761905) * difference + vec3f(1.0);
+    let lost: f32 = 1.0 / albedo.x - 1.0;
+    let reflection_scale: vec3f = mix(reflection_fresnel_f0, f90, 0.04761905) * lost + vec3f(1.0);
     let body_weight: f32 = coating_throughput
         * (1.0 - dot(mix(reflection_fresnel_f0, f90, albedo.y) * albedo.x * reflection_scale, vec3f(0.33333334)));
     let metal_weight: f32 = select(u_pub.SR_UsdPreviewSurface_metallic, 0.0, is_equal_useSpecularWorkflow);
@@ -351,22 +351,23 @@ fn main(vd: VertexData) -> @location(0) vec4f
     let substrate_metal_weight: f32 = clamp(metal_weight, 0.0, 1.0);
     let diffuse_weight: f32 = clamp(1.0 - metal_weight, 0.0, 1.0)
         * (clamped_opaque_weight * (1.0 - substrate_metal_weight));
-    let diffuse_product: vec3f = diffuseColor * (body_weight * diffuse_weight * 0.31830987);
+    let diffuse_factor: vec3f = diffuseColor * (body_weight * diffuse_weight * 0.31830987);
     let coating_ggx_masking: f32 = sqrt(coat_roughness * coat_roughness + (1.0 - coat_roughness * coat_roughness)
         * (cos_v * cos_v));
-    let coating_ggx_lobe: mx_GgxLobe = mx_GgxLobe(N, cos_v, vec3f(0.0), vec2f(coat_roughness), coating_ggx_masking);
+    let coating_ggx_lobe: mx_GgxLobe = mx_GgxLobe(facing, cos_v, vec3f(0.0), vec2f(coat_roughness),
+        coating_ggx_masking);
     var metal_ior: vec3f;
     var metal_extinction: vec3f;
     mx_artistic_ior(diffuseColor, diffuseColor, &metal_ior, &metal_extinction);
     let re: vec3f = metal_ior * metal_ior - metal_extinction * metal_extinction;
     let im: vec3f = metal_extinction * (metal_ior * 2.0);
-    let metal_product: vec3f = (difference * mix(mx_fresnel_conductor_2(1.0, re, im), vec3f(1.0), 0.04761905)
-        + vec3f(1.0)) * (substrate_metal_weight * coating_throughput);
+    let metal_factor: vec3f = (lost * mix(mx_fresnel_conductor_2(1.0, re, im), vec3f(1.0), 0.04761905) + vec3f(1.0))
+        * (substrate_metal_weight * coating_throughput);
     let ggx_masking: f32 = sqrt(specular_roughness * specular_roughness + cos_v * cos_v
         * (1.0 - specular_roughness * specular_roughness));
-    let ggx_lobe: mx_GgxLobe = mx_GgxLobe(N, cos_v, vec3f(0.0), vec2f(specular_roughness), ggx_masking);
+    let ggx_lobe: mx_GgxLobe = mx_GgxLobe(facing, cos_v, vec3f(0.0), vec2f(specular_roughness), ggx_masking);
     let reflection_visible: bool = 1.0 - substrate_metal_weight > 0.0;
-    let reflection_product: vec3f = reflection_scale * (coating_throughput * (1.0 - substrate_metal_weight));
+    let reflection_factor: vec3f = reflection_scale * (coating_throughput * (1.0 - substrate_metal_weight));
     // from the last light, so that drivers do not unroll the loop
     for (var i: i32 = min(u_prv.u_numActiveLightSources, 3) - 1; i >= 0; i--) {
         var L: vec3f;
@@ -379,42 +380,43 @@ fn main(vd: VertexData) -> @location(0) vec4f
             let d: vec3f = u_lightData[i].position - vd.positionWorld;
             let to_light: vec3f = normalize(d);
             L = to_light;
-            let ratio: f32 = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+            let falloff: f32 = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
             if (light_type_ == 2) {
-                intensity = ratio;
+                intensity = falloff;
             } else {
-                let spot_light_difference: f32 = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
-                intensity = select(0.0, smoothstep(spot_light_difference, u_lightData[i].inner_angle,
-                    -dot(u_lightData[i].direction, to_light)) * ratio, light_type_ == 3);
+                let edge: f32 = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+                intensity = select(0.0, smoothstep(edge, u_lightData[i].inner_angle,
+                    -dot(u_lightData[i].direction, to_light)) * falloff, light_type_ == 3);
             }
         }
         // diffuse
         let light_color: vec3f = u_lightData[i].color;
-        color += light_color * (intensity * (max(dot(L, N), 1e-8) * diffuse_product));
+        color += light_color * (intensity * (max(dot(L, facing), 1e-8) * diffuse_factor));
         // coating
-        let cosine: f32 = sqrt(clamp(dot(V, L) * 0.5 + 0.500001, 0.0, 1.0));
+        let half_cosine: f32 = sqrt(clamp(dot(V, L) * 0.5 + 0.500001, 0.0, 1.0));
         if (coating_weight > 0.0) {
             let coating_product: f32 = mx_ggx_light(coating_ggx_lobe, V, L) * (coating_weight * coating_scale);
             color += light_color * (intensity
-                * (mx_fresnel_schlick(cosine, vec3f(coating_fresnel_f0), vec3f(1.0)) * coating_product));
+                * (mx_fresnel_schlick(half_cosine, vec3f(coating_fresnel_f0), vec3f(1.0)) * coating_product));
         }
         // metal
         let ggx_light: f32 = mx_ggx_light(ggx_lobe, V, L);
         if (substrate_metal_weight > 0.0) {
-            color += light_color * (intensity * (metal_product * (mx_fresnel_conductor_2(cosine, re, im) * ggx_light)));
+            color += light_color * (intensity
+                * (metal_factor * (mx_fresnel_conductor_2(half_cosine, re, im) * ggx_light)));
         }
         // reflection
         if (reflection_visible) {
             color += light_color * (intensity
-                * (reflection_product * (ggx_light * mx_fresnel_schlick(cosine, reflection_fresnel_f0, f90))));
+                * (reflection_factor * (ggx_light * mx_fresnel_schlick(half_cosine, reflection_fresnel_f0, f90))));
         }
     }
     // environment: diffuse
     if (diffuse_weight > 0.0) {
-        let diffuse_product_2: vec3f = diffuseColor
+        let diffuse_product: vec3f = diffuseColor
             * textureSampleLevel(u_envIrradiance, u_envIrradiance_sampler,
-            mx_map_point(normalize(wgsl_mat3x3f_of_mat4x4f(u_prv.u_envMatrix) * N)), 0.0).xyz;
-        color += diffuse_product_2 * (body_weight * diffuse_weight * u_prv.u_envLightIntensity);
+            mx_map_point(normalize(wgsl_mat3x3f_of_mat4x4f(u_prv.u_envMatrix) * facing)), 0.0).xyz;
+        color += diffuse_product * (body_weight * diffuse_weight * u_prv.u_envLightIntensity);
     }
     // environment: refraction
     let refraction_weight: f32 = (1.0 - substrate_metal_weight) * (1.0 - clamped_opaque_weight);
@@ -442,16 +444,13 @@ fn main(vd: VertexData) -> @location(0) vec4f
         let count: i32 = mx_sample_count(vec2f(specular_roughness));
         let ggx_samples: mx_GgxSamples = mx_ggx_samples(vec2f(specular_roughness), count, shading_normal, V);
         for (var i: i32 = 0; i < count; i++) {
-            let metal_ggx_reflected: mx_GgxLight = mx_ggx_reflected(ggx_samples, i, turn);
+            let light: mx_GgxLight = mx_ggx_reflected(ggx_samples, i, turn);
             if (substrate_metal_weight > 0.0) {
-                color += metal_product * (metal_ggx_reflected.color
-                    * (metal_ggx_reflected.weight * mx_fresnel_conductor_2(metal_ggx_reflected.cosine, re, im)));
+                color += metal_factor * (light.color * (light.weight * mx_fresnel_conductor_2(light.cosine, re, im)));
             }
             if (reflection_visible) {
-                color += reflection_product
-                    * (metal_ggx_reflected.color
-                    * (metal_ggx_reflected.weight
-                    * mx_fresnel_schlick(metal_ggx_reflected.cosine, reflection_fresnel_f0, f90)));
+                color += reflection_factor
+                    * (light.color * (light.weight * mx_fresnel_schlick(light.cosine, reflection_fresnel_f0, f90)));
             }
             turn = vec2f(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
         }

@@ -440,14 +440,14 @@ fn main(vd: VertexData) -> @location(0) vec4f
     let alpha: vec2f = clamp(specular_roughness, vec2f(1e-8), vec2f(1.0));
     let cos_v: f32 = max(abs(dot(N, V)), 1e-8);
     let albedo: vec2f = mx_ggx_albedo_fit(sqrt(alpha.x * alpha.y), cos_v);
-    let product: vec3f = mix(fresnel_f0, f90, albedo.y) * albedo.x;
-    let difference: f32 = 1.0 / albedo.x - 1.0;
-    let reflection_scale: vec3f = difference * mix(fresnel_f0, f90, 0.04761905) + vec3f(1.0);
-    let reflection_throughput: f32 = 1.0 - dot(product * reflection_scale, vec3f(0.33333334));
+    let single: vec3f = mix(fresnel_f0, f90, albedo.y) * albedo.x;
+    let lost: f32 = 1.0 / albedo.x - 1.0;
+    let reflection_scale: vec3f = lost * mix(fresnel_f0, f90, 0.04761905) + vec3f(1.0);
+    let reflection_throughput: f32 = 1.0 - dot(single * reflection_scale, vec3f(0.33333334));
     let iridescence_thickness: f32 = u_pub.SR_gltf_pbr_iridescence_thickness;
     let iridescence_ior: f32 = u_pub.SR_gltf_pbr_iridescence_ior;
     let reflection_film_scale: vec3f = mix(mx_fresnel_facing(fresnel_f0, iridescence_thickness, iridescence_ior), f90,
-        0.04761905) * difference + vec3f(1.0);
+        0.04761905) * lost + vec3f(1.0);
     let clamped_iridescence: f32 = clamp(u_pub.SR_gltf_pbr_iridescence, 0.0, 1.0);
     let coating_weight: f32 = clamp(u_pub.SR_gltf_pbr_clearcoat, 0.0, 1.0);
     let coat_lobe: f32 = clamp(u_pub.SR_gltf_pbr_clearcoat_roughness * u_pub.SR_gltf_pbr_clearcoat_roughness, 1e-8,
@@ -464,32 +464,31 @@ fn main(vd: VertexData) -> @location(0) vec4f
         23.2945, 4.0691, -17.882, 25.6639, -12.0167, -0.5833, 2.6552, -3.9393, 1.8999), 1.0 / (cos_v + 1.0), 1.0
         / (sheen_rough + 0.2)), 0.0, 1.0);
     let substrate_weight: f32 = coating_throughput * (1.0 - fuzz_weight * sheen_albedo);
-    let body_weight: f32 = mix(reflection_throughput, 1.0 - dot(product * reflection_film_scale, vec3f(0.33333334)),
+    let body_weight: f32 = mix(reflection_throughput, 1.0 - dot(single * reflection_film_scale, vec3f(0.33333334)),
         clamped_iridescence) * substrate_weight;
     let metal_weight: f32 = clamp(u_pub.SR_gltf_pbr_metallic, 0.0, 1.0);
     let clamped_transmission: f32 = clamp(u_pub.SR_gltf_pbr_transmission, 0.0, 1.0);
     let diffuse_weight: f32 = (1.0 - metal_weight) * (1.0 - clamped_transmission);
-    let diffuse_product: vec3f = u_pub.SR_gltf_pbr_base_color * (body_weight * diffuse_weight * 0.31830987);
+    let diffuse_factor: vec3f = u_pub.SR_gltf_pbr_base_color * (body_weight * diffuse_weight * 0.31830987);
     let ggx_masking: f32 = sqrt(coat_lobe * coat_lobe + (1.0 - coat_lobe * coat_lobe) * (cos_v * cos_v));
     let coating_ggx_lobe: mx_GgxLobe = mx_GgxLobe(Nf, cos_v, vec3f(0.0), vec2f(coat_lobe), ggx_masking);
     let s: f32 = 1.0 / max(sheen_rough, 0.005);
-    let fuzz_product: vec3f = u_pub.SR_gltf_pbr_sheen_color / sheen_weight * (fuzz_weight * coating_throughput);
+    let fuzz_factor: vec3f = u_pub.SR_gltf_pbr_sheen_color / sheen_weight * (fuzz_weight * coating_throughput);
     let metal_film_visible: bool = clamped_iridescence * metal_weight > 0.0;
     let fresnel_facing: vec3f = max(u_pub.SR_gltf_pbr_base_color, vec3f(0.0));
-    let metal_film_scale: vec3f = difference
-        * mix(mx_fresnel_facing(fresnel_facing, iridescence_thickness, iridescence_ior), vec3f(1.0), 0.04761905)
-        + vec3f(1.0);
-    let metal_film_product: vec3f = metal_film_scale * (substrate_weight * (clamped_iridescence * metal_weight));
+    let metal_film_scale: vec3f = lost * mix(mx_fresnel_facing(fresnel_facing, iridescence_thickness, iridescence_ior),
+        vec3f(1.0), 0.04761905) + vec3f(1.0);
+    let metal_film_factor: vec3f = metal_film_scale * (substrate_weight * (clamped_iridescence * metal_weight));
     let specular_tangent: vec3f = mx_rotate3d(normalize(vd.tangentWorld),
         radians(u_pub.SR_gltf_pbr_anisotropy_rotation * -57.29578), N);
     let lobe: mx_GgxLobe = mx_ggx_lobe(specular_roughness, N, specular_tangent, V);
     let metal_bare_weight: f32 = metal_weight * (1.0 - clamped_iridescence);
-    let metal_bare_product: vec3f = (difference * mix(fresnel_facing, vec3f(1.0), 0.04761905) + vec3f(1.0))
+    let metal_bare_factor: vec3f = (lost * mix(fresnel_facing, vec3f(1.0), 0.04761905) + vec3f(1.0))
         * (substrate_weight * metal_bare_weight);
     let reflection_film_weight: f32 = clamped_iridescence * (1.0 - metal_weight);
-    let reflection_film_product: vec3f = reflection_film_scale * (substrate_weight * reflection_film_weight);
+    let reflection_film_factor: vec3f = reflection_film_scale * (substrate_weight * reflection_film_weight);
     let reflection_weight: f32 = (1.0 - metal_weight) * (1.0 - clamped_iridescence);
-    let reflection_product: vec3f = reflection_scale * (substrate_weight * reflection_weight);
+    let reflection_factor: vec3f = reflection_scale * (substrate_weight * reflection_weight);
     // from the last light, so that drivers do not unroll the loop
     for (var i: i32 = min(u_prv.u_numActiveLightSources, 3) - 1; i >= 0; i--) {
         var L: vec3f;
@@ -502,66 +501,65 @@ fn main(vd: VertexData) -> @location(0) vec4f
             let d: vec3f = u_lightData[i].position - vd.positionWorld;
             let to_light: vec3f = normalize(d);
             L = to_light;
-            let ratio: f32 = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+            let falloff: f32 = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
             if (light_type_ == 2) {
-                intensity = ratio;
+                intensity = falloff;
             } else {
-                let spot_light_difference: f32 = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
-                intensity = select(0.0, smoothstep(spot_light_difference, u_lightData[i].inner_angle,
-                    -dot(u_lightData[i].direction, to_light)) * ratio, light_type_ == 3);
+                let edge: f32 = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+                intensity = select(0.0, smoothstep(edge, u_lightData[i].inner_angle,
+                    -dot(u_lightData[i].direction, to_light)) * falloff, light_type_ == 3);
             }
         }
         // diffuse
         let light_color: vec3f = u_lightData[i].color;
         let l_dot_nf: f32 = dot(L, Nf);
         let cos_l: f32 = max(l_dot_nf, 1e-8);
-        color += light_color * (intensity * (cos_l * diffuse_product));
+        color += light_color * (intensity * (cos_l * diffuse_factor));
         // coating
         let v_dot_l: f32 = dot(V, L);
-        let cosine: f32 = sqrt(clamp(v_dot_l * 0.5 + 0.500001, 0.0, 1.0));
+        let half_cosine: f32 = sqrt(clamp(v_dot_l * 0.5 + 0.500001, 0.0, 1.0));
         if (coating_weight > 0.0) {
-            let coating_product: f32 = mx_fresnel_permittivity(cosine, 2.25) * (coating_weight * coating_scale);
+            let coating_product: f32 = mx_fresnel_permittivity(half_cosine, 2.25) * (coating_weight * coating_scale);
             color += light_color * (intensity * (mx_ggx_light(coating_ggx_lobe, V, L) * coating_product));
         }
         // fuzz
         if (fuzz_weight > 0.0) {
             let scaled_along: f32 = (cos_v + l_dot_nf) * (cos_v + l_dot_nf);
-            let fuzz_product_2: f32 = cos_l
+            let fuzz_product: f32 = cos_l
                 * ((s + 2.0) * pow(clamp(1.0 - scaled_along / max(v_dot_l * 2.0 + 2.0, 1e-8), 0.0, 1.0), s * 0.5)
                 / 6.2831855);
-            color += light_color * (intensity
-                * (fuzz_product_2 / ((cos_v + cos_l - cos_v * cos_l) * 4.0) * fuzz_product));
+            color += light_color * (intensity * (fuzz_product / ((cos_v + cos_l - cos_v * cos_l) * 4.0) * fuzz_factor));
         }
         // metal_film
         let ggx_light: f32 = mx_ggx_light_2(lobe, V, L);
         if (metal_film_visible) {
             color += light_color * (intensity
-                * (metal_film_product * (mx_fresnel(cosine, fresnel_facing, vec3f(1.0), iridescence_thickness,
+                * (metal_film_factor * (mx_fresnel(half_cosine, fresnel_facing, vec3f(1.0), iridescence_thickness,
                 iridescence_ior) * ggx_light)));
         }
         // metal_bare
         if (metal_bare_weight > 0.0) {
             color += light_color * (intensity
-                * (metal_bare_product * (ggx_light * mx_fresnel_schlick(cosine, fresnel_facing, vec3f(1.0)))));
+                * (metal_bare_factor * (ggx_light * mx_fresnel_schlick(half_cosine, fresnel_facing, vec3f(1.0)))));
         }
         // reflection_film
         if (reflection_film_weight > 0.0) {
             color += light_color * (intensity
-                * (reflection_film_product
-                * (ggx_light * mx_fresnel(cosine, fresnel_f0, f90, iridescence_thickness, iridescence_ior))));
+                * (reflection_film_factor
+                * (ggx_light * mx_fresnel(half_cosine, fresnel_f0, f90, iridescence_thickness, iridescence_ior))));
         }
         // reflection
         if (reflection_weight > 0.0) {
             color += light_color * (intensity
-                * (reflection_product * (ggx_light * mx_fresnel_schlick(cosine, fresnel_f0, f90))));
+                * (reflection_factor * (ggx_light * mx_fresnel_schlick(half_cosine, fresnel_f0, f90))));
         }
     }
     // environment: fuzz
     let part: vec3f = textureSampleLevel(u_envIrradiance, u_envIrradiance_sampler,
         mx_map_point(normalize(wgsl_mat3x3f_of_mat4x4f(u_prv.u_envMatrix) * Nf)), 0.0).xyz;
     if (fuzz_weight > 0.0) {
-        let fuzz_product_3: f32 = u_prv.u_envLightIntensity * (sheen_albedo * (fuzz_weight * coating_throughput));
-        color += u_pub.SR_gltf_pbr_sheen_color / sheen_weight * part * fuzz_product_3;
+        let fuzz_product: f32 = u_prv.u_envLightIntensity * (sheen_albedo * (fuzz_weight * coating_throughput));
+        color += u_pub.SR_gltf_pbr_sheen_color / sheen_weight * part * fuzz_product;
     }
     // environment: diffuse
     if (diffuse_weight > 0.0) {
@@ -573,9 +571,10 @@ fn main(vd: VertexData) -> @location(0) vec4f
         let coating_count: i32 = mx_sample_count(vec2f(coat_lobe));
         let coating_ggx_samples: mx_GgxSamples = mx_ggx_samples(vec2f(coat_lobe), coating_count, N, V);
         for (var i: i32 = 0; i < coating_count; i++) {
-            let light: mx_GgxLight = mx_ggx_reflected(coating_ggx_samples, i, turn);
-            color += light.color * (mx_fresnel_permittivity(light.cosine, 2.25)
-                * (coating_weight * coating_scale * light.weight));
+            let coating_light: mx_GgxLight = mx_ggx_reflected(coating_ggx_samples, i, turn);
+            color += coating_light.color
+                * (mx_fresnel_permittivity(coating_light.cosine, 2.25)
+                * (coating_weight * coating_scale * coating_light.weight));
             turn = vec2f(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
         }
     }
@@ -586,51 +585,41 @@ fn main(vd: VertexData) -> @location(0) vec4f
         if (iridescence_thickness > 0.0) {
             var turn: vec2f = vec2f(1.0, 0.0);
             for (var i: i32 = 0; i < count; i++) {
-                let metal_film_ggx_reflected: mx_GgxLight = mx_ggx_reflected(samples, i, turn);
+                let light: mx_GgxLight = mx_ggx_reflected(samples, i, turn);
                 if (metal_film_visible) {
-                    color += metal_film_product
-                        * (metal_film_ggx_reflected.color
-                        * (metal_film_ggx_reflected.weight
-                        * mx_film_schlick(metal_film_ggx_reflected.cosine, fresnel_facing, vec3f(1.0),
-                        iridescence_thickness, iridescence_ior)));
-                }
-                if (metal_bare_weight > 0.0) {
-                    color += metal_bare_product
-                        * (metal_film_ggx_reflected.color
-                        * (metal_film_ggx_reflected.weight
-                        * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_facing, vec3f(1.0))));
-                }
-                if (reflection_film_weight > 0.0) {
-                    color += reflection_film_product
-                        * (metal_film_ggx_reflected.color
-                        * (metal_film_ggx_reflected.weight
-                        * mx_film_schlick(metal_film_ggx_reflected.cosine, fresnel_f0, f90, iridescence_thickness,
+                    color += metal_film_factor
+                        * (light.color * (light.weight
+                        * mx_film_schlick(light.cosine, fresnel_facing, vec3f(1.0), iridescence_thickness,
                         iridescence_ior)));
                 }
+                if (metal_bare_weight > 0.0) {
+                    color += metal_bare_factor
+                        * (light.color * (light.weight * mx_fresnel_schlick(light.cosine, fresnel_facing, vec3f(1.0))));
+                }
+                if (reflection_film_weight > 0.0) {
+                    color += reflection_film_factor
+                        * (light.color * (light.weight
+                        * mx_film_schlick(light.cosine, fresnel_f0, f90, iridescence_thickness, iridescence_ior)));
+                }
                 if (reflection_weight > 0.0) {
-                    color += reflection_product
-                        * (metal_film_ggx_reflected.color
-                        * (metal_film_ggx_reflected.weight
-                        * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_f0, f90)));
+                    color += reflection_factor
+                        * (light.color * (light.weight * mx_fresnel_schlick(light.cosine, fresnel_f0, f90)));
                 }
                 turn = vec2f(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
             }
         } else {
             var turn: vec2f = vec2f(1.0, 0.0);
             for (var i: i32 = 0; i < count; i++) {
-                let metal_film_ggx_reflected: mx_GgxLight = mx_ggx_reflected(samples, i, turn);
-                let metal_bare_product_2: vec3f = metal_film_ggx_reflected.color
-                    * (metal_film_ggx_reflected.weight
-                    * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_facing, vec3f(1.0)));
-                color += metal_bare_product * metal_bare_product_2 + metal_film_product * metal_bare_product_2;
-                let reflection_product_2: vec3f = metal_film_ggx_reflected.color
-                    * (metal_film_ggx_reflected.weight
-                    * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_f0, f90));
+                let light: mx_GgxLight = mx_ggx_reflected(samples, i, turn);
+                let product: vec3f = light.color
+                    * (light.weight * mx_fresnel_schlick(light.cosine, fresnel_facing, vec3f(1.0)));
+                color += metal_bare_factor * product + metal_film_factor * product;
+                let product_2: vec3f = light.color * (light.weight * mx_fresnel_schlick(light.cosine, fresnel_f0, f90));
                 if (reflection_film_weight > 0.0) {
-                    color += reflection_film_product * reflection_product_2;
+                    color += reflection_film_factor * product_2;
                 }
                 if (reflection_weight > 0.0) {
-                    color += reflection_product * reflection_product_2;
+                    color += reflection_factor * product_2;
                 }
                 turn = vec2f(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
             }
@@ -640,13 +629,12 @@ fn main(vd: VertexData) -> @location(0) vec4f
     let refraction_weight: f32 = clamped_transmission * (1.0 - metal_weight);
     if (refraction_weight > 0.0) {
         var turn: vec2f = vec2f(1.0, 0.0);
-        let refraction_product: vec3f = fresnel_facing
+        let refraction_factor: vec3f = fresnel_facing
             * select(vec3f(1.0), fresnel_facing, u_prv.u_refractionTwoSided != 0u) * (body_weight * refraction_weight);
         for (var i: i32 = 0; i < count; i++) {
-            let refraction_ggx_transmitted: mx_GgxLight = mx_ggx_transmitted(samples, ior, i, turn);
-            color += refraction_product * (refraction_ggx_transmitted.color
-                * (refraction_ggx_transmitted.weight
-                * (1.0 - mx_fresnel_permittivity(refraction_ggx_transmitted.cosine, ior * ior))));
+            let refraction_light: mx_GgxLight = mx_ggx_transmitted(samples, ior, i, turn);
+            color += refraction_factor * (refraction_light.color
+                * (refraction_light.weight * (1.0 - mx_fresnel_permittivity(refraction_light.cosine, ior * ior))));
             turn = vec2f(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
         }
     }

@@ -586,13 +586,13 @@ fn main(vd: VertexData) -> @location(0) vec4f
     let alpha: vec2f = clamp(roughness, vec2f(1e-8), vec2f(1.0));
     let cos_v: f32 = max(absolute, 1e-8);
     let albedo: vec2f = mx_ggx_albedo_fit(sqrt(alpha.x * alpha.y), cos_v);
-    let product: f32 = mix(r * r, 1.0, albedo.y) * albedo.x;
-    let difference: f32 = 1.0 / albedo.x - 1.0;
-    let reflection_bare_scale: f32 = difference * mix(r * r, 1.0, 0.04761905) + 1.0;
+    let single: f32 = mix(r * r, 1.0, albedo.y) * albedo.x;
+    let lost: f32 = 1.0 / albedo.x - 1.0;
+    let reflection_bare_scale: f32 = lost * mix(r * r, 1.0, 0.04761905) + 1.0;
     let film_thickness: f32 = u_pub.SR_open_pbr_surface_thin_film_thickness * 1000.0;
     let thin_film_ior: f32 = u_pub.SR_open_pbr_surface_thin_film_ior;
     let reflection_film_scale: vec3f = mix(mx_fresnel_facing(vec3f(ior), film_thickness, thin_film_ior), vec3f(1.0),
-        0.04761905) * difference + vec3f(1.0);
+        0.04761905) * lost + vec3f(1.0);
     let clamped_thin_film_weight: f32 = clamp(u_pub.SR_open_pbr_surface_thin_film_weight, 0.0, 1.0);
     let clamped_darkened: vec3f = clamp(mx_open_pbr_coat_darkening(u_pub.SR_open_pbr_surface_base_color,
         u_pub.SR_open_pbr_surface_base_metalness, u_pub.SR_open_pbr_surface_specular_weight,
@@ -619,7 +619,7 @@ fn main(vd: VertexData) -> @location(0) vec4f
     let substrate_weight: vec3f = clamped_darkened
         * (clamp(mix(vec3f(1.0), u_pub.SR_open_pbr_surface_coat_color, coat_weight), vec3f(0.0), vec3f(1.0))
         * coated_weight);
-    let body_weight: vec3f = mix(vec3f(1.0 - product * reflection_bare_scale), vec3f(1.0) - product
+    let body_weight: vec3f = mix(vec3f(1.0 - single * reflection_bare_scale), vec3f(1.0) - single
         * reflection_film_scale, clamped_thin_film_weight) * substrate_weight;
     let clamped_backward_share: f32 = clamp((1.0 - u_pub.SR_open_pbr_surface_subsurface_scatter_anisotropy) * 0.5, 0.0,
         1.0);
@@ -635,17 +635,17 @@ fn main(vd: VertexData) -> @location(0) vec4f
     let ab: vec2f = base_diffuse_roughness * base_diffuse_roughness * vec2f(-0.5, 0.45)
         / (base_diffuse_roughness * base_diffuse_roughness + vec2f(0.33, 0.09)) + vec2f(1.0, 0.0);
     let sheet_back_weight: f32 = sheet_weight * (1.0 - clamped_backward_share);
-    let sheet_back_product: vec3f = subsurface_positive * (body_weight * sheet_back_weight);
+    let sheet_back_factor: vec3f = subsurface_positive * (body_weight * sheet_back_weight);
     let limited_cos_v: f32 = min(cos_v, 1.0);
-    let fuzz_product_3: vec3f = u_pub.SR_open_pbr_surface_fuzz_color * fuzz_product_2;
+    let fuzz_factor: vec3f = u_pub.SR_open_pbr_surface_fuzz_color * fuzz_product_2;
     let X: vec3f = normalize(vd.tangentWorld);
     let coating_lobe: mx_GgxLobe = mx_ggx_lobe(coat_lobe, N, X, V);
-    let coating_product: f32 = coating_scale * (coating_weight * (1.0 - fuzz_product_2));
+    let coating_factor: f32 = coating_scale * (coating_weight * (1.0 - fuzz_product_2));
     let clamped_specular_weight: f32 = clamp(u_pub.SR_open_pbr_surface_specular_weight, 0.0, 1.0);
     let metal_film_weight: f32 = clamped_specular_weight * (clamped_thin_film_weight * metal_weight);
     let fresnel_facing: vec3f = max(u_pub.SR_open_pbr_surface_base_weight * u_pub.SR_open_pbr_surface_base_color,
         vec3f(0.0));
-    let metal_film_product: vec3f = (difference
+    let metal_film_factor: vec3f = (lost
         * mix(mx_fresnel_facing_2(fresnel_facing, film_thickness, thin_film_ior), vec3f(1.0), 0.04761905) + vec3f(1.0))
         * (substrate_weight * metal_film_weight);
     let limited_specular_color: vec3f = max(u_pub.SR_open_pbr_surface_specular_color, vec3f(0.0));
@@ -653,20 +653,20 @@ fn main(vd: VertexData) -> @location(0) vec4f
         * 17.651384;
     let lobe: mx_GgxLobe = mx_ggx_lobe(roughness, N, X, V);
     let metal_bare_weight: f32 = clamped_specular_weight * (metal_weight * (1.0 - clamped_thin_film_weight));
-    let metal_bare_product: vec3f = (difference * mix(fresnel_facing, vec3f(1.0), 0.04761905) + vec3f(1.0))
+    let metal_bare_factor: vec3f = (lost * mix(fresnel_facing, vec3f(1.0), 0.04761905) + vec3f(1.0))
         * (substrate_weight * metal_bare_weight);
     let reflection_film_weight: f32 = clamped_thin_film_weight * (1.0 - metal_weight);
-    let reflection_film_product: vec3f = substrate_weight * reflection_film_weight
+    let reflection_film_factor: vec3f = substrate_weight * reflection_film_weight
         * (reflection_film_scale * limited_specular_color);
     let reflection_bare_weight: f32 = (1.0 - metal_weight) * (1.0 - clamped_thin_film_weight);
-    let reflection_bare_product: vec3f = reflection_bare_scale
+    let reflection_bare_factor: vec3f = reflection_bare_scale
         * (limited_specular_color * (substrate_weight * reflection_bare_weight));
     let scaled_ior: f32 = ior * ior;
     let scatter_weight: f32 = clamped_subsurface_weight * opaque_weight * (1.0 - thin);
     let scatter_radius: vec3f = u_pub.SR_open_pbr_surface_subsurface_radius
         * u_pub.SR_open_pbr_surface_subsurface_radius_scale;
     let curvature: f32 = max(length(fwidth(Nf)) / max(length(fwidth(vd.positionWorld)), 1e-20), 0.01);
-    let scatter_product: vec3f = subsurface_positive * (body_weight * scatter_weight);
+    let scatter_factor: vec3f = subsurface_positive * (body_weight * scatter_weight);
     let diffuse_weight: f32 = clamp(u_pub.SR_open_pbr_surface_base_weight, 0.0, 1.0)
         * (opaque_weight * (1.0 - clamped_subsurface_weight));
     let base_positive: vec3f = max(u_pub.SR_open_pbr_surface_base_color, vec3f(0.0));
@@ -675,8 +675,8 @@ fn main(vd: VertexData) -> @location(0) vec4f
     let mean: f32 = (base_diffuse_roughness * 0.0724882 + 1.0) / diffuse_sum;
     let fujii_multiple: vec3f = base_positive * mean / (vec3f(1.0) - base_positive * max(1.0 - mean, 0.0));
     let diffuse_fujii_albedo: f32 = mx_fujii_albedo(cos_v, base_diffuse_roughness);
-    let diffuse_greater: f32 = max(1.0 - diffuse_fujii_albedo, 1e-8);
-    let diffuse_greater_2: f32 = max(1.0 - mean, 1e-8);
+    let lost_v: f32 = max(1.0 - diffuse_fujii_albedo, 1e-8);
+    let diffuse_lost: f32 = max(1.0 - mean, 1e-8);
     // from the last light, so that drivers do not unroll the loop
     for (var i: i32 = min(u_prv.u_numActiveLightSources, 3) - 1; i >= 0; i--) {
         var L: vec3f;
@@ -689,13 +689,13 @@ fn main(vd: VertexData) -> @location(0) vec4f
             let d: vec3f = u_lightData[i].position - vd.positionWorld;
             let to_light: vec3f = normalize(d);
             L = to_light;
-            let ratio: f32 = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+            let falloff: f32 = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
             if (light_type_ == 2) {
-                intensity = ratio;
+                intensity = falloff;
             } else {
-                let spot_light_difference: f32 = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
-                intensity = select(0.0, smoothstep(spot_light_difference, u_lightData[i].inner_angle,
-                    -dot(u_lightData[i].direction, to_light)) * ratio, light_type_ == 3);
+                let edge: f32 = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+                intensity = select(0.0, smoothstep(edge, u_lightData[i].inner_angle,
+                    -dot(u_lightData[i].direction, to_light)) * falloff, light_type_ == 3);
             }
         }
         // sheet_front, sheet_back
@@ -707,51 +707,50 @@ fn main(vd: VertexData) -> @location(0) vec4f
         let greater: f32 = max(cos_l_2, cos_v);
         let sheet_front_response: vec3f = sheet_front_product * 0.31830987
             * (cos_l_2 * (ab.x + ab.y * max(s, 0.0) / greater));
-        color += light_color * (intensity * (sheet_front_response + max(-cos_l, 0.0) / 3.1415927 * sheet_back_product));
+        color += light_color * (intensity * (sheet_front_response + max(-cos_l, 0.0) / 3.1415927 * sheet_back_factor));
         // fuzz
         if (fuzz_weight > 0.0) {
-            color += light_color * (intensity * (mx_sheen_zeltner(Nf, V, L, limited_cos_v, fuzz_r) * fuzz_product_3));
+            color += light_color * (intensity * (mx_sheen_zeltner(Nf, V, L, limited_cos_v, fuzz_r) * fuzz_factor));
         }
         // coating
-        let cosine: f32 = sqrt(clamp(v_dot_l * 0.5 + 0.500001, 0.0, 1.0));
+        let half_cosine: f32 = sqrt(clamp(v_dot_l * 0.5 + 0.500001, 0.0, 1.0));
         if (coating_weight > 0.0) {
-            let coating_product_2: f32 = mx_fresnel_permittivity(cosine, coat_ior * coat_ior) * coating_product;
-            color += light_color * (intensity * (mx_ggx_light(coating_lobe, V, L) * coating_product_2));
+            let coating_product: f32 = mx_fresnel_permittivity(half_cosine, coat_ior * coat_ior) * coating_factor;
+            color += light_color * (intensity * (mx_ggx_light(coating_lobe, V, L) * coating_product));
         }
         // metal_film
         let ggx_light: f32 = mx_ggx_light(lobe, V, L);
         if (metal_film_weight > 0.0) {
             color += light_color * (intensity
-                * (metal_film_product * (mx_fresnel(cosine, fresnel_facing, schlick_bend, film_thickness, thin_film_ior)
-                * ggx_light)));
+                * (metal_film_factor * (mx_fresnel(half_cosine, fresnel_facing, schlick_bend, film_thickness,
+                thin_film_ior) * ggx_light)));
         }
         // metal_bare
         if (metal_bare_weight > 0.0) {
             color += light_color * (intensity
-                * (metal_bare_product * (ggx_light * mx_fresnel_schlick(cosine, fresnel_facing, schlick_bend))));
+                * (metal_bare_factor * (ggx_light * mx_fresnel_schlick(half_cosine, fresnel_facing, schlick_bend))));
         }
         // reflection_film
         if (reflection_film_weight > 0.0) {
             color += light_color * (intensity
-                * (reflection_film_product
-                * (ggx_light * mx_fresnel_2(cosine, vec3f(ior), film_thickness, thin_film_ior))));
+                * (reflection_film_factor
+                * (ggx_light * mx_fresnel_2(half_cosine, vec3f(ior), film_thickness, thin_film_ior))));
         }
         // reflection_bare
         if (reflection_bare_weight > 0.0) {
             color += light_color * (intensity
-                * (reflection_bare_product * (ggx_light * mx_fresnel_permittivity(cosine, scaled_ior))));
+                * (reflection_bare_factor * (ggx_light * mx_fresnel_permittivity(half_cosine, scaled_ior))));
         }
         // scatter
         if (scatter_weight > 0.0) {
             color += light_color * (intensity
-                * (mx_subsurface_light_2(scatter_radius, curvature, cos_l) * scatter_product));
+                * (mx_subsurface_light_2(scatter_radius, curvature, cos_l) * scatter_factor));
         }
         // diffuse
         if (diffuse_weight > 0.0) {
             let diffuse_s: f32 = s / greater;
             let diffuse_product_2: vec3f = fujii_multiple
-                * (diffuse_greater * max(1.0 - mx_fujii_albedo(cos_l_2, base_diffuse_roughness), 1e-8)
-                / diffuse_greater_2);
+                * (lost_v * max(1.0 - mx_fujii_albedo(cos_l_2, base_diffuse_roughness), 1e-8) / diffuse_lost);
             color += light_color * (intensity
                 * (diffuse_product * 0.31830987
                 * (cos_l_2 * ((base_diffuse_roughness * select(s, diffuse_s, s > 0.0) + 1.0) / diffuse_sum
@@ -766,12 +765,12 @@ fn main(vd: VertexData) -> @location(0) vec4f
         * (cos_v * vec2f(-0.7632, -0.4993) - vec2f(0.4297, 0.6076) + base_diffuse_roughness * vec2f(1.4385, 2.0315))
         + vec2f(1.0);
     let sheet_front_response: vec3f = sheet_front_product * part * (envLightIntensity * clamp(fit.x / fit.y, 0.0, 1.0));
-    let sum: vec3f = u_pub.SR_open_pbr_surface_fuzz_color * part * (fuzz_product_2 * envLightIntensity)
+    let response: vec3f = u_pub.SR_open_pbr_surface_fuzz_color * part * (fuzz_product_2 * envLightIntensity)
         + sheet_front_response;
-    color += envLightIntensity * (scatter_product * part) + sum;
+    color += envLightIntensity * (scatter_factor * part) + response;
     // environment: sheet_back
     if (sheet_back_weight > 0.0) {
-        color += envLightIntensity * (sheet_back_product
+        color += envLightIntensity * (sheet_back_factor
             * textureSampleLevel(u_envIrradiance, u_envIrradiance_sampler,
             mx_map_point(normalize(wgsl_mat3x3f_of_mat4x4f(u_prv.u_envMatrix) * -Nf)), 0.0).xyz);
     }
@@ -786,9 +785,10 @@ fn main(vd: VertexData) -> @location(0) vec4f
         let coating_count: i32 = mx_sample_count(coating_alpha);
         let coating_ggx_samples: mx_GgxSamples = mx_ggx_samples(coat_lobe, coating_count, N, X, V);
         for (var i: i32 = 0; i < coating_count; i++) {
-            let light: mx_GgxLight = mx_ggx_reflected(coating_ggx_samples, i, turn);
-            color += light.color * (mx_fresnel_permittivity(light.cosine, coat_ior * coat_ior)
-                * (coating_product * light.weight));
+            let coating_light: mx_GgxLight = mx_ggx_reflected(coating_ggx_samples, i, turn);
+            color += coating_light.color
+                * (mx_fresnel_permittivity(coating_light.cosine, coat_ior * coat_ior)
+                * (coating_factor * coating_light.weight));
             turn = vec2f(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
         }
     }
@@ -800,51 +800,41 @@ fn main(vd: VertexData) -> @location(0) vec4f
         if (film_thickness > 0.0) {
             var turn: vec2f = vec2f(1.0, 0.0);
             for (var i: i32 = 0; i < count; i++) {
-                let metal_film_ggx_reflected: mx_GgxLight = mx_ggx_reflected(samples, i, turn);
+                let light: mx_GgxLight = mx_ggx_reflected(samples, i, turn);
                 if (metal_film_weight > 0.0) {
-                    color += metal_film_product
-                        * (metal_film_ggx_reflected.color
-                        * (metal_film_ggx_reflected.weight
-                        * mx_film_schlick(metal_film_ggx_reflected.cosine, fresnel_facing, schlick_bend, film_thickness,
-                        thin_film_ior)));
+                    color += metal_film_factor
+                        * (light.color * (light.weight
+                        * mx_film_schlick(light.cosine, fresnel_facing, schlick_bend, film_thickness, thin_film_ior)));
                 }
                 if (metal_bare_weight > 0.0) {
-                    color += metal_bare_product
-                        * (metal_film_ggx_reflected.color
-                        * (metal_film_ggx_reflected.weight
-                        * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_facing, schlick_bend)));
+                    color += metal_bare_factor
+                        * (light.color * (light.weight
+                        * mx_fresnel_schlick(light.cosine, fresnel_facing, schlick_bend)));
                 }
                 if (reflection_film_weight > 0.0) {
-                    color += reflection_film_product
-                        * (metal_film_ggx_reflected.color
-                        * (metal_film_ggx_reflected.weight
-                        * mx_film_index(metal_film_ggx_reflected.cosine, vec3f(scaled_ior), film_thickness,
-                        thin_film_ior)));
+                    color += reflection_film_factor
+                        * (light.color * (light.weight
+                        * mx_film_index(light.cosine, vec3f(scaled_ior), film_thickness, thin_film_ior)));
                 }
                 if (reflection_bare_weight > 0.0) {
-                    color += reflection_bare_product
-                        * (metal_film_ggx_reflected.color
-                        * (metal_film_ggx_reflected.weight
-                        * mx_fresnel_permittivity(metal_film_ggx_reflected.cosine, scaled_ior)));
+                    color += reflection_bare_factor
+                        * (light.color * (light.weight * mx_fresnel_permittivity(light.cosine, scaled_ior)));
                 }
                 turn = vec2f(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
             }
         } else {
             var turn: vec2f = vec2f(1.0, 0.0);
             for (var i: i32 = 0; i < count; i++) {
-                let metal_film_ggx_reflected: mx_GgxLight = mx_ggx_reflected(samples, i, turn);
-                let metal_bare_product_2: vec3f = metal_film_ggx_reflected.color
-                    * (metal_film_ggx_reflected.weight
-                    * mx_fresnel_schlick(metal_film_ggx_reflected.cosine, fresnel_facing, schlick_bend));
-                color += metal_bare_product * metal_bare_product_2 + metal_film_product * metal_bare_product_2;
-                let reflection_bare_product_2: vec3f = metal_film_ggx_reflected.color
-                    * (metal_film_ggx_reflected.weight
-                    * mx_fresnel_permittivity(metal_film_ggx_reflected.cosine, scaled_ior));
+                let light: mx_GgxLight = mx_ggx_reflected(samples, i, turn);
+                let product: vec3f = light.color
+                    * (light.weight * mx_fresnel_schlick(light.cosine, fresnel_facing, schlick_bend));
+                color += metal_bare_factor * product + metal_film_factor * product;
+                let product_2: vec3f = light.color * (light.weight * mx_fresnel_permittivity(light.cosine, scaled_ior));
                 if (reflection_film_weight > 0.0) {
-                    color += reflection_film_product * reflection_bare_product_2;
+                    color += reflection_film_factor * product_2;
                 }
                 if (reflection_bare_weight > 0.0) {
-                    color += reflection_bare_product * reflection_bare_product_2;
+                    color += reflection_bare_factor * product_2;
                 }
                 turn = vec2f(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
             }
@@ -859,43 +849,38 @@ fn main(vd: VertexData) -> @location(0) vec4f
             u_pub.SR_open_pbr_surface_transmission_depth > 0.0), vec3f(0.0));
         let absorbed: vec3f = -(u_pub.SR_open_pbr_surface_transmission_scatter
             + log(u_pub.SR_open_pbr_surface_transmission_color)) / u_pub.SR_open_pbr_surface_transmission_depth;
-        let product_2: vec3f = exp(-select(vec3f(0.0), absorbed
-            - min(min(min(absorbed.x, absorbed.y), absorbed.z), 0.0), u_pub.SR_open_pbr_surface_transmission_depth
-            > 0.0)) * tint;
-        let product_3: vec3f = select(vec3f(1.0), tint, u_prv.u_refractionTwoSided != 0u) * product_2;
-        let refraction_film_product: vec3f = body_weight * (clamped_thin_film_weight * filled_weight) * product_3;
-        let refraction_bare_product: vec3f = product_3 * (body_weight * refraction_bare_weight);
+        let product: vec3f = exp(-select(vec3f(0.0), absorbed - min(min(min(absorbed.x, absorbed.y), absorbed.z), 0.0),
+            u_pub.SR_open_pbr_surface_transmission_depth > 0.0)) * tint;
+        let product_2: vec3f = select(vec3f(1.0), tint, u_prv.u_refractionTwoSided != 0u) * product;
+        let refraction_film_factor: vec3f = body_weight * (clamped_thin_film_weight * filled_weight) * product_2;
+        let refraction_bare_factor: vec3f = product_2 * (body_weight * refraction_bare_weight);
         if (film_thickness > 0.0) {
             var turn: vec2f = vec2f(1.0, 0.0);
             for (var i: i32 = 0; i < count; i++) {
-                let refraction_film_ggx_transmitted: mx_GgxLight = mx_ggx_transmitted(samples, ior, i, turn);
+                let light: mx_GgxLight = mx_ggx_transmitted(samples, ior, i, turn);
                 if (refraction_film_visible) {
-                    color += refraction_film_product
-                        * (refraction_film_ggx_transmitted.color
-                        * (refraction_film_ggx_transmitted.weight
-                        * (vec3f(1.0) - mx_film_index(refraction_film_ggx_transmitted.cosine, vec3f(scaled_ior),
-                        film_thickness, thin_film_ior))));
+                    color += refraction_film_factor
+                        * (light.color * (light.weight
+                        * (vec3f(1.0) - mx_film_index(light.cosine, vec3f(scaled_ior), film_thickness,
+                        thin_film_ior))));
                 }
                 if (refraction_bare_weight > 0.0) {
-                    color += refraction_bare_product
-                        * (refraction_film_ggx_transmitted.color
-                        * (refraction_film_ggx_transmitted.weight
-                        * (1.0 - mx_fresnel_permittivity(refraction_film_ggx_transmitted.cosine, scaled_ior))));
+                    color += refraction_bare_factor
+                        * (light.color * (light.weight * (1.0 - mx_fresnel_permittivity(light.cosine, scaled_ior))));
                 }
                 turn = vec2f(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
             }
         } else {
             var turn: vec2f = vec2f(1.0, 0.0);
             for (var i: i32 = 0; i < count; i++) {
-                let refraction_film_ggx_transmitted: mx_GgxLight = mx_ggx_transmitted(samples, ior, i, turn);
-                let refraction_bare_product_2: vec3f = refraction_film_ggx_transmitted.color
-                    * (refraction_film_ggx_transmitted.weight
-                    * (1.0 - mx_fresnel_permittivity(refraction_film_ggx_transmitted.cosine, scaled_ior)));
+                let light: mx_GgxLight = mx_ggx_transmitted(samples, ior, i, turn);
+                let product_3: vec3f = light.color
+                    * (light.weight * (1.0 - mx_fresnel_permittivity(light.cosine, scaled_ior)));
                 if (refraction_film_visible) {
-                    color += refraction_film_product * refraction_bare_product_2;
+                    color += refraction_film_factor * product_3;
                 }
                 if (refraction_bare_weight > 0.0) {
-                    color += refraction_bare_product * refraction_bare_product_2;
+                    color += refraction_bare_factor * product_3;
                 }
                 turn = vec2f(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
             }

@@ -506,9 +506,9 @@ fn main(vd: VertexData) -> @location(0) vec4f
     let alpha: vec2f = clamp(roughness, vec2f(1e-8), vec2f(1.0));
     let cos_v: f32 = max(absolute, 1e-8);
     let albedo: vec2f = mx_ggx_albedo_fit(sqrt(alpha.x * alpha.y), cos_v);
-    let difference: f32 = 1.0 / albedo.x - 1.0;
+    let lost: f32 = 1.0 / albedo.x - 1.0;
     let reflection_scale: vec3f = mix(mx_fresnel_facing(vec3f(specular_IOR), thin_film_thickness, thin_film_IOR),
-        vec3f(1.0), 0.04761905) * difference + vec3f(1.0);
+        vec3f(1.0), 0.04761905) * lost + vec3f(1.0);
     let reflection_weight: f32 = clamp(u_pub.SR_standard_surface_specular, 0.0, 1.0);
     let reflection_r: f32 = (1.0 - specular_IOR) / (specular_IOR + 1.0);
     let clamped_coat_tint: vec3f = clamp(mix(vec3f(1.0), u_pub.SR_standard_surface_coat_color,
@@ -542,11 +542,11 @@ fn main(vd: VertexData) -> @location(0) vec4f
     let r2: f32 = u_pub.SR_standard_surface_diffuse_roughness * u_pub.SR_standard_surface_diffuse_roughness;
     let ab: vec2f = r2 * vec2f(-0.5, 0.45) / (r2 + vec2f(0.33, 0.09)) + vec2f(1.0, 0.0);
     let s: f32 = 1.0 / max(u_pub.SR_standard_surface_sheen_roughness, 0.005);
-    let fuzz_product: vec3f = u_pub.SR_standard_surface_sheen_color * (body_weight * (fuzz_weight * opaque_weight));
+    let fuzz_factor: vec3f = u_pub.SR_standard_surface_sheen_color * (body_weight * (fuzz_weight * opaque_weight));
     let scatter_color: vec3f = pow(max(u_pub.SR_standard_surface_subsurface_color, vec3f(0.0)), vector_coat_gamma);
     let thin: f32 = f32(u_pub.SR_standard_surface_thin_walled != 0u);
     let translucent_weight: f32 = thin * (clamped_subsurface * opaque_weight);
-    let translucent_product: vec3f = scatter_color * (body_weight * (fuzz_throughput * translucent_weight));
+    let translucent_factor: vec3f = scatter_color * (body_weight * (fuzz_throughput * translucent_weight));
     let tangent_direction: vec3f = normalize(vd.tangentWorld);
     let coat_tangent: vec3f = mx_rotate3d(tangent_direction, radians(u_pub.SR_standard_surface_coat_rotation * 360.0),
         N);
@@ -557,20 +557,20 @@ fn main(vd: VertexData) -> @location(0) vec4f
         u_pub.SR_standard_surface_specular * u_pub.SR_standard_surface_specular_color, &metal_ior, &metal_extinction);
     let re: vec3f = metal_ior * metal_ior - metal_extinction * metal_extinction;
     let im: vec3f = metal_extinction * (metal_ior * 2.0);
-    let metal_scale: vec3f = difference * mix(mx_fresnel_facing_2(re, im, thin_film_thickness, thin_film_IOR),
-        vec3f(1.0), 0.04761905) + vec3f(1.0);
-    let metal_product: vec3f = metal_scale * (clamped_coat_tint * (metal_weight * coating_throughput));
+    let metal_scale: vec3f = lost * mix(mx_fresnel_facing_2(re, im, thin_film_thickness, thin_film_IOR), vec3f(1.0),
+        0.04761905) + vec3f(1.0);
+    let metal_factor: vec3f = metal_scale * (clamped_coat_tint * (metal_weight * coating_throughput));
     let specular_tangent: vec3f = mx_rotate3d(tangent_direction,
         radians(u_pub.SR_standard_surface_specular_rotation * 360.0), N);
     let lobe: mx_GgxLobe = mx_ggx_lobe(roughness, N, specular_tangent, V);
     let reflection_weight_2: f32 = reflection_weight * (1.0 - metal_weight);
-    let reflection_product: vec3f = clamped_coat_tint * (coating_throughput * reflection_weight_2)
+    let reflection_factor: vec3f = clamped_coat_tint * (coating_throughput * reflection_weight_2)
         * (reflection_scale * max(u_pub.SR_standard_surface_specular_color, vec3f(0.0)));
     let scatter_weight: f32 = clamped_subsurface * opaque_weight * (1.0 - thin);
     let scatter_radius: vec3f = u_pub.SR_standard_surface_subsurface_radius
         * u_pub.SR_standard_surface_subsurface_scale;
     let curvature: f32 = max(length(fwidth(Nf)) / max(length(fwidth(vd.positionWorld)), 1e-20), 0.01);
-    let scatter_product: vec3f = scatter_color * (body_weight * (fuzz_throughput * scatter_weight));
+    let scatter_factor: vec3f = scatter_color * (body_weight * (fuzz_throughput * scatter_weight));
     // from the last light, so that drivers do not unroll the loop
     for (var i: i32 = min(u_prv.u_numActiveLightSources, 3) - 1; i >= 0; i--) {
         var L: vec3f;
@@ -583,13 +583,13 @@ fn main(vd: VertexData) -> @location(0) vec4f
             let d: vec3f = u_lightData[i].position - vd.positionWorld;
             let to_light: vec3f = normalize(d);
             L = to_light;
-            let ratio: f32 = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+            let falloff: f32 = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
             if (light_type_ == 2) {
-                intensity = ratio;
+                intensity = falloff;
             } else {
-                let spot_light_difference: f32 = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
-                intensity = select(0.0, smoothstep(spot_light_difference, u_lightData[i].inner_angle,
-                    -dot(u_lightData[i].direction, to_light)) * ratio, light_type_ == 3);
+                let edge: f32 = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+                intensity = select(0.0, smoothstep(edge, u_lightData[i].inner_angle,
+                    -dot(u_lightData[i].direction, to_light)) * falloff, light_type_ == 3);
             }
         }
         // fuzz, translucent, diffuse
@@ -600,16 +600,15 @@ fn main(vd: VertexData) -> @location(0) vec4f
         let diffuse_response: vec3f = diffuse_product * 0.31830987
             * (cos_l_2 * (ab.x + ab.y * max(v_dot_l - cos_v * cos_l_2, 0.0) / max(cos_l_2, cos_v)));
         let scaled_along: f32 = (cos_v + cos_l) * (cos_v + cos_l);
-        let fuzz_product_2: f32 = cos_l_2
-            * ((s + 2.0) * pow(clamp(1.0 - scaled_along / max(v_dot_l * 2.0 + 2.0, 1e-8), 0.0, 1.0), s * 0.5)
-            / 6.2831855);
-        let fuzz_response: vec3f = fuzz_product_2 / ((cos_v + cos_l_2 - cos_v * cos_l_2) * 4.0) * fuzz_product;
+        let fuzz_product: f32 = cos_l_2 * ((s + 2.0)
+            * pow(clamp(1.0 - scaled_along / max(v_dot_l * 2.0 + 2.0, 1e-8), 0.0, 1.0), s * 0.5) / 6.2831855);
+        let fuzz_response: vec3f = fuzz_product / ((cos_v + cos_l_2 - cos_v * cos_l_2) * 4.0) * fuzz_factor;
         color += light_color * (intensity
-            * (diffuse_response + (fuzz_response + max(-cos_l, 0.0) / 3.1415927 * translucent_product)));
+            * (diffuse_response + (fuzz_response + max(-cos_l, 0.0) / 3.1415927 * translucent_factor)));
         // coating
-        let cosine: f32 = sqrt(clamp(v_dot_l * 0.5 + 0.500001, 0.0, 1.0));
+        let half_cosine: f32 = sqrt(clamp(v_dot_l * 0.5 + 0.500001, 0.0, 1.0));
         if (coat_weight > 0.0) {
-            let coating_product: f32 = mx_fresnel_permittivity(cosine, coat_IOR * coat_IOR)
+            let coating_product: f32 = mx_fresnel_permittivity(half_cosine, coat_IOR * coat_IOR)
                 * (coat_weight * coating_scale);
             color += light_color * (intensity * (mx_ggx_light(coating_lobe, V, L) * coating_product));
         }
@@ -617,18 +616,18 @@ fn main(vd: VertexData) -> @location(0) vec4f
         let ggx_light: f32 = mx_ggx_light(lobe, V, L);
         if (metal_weight > 0.0) {
             color += light_color * (intensity
-                * (metal_product * (mx_fresnel(cosine, re, im, thin_film_thickness, thin_film_IOR) * ggx_light)));
+                * (metal_factor * (mx_fresnel(half_cosine, re, im, thin_film_thickness, thin_film_IOR) * ggx_light)));
         }
         // reflection
         if (reflection_weight_2 > 0.0) {
             color += light_color * (intensity
-                * (reflection_product * (ggx_light
-                * mx_fresnel_2(cosine, vec3f(specular_IOR), thin_film_thickness, thin_film_IOR))));
+                * (reflection_factor * (ggx_light
+                * mx_fresnel_2(half_cosine, vec3f(specular_IOR), thin_film_thickness, thin_film_IOR))));
         }
         // scatter
         if (scatter_weight > 0.0) {
             color += light_color * (intensity
-                * (mx_subsurface_light_2(scatter_radius, curvature, cos_l) * scatter_product));
+                * (mx_subsurface_light_2(scatter_radius, curvature, cos_l) * scatter_factor));
         }
     }
     // environment: fuzz, scatter, diffuse
@@ -638,12 +637,12 @@ fn main(vd: VertexData) -> @location(0) vec4f
         * (cos_v * vec2f(-0.7632, -0.4993) - vec2f(0.4297, 0.6076) + u_pub.SR_standard_surface_diffuse_roughness
         * vec2f(1.4385, 2.0315)) + vec2f(1.0);
     let diffuse_response: vec3f = diffuse_product * part * (u_prv.u_envLightIntensity * clamp(fit.x / fit.y, 0.0, 1.0));
-    let fuzz_response: vec3f = fuzz_product * part * (sheen_albedo * u_prv.u_envLightIntensity);
-    color += diffuse_response + (fuzz_response + u_prv.u_envLightIntensity * (scatter_product * part));
+    let fuzz_response: vec3f = fuzz_factor * part * (sheen_albedo * u_prv.u_envLightIntensity);
+    color += diffuse_response + (fuzz_response + u_prv.u_envLightIntensity * (scatter_factor * part));
     // environment: translucent
     if (translucent_weight > 0.0) {
         color += u_prv.u_envLightIntensity
-            * (translucent_product * textureSampleLevel(u_envIrradiance, u_envIrradiance_sampler,
+            * (translucent_factor * textureSampleLevel(u_envIrradiance, u_envIrradiance_sampler,
             mx_map_point(normalize(wgsl_mat3x3f_of_mat4x4f(u_prv.u_envMatrix) * -Nf)), 0.0).xyz);
     }
     // environment: coating
@@ -652,9 +651,9 @@ fn main(vd: VertexData) -> @location(0) vec4f
         let coating_count: i32 = mx_sample_count(coating_alpha);
         let coating_ggx_samples: mx_GgxSamples = mx_ggx_samples(coat_lobe, coating_count, N, coat_tangent, V);
         for (var i: i32 = 0; i < coating_count; i++) {
-            let light: mx_GgxLight = mx_ggx_reflected(coating_ggx_samples, i, turn);
-            let fresnel_bare: f32 = mx_fresnel_permittivity(light.cosine, coat_IOR * coat_IOR);
-            color += light.color * (fresnel_bare * (coat_weight * coating_scale * light.weight));
+            let coating_light: mx_GgxLight = mx_ggx_reflected(coating_ggx_samples, i, turn);
+            let fresnel_bare: f32 = mx_fresnel_permittivity(coating_light.cosine, coat_IOR * coat_IOR);
+            color += coating_light.color * (fresnel_bare * (coat_weight * coating_scale * coating_light.weight));
             turn = vec2f(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
         }
     }
@@ -666,36 +665,31 @@ fn main(vd: VertexData) -> @location(0) vec4f
         if (thin_film_thickness > 0.0) {
             var turn: vec2f = vec2f(1.0, 0.0);
             for (var i: i32 = 0; i < count; i++) {
-                let metal_ggx_reflected: mx_GgxLight = mx_ggx_reflected(ggx_samples, i, turn);
+                let light: mx_GgxLight = mx_ggx_reflected(ggx_samples, i, turn);
                 if (metal_weight > 0.0) {
-                    color += metal_product
-                        * (metal_ggx_reflected.color
-                        * (metal_ggx_reflected.weight
-                        * mx_film_index(metal_ggx_reflected.cosine, re, im, thin_film_thickness, thin_film_IOR)));
+                    color += metal_factor
+                        * (light.color * (light.weight
+                        * mx_film_index(light.cosine, re, im, thin_film_thickness, thin_film_IOR)));
                 }
                 if (reflection_weight_2 > 0.0) {
-                    color += reflection_product
-                        * (metal_ggx_reflected.color
-                        * (metal_ggx_reflected.weight
-                        * mx_film_index(metal_ggx_reflected.cosine, vec3f(scaled_specular_IOR), vec3f(0.0),
-                        thin_film_thickness, thin_film_IOR)));
+                    color += reflection_factor
+                        * (light.color * (light.weight
+                        * mx_film_index(light.cosine, vec3f(scaled_specular_IOR), vec3f(0.0), thin_film_thickness,
+                        thin_film_IOR)));
                 }
                 turn = vec2f(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
             }
         } else {
             var turn: vec2f = vec2f(1.0, 0.0);
             for (var i: i32 = 0; i < count; i++) {
-                let metal_ggx_reflected: mx_GgxLight = mx_ggx_reflected(ggx_samples, i, turn);
+                let light: mx_GgxLight = mx_ggx_reflected(ggx_samples, i, turn);
                 if (metal_weight > 0.0) {
-                    color += metal_product
-                        * (metal_ggx_reflected.color
-                        * (metal_ggx_reflected.weight * mx_fresnel_conductor_2(metal_ggx_reflected.cosine, re, im)));
+                    color += metal_factor
+                        * (light.color * (light.weight * mx_fresnel_conductor_2(light.cosine, re, im)));
                 }
                 if (reflection_weight_2 > 0.0) {
-                    color += reflection_product
-                        * (metal_ggx_reflected.color
-                        * (metal_ggx_reflected.weight
-                        * mx_fresnel_permittivity(metal_ggx_reflected.cosine, scaled_specular_IOR)));
+                    color += reflection_factor
+                        * (light.color * (light.weight * mx_fresnel_permittivity(light.cosine, scaled_specular_IOR)));
                 }
                 turn = vec2f(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
             }
@@ -711,14 +705,14 @@ fn main(vd: VertexData) -> @location(0) vec4f
             u_pub.SR_standard_surface_specular_anisotropy);
         let refraction_count: i32 = mx_sample_count(clamp(transmission_roughness, vec2f(1e-8), vec2f(1.0)));
         let tint: vec3f = max(u_pub.SR_standard_surface_transmission_color, vec3f(0.0));
-        let refraction_product: vec3f = tint * select(vec3f(1.0), tint, u_prv.u_refractionTwoSided != 0u)
+        let refraction_factor: vec3f = tint * select(vec3f(1.0), tint, u_prv.u_refractionTwoSided != 0u)
             * (body_weight * refraction_weight);
         let samples: mx_GgxSamples = mx_ggx_samples(transmission_roughness, refraction_count, N, specular_tangent, V);
         for (var i: i32 = 0; i < refraction_count; i++) {
-            let refraction_ggx_transmitted: mx_GgxLight = mx_ggx_transmitted(samples, specular_IOR, i, turn);
-            color += refraction_product * (refraction_ggx_transmitted.color
-                * (refraction_ggx_transmitted.weight
-                * (1.0 - mx_fresnel_permittivity(refraction_ggx_transmitted.cosine, scaled_specular_IOR))));
+            let refraction_light: mx_GgxLight = mx_ggx_transmitted(samples, specular_IOR, i, turn);
+            color += refraction_factor * (refraction_light.color
+                * (refraction_light.weight
+                * (1.0 - mx_fresnel_permittivity(refraction_light.cosine, scaled_specular_IOR))));
             turn = vec2f(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
         }
     }

@@ -727,10 +727,10 @@ void surface()
     float square = clamp(alpha, 0.001, 1.0);
     float chan_gloss = clamp(log2(2.0 / (square * square) - 1.0) / 18.0, 0.0, 1.0);
     float x = 1.0 - cos_v;
-    float medium_difference = 1.0 - x * (x * (x * (x * x))) * 0.75;
+    float chan_even = 1.0 - x * (x * (x * (x * x))) * 0.75;
     float3 reflection_throughput = max(float3(1.0, 1.0, 1.0) - lerp(fresnel_f0, grazing, albedo.y) * albedo.x * scale,
         0.0);
-    float3 medium_product = mx_chan_share(cos_v, chan_gloss) * (vd.geomprop_diffuse_albedo * reflection_throughput);
+    float3 medium_factor = mx_chan_share(cos_v, chan_gloss) * (vd.geomprop_diffuse_albedo * reflection_throughput);
     // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         float3 L;
@@ -743,34 +743,33 @@ void surface()
             float3 d = u_lightData[i].position - vd.positionWorld;
             float3 to_light = normalize(d);
             L = to_light;
-            float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+            float falloff = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
             if (light_type == 2) {
-                intensity = ratio;
+                intensity = falloff;
             } else {
-                float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+                float edge = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
                 intensity = light_type == 3
-                    ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,
-                    -dot(u_lightData[i].direction, to_light)) * ratio : 0.0;
+                    ? smoothstep(edge, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light)) * falloff
+                    : 0.0;
             }
         }
         // reflection, medium
-        float cosine = sqrt(clamp(dot(V, L) * 0.5 + 0.500001, 0.0, 1.0));
-        float3 reflection_product = scale * mx_fresnel_schlick(cosine, fresnel_f0, grazing);
+        float half_cosine = sqrt(clamp(dot(V, L) * 0.5 + 0.500001, 0.0, 1.0));
+        float3 reflection_product = scale * mx_fresnel_schlick(half_cosine, fresnel_f0, grazing);
         float cos_l = max(dot(L, facing), 1e-8);
-        float3 medium_response = cos_l * mx_chan_lobe(chan_gloss, cos_v, cos_l, cosine, medium_difference)
-            * medium_product;
+        float3 medium_response = cos_l * mx_chan_lobe(chan_gloss, cos_v, cos_l, half_cosine, chan_even) * medium_factor;
         color += u_lightData[i].color * (intensity
             * (reflection_product * mx_ggx_light(reflection_ggx_lobe, V, L) + medium_response));
     }
     // environment: medium
-    bool medium_is_below = max(vd.geomprop_diffuse_albedo.x,
-        max(vd.geomprop_diffuse_albedo.y, vd.geomprop_diffuse_albedo.z)) <= 0.0;
+    bool is_black = max(vd.geomprop_diffuse_albedo.x, max(vd.geomprop_diffuse_albedo.y, vd.geomprop_diffuse_albedo.z))
+        <= 0.0;
     float s = clamp(chan_gloss * 2.2 - 0.5, 0.0, 1.0);
-    float medium_product_2 = (1.0 - chan_gloss * 1.085) * (1.0 - s * (s * 1.1414));
+    float medium_product = (1.0 - chan_gloss * 1.085) * (1.0 - s * (s * 1.1414));
     float3 environment_irradiance = u_envIrradiance.SampleLevel(u_envIrradiance_sampler,
-        mx_map_point(normalize(mul(facing + V * ((cos_v * (cos_v * 0.5624 - 0.7155) + 0.4353) * medium_product_2),
+        mx_map_point(normalize(mul(facing + V * ((cos_v * (cos_v * 0.5624 - 0.7155) + 0.4353) * medium_product),
         (float3x3)u_envMatrix))), 0.0).xyz * u_envLightIntensity;
-    color += reflection_throughput * (medium_is_below ? float3(0.0, 0.0, 0.0) : vd.geomprop_diffuse_albedo
+    color += reflection_throughput * (is_black ? float3(0.0, 0.0, 0.0) : vd.geomprop_diffuse_albedo
         * environment_irradiance);
     // environment: reflection
     float2 turn = float2(1.0, 0.0);

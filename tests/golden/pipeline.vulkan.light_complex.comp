@@ -470,7 +470,7 @@ void surface()
     float fuzz_ratio = exp(x * (x * -0.5)) / (width * 2.5066283);
     float fuzz_product = r * (r * (r * 0.119681 - 0.0207818) + 0.000654023);
     float sheen_albedo = max(fuzz_ratio + fuzz_product / (r * (r - 1.92021) + 1.26264), 0.0);
-    vec3 fuzz_product_2 = vd.geomprop_fuzz_color * sheen_albedo;
+    vec3 fuzz_factor = vd.geomprop_fuzz_color * sheen_albedo;
     vec3 Nf = faceforward(vd.geomprop_normal, -V, vd.geomprop_normal);
     float limited_cos_v = min(cos_v, 1.0);
     vec3 power = pow(vd.geomprop_decay, vec3(1.145898));
@@ -480,27 +480,27 @@ void surface()
     float second_reflection_weight = clamp(vd.geomprop_second_roughness_weight, 0.0, 1.0);
     vec3 fresnel_f0 = max(vd.geomprop_f0, 0.0);
     vec3 grazing = mx_slab_grazing(vd.geomprop_f0, vd.geomprop_f90);
-    vec3 blend = mix(fresnel_f0, grazing, 0.04761905);
+    vec3 mean_fresnel = mix(fresnel_f0, grazing, 0.04761905);
     vec2 vector = vec2(vd.geomprop_anisotropy + 1.0, 1.0 - vd.geomprop_anisotropy);
     vec2 second_alpha = vd.geomprop_second_roughness * vd.geomprop_second_roughness * vector;
     vec2 second_reflection_alpha = clamp(second_alpha, 1e-8, 1.0);
     mat3 frame = mx_frame(Nf, vd.geomprop_tangent);
-    vec3 greater = max(V * frame, vec3(-1.0, -1.0, 1e-8));
-    vec3 second_reflection_round_lobe = mx_ggx_round_like(second_reflection_alpha, greater);
+    vec3 ggx_local = max(V * frame, vec3(-1.0, -1.0, 1e-8));
+    vec3 second_reflection_round_lobe = mx_ggx_round_like(second_reflection_alpha, ggx_local);
     vec2 second_reflection_alpha_2 = clamp(second_reflection_round_lobe.xx, 1e-8, 1.0);
     vec2 second_reflection_albedo = mx_ggx_facing_more(mx_ggx_albedo_fit(sqrt(second_reflection_alpha_2.x
         * second_reflection_alpha_2.y), second_reflection_round_lobe.y), second_reflection_round_lobe.z);
-    vec3 second_reflection_scale = blend * (1.0 / second_reflection_albedo.x - 1.0) + vec3(1.0);
+    vec3 second_reflection_scale = mean_fresnel * (1.0 / second_reflection_albedo.x - 1.0) + vec3(1.0);
     float fuzz_throughput = 1.0 - fuzz_weight * sheen_albedo;
     bool reflection_visible = 1.0 - second_reflection_weight > 0.0;
     float scaled_roughness = vd.geomprop_roughness * vd.geomprop_roughness;
     vec2 alpha = vector * scaled_roughness;
     vec2 reflection_alpha = clamp(alpha, 1e-8, 1.0);
-    vec3 reflection_round_lobe = mx_ggx_round_like(reflection_alpha, greater);
+    vec3 reflection_round_lobe = mx_ggx_round_like(reflection_alpha, ggx_local);
     vec2 reflection_alpha_2 = clamp(reflection_round_lobe.xx, 1e-8, 1.0);
     vec2 reflection_albedo = mx_ggx_facing_more(mx_ggx_albedo_fit(sqrt(reflection_alpha_2.x * reflection_alpha_2.y),
         reflection_round_lobe.y), reflection_round_lobe.z);
-    vec3 reflection_scale = blend * (1.0 / reflection_albedo.x - 1.0) + vec3(1.0);
+    vec3 reflection_scale = mean_fresnel * (1.0 / reflection_albedo.x - 1.0) + vec3(1.0);
     // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         vec3 L;
@@ -513,14 +513,14 @@ void surface()
             vec3 d = u_lightData[i].position - vd.positionWorld;
             vec3 to_light = normalize(d);
             L = to_light;
-            float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+            float falloff = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
             if (light_type == 2) {
-                intensity = ratio;
+                intensity = falloff;
             } else {
-                float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+                float spot_light_edge = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
                 intensity = light_type == 3
-                    ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,
-                    -dot(u_lightData[i].direction, to_light)) * ratio : 0.0;
+                    ? smoothstep(spot_light_edge, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
+                    * falloff : 0.0;
             }
         }
         // fuzz
@@ -530,11 +530,11 @@ void surface()
         if (fuzz_weight > 0.0) {
             float fuzz_sheen_zeltner = mx_sheen_zeltner(Nf, V, L, limited_cos_v, r);
             color += light_color * (intensity
-                * (fuzz_product_2 * (fuzz_sheen_zeltner * (fuzz_weight * (vd.geomprop_steady + choice * power_2)))));
+                * (fuzz_factor * (fuzz_sheen_zeltner * (fuzz_weight * (vd.geomprop_steady + choice * power_2)))));
         }
         // second_reflection
-        float cosine_2 = sqrt(clamp(dot(V, L) * 0.5 + 0.500001, 0.0, 1.0));
-        vec3 fresnel = mx_fresnel_schlick(cosine_2, fresnel_f0, grazing);
+        float half_cosine = sqrt(clamp(dot(V, L) * 0.5 + 0.500001, 0.0, 1.0));
+        vec3 fresnel = mx_fresnel_schlick(half_cosine, fresnel_f0, grazing);
         vec3 sum = vd.geomprop_steady * fuzz_throughput + fuzz_throughput * choice * power_2;
         if (second_reflection_weight > 0.0)
             color += light_color * (intensity
@@ -560,12 +560,12 @@ void surface()
     if (second_reflection_weight > 0.0) {
         vec2 turn = vec2(1.0, 0.0);
         int second_reflection_count = mx_sample_count(second_reflection_alpha);
-        vec3 second_reflection_product = second_reflection_scale * (second_reflection_weight * sum);
+        vec3 second_reflection_factor = second_reflection_scale * (second_reflection_weight * sum);
         mx_GgxSamples second_reflection_ggx_samples = mx_ggx_samples(second_alpha, second_reflection_count,
             vd.geomprop_normal, vd.geomprop_tangent, V);
         for (int i = 0; i < second_reflection_count; ++i) {
             mx_GgxLight second_reflection_light = mx_ggx_reflected_by_direction(second_reflection_ggx_samples, i, turn);
-            color += second_reflection_product
+            color += second_reflection_factor
                 * (second_reflection_light.color
                 * (second_reflection_light.weight
                 * mx_fresnel_schlick(second_reflection_light.cosine, fresnel_f0, grazing)));
@@ -576,20 +576,18 @@ void surface()
     if (reflection_visible) {
         vec2 turn = vec2(1.0, 0.0);
         int reflection_count = mx_sample_count(reflection_alpha);
-        vec3 reflection_product = reflection_scale * ((1.0 - second_reflection_weight) * sum);
+        vec3 reflection_factor = reflection_scale * ((1.0 - second_reflection_weight) * sum);
         mx_GgxSamples reflection_ggx_samples = mx_ggx_samples(alpha, reflection_count, vd.geomprop_normal,
             vd.geomprop_tangent, V);
         for (int i = 0; i < reflection_count; ++i) {
-            mx_GgxLight reflection_ggx_reflected_by_direction = mx_ggx_reflected_by_direction(reflection_ggx_samples, i,
-                turn);
-            color += reflection_product * (reflection_ggx_reflected_by_direction.color
-                * (reflection_ggx_reflected_by_direction.weight
-                * mx_fresnel_schlick(reflection_ggx_reflected_by_direction.cosine, fresnel_f0, grazing)));
+            mx_GgxLight reflection_light = mx_ggx_reflected_by_direction(reflection_ggx_samples, i, turn);
+            color += reflection_factor * (reflection_light.color
+                * (reflection_light.weight * mx_fresnel_schlick(reflection_light.cosine, fresnel_f0, grazing)));
             turn = vec2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
         }
     }
     // lights: subsurface, medium
-    float subsurface_weight = clamp(mx_slab_is_thick(vd.geomprop_diffuse_albedo, vd.geomprop_free_path,
+    float inside_subsurface_weight = clamp(mx_slab_is_thick(vd.geomprop_diffuse_albedo, vd.geomprop_free_path,
         vd.geomprop_is_thick, vd.geomprop_is_thick), 0.0, 1.0);
     vec3 reflection_throughput = max(vec3(1.0) - mix(fresnel_f0, grazing, reflection_albedo.y) * reflection_albedo.x
         * reflection_scale, 0.0);
@@ -597,7 +595,7 @@ void surface()
         * mix(reflection_throughput, max(vec3(1.0) - mix(fresnel_f0, grazing, second_reflection_albedo.y)
         * second_reflection_albedo.x * second_reflection_scale, 0.0), second_reflection_weight);
     vec3 product = vd.geomprop_steady * inside_weight;
-    bool medium_visible = 1.0 - subsurface_weight > 0.0;
+    bool medium_visible = 1.0 - inside_subsurface_weight > 0.0;
     // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         vec3 L;
@@ -607,29 +605,28 @@ void surface()
             L = -u_lightData[i].direction;
             intensity = u_lightData[i].intensity;
         } else {
-            vec3 spot_light_difference = u_lightData[i].position - vd.positionWorld;
-            vec3 spot_light_direction = normalize(spot_light_difference);
-            L = spot_light_direction;
-            float spot_light_ratio = u_lightData[i].intensity
-                / pow(length(spot_light_difference) + 1.0, u_lightData[i].decay_rate);
+            vec3 d = u_lightData[i].position - vd.positionWorld;
+            vec3 to_light = normalize(d);
+            L = to_light;
+            float falloff = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
             if (light_type == 2) {
-                intensity = spot_light_ratio;
+                intensity = falloff;
             } else {
-                float spot_light_difference_2 = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
-                intensity = light_type == 3 ? spot_light_ratio
-                    * smoothstep(spot_light_difference_2, u_lightData[i].inner_angle,
-                    -dot(u_lightData[i].direction, spot_light_direction)) : 0.0;
+                float spot_light_edge = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+                intensity = light_type == 3 ? falloff
+                    * smoothstep(spot_light_edge, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
+                    : 0.0;
             }
         }
         // subsurface
         float cosine_2 = dot(N, L);
-        vec3 fuzz_vector = vec3(inversesqrt(cosine_2 * cosine_2 + 1.25) * 1.5);
-        if (subsurface_weight > 0.0) {
-            vec3 subsurface_product = subsurface_weight
-                * (product + inside_weight * choice * pow(choice_2, fuzz_vector));
+        vec3 vector_closure_way = vec3(inversesqrt(cosine_2 * cosine_2 + 1.25) * 1.5);
+        if (inside_subsurface_weight > 0.0) {
+            vec3 subsurface_weight = inside_subsurface_weight
+                * (product + inside_weight * choice * pow(choice_2, vector_closure_way));
             color += u_lightData[i].color
                 * (intensity * (vd.geomprop_diffuse_albedo
-                * (mx_subsurface_light(vd.geomprop_free_path, dot(Nf, L)) * subsurface_product)));
+                * (mx_subsurface_light(vd.geomprop_free_path, dot(Nf, L)) * subsurface_weight)));
         }
         // medium
         if (medium_visible) {
@@ -637,32 +634,32 @@ void surface()
                 vd.geomprop_roughness, vd.geomprop_free_path, vd.geomprop_phase_anisotropy, vd.geomprop_normal, V, L);
             color += u_lightData[i].color
                 * (intensity * (medium_slab_medium_bsdf_eval
-                * ((1.0 - subsurface_weight)
-                * (product + vd.geomprop_color * inside_weight * pow(vd.geomprop_decay, fuzz_vector)))));
+                * ((1.0 - inside_subsurface_weight)
+                * (product + vd.geomprop_color * inside_weight * pow(vd.geomprop_decay, vector_closure_way)))));
         }
     }
     // environment: subsurface
-    if (subsurface_weight > 0.0)
-        color += u_envLightIntensity * (subsurface_weight * (product + inside_weight * choice * power_3)
+    if (inside_subsurface_weight > 0.0)
+        color += u_envLightIntensity * (inside_subsurface_weight * (product + inside_weight * choice * power_3)
             * (vd.geomprop_diffuse_albedo * part));
     // environment: medium
     if (medium_visible) {
-        bool is_below = max(vd.geomprop_free_path.x, max(vd.geomprop_free_path.y, vd.geomprop_free_path.z)) <= 0.0;
+        bool is_black = max(vd.geomprop_free_path.x, max(vd.geomprop_free_path.y, vd.geomprop_free_path.z)) <= 0.0;
         float way = inversesqrt(c * c + 1.25) * 1.5;
-        vec3 slab_medium_bsdf_albedo = is_below ? vd.geomprop_diffuse_albedo
+        vec3 slab_medium_bsdf_albedo = is_black ? vd.geomprop_diffuse_albedo
             : mx_medium_reflected(vd.geomprop_diffuse_albedo, vd.geomprop_free_path, vd.geomprop_phase_anisotropy, way);
         float square = clamp(scaled_roughness, 0.001, 1.0);
         float chan_gloss = clamp(log2(2.0 / (square * square) - 1.0) / 18.0, 0.0, 1.0);
         float s = clamp(chan_gloss * 2.2 - 0.5, 0.0, 1.0);
         float medium_product = (1.0 - chan_gloss * 1.085) * (1.0 - s * (s * 1.1414));
         vec2 medium_map_point = mx_map_point(normalize(mat3(u_envMatrix)
-            * (is_below ? Nf + V * ((cos_v * (cos_v * 0.5624 - 0.7155) + 0.4353) * medium_product) : Nf)));
+            * (is_black ? Nf + V * ((cos_v * (cos_v * 0.5624 - 0.7155) + 0.4353) * medium_product) : Nf)));
         vec3 medium_light = slab_medium_bsdf_albedo
             * (u_envLightIntensity * textureLod(u_envIrradiance, medium_map_point, 0.0).xyz);
         vec3 slab_medium_bsdf_environment = max(vd.geomprop_diffuse_albedo.x,
             max(vd.geomprop_diffuse_albedo.y, vd.geomprop_diffuse_albedo.z)) <= 0.0 ? vec3(0.0) : medium_light;
         color += slab_medium_bsdf_environment
-            * ((1.0 - subsurface_weight) * (product + power * (vd.geomprop_color * inside_weight)));
+            * ((1.0 - inside_subsurface_weight) * (product + power * (vd.geomprop_color * inside_weight)));
     }
     out1 = vec4(color, 1.0);
 }

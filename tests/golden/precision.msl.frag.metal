@@ -321,10 +321,9 @@ void FragmentMain()
     float cosine = max(abs(dot(bent, V)), 1e-8);
     float3 scale = float3(mix(fresnel_facing, half3(1.0h), 0.04761905h))
         * (1.0 / mx_ggx_albedo_fit(alpha, cosine).x - 1.0) + float3(1.0);
-    float3 metal_bare_facing = faceforward(bent, -V, bent);
+    float3 facing = faceforward(bent, -V, bent);
     float ggx_masking = sqrt(alpha * alpha + (1.0 - alpha * alpha) * (cosine * cosine));
-    mx_GgxLobe metal_bare_ggx_lobe = make_mx_GgxLobe(metal_bare_facing, cosine, float3(0.0), float2(alpha),
-        ggx_masking);
+    mx_GgxLobe metal_bare_ggx_lobe = make_mx_GgxLobe(facing, cosine, float3(0.0), float2(alpha), ggx_masking);
     // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_prv.u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         float3 L;
@@ -337,16 +336,16 @@ void FragmentMain()
             float3 d = u_lightData.u_lightData[i].position - vd.positionWorld;
             float3 to_light = normalize(d);
             L = to_light;
-            float ratio = u_lightData.u_lightData[i].intensity
+            float falloff = u_lightData.u_lightData[i].intensity
                 / pow(length(d) + 1.0, u_lightData.u_lightData[i].decay_rate);
             if (light_type == 2) {
-                intensity = ratio;
+                intensity = falloff;
             } else {
-                float spot_light_difference = min(u_lightData.u_lightData[i].inner_angle,
-                    u_lightData.u_lightData[i].outer_angle) - 0.00001;
+                float edge = min(u_lightData.u_lightData[i].inner_angle, u_lightData.u_lightData[i].outer_angle)
+                    - 0.00001;
                 intensity = light_type == 3
-                    ? smoothstep(spot_light_difference, u_lightData.u_lightData[i].inner_angle,
-                    -dot(u_lightData.u_lightData[i].direction, to_light)) * ratio : 0.0;
+                    ? smoothstep(edge, u_lightData.u_lightData[i].inner_angle,
+                    -dot(u_lightData.u_lightData[i].direction, to_light)) * falloff : 0.0;
             }
         }
         // metal_bare

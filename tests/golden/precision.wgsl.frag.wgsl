@@ -264,9 +264,9 @@ fn main(vd: VertexData) -> @location(0) vec4f
     let cosine: f32 = max(abs(dot(bent, V)), 1e-8);
     let scale: vec3f = vec3f(mix(fresnel_facing, vec3h(1.0), 0.04761905))
         * (1.0 / mx_ggx_albedo_fit(alpha, cosine).x - 1.0) + vec3f(1.0);
-    let metal_bare_facing: vec3f = faceForward(bent, -V, bent);
+    let facing: vec3f = faceForward(bent, -V, bent);
     let ggx_masking: f32 = sqrt(alpha * alpha + (1.0 - alpha * alpha) * (cosine * cosine));
-    let metal_bare_ggx_lobe: mx_GgxLobe = mx_GgxLobe(metal_bare_facing, cosine, vec3f(0.0), vec2f(alpha), ggx_masking);
+    let metal_bare_ggx_lobe: mx_GgxLobe = mx_GgxLobe(facing, cosine, vec3f(0.0), vec2f(alpha), ggx_masking);
     // from the last light, so that drivers do not unroll the loop
     for (var i: i32 = min(u_prv.u_numActiveLightSources, 3) - 1; i >= 0; i--) {
         var L: vec3f;
@@ -279,13 +279,13 @@ fn main(vd: VertexData) -> @location(0) vec4f
             let d: vec3f = u_lightData[i].position - vd.positionWorld;
             let to_light: vec3f = normalize(d);
             L = to_light;
-            let ratio: f32 = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+            let falloff: f32 = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
             if (light_type_ == 2) {
-                intensity = ratio;
+                intensity = falloff;
             } else {
-                let spot_light_difference: f32 = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
-                intensity = select(0.0, smoothstep(spot_light_difference, u_lightData[i].inner_angle,
-                    -dot(u_lightData[i].direction, to_light)) * ratio, light_type_ == 3);
+                let edge: f32 = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+                intensity = select(0.0, smoothstep(edge, u_lightData[i].inner_angle,
+                    -dot(u_lightData[i].direction, to_light)) * falloff, light_type_ == 3);
             }
         }
         // metal_bare

@@ -138,13 +138,13 @@ void scatter()
     vec2 tiles_ratio_5 = mx_rotate2d(tiles_difference, -tiles_angle_3) / tiles_size_3;
     vec2 tiles_ratio_6 = mx_rotate2d(tiles_difference_2, -tiles_angle_3) / tiles_size_3;
     mx_HexTile tiles_hex_tile_3 = mx_HexTile(tiles_sum_3, tiles_ratio_5, tiles_ratio_6, tiles_angle_3);
-    vec3 tiles_part = mx_hextiledimage(tiles_file,
+    vec3 tiles_2 = mx_hextiledimage(tiles_file,
         mx_HexTiles(tiles_hex_tile, tiles_hex_tile_2, tiles_hex_tile_3, tiles)).xyz;
-    float edge_product = length(vec2(uv_sum.x - vd.texcoord_0.x, uv_sum_2.x - vd.texcoord_0.x)) * 0.70710677;
-    bool edge_is_below = 0.5 - edge_product < edge_product + 0.5;
-    float edge_transition = smoothstep(0.5 - edge_product, edge_product + 0.5, vd.texcoord_0.x);
-    float edge_choice = edge_is_below ? edge_transition : step(edge_product + 0.5, vd.texcoord_0.x);
-    out1 = vec4(mix(vec3(1.0, 0.0, 0.0), tiles_part, edge_choice), 1.0);
+    float width = length(vec2(uv_sum.x - vd.texcoord_0.x, uv_sum_2.x - vd.texcoord_0.x)) * 0.70710677;
+    bool edge_is_below = 0.5 - width < width + 0.5;
+    float edge_transition = smoothstep(0.5 - width, width + 0.5, vd.texcoord_0.x);
+    float smooth_edge = edge_is_below ? edge_transition : step(width + 0.5, vd.texcoord_0.x);
+    out1 = vec4(mix(vec3(1.0, 0.0, 0.0), tiles_2, smooth_edge), 1.0);
     out2 = vec4(L, inside);
     out3 = vec4(weight, density);
     out4 = vec4(medium, 0.0);
@@ -169,15 +169,15 @@ void scatter()
             vec3 to_light = normalize(d);
             L_3 = to_light;
             float magnitude_d = length(d);
-            float ratio = u_lightData[i].intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
+            float falloff = u_lightData[i].intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
             if (light_type == 2) {
-                intensity = ratio;
+                intensity = falloff;
                 distance_2 = magnitude_d;
             } else {
-                float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+                float edge = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
                 intensity = light_type == 3
-                    ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,
-                    -dot(u_lightData[i].direction, to_light)) * ratio : 0.0;
+                    ? smoothstep(edge, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light)) * falloff
+                    : 0.0;
                 distance_2 = magnitude_d;
             }
         }

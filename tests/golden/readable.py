@@ -14,8 +14,8 @@ sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent))
 from checks import check, finish
 
 MAX_COLUMNS = 140
-MAX_NUMBERED = 0.1
-MAX_NUMBERED_OF_SCATTER = 0.25  # light comes from several directions, each an L; MDL has curves of values at seven angles
+MAX_NUMBERED = 0.07
+MAX_NUMBERED_OF_SCATTER = 0.17  # light comes from several directions, each an L; MDL has curves of values at seven angles
 LOCAL = re.compile(r"^ +(?:const )?(?:closure )?[A-Za-z]\w* (\w+(?:, \w+)*)(?:: [\w<>]+)?(?: = .*|;)$")
 NUMBER = re.compile(r"\b\d+\.\d+(?:e-?\d+)?\b")
 FUNCTION = re.compile(r"^(?!void main)[a-zA-Z_]\w* (mx_\w+)\(")

@@ -102,7 +102,7 @@ Surface surface(float3 positionWorld, float3 normalWorld)
     mx_GgxLobe glaze_ggx_lobe = make_mx_GgxLobe(facing, cos_v, float3(0.0), float2(0.2), ggx_masking);
     float2 albedo = mx_ggx_albedo_fit(cos_v);
     float ggx_compensation = (1.0 / albedo.x - 1.0) * 0.08571429 + 1.0;
-    float3 clay_product = (1.0 - mix(0.04, 1.0, albedo.y) * albedo.x * ggx_compensation * 0.8) * 0.31830987
+    float3 clay_factor = (1.0 - mix(0.04, 1.0, albedo.y) * albedo.x * ggx_compensation * 0.8) * 0.31830987
         * float3(0.6, 0.3, 0.2);
     // from the last light, so that drivers do not unroll the loop
     for (int i = mxg_host.mxg_light_count() - 1; i >= 0; --i) {
@@ -112,7 +112,7 @@ Surface surface(float3 positionWorld, float3 normalWorld)
         float glaze_product = mx_fresnel_permittivity(sqrt(clamp(dot(V, light_L) * 0.5 + 0.500001, 0.0, 1.0)))
             * (ggx_compensation * 0.8);
         float glaze_response = mx_ggx_light(glaze_ggx_lobe, V, light_L) * glaze_product;
-        color += light_radiance * (glaze_response + max(dot(light_L, facing), 1e-8) * clay_product);
+        color += light_radiance * (glaze_response + max(dot(light_L, facing), 1e-8) * clay_factor);
     }
     result.color = color;
     result.alpha = 1.0;

@@ -119,7 +119,7 @@ void FragmentMain()
     float r = (1.0 - index_ahead) / (index_ahead + 1.0);
     float2 albedo = mx_ggx_albedo_fit(max(abs(n_dot_v), 1e-8));
     float ggx_compensation = mix(r * r, 1.0, 0.04761905) * (1.0 / albedo.x - 1.0) + 1.0;
-    float3 clay_product = (1.0 - mx_fresnel_permittivity(max(1.0 - pow(albedo.y, 0.2), 1e-8), index_ahead * index_ahead)
+    float3 clay_factor = (1.0 - mx_fresnel_permittivity(max(1.0 - pow(albedo.y, 0.2), 1e-8), index_ahead * index_ahead)
         * albedo.x * ggx_compensation * 0.8) * 0.31830987 * float3(0.6, 0.3, 0.2);
     // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_prv.u_numActiveLightSources, 3) - 1; i >= 0; --i) {
@@ -133,24 +133,25 @@ void FragmentMain()
             float3 d = u_lightData.u_lightData[i].position - vd.positionWorld;
             float3 to_light = normalize(d);
             L = to_light;
-            float ratio = u_lightData.u_lightData[i].intensity
+            float falloff = u_lightData.u_lightData[i].intensity
                 / pow(length(d) + 1.0, u_lightData.u_lightData[i].decay_rate);
             if (light_type == 2) {
-                intensity = ratio;
+                intensity = falloff;
             } else {
-                float spot_light_difference = min(u_lightData.u_lightData[i].inner_angle,
-                    u_lightData.u_lightData[i].outer_angle) - 0.00001;
+                float edge = min(u_lightData.u_lightData[i].inner_angle, u_lightData.u_lightData[i].outer_angle)
+                    - 0.00001;
                 intensity = light_type == 3
-                    ? smoothstep(spot_light_difference, u_lightData.u_lightData[i].inner_angle,
-                    -dot(u_lightData.u_lightData[i].direction, to_light)) * ratio : 0.0;
+                    ? smoothstep(edge, u_lightData.u_lightData[i].inner_angle,
+                    -dot(u_lightData.u_lightData[i].direction, to_light)) * falloff : 0.0;
             }
         }
         // glaze, clay
-        float cosine = sqrt(clamp(dot(V, L) * 0.5 + 0.500001, 0.0, 1.0));
-        float glaze_product = mx_fresnel_permittivity(cosine, index_ahead * index_ahead) * (ggx_compensation * 0.8);
+        float half_cosine = sqrt(clamp(dot(V, L) * 0.5 + 0.500001, 0.0, 1.0));
+        float glaze_product = mx_fresnel_permittivity(half_cosine, index_ahead * index_ahead)
+            * (ggx_compensation * 0.8);
         float glaze_response = mx_ggx_smith_lobe(glaze_frame, V, L) * glaze_product;
         color += u_lightData.u_lightData[i].color
-            * (intensity * (glaze_response + max(dot(L, facing), 1e-8) * clay_product));
+            * (intensity * (glaze_response + max(dot(L, facing), 1e-8) * clay_factor));
     }
     out.out1 = float4(color, 1.0);
 }

@@ -108,7 +108,7 @@ fn main(vd: VertexData) -> @location(0) vec4f
     let r: f32 = (1.0 - index_ahead) / (index_ahead + 1.0);
     let albedo: vec2f = mx_ggx_albedo_fit(max(abs(n_dot_v), 1e-8));
     let ggx_compensation: f32 = mix(r * r, 1.0, 0.04761905) * (1.0 / albedo.x - 1.0) + 1.0;
-    let clay_product: vec3f = (1.0 - mx_fresnel_permittivity(max(1.0 - pow(albedo.y, 0.2), 1e-8), index_ahead
+    let clay_factor: vec3f = (1.0 - mx_fresnel_permittivity(max(1.0 - pow(albedo.y, 0.2), 1e-8), index_ahead
         * index_ahead) * albedo.x * ggx_compensation * 0.8) * 0.31830987 * vec3f(0.6, 0.3, 0.2);
     // from the last light, so that drivers do not unroll the loop
     for (var i: i32 = min(u_prv.u_numActiveLightSources, 3) - 1; i >= 0; i--) {
@@ -122,20 +122,21 @@ fn main(vd: VertexData) -> @location(0) vec4f
             let d: vec3f = u_lightData[i].position - vd.positionWorld;
             let to_light: vec3f = normalize(d);
             L = to_light;
-            let ratio: f32 = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+            let falloff: f32 = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
             if (light_type_ == 2) {
-                intensity = ratio;
+                intensity = falloff;
             } else {
-                let spot_light_difference: f32 = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
-                intensity = select(0.0, smoothstep(spot_light_difference, u_lightData[i].inner_angle,
-                    -dot(u_lightData[i].direction, to_light)) * ratio, light_type_ == 3);
+                let edge: f32 = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+                intensity = select(0.0, smoothstep(edge, u_lightData[i].inner_angle,
+                    -dot(u_lightData[i].direction, to_light)) * falloff, light_type_ == 3);
             }
         }
         // glaze, clay
-        let cosine: f32 = sqrt(clamp(dot(V, L) * 0.5 + 0.500001, 0.0, 1.0));
-        let glaze_product: f32 = mx_fresnel_permittivity(cosine, index_ahead * index_ahead) * (ggx_compensation * 0.8);
+        let half_cosine: f32 = sqrt(clamp(dot(V, L) * 0.5 + 0.500001, 0.0, 1.0));
+        let glaze_product: f32 = mx_fresnel_permittivity(half_cosine, index_ahead * index_ahead)
+            * (ggx_compensation * 0.8);
         let glaze_response: f32 = mx_ggx_smith_lobe(glaze_frame, V, L) * glaze_product;
-        color += u_lightData[i].color * (intensity * (glaze_response + max(dot(L, facing), 1e-8) * clay_product));
+        color += u_lightData[i].color * (intensity * (glaze_response + max(dot(L, facing), 1e-8) * clay_factor));
     }
     out1 = vec4f(color, 1.0);
     return out1;

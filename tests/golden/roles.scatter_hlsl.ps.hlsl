@@ -219,16 +219,16 @@ void scatter()
         density = is_in_front ? glaze_pdf * (glaze_share / sum) : 0.0;
     }
     pick -= glaze_share;
-    float3 N_2 = faceforward(N, -vd.viewWorld, N);
+    float3 facing = faceforward(N, -vd.viewWorld, N);
     const float3 clay_constant = float3(0.6, 0.3, 0.2);
     if (pick >= 0.0 && pick < clay_share) {
-        float3x3 any_frame = mx_frame(N_2, abs(N_2.x) < 0.7 ? float3(1.0, 0.0, 0.0) : float3(0.0, 1.0, 0.0));
-        float2 clay_product = sqrt(vd.random.x) * cos((vd.random.y - float2(0.0, 0.25)) * 6.2831855);
-        float3 L_2 = mul(float3(clay_product, sqrt(1.0 - vd.random.x)), any_frame);
+        float3x3 any_frame = mx_frame(facing, abs(facing.x) < 0.7 ? float3(1.0, 0.0, 0.0) : float3(0.0, 1.0, 0.0));
+        float2 polar = sqrt(vd.random.x) * cos((vd.random.y - float2(0.0, 0.25)) * 6.2831855);
+        float3 L_2 = mul(float3(polar, sqrt(1.0 - vd.random.x)), any_frame);
         L = L_2;
-        float n_2_dot_l_2 = dot(N_2, L_2);
-        float pdf = max(n_2_dot_l_2, 0.0) / 3.1415927;
-        float3 weight_2 = max(n_2_dot_l_2, 1e-8) * 0.31830987 * clay_constant / max(pdf, 1e-8);
+        float facing_dot_l_2 = dot(facing, L_2);
+        float pdf = max(facing_dot_l_2, 0.0) / 3.1415927;
+        float3 weight_2 = max(facing_dot_l_2, 1e-8) * 0.31830987 * clay_constant / max(pdf, 1e-8);
         weight = weight_2 * (glaze_throughput * (sum / clay_share));
         density = pdf * (clay_share / sum);
     }
@@ -240,15 +240,15 @@ void scatter()
     float glaze_product = ggx_compensation
         * mx_fresnel_permittivity(sqrt(clamp(dot(vd.viewWorld, vd.lightWorld.xyz) * 0.5 + 0.500001, 0.0, 1.0)),
         scaled_eta);
-    float3x3 frame = mx_frame(N_2, X);
-    float sum_2 = vd.lightWorld.w * (glaze_share / sum * mx_ggx_pdf(N, X, vd.viewWorld, vd.lightWorld.xyz, eta)) + 1.0;
-    float3 balanced = (float3)(glaze_product * mx_ggx_smith_lobe(frame, vd.viewWorld, vd.lightWorld.xyz) * 0.8 / sum_2);
-    float3 choice = n_dot_lobe_view * dot(N, vd.lightWorld.xyz) > 0.0 ? balanced : float3(0.0, 0.0, 0.0);
-    float n_2_dot_l = dot(N_2, vd.lightWorld.xyz);
-    float sum_3 = vd.lightWorld.w * (clay_share / sum * (max(n_2_dot_l, 0.0) / 3.1415927)) + 1.0;
-    out5 = float4(choice + glaze_throughput * (max(n_2_dot_l, 1e-8) * 0.31830987) * clay_constant / sum_3, 0.0);
+    float3x3 frame = mx_frame(facing, X);
+    float both = vd.lightWorld.w * (glaze_share / sum * mx_ggx_pdf(N, X, vd.viewWorld, vd.lightWorld.xyz, eta)) + 1.0;
+    float3 balanced = (float3)(glaze_product * mx_ggx_smith_lobe(frame, vd.viewWorld, vd.lightWorld.xyz) * 0.8 / both);
+    float3 response = n_dot_lobe_view * dot(N, vd.lightWorld.xyz) > 0.0 ? balanced : float3(0.0, 0.0, 0.0);
+    float facing_dot_l = dot(facing, vd.lightWorld.xyz);
+    float both_2 = vd.lightWorld.w * (clay_share / sum * (max(facing_dot_l, 0.0) / 3.1415927)) + 1.0;
+    out5 = float4(response + glaze_throughput * (max(facing_dot_l, 1e-8) * 0.31830987) * clay_constant / both_2, 0.0);
     float chance = frac(vd.random.w * 4096.0);
-    float sum_4 = 0.0;
+    float sum_2 = 0.0;
     float3 light = float3(0.0, 0.0, 0.0);
     float3 L_3 = float3(0.0, 0.0, 0.0);
     float distance_ = 0.0;
@@ -267,36 +267,36 @@ void scatter()
             float3 to_light = normalize(d);
             L_4 = to_light;
             float magnitude_d = length(d);
-            float ratio = u_lightData[i].intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
+            float falloff = u_lightData[i].intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
             if (light_type == 2) {
-                intensity = ratio;
+                intensity = falloff;
                 distance_2 = magnitude_d;
             } else {
-                float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+                float edge = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
                 intensity = light_type == 3
-                    ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,
-                    -dot(u_lightData[i].direction, to_light)) * ratio : 0.0;
+                    ? smoothstep(edge, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light)) * falloff
+                    : 0.0;
                 distance_2 = magnitude_d;
             }
         }
         float glaze_product_2 = ggx_compensation
             * mx_fresnel_permittivity(sqrt(clamp(dot(vd.viewWorld, L_4) * 0.5 + 0.500001, 0.0, 1.0)), scaled_eta);
         float3 vector_ = (float3)(glaze_product_2 * mx_ggx_smith_lobe(frame, vd.viewWorld, L_4) * 0.8);
-        float3 product = glaze_throughput * (max(dot(N_2, L_4), 1e-8) * 0.31830987) * clay_constant;
-        float3 sum_5 = (n_dot_lobe_view * dot(N, L_4) > 0.0 ? vector_ : float3(0.0, 0.0, 0.0)) + product;
-        float3 lit_ = u_lightData[i].color * intensity * sum_5;
+        float3 product = glaze_throughput * (max(dot(facing, L_4), 1e-8) * 0.31830987) * clay_constant;
+        float3 response_2 = (n_dot_lobe_view * dot(N, L_4) > 0.0 ? vector_ : float3(0.0, 0.0, 0.0)) + product;
+        float3 lit_ = u_lightData[i].color * intensity * response_2;
         float brightness = max(dot(lit_, float3(0.33333334, 0.33333334, 0.33333334)), 0.0);
-        sum_4 += brightness;
-        if (sum_4 * chance < brightness) {
+        sum_2 += brightness;
+        if (sum_2 * chance < brightness) {
             L_3 = L_4;
             distance_ = distance_2;
             light = lit_ / brightness;
         }
         if (brightness > 0.0) {
-            float ratio = (sum_4 * chance - brightness) / (sum_4 - brightness);
-            chance = sum_4 * chance < brightness ? sum_4 * chance / brightness : ratio;
+            float ratio = (sum_2 * chance - brightness) / (sum_2 - brightness);
+            chance = sum_2 * chance < brightness ? sum_2 * chance / brightness : ratio;
         }
     }
     out6 = float4(L_3, distance_);
-    out7 = float4(sum_4 * light, 0.0);
+    out7 = float4(sum_2 * light, 0.0);
 }

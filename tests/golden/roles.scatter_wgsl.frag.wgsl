@@ -215,16 +215,17 @@ fn scatter()
         density = select(0.0, glaze_pdf * (glaze_share / sum), is_in_front);
     }
     pick -= glaze_share;
-    let N_2: vec3f = faceForward(N, -vd.viewWorld, N);
+    let facing: vec3f = faceForward(N, -vd.viewWorld, N);
     let clay_constant: vec3f = vec3f(0.6, 0.3, 0.2);
     if (pick >= 0.0 && pick < clay_share) {
-        let any_frame: mat3x3f = mx_frame(N_2, select(vec3f(0.0, 1.0, 0.0), vec3f(1.0, 0.0, 0.0), abs(N_2.x) < 0.7));
-        let clay_product: vec2f = sqrt(vd.random.x) * cos((vd.random.y - vec2f(0.0, 0.25)) * 6.2831855);
-        let L_2: vec3f = any_frame * vec3f(clay_product, sqrt(1.0 - vd.random.x));
+        let any_frame: mat3x3f = mx_frame(facing,
+            select(vec3f(0.0, 1.0, 0.0), vec3f(1.0, 0.0, 0.0), abs(facing.x) < 0.7));
+        let polar: vec2f = sqrt(vd.random.x) * cos((vd.random.y - vec2f(0.0, 0.25)) * 6.2831855);
+        let L_2: vec3f = any_frame * vec3f(polar, sqrt(1.0 - vd.random.x));
         L = L_2;
-        let n_2_dot_l_2: f32 = dot(N_2, L_2);
-        let pdf: f32 = max(n_2_dot_l_2, 0.0) / 3.1415927;
-        let weight_2: vec3f = max(n_2_dot_l_2, 1e-8) * 0.31830987 * clay_constant / max(pdf, 1e-8);
+        let facing_dot_l_2: f32 = dot(facing, L_2);
+        let pdf: f32 = max(facing_dot_l_2, 0.0) / 3.1415927;
+        let weight_2: vec3f = max(facing_dot_l_2, 1e-8) * 0.31830987 * clay_constant / max(pdf, 1e-8);
         weight = weight_2 * (glaze_throughput * (sum / clay_share));
         density = pdf * (clay_share / sum);
     }
@@ -236,17 +237,16 @@ fn scatter()
     let glaze_product: f32 = ggx_compensation
         * mx_fresnel_permittivity(sqrt(clamp(dot(vd.viewWorld, vd.lightWorld.xyz) * 0.5 + 0.500001, 0.0, 1.0)),
         scaled_eta);
-    let frame: mat3x3f = mx_frame(N_2, X);
-    let sum_2: f32 = vd.lightWorld.w * (glaze_share / sum * mx_ggx_pdf(N, X, vd.viewWorld, vd.lightWorld.xyz, eta))
+    let frame: mat3x3f = mx_frame(facing, X);
+    let both: f32 = vd.lightWorld.w * (glaze_share / sum * mx_ggx_pdf(N, X, vd.viewWorld, vd.lightWorld.xyz, eta))
         + 1.0;
-    let balanced: vec3f = vec3f(glaze_product * mx_ggx_smith_lobe(frame, vd.viewWorld, vd.lightWorld.xyz) * 0.8
-        / sum_2);
-    let choice: vec3f = select(vec3f(0.0), balanced, n_dot_lobe_view * dot(N, vd.lightWorld.xyz) > 0.0);
-    let n_2_dot_l: f32 = dot(N_2, vd.lightWorld.xyz);
-    let sum_3: f32 = vd.lightWorld.w * (clay_share / sum * (max(n_2_dot_l, 0.0) / 3.1415927)) + 1.0;
-    out5 = vec4f(choice + glaze_throughput * (max(n_2_dot_l, 1e-8) * 0.31830987) * clay_constant / sum_3, 0.0);
+    let balanced: vec3f = vec3f(glaze_product * mx_ggx_smith_lobe(frame, vd.viewWorld, vd.lightWorld.xyz) * 0.8 / both);
+    let response: vec3f = select(vec3f(0.0), balanced, n_dot_lobe_view * dot(N, vd.lightWorld.xyz) > 0.0);
+    let facing_dot_l: f32 = dot(facing, vd.lightWorld.xyz);
+    let both_2: f32 = vd.lightWorld.w * (clay_share / sum * (max(facing_dot_l, 0.0) / 3.1415927)) + 1.0;
+    out5 = vec4f(response + glaze_throughput * (max(facing_dot_l, 1e-8) * 0.31830987) * clay_constant / both_2, 0.0);
     var chance: f32 = fract(vd.random.w * 4096.0);
-    var sum_4: f32 = 0.0;
+    var sum_2: f32 = 0.0;
     var light: vec3f = vec3f(0.0);
     var L_3: vec3f = vec3f(0.0);
     var distance_: f32 = 0.0;
@@ -265,35 +265,35 @@ fn scatter()
             let to_light: vec3f = normalize(d);
             L_4 = to_light;
             let magnitude_d: f32 = length(d);
-            let ratio: f32 = u_lightData[i].intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
+            let falloff: f32 = u_lightData[i].intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
             if (light_type_ == 2) {
-                intensity = ratio;
+                intensity = falloff;
                 distance_2 = magnitude_d;
             } else {
-                let spot_light_difference: f32 = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
-                intensity = select(0.0, smoothstep(spot_light_difference, u_lightData[i].inner_angle,
-                    -dot(u_lightData[i].direction, to_light)) * ratio, light_type_ == 3);
+                let edge: f32 = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+                intensity = select(0.0, smoothstep(edge, u_lightData[i].inner_angle,
+                    -dot(u_lightData[i].direction, to_light)) * falloff, light_type_ == 3);
                 distance_2 = magnitude_d;
             }
         }
         let glaze_product_2: f32 = ggx_compensation
             * mx_fresnel_permittivity(sqrt(clamp(dot(vd.viewWorld, L_4) * 0.5 + 0.500001, 0.0, 1.0)), scaled_eta);
         let vector: vec3f = vec3f(glaze_product_2 * mx_ggx_smith_lobe(frame, vd.viewWorld, L_4) * 0.8);
-        let product: vec3f = glaze_throughput * (max(dot(N_2, L_4), 1e-8) * 0.31830987) * clay_constant;
-        let sum_5: vec3f = select(vec3f(0.0), vector, n_dot_lobe_view * dot(N, L_4) > 0.0) + product;
-        let lit: vec3f = u_lightData[i].color * intensity * sum_5;
+        let product: vec3f = glaze_throughput * (max(dot(facing, L_4), 1e-8) * 0.31830987) * clay_constant;
+        let response_2: vec3f = select(vec3f(0.0), vector, n_dot_lobe_view * dot(N, L_4) > 0.0) + product;
+        let lit: vec3f = u_lightData[i].color * intensity * response_2;
         let brightness: f32 = max(dot(lit, vec3f(0.33333334)), 0.0);
-        sum_4 += brightness;
-        if (sum_4 * chance < brightness) {
+        sum_2 += brightness;
+        if (sum_2 * chance < brightness) {
             L_3 = L_4;
             distance_ = distance_2;
             light = lit / brightness;
         }
         if (brightness > 0.0) {
-            let ratio: f32 = (sum_4 * chance - brightness) / (sum_4 - brightness);
-            chance = select(ratio, sum_4 * chance / brightness, sum_4 * chance < brightness);
+            let ratio: f32 = (sum_2 * chance - brightness) / (sum_2 - brightness);
+            chance = select(ratio, sum_2 * chance / brightness, sum_2 * chance < brightness);
         }
     }
     out6 = vec4f(L_3, distance_);
-    out7 = vec4f(sum_4 * light, 0.0);
+    out7 = vec4f(sum_2 * light, 0.0);
 }

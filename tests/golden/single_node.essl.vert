@@ -8,7 +8,7 @@ out vec3 vd_positionWorld;
 
 void main()
 {
-    vec4 positionWorld_product = u_worldMatrix * vec4(i_position, 1.0);
-    vd_positionWorld = positionWorld_product.xyz;
-    gl_Position = u_viewProjectionMatrix * positionWorld_product;
+    vec4 positionWorld = u_worldMatrix * vec4(i_position, 1.0);
+    vd_positionWorld = positionWorld.xyz;
+    gl_Position = u_viewProjectionMatrix * positionWorld;
 }

@@ -15,7 +15,7 @@ void main(
     float3 i_position : POSITION,
     out VertexData vd)
 {
-    float4 positionWorld_product = mul(float4(i_position, 1.0), u_worldMatrix);
-    vd.positionWorld = positionWorld_product.xyz;
-    vd.position = mul(positionWorld_product, u_viewProjectionMatrix);
+    float4 positionWorld = mul(float4(i_position, 1.0), u_worldMatrix);
+    vd.positionWorld = positionWorld.xyz;
+    vd.position = mul(positionWorld, u_viewProjectionMatrix);
 }

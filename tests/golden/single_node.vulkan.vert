@@ -12,7 +12,7 @@ layout(location = 0) out VertexData {
 
 void main()
 {
-    vec4 positionWorld_product = u_worldMatrix * vec4(i_position, 1.0);
-    vd.positionWorld = positionWorld_product.xyz;
-    gl_Position = u_viewProjectionMatrix * positionWorld_product;
+    vec4 positionWorld = u_worldMatrix * vec4(i_position, 1.0);
+    vd.positionWorld = positionWorld.xyz;
+    gl_Position = u_viewProjectionMatrix * positionWorld;
 }

@@ -664,9 +664,9 @@ void main()
         vec3(0.0), vec3(0.0), 0.0);
     // metal
     float c = dot(N, normalize(u_viewPosition - vd.positionWorld));
-    float cos_v = max(abs(c), 1e-8);
+    float view_cosine = max(abs(c), 1e-8);
     // coat
-    vec2 coat_reflection_albedo = mx_ggx_albedo_fit(0.01, cos_v);
+    vec2 coat_reflection_albedo = mx_ggx_albedo_fit(0.01, view_cosine);
     float coat_reflection_ggx_compensation = (1.0 / coat_reflection_albedo.x - 1.0) * 0.08571428 + 1.0;
     float coat_reflection_throughput = max(1.0 - mix(0.04, 1.0, coat_reflection_albedo.y) * coat_reflection_albedo.x
         * coat_reflection_ggx_compensation, 0.0);
@@ -693,13 +693,13 @@ void main()
     vec4 normal_decal = mx_decal(2);
     vec3 metal_direction = normalize(N * (normal_decal.w + 1e-6) + normal_decal.xyz * 2.0 - (1.0 - normal_decal.w));
     vec3 decal_normal = normal_decal.w >= 1.0 ? N : metal_direction;
-    vec2 milk_reflection_albedo = mx_ggx_albedo_fit(0.25071993, cos_v);
+    vec2 milk_reflection_albedo = mx_ggx_albedo_fit(0.25071993, view_cosine);
     float milk_reflection_ggx_compensation = (1.0 / milk_reflection_albedo.x - 1.0) * 0.08571428 + 1.0;
     float milk_reflection_throughput = max(1.0 - mix(0.04, 1.0, milk_reflection_albedo.y) * milk_reflection_albedo.x
         * milk_reflection_ggx_compensation, 0.0);
     vec3 milk_medium_transmitted;
     vec3 milk_medium = mx_medium_layer(way, milk_medium_transmitted);
-    vec2 metal_reflection_albedo = mx_ggx_albedo_fit(0.29886922, cos_v);
+    vec2 metal_reflection_albedo = mx_ggx_albedo_fit(0.29886922, view_cosine);
     vec3 metal_reflection_ggx_compensation = (1.0 / metal_reflection_albedo.x - 1.0)
         * vec3(0.6821221, 0.48832548, 0.27722293) + vec3(1.0);
     vec3 slab_reflection_bsdf_albedo = mix(vec3(0.66622823, 0.46274176, 0.24108408), vec3(1.0),

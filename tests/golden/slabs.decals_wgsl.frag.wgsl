@@ -578,9 +578,9 @@ fn main(vd_in: VertexData) -> PixelOutputs
         vec3f(0.5), vec3f(0.0), vec3f(0.0), 0.0);
     // metal
     let c: f32 = dot(N, normalize(u_prv.u_viewPosition - vd.positionWorld));
-    let cos_v: f32 = max(abs(c), 1e-8);
+    let view_cosine: f32 = max(abs(c), 1e-8);
     // coat
-    let coat_reflection_albedo: vec2f = mx_ggx_albedo_fit(0.01, cos_v);
+    let coat_reflection_albedo: vec2f = mx_ggx_albedo_fit(0.01, view_cosine);
     let coat_reflection_ggx_compensation: f32 = (1.0 / coat_reflection_albedo.x - 1.0) * 0.08571428 + 1.0;
     let coat_reflection_throughput: f32 = max(1.0 - mix(0.04, 1.0, coat_reflection_albedo.y) * coat_reflection_albedo.x
         * coat_reflection_ggx_compensation, 0.0);
@@ -608,13 +608,13 @@ fn main(vd_in: VertexData) -> PixelOutputs
     let metal_direction: vec3f = normalize(N * (normal_decal.w + 1e-6) + normal_decal.xyz * 2.0
         - (1.0 - normal_decal.w));
     let decal_normal: vec3f = select(metal_direction, N, normal_decal.w >= 1.0);
-    let milk_reflection_albedo: vec2f = mx_ggx_albedo_fit(0.25071993, cos_v);
+    let milk_reflection_albedo: vec2f = mx_ggx_albedo_fit(0.25071993, view_cosine);
     let milk_reflection_ggx_compensation: f32 = (1.0 / milk_reflection_albedo.x - 1.0) * 0.08571428 + 1.0;
     let milk_reflection_throughput: f32 = max(1.0 - mix(0.04, 1.0, milk_reflection_albedo.y) * milk_reflection_albedo.x
         * milk_reflection_ggx_compensation, 0.0);
     var milk_medium_transmitted: vec3f;
     let milk_medium: vec3f = mx_medium_layer(way, &milk_medium_transmitted);
-    let metal_reflection_albedo: vec2f = mx_ggx_albedo_fit(0.29886922, cos_v);
+    let metal_reflection_albedo: vec2f = mx_ggx_albedo_fit(0.29886922, view_cosine);
     let metal_reflection_ggx_compensation: vec3f = (1.0 / metal_reflection_albedo.x - 1.0)
         * vec3f(0.6821221, 0.48832548, 0.27722293) + vec3f(1.0);
     let slab_reflection_bsdf_albedo: vec3f = mix(vec3f(0.66622823, 0.46274176, 0.24108408), vec3f(1.0),

@@ -647,9 +647,9 @@ void main()
         vec3(0.0), vec3(0.0), 0.0);
     // metal
     float c = dot(N, normalize(u_viewPosition - vd.positionWorld));
-    float cos_v = max(abs(c), 1e-8);
+    float view_cosine = max(abs(c), 1e-8);
     // coat
-    vec2 coat_reflection_albedo = mx_ggx_albedo_fit(0.01, cos_v);
+    vec2 coat_reflection_albedo = mx_ggx_albedo_fit(0.01, view_cosine);
     float coat_reflection_ggx_compensation = (1.0 / coat_reflection_albedo.x - 1.0) * 0.08571428 + 1.0;
     float coat_reflection_throughput = max(1.0 - mix(0.04, 1.0, coat_reflection_albedo.y) * coat_reflection_albedo.x
         * coat_reflection_ggx_compensation, 0.0);
@@ -667,13 +667,13 @@ void main()
     stored = mx_store_closure(stored, vec3(0.8, 0.9, 0.95), vec3(0.04), vec3(1.0), 0.5007194, 0.0, N, vec3(0.0), 0.5,
         0.0, 0.0, vec3(1.0), 0.5007194, vec3(5.0), 0.0, 0.0, 0.0, vec2(0.0), vec2(0.0), 0.0, 0.0, 0.0, drops_throughput
         - decaying, decaying, milk_mark_decay, 0.0);
-    vec2 milk_reflection_albedo = mx_ggx_albedo_fit(0.25071993, cos_v);
+    vec2 milk_reflection_albedo = mx_ggx_albedo_fit(0.25071993, view_cosine);
     float milk_reflection_ggx_compensation = (1.0 / milk_reflection_albedo.x - 1.0) * 0.08571428 + 1.0;
     float milk_reflection_throughput = max(1.0 - mix(0.04, 1.0, milk_reflection_albedo.y) * milk_reflection_albedo.x
         * milk_reflection_ggx_compensation, 0.0);
     vec3 milk_medium_transmitted;
     vec3 milk_medium = mx_medium_layer(way, milk_medium_transmitted);
-    vec2 metal_reflection_albedo = mx_ggx_albedo_fit(0.29886922, cos_v);
+    vec2 metal_reflection_albedo = mx_ggx_albedo_fit(0.29886922, view_cosine);
     vec3 metal_reflection_ggx_compensation = (1.0 / metal_reflection_albedo.x - 1.0)
         * vec3(0.6821221, 0.48832548, 0.27722293) + vec3(1.0);
     vec3 slab_reflection_bsdf_albedo = mix(vec3(0.66622823, 0.46274176, 0.24108408), vec3(1.0),

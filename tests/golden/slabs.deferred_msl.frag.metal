@@ -512,9 +512,9 @@ void FragmentMain()
         float3(0.5), float3(0.0), float3(0.0), 0.0);
     // metal
     float c = dot(N, normalize(u_prv.u_viewPosition - vd.positionWorld));
-    float cos_v = max(abs(c), 1e-8);
+    float view_cosine = max(abs(c), 1e-8);
     // coat
-    float2 coat_reflection_albedo = mx_ggx_albedo_fit(0.01, cos_v);
+    float2 coat_reflection_albedo = mx_ggx_albedo_fit(0.01, view_cosine);
     float coat_reflection_ggx_compensation = (1.0 / coat_reflection_albedo.x - 1.0) * 0.08571428 + 1.0;
     float coat_reflection_throughput = max(1.0 - mix(0.04, 1.0, coat_reflection_albedo.y) * coat_reflection_albedo.x
         * coat_reflection_ggx_compensation, 0.0);
@@ -532,13 +532,13 @@ void FragmentMain()
     stored = mx_store_closure(stored, float3(0.8, 0.9, 0.95), float3(0.04), float3(1.0), 0.5007194, 0.0, N, float3(0.0),
         0.5, 0.0, 0.0, float3(1.0), 0.5007194, float3(5.0), 0.0, 0.0, 0.0, float2(0.0), float2(0.0), 0.0, 0.0, 0.0,
         drops_throughput - decaying, decaying, milk_mark_decay, 0.0);
-    float2 milk_reflection_albedo = mx_ggx_albedo_fit(0.25071993, cos_v);
+    float2 milk_reflection_albedo = mx_ggx_albedo_fit(0.25071993, view_cosine);
     float milk_reflection_ggx_compensation = (1.0 / milk_reflection_albedo.x - 1.0) * 0.08571428 + 1.0;
     float milk_reflection_throughput = max(1.0 - mix(0.04, 1.0, milk_reflection_albedo.y) * milk_reflection_albedo.x
         * milk_reflection_ggx_compensation, 0.0);
     float3 milk_medium_transmitted;
     float3 milk_medium = mx_medium_layer(way, milk_medium_transmitted);
-    float2 metal_reflection_albedo = mx_ggx_albedo_fit(0.29886922, cos_v);
+    float2 metal_reflection_albedo = mx_ggx_albedo_fit(0.29886922, view_cosine);
     float3 metal_reflection_ggx_compensation = (1.0 / metal_reflection_albedo.x - 1.0)
         * float3(0.6821221, 0.48832548, 0.27722293) + float3(1.0);
     float3 slab_reflection_bsdf_albedo = mix(float3(0.66622823, 0.46274176, 0.24108408), float3(1.0),

@@ -308,8 +308,8 @@ void main()
     vec3 color = (decaying + milk_reflection_steady) * vec3(0.0, 0.1, 0.0);
     // lights: metal_reflection, metal_medium, milk_reflection, milk_medium
     vec3 slab_medium_bsdf_albedo = mx_medium_reflected(closure_way);
-    vec3 scaled_slab_medium_bsdf_albedo = slab_medium_bsdf_albedo / vec3(0.10193972, 0.102937125, 0.103155464);
-    vec3 N_2 = faceforward(N, -V, N);
+    vec3 milk_medium_factor = slab_medium_bsdf_albedo / vec3(0.10193972, 0.102937125, 0.103155464);
+    vec3 facing = faceforward(N, -V, N);
     vec2 milk_reflection_albedo = mx_ggx_albedo_fit(0.25071993, cos_v);
     float milk_reflection_scale = (1.0 / milk_reflection_albedo.x - 1.0) * 0.08571428 + 1.0;
     float milk_reflection_throughput = max(1.0 - mix(0.04, 1.0, milk_reflection_albedo.y) * milk_reflection_albedo.x
@@ -321,13 +321,13 @@ void main()
     vec3 milk_medium_decaying = milk_medium_difference / (vec3(1.0) - milk_medium_decay);
     vec3 milk_medium_steady = milk_reflection_throughput * drops_throughput - milk_medium_decaying;
     float scaled_cos_v = cos_v * cos_v;
-    mx_GgxLobe milk_reflection_ggx_lobe = mx_GgxLobe(N_2, cos_v, vec3(0.0), vec2(0.25071993),
+    mx_GgxLobe milk_reflection_ggx_lobe = mx_GgxLobe(facing, cos_v, vec3(0.0), vec2(0.25071993),
         sqrt(scaled_cos_v * 0.9371395 + 0.0628605));
     vec2 metal_reflection_albedo = mx_ggx_albedo_fit(0.29886922, cos_v);
     vec3 metal_reflection_scale = (1.0 / metal_reflection_albedo.x - 1.0) * vec3(0.6821221, 0.48832548, 0.27722293)
         + vec3(1.0);
     const vec3 metal_constant = vec3(0.66622823, 0.46274176, 0.24108408);
-    mx_GgxLobe metal_reflection_ggx_lobe = mx_GgxLobe(N_2, cos_v, vec3(0.0), vec2(0.29886922),
+    mx_GgxLobe metal_reflection_ggx_lobe = mx_GgxLobe(facing, cos_v, vec3(0.0), vec2(0.29886922),
         sqrt(scaled_cos_v * 0.9106772 + 0.08932281));
     vec3 milk_medium_transmitted;
     vec3 milk_medium = mx_medium_layer(closure_way, milk_medium_transmitted);
@@ -346,18 +346,18 @@ void main()
         * milk_bare_throughput) / max(metal_reflection_difference, 1e-6), 0.0, 0.999);
     vec3 metal_reflection_decaying = metal_reflection_difference / (vec3(1.0) - metal_reflection_decay);
     vec3 metal_reflection_steady = drops_throughput * milk_bare_throughput - metal_reflection_decaying;
-    vec3 metal_medium_product = mx_chan_share(cos_v) * metal_constant_2;
+    vec3 metal_medium_factor = mx_chan_share(cos_v) * metal_constant_2;
     float x = 1.0 - cos_v;
-    float metal_medium_difference = 1.0 - x * (x * (x * (x * x))) * 0.75;
+    float chan_even = 1.0 - x * (x * (x * (x * x))) * 0.75;
     vec3 metal_bare_metal_medium_weight = metal_reflection_throughput
         * (milk_reflection_throughput * milk_medium_throughput * drops_throughput);
     vec3 milk_medium_throughput_2 = milk_medium_throughput * vec3(0.9081714, 0.9090508, 0.9092436);
     vec3 metal_bare_metal_medium_weight_2 = metal_reflection_throughput
         * (milk_reflection_throughput * milk_medium_throughput_2 * drops_throughput_2);
-    vec3 metal_medium_difference_2 = metal_bare_metal_medium_weight_2 - metal_reflection_throughput
+    vec3 metal_medium_difference = metal_bare_metal_medium_weight_2 - metal_reflection_throughput
         * (milk_reflection_throughput * (milk_medium_throughput_2 * vec3(0.9081714, 0.9090508, 0.9092436))
         * drops_throughput_3);
-    vec3 metal_medium_decay = clamp(metal_medium_difference_2
+    vec3 metal_medium_decay = clamp(metal_medium_difference
         / max(metal_bare_metal_medium_weight - metal_bare_metal_medium_weight_2, 1e-6), 0.0, 0.999);
     vec3 metal_medium_decaying = (metal_bare_metal_medium_weight - metal_bare_metal_medium_weight_2)
         / (vec3(1.0) - metal_medium_decay);
@@ -373,25 +373,25 @@ void main()
             vec3 d = u_lightData[i].position - vd_positionWorld;
             vec3 to_light = normalize(d);
             L = to_light;
-            float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+            float falloff = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
             if (light_type == 2) {
-                intensity = ratio;
+                intensity = falloff;
             } else {
-                float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+                float spot_light_edge = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
                 intensity = light_type == 3
-                    ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,
-                    -dot(u_lightData[i].direction, to_light)) * ratio : 0.0;
+                    ? smoothstep(spot_light_edge, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
+                    * falloff : 0.0;
             }
         }
         // metal_reflection, metal_medium, milk_reflection, milk_medium
         float cosine_2 = dot(N, L);
         float closure_way_2 = inversesqrt(cosine_2 * cosine_2 + 1.25) * 1.5;
-        float l_dot_n_2 = dot(L, N_2);
+        float l_dot_facing = dot(L, facing);
         vec3 milk_medium_weight = milk_medium_steady + milk_medium_decaying
             * pow(milk_medium_decay, vec3(closure_way_2));
-        vec3 milk_medium_response = scaled_slab_medium_bsdf_albedo
-            * (mx_medium_reflected(closure_way_2) * (max(l_dot_n_2, 0.0) / 3.1415927 * milk_medium_weight));
-        float cosine_3 = sqrt(clamp(dot(V, L) * 0.5 + 0.500001, 0.0, 1.0));
+        vec3 milk_medium_response = milk_medium_factor
+            * (mx_medium_reflected(closure_way_2) * (max(l_dot_facing, 0.0) / 3.1415927 * milk_medium_weight));
+        float half_cosine = sqrt(clamp(dot(V, L) * 0.5 + 0.500001, 0.0, 1.0));
         vec3 milk_reflection_weight = milk_reflection_steady + decaying
             * pow(milk_reflection_decay, vec3(closure_way_2));
         vec3 milk_reflection_product = milk_reflection_weight
@@ -399,55 +399,55 @@ void main()
         vec3 metal_reflection_weight = metal_reflection_steady + metal_reflection_decaying
             * pow(metal_reflection_decay, vec3(closure_way_2));
         vec3 metal_reflection_product = mx_ggx_light(metal_reflection_ggx_lobe, V, L) * metal_reflection_weight;
-        float cos_l = max(l_dot_n_2, 1e-8);
+        float cos_l = max(l_dot_facing, 1e-8);
         vec3 metal_medium_weight = metal_bare_metal_medium_weight - metal_medium_decaying + metal_medium_decaying
             * pow(metal_medium_decay, vec3(closure_way_2));
-        vec3 metal_medium_response = metal_medium_product
-            * (cos_l * mx_chan_lobe(cos_v, cos_l, cosine_3, metal_medium_difference) * metal_medium_weight);
-        vec3 sum = metal_reflection_scale * (mx_fresnel_schlick(cosine_3, metal_constant) * metal_reflection_product)
-            + metal_medium_response;
+        vec3 metal_medium_response = metal_medium_factor
+            * (cos_l * mx_chan_lobe(cos_v, cos_l, half_cosine, chan_even) * metal_medium_weight);
+        vec3 response = metal_reflection_scale
+            * (mx_fresnel_schlick(half_cosine, metal_constant) * metal_reflection_product) + metal_medium_response;
         color += u_lightData[i].color * (intensity
-            * (milk_medium_response + (mx_fresnel_schlick(cosine_3, vec3(0.04)) * milk_reflection_product + sum)));
+            * (milk_medium_response + (mx_fresnel_schlick(half_cosine, vec3(0.04)) * milk_reflection_product
+            + response)));
     }
     // environment: metal_medium, milk_medium
-    vec3 metal_medium_product_2 = textureLod(u_envIrradiance,
+    vec3 metal_medium_product = textureLod(u_envIrradiance,
         mx_map_point(normalize(mat3(u_envMatrix)
-        * (N_2 + V * ((cos_v * (cos_v * 0.5624 - 0.7155) + 0.4353) * 0.732292)))), 0.0).xyz * metal_constant_2;
+        * (facing + V * ((cos_v * (cos_v * 0.5624 - 0.7155) + 0.4353) * 0.732292)))), 0.0).xyz * metal_constant_2;
     vec3 metal_medium_response = u_envLightIntensity
         * ((metal_bare_metal_medium_weight - metal_medium_decaying + metal_medium_decaying
-        * pow(metal_medium_decay, vec3(1.145898))) * metal_medium_product_2);
+        * pow(metal_medium_decay, vec3(1.145898))) * metal_medium_product);
     vec3 milk_medium_product = slab_medium_bsdf_albedo
-        * textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * N_2)), 0.0).xyz;
+        * textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * facing)), 0.0).xyz;
     color += metal_medium_response + u_envLightIntensity
         * ((milk_medium_steady + milk_medium_decaying * pow(milk_medium_decay, vec3(1.145898))) * milk_medium_product);
     // environment: metal_reflection
     vec2 turn = vec2(1.0, 0.0);
     int metal_reflection_count = mx_sample_count(vec2(0.29886922));
-    vec3 metal_reflection_product = metal_reflection_scale
+    vec3 metal_reflection_factor = metal_reflection_scale
         * (metal_reflection_steady + metal_reflection_decaying * pow(metal_reflection_decay, vec3(closure_way)));
     mx_GgxSamples metal_reflection_ggx_samples = mx_ggx_samples(vec2(0.29886922), metal_reflection_count, N, V);
     for (int i = 0; i < metal_reflection_count; ++i) {
-        mx_GgxLight light = mx_ggx_reflected(metal_reflection_ggx_samples, i, turn);
-        color += metal_reflection_product
-            * (light.color * (light.weight * mx_fresnel_schlick(light.cosine, metal_constant)));
+        mx_GgxLight metal_reflection_light = mx_ggx_reflected(metal_reflection_ggx_samples, i, turn);
+        color += metal_reflection_factor
+            * (metal_reflection_light.color
+            * (metal_reflection_light.weight * mx_fresnel_schlick(metal_reflection_light.cosine, metal_constant)));
         turn = vec2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
     }
     // environment: milk_reflection
     vec2 turn_2 = vec2(1.0, 0.0);
     int milk_reflection_count = mx_sample_count(vec2(0.25071993));
-    vec3 milk_reflection_product = milk_reflection_scale
+    vec3 milk_reflection_factor = milk_reflection_scale
         * (milk_reflection_steady + decaying * pow(milk_reflection_decay, vec3(closure_way)));
     mx_GgxSamples milk_reflection_ggx_samples = mx_ggx_samples(vec2(0.25071993), milk_reflection_count, N, V);
     for (int i = 0; i < milk_reflection_count; ++i) {
-        mx_GgxLight milk_reflection_ggx_reflected = mx_ggx_reflected(milk_reflection_ggx_samples, i, turn_2);
-        color += milk_reflection_product
-            * (milk_reflection_ggx_reflected.color
-            * (milk_reflection_ggx_reflected.weight
-            * mx_fresnel_schlick(milk_reflection_ggx_reflected.cosine, vec3(0.04))));
+        mx_GgxLight milk_reflection_light = mx_ggx_reflected(milk_reflection_ggx_samples, i, turn_2);
+        color += milk_reflection_factor * (milk_reflection_light.color
+            * (milk_reflection_light.weight * mx_fresnel_schlick(milk_reflection_light.cosine, vec3(0.04))));
         turn_2 = vec2(-turn_2.y, turn_2.x) * 0.6754903 - turn_2 * 0.7373689;
     }
     // lights: coat_reflection
-    mx_GgxLobe coat_reflection_ggx_lobe = mx_GgxLobe(N_2, cos_v, vec3(0.0), vec2(0.01),
+    mx_GgxLobe coat_reflection_ggx_lobe = mx_GgxLobe(facing, cos_v, vec3(0.0), vec2(0.01),
         sqrt(scaled_cos_v * 0.9999 + 0.00010000001));
     // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
@@ -458,36 +458,33 @@ void main()
             L = -u_lightData[i].direction;
             intensity = u_lightData[i].intensity;
         } else {
-            vec3 spot_light_difference = u_lightData[i].position - vd_positionWorld;
-            vec3 spot_light_direction = normalize(spot_light_difference);
-            L = spot_light_direction;
-            float spot_light_ratio = u_lightData[i].intensity
-                / pow(length(spot_light_difference) + 1.0, u_lightData[i].decay_rate);
+            vec3 d = u_lightData[i].position - vd_positionWorld;
+            vec3 to_light = normalize(d);
+            L = to_light;
+            float falloff = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
             if (light_type == 2) {
-                intensity = spot_light_ratio;
+                intensity = falloff;
             } else {
-                float spot_light_difference_2 = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
-                intensity = light_type == 3 ? spot_light_ratio
-                    * smoothstep(spot_light_difference_2, u_lightData[i].inner_angle,
-                    -dot(u_lightData[i].direction, spot_light_direction)) : 0.0;
+                float spot_light_edge = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+                intensity = light_type == 3 ? falloff
+                    * smoothstep(spot_light_edge, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
+                    : 0.0;
             }
         }
         // coat_reflection
-        vec3 milk_reflection_fresnel_schlick = mx_fresnel_schlick(sqrt(clamp(dot(V, L) * 0.5 + 0.500001, 0.0, 1.0)),
-            vec3(0.04));
+        vec3 fresnel = mx_fresnel_schlick(sqrt(clamp(dot(V, L) * 0.5 + 0.500001, 0.0, 1.0)), vec3(0.04));
         color += u_lightData[i].color * (intensity
-            * (milk_reflection_fresnel_schlick
-            * (coat_reflection_scale * 0.5 * mx_ggx_light_2(coat_reflection_ggx_lobe, V, L))));
+            * (fresnel * (coat_reflection_scale * 0.5 * mx_ggx_light_2(coat_reflection_ggx_lobe, V, L))));
     }
     // environment: coat_reflection
     vec2 turn_3 = vec2(1.0, 0.0);
     int coat_reflection_count = mx_sample_count(vec2(0.01));
     mx_GgxSamples coat_reflection_ggx_samples = mx_ggx_samples(vec2(0.01), coat_reflection_count, N, V);
     for (int i = 0; i < coat_reflection_count; ++i) {
-        mx_GgxLight coat_reflection_ggx_reflected = mx_ggx_reflected(coat_reflection_ggx_samples, i, turn_3);
-        color += coat_reflection_ggx_reflected.color
-            * (mx_fresnel_schlick(coat_reflection_ggx_reflected.cosine, vec3(0.04))
-            * (coat_reflection_scale * 0.5 * coat_reflection_ggx_reflected.weight));
+        mx_GgxLight coat_reflection_light = mx_ggx_reflected(coat_reflection_ggx_samples, i, turn_3);
+        color += coat_reflection_light.color
+            * (mx_fresnel_schlick(coat_reflection_light.cosine, vec3(0.04))
+            * (coat_reflection_scale * 0.5 * coat_reflection_light.weight));
         turn_3 = vec2(-turn_3.y, turn_3.x) * 0.6754903 - turn_3 * 0.7373689;
     }
     out1 = vec4(color, 1.0);

@@ -255,11 +255,11 @@ void scatter()
     bool is_level_1 = level == 1.0;
     // milk
     float closure_way = inversesqrt(cosine * cosine + 1.25) * 1.5;
-    vec3 N_2 = faceforward(N, -vd.viewWorld, N);
-    mat3 any_frame = mx_frame(N_2, abs(N_2.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0));
-    vec2 product = sqrt(vd.random.x) * cos((vd.random.y - vec2(0.0, 0.25)) * 6.2831855);
-    vec3 L_2 = any_frame * vec3(product, sqrt(1.0 - vd.random.x));
-    float pdf = max(dot(N_2, L_2), 0.0) / 3.1415927;
+    vec3 facing = faceforward(N, -vd.viewWorld, N);
+    mat3 any_frame = mx_frame(facing, abs(facing.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0));
+    vec2 polar = sqrt(vd.random.x) * cos((vd.random.y - vec2(0.0, 0.25)) * 6.2831855);
+    vec3 L_2 = any_frame * vec3(polar, sqrt(1.0 - vd.random.x));
+    float pdf = max(dot(facing, L_2), 0.0) / 3.1415927;
     if (is_level_1) {
         vec3 coat_medium_throughput = exp(closure_way * vec3(-0.05, -0.033333335, -0.025));
         float coat_medium_passing = max(dot(coat_medium_throughput, vec3(0.33333334)), 0.0);
@@ -348,33 +348,33 @@ void scatter()
     out2 = vec4(L, inside);
     out3 = vec4(weight, density);
     out4 = vec4(medium, 0.0);
-    float cosine_2 = sqrt(clamp(dot(vd.viewWorld, vd.lightWorld.xyz) * 0.5 + 0.500001, 0.0, 1.0));
-    vec3 fresnel = mx_fresnel_schlick(cosine_2, vec3(0.04));
-    mat3 frame = mx_frame(N_2, X);
-    float sum = vd.lightWorld.w * (coat_reflection_chance / coat_reflection_chances
+    float half_cosine = sqrt(clamp(dot(vd.viewWorld, vd.lightWorld.xyz) * 0.5 + 0.500001, 0.0, 1.0));
+    vec3 fresnel = mx_fresnel_schlick(half_cosine, vec3(0.04));
+    mat3 frame = mx_frame(facing, X);
+    float both = vd.lightWorld.w * (coat_reflection_chance / coat_reflection_chances
         * mx_ggx_pdf(vec2(0.01), N, X, vd.viewWorld, vd.lightWorld.xyz)) + 1.0;
     vec3 balanced = fresnel * (coat_reflection_ggx_compensation
-        * mx_ggx_smith_lobe(vec2(0.01), frame, vd.viewWorld, vd.lightWorld.xyz)) / sum;
-    float cosine_3 = dot(N, vd.lightWorld.xyz);
-    float closure_way_2 = inversesqrt(cosine_3 * cosine_3 + 1.25) * 1.5;
+        * mx_ggx_smith_lobe(vec2(0.01), frame, vd.viewWorld, vd.lightWorld.xyz)) / both;
+    float cosine_2 = dot(N, vd.lightWorld.xyz);
+    float closure_way_2 = inversesqrt(cosine_2 * cosine_2 + 1.25) * 1.5;
     const vec3 coat_medium_constant = vec3(0.05, 0.033333335, 0.025);
     vec3 extinction_above = is_below_number ? coat_medium_constant : vec3(0.0);
-    float sum_2 = vd.lightWorld.w * (milk_reflection_chance / milk_reflection_chances
+    float both_2 = vd.lightWorld.w * (milk_reflection_chance / milk_reflection_chances
         * mx_ggx_pdf(vec2(0.25071993), N, X, vd.viewWorld, vd.lightWorld.xyz)) + 1.0;
     vec3 balanced_2 = fresnel * (milk_reflection_ggx_compensation
-        * mx_ggx_smith_lobe(vec2(0.25071993), frame, vd.viewWorld, vd.lightWorld.xyz)) / sum_2;
+        * mx_ggx_smith_lobe(vec2(0.25071993), frame, vd.viewWorld, vd.lightWorld.xyz)) / both_2;
     float metal_reflection_ggx_smith_lobe = mx_ggx_smith_lobe(vec2(0.29886922), frame, vd.viewWorld, vd.lightWorld.xyz);
-    float sum_3 = vd.lightWorld.w * (metal_reflection_chance / metal_reflection_chances
+    float both_3 = vd.lightWorld.w * (metal_reflection_chance / metal_reflection_chances
         * mx_ggx_pdf(vec2(0.29886922), N, X, vd.viewWorld, vd.lightWorld.xyz)) + 1.0;
-    vec3 balanced_3 = metal_reflection_ggx_compensation * mx_fresnel_schlick(cosine_2, metal_constant)
-        * metal_reflection_ggx_smith_lobe / sum_3;
+    vec3 balanced_3 = metal_reflection_ggx_compensation * mx_fresnel_schlick(half_cosine, metal_constant)
+        * metal_reflection_ggx_smith_lobe / both_3;
     vec3 choice = is_level_4 ? vec3(1.0) : level == 5.0 ? balanced_3
         * exp(-(closure_way_2 * (extinction_above + vec3(0.2)))) : vec3(0.0);
     vec3 choice_2 = is_level_1 ? vec3(1.0) : level == 2.0 ? vec3(0.0) : level == 3.0
         ? exp(-(closure_way_2 * extinction_above)) * balanced_2 : choice;
     out5 = vec4(level == 0.0 ? balanced : choice_2, 0.0);
     float chance = fract(vd.random.w * 4096.0);
-    float sum_4 = 0.0;
+    float sum = 0.0;
     vec3 light = vec3(0.0);
     vec3 L_3 = vec3(0.0);
     float distance_ = 0.0;
@@ -393,28 +393,28 @@ void scatter()
             vec3 to_light = normalize(d);
             L_4 = to_light;
             float magnitude_d = length(d);
-            float ratio = u_lightData[i].intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
+            float falloff = u_lightData[i].intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
             if (light_type == 2) {
-                intensity = ratio;
+                intensity = falloff;
                 distance_2 = magnitude_d;
             } else {
-                float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+                float edge = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
                 intensity = light_type == 3
-                    ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,
-                    -dot(u_lightData[i].direction, to_light)) * ratio : 0.0;
+                    ? smoothstep(edge, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light)) * falloff
+                    : 0.0;
                 distance_2 = magnitude_d;
             }
         }
-        float cosine_4 = sqrt(clamp(dot(vd.viewWorld, L_4) * 0.5 + 0.500001, 0.0, 1.0));
-        vec3 fresnel_2 = mx_fresnel_schlick(cosine_4, vec3(0.04));
+        float half_cosine_2 = sqrt(clamp(dot(vd.viewWorld, L_4) * 0.5 + 0.500001, 0.0, 1.0));
+        vec3 fresnel_2 = mx_fresnel_schlick(half_cosine_2, vec3(0.04));
         vec3 coat_reflection_slab_reflection_bsdf_eval = coat_reflection_ggx_compensation * fresnel_2
             * mx_ggx_smith_lobe(vec2(0.01), frame, vd.viewWorld, L_4);
-        float cosine_5 = dot(N, L_4);
-        float closure_way_3 = inversesqrt(cosine_5 * cosine_5 + 1.25) * 1.5;
+        float cosine_3 = dot(N, L_4);
+        float closure_way_3 = inversesqrt(cosine_3 * cosine_3 + 1.25) * 1.5;
         vec3 milk_reflection_slab_reflection_bsdf_eval = milk_reflection_ggx_compensation * fresnel_2
             * mx_ggx_smith_lobe(vec2(0.25071993), frame, vd.viewWorld, L_4);
         vec3 metal_reflection_product = metal_reflection_ggx_compensation
-            * mx_fresnel_schlick(cosine_4, metal_constant);
+            * mx_fresnel_schlick(half_cosine_2, metal_constant);
         vec3 metal_reflection_slab_reflection_bsdf_eval = metal_reflection_product
             * mx_ggx_smith_lobe(vec2(0.29886922), frame, vd.viewWorld, L_4);
         vec3 choice_3 = is_level_4 ? vec3(1.0) : level == 5.0 ? metal_reflection_slab_reflection_bsdf_eval
@@ -424,19 +424,19 @@ void scatter()
         vec3 lit = u_lightData[i].color * intensity
             * (level == 0.0 ? coat_reflection_slab_reflection_bsdf_eval : choice_4);
         float brightness = max(dot(lit, vec3(0.33333334)), 0.0);
-        sum_4 += brightness;
-        if (sum_4 * chance < brightness) {
+        sum += brightness;
+        if (sum * chance < brightness) {
             L_3 = L_4;
             distance_ = distance_2;
             light = lit / brightness;
         }
         if (brightness > 0.0) {
-            float ratio = (sum_4 * chance - brightness) / (sum_4 - brightness);
-            chance = sum_4 * chance < brightness ? sum_4 * chance / brightness : ratio;
+            float ratio = (sum * chance - brightness) / (sum - brightness);
+            chance = sum * chance < brightness ? sum * chance / brightness : ratio;
         }
     }
     out6 = vec4(L_3, distance_);
-    out7 = vec4(sum_4 * light, 0.0);
+    out7 = vec4(sum * light, 0.0);
     out9 = vec4(is_level_1 ? vec3(0.0) : is_level_4 ? vec3(0.19811778, 0.19958141, 0.19990106) : vec3(0.0), 0.0);
     float choice_5 = level < 2.0 ? 2.0 : level < 3.0 ? 3.0 : level < 4.0 ? 4.0 : level < 5.0 ? 5.0 : level < 6.0 ? 6.0
         : -1.0;
@@ -445,9 +445,9 @@ void scatter()
     out10 = vec4(is_level_1 ? coat_medium_constant : is_level_4 ? vec3(0.2) : vec3(0.0), next_level);
     vec3 choice_7 = is_below_number ? (enters ? coat_reflection_throughput : vec3(1.0))
         * exp(-(closure_way * coat_medium_constant)) : vec3(1.0);
-    vec3 product_2 = choice_7 * (enters ? milk_reflection_throughput : vec3(1.0)) * exp(-vec3(closure_way * 0.2));
+    vec3 product = choice_7 * (enters ? milk_reflection_throughput : vec3(1.0)) * exp(-vec3(closure_way * 0.2));
     float medium_above = level > 4.0 ? 4.0 : is_below_number && level > 1.0 ? 1.0 : -1.0;
-    out11 = vec4(product_2 * (enters ? metal_reflection_throughput : vec3(1.0)) * (enters ? vec3(0.0) : vec3(1.0)),
+    out11 = vec4(product * (enters ? metal_reflection_throughput : vec3(1.0)) * (enters ? vec3(0.0) : vec3(1.0)),
         medium_above);
     out12 = vec4(0.0, 0.0, 0.0, -2.0);
 }

@@ -93,7 +93,7 @@ void main()
     tinted_edf(closure_data, vec3(1.0, 0.5, 0.5), vec3(0.25, 0.5, 0.75), tinted);
     vec3 color = tinted;
     // lights
-    vec3 diffuse_facing = faceforward(N, -V, N);
+    vec3 facing_2 = faceforward(N, -V, N);
     // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         // soft, diffuse
@@ -102,8 +102,8 @@ void main()
         ClosureData soft_closure_data = ClosureData(1, bulb_2.direction, V, N, vd.positionWorld, 1.0);
         BSDF soft = BSDF(vec3(0.0), vec3(1.0));
         soft_bsdf(soft_closure_data, 0.8, vec3(0.5), N, 1, soft);
-        vec3 sum = soft.response + soft.throughput * (max(dot(bulb_2.direction, diffuse_facing), 1e-8) * 0.05729578);
-        color += (u_lightData[i].type == 1 ? bulb_2.intensity : vec3(0.0)) * sum;
+        vec3 response = soft.response + soft.throughput * (max(dot(bulb_2.direction, facing_2), 1e-8) * 0.05729578);
+        color += (u_lightData[i].type == 1 ? bulb_2.intensity : vec3(0.0)) * response;
     }
     out1 = vec4(color, 1.0);
 }

@@ -23,7 +23,7 @@ void main(
     out VertexData vd)
 {
     vd.normalWorld = normalize(mul(float4(i_normal, 0.0), u_worldInverseTransposeMatrix).xyz);
-    float4 positionWorld_product = mul(float4(i_position, 1.0), u_worldMatrix);
-    vd.positionWorld = positionWorld_product.xyz;
-    vd.position = mul(positionWorld_product, u_viewProjectionMatrix);
+    float4 positionWorld = mul(float4(i_position, 1.0), u_worldMatrix);
+    vd.positionWorld = positionWorld.xyz;
+    vd.position = mul(positionWorld, u_viewProjectionMatrix);
 }

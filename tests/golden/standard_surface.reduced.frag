@@ -56,7 +56,7 @@ void main()
     vec3 axis = normalize(vd.normalWorld);
     vec3 V = normalize(u_viewPosition - vd.positionWorld);
     // SR_clay
-    vec3 N = faceforward(axis, -V, axis);
+    vec3 facing = faceforward(axis, -V, axis);
     float cos_v = max(abs(dot(axis, V)), 1e-8);
     // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
@@ -70,25 +70,25 @@ void main()
             vec3 d = u_lightData[i].position - vd.positionWorld;
             vec3 to_light = normalize(d);
             L = to_light;
-            float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+            float falloff = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
             if (light_type == 2) {
-                intensity = ratio;
+                intensity = falloff;
             } else {
-                float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+                float edge = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
                 intensity = light_type == 3
-                    ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,
-                    -dot(u_lightData[i].direction, to_light)) * ratio : 0.0;
+                    ? smoothstep(edge, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light)) * falloff
+                    : 0.0;
             }
         }
         // diffuse
-        float cos_l = max(dot(L, N), 1e-8);
+        float cos_l = max(dot(L, facing), 1e-8);
         float diffuse_sum = max(dot(L, V) - cos_l * cos_v, 0.0) * 0.36 / max(cos_l, cos_v) + 0.73913044;
         color += u_lightData[i].color * (intensity * (cos_l * 0.31830987 * vec3(0.5, 0.25, 0.15) * diffuse_sum));
     }
     // environment: diffuse
     vec2 fit = (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + vec2(0.8631, 1.2189)) * 0.6 + vec2(1.0);
-    vec3 environment_irradiance = textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * N)), 0.0).xyz
-        * u_envLightIntensity;
+    vec3 environment_irradiance = textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * facing)),
+        0.0).xyz * u_envLightIntensity;
     color += clamp(fit.x / fit.y, 0.0, 1.0) * vec3(0.5, 0.25, 0.15) * environment_irradiance;
     out1 = vec4(color, 1.0);
 }

@@ -37,16 +37,17 @@ void main()
     vec3 stone_weight_2 = stone_weight / dot(stone_weight, vec3(1.0));
     vec3 stone_weight_3 = stone_weight_2 / dot(stone_weight_2, vec3(1.0));
     vec4 stone_product = texture(stone_filex, vd_positionObject.yz) * stone_weight_3.x;
-    vec2 whole_uv_2 = floor(vd_positionObject.xy);
-    bool stone_are_both = whole_uv_2.x >= 0.0 && whole_uv_2.x <= 2.0;
-    float stone_element = vector[int(clamp(whole_uv_2.x + whole_uv_2.y * 3.0, 0.0, 5.0))];
-    bool stone_are_both_2 = stone_are_both && (whole_uv_2.y >= 0.0 && whole_uv_2.y <= 1.0) && stone_element >= 0.0;
-    vec2 slope_x_of_uv = dFdx(vd_positionObject.xy);
-    vec2 slope_y_of_uv = dFdy(vd_positionObject.xy);
+    vec2 whole_along_z = floor(vd_positionObject.xy);
+    bool stone_are_both = whole_along_z.x >= 0.0 && whole_along_z.x <= 2.0;
+    float stone_element = vector[int(clamp(whole_along_z.x + whole_along_z.y * 3.0, 0.0, 5.0))];
+    bool stone_are_both_2 = stone_are_both && (whole_along_z.y >= 0.0 && whole_along_z.y <= 1.0) && stone_element
+        >= 0.0;
+    vec2 slope_x_of_along_z = dFdx(vd_positionObject.xy);
+    vec2 slope_y_of_along_z = dFdy(vd_positionObject.xy);
     const vec4 stone_constant = vec4(0.0, 0.0, 0.0, 1.0);
     vec4 stone_product_2 = (stone_are_both_2
-        ? textureGrad(stone_filez, vec3(fract(vd_positionObject.xy), stone_element), slope_x_of_uv, slope_y_of_uv)
-        : stone_constant) * stone_weight_3.z;
+        ? textureGrad(stone_filez, vec3(fract(vd_positionObject.xy), stone_element), slope_x_of_along_z,
+        slope_y_of_along_z) : stone_constant) * stone_weight_3.z;
     vec3 stone = (stone_product + texture(stone_filey, vd_positionObject.xz) * stone_weight_3.y + stone_product_2).xyz;
     vec2 size = vec2(textureSize(rust_file, 0).xy);
     vec2 texel = vd_texcoord_0 * size - vec2(0.5);

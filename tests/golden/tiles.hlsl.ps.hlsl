@@ -44,14 +44,15 @@ void main(
     float3 stone_weight_2 = stone_weight / dot(stone_weight, float3(1.0, 1.0, 1.0));
     float3 stone_weight_3 = stone_weight_2 / dot(stone_weight_2, float3(1.0, 1.0, 1.0));
     float4 stone_product = stone_filex.Sample(stone_filex_sampler, vd.positionObject.yz) * stone_weight_3.x;
-    float2 whole_uv_2 = floor(vd.positionObject.xy);
-    bool stone_are_both = whole_uv_2.x >= 0.0 && whole_uv_2.x <= 2.0;
-    float stone_element = vector_[int(clamp(whole_uv_2.x + whole_uv_2.y * 3.0, 0.0, 5.0))];
-    bool stone_are_both_2 = stone_are_both && (whole_uv_2.y >= 0.0 && whole_uv_2.y <= 1.0) && stone_element >= 0.0;
-    float2 slope_x_of_uv_2 = ddx(vd.positionObject.xy);
-    float2 slope_y_of_uv_2 = ddy(vd.positionObject.xy);
+    float2 whole_along_z = floor(vd.positionObject.xy);
+    bool stone_are_both = whole_along_z.x >= 0.0 && whole_along_z.x <= 2.0;
+    float stone_element = vector_[int(clamp(whole_along_z.x + whole_along_z.y * 3.0, 0.0, 5.0))];
+    bool stone_are_both_2 = stone_are_both && (whole_along_z.y >= 0.0 && whole_along_z.y <= 1.0) && stone_element
+        >= 0.0;
+    float2 slope_x_of_along_z = ddx(vd.positionObject.xy);
+    float2 slope_y_of_along_z = ddy(vd.positionObject.xy);
     float4 stone_texel = stone_filez.SampleGrad(stone_filez_sampler, float3(frac(vd.positionObject.xy), stone_element),
-        slope_x_of_uv_2, slope_y_of_uv_2);
+        slope_x_of_along_z, slope_y_of_along_z);
     float4 stone_product_2 = (stone_are_both_2 ? stone_texel : float4(0.0, 0.0, 0.0, 1.0)) * stone_weight_3.z;
     float3 stone = (stone_product + stone_filey.Sample(stone_filey_sampler, vd.positionObject.xz) * stone_weight_3.y
         + stone_product_2).xyz;

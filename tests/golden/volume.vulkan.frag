@@ -63,7 +63,7 @@ void main()
     vec3 path_blend = mix(vec3(1.0), volume_lost / max(optical_depth, 0.001), step(vec3(0.001), optical_depth));
     vec3 color = volume_depth * path_blend * (glow_weight * vec3(0.2, 0.06, 0.01));
     // lights
-    vec3 smoke_product = path_blend * (both_weight * volume_depth * 1.2);
+    vec3 smoke_factor = path_blend * (both_weight * volume_depth * 1.2);
     // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         vec3 L;
@@ -76,19 +76,19 @@ void main()
             vec3 d = u_lightData[i].position - vd.positionWorld;
             vec3 to_light = normalize(d);
             L = to_light;
-            float ratio = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+            float falloff = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
             if (light_type == 2) {
-                intensity = ratio;
+                intensity = falloff;
             } else {
-                float spot_light_difference = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+                float edge = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
                 intensity = light_type == 3
-                    ? smoothstep(spot_light_difference, u_lightData[i].inner_angle,
-                    -dot(u_lightData[i].direction, to_light)) * ratio : 0.0;
+                    ? smoothstep(edge, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light)) * falloff
+                    : 0.0;
             }
         }
         // smoke
         float smoke_d = dot(V, L) * 0.8 + 1.16;
-        color += u_lightData[i].color * (intensity * (0.84 / (smoke_d * 12.566371 * sqrt(smoke_d)) * smoke_product));
+        color += u_lightData[i].color * (intensity * (0.84 / (smoke_d * 12.566371 * sqrt(smoke_d)) * smoke_factor));
     }
     // environment: smoke
     if (both_weight > 0.0) {

@@ -568,9 +568,15 @@ static void test_product(void)
     struct ir_graph *g = &s.base.graph;
     ir_ref tint = color(&s, 0.5f, 0.25f, 1), shade = num(&s, 0.5f), weight = num(&s, 4);
     ir_ref value = ir_product(g, ir_product(g, tint, shade), color(&s, 2, 2, 3));
-    struct ir_value product = evaluate(&s, closure_product(g, value, weight));
+    struct ir_value product = evaluate(&s, closure_product(g, value, weight, NULL));
     REQUIRE(product.w[0].f == 2 && product.w[1].f == 1 && product.w[2].f == 6);
-    REQUIRE_EQ(closure_product(g, value, 0), value);
+    ir_ref invariant = value;
+    REQUIRE_EQ(closure_product(g, value, 0, &invariant), value);
+    REQUIRE_EQ(invariant, 0);
+    ir_ref light = ir_build(g, IR_CONTEXT, IR_TYPE_FLOAT, 0, NULL, 0);
+    ir_ref lit = closure_product(g, ir_product(g, light, tint), weight, &invariant);
+    REQUIRE_EQ(invariant, ir_product(g, tint, weight));
+    REQUIRE_EQ(lit, ir_product(g, light, invariant));
     REQUIRE_EQ(ir_product(g, 0, tint), tint);
     REQUIRE_EQ(ir_product(g, tint, 0), tint);
     struct ir_value rest = evaluate(&s, ir_one_minus(g, tint));

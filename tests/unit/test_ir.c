@@ -473,6 +473,11 @@ static void test_replace(void)
             && value.w[0].f == 3.0f * 12.0f * 13.0f * 12.0f);
     REQUIRE_EQ(ir_mark(&f.graph, &replaced, 1, &f.arena)[roots[1]], 0);
     REQUIRE_EQ(ir_replace(&f.graph, replaced, roots[1], roots[2], &f.arena), replaced);
+    str_id name = str_intern_z(&f.strings, "area");
+    ir_suggest_name(&f.graph, roots[0], name, IR_NAME_LOCAL);
+    ir_ref named = ir_replace(&f.graph, roots[0], roots[1], ir_const_float(&f.graph, 5), &f.arena);
+    REQUIRE_EQ(ir_label(&f.graph, named)->name, name);
+    REQUIRE_EQ(ir_label(&f.graph, replaced)->name, 0); /* the copy is older than the name */
     teardown(&f);
 }
 

@@ -522,6 +522,31 @@ static void test_lower_expression(void)
     teardown(&f);
 }
 
+/* The name of the youngest node with this op. */
+static const char *name_of_last(const struct fixture *f, enum ir_op op)
+{
+    ir_ref ref = f->graph.nodes.len;
+    while (--ref > 0 && ir_get(&f->graph, ref)->op != op)
+        ;
+    str_id name = ref ? ir_label(&f->graph, ref)->name : 0;
+    return name ? str_text(&f->strings, name) : "";
+}
+
+/* A library has no variables with a single read and no calls of small functions; names stay. */
+static void test_names_in_canonical_trees(void)
+{
+    struct fixture f;
+    setup(&f, "float root_of(float a) { return sqrt(a); }\n"
+              "float far(float x) { float mean = x * x; float tail = exp(mean);\n"
+              "return root_of(tail) - 1.0; }\n");
+    lang_make_canonical(&f.library);
+    lower(&f, find(&f, "far"), 24, (const char *const[]){"x"});
+    REQUIRE_STR(name_of_last(&f, IR_MUL), "mean");
+    REQUIRE_STR(name_of_last(&f, IR_EXP), "tail");
+    REQUIRE_STR(name_of_last(&f, IR_SQRT), "root_of");
+    teardown(&f);
+}
+
 /* ---- Cases that stand in a file ---- */
 
 static void run_case(const struct test_case *c)
@@ -554,5 +579,6 @@ int main(int argc, char **argv)
     test_eval();
     test_dropped_params();
     test_lower_expression();
+    test_names_in_canonical_trees();
     return test_report("lang");
 }

@@ -174,7 +174,8 @@ vec3 mx_sampled_share(vec3 albedo)
 // The path samples it with `density`, the host with one over `solid_angle`.
 vec3 mx_balanced(vec3 light, float density, float solid_angle)
 {
-    return light / (1.0 + density * solid_angle);
+    float both = 1.0 + density * solid_angle;
+    return light / both;
 }
 
 // True if L is on the side of N that V sees.

@@ -57,10 +57,11 @@ vec3 mx_oren_nayar_diffuse_bsdf_eval(vec3 color, float roughness, vec3 N, bool e
     if (s > 0.0)
         s /= max(cos_l, cos_v);
     float mean = mx_fujii_mean(roughness);
-    float multiple = max(1.0 - mx_fujii_albedo(cos_v, roughness), MX_EPSILON)
-                   * max(1.0 - mx_fujii_albedo(cos_l, roughness), MX_EPSILON) / max(1.0 - mean, MX_EPSILON);
-    return lambert * ((1.0 + roughness * s) / (1.0 + MX_FUJII_A * roughness)
-                      + mx_fujii_multiple(color, mean) * multiple);
+    float lost_v = max(1.0 - mx_fujii_albedo(cos_v, roughness), MX_EPSILON);
+    float lost_l = max(1.0 - mx_fujii_albedo(cos_l, roughness), MX_EPSILON);
+    float lost = max(1.0 - mean, MX_EPSILON);
+    float single = (1.0 + roughness * s) / (1.0 + MX_FUJII_A * roughness);
+    return lambert * (single + mx_fujii_multiple(color, mean) * (lost_v * lost_l / lost));
 }
 
 // Directional albedo of Oren and Nayar's lobe towards V.

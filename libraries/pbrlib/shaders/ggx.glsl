@@ -204,8 +204,9 @@ vec2 mx_ggx_albedo_of(vec2 roughness, string distribution, bool by_direction, ve
 vec3 mx_ggx_compensation(vec2 albedo, string model, vec3 n, vec3 k, vec3 f90, float film, float film_ior)
 {
     // 1/21: the hemispherical mean of Schlick's curve with exponent 5
-    return 1.0 + mix(mx_fresnel_facing(model, n, k, film, film_ior), f90, 1.0 / 21.0)
-               * (1.0 / albedo.x - 1.0);
+    vec3 mean_fresnel = mix(mx_fresnel_facing(model, n, k, film, film_ior), f90, 1.0 / 21.0);
+    float lost = 1.0 / albedo.x - 1.0;
+    return 1.0 + mean_fresnel * lost;
 }
 
 // Part of the light that the lobe reflects to V.
@@ -219,7 +220,8 @@ vec3 mx_ggx_reflectance(vec2 roughness, string distribution, bool by_direction, 
     vec3 f = option_path == 0
         ? mix(mx_fresnel_f0(model, n, k), f90, albedo.y)
         : mx_fresnel(max(1.0 - pow(albedo.y, 0.2), MX_EPSILON), model, n, k, f90, exponent, film, film_ior);
-    return f * albedo.x * mx_ggx_compensation(albedo, model, n, k, f90, film, film_ior);
+    vec3 single = f * albedo.x;
+    return single * mx_ggx_compensation(albedo, model, n, k, f90, film, film_ior);
 }
 
 // ---- lights ---------------------------------------------------------------------------------------------------------
