@@ -23,6 +23,16 @@ static bool is_loose_shader(const struct document *doc, elem_id node)
            && (type == STR_surfaceshader || type == STR_volumeshader) && !doc_is_used(doc, node);
 }
 
+/* True if an output has something to give: a connection, or a value of its own. */
+static bool is_set(const struct document *doc, elem_id output)
+{
+    static const str_id sources[] = {STR_nodename, STR_nodegraph, STR_interfacename, STR_value};
+    bool is = false;
+    for (size_t i = 0; i < sizeof sources / sizeof *sources; i++)
+        is = is || doc_attr_value(doc, output, sources[i]);
+    return is;
+}
+
 /*
  * True if an output can be a renderable: closures and lights have no meaning alone, and strings
  * have no colour.
@@ -30,12 +40,10 @@ static bool is_loose_shader(const struct document *doc, elem_id node)
 static bool is_renderable_output(const struct document *doc, elem_id output)
 {
     str_id type = doc_attr_value(doc, output, STR_type);
-    bool connected =
-        doc_attr_value(doc, output, STR_nodename) || doc_attr_value(doc, output, STR_nodegraph);
     doc_type known = doc_type_of(type);
     bool is_value = (doc_type_components(known) && doc_type_components(known) <= 4)
                     || known == DOC_TYPE_boolean;
-    return doc_element(doc, output)->kind == KIND_OUTPUT && connected
+    return doc_element(doc, output)->kind == KIND_OUTPUT && is_set(doc, output)
            && (is_value || type == STR_material || type == STR_surfaceshader
                || type == STR_volumeshader);
 }

@@ -78,7 +78,12 @@ cat >outputs.mtlx <<'EOF'
     <constant name="c" type="float"><input name="value" type="float" value="0.5"/></constant>
     <output name="color" type="color3" nodename="n"/>
     <output name="plain" type="float" nodename="c"/>
+    <input name="tint" type="color3" value="1, 0.5, 0"/>
+    <output name="tinted" type="color3" interfacename="tint"/>
+    <output name="place" type="vector3" value="1, 2, 3"/>
   </nodegraph>
+  <output name="level" type="float" value="0.25"/>
+  <output name="nothing" type="float"/>
   <fractal2d name="f" type="float"/>
   <output name="top" type="float" nodename="f"/>
 </materialx>
@@ -86,6 +91,7 @@ EOF
 check 'without a material, outputs are baked' exits 0 "$mxgen" bake outputs.mtlx -o outs --size 16
 check 'the document has them' has outs/outputs.mtlx '<output name="NG_color" type="color3" nodename="NG_color_image"/>' \
     '<output name="top" type="float" nodename="top_image"/>' '<input name="value" type="float" value="0.5"/>' '<output name="NG_plain" type="float" nodename="NG_plain_value"/>'
+check 'outputs that have values alone, too' eval 'has outs/outputs.mtlx "name=\"value\" type=\"vector3\" value=\"1, 2, 3\"" "name=\"value\" type=\"color3\" value=\"1, 0.5, 0\"" "name=\"value\" type=\"float\" value=\"0.25\"" "<output name=\"NG_place\"" "<output name=\"NG_tinted\"" "<output name=\"level\"" && ! grep -q nothing outs/outputs.mtlx'
 check 'and is valid' exits 0 "$mxgen" validate outs/outputs.mtlx -Werror
 check 'one output is baked alone' eval 'exits 0 "$mxgen" bake outputs.mtlx -e top -o one --size 16 && test "$(ls one | tr "\n" " ")" = "outputs.mtlx top_image.exr "'
 "$render" outputs.mtlx -e NG/n --scene plane -s 16 -q -o live.exr
