@@ -94,8 +94,6 @@ static bool plan(struct baking *baking)
     }
     for (size_t i = 0; good && i < baking->plan.num_drawings; ++i)
         good = bake_find_needs(baking, &baking->plan.drawings[i]);
-    if (good && !baking->surface.num_tiles)
-        bake_surface_add_tile(&baking->surface, (struct bake_tile){0, 0});
     return good && num;
 }
 

@@ -63,13 +63,16 @@ void bake_finish(struct baking *baking);
 mxg_result *bake_generate(struct baking *baking, const char *path, bool tells);
 /* The components of a type; 0: no image has it. */
 uint32_t bake_channels(const char *type);
-/* Fills needs and largest; false after reporting an error. */
+/* The tiles for which a drawing is drawn. */
+const struct bake_tiles *bake_tiles_of(const struct baking *baking,
+                                       const struct bake_drawing *drawing);
+/* Fills needs, largest and tiles; false after reporting an error. */
 bool bake_find_needs(struct baking *baking, struct bake_drawing *drawing);
 /* Draws all that the plan draws, and writes their images. false after reporting an error. */
 bool bake_draw(struct baking *baking);
 
 /*
- * Makes of a drawing, with one spool for each tile of the surface, a value or images,
+ * Makes of a drawing, with one spool for each of its tiles, a value or images,
  * and writes these. false after reporting an error.
  */
 bool bake_finish_drawing(struct baking *baking, struct bake_drawing *drawing,

@@ -131,8 +131,8 @@ struct chunk {
     size_t drawings[MAX_CHUNK];
     size_t num;
     uint32_t size, piece; /* sides of an image, and of what is drawn at once, in texels */
-    struct bake_tile *tiles;
-    uint32_t num_tiles;
+    bool varies;          /* over the surface: with its mesh, if there is one */
+    const struct bake_tiles *tiles;
     struct spool *spools; /* of the tiles of the first drawing, then of the next one */
     uint64_t num_bad;     /* texels that were NaN or infinite */
     size_t bad;           /* a drawing that has some */
@@ -162,7 +162,7 @@ static const char *take_piece(struct chunk *chunk, const struct image *picture, 
     float *row = memory_alloc(4 * sizeof *row * width);
     const char *reason = NULL;
     for (size_t i = 0; i < chunk->num; ++i) {
-        struct spool *spool = &chunk->spools[i * chunk->num_tiles + tile];
+        struct spool *spool = &chunk->spools[i * chunk->tiles->num + tile];
         const struct picture_aov *aov = &chunk->baking->painter.aovs.items[i];
         uint64_t before = chunk->num_bad;
         for (uint32_t r = 0; !reason && r < height; ++r) {
@@ -186,7 +186,7 @@ static bool draw_piece(struct chunk *chunk, struct painting *painting, uint32_t 
     struct painter *painter = &baking->painter;
     struct image picture;
     painter->scene.projection =
-        bake_surface_view(chunk->tiles[tile], chunk->size, x, y, chunk->piece, chunk->piece);
+        bake_surface_view(chunk->tiles->items[tile], chunk->size, x, y, chunk->piece, chunk->piece);
     painting_aim(painting);
     bool good = painting_draw(painting, &picture);
     const char *reason = good ? take_piece(chunk, &picture, tile, x, y) : NULL;
@@ -204,7 +204,7 @@ static bool draw_piece(struct chunk *chunk, struct painting *painting, uint32_t 
 static bool draw_pieces(struct chunk *chunk, struct painting *painting)
 {
     bool good = true;
-    for (uint32_t t = 0; t < chunk->num_tiles; ++t)
+    for (uint32_t t = 0; t < chunk->tiles->num; ++t)
         for (uint32_t y = 0; good && y < chunk->size; y += chunk->piece)
             for (uint32_t x = 0; good && x < chunk->size; x += chunk->piece)
                 good = draw_piece(chunk, painting, t, x, y);
@@ -221,10 +221,10 @@ static bool open_spools(struct chunk *chunk)
 {
     struct baking *baking = chunk->baking;
     const char *reason = NULL;
-    chunk->spools = memory_alloc((chunk->num * chunk->num_tiles + 1) * sizeof *chunk->spools);
-    for (size_t i = 0; !reason && i < chunk->num * chunk->num_tiles; ++i) {
+    chunk->spools = memory_alloc((chunk->num * chunk->tiles->num + 1) * sizeof *chunk->spools);
+    for (size_t i = 0; !reason && i < chunk->num * chunk->tiles->num; ++i) {
         const struct bake_drawing *drawing =
-            &baking->plan.drawings[chunk->drawings[i / chunk->num_tiles]];
+            &baking->plan.drawings[chunk->drawings[i / chunk->tiles->num]];
         reason = spool_open(&chunk->spools[i], baking->options.output, chunk->size, chunk->size,
                             bake_channels(drawing->type));
     }
@@ -252,7 +252,7 @@ static bool draw_chunk(struct chunk *chunk, const mxg_document *document)
 {
     struct baking *baking = chunk->baking;
     struct painter *painter = &baking->painter;
-    bool has_mesh = baking->surface.objects && chunk->size > 1;
+    bool has_mesh = baking->surface.objects && chunk->varies;
     const struct subject subject = {.document = document,
                                     .path = baking->path,
                                     .element = MATERIAL,
@@ -262,15 +262,16 @@ static bool draw_chunk(struct chunk *chunk, const mxg_document *document)
     uint32_t most = MAX_SIDE / (uint32_t)baking->options.samples;
     chunk->piece = chunk->size < most ? chunk->size : most;
     painter->width = painter->height = chunk->piece;
-    painter->oversampling = chunk->size > 1 ? (unsigned)baking->options.samples : 1;
+    painter->oversampling = chunk->varies ? (unsigned)baking->options.samples : 1;
+    bake_surface_cover(&baking->surface, chunk->tiles);
     list_aovs(chunk);
     bool good = open_spools(chunk) && painting_open(painter, &subject, 1, &painting)
                 && draw_pieces(chunk, &painting);
     painting_close(&painting);
     for (size_t i = 0; good && i < chunk->num; ++i)
         good = bake_finish_drawing(baking, &baking->plan.drawings[chunk->drawings[i]],
-                                   &chunk->spools[i * chunk->num_tiles], chunk->num_tiles);
-    for (size_t i = 0; i < chunk->num * chunk->num_tiles; ++i)
+                                   &chunk->spools[i * chunk->tiles->num], chunk->tiles->num);
+    for (size_t i = 0; i < chunk->num * chunk->tiles->num; ++i)
         spool_close(&chunk->spools[i]);
     free(chunk->spools);
     return good;
@@ -284,31 +285,38 @@ static uint32_t size_of(const struct baking *baking, const struct bake_drawing *
                                   : SIZE;
 }
 
-/* Draws those of one size. */
-static bool draw_all_of(struct baking *baking, const mxg_document *document, uint32_t size)
+/* True if two drawings can be drawn together. */
+static bool are_alike(const struct baking *baking, const struct bake_drawing *a,
+                      const struct bake_drawing *b)
 {
-    struct bake_tile first = {0, 0};
-    struct bake_surface *surface = &baking->surface;
+    return !a->needs == !b->needs && size_of(baking, a) == size_of(baking, b)
+           && bake_tiles_are_equal(bake_tiles_of(baking, a), bake_tiles_of(baking, b));
+}
+
+/* Draws those that are like one. */
+static bool draw_all_like(struct baking *baking, const mxg_document *document,
+                          const struct bake_drawing *drawing)
+{
     bool good = true;
     for (size_t next = 0; good && next < baking->plan.num_drawings;) {
         struct chunk chunk = {.baking = baking,
-                              .size = size,
-                              .tiles = size > 1 ? surface->tiles : &first,
-                              .num_tiles = size > 1 ? surface->num_tiles : 1};
+                              .size = size_of(baking, drawing),
+                              .varies = drawing->needs != 0,
+                              .tiles = bake_tiles_of(baking, drawing)};
         for (; next < baking->plan.num_drawings && chunk.num < MAX_CHUNK; ++next)
-            if (size_of(baking, &baking->plan.drawings[next]) == size)
+            if (are_alike(baking, &baking->plan.drawings[next], drawing))
                 chunk.drawings[chunk.num++] = next;
         good = !chunk.num || draw_chunk(&chunk, document);
     }
     return good;
 }
 
-/* True if no drawing before this one has its size. */
-static bool is_first_of_size(const struct baking *baking, size_t index)
+/* True if no drawing before this one is like it. */
+static bool is_first_of_kind(const struct baking *baking, size_t index)
 {
     const struct bake_drawing *drawings = baking->plan.drawings;
     for (size_t i = 0; i < index; ++i)
-        if (size_of(baking, &drawings[i]) == size_of(baking, &drawings[index]))
+        if (are_alike(baking, &drawings[i], &drawings[index]))
             return false;
     return true;
 }
@@ -318,8 +326,8 @@ bool bake_draw(struct baking *baking)
     mxg_document *document = baking->plan.num_drawings ? make_document(baking) : NULL;
     bool good = document || !baking->plan.num_drawings;
     for (size_t i = 0; good && i < baking->plan.num_drawings; ++i)
-        if (is_first_of_size(baking, i))
-            good = draw_all_of(baking, document, size_of(baking, &baking->plan.drawings[i]));
+        if (is_first_of_kind(baking, i))
+            good = draw_all_like(baking, document, &baking->plan.drawings[i]);
     mxg_document_destroy(document);
     return good;
 }

@@ -72,9 +72,8 @@ static void read_textures(struct baking *baking, const mxg_result *result, uint3
     for (uint32_t i = 0; i < variable->num_tiles; ++i) {
         mxg_tile tile = {sizeof tile};
         read_texture(baking, result, index, i, drawing);
-        if (!baking->surface.objects && mxg_result_tile(result, index, i, &tile) == MXG_OK
-            && tile.u >= 0 && tile.v >= 0)
-            bake_surface_add_tile(&baking->surface, (struct bake_tile){tile.u, tile.v});
+        if (mxg_result_tile(result, index, i, &tile) == MXG_OK && tile.u >= 0 && tile.v >= 0)
+            bake_tiles_add(&drawing->tiles, (struct bake_tile){tile.u, tile.v});
     }
     if (!variable->num_tiles)
         read_texture(baking, result, index, 0, drawing);
@@ -186,8 +185,17 @@ static bool find_needs(struct baking *baking, struct bake_drawing *drawing)
         if (variable.block == MXG_BLOCK_TEXTURES)
             read_textures(baking, result, i, &variable, drawing);
     }
+    if (!drawing->tiles.num)
+        bake_tiles_add(&drawing->tiles, (struct bake_tile){0, 0});
     mxg_result_destroy(result);
     return true;
+}
+
+const struct bake_tiles *bake_tiles_of(const struct baking *baking,
+                                       const struct bake_drawing *drawing)
+{
+    bool is_on_mesh = baking->surface.objects && drawing->needs;
+    return is_on_mesh ? &baking->surface.tiles : &drawing->tiles;
 }
 
 bool bake_find_needs(struct baking *baking, struct bake_drawing *drawing)

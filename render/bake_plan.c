@@ -488,6 +488,7 @@ void bake_plan_finish(struct bake_plan *plan)
         free(plan->drawings[i].name);
         free(plan->drawings[i].path);
         free(plan->drawings[i].file);
+        free(plan->drawings[i].tiles.items);
     }
     free(plan->nodes);
     free(plan->drawings);

@@ -8,6 +8,7 @@
 
 #include "program/name_table.h"
 #include "program/report.h"
+#include "render/bake_tiles.h"
 
 #include <mxgen/mxgen.h>
 
@@ -53,7 +54,8 @@ struct bake_drawing {
     mxg_element port;  /* the first input that reads it */
     char *path;        /* of what to generate: "NG_marble/color", "split/outr" */
     unsigned needs;
-    uint32_t largest; /* side of the largest texture that it reads; 0: it reads none */
+    uint32_t largest;        /* side of the largest texture that it reads; 0: it reads none */
+    struct bake_tiles tiles; /* that its textures have; the first one if they have none */
 
     /* what was drawn */
     bool is_value;      /* the same everywhere: `value` has it */

@@ -75,35 +75,6 @@ static bool open_file(struct bake_surface *surface, struct cli *cli, const char 
 
 /* ---- Tiles ---- */
 
-/* No larger than its tiles: interpolation over a large square is less exact. */
-static void cover_tile(struct mesh *square, struct bake_tile tile)
-{
-    for (uint32_t i = 0; i < 4; ++i) {
-        struct vertex *vertex = &square->vertices[i];
-        vertex->texcoord[0] = fmaxf(vertex->texcoord[0], (float)(i % 2) * (float)(tile.u + 1));
-        vertex->texcoord[1] = fmaxf(vertex->texcoord[1], (float)(i / 2) * (float)(tile.v + 1));
-        memcpy(vertex->position, vertex->texcoord, sizeof vertex->texcoord);
-    }
-}
-
-void bake_surface_add_tile(struct bake_surface *surface, struct bake_tile tile)
-{
-    uint32_t at = 0;
-    const struct bake_tile *tiles = surface->tiles;
-    while (at < surface->num_tiles
-           && (tiles[at].v < tile.v || (tiles[at].v == tile.v && tiles[at].u < tile.u)))
-        ++at;
-    if (at < surface->num_tiles && tiles[at].u == tile.u && tiles[at].v == tile.v)
-        return;
-    surface->tiles =
-        memory_resize(surface->tiles, (surface->num_tiles + 1) * sizeof *surface->tiles);
-    memmove(surface->tiles + at + 1, surface->tiles + at,
-            (surface->num_tiles - at) * sizeof *surface->tiles);
-    surface->tiles[at] = tile;
-    ++surface->num_tiles;
-    cover_tile(&surface->square.object.mesh, tile);
-}
-
 /* A triangle belongs to the tile of its centre. false: that is no tile. */
 static bool add_tile_of(struct bake_surface *surface, const struct mesh *mesh, const uint32_t *at)
 {
@@ -113,7 +84,7 @@ static bool add_tile_of(struct bake_surface *surface, const struct mesh *mesh, c
             centre[c] += (double)mesh->vertices[at[k]].texcoord[c] / 3;
     if (!(centre[0] >= 0 && centre[0] < 10 && centre[1] >= 0 && centre[1] < MAX_V))
         return false;
-    bake_surface_add_tile(surface, (struct bake_tile){(int32_t)centre[0], (int32_t)centre[1]});
+    bake_tiles_add(&surface->tiles, (struct bake_tile){(int32_t)centre[0], (int32_t)centre[1]});
     return true;
 }
 
@@ -170,6 +141,22 @@ static bool find_tiles(struct bake_surface *surface, struct report *report)
     return true;
 }
 
+/* No larger than the tiles: interpolation over a large square is less exact. */
+void bake_surface_cover(struct bake_surface *surface, const struct bake_tiles *tiles)
+{
+    int32_t ends[2] = {1, 1};
+    for (uint32_t i = 0; i < tiles->num; ++i) {
+        ends[0] = tiles->items[i].u < ends[0] ? ends[0] : tiles->items[i].u + 1;
+        ends[1] = tiles->items[i].v < ends[1] ? ends[1] : tiles->items[i].v + 1;
+    }
+    for (uint32_t i = 0; i < 4; ++i) {
+        struct vertex *vertex = &surface->square.object.mesh.vertices[i];
+        vertex->texcoord[0] = (float)((int32_t)(i % 2) * ends[0]);
+        vertex->texcoord[1] = (float)((int32_t)(i / 2) * ends[1]);
+        memcpy(vertex->position, vertex->texcoord, sizeof vertex->texcoord);
+    }
+}
+
 bool bake_surface_open(struct bake_surface *surface, struct cli *cli, const char *mesh)
 {
     *surface = (struct bake_surface){0};
@@ -187,7 +174,7 @@ void bake_surface_close(struct bake_surface *surface)
     if (surface->objects && !surface->site.objects)
         object_finish(&surface->objects[0]);
     free(surface->objects);
-    free(surface->tiles);
+    free(surface->tiles.items);
     site_close(&surface->site);
     scene_finish(&surface->square);
 }

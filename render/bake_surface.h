@@ -3,27 +3,22 @@
 #ifndef MXG_RENDER_BAKE_SURFACE_H
 #define MXG_RENDER_BAKE_SURFACE_H
 
+#include "render/bake_tiles.h"
 #include "render/site.h"
 
-/* A unit square of texture coordinates, from (u, v). */
-struct bake_tile {
-    int32_t u, v;
-};
-
 struct bake_surface {
-    struct scene square;          /* covers the tiles, in the place of a surface */
+    struct scene square;          /* of texture coordinates, in the place of a surface */
     struct site site;             /* of a file */
     struct scene_object *objects; /* of the mesh; NULL: there is none */
     uint32_t num_objects;
-    struct bake_tile *tiles; /* that the mesh covers, by v and u */
-    uint32_t num_tiles;
+    struct bake_tiles tiles; /* that the mesh covers */
 };
 
 /* `mesh` NULL: none. false after reporting an error. Call bake_surface_close in any case. */
 bool bake_surface_open(struct bake_surface *surface, struct cli *cli, const char *mesh);
 void bake_surface_close(struct bake_surface *surface);
-/* Adds a tile if it is new, which the square then covers. */
-void bake_surface_add_tile(struct bake_surface *surface, struct bake_tile tile);
+/* Makes the square cover these tiles. */
+void bake_surface_cover(struct bake_surface *surface, const struct bake_tiles *tiles);
 
 /*
  * The part of the tile's texels, of `size` in each direction, that triangles cover more than once,

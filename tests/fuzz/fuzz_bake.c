@@ -51,7 +51,7 @@ static bool draw(struct baking *baking, struct bake_drawing *drawing)
 {
     enum { MAX_TILES = 4 };
     struct spool spools[MAX_TILES] = {{0}};
-    uint32_t size = drawing->needs ? 4 : 1, num = drawing->needs ? baking->surface.num_tiles : 1;
+    uint32_t size = drawing->needs ? 4 : 1, num = bake_tiles_of(baking, drawing)->num;
     seed = seed * 1664525u + 1013904223u;
     bool is_flat = seed >> 30 == 0;
     if (num > MAX_TILES)

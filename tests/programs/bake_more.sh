@@ -111,6 +111,26 @@ check 'the document names them' has copies/sets.mtlx 'value="wood.&lt;UDIM&gt;.p
 rm tx/fire_*
 check 'a set without files is told' eval 'exits 1 "$mxgen" bake sets.mtlx -o none --copy && has err "[missing-texture]" "fire_{0Nframe}.png" && test ! -e none'
 
+# ---- Tiles ----
+
+# The tiles of a drawing are those of its own textures, also where these have one texel each.
+gray() { printf 'P2 %s %s 255 %s\n' "$2" "$2" "$3" >"$1"; }
+gray plain.pgm 2 '10 20 30 40'
+gray tile.1001.pgm 1 51
+gray tile.1012.pgm 1 204
+doubled() { # NAME FILE
+    printf '<image name="%s" type="float"><input name="file" type="filename" value="%s"/></image>' "$1" "$2"
+    printf '<multiply name="%s_2" type="float"><input name="in1" type="float" nodename="%s"/><input name="in2" type="float" value="0.5"/></multiply>' "$1" "$1"
+}
+surface tiled.mtlx "$(doubled a plain.pgm) $(doubled t 'tile.&lt;UDIM&gt;.pgm')" '<input name="base" type="float" nodename="a_2"/><input name="metalness" type="float" nodename="t_2"/>'
+check 'a set of tiles and an image beside it are baked' exits 0 "$mxgen" bake tiled.mtlx -o tiled -f exr --depth 32
+check 'each has its own files' test "$(ls tiled | tr '\n' ' ')" = 'S_base.exr S_metalness.1001.exr S_metalness.1012.exr tiled.mtlx '
+reads() { # FILE X Y VALUE
+    python3 "$here/exr.py" "$1" R "$2" "$3" | awk -v b="$4" '{ d = $1 - b; exit !(d * d < 1e-6) }'
+}
+check 'the image has its own size and values' eval "reads tiled/S_base.exr 1 1 $(awk 'BEGIN { print 20 / 255 }')"
+check 'and so have the tiles' eval 'reads tiled/S_metalness.1001.exr 0 0 0.1 && reads tiled/S_metalness.1012.exr 0 0 0.4'
+
 # ---- Meshes ----
 
 # Two squares side by side; the second has the texture coordinates of its mirror image.
