@@ -20,7 +20,7 @@ typedef struct mxg_dialect {
     const char *name;    /* for mxg_generate_desc.target and for libraries: "mygl" */
     const char *base;    /* "glsl", or "genglsl" */
     const char *version; /* of the language: the default of `target-version`; NULL: that of base */
-    /* pairs of a key and a value, num_options of them: other defaults of options */
+    /* other defaults of options: key, value, key, value …; num_options is the number of pairs */
     const char *const *options;
     size_t num_options;
     /* file endings of the vertex and the pixel stage; NULL: those of base */

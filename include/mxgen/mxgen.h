@@ -26,7 +26,7 @@
  *                immutable; holds its document
  * An accessor returns data of its object: the data lives as long as the object. The caller frees
  * objects and nothing else. A context must outlive the objects that it made. Every destroy function
- * accepts NULL.
+ * accepts NULL, and an accessor of NULL returns 0, NULL or MXG_ERROR_ARGUMENT.
  *
  * Errors: the returned mxg_status reports mistakes of the caller and missing resources of the
  * machine. Errors in a document are diagnostics of the document or of the result; both exist even
@@ -221,6 +221,8 @@ typedef struct mxg_context_desc {
 
 /* desc may be NULL: all defaults. */
 MXG_API mxg_status mxg_context_create(const mxg_context_desc *desc, mxg_context **out_context);
+/* Why mxg_context_create returns MXG_ERROR_ARGUMENT for `desc`; length 0 if it does not. */
+MXG_API size_t mxg_context_desc_error(const mxg_context_desc *desc, char *buffer, size_t capacity);
 MXG_API void mxg_context_destroy(mxg_context *context);
 
 /*
@@ -340,12 +342,17 @@ typedef struct mxg_renderable {
 MXG_API uint32_t mxg_document_num_renderables(const mxg_document *document);
 MXG_API mxg_status mxg_document_renderable(const mxg_document *document, uint32_t index,
                                            mxg_renderable *out);
-/* True if a look or a look group, by its path, assigns renderable `index`. */
+/*
+ * True if a look or a look group, by its path, assigns renderable `index`. Looks are the children
+ * of the root with the category "look" (mxg_document_element); scene.h has their slots.
+ */
 MXG_API bool mxg_document_has_assignment(const mxg_document *document, const char *look,
                                          uint32_t index);
 
 /*
  * Checks every node, connection and value of the document against its library, without generating.
+ * What reading found is in mxg_document_diagnostics alone, so a text that is no XML has no errors
+ * here.
  */
 MXG_API mxg_status mxg_validate(mxg_context *context, const mxg_document *document,
                                 mxg_result **out_result);

@@ -6,19 +6,12 @@ import { Document } from "./document.js";
 import { Edit } from "./edit.js";
 import { ArgumentError, DocumentError, MxgenError, OutOfMemoryError } from "./errors.js";
 import { Library } from "./library.js";
-import { expect, Handle, kindOf, numberOf, Owner, STATUS } from "./native.js";
+import { expect, expectOptions, Handle, kindOf, numberOf, Owner, STATUS } from "./native.js";
 import { Scene } from "./scene.js";
 import { Shader, withOptions } from "./shader.js";
 
 export const LIMITS = ["maxMemory", "maxFileMib", "maxElements", "maxNodes", "maxOutputMib", "maxErrors", "maxDepth", "maxIncludeDepth", "maxIncludes"];
 const OPTIONS = [...LIMITS, "resolver", "listFolder", "cancel", "readTexels", "warnings", "trust", "sourcePaths"];
-
-/** Throws if an option is none of the known ones. */
-export function expectOptions(options, known) {
-    for (const name of Object.keys(options))
-        if (!known.includes(name))
-            throw new ArgumentError(`there is no option '${name}'; known are ${known.join(", ")}`);
-}
 
 function bytesOf(data, what) {
     if (typeof data === "string")
@@ -422,9 +415,9 @@ export function newContextDesc(native, options) {
         includeRoots: native.newTexts(includeRoots, "an include root"), numIncludeRoots: includeRoots.length });
 }
 
-/** Why a mxg_context_desc with these options is refused; "": the status tells. */
-export function refusalOf({ warnings = null }) {
-    return warnings ? `warnings has an unknown word, or a limit is out of range: '${warnings}'` : "";
+/** Why a mxg_context_desc is refused; "": it is not. */
+export function refusalOf(native, desc) {
+    return native.sizedText((out, capacity) => native.lib.mxg_context_desc_error(desc, out, capacity));
 }
 
 function makeContext(native, options, number) {
@@ -432,7 +425,7 @@ function makeContext(native, options, number) {
         const desc = newContextDesc(native, options), out = native.space(4);
         const status = native.lib.mxgen_js_context(desc, number, Boolean(options.listFolder), Boolean(options.cancel),
             Boolean(options.readTexels), out);
-        native.check(status, status === STATUS.errorArgument ? refusalOf(options) : "");
+        native.check(status, status === STATUS.errorArgument ? refusalOf(native, desc) : "");
         return new Handle(native.pointer(out), pointer => {
             native.lib.mxg_context_destroy(pointer);
             native.removeHost(number);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The language server (docs/lsp.md): messages of the Language Server Protocol as objects.
 
-import { expectOptions, Host, LIMITS, newContextDesc, refusalOf } from "./context.js";
+import { Host, LIMITS, newContextDesc, refusalOf } from "./context.js";
 import { ArgumentError } from "./errors.js";
 import { Library } from "./library.js";
-import { expect, Handle, Owner } from "./native.js";
+import { expect, expectOptions, Handle, Owner } from "./native.js";
 
 const OPTIONS = [...LIMITS, "send", "library", "messagesUrl", "readFile", "listFolder", "warnings", "trust", "sourcePaths", "includeRoots"];
 const CHANGED_FILES = "workspace/didChangeWatchedFiles";
@@ -17,7 +17,7 @@ function makeSession(native, library, options, host) {
         const desc = newContextDesc(native, options), url = native.newOptionalText(options.messagesUrl, "messagesUrl");
         const session = native.lib.mxgen_js_lsp_create(desc, library._pointer, url);
         if (!session)
-            throw new ArgumentError(refusalOf(options) || "an option has a value that it cannot have");
+            throw new ArgumentError(refusalOf(native, desc) || "an option has a value that it cannot have");
         return new Handle(session, pointer => {
             native.lib.mxgen_js_lsp_destroy(pointer);
             native.removeHost(host);

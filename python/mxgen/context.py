@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any, Union
 
-from ._calls import Handle, Native, c_number, c_path, c_text, c_texts, check_type, error_of, guarded, lib, new, optional_text, py_text
+from ._calls import Handle, Native, c_number, c_path, c_text, c_texts, check_type, error_of, guarded, lib, new, optional_text, py_text, sized_text
 from .definition import Library
 from .diagnostic import Diagnostics
 from .document import Document, Rewritten, rewritten
@@ -117,14 +117,6 @@ class _Host:
         return True
 
 
-def _is_warning_word(word: str) -> bool:
-    """Whether a context accepts the word."""
-    out = ctypes.c_void_p()
-    lib.mxg_context_create(new("mxg_context_desc", warnings=c_text(word, "warnings")), out)
-    lib.mxg_context_destroy(out)
-    return bool(out.value)
-
-
 class Context(Native):
     """Loads documents and libraries. All arguments have defaults, and names as in mxg_context_desc:
 
@@ -163,10 +155,8 @@ class Context(Native):
         callbacks = self._set_callbacks(desc)
         out = ctypes.c_void_p()
         status = lib.mxg_context_create(desc, out)
-        if status == lib.MXG_ERROR_ARGUMENT and warnings:
-            unknown = [word for word in warnings.split(",") if not _is_warning_word(word)]
-            raise ArgumentError(f"warnings has the unknown word '{unknown[0]}'; diagnostic_kinds() lists the ids" if unknown
-                                else "a limit is out of range")
+        if status == lib.MXG_ERROR_ARGUMENT:
+            raise ArgumentError(sized_text(lambda buffer, capacity: lib.mxg_context_desc_error(desc, buffer, capacity)))
         if status != lib.MXG_OK:
             raise error_of(status)
 

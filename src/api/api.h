@@ -158,8 +158,17 @@ struct mxg_document {
     bool is_silent; /* its definitions have nothing to report, so that another may share them */
 };
 
+/* Why a description makes no context. */
+struct refusal {
+    char text[512]; /* "": unknown */
+};
+/* context.c: writes the reason. Returns MXG_ERROR_ARGUMENT. */
+mxg_status refuse(struct refusal *why, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
 /* dialect.c: takes the targets of the description. */
-mxg_status dialects_take(struct mxg_context *context, const mxg_context_desc *desc);
+mxg_status dialects_take(struct mxg_context *context, const mxg_context_desc *desc,
+                         struct refusal *why);
 void dialects_finish(struct mxg_context *context);
 /* A target of mxgen, or of the host; NULL: unknown. */
 const struct target *context_target(const struct mxg_context *context, const char *name);
@@ -173,7 +182,8 @@ bool target_exists(const void *context, const char *materialx_name);
 /*
  * codes.c: copies the nodes in C of the description. codes_finish also frees what a failure leaves.
  */
-mxg_status codes_take(struct mxg_context *context, const mxg_context_desc *desc);
+mxg_status codes_take(struct mxg_context *context, const mxg_context_desc *desc,
+                      struct refusal *why);
 void codes_finish(struct mxg_context *context);
 /* True if code serves a definition for the target; NULL: for any. */
 bool codes_serve(const struct mxg_context *context, const char *nodedef, const char *node,
@@ -290,9 +300,9 @@ struct option_value {
  */
 struct option_value *options_for(const struct target *target, const mxg_options *options,
                                  struct arena *arena, const struct dialect *dialect);
-/* False: no option has the key, or it has no such value, or the target ignores it. */
-bool options_know(const struct target *target, const char *key, const char *value,
-                  struct arena *arena);
+/* Why an option cannot have the value for the target; NULL: it can. */
+const char *option_fault(const struct target *target, const char *key, const char *value,
+                         struct arena *arena);
 const struct option_value *options_values(const mxg_options *options); /* as set */
 const char *option_key(enum option_id option);                         /* "interface" */
 enum role_task option_task(enum option_id option); /* that a role may leave to others */

@@ -3,6 +3,8 @@
 #include "api/api.h"
 
 #include <assert.h>
+#include <stdarg.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #define TEXT_OF(number) #number
@@ -45,12 +47,43 @@ static uint32_t or_default(uint32_t limit, uint32_t standard)
     return limit ? limit : standard;
 }
 
+/* ---- Refusals ---- */
+
+mxg_status refuse(struct refusal *why, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    vsnprintf(why->text, sizeof why->text, format, args);
+    va_end(args);
+    return MXG_ERROR_ARGUMENT;
+}
+
 static bool are_names(const char *const *names, size_t num_names)
 {
     for (size_t i = 0; i < num_names; i++)
         if (!names || !names[i])
             return false;
     return true;
+}
+
+/* Reads the description and its words. */
+static mxg_status read_desc(const mxg_context_desc *desc, mxg_context_desc *out,
+                            struct diag_policy *policy, struct refusal *why)
+{
+    if (desc && !struct_read(out, sizeof *out, desc))
+        return refuse(why, "the size is not set; begin with MXG_CONTEXT_DESC_INIT");
+    if (out->resolver && (!out->resolver->open || !out->resolver->release))
+        return refuse(why, "the resolver needs both open and release");
+    if (!are_names(out->include_roots, out->num_include_roots))
+        return refuse(why, "include_roots does not have num_include_roots items");
+    if (!are_names(out->source_paths, out->num_source_paths))
+        return refuse(why, "source_paths does not have num_source_paths items");
+    const char *fault = diag_policy_parse(policy, out->warnings ? out->warnings : "");
+    return fault ? refuse(why,
+                          "warnings has the unknown word '%.*s'; expected error, error=ID, "
+                          "no-error=ID, no-ID or ID, with an ID of a diagnostic",
+                          (int)strcspn(fault, ", "), fault)
+                 : MXG_OK;
 }
 
 /* Copies the folders of the description; false: out of memory. */
@@ -64,20 +97,14 @@ static bool take_folders(mxg_context *context, const mxg_context_desc *d)
     return is_good;
 }
 
-mxg_status mxg_context_create(const mxg_context_desc *desc, mxg_context **out_context)
+static mxg_status create(const mxg_context_desc *desc, mxg_context **out_context,
+                         struct refusal *why)
 {
     mxg_context_desc d = MXG_CONTEXT_DESC_INIT;
-    if (out_context)
-        *out_context = NULL;
-    if (!out_context || (desc && !struct_read(&d, sizeof d, desc))
-        || (d.resolver && (!d.resolver->open || !d.resolver->release)))
-        return MXG_ERROR_ARGUMENT;
     struct diag_policy policy;
-    if (!are_names(d.include_roots, d.num_include_roots)
-        || !are_names(d.source_paths, d.num_source_paths))
-        return MXG_ERROR_ARGUMENT;
-    if (diag_policy_parse(&policy, d.warnings ? d.warnings : ""))
-        return MXG_ERROR_ARGUMENT;
+    mxg_status status = read_desc(desc, &d, &policy, why);
+    if (status != MXG_OK)
+        return status;
     struct mem mem;
     mem_init(&mem, d.realloc, d.realloc_user_data);
     size_t size = sizeof(mxg_context);
@@ -106,9 +133,9 @@ mxg_status mxg_context_create(const mxg_context_desc *desc, mxg_context **out_co
     context->trust = d.trust     ? LIBRARY_TRUST_ALL
                      : d.sandbox ? LIBRARY_TRUST_GRAPHS
                                  : LIBRARY_TRUST_PORTABLE;
-    mxg_status status = take_folders(context, &d) ? dialects_take(context, &d) : MXG_ERROR_MEMORY;
+    status = take_folders(context, &d) ? dialects_take(context, &d, why) : MXG_ERROR_MEMORY;
     if (status == MXG_OK)
-        status = codes_take(context, &d);
+        status = codes_take(context, &d, why);
     if (status != MXG_OK) {
         mxg_context_destroy(context);
         return status;
@@ -118,6 +145,24 @@ mxg_status mxg_context_create(const mxg_context_desc *desc, mxg_context **out_co
     map_builtin(context);
     *out_context = context;
     return MXG_OK;
+}
+
+mxg_status mxg_context_create(const mxg_context_desc *desc, mxg_context **out_context)
+{
+    struct refusal why = {0};
+    if (!out_context)
+        return MXG_ERROR_ARGUMENT;
+    *out_context = NULL;
+    return create(desc, out_context, &why);
+}
+
+size_t mxg_context_desc_error(const mxg_context_desc *desc, char *buffer, size_t capacity)
+{
+    struct refusal why = {0};
+    mxg_context *context = NULL;
+    create(desc, &context, &why);
+    mxg_context_destroy(context);
+    return text_copy(why.text, strlen(why.text), buffer, capacity);
 }
 
 void mxg_context_destroy(mxg_context *context)

@@ -203,15 +203,6 @@ static unsigned find_key(const char *key)
     return i;
 }
 
-bool options_know(const struct target *target, const char *key, const char *value,
-                  struct arena *arena)
-{
-    struct option_value out = {0};
-    unsigned option = find_key(key);
-    return option < NUM_OPTIONS && option_applies((enum option_id)option, target)
-           && parse(arena, &table[option], value, &out);
-}
-
 struct option_value *options_for(const struct target *target, const mxg_options *options,
                                  struct arena *arena, const struct dialect *dialect)
 {
@@ -226,6 +217,61 @@ struct option_value *options_for(const struct target *target, const mxg_options 
             parse(arena, &table[option], dialect->options[2 * i + 1], &values[option]);
     }
     return values;
+}
+
+/* ---- Faults ---- */
+
+static const char *expected(struct arena *arena, const mxg_option *option)
+{
+    struct text text;
+    text_init(&text, arena);
+    if (option->type == MXG_OPTION_BOOL)
+        return "true or false";
+    if (option->type == MXG_OPTION_INT)
+        text_str(&text, "an integer of ");
+    if (option->type == MXG_OPTION_FLOAT)
+        text_str(&text, "a number of ");
+    for (const char *c = option->values; *c; c++) {
+        if (*c == '|')
+            text_str(&text, ", ");
+        else
+            text_char(&text, *c);
+    }
+    return text_cstr(&text);
+}
+
+static const char *unknown_key(struct arena *arena, const char *key)
+{
+    const char *keys[NUM_OPTIONS];
+    for (unsigned i = 0; i < NUM_OPTIONS; i++)
+        keys[i] = table[i].key;
+    struct text text;
+    struct diag_list list; /* for the suggestion; struct options holds its own message */
+    text_init(&text, arena);
+    diag_list_init(&list, arena);
+    text_fmt(&text, "unknown option '%s'%s", key, diag_suggest(&list, key, keys, NUM_OPTIONS));
+    return text_cstr(&text);
+}
+
+static const char *bad_value(struct arena *arena, const mxg_option *option, const char *value)
+{
+    struct text text;
+    text_init(&text, arena);
+    text_fmt(&text, "'%s' is not a value of option '%s'; expected %s", value, option->key,
+             expected(arena, option));
+    return text_cstr(&text);
+}
+
+const char *option_fault(const struct target *target, const char *key, const char *value,
+                         struct arena *arena)
+{
+    struct option_value out = {0};
+    unsigned i = find_key(key);
+    if (i == NUM_OPTIONS)
+        return unknown_key(arena, key);
+    if (parse(arena, &table[i], value, &out))
+        return option_applies((enum option_id)i, target) ? NULL : "its base has no such option";
+    return bad_value(arena, &table[i], value);
 }
 
 /* ---- The caller's options ---- */
@@ -264,38 +310,6 @@ struct setting {
     bool good;
 };
 
-static const char *expected(struct arena *arena, const mxg_option *option)
-{
-    struct text text;
-    text_init(&text, arena);
-    if (option->type == MXG_OPTION_BOOL)
-        return "true or false";
-    if (option->type == MXG_OPTION_INT)
-        text_str(&text, "an integer of ");
-    if (option->type == MXG_OPTION_FLOAT)
-        text_str(&text, "a number of ");
-    for (const char *c = option->values; *c; c++) {
-        if (*c == '|')
-            text_str(&text, ", ");
-        else
-            text_char(&text, *c);
-    }
-    return text_cstr(&text);
-}
-
-static const char *unknown_key(struct arena *arena, const char *key)
-{
-    const char *keys[NUM_OPTIONS];
-    for (unsigned i = 0; i < NUM_OPTIONS; i++)
-        keys[i] = table[i].key;
-    struct text text;
-    struct diag_list list; /* for the suggestion; struct options holds its own message */
-    text_init(&text, arena);
-    diag_list_init(&list, arena);
-    text_fmt(&text, "unknown option '%s'%s", key, diag_suggest(&list, key, keys, NUM_OPTIONS));
-    return text_cstr(&text);
-}
-
 static void set(void *arg)
 {
     struct setting *setting = arg;
@@ -313,11 +327,7 @@ static void set(void *arg)
         options->values[i] = value;
         return;
     }
-    struct text text;
-    text_init(&text, arena);
-    text_fmt(&text, "'%s' is not a value of option '%s'; expected %s", setting->value, setting->key,
-             expected(arena, &table[i]));
-    options->error = text_cstr(&text);
+    options->error = bad_value(arena, &table[i], setting->value);
 }
 
 mxg_status mxg_options_set(mxg_options *options, const char *key, const char *value)

@@ -119,12 +119,74 @@ static void test_unknown(void)
     mxg_context_destroy(without);
 }
 
+/* The reason begins with the text; "": a context is made. */
+static void is_refused(mxg_context_desc desc, const char *reason)
+{
+    char told[512];
+    size_t size = mxg_context_desc_error(&desc, told, sizeof told);
+    REQUIRE_EQ(size, strlen(told));
+    REQUIRE_EQ(size > 0, *reason != 0);
+    if (!REQUIRE(strncmp(told, reason, strlen(reason)) == 0))
+        printf("    %s\n", told);
+}
+
+static bool build_nothing(void *user_data, mxg_build *build, mxg_ref *results)
+{
+    (void)user_data, (void)build, (void)results;
+    return false;
+}
+
+/* Reasons of the other members. */
+static void test_reasons(void)
+{
+    const mxg_node_code empty = {.size = sizeof empty, .name = "ND_x"},
+                        lost = {.size = sizeof lost,
+                                .name = "ND_x",
+                                .target = "vulcan",
+                                .build = build_nothing};
+    const mxg_node_code *const none[] = {&empty}, *const far[] = {&lost}, *const null[] = {NULL};
+    const mxg_resolver half = {0};
+    const mxg_context_desc good = MXG_CONTEXT_DESC_INIT;
+    mxg_context_desc desc = {0};
+    is_refused(desc, "the size is not set; begin with MXG_CONTEXT_DESC_INIT");
+    is_refused(desc = good, "");
+    desc.warnings = "error, no-such-id,error";
+    is_refused(desc, "warnings has the unknown word 'no-such-id'; expected error, error=ID");
+    desc = good, desc.resolver = &half;
+    is_refused(desc, "the resolver needs both open and release");
+    desc = good, desc.num_include_roots = 1;
+    is_refused(desc, "include_roots does not have num_include_roots items");
+    desc = good, desc.num_source_paths = 1;
+    is_refused(desc, "source_paths does not have num_source_paths items");
+    desc = good, desc.num_node_codes = 1;
+    is_refused(desc, "node_codes does not have num_node_codes items");
+    desc.node_codes = null;
+    is_refused(desc, "node_codes[0] is NULL, or its size is not set");
+    desc.node_codes = none;
+    is_refused(desc, "the code for 'ND_x' needs one of build and instead");
+    desc.node_codes = far;
+    is_refused(desc, "the code for 'ND_x' is for the unknown target 'vulcan'; expected a name");
+    REQUIRE_EQ(mxg_context_desc_error(NULL, NULL, 0), 0);
+}
+
 static void test_mistakes(void)
 {
     static const char *const unknown_key[] = {"colour", "red"},
                              *const bad_value[] = {"interface", "half"},
                              *const no_value[] = {"interface", NULL},
                              *const not_here[] = {"osl-network", "true"};
+    static const char *const reasons[] = {
+        "dialects[0] is NULL, or has no size, name or base",
+        "dialect '' needs a name that no target has",
+        "dialect 'genglsl' needs a name that no target has",
+        "dialects[0] is NULL, or has no size, name or base",
+        "dialect 'mygl' has the unknown base 'gl'",
+        "dialect 'mygl': its base has no version '12'",
+        "dialect 'mygl', option 'colour': unknown option 'colour'",
+        "dialect 'mygl', option 'interface': 'half' is not a value of option",
+        "dialect 'mygl': a key or a value of option 0 is NULL; num_options is the number of pairs",
+        "dialect 'mygl', option 'osl-network': its base has no such option",
+        "dialect 'mygl' has num_options, but no options"};
     const mxg_dialect good = dialect();
     mxg_dialect wrong[11];
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; ++i)
@@ -146,6 +208,9 @@ static void test_mistakes(void)
         if (!REQUIRE_EQ(create(list, 1, &context), MXG_ERROR_ARGUMENT))
             printf("    mistake %zu\n", i);
         REQUIRE(!context);
+        is_refused(
+            (mxg_context_desc){sizeof(mxg_context_desc), .dialects = list, .num_dialects = 1},
+            reasons[i]);
     }
     const mxg_dialect *const twice[] = {&good, &good}, *const nothing[] = {NULL};
     mxg_context *context = NULL;
@@ -159,5 +224,6 @@ int main(void)
     test_use();
     test_unknown();
     test_mistakes();
+    test_reasons();
     return test_report("api-dialect");
 }

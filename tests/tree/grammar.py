@@ -95,6 +95,9 @@ def check_object(function, kind, words, functions, members):
     if verb in MAKERS and (not nouns) and not (verb == "ref"):
         check_maker(function, kind, verb)
         return
+    if words == ["desc", "error"]:
+        function.check(function.takes(0, rf"const mxg_{kind}_desc \* desc"), "the first parameter is the description")
+        return
     if kind != CATALOGUE:
         function.check(function.takes(0, rf"(const )?mxg_{kind} \* \w+"), f"the first parameter is the {kind}")
     else:
