@@ -103,8 +103,8 @@ static doc_type find_type(struct edit_change *c)
         c->type = type_by_definition(c);
     const char *type = type_name(c);
     if (!*type)
-        edit_fail(c, "no definition has the input '%s'%s; give its type", c->name,
-                  suggest_input(c));
+        edit_fail(c, "'%s' has no input '%s'%s; a new one needs its type",
+                  edit_label(c->edit, c->element), c->name, suggest_input(c));
     return doc_type_of(str_find(doc->strings, type, strlen(type)));
 }
 

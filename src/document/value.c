@@ -264,7 +264,7 @@ const char *doc_value_fault(doc_type type, const char *text, size_t len, struct 
     struct number_text numbers = {.text = text, .len = len, .integer = integer};
     text_init(&message, arena);
     if (type == DOC_TYPE_boolean)
-        return ": it is 'true' or 'false'";
+        return ": expected 'true' or 'false'";
     int64_t count = find_numbers(&numbers, NULL, 0);
     size_t fault = numbers.fault;
     if (count >= 0) {
@@ -284,7 +284,8 @@ const char *doc_value_fault(doc_type type, const char *text, size_t len, struct 
     if (of_integer)
         text_fmt(&message, ": %s", of_integer);
     else if (is_all && components)
-        text_fmt(&message, components > 1 ? ": it is %u numbers" : ": it is a number", components);
+        text_fmt(&message, components > 1 ? ": expected %u numbers" : ": expected a number",
+                 components);
     else
         text_fmt(&message, ": '%.*s' is not a valid %s", (int)(end - fault), text + fault,
                  integer ? "integer" : "number");

@@ -442,8 +442,8 @@ static void test_refused(struct fixture *f)
     REFUSED(mxg_edit_set_value(e, shader, "coat", "float", NULL), "value of 'coat' is missing");
     REFUSED(mxg_edit_rename_element(e, shader, "NG"), "'NG' already");
     REFUSED(mxg_edit_set_value(e, shader, "coat_rougness", NULL, "1"),
-            "'coat_rougness' (did you mean 'coat_roughness'?); give its type");
-    REFUSED(mxg_edit_set_value(e, graph, "coat", NULL, "1"), "give its type");
+            "'coat_rougness' (did you mean 'coat_roughness'?); a new one needs its type");
+    REFUSED(mxg_edit_set_value(e, graph, "coat", NULL, "1"), "has no input 'coat'; a new one");
     REFUSED(mxg_edit_set_value(e, shader, "coat", NULL, "much"),
             "'much' is no value of 'coat', whose type is float");
     REFUSED(mxg_edit_set_value(e, shader, "coat", "float", "much"), "'much' is no value");
