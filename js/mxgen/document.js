@@ -4,7 +4,7 @@
 import { Diagnostics } from "./diagnostics.js";
 import { ArgumentError, DocumentError, OutOfMemoryError } from "./errors.js";
 import { readNodeDef } from "./library.js";
-import { expect, INSPECT, NONE, numberOf, Owner, STATUS } from "./native.js";
+import { expect, expectOptions, INSPECT, NONE, numberOf, Owner, STATUS } from "./native.js";
 import { Bindings, Scene } from "./scene.js";
 import { Shader, withOptions } from "./shader.js";
 
@@ -360,7 +360,9 @@ export class Document extends Owner {
     }
 
     /** Calls `use` with the address of a mxg_generate_desc. */
-    #request(target, { element = null, stack = null, options = null, withoutSource = false, onlyDiagnostics = false }, use) {
+    #request(target, request, use) {
+        expectOptions(request, ["element", "stack", "options", "withoutSource", "onlyDiagnostics"]);
+        const { element = null, stack = null, options = null, withoutSource = false, onlyDiagnostics = false } = request;
         if (stack && (!(stack.bindings instanceof Bindings) || stack.bindings.document !== this))
             throw new ArgumentError("the stack is not one of bindings of this document");
         if (element instanceof Element && element.document !== this)

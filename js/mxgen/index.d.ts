@@ -648,6 +648,8 @@ export interface Variable extends UserInterface {
     documentType: string;
     /** of the sampler beside a texture; equal to `binding` where both have one */
     samplerBinding: number;
+    /** textures: the document, the include or the library that names `file`, which is relative to the folder of this one */
+    origin: string;
     path: string;
     /** in the shader of a stack: "050::010"; otherwise "" */
     slot: string;

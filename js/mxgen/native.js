@@ -39,6 +39,13 @@ export function expect(value, type, what) {
     return value;
 }
 
+/** Throws if an option is none of the known ones. */
+export function expectOptions(options, known) {
+    for (const name of Object.keys(expect(options, "object", "options")))
+        if (!known.includes(name))
+            throw new ArgumentError(`there is no option '${name}'; known are ${known.join(", ")}`);
+}
+
 /** The number of a value of an enumeration. */
 export function numberOf(type, value, what) {
     const values = ENUMS[type];

@@ -206,7 +206,7 @@ export class Shader extends Owner {
     packValue(data, variable, values, element = 0) {
         expect(data, Uint8Array, "data");
         const native = this._native, index = this.#index(variable);
-        const components = typeof values === "number" ? [values] : Array.from(values);
+        const components = Array.from(typeof values === "number" ? [values] : values, value => expect(value, "number", "a value"));
         native.using(() => {
             const copy = native.newBytes(data), status = native.lib.mxg_result_pack_value(this._pointer, index, element,
                 native.newFloats(components), components.length, copy, data.length);

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import ctypes
+import enum
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from typing import Any
 
 from ._calls import Handle, Native, c_text, check_type, error_of, lib, py_text, record
 from .diagnostic import Diagnostics
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class UserInterface:
     """What a document says about an input for a user interface, in the words of its attributes."""
 
@@ -29,8 +30,15 @@ class UserInterface:
     #: uiadvanced
     advanced: bool
 
+    def __repr__(self) -> str:
+        """What is set, the texts for a user interface last."""
+        last = len(fields(UserInterface))
+        members = [(each.name, getattr(self, each.name)) for each in fields(self)[last:] + fields(self)[:last] if each.repr]
+        shown = (f"{name}={value!r}" for name, value in members if value or isinstance(value, enum.Enum))
+        return f"{type(self).__name__}({', '.join(shown)})"
 
-@dataclass(frozen=True)
+
+@dataclass(frozen=True, repr=False)
 class Port(UserInterface):
     """An input or output of a definition. A text that the definition does not have is ""."""
 

@@ -81,7 +81,7 @@ class Tile:
     v: int
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Variable(UserInterface):
     """A uniform, attribute, texture or output of a shader (docs/reflection.md)."""
 
@@ -133,6 +133,8 @@ class Variable(UserInterface):
     slot: str
     #: of the sampler beside a texture; equal to `binding` where both have one
     sampler_binding: int
+    #: textures: the document, the include or the library that names `file`, which is relative to the folder of this one
+    origin: str
     _shader: Shader = field(repr=False, compare=False)
     _index: int = field(repr=False, compare=False)
 
@@ -154,7 +156,7 @@ class Variable(UserInterface):
         return text or None
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class CompiledInput(UserInterface):
     """An input whose value is compiled in. A new value needs a new generation."""
 

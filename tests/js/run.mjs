@@ -258,6 +258,7 @@ test("reflection", () => {
     assert.equal(new Float32Array(data.buffer, scale.offset, 1)[0], 6);
     assert.throws(() => shader.packValue(data, stone, 1), ArgumentError);
     assert.throws(() => shader.packValue(data, stone, [1]), ArgumentError);
+    assert.throws(() => shader.packValue(data, scale, "6"), TypeError);
     assert.throws(() => shader.packValue([1], stone, [1]), TypeError);
     assert.throws(() => shader.packValue(data, { index: 1e6, name: "x" }, [1]), ArgumentError);
     assert.throws(() => shader.block("none"), ArgumentError);
@@ -268,6 +269,7 @@ test("reflection", () => {
     assert.equal(shader.sourcePlace("pixel", 0), null);
     const tiles = mxgen.createContext().load(path.join(examples, "tiles.mtlx")).generate("glsl").variables.find(({ tiles }) => tiles.length);
     assert.equal(tiles.tiles[2].file.replace(/.*1011/, "1011"), "1011.exr");
+    assert.equal(tiles.origin, path.join(examples, "tiles.mtlx"));
     const lamp = mxgen.createContext().load(path.join(examples, "lamp.mtlx")).generate("glsl");
     assert.deepEqual(lamp.files.map(file => path.basename(file)), ["lamp.ies"]);
     const group = mxgen.createContext().load(path.join(examples, "car_paint.mtlx")).generate("osl", { options: { "osl-network": true } });
@@ -290,6 +292,8 @@ test("options and changes", () => {
     for (const options of [{ none: 1 }, { interface: "some" }, { "max-lights": -1 }])
         assert.throws(() => document.generate("glsl", { options }), error => error instanceof ArgumentError && error.message.includes(Object.keys(options)[0]));
     assert.throws(() => document.generate("glsl", { options: { interface: null } }), TypeError);
+    assert.throws(() => document.generate("glsl", "SR"), TypeError);
+    assert.throws(() => document.generate("glsl", { elment: "SR" }), /no option 'elment'; known are element, stack/);
     const edit = document.edit();
     edit.find("NG_marble/stone").set("value", "1, 0, 0");
     const after = edit.end().generate("glsl"), change = complete.change(after);
@@ -606,7 +610,7 @@ test("limits", () => {
     assert.throws(() => mxgen.createContext({ maxElements: 3 }).parse(GOLD), DocumentError);
     for (const maxNodes of [-1, 2 ** 33, 1.5, "5"])
         assert.throws(() => mxgen.createContext({ maxNodes }), ArgumentError);
-    assert.throws(() => mxgen.createContext({ warnings: "no-such-id" }), /warnings has an unknown word/);
+    assert.throws(() => mxgen.createContext({ warnings: "no-such-id" }), /warnings has the unknown word 'no-such-id'/);
     const context = mxgen.createContext({ maxMemory: 8_000_000 }), held = [];
     assert.throws(() => { for (;;) held.push(context.parse(GOLD).generate("glsl")); }, OutOfMemoryError);
     for (const shader of held)
@@ -656,7 +660,7 @@ test("a language server", async () => {
     assert.deepEqual([...new Set(asked)].sort(), ["/w", "/w/part.mtlx", "/w/sub"]);
     server.destroy();
     assert.throws(() => mxgen.createLanguageServer({}), TypeError);
-    assert.throws(() => mxgen.createLanguageServer({ send() {}, warnings: "no-such-id" }), /warnings has an unknown word/);
+    assert.throws(() => mxgen.createLanguageServer({ send() {}, warnings: "no-such-id" }), /warnings has the unknown word 'no-such-id'/);
     assert.throws(() => mxgen.createLanguageServer({ send() {}, resolver() {} }), ArgumentError);
 });
 

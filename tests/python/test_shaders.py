@@ -74,6 +74,9 @@ class Shaders(unittest.TestCase):
         self.assertEqual([(tile.u, tile.v) for tile in paint.tiles], [(0, 0), (1, 0), (0, 1), (1, 1)])
         self.assertTrue(paint.texture_file(tile=2).endswith("hull_paint.1011.exr"))
         self.assertEqual(paint.texture_file(tile=2), paint.tiles[2].file)
+        self.assertEqual(paint.origin, str(common.EXAMPLES / "tiles.mtlx"))
+        self.assertRegex(repr(paint), r"^Variable\(name='[a-z_]+', block=<Block.TEXTURES: 3>, .*file='[^']+'")
+        self.assertNotIn("''", repr(paint)) # what is not set is left out
         self.assertTrue(foam.texture_file(frame=49).endswith("foam.0001.exr"))
         for wrong, error in ("1", TypeError), (1.5, TypeError), (1 << 31, OverflowError), (-(1 << 31) - 1, OverflowError):
             with self.assertRaisesRegex(error, "frame"):
