@@ -25,10 +25,10 @@ static void fail(struct examiner *examiner, const struct check_element *element,
     free(text);
 }
 
-/* Resolves an image relative to the document, as the renderer does. */
-static void add_image(struct examiner *examiner, const char *file)
+/* Resolves an image relative to the file that names it, as the renderer does. */
+static void add_image(struct examiner *examiner, const char *origin, const char *file)
 {
-    char *path = cli_beside(examiner->document->file, file);
+    char *path = cli_beside(origin, file);
     check_add_image(&examiner->store, examiner->document, path);
     free(path);
 }
@@ -43,7 +43,7 @@ void examine_images(struct examiner *examiner, const mxg_result *result)
             continue;
         for (uint32_t tile = 0; tile < (variable.num_tiles ? variable.num_tiles : 1); ++tile)
             if (mxg_result_texture_file(result, i, tile, FRAME, file, sizeof file))
-                add_image(examiner, file);
+                add_image(examiner, variable.origin, file);
     }
 }
 

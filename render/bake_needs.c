@@ -57,9 +57,11 @@ static void read_texture(struct baking *baking, const mxg_result *result, uint32
     char name[4096], reason[256];
     uint32_t side = 0;
     int32_t frame = (int32_t)baking->options.frame;
-    if (!mxg_result_texture_file(result, index, tile, frame, name, sizeof name))
+    mxg_variable variable = {sizeof variable};
+    if (mxg_result_variable(result, index, &variable) != MXG_OK
+        || !mxg_result_texture_file(result, index, tile, frame, name, sizeof name))
         return;
-    char *path = cli_beside(baking->path, name);
+    char *path = cli_beside(variable.origin, name);
     outputs_read(&baking->files, &baking->cli.report, path);
     if (image_find_size(path, &side, reason, sizeof reason) && side > drawing->largest)
         drawing->largest = side;

@@ -63,7 +63,7 @@ struct bind {
     const struct scene *scene;
     const struct scene_object *objects; /* what is drawn */
     uint32_t num_objects;               /* 0: the scene's object */
-    const char *document;               /* texture files are relative to it */
+    const char *document;               /* files that the user names are relative to it */
     const struct outputs *files;        /* none of them may be a texture */
     const struct bind_value *values;
     size_t num_values;

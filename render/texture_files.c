@@ -135,7 +135,8 @@ static bool read_file(struct bind *bind, const struct texture *texture, const ch
                       struct image *out, bool *out_checker)
 {
     char *name = bind->tokens ? replace_tokens(bind->tokens, file) : NULL,
-         *path = cli_beside(bind->document, name ? name : file);
+         *path = cli_beside(texture->users ? bind->document : texture->variable->origin,
+                            name ? name : file);
     free(name);
     bool good = read_path(bind, texture, path, out, out_checker);
     free(path);

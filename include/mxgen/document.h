@@ -107,8 +107,8 @@ MXG_API mxg_status mxg_document_implementation(const mxg_document *document, uin
 
 /*
  * The document as MaterialX XML, in the layout of MXG_REWRITE_FORMAT; comments stay, includes are
- * replaced by the elements of their files. Reading the text gives an equal tree. NULL: out of
- * memory.
+ * replaced by the elements of their files, where a `fileprefix` leads to the files beside them.
+ * Reading the text gives an equal tree but for this. NULL: out of memory.
  */
 MXG_API const char *mxg_document_xml(const mxg_document *document, size_t *out_size);
 

@@ -51,8 +51,7 @@ typedef struct mxg_variable {
     float values[16];    /* integers and booleans as numbers */
     /*
      * textures. `file` has the fileprefix of the document; a name that is not absolute is relative
-     * to the folder of the file of the document that has the input: mxg_document_file, or the file
-     * of the element (mxg_element_info.file) where it comes from an include
+     * to the folder of `origin`
      */
     const char *file, *uaddressmode, *vaddressmode, *filtertype;
     /* for user interfaces, from the definition; "" if absent */
@@ -74,6 +73,11 @@ typedef struct mxg_variable {
     const char *slot;
     /* of the sampler beside a texture; equal to `binding` where both have one */
     uint32_t sampler_binding;
+    /*
+     * textures: the document, the include or the library that names `file`, as `from` of
+     * mxg_resolver.open
+     */
+    const char *origin;
 } mxg_variable;
 MXG_API uint32_t mxg_result_num_variables(const mxg_result *result);
 MXG_API mxg_status mxg_result_variable(const mxg_result *result, uint32_t index, mxg_variable *out);

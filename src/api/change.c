@@ -70,6 +70,7 @@ static bool same_value(const mxg_result *before, const mxg_result *after, uint32
                                  *b = result_variable(after, index);
     assert(a->block == b->block && a->type == b->type && a->array_length == b->array_length);
     return same_default(before, a, after, b) && same_text(before, a->file, after, b->file)
+           && same_text(before, a->origin, after, b->origin)
            && same_text(before, a->colorspace, after, b->colorspace)
            && same_sampling(before, &a->sampling, after, &b->sampling)
            && same_tiles(before, a, after, b);

@@ -314,6 +314,19 @@ mxg_status mxg_edit_move_element(mxg_edit *edit, mxg_element element, mxg_elemen
     return edit ? edit_run(&change, move) : MXG_ERROR_ARGUMENT;
 }
 
+/* Names of files keep their meaning in the folder of another document. */
+static void keep_files(struct edit_change *c, const struct document *from)
+{
+    struct document *doc = edit_tree(c->edit);
+    const char *folder = doc_place(doc, doc->root).file;
+    for (elem_id old = c->other, new = c->result; old &&new && !c->failed;
+         old = doc_next_in_tree(from, c->other, old), new = doc_next_in_tree(doc, c->result, new)) {
+        const char *prefix = doc_prefix_from(from, old, folder, &c->edit->document->object.arena);
+        if (prefix)
+            doc_set_attr(doc, new, STR_fileprefix, edit_word(c, prefix));
+    }
+}
+
 static void copy(void *arg)
 {
     struct edit_change *c = arg;
@@ -334,10 +347,12 @@ static void copy(void *arg)
     edit_note_scope(from, c->other, &scope);
     c->result =
         doc_copy_element(edit_tree(c->edit), c->element, from, c->other, edit_word(c, name));
-    if (c->result)
+    if (c->result) {
         edit_keep_scope(c, c->result, &scope);
-    else
+        keep_files(c, from);
+    } else {
         edit_fail(c, "the document would have more elements than the context allows");
+    }
 }
 
 mxg_element mxg_edit_copy_element(mxg_edit *edit, mxg_element parent, const mxg_document *document,

@@ -130,6 +130,9 @@ mxg_status mxg_result_variable(const mxg_result *result, uint32_t index, mxg_var
         .array_stride = v->array_stride,
         .matrix_stride = v->matrix_stride,
         .file = text_of(result, v->file),
+        .origin = v->origin ? text_of(result, v->origin)
+                  : v->file ? mxg_document_file(result->document, 0)
+                            : "",
         .uaddressmode = text_of(result, v->sampling.uaddressmode),
         .vaddressmode = text_of(result, v->sampling.vaddressmode),
         .filtertype = text_of(result, v->sampling.filtertype),

@@ -20,6 +20,16 @@ const char *build_file_of(const struct builder *b, elem_id element)
     return file ? file : "";
 }
 
+/* The file that an element stands in; 0: that of the document. */
+static str_id origin_of(const struct builder *b, elem_id element)
+{
+    const struct document *doc = build_doc(b);
+    const char *file = doc_place(doc, element).file, *own = doc_place(doc, doc->root).file;
+    return file && own && strcmp(file, own) != 0
+               ? str_intern(b->shader->strings, file, strlen(file))
+               : 0;
+}
+
 const char *build_texture_fault(const struct builder *b, str_id file, elem_id element)
 {
     if (!b->options->texture_fault || !file || element < build_doc(b)->first_element)
@@ -36,6 +46,7 @@ ir_ref build_texture(struct builder *b, struct shader_variable variable, elem_id
                  doc_attr_place(build_doc(b), element, STR_value), build_text(b, variable.file),
                  fault);
     variable.block = BLOCK_TEXTURES;
+    variable.origin = variable.file ? origin_of(b, element) : 0;
     variable.update = UPDATE_UNIFORM;
     if (build_find_tiles(b, element, &variable))
         variable.type = IR_TYPE_SAMPLER_ARRAY;

@@ -522,9 +522,16 @@ bool doc_is_name(const char *text);
 void doc_keep_paths(struct document *doc);
 
 /*
+ * way.c: the `fileprefix` by which an element with the name of a file leads to this file from the
+ * folder of the file `from`; NULL: that which it has, or the way is unknown.
+ */
+const char *doc_prefix_from(const struct document *doc, elem_id element, const char *from,
+                            struct arena *arena);
+
+/*
  * write.c: writes the tree as MaterialX XML: an element per line, two spaces per level, the name
  * first, then the attributes in their order, with the comments and single blank lines of the file.
- * Reading the text gives an equal tree.
+ * Reading the text gives an equal tree, but for the way to files that an include names.
  */
 void doc_write(const struct document *doc, elem_id root, struct text *out);
 

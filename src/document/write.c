@@ -17,13 +17,19 @@ static void write_escaped(struct text *out, const char *value, size_t len)
     }
 }
 
-static void write_attr(const struct document *doc, str_id name, str_id value, struct text *out)
+static void write_text_attr(const char *name, const char *value, size_t len, struct text *out)
 {
     text_char(out, ' ');
-    text_str(out, str_text(doc->strings, name));
+    text_str(out, name);
     text_str(out, "=\"");
-    write_escaped(out, str_text(doc->strings, value), str_len(doc->strings, value));
+    write_escaped(out, value, len);
     text_char(out, '"');
+}
+
+static void write_attr(const struct document *doc, str_id name, str_id value, struct text *out)
+{
+    write_text_attr(str_text(doc->strings, name), str_text(doc->strings, value),
+                    str_len(doc->strings, value), out);
 }
 
 static void indent(struct text *out, uint32_t depth)
@@ -107,11 +113,18 @@ static void write_start_tag(const struct document *doc, elem_id element, uint32_
         write_attr(doc, STR_name, e->name, out);
     const struct attribute *attrs = doc_attrs(doc, element);
     bool declares_xi = element == doc->root && has_includes(doc, element);
+    const char *prefix =
+        e->file != doc_element(doc, doc->root)->file
+            ? doc_prefix_from(doc, element, doc_place(doc, doc->root).file, out->arena)
+            : NULL;
     for (uint32_t i = 0; i < e->num_attrs; i++)
-        if (!declares_xi || strcmp(str_text(doc->strings, attrs[i].name), "xmlns:xi") != 0)
+        if (declares_xi ? strcmp(str_text(doc->strings, attrs[i].name), "xmlns:xi") != 0
+                        : !prefix || attrs[i].name != STR_fileprefix)
             write_attr(doc, attrs[i].name, attrs[i].value, out);
     if (declares_xi)
         text_str(out, " xmlns:xi=\"http://www.w3.org/2001/XInclude\"");
+    if (prefix)
+        write_text_attr("fileprefix", prefix, strlen(prefix), out);
     if (has_content(doc, element)) {
         text_str(out, ">\n");
     } else {

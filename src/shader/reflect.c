@@ -167,6 +167,7 @@ static void put_variable(struct reflect *r, const struct shader_variable *variab
         json_put_bool(&r->json, "flat", true);
     put_place(r, variable);
     reflect_id(r, "file", variable->file);
+    reflect_id(r, "origin", variable->origin);
     put_sampling(r, &variable->sampling);
     put_tiles(r, variable);
     if (r->options->ui)

@@ -104,6 +104,7 @@ struct shader_variable {
     /* textures */
     /* resolved filename with fileprefix; contains tokens of geometry and host: <UDIM>, {frame} */
     str_id file;
+    str_id origin; /* the file that names it: an include, a library; 0: the document */
     struct shader_sampling sampling;
     /* variable of the default + 1, if the target reads the default with the texture; 0: `value` */
     uint32_t fallback;

@@ -10,7 +10,7 @@ static ir_ref texture(struct builder *b, const struct instance *scope, elem_id n
     bool has_value = element && doc_attr(build_doc(b), element, STR_value);
     v.file = has_value ? build_file_name(b, scope, element)
                        : build_default_file_name(b, scope, node, port);
-    return build_texture(b, v, element ? element : node);
+    return build_texture(b, v, has_value ? element : port->element ? port->element : node);
 }
 
 /* The value attribute of an element of the document or of a graph, as it stands there. */

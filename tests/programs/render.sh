@@ -129,6 +129,25 @@ check 'checkers stand for all missing textures' exits 0 "$render" several.mtlx -
 check 'missing textures are warnings then' eval 'test "$(grep -c "warning: " err)" -eq 2 && ! grep -q "error: " err'
 check '--quiet drops these warnings' eval 'exits 0 "$render" several.mtlx -e M -o lost.png --size 8 --missing-texture checker --quiet && test ! -s err'
 rm -f lost.png
+
+# The files of an include are beside it, whoever includes it.
+mkdir -p parts/maps moved
+"$render" plain.mtlx -m plane -o parts/maps/red.png --size 8 -q
+cat >including.mtlx <<'X'
+<materialx version="1.39" fileprefix="maps/" xmlns:xi="http://www.w3.org/2001/XInclude">
+  <xi:include href="parts/part.mtlx"/>
+  <standard_surface name="SR" type="surfaceshader"><input name="base_color" type="color3" nodegraph="NG"/></standard_surface>
+</materialx>
+X
+cat >parts/part.mtlx <<'X'
+<materialx version="1.39">
+  <nodegraph name="NG">
+    <image name="image" type="color3"><input name="file" type="filename" value="red.png"/></image>
+    <output name="out" type="color3" nodename="image"/>
+  </nodegraph>
+</materialx>
+X
+check 'the texture of an include is beside it' exits 0 "$render" including.mtlx -m plane -o included.png --size 16
 check 'a misspelt input fails the run' exits 1 "$render" plain.mtlx --set SR/base_colr=1,0,0 -o lost.png
 check 'a misspelt input has a suggestion' grep -q "did you mean 'SR/base_color'" err
 check 'a run that fails leaves no picture' test ! -e lost.png
