@@ -6,7 +6,7 @@ import { Document } from "./document.js";
 import { Edit } from "./edit.js";
 import { ArgumentError, DocumentError, MxgenError, OutOfMemoryError } from "./errors.js";
 import { Library } from "./library.js";
-import { expect, expectOptions, Handle, kindOf, numberOf, Owner, STATUS } from "./native.js";
+import { expect, expectCount, expectOptions, Handle, kindOf, numberOf, Owner, STATUS } from "./native.js";
 import { Scene } from "./scene.js";
 import { Shader, withOptions } from "./shader.js";
 
@@ -404,10 +404,7 @@ export class Context extends Owner {
 export function newContextDesc(native, options) {
     const values = {}, { warnings = null, trust = false, sourcePaths = [], includeRoots = [] } = options;
     for (const name of LIMITS) {
-        const limit = options[name] ?? 0;
-        if (!Number.isInteger(limit) || limit < 0 || limit > 0xffffffff)
-            throw new ArgumentError(`${name} must be an integer from 0 to 4294967295, not ${String(limit)}`);
-        values[name] = limit;
+        values[name] = expectCount(options[name] ?? 0, name);
     }
     return native.newStruct("mxg_context_desc", {
         ...values, trust: expect(trust, "boolean", "trust"), warnings: native.newOptionalText(warnings, "warnings"),

@@ -10,8 +10,8 @@ function textOf(value) {
     if (typeof value === "string" || typeof value === "boolean")
         return String(value);
     const numbers = typeof value === "number" ? [value] : Array.isArray(value) || ArrayBuffer.isView(value) ? [...value] : null;
-    if (!numbers || !numbers.every(number => typeof number === "number" && Number.isFinite(number)))
-        throw new TypeError(`value must be a string, boolean, finite number or an array of finite numbers, not ${kindOf(value)}`);
+    if (!numbers || !numbers.every(number => typeof number === "number" && Number.isFinite(Math.fround(number))))
+        throw new TypeError(`value must be a string, boolean, number or an array of numbers, which are finite as floats of 32 bits, not ${kindOf(value)}`);
     return numbers.join(", ");
 }
 

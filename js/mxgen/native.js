@@ -32,6 +32,13 @@ export function kindOf(value) {
     return value === null ? "null" : Array.isArray(value) ? "an array" : typeof value === "object" ? value.constructor?.name ?? "object" : typeof value;
 }
 
+/** A number that C takes as a uint32_t. WebAssembly makes 0 of NaN and of 2^32. */
+export function expectCount(value, what) {
+    if (!Number.isInteger(value) || value < 0 || value > 0xffffffff)
+        throw new ArgumentError(`${what} must be an integer from 0 to 4294967295, not ${String(value)}`);
+    return value;
+}
+
 /** Throws a TypeError unless the argument has the type. `what` names the argument. */
 export function expect(value, type, what) {
     if (typeof type === "function" ? !(value instanceof type) : typeof value !== type)

@@ -4,7 +4,7 @@
 import { Diagnostics } from "./diagnostics.js";
 import { Document } from "./document.js";
 import { ArgumentError, OutOfMemoryError } from "./errors.js";
-import { expect, kindOf, nameOf, NONE, numberOf, Owner, STATUS } from "./native.js";
+import { expect, expectCount, kindOf, nameOf, NONE, numberOf, Owner, STATUS } from "./native.js";
 
 const STAGES = ["vertex", "pixel"];
 
@@ -126,7 +126,7 @@ export class Shader extends Owner {
     }
 
     #index(variable) {
-        const index = expect(variable?.index, "number", "variable.index");
+        const index = expectCount(expect(variable?.index, "number", "variable.index"), "variable.index");
         if (index >= this._native.lib.mxg_result_num_variables(this._pointer))
             throw new ArgumentError(`the shader has no variable ${index}`);
         return index;
@@ -135,6 +135,9 @@ export class Shader extends Owner {
     /** The file of a texture, or of one of its tiles, at a frame; null: the frame has no file. */
     textureFile(variable, { tile = 0, frame = 0 } = {}) {
         const { lib } = this._native, index = this.#index(variable);
+        expectCount(tile, "tile");
+        if (!Number.isInteger(frame) || frame !== (frame | 0))
+            throw new ArgumentError(`frame must be an integer of 32 bits, not ${String(frame)}`);
         return this._native.sizedText((out, capacity) => lib.mxg_result_texture_file(this._pointer, index, tile, frame, out, capacity)) || null;
     }
 
@@ -205,6 +208,7 @@ export class Shader extends Owner {
     /** Writes the value of a variable to its place in such a buffer. `element` is the light or the element of an array. */
     packValue(data, variable, values, element = 0) {
         expect(data, Uint8Array, "data");
+        expectCount(element, "element");
         const native = this._native, index = this.#index(variable);
         const components = Array.from(typeof values === "number" ? [values] : values, value => expect(value, "number", "a value"));
         native.using(() => {

@@ -180,6 +180,8 @@ test("edits", () => {
     assert.equal(material.child("surfaceshader").number > 0, true);
     assert.throws(() => edit.add("noise2d", "SR", "float"), EditError);
     assert.throws(() => shader.value("base_color", [NaN], "color3"), TypeError);
+    assert.throws(() => shader.value("base", 1e40), TypeError);
+    assert.throws(() => shader.value("base_color", [0, -1e40, 0], "color3"), TypeError);
     assert.throws(() => shader.value("base_color", {}, "color3"), TypeError);
     assert.throws(() => shader.connect("base_color", {}), TypeError);
     assert.throws(() => context.edit().add("a", "b").connect("x", shader), ArgumentError);
@@ -261,6 +263,12 @@ test("reflection", () => {
     assert.throws(() => shader.packValue(data, scale, "6"), TypeError);
     assert.throws(() => shader.packValue([1], stone, [1]), TypeError);
     assert.throws(() => shader.packValue(data, { index: 1e6, name: "x" }, [1]), ArgumentError);
+    assert.throws(() => shader.packValue(data, { index: NaN, name: "x" }, [1]), ArgumentError);
+    for (const number of [NaN, Infinity, -1, 1.5, 2 ** 32]) {
+        assert.throws(() => shader.packValue(data, scale, 6, number), ArgumentError);
+        assert.throws(() => shader.textureFile(scale, { tile: number }), ArgumentError);
+        assert.throws(() => shader.textureFile(scale, { frame: number < 0 ? -(2 ** 32) : number }), ArgumentError);
+    }
     assert.throws(() => shader.block("none"), ArgumentError);
     assert.deepEqual(shader.lightTypes.map(({ type }) => type).sort(), [1, 2, 3]);
     const lines = shader.pixel.split("\n").map((_, line) => shader.sourcePlace("pixel", line + 1));
