@@ -216,6 +216,62 @@ static bool check_required(struct gltf_source *source)
     return true;
 }
 
+/* ---- Numbers of the schema ---- */
+
+/* Members that count bytes, or name the scene: whole numbers of 0 or more, or absent. */
+static const struct {
+    const char *array, *parts[2], *member;
+} counts[] = {
+    {"accessors", {NULL}, "byteOffset"},
+    {"accessors", {"sparse", "indices"}, "byteOffset"},
+    {"accessors", {"sparse", "values"}, "byteOffset"},
+    {"bufferViews", {NULL}, "byteOffset"},
+    {"bufferViews", {NULL}, "byteLength"},
+    {"bufferViews", {NULL}, "byteStride"},
+    {"buffers", {NULL}, "byteLength"},
+};
+
+static bool is_count_or_absent(const json_t *object, const char *member)
+{
+    const json_t *value = json_object_get(object, member);
+    return !value || (json_is_integer(value) && json_integer_value(value) >= 0);
+}
+
+/* Otherwise such a number would be read as an absent one. */
+static bool check_counts(struct gltf_source *source)
+{
+    for (size_t row = 0; row < sizeof counts / sizeof *counts; ++row) {
+        const json_t *item;
+        size_t i;
+        json_array_foreach(json_object_get(source->root, counts[row].array), i, item)
+        {
+            for (size_t part = 0; part < 2 && counts[row].parts[part]; ++part)
+                item = json_object_get(item, counts[row].parts[part]);
+            if (!is_count_or_absent(item, counts[row].member))
+                return gltf_source_fail(source, "%s[%zu]%s%s%s%s.%s is no whole number from 0",
+                                        counts[row].array, i, counts[row].parts[0] ? "." : "",
+                                        counts[row].parts[0] ? counts[row].parts[0] : "",
+                                        counts[row].parts[1] ? "." : "",
+                                        counts[row].parts[1] ? counts[row].parts[1] : "",
+                                        counts[row].member);
+        }
+    }
+    return is_count_or_absent(source->root, "scene")
+           || gltf_source_fail(source, "its \"scene\" is no whole number from 0");
+}
+
+/* "2.0" is what mxgen reads, also where the file says that a newer version is better. */
+static bool check_version(struct gltf_source *source)
+{
+    const json_t *asset = json_object_get(source->root, "asset");
+    const char *least = json_text_of(asset, "minVersion");
+    if (strncmp(json_text_of(asset, "version"), "2.", 2) != 0)
+        return gltf_source_fail(source, "its \"asset\" does not say the version 2.0 of glTF");
+    return !*least || strcmp(least, "2.0") == 0
+           || gltf_source_fail(source, "it needs the version %.16s of glTF; mxgen reads 2.0",
+                               least);
+}
+
 /* ---- The file ---- */
 
 static uint32_t word_at(const char *data)
@@ -288,8 +344,8 @@ bool gltf_source_open(struct gltf_source *source, const mxg_context *context, co
     free(data);
     if (!good)
         return false;
-    if (strncmp(json_text_of(json_object_get(source->root, "asset"), "version"), "2.", 2) != 0)
-        return gltf_source_fail(source, "its \"asset\" does not say the version 2.0 of glTF");
+    if (!check_version(source) || !check_counts(source))
+        return false;
     source->num_buffers = json_array_size(json_object_get(source->root, "buffers"));
     if (source->num_buffers > MAX_BUFFERS)
         return gltf_source_fail(source, "it has %zu buffers; the limit is %d", source->num_buffers,

@@ -299,6 +299,16 @@ def node(**members):
 
 
 fails("too many elements", accessor(0, count=5), "accessors[0] has 5 elements, which end behind bufferViews[0]")
+for number in (1e30, -1, 1.5, 4.0, "4", None, [4], True):
+    fails(f"an offset of {number} bytes", lambda root: root["bufferViews"][1].update(byteOffset=number), "bufferViews[1].byteOffset is no whole number from 0")
+for member in ("byteLength", "byteStride"):
+    fails(f"no number as {member}", lambda root: root["bufferViews"][1].update({member: 1e30}), f"bufferViews[1].{member} is no whole number from 0")
+fails("an offset of elements below 0", accessor(2, byteOffset=-1), "accessors[2].byteOffset is no whole number from 0")
+for part in ("indices", "values"):
+    fails(f"an offset of sparse {part} below 0", accessor(2, sparse={part: {"byteOffset": -1}}), f"accessors[2].sparse.{part}.byteOffset is no whole number from 0")
+fails("a buffer of half a byte", lambda root: root["buffers"][0].update(byteLength=0.5), "buffers[0].byteLength is no whole number from 0")
+fails("a scene below 0", lambda root: root.update(scene=-1), '"scene" is no whole number from 0')
+fails("a version to come", lambda root: root["asset"].update(minVersion="2.1"), "it needs the version 2.1 of glTF; mxgen reads 2.0")
 fails("elements beyond all numbers", accessor(0, count=2**62), "accessors[0] has 4611686018427387904 elements, which end behind bufferViews[0]")
 fails("a begin beyond all numbers", accessor(0, byteOffset=2**63 - 8), "which end behind bufferViews[0]")
 fails("other counts", accessor(1, count=3), "accessors[1] has 3 elements; its primitive has 4 vertices")
