@@ -297,19 +297,36 @@ static bool compile_function(const char *target, const mxg_result *result,
     return compile_hosted(target, NULL, &hosted, out);
 }
 
+/*
+ * The name of the function scatter(), which may have a prefix: "my_scatter"; its length, or 0 if
+ * the source has none.
+ */
+static size_t find_scatter(const char *source, const char **out_name)
+{
+    static const char head[] = "\nvoid ", tail[] = "scatter()\n";
+    for (const char *at = source; (at = strstr(at, head)) != NULL;) {
+        *out_name = at += sizeof head - 1;
+        size_t len = strcspn(at, " ("), end = strlen("scatter");
+        if (len >= end && strncmp(at + len - end, tail, sizeof tail - 1) == 0)
+            return len;
+    }
+    return 0;
+}
+
 /* A function scatter() of a path tracer has a main where a compiler asks for a program. */
 static bool compile_stages(const char *target, const mxg_result *result, struct compiled *out)
 {
-    static const char body[] = "\n{\n    scatter();\n}\n";
     const struct host *host = find_host(target);
     const char *sources[MXG_NUM_STAGES];
     for (int stage = 0; stage < MXG_NUM_STAGES; ++stage)
         sources[stage] = mxg_result_source(result, (mxg_stage)stage, NULL);
     if (!host || !sources[MXG_STAGE_PIXEL])
         return compile_program(target, sources, out);
-    char main[128] = "";
-    if (host->scatter_main && strstr(sources[MXG_STAGE_PIXEL], "\nvoid scatter()\n"))
-        snprintf(main, sizeof main, "%s%s", host->scatter_main, body);
+    char main[1024] = "";
+    const char *name;
+    size_t len = host->scatter_main ? find_scatter(sources[MXG_STAGE_PIXEL], &name) : 0;
+    if (len)
+        snprintf(main, sizeof main, "%s\n{\n    %.*s();\n}\n", host->scatter_main, (int)len, name);
     *out = (struct compiled){0};
     struct hosted hosted = surround(host, "", sources[MXG_STAGE_PIXEL], main);
     return compile_hosted(target, sources[MXG_STAGE_VERTEX], &hosted, out);

@@ -46,6 +46,9 @@ else
 fi
 check 'a time limit of 0 is no limit' exits 0 "$mxgen" check tree/a.mtlx "${quick[@]}" --time-limit 0
 mkdir empty
+for target in glsl vulkan essl hlsl; do
+    check "functions of a path tracer have prefixes, $target" exits 0 "$mxgen" check tree/a.mtlx -t $target --role scatter --prefix my_
+done
 check 'a run with nothing to check fails' exits 1 "$mxgen" check empty
 check 'a run with nothing to check has an id' grep -q '\[nothing-to-check\]' err
 check 'a run without arguments is wrong usage' exits 2 "$mxgen" check
