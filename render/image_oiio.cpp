@@ -245,6 +245,7 @@ OIIO::ImageSpec describe(const struct image &image, const OIIO::ImageOutput &out
     if (!image.is_float)
         spec.attribute("oiio:UnassociatedAlpha", 1);
     spec.attribute("CompressionQuality", 95);
+    leave_out_date(output, spec);
     if (image.levels) {
         spec.tile_width = spec.tile_height = 64;
         spec.attribute("textureformat", "Plain Texture"); /* makes OpenEXR read levels */

@@ -39,6 +39,7 @@ bool begin(const char *path, const image_format &format, image_rows &rows, char 
     spec.attribute("oiio:ColorSpace", format.is_srgb ? "sRGB" : "Linear");
     spec.attribute("oiio:UnassociatedAlpha", 1);
     spec.attribute("CompressionQuality", 95);
+    leave_out_date(*rows.output, spec);
     return rows.output->open(path, spec) || fail(reason, capacity, rows.proxy.reason(*rows.output));
 }
 

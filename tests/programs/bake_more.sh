@@ -95,6 +95,7 @@ check 'outputs that have values alone, too' eval 'has outs/outputs.mtlx "name=\"
 check 'and is valid' exits 0 "$mxgen" validate outs/outputs.mtlx -Werror
 check 'one output is baked alone' eval 'exits 0 "$mxgen" bake outputs.mtlx -e top -o one --size 16 && test "$(ls one | tr "\n" " ")" = "outputs.mtlx top_image.exr "'
 "$render" outputs.mtlx -e NG/n --scene plane -s 16 -q -o live.exr
+check 'files of OpenEXR have no date' eval '! grep -qa capDate live.exr && ! grep -qa capDate outs/NG_color_image.exr'
 check 'its image is the pattern' "$psnr" --at-least 45 live.exr outs/NG_color_image.exr
 
 # ---- Sets of files ----
