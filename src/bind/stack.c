@@ -38,12 +38,24 @@ static bool applies(const struct document *doc, elem_id set, elem_id material)
     return (!node && !nodedef) || has_node(doc, material, node, nodedef);
 }
 
+/* The variants of a set exclude each other: the last one that is assigned counts alone. */
+static void add_variant(const struct look_variant *variant, struct arena *arena,
+                        struct variant_list *out)
+{
+    uint32_t num = 0;
+    for (uint32_t i = 0; i < out->len; i++)
+        if (out->items[i].set != variant->set)
+            out->items[num++] = out->items[i];
+    out->len = num;
+    vec_push(arena, out, *variant);
+}
+
 static void add_variants(const struct bind_look *look, elem_id material, uint32_t first,
                          uint32_t num, struct arena *arena, struct variant_list *out)
 {
     for (uint32_t i = first; i < first + num; i++)
         if (applies(look->doc, look->variants.items[i].set, material))
-            vec_push(arena, out, look->variants.items[i]);
+            add_variant(&look->variants.items[i], arena, out);
 }
 
 void bind_variants(const struct bind_look *look, uint32_t assign, struct arena *arena,

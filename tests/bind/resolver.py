@@ -256,9 +256,9 @@ class Resolver:
         return node is None or node in assign.nodes
 
     def variants_of(self, assign):
-        """What a layer says of the variants that apply to its material, those of the looks first."""
-        variants = [{"variantset": variant.get("variantset"), "variant": variant.get("variant")}
-                    for variant in self.variants + assign.variants if self.applies(variant, assign)]
+        """What a layer says of the variants that apply to its material, those of the looks first; of a set the last one alone."""
+        picked = [(variant.get("variantset"), variant.get("variant")) for variant in self.variants + assign.variants if self.applies(variant, assign)]
+        variants = [{"variantset": name, "variant": variant} for i, (name, variant) in enumerate(picked) if name not in [later for later, _ in picked[i + 1:]]]
         return {"variants": variants} if variants else {}
 
     def layer(self, name, names, path):

@@ -173,6 +173,13 @@ echo /a >stage.txt
 document "$variants <look name='P'>$(pick green 1)$(layer 000 red)</look>" "$(pick blue 2)"
 sed -i "s|<look name='L'>|<look name='L' inherit='P'>|" look.mtlx
 gives "a look's variant comes after its parent's" 'vec4(0.0, 0.0, 1.0, 1.0)'
+dimmed="<variantset name='D'><variant name='dim'>$(input emission float 0.5)</variant><variant name='blue'>$(input emission_color color3 '0, 0, 1')</variant></variantset>"
+assign() { echo "<variantassign name='v$2' variantset='D' variant='$1'/>"; }
+document "$dimmed <look name='P'>$(assign dim 1)$(layer 000 red)</look>" "$(assign blue 2)"
+sed -i "s|<look name='L'>|<look name='L' inherit='P'>|" look.mtlx
+gives "nothing stays of the parent's variant of the set" 'vec4(0.0, 0.0, 1.0, 1.0)'
+document "$dimmed" "$(assign dim 1)<materialassign material='red' geom='/a'>$(assign blue 2)</materialassign>"
+gives "nothing stays of the look's variant of the set" 'vec4(0.0, 0.0, 1.0, 1.0)'
 document "<variantset name='W' node='standard_surface'><variant name='x'>$(input emission_color color3 '0, 1, 0')</variant></variantset>" \
     "<variantassign name='v' variantset='W' variant='x'/>" "$(layer 000 red)"
 gives 'a variant of another node says nothing' 'vec4(1.0, 0.0, 0.0, 1.0)'
