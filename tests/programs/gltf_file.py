@@ -60,5 +60,5 @@ class File:
 
     def write(self, path):
         uri = "data:application/octet-stream;base64," + base64.b64encode(bytes(self.data)).decode()
-        path.write_text(json.dumps({**self.root, "buffers": [{"byteLength": len(self.data), "uri": uri}]}))
+        path.write_text(json.dumps({"buffers": [{"byteLength": len(self.data), "uri": uri}], **self.root}))
         return path

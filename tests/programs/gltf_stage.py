@@ -306,7 +306,7 @@ for member in ("byteLength", "byteStride"):
 fails("an offset of elements below 0", accessor(2, byteOffset=-1), "accessors[2].byteOffset is no whole number from 0")
 for part in ("indices", "values"):
     fails(f"an offset of sparse {part} below 0", accessor(2, sparse={part: {"byteOffset": -1}}), f"accessors[2].sparse.{part}.byteOffset is no whole number from 0")
-fails("a buffer of half a byte", lambda root: root["buffers"][0].update(byteLength=0.5), "buffers[0].byteLength is no whole number from 0")
+fails("a buffer of half a byte", lambda root: root.update(buffers=[{"byteLength": 0.5}]), "buffers[0].byteLength is no whole number from 0")
 fails("a scene below 0", lambda root: root.update(scene=-1), '"scene" is no whole number from 0')
 fails("a version to come", lambda root: root["asset"].update(minVersion="2.1"), "it needs the version 2.1 of glTF; mxgen reads 2.0")
 fails("elements beyond all numbers", accessor(0, count=2**62), "accessors[0] has 4611686018427387904 elements, which end behind bufferViews[0]")
