@@ -100,116 +100,6 @@ layout(location = 1) in vec3 vd_normalWorld;
 layout(location = 2) in vec3 vd_tangentWorld;
 layout(location = 0) out vec4 out1;
 
-// Roughness of a lobe that is seen through a rough coat (OpenPBR Surface specification, "Roughening").
-float mx_open_pbr_blurred(const float roughness, const float coat_roughness)
-{
-    return pow(min(2.0 * pow(coat_roughness, 4.0) + pow(roughness, 4.0), 1.0), 0.25);
-}
-
-// Squared roughness along X and across (OpenPBR Surface specification, "Microfacet model").
-vec2 mx_open_pbr_anisotropy(const float roughness, const float anisotropy)
-{
-    float aspect = 1.0 - anisotropy;
-    return roughness * roughness * sqrt(2.0 / (1.0 + aspect * aspect)) * vec2(1.0, aspect);
-}
-
-// A cubic polynomial of x and y with the coefficients m, to which directional albedos are fitted.
-float mx_bicubic(const mat4 m, const float x, const float y)
-{
-    return dot(vec4(1.0, x, x * x, x * x * x), m * vec4(1.0, y, y * y, y * y * y));
-}
-
-// The light that a white GGX lobe of roughness a reflects at the viewer's cosine c (x), and the mean of (1 - cos)^5
-// over it (y).
-vec2 mx_ggx_albedo_fit(const float a, const float c)
-{
-    float x = clamp(1.0 - c - a * mx_bicubic(mat4(-0.2174, 5.3819, -3.911, 0.2674, -9.7298, 3.9904, 3.8225, -0.0277,
-        36.4897, -72.9122, 58.0878, -20.917, -31.4763, 79.0768, -73.9706, 26.5429), a / (a + c), a), 0.0, 1.0);
-    float u = a / (a + 0.6 * c);
-    return vec2(min(1.0017 - u * u * mx_bicubic(mat4(-0.0334, 3.1441, -6.1576, 3.0758, 0.6997, 7.8981, -14.3238, 8.7382,
-        4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, a * c), 1.0), x * x * x * x * x);
-}
-
-// Reflectance of a dielectric that faces the viewer.
-float mx_fresnel_dielectric_facing(const float ior)
-{
-    float r = (1.0 - ior) / (1.0 + ior);
-    return r * r;
-}
-
-// Light of one polarisation that interferes in a film, as Gaussian i of the CIE curves sees it: `a` is the amplitude of
-// the film's interface, r that of the interface below, and light in the film goes further by d / (2 pi) micrometres.
-float mx_film_light(const float a, const vec2 r, const float d, const int i)
-{
-    vec4 gaussian = mat4(1.681, 0.846202, -0.0043278, 0.0, 2.2399, 0.153798, -0.0045282, 0.0, 1.7953, 1.0, -0.0093046,
-        0.0, 2.2084, 1.0, -0.0066121, 0.0)[i];
-    float decay = exp(gaussian.z * d * d);
-    float d2 = decay * decay;
-    float d4 = d2 * d2;
-    float r23 = dot(r, r);
-    float path = -a * decay * (r.x * cos(gaussian.x * d) - r.y * sin(gaussian.x * d));
-    float square = a * a * r23 * d2;
-    float rest = (2.0 * path * path - square - d4 * square * path) / (1.0 - 2.0 * d4 * path + d4 * d4 * square);
-    float t = 1.0 - a * a;
-    float even = t * t * r23 / (1.0 - a * a * r23);
-    return gaussian.y * (a * a + even + 2.0 * (even - t) * (path + d2 * rest));
-}
-
-// Complex amplitude (x - u) / (x + u) of an interface in one polarisation: u is the index times the cosine behind it; x
-// is the cosine for perpendicular light, and the permittivity times the cosine for parallel light.
-vec2 mx_film_amplitude(const vec2 x, const vec2 u)
-{
-    return vec2(dot(x, x) - dot(u, u), 2.0 * (x.y * u.x - x.x * u.y)) / dot(x + u, x + u);
-}
-
-// The index times the cosine behind an interface, u + iv, from the cosine in front of it and the permittivity:
-//     (u + iv)^2 = re + i im - sin^2
-vec2 mx_fresnel_refract(const float cosine, const float re, const float im)
-{
-    float t = re + (cosine * cosine - 1.0);
-    float norm = sqrt(t * t + im * im);
-    return sqrt(max(0.5 * vec2(norm + t, norm - t), vec2(0.0)));
-}
-
-// Reflectance, facing the viewer, of a film on an interface with the permittivity re + i im.
-// Here im = vec3(0.0).
-vec3 mx_film_index_facing(const vec3 re, const float film, const float film_ior)
-{
-    float ior = max(film_ior, 1.0);
-    float a = (1.0 - ior) / (1.0 + ior);
-    float d = 0.012566372 * ior * film;
-    vec3 xyz = vec3(0.0);
-    for (int i = 0; i < 4; ++i) {
-        int channel = max(i - 1, 0);
-        xyz[channel] += mx_film_light(a,
-            mx_film_amplitude(vec2(1.0, 0.0), mx_fresnel_refract(1.0, re[channel] / (ior * ior), 0.0)), d, i);
-    }
-    return clamp(mat3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814,
-        1.0093968) * xyz, vec3(0.0), vec3(1.0));
-}
-
-// Reflectance, facing the viewer, of an interface.
-// Here model = "dielectric", k = vec3(0.0).
-vec3 mx_fresnel_facing(const vec3 n, const float film, const float film_ior)
-{
-    if (film > 0.0)
-        return mx_film_index_facing(n * n, film, film_ior);
-    return vec3(mx_fresnel_dielectric_facing(n.x));
-}
-
-// Factor of what lies below a coat: the coat's colour, and what bounces below it, of which the share K stays inside:
-//     coat_color mix(1, (1 - K) / (1 - K E coat_color), coat_darkening), E the albedo of the base
-// (OpenPBR Surface specification 1.2, "Darkening").
-// Here coat_color = vec3(1.0).
-vec3 mx_open_pbr_coat_darkening(const vec3 base_color, const float base_metalness, const float specular_weight,
-    const float subsurface_weight, const vec3 subsurface_color, const float coat_ior, const float coat_darkening)
-{
-    float kept = max(1.0 - 4.0 * coat_ior / ((coat_ior + 1.0) * (coat_ior + 1.0)) / (coat_ior * coat_ior), 0.0);
-    return mix(vec3(1.0), vec3(1.0 - kept)
-        / (vec3(1.0) - kept * mix(mix(base_color, subsurface_color, subsurface_weight), base_color
-        * min(specular_weight, 1.0), base_metalness)), coat_darkening);
-}
-
 // The numbers a and b of the linear transform that makes the sheen lobe of roughness r, at the cosine c of the viewer,
 // of a clamped cosine (Zeltner, Burley and Chiang 2022):
 //     M^-1 = [a 0 b; 0 a 0; 0 0 1] in the plane of V and N
@@ -239,6 +129,13 @@ float mx_sheen_zeltner(const vec3 N, const vec3 V, const vec3 L, const float c, 
     vec3 w = vec3(m.x * l.x + m.y * l.z, m.x * l.y, l.z);
     float scale = m.x / dot(w, w);
     return max(w.z, 0.0) / 3.1415927 * scale * scale;
+}
+
+// Squared roughness along X and across (OpenPBR Surface specification, "Microfacet model").
+vec2 mx_open_pbr_anisotropy(const float roughness, const float anisotropy)
+{
+    float aspect = 1.0 - anisotropy;
+    return roughness * roughness * sqrt(2.0 / (1.0 + aspect * aspect)) * vec2(1.0, aspect);
 }
 
 // cos (1 + 2 Lambda) of a direction for GGX; `area` is the product of the roughness along x and y (Heitz 2014,
@@ -292,6 +189,47 @@ float mx_fresnel_permittivity(const float cosine, const float re)
     return (cg2 + s * s) * (r * r);
 }
 
+// A cubic polynomial of x and y with the coefficients m, to which directional albedos are fitted.
+float mx_bicubic(const mat4 m, const float x, const float y)
+{
+    return dot(vec4(1.0, x, x * x, x * x * x), m * vec4(1.0, y, y * y, y * y * y));
+}
+
+// The light that a white GGX lobe of roughness a reflects at the viewer's cosine c (x), and the mean of (1 - cos)^5
+// over it (y).
+vec2 mx_ggx_albedo_fit(const float a, const float c)
+{
+    float x = clamp(1.0 - c - a * mx_bicubic(mat4(-0.2174, 5.3819, -3.911, 0.2674, -9.7298, 3.9904, 3.8225, -0.0277,
+        36.4897, -72.9122, 58.0878, -20.917, -31.4763, 79.0768, -73.9706, 26.5429), a / (a + c), a), 0.0, 1.0);
+    float u = a / (a + 0.6 * c);
+    return vec2(min(1.0017 - u * u * mx_bicubic(mat4(-0.0334, 3.1441, -6.1576, 3.0758, 0.6997, 7.8981, -14.3238, 8.7382,
+        4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, a * c), 1.0), x * x * x * x * x);
+}
+
+// Roughness of a lobe that is seen through a rough coat (OpenPBR Surface specification, "Roughening").
+float mx_open_pbr_blurred(const float roughness, const float coat_roughness)
+{
+    return pow(min(2.0 * pow(coat_roughness, 4.0) + pow(roughness, 4.0), 1.0), 0.25);
+}
+
+// Light of one polarisation that interferes in a film, as Gaussian i of the CIE curves sees it: `a` is the amplitude of
+// the film's interface, r that of the interface below, and light in the film goes further by d / (2 pi) micrometres.
+float mx_film_light(const float a, const vec2 r, const float d, const int i)
+{
+    vec4 gaussian = mat4(1.681, 0.846202, -0.0043278, 0.0, 2.2399, 0.153798, -0.0045282, 0.0, 1.7953, 1.0, -0.0093046,
+        0.0, 2.2084, 1.0, -0.0066121, 0.0)[i];
+    float decay = exp(gaussian.z * d * d);
+    float d2 = decay * decay;
+    float d4 = d2 * d2;
+    float r23 = dot(r, r);
+    float path = -a * decay * (r.x * cos(gaussian.x * d) - r.y * sin(gaussian.x * d));
+    float square = a * a * r23 * d2;
+    float rest = (2.0 * path * path - square - d4 * square * path) / (1.0 - 2.0 * d4 * path + d4 * d4 * square);
+    float t = 1.0 - a * a;
+    float even = t * t * r23 / (1.0 - a * a * r23);
+    return gaussian.y * (a * a + even + 2.0 * (even - t) * (path + d2 * rest));
+}
+
 // Amplitudes of an interface of reflectance f below a film of index `ior`: negative where f0 says that the index behind
 // the film is lower.
 vec3 mx_film_turned(const vec3 f0, const vec3 f, const float ior)
@@ -318,11 +256,24 @@ vec3 mx_film_schlick_facing(const vec3 f0, const float film, const float film_io
 
 // Reflectance, facing the viewer, of an interface.
 // Here model = "schlick".
-vec3 mx_fresnel_facing_2(const vec3 n, const float film, const float film_ior)
+vec3 mx_fresnel_facing(const vec3 n, const float film, const float film_ior)
 {
     if (film > 0.0)
         return mx_film_schlick_facing(n, film, film_ior);
     return n;
+}
+
+// Factor of what lies below a coat: the coat's colour, and what bounces below it, of which the share K stays inside:
+//     coat_color mix(1, (1 - K) / (1 - K E coat_color), coat_darkening), E the albedo of the base
+// (OpenPBR Surface specification 1.2, "Darkening").
+// Here coat_color = vec3(1.0).
+vec3 mx_open_pbr_coat_darkening(const vec3 base_color, const float base_metalness, const float specular_weight,
+    const float subsurface_weight, const vec3 subsurface_color, const float coat_ior, const float coat_darkening)
+{
+    float kept = max(1.0 - 4.0 * coat_ior / ((coat_ior + 1.0) * (coat_ior + 1.0)) / (coat_ior * coat_ior), 0.0);
+    return mix(vec3(1.0), vec3(1.0 - kept)
+        / (vec3(1.0) - kept * mix(mix(base_color, subsurface_color, subsurface_weight), base_color
+        * min(specular_weight, 1.0), base_metalness)), coat_darkening);
 }
 
 // Schlick's curve from f0 to f90 at a cosine, less `bend` times cos (1 - cos)^6.
@@ -373,6 +324,55 @@ vec3 mx_fresnel(const float cosine, const vec3 n, const vec3 k, const float film
     return mx_fresnel_schlick(cosine, n, k);
 }
 
+// Reflectance of a dielectric that faces the viewer.
+float mx_fresnel_dielectric_facing(const float ior)
+{
+    float r = (1.0 - ior) / (1.0 + ior);
+    return r * r;
+}
+
+// Complex amplitude (x - u) / (x + u) of an interface in one polarisation: u is the index times the cosine behind it; x
+// is the cosine for perpendicular light, and the permittivity times the cosine for parallel light.
+vec2 mx_film_amplitude(const vec2 x, const vec2 u)
+{
+    return vec2(dot(x, x) - dot(u, u), 2.0 * (x.y * u.x - x.x * u.y)) / dot(x + u, x + u);
+}
+
+// The index times the cosine behind an interface, u + iv, from the cosine in front of it and the permittivity:
+//     (u + iv)^2 = re + i im - sin^2
+vec2 mx_fresnel_refract(const float cosine, const float re, const float im)
+{
+    float t = re + (cosine * cosine - 1.0);
+    float norm = sqrt(t * t + im * im);
+    return sqrt(max(0.5 * vec2(norm + t, norm - t), vec2(0.0)));
+}
+
+// Reflectance, facing the viewer, of a film on an interface with the permittivity re + i im.
+// Here im = vec3(0.0).
+vec3 mx_film_index_facing(const vec3 re, const float film, const float film_ior)
+{
+    float ior = max(film_ior, 1.0);
+    float a = (1.0 - ior) / (1.0 + ior);
+    float d = 0.012566372 * ior * film;
+    vec3 xyz = vec3(0.0);
+    for (int i = 0; i < 4; ++i) {
+        int channel = max(i - 1, 0);
+        xyz[channel] += mx_film_light(a,
+            mx_film_amplitude(vec2(1.0, 0.0), mx_fresnel_refract(1.0, re[channel] / (ior * ior), 0.0)), d, i);
+    }
+    return clamp(mat3(2.3706744, -0.513885, 0.0052982, -0.9000405, 1.4253036, -0.0146949, -0.4706338, 0.0885814,
+        1.0093968) * xyz, vec3(0.0), vec3(1.0));
+}
+
+// Reflectance, facing the viewer, of an interface.
+// Here model = "dielectric", k = vec3(0.0).
+vec3 mx_fresnel_facing_2(const vec3 n, const float film, const float film_ior)
+{
+    if (film > 0.0)
+        return mx_film_index_facing(n * n, film, film_ior);
+    return vec3(mx_fresnel_dielectric_facing(n.x));
+}
+
 // Reflectance of a film on an interface with the permittivity re + i im.
 // Here im = vec3(0.0).
 vec3 mx_film_index(const float cosine, const vec3 re, const float film, const float film_ior)
@@ -405,35 +405,6 @@ vec3 mx_fresnel(const float cosine, const vec3 n, const float film, const float 
     return vec3(mx_fresnel_permittivity(cosine, n.x * n.x));
 }
 
-// Light that arrives at a point of a circle of this curvature by subsurface scattering, where the cosine of the light
-// is cos_l: Burley's normalised diffusion (Christensen 2015) around the circle (after Penner 2011, "Pre-integrated skin
-// shading").
-float mx_subsurface_light(const float radius, const float curvature, const float cos_l)
-{
-    float x = curvature * max(radius, 0.1);
-    vec3 bend = (vec3(0.1573, 0.0104, 0.1632) + x * (vec3(0.662, 0.1732, 0.6079) + x * vec3(0.6075, 0.4138, 0.8133)))
-        / (6.2831855 * (0.1602 + x * (0.6652 + x)));
-    return bend.x * cos_l + sqrt(bend.y * bend.y + (bend.z * bend.z - bend.y * bend.y) * (cos_l * cos_l));
-}
-
-// Light that arrives by subsurface scattering, with a radius for each channel.
-vec3 mx_subsurface_light(const vec3 radius, const float curvature, const float cos_l)
-{
-    vec3 light = vec3(0.0);
-    for (int i = 0; i < 3; ++i)
-        light[i] = mx_subsurface_light(radius[i], curvature, cos_l);
-    return light;
-}
-
-// Directional albedo of Fujii's lobe of roughness r (Fujii 2012, "A tiny improvement of Oren-Nayar reflectance model").
-float mx_fujii_albedo(const float cosine, const float r)
-{
-    float sine = sqrt(max(1.0 - cosine * cosine, 0.0));
-    float g = sine * (acos(min(cosine, 1.0)) - sine * cosine) + 0.6666667
-        * (sine / cosine * (1.0 - sine * sine * sine) - sine);
-    return (1.0 + r * g / 3.1415927) / (1.0 + 0.28779334 * r);
-}
-
 // The angle, over pi, with this sine and cosine; the cosine is not negative. It errs by 2.9e-5 at most.
 float mx_half_turn(const float sine, const float cosine)
 {
@@ -453,13 +424,6 @@ vec2 mx_map_point(const vec3 d)
     float stretch = inversesqrt(square);
     return vec2(fract((d.z > 0.0 ? -0.5 : 0.5) * (mx_half_turn(d.x * stretch, abs(d.z) * stretch) + 0.5) + 0.25), 0.5
         - mx_half_turn(d.y, square * stretch));
-}
-
-// Albedo of the light that Fujii's lobe scatters more than once, relative to `color`; `mean` is the mean albedo of the
-// lobe.
-vec3 mx_fujii_multiple(const vec3 color, const float mean)
-{
-    return color * mean / (vec3(1.0) - color * max(1.0 - mean, 0.0));
 }
 
 // The number of samples, from 1, that a lobe takes; roughness is that along two directions, squared.
@@ -539,6 +503,42 @@ mx_GgxLight mx_ggx_transmitted(const mx_GgxSamples s, const float ior, const int
         * 0.5 / s.v.z, clamp(dot(s.v, h), 1e-8, 1.0));
 }
 
+// Light that arrives at a point of a circle of this curvature by subsurface scattering, where the cosine of the light
+// is cos_l: Burley's normalised diffusion (Christensen 2015) around the circle (after Penner 2011, "Pre-integrated skin
+// shading").
+float mx_subsurface_light(const float radius, const float curvature, const float cos_l)
+{
+    float x = curvature * max(radius, 0.1);
+    vec3 bend = (vec3(0.1573, 0.0104, 0.1632) + x * (vec3(0.662, 0.1732, 0.6079) + x * vec3(0.6075, 0.4138, 0.8133)))
+        / (6.2831855 * (0.1602 + x * (0.6652 + x)));
+    return bend.x * cos_l + sqrt(bend.y * bend.y + (bend.z * bend.z - bend.y * bend.y) * (cos_l * cos_l));
+}
+
+// Light that arrives by subsurface scattering, with a radius for each channel.
+vec3 mx_subsurface_light(const vec3 radius, const float curvature, const float cos_l)
+{
+    vec3 light = vec3(0.0);
+    for (int i = 0; i < 3; ++i)
+        light[i] = mx_subsurface_light(radius[i], curvature, cos_l);
+    return light;
+}
+
+// Directional albedo of Fujii's lobe of roughness r (Fujii 2012, "A tiny improvement of Oren-Nayar reflectance model").
+float mx_fujii_albedo(const float cosine, const float r)
+{
+    float sine = sqrt(max(1.0 - cosine * cosine, 0.0));
+    float g = sine * (acos(min(cosine, 1.0)) - sine * cosine) + 0.6666667
+        * (sine / cosine * (1.0 - sine * sine * sine) - sine);
+    return (1.0 + r * g / 3.1415927) / (1.0 + 0.28779334 * r);
+}
+
+// Albedo of the light that Fujii's lobe scatters more than once, relative to `color`; `mean` is the mean albedo of the
+// lobe.
+vec3 mx_fujii_multiple(const vec3 color, const float mean)
+{
+    return color * mean / (vec3(1.0) - color * max(1.0 - mean, 0.0));
+}
+
 void main()
 {
     float coat_weight = SR_open_pbr_surface_coat_weight;
@@ -552,32 +552,11 @@ void main()
         * (SR_open_pbr_surface_emission_color
         * (1.0 - coating_weight + SR_open_pbr_surface_coat_color
         * (coating_weight * (coat_transmittance * (1.0 - pow(1.0 - min(absolute, 1.0), 5.0))))));
-    // lights
-    vec3 subsurface_positive = max(SR_open_pbr_surface_subsurface_color, 0.0);
-    float ior_relative = mix(SR_open_pbr_surface_specular_ior,
-        max(SR_open_pbr_surface_specular_ior / coat_ior, coat_ior / SR_open_pbr_surface_specular_ior), coat_weight);
-    float amplitude = clamp((ior_relative - 1.0) / (ior_relative + 1.0) * sqrt(SR_open_pbr_surface_specular_weight),
-        -0.999995, 0.999995);
-    float ior = (amplitude + 1.0) / (1.0 - amplitude);
-    float r = (1.0 - ior) / (ior + 1.0);
-    vec2 roughness = mx_open_pbr_anisotropy(mix(SR_open_pbr_surface_specular_roughness,
-        mx_open_pbr_blurred(SR_open_pbr_surface_specular_roughness, SR_open_pbr_surface_coat_roughness), coat_weight),
-        SR_open_pbr_surface_specular_roughness_anisotropy);
-    vec2 alpha = clamp(roughness, 1e-8, 1.0);
-    float cos_v = max(absolute, 1e-8);
-    vec2 albedo = mx_ggx_albedo_fit(sqrt(alpha.x * alpha.y), cos_v);
-    float single = mix(r * r, 1.0, albedo.y) * albedo.x;
-    float lost = 1.0 / albedo.x - 1.0;
-    float reflection_bare_scale = lost * mix(r * r, 1.0, 0.04761905) + 1.0;
-    float film_thickness = SR_open_pbr_surface_thin_film_thickness * 1000.0;
-    float thin_film_ior = SR_open_pbr_surface_thin_film_ior;
-    vec3 reflection_film_scale = mix(mx_fresnel_facing(vec3(ior), film_thickness, thin_film_ior), vec3(1.0), 0.04761905)
-        * lost + vec3(1.0);
-    float clamped_thin_film_weight = clamp(SR_open_pbr_surface_thin_film_weight, 0.0, 1.0);
-    vec3 clamped_darkened = clamp(mx_open_pbr_coat_darkening(SR_open_pbr_surface_base_color,
-        SR_open_pbr_surface_base_metalness, SR_open_pbr_surface_specular_weight, SR_open_pbr_surface_subsurface_weight,
-        SR_open_pbr_surface_subsurface_color, coat_ior, coat_weight * SR_open_pbr_surface_coat_darkening), 0.0, 1.0);
+    // lights: fuzz, coating, metal_film, metal_bare, reflection_film, reflection_bare
     float fuzz_weight = clamp(SR_open_pbr_surface_fuzz_weight, 0.0, 1.0);
+    vec3 Nf = faceforward(N, -V, N);
+    float cos_v = max(absolute, 1e-8);
+    float limited_cos_v = min(cos_v, 1.0);
     float fuzz_r = clamp(SR_open_pbr_surface_fuzz_roughness, 0.01, 1.0);
     float width = fuzz_r * (fuzz_r * 1.58491 + 0.0206607) / (fuzz_r * (fuzz_r + 1.32227) + 0.0379424);
     float x = (cos_v - fuzz_r * (fuzz_r * (fuzz_r * (1.7932 - fuzz_r * (fuzz_r * 0.95943)) - 1.14885) - 0.193854)
@@ -585,42 +564,38 @@ void main()
     float fuzz_ratio = exp(x * (x * -0.5)) / (width * 2.5066283);
     float fuzz_product = fuzz_r * (fuzz_r * (fuzz_r * 0.119681 - 0.0207818) + 0.000654023);
     float fuzz_product_2 = fuzz_weight * max(fuzz_ratio + fuzz_product / (fuzz_r * (fuzz_r - 1.92021) + 1.26264), 0.0);
-    float coating_r = (1.0 - coat_ior) / (coat_ior + 1.0);
+    vec3 fuzz_factor = SR_open_pbr_surface_fuzz_color * fuzz_product_2;
     vec2 coat_lobe = mx_open_pbr_anisotropy(SR_open_pbr_surface_coat_roughness,
         SR_open_pbr_surface_coat_roughness_anisotropy);
+    vec3 X = normalize(vd_tangentWorld);
+    mx_GgxLobe coating_lobe = mx_ggx_lobe(coat_lobe, N, X, V);
+    float coating_r = (1.0 - coat_ior) / (coat_ior + 1.0);
     vec2 coating_alpha = clamp(coat_lobe, 1e-8, 1.0);
     vec2 coating_albedo = mx_ggx_albedo_fit(sqrt(coating_alpha.x * coating_alpha.y), cos_v);
     float coating_scale = mix(coating_r * coating_r, 1.0, 0.04761905) * (1.0 / coating_albedo.x - 1.0) + 1.0;
+    float coating_factor = coating_scale * (coating_weight * (1.0 - fuzz_product_2));
+    float clamped_specular_weight = clamp(SR_open_pbr_surface_specular_weight, 0.0, 1.0);
+    float clamped_thin_film_weight = clamp(SR_open_pbr_surface_thin_film_weight, 0.0, 1.0);
+    float metal_weight = clamp(SR_open_pbr_surface_base_metalness, 0.0, 1.0);
+    float metal_film_weight = clamped_specular_weight * (clamped_thin_film_weight * metal_weight);
+    vec2 roughness = mx_open_pbr_anisotropy(mix(SR_open_pbr_surface_specular_roughness,
+        mx_open_pbr_blurred(SR_open_pbr_surface_specular_roughness, SR_open_pbr_surface_coat_roughness), coat_weight),
+        SR_open_pbr_surface_specular_roughness_anisotropy);
+    vec2 alpha = clamp(roughness, 1e-8, 1.0);
+    vec2 albedo = mx_ggx_albedo_fit(sqrt(alpha.x * alpha.y), cos_v);
+    float lost = 1.0 / albedo.x - 1.0;
+    vec3 fresnel_facing = max(SR_open_pbr_surface_base_weight * SR_open_pbr_surface_base_color, 0.0);
+    float film_thickness = SR_open_pbr_surface_thin_film_thickness * 1000.0;
+    float thin_film_ior = SR_open_pbr_surface_thin_film_ior;
+    vec3 clamped_darkened = clamp(mx_open_pbr_coat_darkening(SR_open_pbr_surface_base_color,
+        SR_open_pbr_surface_base_metalness, SR_open_pbr_surface_specular_weight, SR_open_pbr_surface_subsurface_weight,
+        SR_open_pbr_surface_subsurface_color, coat_ior, coat_weight * SR_open_pbr_surface_coat_darkening), 0.0, 1.0);
     float coated_weight = (1.0 - fuzz_product_2)
         * (1.0 - coating_weight * (mix(coating_r * coating_r, 1.0, coating_albedo.y) * coating_albedo.x
         * coating_scale));
     vec3 substrate_weight = clamped_darkened
         * (clamp(mix(vec3(1.0), SR_open_pbr_surface_coat_color, coat_weight), 0.0, 1.0) * coated_weight);
-    vec3 body_weight = mix(vec3(1.0 - single * reflection_bare_scale), vec3(1.0) - single * reflection_film_scale,
-        clamped_thin_film_weight) * substrate_weight;
-    float clamped_backward_share = clamp((1.0 - SR_open_pbr_surface_subsurface_scatter_anisotropy) * 0.5, 0.0, 1.0);
-    float thin = float(SR_open_pbr_surface_geometry_thin_walled);
-    float clamped_subsurface_weight = clamp(SR_open_pbr_surface_subsurface_weight, 0.0, 1.0);
-    float metal_weight = clamp(SR_open_pbr_surface_base_metalness, 0.0, 1.0);
-    float clamped_transmission_weight = clamp(SR_open_pbr_surface_transmission_weight, 0.0, 1.0);
-    float opaque_weight = (1.0 - metal_weight) * (1.0 - clamped_transmission_weight);
-    float sheet_weight = thin * (clamped_subsurface_weight * opaque_weight);
-    vec3 sheet_front_product = subsurface_positive * (body_weight * (clamped_backward_share * sheet_weight));
-    vec3 Nf = faceforward(N, -V, N);
-    float base_diffuse_roughness = SR_open_pbr_surface_base_diffuse_roughness;
-    vec2 ab = base_diffuse_roughness * base_diffuse_roughness * vec2(-0.5, 0.45)
-        / (base_diffuse_roughness * base_diffuse_roughness + vec2(0.33, 0.09)) + vec2(1.0, 0.0);
-    float sheet_back_weight = sheet_weight * (1.0 - clamped_backward_share);
-    vec3 sheet_back_factor = subsurface_positive * (body_weight * sheet_back_weight);
-    float limited_cos_v = min(cos_v, 1.0);
-    vec3 fuzz_factor = SR_open_pbr_surface_fuzz_color * fuzz_product_2;
-    vec3 X = normalize(vd_tangentWorld);
-    mx_GgxLobe coating_lobe = mx_ggx_lobe(coat_lobe, N, X, V);
-    float coating_factor = coating_scale * (coating_weight * (1.0 - fuzz_product_2));
-    float clamped_specular_weight = clamp(SR_open_pbr_surface_specular_weight, 0.0, 1.0);
-    float metal_film_weight = clamped_specular_weight * (clamped_thin_film_weight * metal_weight);
-    vec3 fresnel_facing = max(SR_open_pbr_surface_base_weight * SR_open_pbr_surface_base_color, 0.0);
-    vec3 metal_film_factor = (lost * mix(mx_fresnel_facing_2(fresnel_facing, film_thickness, thin_film_ior), vec3(1.0),
+    vec3 metal_film_factor = (lost * mix(mx_fresnel_facing(fresnel_facing, film_thickness, thin_film_ior), vec3(1.0),
         0.04761905) + vec3(1.0)) * (substrate_weight * metal_film_weight);
     vec3 limited_specular_color = max(SR_open_pbr_surface_specular_color, 0.0);
     vec3 schlick_bend = mix(fresnel_facing, vec3(1.0), 0.4626644) * (vec3(1.0) - limited_specular_color) * 17.651384;
@@ -629,26 +604,21 @@ void main()
     vec3 metal_bare_factor = (lost * mix(fresnel_facing, vec3(1.0), 0.04761905) + vec3(1.0))
         * (substrate_weight * metal_bare_weight);
     float reflection_film_weight = clamped_thin_film_weight * (1.0 - metal_weight);
+    float ior_relative = mix(SR_open_pbr_surface_specular_ior,
+        max(SR_open_pbr_surface_specular_ior / coat_ior, coat_ior / SR_open_pbr_surface_specular_ior), coat_weight);
+    float amplitude = clamp((ior_relative - 1.0) / (ior_relative + 1.0) * sqrt(SR_open_pbr_surface_specular_weight),
+        -0.999995, 0.999995);
+    float ior = (amplitude + 1.0) / (1.0 - amplitude);
+    vec3 reflection_film_scale = mix(mx_fresnel_facing_2(vec3(ior), film_thickness, thin_film_ior), vec3(1.0),
+        0.04761905) * lost + vec3(1.0);
     vec3 reflection_film_factor = substrate_weight * reflection_film_weight
         * (reflection_film_scale * limited_specular_color);
     float reflection_bare_weight = (1.0 - metal_weight) * (1.0 - clamped_thin_film_weight);
+    float r = (1.0 - ior) / (ior + 1.0);
+    float reflection_bare_scale = lost * mix(r * r, 1.0, 0.04761905) + 1.0;
     vec3 reflection_bare_factor = reflection_bare_scale
         * (limited_specular_color * (substrate_weight * reflection_bare_weight));
     float scaled_ior = ior * ior;
-    float scatter_weight = clamped_subsurface_weight * opaque_weight * (1.0 - thin);
-    vec3 scatter_radius = SR_open_pbr_surface_subsurface_radius * SR_open_pbr_surface_subsurface_radius_scale;
-    float curvature = max(length(fwidth(Nf)) / max(length(fwidth(vd_positionWorld)), 1e-20), 0.01);
-    vec3 scatter_factor = subsurface_positive * (body_weight * scatter_weight);
-    float diffuse_weight = clamp(SR_open_pbr_surface_base_weight, 0.0, 1.0)
-        * (opaque_weight * (1.0 - clamped_subsurface_weight));
-    vec3 base_positive = max(SR_open_pbr_surface_base_color, 0.0);
-    vec3 diffuse_product = base_positive * (body_weight * diffuse_weight);
-    float diffuse_sum = base_diffuse_roughness * 0.28779334 + 1.0;
-    float mean = (base_diffuse_roughness * 0.0724882 + 1.0) / diffuse_sum;
-    vec3 fujii_multiple = base_positive * mean / (vec3(1.0) - base_positive * max(1.0 - mean, 0.0));
-    float diffuse_fujii_albedo = mx_fujii_albedo(cos_v, base_diffuse_roughness);
-    float lost_v = max(1.0 - diffuse_fujii_albedo, 1e-8);
-    float diffuse_lost = max(1.0 - mean, 1e-8);
     // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         vec3 L;
@@ -665,27 +635,18 @@ void main()
             if (light_type == 2) {
                 intensity = falloff;
             } else {
-                float edge = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+                float spot_light_edge = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
                 intensity = light_type == 3
-                    ? smoothstep(edge, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light)) * falloff
-                    : 0.0;
+                    ? smoothstep(spot_light_edge, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
+                    * falloff : 0.0;
             }
         }
-        // sheet_front, sheet_back
-        vec3 light_color = u_lightData[i].color;
-        float cos_l = dot(L, Nf);
-        float cos_l_2 = max(cos_l, 1e-8);
-        float v_dot_l = dot(V, L);
-        float s = v_dot_l - cos_v * cos_l_2;
-        float greater = max(cos_l_2, cos_v);
-        vec3 sheet_front_response = sheet_front_product * 0.31830987
-            * (cos_l_2 * (ab.x + ab.y * max(s, 0.0) / greater));
-        color += light_color * (intensity * (sheet_front_response + max(-cos_l, 0.0) / 3.1415927 * sheet_back_factor));
         // fuzz
+        vec3 light_color = u_lightData[i].color;
         if (fuzz_weight > 0.0)
             color += light_color * (intensity * (mx_sheen_zeltner(Nf, V, L, limited_cos_v, fuzz_r) * fuzz_factor));
         // coating
-        float half_cosine = sqrt(clamp(v_dot_l * 0.5 + 0.500001, 0.0, 1.0));
+        float half_cosine = sqrt(clamp(dot(V, L) * 0.5 + 0.500001, 0.0, 1.0));
         if (coating_weight > 0.0) {
             float coating_product = mx_fresnel_permittivity(half_cosine, coat_ior * coat_ior) * coating_factor;
             color += light_color * (intensity * (mx_ggx_light(coating_lobe, V, L) * coating_product));
@@ -709,37 +670,12 @@ void main()
         if (reflection_bare_weight > 0.0)
             color += light_color * (intensity
                 * (reflection_bare_factor * (ggx_light * mx_fresnel_permittivity(half_cosine, scaled_ior))));
-        // scatter
-        if (scatter_weight > 0.0)
-            color += light_color * (intensity
-                * (mx_subsurface_light(scatter_radius, curvature, cos_l) * scatter_factor));
-        // diffuse
-        if (diffuse_weight > 0.0) {
-            float diffuse_s = s / greater;
-            vec3 diffuse_product_2 = fujii_multiple
-                * (lost_v * max(1.0 - mx_fujii_albedo(cos_l_2, base_diffuse_roughness), 1e-8) / diffuse_lost);
-            color += light_color * (intensity
-                * (diffuse_product * 0.31830987
-                * (cos_l_2 * ((base_diffuse_roughness * (s > 0.0 ? diffuse_s : s) + 1.0) / diffuse_sum
-                + diffuse_product_2))));
-        }
     }
-    // environment: fuzz, sheet_front, scatter
-    float envLightIntensity = u_envLightIntensity;
+    // environment: fuzz
     vec3 part = textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * Nf)), 0.0).xyz;
-    vec2 fit = base_diffuse_roughness * (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + base_diffuse_roughness
-        * vec2(1.4385, 2.0315)) + vec2(1.0);
-    vec3 sheet_front_response = sheet_front_product * part * (envLightIntensity * clamp(fit.x / fit.y, 0.0, 1.0));
-    vec3 response = SR_open_pbr_surface_fuzz_color * part * (fuzz_product_2 * envLightIntensity) + sheet_front_response;
-    color += envLightIntensity * (scatter_factor * part) + response;
-    // environment: sheet_back
-    if (sheet_back_weight > 0.0)
-        color += envLightIntensity * (sheet_back_factor
-            * textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * -Nf)), 0.0).xyz);
-    // environment: diffuse
-    if (diffuse_weight > 0.0)
-        color += envLightIntensity * (mix(mx_fujii_multiple(base_positive, mean), vec3(1.0), diffuse_fujii_albedo)
-            * (diffuse_product * part));
+    float envLightIntensity = u_envLightIntensity;
+    if (fuzz_weight > 0.0)
+        color += SR_open_pbr_surface_fuzz_color * part * (fuzz_product_2 * envLightIntensity);
     // environment: coating
     if (coating_weight > 0.0) {
         vec2 turn = vec2(1.0, 0.0);
@@ -796,9 +732,13 @@ void main()
         }
     }
     // environment: refraction_film, refraction_bare
+    float clamped_transmission_weight = clamp(SR_open_pbr_surface_transmission_weight, 0.0, 1.0);
     float filled_weight = clamped_transmission_weight * (1.0 - metal_weight);
     bool refraction_film_visible = clamped_thin_film_weight * filled_weight > 0.0;
     float refraction_bare_weight = filled_weight * (1.0 - clamped_thin_film_weight);
+    float single = mix(r * r, 1.0, albedo.y) * albedo.x;
+    vec3 body_weight = mix(vec3(1.0 - single * reflection_bare_scale), vec3(1.0) - single * reflection_film_scale,
+        clamped_thin_film_weight) * substrate_weight;
     if (refraction_film_visible || refraction_bare_weight > 0.0) {
         vec3 tint = max(SR_open_pbr_surface_transmission_depth > 0.0 ? vec3(1.0)
             : SR_open_pbr_surface_transmission_color, 0.0);
@@ -836,6 +776,93 @@ void main()
             }
         }
     }
+    // lights: sheet_front, sheet_back, scatter, diffuse
+    vec3 subsurface_positive = max(SR_open_pbr_surface_subsurface_color, 0.0);
+    float clamped_backward_share = clamp((1.0 - SR_open_pbr_surface_subsurface_scatter_anisotropy) * 0.5, 0.0, 1.0);
+    float thin = float(SR_open_pbr_surface_geometry_thin_walled);
+    float clamped_subsurface_weight = clamp(SR_open_pbr_surface_subsurface_weight, 0.0, 1.0);
+    float opaque_weight = (1.0 - metal_weight) * (1.0 - clamped_transmission_weight);
+    float sheet_weight = thin * (clamped_subsurface_weight * opaque_weight);
+    vec3 sheet_front_product = subsurface_positive * (body_weight * (clamped_backward_share * sheet_weight));
+    float base_diffuse_roughness = SR_open_pbr_surface_base_diffuse_roughness;
+    vec2 ab = base_diffuse_roughness * base_diffuse_roughness * vec2(-0.5, 0.45)
+        / (base_diffuse_roughness * base_diffuse_roughness + vec2(0.33, 0.09)) + vec2(1.0, 0.0);
+    float sheet_back_weight = sheet_weight * (1.0 - clamped_backward_share);
+    vec3 sheet_back_factor = subsurface_positive * (body_weight * sheet_back_weight);
+    float scatter_weight = clamped_subsurface_weight * opaque_weight * (1.0 - thin);
+    vec3 scatter_factor = subsurface_positive * (body_weight * scatter_weight);
+    vec3 scatter_radius = SR_open_pbr_surface_subsurface_radius * SR_open_pbr_surface_subsurface_radius_scale;
+    float curvature = max(length(fwidth(Nf)) / max(length(fwidth(vd_positionWorld)), 1e-20), 0.01);
+    float diffuse_weight = clamp(SR_open_pbr_surface_base_weight, 0.0, 1.0)
+        * (opaque_weight * (1.0 - clamped_subsurface_weight));
+    vec3 base_positive = max(SR_open_pbr_surface_base_color, 0.0);
+    vec3 diffuse_product = base_positive * (body_weight * diffuse_weight);
+    float diffuse_sum = base_diffuse_roughness * 0.28779334 + 1.0;
+    float mean = (base_diffuse_roughness * 0.0724882 + 1.0) / diffuse_sum;
+    vec3 fujii_multiple = base_positive * mean / (vec3(1.0) - base_positive * max(1.0 - mean, 0.0));
+    float diffuse_fujii_albedo = mx_fujii_albedo(cos_v, base_diffuse_roughness);
+    float lost_v = max(1.0 - diffuse_fujii_albedo, 1e-8);
+    float diffuse_lost = max(1.0 - mean, 1e-8);
+    // from the last light, so that drivers do not unroll the loop
+    for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
+        vec3 L;
+        float intensity;
+        int light_type = u_lightData[i].type;
+        if (light_type == 1) {
+            L = -u_lightData[i].direction;
+            intensity = u_lightData[i].intensity;
+        } else {
+            vec3 d = u_lightData[i].position - vd_positionWorld;
+            vec3 to_light = normalize(d);
+            L = to_light;
+            float falloff = u_lightData[i].intensity / pow(length(d) + 1.0, u_lightData[i].decay_rate);
+            if (light_type == 2) {
+                intensity = falloff;
+            } else {
+                float spot_light_edge = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
+                intensity = light_type == 3 ? falloff
+                    * smoothstep(spot_light_edge, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
+                    : 0.0;
+            }
+        }
+        // sheet_front, sheet_back
+        vec3 light_color = u_lightData[i].color;
+        float cos_l = dot(Nf, L);
+        float cos_l_2 = max(cos_l, 1e-8);
+        float s = dot(V, L) - cos_v * cos_l_2;
+        float greater = max(cos_l_2, cos_v);
+        vec3 sheet_front_response = sheet_front_product * 0.31830987
+            * (cos_l_2 * (ab.x + ab.y * max(s, 0.0) / greater));
+        color += light_color * (intensity
+            * (sheet_front_response + sheet_back_factor * (max(-cos_l, 0.0) / 3.1415927)));
+        // scatter
+        if (scatter_weight > 0.0)
+            color += light_color * (intensity
+                * (scatter_factor * mx_subsurface_light(scatter_radius, curvature, cos_l)));
+        // diffuse
+        if (diffuse_weight > 0.0) {
+            float diffuse_s = s / greater;
+            vec3 diffuse_product_2 = fujii_multiple
+                * (lost_v * max(1.0 - mx_fujii_albedo(cos_l_2, base_diffuse_roughness), 1e-8) / diffuse_lost);
+            color += light_color * (intensity
+                * (diffuse_product * 0.31830987
+                * (cos_l_2 * ((base_diffuse_roughness * (s > 0.0 ? diffuse_s : s) + 1.0) / diffuse_sum
+                + diffuse_product_2))));
+        }
+    }
+    // environment: sheet_front, scatter
+    vec2 fit = base_diffuse_roughness * (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + base_diffuse_roughness
+        * vec2(1.4385, 2.0315)) + vec2(1.0);
+    vec3 sheet_front_response = sheet_front_product * part * (envLightIntensity * clamp(fit.x / fit.y, 0.0, 1.0));
+    color += sheet_front_response + envLightIntensity * (scatter_factor * part);
+    // environment: sheet_back
+    if (sheet_back_weight > 0.0)
+        color += envLightIntensity * (sheet_back_factor
+            * textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * -Nf)), 0.0).xyz);
+    // environment: diffuse
+    if (diffuse_weight > 0.0)
+        color += envLightIntensity * (mix(mx_fujii_multiple(base_positive, mean), vec3(1.0), diffuse_fujii_albedo)
+            * (diffuse_product * part));
     // opacity
     float opacity = clamp(SR_open_pbr_surface_geometry_opacity, 0.0, 1.0);
     if (opacity < u_alphaThreshold)

@@ -63,35 +63,6 @@ vec2 mx_ggx_albedo_fit(const float a, const float c)
         4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, a * c), 1.0), x * x * x * x * x);
 }
 
-// Light that the layer of a medium reflects and lets through (`transmitted`), with all orders of scattering, on a way:
-// a is the albedo of one scattering, t the optical depth (after Kubelka and Munk 1931).
-// Here a = vec3(0.990589, 0.99790716, 0.99950534), t = vec3(0.2).
-vec3 mx_medium_layer(const float way, out vec3 transmitted)
-{
-    float x = way - 1.0;
-    vec3 s = vec3(0.49529448, 0.49895358, 0.49975267) * way
-        * (vec3(1.0) + 0.16666666 * (vec3(0.043278337, 0.052829146, 0.054919362) + x
-        * vec3(-0.18317366, -0.19314766, -0.19532585)));
-    vec3 k = vec3(0.009411037, 0.0020928383, 0.000494659) * way
-        * (vec3(1.0) + vec3(0.16509815, 0.16631785, 0.16658421)
-        * (vec3(1.3360909, 1.3377652, 1.3381231) + x * vec3(-1.792952, -1.8079973, -1.8112832)
-        + vec3(0.0739174, 0.07612604, 0.07661489)));
-    vec3 g = sqrt(k * (k + 2.0 * s));
-    vec3 e = exp(-g * 0.2);
-    vec3 ways = mix((vec3(1.0) - e * e) / max(g, vec3(1e-6)), 0.4 * (vec3(1.0) - g * 0.2), step(g * 0.2, vec3(0.001)));
-    vec3 below = (k + s) * ways + vec3(1.0) + e * e;
-    transmitted = 2.0 * e / below;
-    return s * ways / below;
-}
-
-// Light that the layer of a medium reflects on a way.
-// Here color = vec3(0.8, 0.9, 0.95), mean_free_path = vec3(0.1), g = 0.0, thickness = 0.02.
-vec3 mx_medium_reflected(const float way)
-{
-    vec3 ignored;
-    return mx_medium_layer(way, ignored);
-}
-
 // Schlick's curve from f0 to f90 at a cosine, less `bend` times cos (1 - cos)^6.
 // Here bend = vec3(0.0), f90 = vec3(1.0), exponent = 5.0.
 vec3 mx_fresnel_schlick(const float cosine, const vec3 f0)
@@ -118,6 +89,27 @@ float mx_ggx_light(const mx_GgxLobe lobe, const vec3 V, const vec3 L)
     float e = mx_ggx_stretched(lobe, lobe.cosine + dot(lobe.N, L), square);
     return area / 6.2831855 * square * square * cos_l
         / (e * e * (lobe.cosine * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * lobe.masking));
+}
+
+// Light that the layer of a medium reflects and lets through (`transmitted`), with all orders of scattering, on a way:
+// a is the albedo of one scattering, t the optical depth (after Kubelka and Munk 1931).
+// Here a = vec3(0.990589, 0.99790716, 0.99950534), t = vec3(0.2).
+vec3 mx_medium_layer(const float way, out vec3 transmitted)
+{
+    float x = way - 1.0;
+    vec3 s = vec3(0.49529448, 0.49895358, 0.49975267) * way
+        * (vec3(1.0) + 0.16666666 * (vec3(0.043278337, 0.052829146, 0.054919362) + x
+        * vec3(-0.18317366, -0.19314766, -0.19532585)));
+    vec3 k = vec3(0.009411037, 0.0020928383, 0.000494659) * way
+        * (vec3(1.0) + vec3(0.16509815, 0.16631785, 0.16658421)
+        * (vec3(1.3360909, 1.3377652, 1.3381231) + x * vec3(-1.792952, -1.8079973, -1.8112832)
+        + vec3(0.0739174, 0.07612604, 0.07661489)));
+    vec3 g = sqrt(k * (k + 2.0 * s));
+    vec3 e = exp(-g * 0.2);
+    vec3 ways = mix((vec3(1.0) - e * e) / max(g, vec3(1e-6)), 0.4 * (vec3(1.0) - g * 0.2), step(g * 0.2, vec3(0.001)));
+    vec3 below = (k + s) * ways + vec3(1.0) + e * e;
+    transmitted = 2.0 * e / below;
+    return s * ways / below;
 }
 
 // x^5.
@@ -250,6 +242,14 @@ mx_GgxLight mx_ggx_reflected(const mx_GgxSamples s, const int i, const vec2 turn
         sqrt(clamp(0.5 * (facet.mirror * facet.cosine), 1e-8, 1.0)));
 }
 
+// Light that the layer of a medium reflects on a way.
+// Here color = vec3(0.8, 0.9, 0.95), mean_free_path = vec3(0.1), g = 0.0, thickness = 0.02.
+vec3 mx_medium_reflected(const float way)
+{
+    vec3 ignored;
+    return mx_medium_layer(way, ignored);
+}
+
 // The square of the length of the facet's normal H after the roughness divided its parts along the surface, times the
 // product of the roughness along x and y; cos_h is its part along N.
 // Here is_round = true, is_wide = false.
@@ -297,20 +297,10 @@ Surface surface(vec3 positionWorld, vec3 normalWorld)
     vec3 decaying = (drops_throughput - drops_throughput_2) / (vec3(1.0) - milk_reflection_decay);
     vec3 milk_reflection_steady = drops_throughput - decaying;
     vec3 color = (decaying + milk_reflection_steady) * vec3(0.0, 0.1, 0.0);
-    // lights: metal_reflection, metal_medium, milk_reflection, milk_medium
-    vec3 slab_medium_bsdf_albedo = mx_medium_reflected(closure_way);
-    vec3 milk_medium_factor = slab_medium_bsdf_albedo / vec3(0.10193972, 0.102937125, 0.103155464);
-    vec3 facing = faceforward(N, -V, N);
+    // lights: metal_reflection, metal_medium, milk_reflection
     vec2 milk_reflection_albedo = mx_ggx_albedo_fit(0.25071993, cos_v);
     float milk_reflection_scale = (1.0 / milk_reflection_albedo.x - 1.0) * 0.08571428 + 1.0;
-    float milk_reflection_throughput = max(1.0 - mix(0.04, 1.0, milk_reflection_albedo.y) * milk_reflection_albedo.x
-        * milk_reflection_scale, 0.0);
-    vec3 milk_medium_difference = milk_reflection_throughput * drops_throughput - milk_reflection_throughput
-        * drops_throughput_2;
-    vec3 milk_medium_decay = clamp((milk_reflection_throughput * drops_throughput_2 - milk_reflection_throughput
-        * drops_throughput_3) / max(milk_medium_difference, 1e-6), 0.0, 0.999);
-    vec3 milk_medium_decaying = milk_medium_difference / (vec3(1.0) - milk_medium_decay);
-    vec3 milk_medium_steady = milk_reflection_throughput * drops_throughput - milk_medium_decaying;
+    vec3 facing = faceforward(N, -V, N);
     float scaled_cos_v = cos_v * cos_v;
     mx_GgxLobe milk_reflection_ggx_lobe = mx_GgxLobe(facing, cos_v, vec3(0.0), vec2(0.25071993),
         sqrt(scaled_cos_v * 0.9371395 + 0.0628605));
@@ -320,6 +310,8 @@ Surface surface(vec3 positionWorld, vec3 normalWorld)
     const vec3 metal_constant = vec3(0.66622823, 0.46274176, 0.24108408);
     mx_GgxLobe metal_reflection_ggx_lobe = mx_GgxLobe(facing, cos_v, vec3(0.0), vec2(0.29886922),
         sqrt(scaled_cos_v * 0.9106772 + 0.08932281));
+    float milk_reflection_throughput = max(1.0 - mix(0.04, 1.0, milk_reflection_albedo.y) * milk_reflection_albedo.x
+        * milk_reflection_scale, 0.0);
     vec3 milk_medium_transmitted;
     vec3 milk_medium = mx_medium_layer(closure_way, milk_medium_transmitted);
     vec3 slab_reflection_bsdf_albedo = mix(metal_constant, vec3(1.0), metal_reflection_albedo.y)
@@ -354,44 +346,33 @@ Surface surface(vec3 positionWorld, vec3 normalWorld)
         / (vec3(1.0) - metal_medium_decay);
     // from the last light, so that drivers do not unroll the loop
     for (int i = mxg_light_count() - 1; i >= 0; --i) {
-        // metal_reflection, metal_medium, milk_reflection, milk_medium
+        // metal_reflection, metal_medium, milk_reflection
         vec3 light_L, light_radiance;
         mxg_light(i, positionWorld, light_L, light_radiance);
-        float cosine_2 = dot(N, light_L);
-        float closure_way_2 = inversesqrt(cosine_2 * cosine_2 + 1.25) * 1.5;
-        float l_dot_facing = dot(light_L, facing);
-        vec3 milk_medium_weight = milk_medium_steady + milk_medium_decaying
-            * pow(milk_medium_decay, vec3(closure_way_2));
-        vec3 milk_medium_response = milk_medium_factor
-            * (mx_medium_reflected(closure_way_2) * (max(l_dot_facing, 0.0) / 3.1415927 * milk_medium_weight));
         float half_cosine = sqrt(clamp(dot(V, light_L) * 0.5 + 0.500001, 0.0, 1.0));
+        float cosine_2 = dot(N, light_L);
+        vec3 vector_closure_way = vec3(inversesqrt(cosine_2 * cosine_2 + 1.25) * 1.5);
         float milk_reflection_product = milk_reflection_scale * mx_ggx_light(milk_reflection_ggx_lobe, V, light_L);
         vec3 milk_reflection_product_2 = (milk_reflection_steady + decaying
-            * pow(milk_reflection_decay, vec3(closure_way_2))) * milk_reflection_product;
+            * pow(milk_reflection_decay, vector_closure_way)) * milk_reflection_product;
         vec3 metal_reflection_weight = metal_reflection_steady + metal_reflection_decaying
-            * pow(metal_reflection_decay, vec3(closure_way_2));
+            * pow(metal_reflection_decay, vector_closure_way);
         vec3 metal_reflection_product = mx_ggx_light(metal_reflection_ggx_lobe, V, light_L) * metal_reflection_weight;
-        float cos_l = max(l_dot_facing, 1e-8);
-        vec3 metal_medium_weight = metal_bare_metal_medium_weight - metal_medium_decaying + metal_medium_decaying
-            * pow(metal_medium_decay, vec3(closure_way_2));
+        float cos_l = max(dot(light_L, facing), 1e-8);
+        float metal_medium_product = cos_l * mx_chan_lobe(cos_v, cos_l, half_cosine, chan_even);
         vec3 metal_medium_response = metal_medium_factor
-            * (cos_l * mx_chan_lobe(cos_v, cos_l, half_cosine, chan_even) * metal_medium_weight);
+            * (metal_medium_product * (metal_bare_metal_medium_weight - metal_medium_decaying + metal_medium_decaying
+            * pow(metal_medium_decay, vector_closure_way)));
         vec3 response = metal_reflection_scale
             * (mx_fresnel_schlick(half_cosine, metal_constant) * metal_reflection_product) + metal_medium_response;
-        color += light_radiance * (milk_medium_response
-            + (mx_fresnel_schlick(half_cosine, vec3(0.04)) * milk_reflection_product_2 + response));
+        color += light_radiance * (mx_fresnel_schlick(half_cosine, vec3(0.04)) * milk_reflection_product_2 + response);
     }
-    // environment: metal_medium, milk_medium
+    // environment: metal_medium
     vec3 metal_medium_product = textureLod(u_envIrradiance,
         mx_map_point(normalize(mat3(u_envMatrix)
         * (facing + V * ((cos_v * (cos_v * 0.5624 - 0.7155) + 0.4353) * 0.732292)))), 0.0).xyz * metal_constant_2;
-    vec3 metal_medium_response = u_envLightIntensity
-        * ((metal_bare_metal_medium_weight - metal_medium_decaying + metal_medium_decaying
+    color += u_envLightIntensity * ((metal_bare_metal_medium_weight - metal_medium_decaying + metal_medium_decaying
         * pow(metal_medium_decay, vec3(1.145898))) * metal_medium_product);
-    vec3 milk_medium_product = slab_medium_bsdf_albedo
-        * textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * facing)), 0.0).xyz;
-    color += metal_medium_response + u_envLightIntensity
-        * ((milk_medium_steady + milk_medium_decaying * pow(milk_medium_decay, vec3(1.145898))) * milk_medium_product);
     // environment: metal_reflection
     vec2 turn = vec2(1.0, 0.0);
     int metal_reflection_count = mx_sample_count(vec2(0.29886922));
@@ -417,18 +398,37 @@ Surface surface(vec3 positionWorld, vec3 normalWorld)
             * (milk_reflection_light.weight * mx_fresnel_schlick(milk_reflection_light.cosine, vec3(0.04))));
         turn_2 = vec2(-turn_2.y, turn_2.x) * 0.6754903 - turn_2 * 0.7373689;
     }
-    // lights: coat_reflection
+    // lights: milk_medium, coat_reflection
+    vec3 slab_medium_bsdf_albedo = mx_medium_reflected(closure_way);
+    vec3 milk_medium_factor = slab_medium_bsdf_albedo / vec3(0.10193972, 0.102937125, 0.103155464);
+    vec3 milk_medium_difference = milk_reflection_throughput * drops_throughput - milk_reflection_throughput
+        * drops_throughput_2;
+    vec3 milk_medium_decay = clamp((milk_reflection_throughput * drops_throughput_2 - milk_reflection_throughput
+        * drops_throughput_3) / max(milk_medium_difference, 1e-6), 0.0, 0.999);
+    vec3 milk_medium_decaying = milk_medium_difference / (vec3(1.0) - milk_medium_decay);
+    vec3 milk_medium_steady = milk_reflection_throughput * drops_throughput - milk_medium_decaying;
     mx_GgxLobe coat_reflection_ggx_lobe = mx_GgxLobe(facing, cos_v, vec3(0.0), vec2(0.01),
         sqrt(scaled_cos_v * 0.9999 + 0.00010000001));
     // from the last light, so that drivers do not unroll the loop
     for (int i = mxg_light_count() - 1; i >= 0; --i) {
-        // coat_reflection
+        // milk_medium, coat_reflection
         vec3 light_L, light_radiance;
         mxg_light(i, positionWorld, light_L, light_radiance);
+        float cosine_3 = dot(N, light_L);
+        float closure_way_2 = inversesqrt(cosine_3 * cosine_3 + 1.25) * 1.5;
+        vec3 milk_medium_weight = milk_medium_steady + milk_medium_decaying
+            * pow(milk_medium_decay, vec3(closure_way_2));
+        vec3 milk_medium_response = milk_medium_factor
+            * (mx_medium_reflected(closure_way_2) * (max(dot(facing, light_L), 0.0) / 3.1415927 * milk_medium_weight));
         vec3 fresnel = mx_fresnel_schlick(sqrt(clamp(dot(V, light_L) * 0.5 + 0.500001, 0.0, 1.0)), vec3(0.04));
-        color += light_radiance * (fresnel
+        color += light_radiance * (milk_medium_response + fresnel
             * (coat_reflection_scale * 0.5 * mx_ggx_light_2(coat_reflection_ggx_lobe, V, light_L)));
     }
+    // environment: milk_medium
+    vec3 milk_medium_product = slab_medium_bsdf_albedo
+        * textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * facing)), 0.0).xyz;
+    color += u_envLightIntensity * ((milk_medium_steady + milk_medium_decaying * pow(milk_medium_decay, vec3(1.145898)))
+        * milk_medium_product);
     // environment: coat_reflection
     vec2 turn_3 = vec2(1.0, 0.0);
     int coat_reflection_count = mx_sample_count(vec2(0.01));
