@@ -283,7 +283,7 @@ static void choose_light(struct shader *shader, struct one_light *lights, uint32
              intensity = declare(shader, out, STR_intensity, lights->intensity);
     bool has_direction = false, has_distance = lights->distance != 0;
     uint32_t distance =
-        has_distance ? declare(shader, out, STR_distance, lights->distance) : UINT32_MAX;
+        has_distance ? declare(shader, out, STR_away, lights->distance) : UINT32_MAX;
     for (uint32_t i = 0; i < num; i++) {
         bool is_common = !has_direction && have_one_direction(&lights[i], num - i);
         if (is_common)

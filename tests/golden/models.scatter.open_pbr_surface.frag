@@ -249,12 +249,12 @@ void scatter()
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         vec3 L_4;
         float intensity;
-        float distance_2;
+        float away;
         int light_type = u_lightData[i].type;
         if (light_type == 1) {
             L_4 = -u_lightData[i].direction;
             intensity = u_lightData[i].intensity;
-            distance_2 = 1e30;
+            away = 1e30;
         } else {
             vec3 d = u_lightData[i].position - vd.positionWorld;
             vec3 to_light = normalize(d);
@@ -263,13 +263,13 @@ void scatter()
             float falloff = u_lightData[i].intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
             if (light_type == 2) {
                 intensity = falloff;
-                distance_2 = magnitude_d;
+                away = magnitude_d;
             } else {
                 float edge = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
                 intensity = light_type == 3
                     ? smoothstep(edge, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light)) * falloff
                     : 0.0;
-                distance_2 = magnitude_d;
+                away = magnitude_d;
             }
         }
         float reflection_bare_product_2 = ggx_compensation
@@ -282,7 +282,7 @@ void scatter()
         sum_2 += brightness;
         if (sum_2 * chance < brightness) {
             L_3 = L_4;
-            distance_ = distance_2;
+            distance_ = away;
             light = lit / brightness;
         }
         if (brightness > 0.0) {

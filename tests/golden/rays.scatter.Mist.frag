@@ -88,12 +88,12 @@ void scatter()
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         vec3 L_3;
         float intensity;
-        float distance_2;
+        float away;
         int light_type = u_lightData[i].type;
         if (light_type == 1) {
             L_3 = -u_lightData[i].direction;
             intensity = u_lightData[i].intensity;
-            distance_2 = 1e30;
+            away = 1e30;
         } else {
             vec3 d = u_lightData[i].position - vd.positionWorld;
             vec3 to_light = normalize(d);
@@ -102,13 +102,13 @@ void scatter()
             float falloff = u_lightData[i].intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
             if (light_type == 2) {
                 intensity = falloff;
-                distance_2 = magnitude_d;
+                away = magnitude_d;
             } else {
                 float edge = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
                 intensity = light_type == 3
                     ? smoothstep(edge, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light)) * falloff
                     : 0.0;
-                distance_2 = magnitude_d;
+                away = magnitude_d;
             }
         }
         vec3 lit = vd.positionObject * 0.07957747 * (u_lightData[i].color * intensity);
@@ -116,7 +116,7 @@ void scatter()
         sum += brightness;
         if (sum * chance < brightness) {
             L_2 = L_3;
-            distance_ = distance_2;
+            distance_ = away;
             light = lit / brightness;
         }
         if (brightness > 0.0) {

@@ -254,12 +254,12 @@ fn scatter()
     for (var i: i32 = min(u_prv.u_numActiveLightSources, 3) - 1; i >= 0; i--) {
         var L_4: vec3f;
         var intensity: f32;
-        var distance_2: f32;
+        var away: f32;
         let light_type_: i32 = u_lightData[i].type_;
         if (light_type_ == 1) {
             L_4 = -u_lightData[i].direction;
             intensity = u_lightData[i].intensity;
-            distance_2 = 1e30;
+            away = 1e30;
         } else {
             let d: vec3f = u_lightData[i].position - vd.positionWorld;
             let to_light: vec3f = normalize(d);
@@ -268,12 +268,12 @@ fn scatter()
             let falloff: f32 = u_lightData[i].intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
             if (light_type_ == 2) {
                 intensity = falloff;
-                distance_2 = magnitude_d;
+                away = magnitude_d;
             } else {
                 let edge: f32 = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
                 intensity = select(0.0, smoothstep(edge, u_lightData[i].inner_angle,
                     -dot(u_lightData[i].direction, to_light)) * falloff, light_type_ == 3);
-                distance_2 = magnitude_d;
+                away = magnitude_d;
             }
         }
         let glaze_product_2: f32 = ggx_compensation
@@ -286,7 +286,7 @@ fn scatter()
         sum_2 += brightness;
         if (sum_2 * chance < brightness) {
             L_3 = L_4;
-            distance_ = distance_2;
+            distance_ = away;
             light = lit / brightness;
         }
         if (brightness > 0.0) {
