@@ -54,9 +54,10 @@ static bool fits_half(const struct bake_drawing *drawing)
 static const char *ending_of(struct baking *baking, const struct bake_drawing *drawing)
 {
     const char *said = baking->options.format;
-    bool is_within = drawing->low >= -SLACK && drawing->high <= 1 + SLACK;
-    if (!said)
-        return is_within && bake_channels(drawing->type) < 4 ? "png" : "exr";
+    bool is_within = drawing->low >= -SLACK && drawing->high <= 1 + SLACK,
+         has_four = bake_channels(drawing->type) == 4;
+    if (!said || (has_four && strcmp(said, "jpg") == 0)) /* JPEG has no fourth channel */
+        return is_within && !has_four ? "png" : "exr";
     if (!is_within && strcmp(said, "exr") != 0)
         tell_clamped(baking, drawing, said, 0, 1);
     return said;

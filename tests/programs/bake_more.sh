@@ -132,6 +132,13 @@ reads() { # FILE X Y VALUE
 check 'the image has its own size and values' eval "reads tiled/S_base.exr 1 1 $(awk 'BEGIN { print 20 / 255 }')"
 check 'and so have the tiles' eval 'reads tiled/S_metalness.1001.exr 0 0 0.1 && reads tiled/S_metalness.1012.exr 0 0 0.4'
 
+# ---- Channels ----
+
+echo '<materialx version="1.39"><texcoord name="t" type="vector2"/><separate2 name="s" type="multioutput"><input name="in" type="vector2" nodename="t"/></separate2>
+  <combine4 name="c" type="color4"><input name="in4" type="float" nodename="s" output="outx"/></combine4><output name="o" type="color4" nodename="c"/></materialx>' >four.mtlx
+check 'four channels are baked beside JPEG' exits 0 "$mxgen" bake four.mtlx -o four -s 2 -f jpg
+check 'and keep the fourth one' eval 'test "$(ls four | tr "\n" " ")" = "four.mtlx o_image.exr " && python3 "$here/exr.py" four/o_image.exr A 0.9 0.5 | awk "{ exit !(\$1 > 0.7 && \$1 < 0.8) }"'
+
 # ---- Meshes ----
 
 # Two squares side by side; the second has the texture coordinates of its mirror image.
