@@ -16,13 +16,29 @@ const float MX_SLAB_DIELECTRIC = 0.2;
 // Thicknesses of a coat that light goes through, in and out, on mean ways (docs/slabs.md).
 const float MX_SLAB_WAYS = 2.0 * 1.1458980;
 
-// Share of the dielectric.
+// Share of the dielectric, by an albedo and a reflectance.
+float mx_slab_share(float albedo, float f0)
+{
+    float sum = albedo + f0;
+    return 2.0 * albedo / max(sum + sqrt(max(sum * sum - 4.0 * MX_SLAB_DIELECTRIC * albedo, 0.0)), 0.000001);
+}
 float mx_slab_dielectric(vec3 albedo, vec3 f0)
 {
-    float a = mx_brightest(albedo);
-    float sum = a + mx_brightest(f0);
-    float share = 2.0 * a / max(sum + sqrt(max(sum * sum - 4.0 * MX_SLAB_DIELECTRIC * a, 0.0)), 0.000001);
-    return mx_brightest(f0) > MX_SLAB_DIELECTRIC ? share : 1.0;
+    return mx_brightest(f0) > MX_SLAB_DIELECTRIC ? mx_slab_share(mx_brightest(albedo), mx_brightest(f0)) : 1.0;
+}
+
+/* UsdPreviewSurface has any f0 above its diffuse colour. The share is that of their means; with it, each channel of the colour reflects
+   as much facing the viewer: u d + (1 - u d) B = f0 + (1 - f0) diffuse. A dielectric has a tint in place of d. */
+float mx_preview_dielectric(vec3 diffuse, vec3 f0)
+{
+    float below = dot(diffuse * (1.0 - f0), vec3(1.0 / 3.0)) / (1.0 - MX_SLAB_DIELECTRIC);
+    return mx_brightest(f0) > MX_SLAB_DIELECTRIC ? min(mx_slab_share(below, dot(f0, vec3(1.0 / 3.0))), 1.0) : 1.0;
+}
+vec3 mx_preview_base_color(vec3 diffuse, vec3 f0)
+{
+    float d = MX_SLAB_DIELECTRIC * mx_preview_dielectric(diffuse, f0);
+    vec3 tinted = diffuse * ((1.0 - f0) / max(1.0 - mx_brightest(f0), 0.0001));
+    return clamp(mx_brightest(f0) > MX_SLAB_DIELECTRIC ? (f0 + (1.0 - f0) * diffuse - d) / (1.0 - d) : tinted, 0.0, 1.0);
 }
 
 // Colour of what is below the interface where no light is refracted.

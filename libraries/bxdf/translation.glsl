@@ -18,6 +18,33 @@ vec3 mx_coat_darkening(vec3 base_color, float metalness, float specular, float s
     return mix(vec3(1.0), escape / (1.0 - albedo * (1.0 - escape)), weight);
 }
 
+// What a coat lets out of the light that shines below it, facing the viewer.
+vec3 mx_coat_glow(vec3 coat_color, float ior, float weight)
+{
+    return mix(vec3(1.0), coat_color * mx_open_pbr_transmittance(ior), weight);
+}
+
+// The colour below a coat that saturates it (standard_surface).
+vec3 mx_coat_saturated(vec3 color, float amount)
+{
+    return amount > 0.0 ? pow(clamp(color, 0.0, 1.0), vec3(1.0 + amount)) : color;
+}
+
+// The luminance of an opacity; a grey stays exactly as it is.
+float mx_opacity(vec3 opacity)
+{
+    return dot(opacity - opacity.zzz, vec3(0.2722287, 0.6740818, 0.0)) + opacity.z;
+}
+
+/* A thin sheet of OpenPBR lets the share (1 + g) / 2 of its subsurface light through, one of standard_surface all of it: the colour of
+   the diffuse reflection there that has the rest. */
+vec3 mx_sheet_color(vec3 base, vec3 scattered, float weight, float anisotropy)
+{
+    float through = weight * (0.5 + 0.5 * anisotropy);
+    float left = max(1.0 - through, 0.0001);
+    return base * ((1.0 - weight) / left) + scattered * ((weight - through) / left);
+}
+
 float mx_brightest(vec3 color)
 {
     return max(max(color.x, color.y), color.z);
@@ -34,6 +61,13 @@ float mx_ior_of_reflectance(float reflectance)
 {
     float amplitude = sqrt(clamp(reflectance, 0.0, 0.98));
     return (1.0 + amplitude) / (1.0 - amplitude);
+}
+
+/* The weight of a dielectric's reflection that reflects as much as disney_principled, which reflects 0.08 of its `specular` whatever the
+   index is. Above 1 it is the index that has to be larger. */
+float mx_principled_weight(float specular, float ior)
+{
+    return ior == 1.5 ? 2.0 * specular : 0.08 * specular / max(mx_reflectance_of_ior(ior), 0.0001);
 }
 
 // The weight of a coat of index `into` that reflects as much as one of index `ior`, at most 1.

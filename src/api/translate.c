@@ -16,6 +16,56 @@ static bool find_leaf(void *user_data, const struct ir_graph *graph, ir_ref ref,
     return true;
 }
 
+/* The output of the last translation whose name begins and ends so; NULL: there is none. */
+static const char *find_output(const struct translation *t, const char *start, const char *end)
+{
+    mxg_nodedef info = {.size = sizeof info};
+    const char *found = NULL;
+    mxg_document_nodedef(t->document, vec_last(&t->chain), &info);
+    for (uint32_t i = 0; i < info.num_outputs && !found; i++) {
+        mxg_port port = {.size = sizeof port};
+        mxg_document_port(t->document, vec_last(&t->chain), info.num_inputs + i, &port);
+        size_t length = strlen(port.name), longest = strlen(start) + strlen(end);
+        if (length > longest && strncmp(port.name, start, strlen(start)) == 0
+            && strcmp(port.name + length - strlen(end), end) == 0)
+            found = port.name;
+    }
+    return found;
+}
+
+static const char *joined(const struct translation *t, const char *first, const char *second)
+{
+    struct text text;
+    text_init(&text, t->arena);
+    text_fmt(&text, "%s%s", first, second);
+    return text_cstr(&text);
+}
+
+static bool varies(struct translation *t, const char *output)
+{
+    ir_ref root = translate_build(t, t->chain.len, output, TRANSLATE_CONNECTED);
+    return root && !ir_is_const(&t->value->graph, root);
+}
+
+/*
+ * The output that has the value of an input; NULL: it keeps its default. Where the value of a
+ * uniform input U varies, and an output "U_in_X_out" takes it in, this output is the value of X.
+ */
+static const char *output_for(struct translation *t, const mxg_port *port)
+{
+    mxg_port found;
+    const char *output = translate_output_name(t, port->name);
+    if (*port->defaultgeomprop
+        || !translate_find_port(t, vec_last(&t->chain), output, true, &found))
+        return NULL;
+    const char *end = joined(t, "_in_", output), *more = find_output(t, "", end);
+    const char *uniform = more ? arena_strndup(t->arena, more, strlen(more) - strlen(end)) : NULL;
+    if (uniform && varies(t, translate_output_name(t, uniform)))
+        return more;
+    bool is_taken_in = port->uniform && find_output(t, joined(t, port->name, "_in_"), "_out");
+    return is_taken_in && varies(t, output) ? NULL : output;
+}
+
 static void find_values(struct translation *t)
 {
     mxg_nodedef info = {.size = sizeof info};
@@ -24,77 +74,12 @@ static void find_values(struct translation *t)
     t->nodes = (struct value_nodes){.arena = t->arena, .leaf = find_leaf, .user_data = t};
     for (uint32_t i = 0; i < info.num_inputs; i++) {
         struct translated_input input = {.port.size = sizeof input.port};
-        mxg_port output;
         mxg_document_port(t->document, t->definition, i, &input.port);
-        bool has_value =
-            !*input.port.defaultgeomprop
-            && translate_find_port(t, vec_last(&t->chain),
-                                   translate_output_name(t, input.port.name), true, &output);
-        if (has_value)
-            translate_set_input(t, &input,
-                                translate_build(t, t->chain.len,
-                                                translate_output_name(t, input.port.name),
-                                                TRANSLATE_CONNECTED));
+        input.output = output_for(t, &input.port);
+        if (input.output)
+            translate_set_input(
+                t, &input, translate_build(t, t->chain.len, input.output, TRANSLATE_CONNECTED));
         vec_push(t->arena, &t->inputs, input);
-    }
-}
-
-/* ---- What is lost ---- */
-
-/* Marks the inputs of the old surface that a value reads. */
-static void mark_sources(struct translation *t, ir_ref root, bool *marks)
-{
-    if (!root)
-        return;
-    const struct ir_graph *graph = &t->value->graph;
-    const uint8_t *needed = ir_mark(graph, &root, 1, t->arena);
-    for (ir_ref ref = 1; ref <= root; ref++) {
-        uint32_t source = needed[ref] ? translate_source_of(t, graph, ref) : t->sources.len;
-        if (source < t->sources.len)
-            marks[source] = true;
-    }
-}
-
-/*
- * Why an input that the document sets matters: the shader of the surface reads it, or programs that
- * know more of the model. NULL: it does nothing. One that the geometry fills has no uniform, so a
- * connection counts.
- */
-static const char *use_of(struct translation *t, uint32_t index)
-{
-    const struct source_input *source = &t->sources.items[index];
-    if (!translate_is_authored(t, source))
-        return NULL;
-    bool is_geometry = source->is_connected && *source->port.defaultgeomprop;
-    if (is_geometry
-        || translate_surface_reads(t, 0, source->port.name, translate_uniforms(t, index)))
-        return "changes this surface";
-    if (strcmp(source->port.name, "displacement") == 0)
-        return "moves the vertices";
-    uint32_t definition = mxg_document_find_nodedef(t->document, t->surface);
-    return translate_is_for_others(t, definition, source->port.name) ? "is for other programs"
-                                                                     : NULL;
-}
-
-/* Warns about inputs that change the old surface and not the new one. */
-static void report_losses(struct translation *t)
-{
-    const struct document *doc = &t->document->layer.doc;
-    bool *stays = ARENA_ARRAY(t->arena, bool, t->sources.len + 1);
-    for (uint32_t i = 0; i < t->inputs.len; i++)
-        if (t->inputs.items[i].is_set && !*t->inputs.items[i].port.defaultgeomprop)
-            mark_sources(t,
-                         translate_build(t, t->chain.len,
-                                         translate_output_name(t, t->inputs.items[i].port.name),
-                                         TRANSLATE_ALL_INPUTS),
-                         stays);
-    for (uint32_t i = 0; i < t->sources.len; i++) {
-        const struct source_input *source = &t->sources.items[i];
-        const char *use = stays[i] || source->is_used ? NULL : use_of(t, i);
-        if (use)
-            diag_add(t->diags, DIAG_ID_translation_loss, doc_name_place(doc, source->element),
-                     source->port.name,
-                     str_text(doc->strings, doc_element(doc, t->surface)->category), use, t->model);
     }
 }
 
@@ -105,12 +90,14 @@ static void translate_surface(struct translation *t, elem_id surface)
     t->surface = surface;
     if (strcmp(category, t->model) != 0 && translate_find_chain(t, category, t->model)
         && translate_is_sound(t)) {
-        translate_make_draft(t, mxg_document_find_nodedef(t->document, surface));
+        uint32_t definition = mxg_document_find_nodedef(t->document, surface);
+        translate_read_sources(t, definition);
+        translate_make_draft(t, definition);
         find_values(t);
         translate_geometry(t);
         translate_keep_for_others(t);
         translate_drop_idle(t);
-        report_losses(t);
+        translate_report_losses(t);
         translate_write(t);
         t->has_changed = true;
     }
@@ -188,6 +175,7 @@ mxg_status mxg_translate(mxg_context *context, const mxg_document *document, con
     mxg_result_destroy(t.value);
     mxg_edit_destroy(t.draft_edit);
     mxg_document_destroy(t.draft);
+    mxg_document_destroy(t.whole_draft);
     mxg_options_destroy(t.options);
     mxg_edit_destroy(t.edit);
     mxg_document_destroy(t.product);

@@ -10,15 +10,17 @@
 
 /* Where the value of an input of the new surface comes from. */
 struct translated_input {
-    mxg_port port; /* of the model */
-    bool is_set;   /* else it keeps its default */
+    mxg_port port;      /* of the model */
+    const char *output; /* of the last translation, which has the value */
+    bool is_set;        /* else it keeps its default */
     struct operand value;
 };
 
 /* An input of the old surface. Its index is that of a leaf (OPERAND_LEAF). */
 struct source_input {
-    mxg_port port;   /* of its definition */
-    elem_id element; /* 0: the default of the definition */
+    mxg_port port;    /* of its definition */
+    elem_id element;  /* 0: the default of the definition */
+    const char *text; /* not NULL: the value at a surface between, which has no element */
     bool is_connected;
     enum value_type type;
     bool is_used;           /* the new surface depends on it */
@@ -54,7 +56,8 @@ struct translation {
     /* the document with a node for each step, and one of the model that the surface has now */
     mxg_edit *draft_edit;
     mxg_document *draft;
-    const char *draft_name; /* of its nodes: with the number of the step, 0 for the surface */
+    mxg_document *whole_draft; /* put aside while `draft` begins with a surface between */
+    const char *draft_name;    /* of its nodes: with the number of the step, 0 for the surface */
     mxg_options *options;
     mxg_result *value; /* of the output in work */
     mxg_document *product;
@@ -101,8 +104,8 @@ void translate_each_surface(struct translation *t,
                             void (*visit)(struct translation *t, elem_id surface));
 
 /* translate_models.c */
-/* Finds the default definition of the surface t->model. */
-bool translate_find_surface(struct translation *t);
+/* Finds the default definition of a surface, whose category is a model. */
+bool translate_find_surface(const struct translation *t, const char *model, uint32_t *out);
 /* Finds the model; false after a diagnostic. */
 bool translate_find_model(struct translation *t);
 /* Fills `chain`; false: no translation leads from the category to the model `to`. */
@@ -116,7 +119,9 @@ bool translate_find_port(const struct translation *t, uint32_t definition, const
 /* The output of a translation that is the value of an input: "base_color_out". */
 const char *translate_output_name(const struct translation *t, const char *input);
 
-/* translate_draft.c: fills `draft`, `sources`. */
+/* translate_draft.c: fills `sources` with the inputs of the surface, of this definition. */
+void translate_read_sources(struct translation *t, uint32_t definition);
+/* Fills `draft`: the sources are those of a surface of this definition, where `chain` begins. */
 void translate_make_draft(struct translation *t, uint32_t definition);
 /* An edit of a new draft, without nodes; and its end, which makes it t->draft. */
 void translate_start_draft(struct translation *t);
@@ -187,6 +192,12 @@ void translate_geometry(struct translation *t);
 bool translate_is_for_others(const struct translation *t, uint32_t definition, const char *input);
 void translate_keep_for_others(struct translation *t);
 void translate_drop_idle(struct translation *t);
+
+/*
+ * translate_losses.c: warns about inputs that change the old surface and not the new one, and about
+ * those of the surfaces between.
+ */
+void translate_report_losses(struct translation *t);
 
 /*
  * translate_closures.c: surfaces that are made of closures, or of what has no translation, become

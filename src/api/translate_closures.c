@@ -410,7 +410,7 @@ void translate_closures(struct translation *t)
     t->slab_step = first_step(t);
     translate_forget_closures(t);
     t->model = t->slab_step ? t->slab_step->to : t->model;
-    translate_find_surface(t);
+    translate_find_surface(t, t->model, &t->definition);
     translate_each_surface(t, visit);
     translate_remove_remains(t);
     t->model = t->wanted;

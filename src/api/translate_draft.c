@@ -53,7 +53,7 @@ static bool is_connected(const struct translation *t, elem_id input)
            || *attribute(t, input, STR_interfacename) || *attribute(t, input, STR_output);
 }
 
-static void read_sources(struct translation *t, uint32_t definition)
+void translate_read_sources(struct translation *t, uint32_t definition)
 {
     mxg_nodedef info = {.size = sizeof info};
     mxg_document_nodedef(t->document, definition, &info);
@@ -74,12 +74,17 @@ bool translate_is_default(const mxg_port *port, const struct strpool *strings, c
     return doc_is_same_value(type, text, port->value);
 }
 
+static const char *text_of(const struct translation *t, const struct source_input *source)
+{
+    return source->text ? source->text : attribute(t, source->element, STR_value);
+}
+
 bool translate_is_authored(const struct translation *t, const struct source_input *source)
 {
-    return source->element
+    return (source->element || source->text)
            && (source->is_connected
                || !translate_is_default(&source->port, t->document->layer.doc.strings,
-                                        attribute(t, source->element, STR_value)));
+                                        text_of(t, source)));
 }
 
 /* ---- The nodes of the draft ---- */
@@ -110,7 +115,7 @@ static void set_value(struct translation *t, mxg_element node, const struct sour
 {
     static const str_id kept[] = {STR_unit, STR_unittype};
     const struct document *doc = &t->document->layer.doc;
-    const char *text = attribute(t, source->element, STR_value);
+    const char *text = text_of(t, source);
     text = *text ? text : source->port.value;
     if (source->is_connected)
         text = source->type == VALUE_NONE ? "" : text_of_zero(t, source->type);
@@ -224,7 +229,6 @@ void translate_commit_draft(struct translation *t)
 
 void translate_make_draft(struct translation *t, uint32_t definition)
 {
-    read_sources(t, definition);
     translate_start_draft(t);
     add_first(t, 0, definition);
     add_first(t, 1, t->chain.items[0]);
@@ -248,8 +252,8 @@ const char *translate_uniforms(const struct translation *t, uint32_t more)
     text_init(&list, t->arena);
     for (uint32_t i = 0; i < t->sources.len; i++) {
         const struct source_input *source = &t->sources.items[i];
-        bool is_one =
-            source->is_connected || i == more || (more == TRANSLATE_ALL_INPUTS && source->element);
+        bool is_one = source->is_connected || i == more
+                      || (more == TRANSLATE_ALL_INPUTS && (source->element || source->text));
         for (unsigned step = 0; step < 2 && is_one; step++)
             text_fmt(&list, "%s%s/%s", list.len ? "," : "", translate_step_name(t, step),
                      source->port.name);

@@ -55,19 +55,19 @@ static void list_steps(struct translation *t)
     }
 }
 
-bool translate_find_surface(struct translation *t)
+bool translate_find_surface(const struct translation *t, const char *model, uint32_t *out)
 {
     uint32_t count = mxg_document_num_nodedefs(t->document);
     bool found = false;
     for (uint32_t i = 0; i < count && !found; i++) {
         mxg_nodedef info = definition_at(t, i);
         mxg_port port = {.size = sizeof port};
-        if (strcmp(info.node, t->model) != 0 || info.num_outputs != 1
+        if (strcmp(info.node, model) != 0 || info.num_outputs != 1
             || (*info.version && !info.is_default_version))
             continue;
         mxg_document_port(t->document, i, info.num_inputs, &port);
         found = strcmp(port.type, "surfaceshader") == 0;
-        t->definition = i;
+        *out = i;
     }
     return found;
 }
@@ -88,7 +88,7 @@ bool translate_find_model(struct translation *t)
     list_steps(t);
     for (uint32_t i = 0; i < t->steps.len && !is_made; i++)
         is_made = strcmp(t->steps.items[i].to, t->model) == 0;
-    if (is_made && translate_find_surface(t))
+    if (is_made && translate_find_surface(t, t->model, &t->definition))
         return true;
     struct text known;
     struct diag_guess guess;

@@ -14,25 +14,49 @@ void translate_report(const struct translation *t, enum diag_id id, const char *
     diag_add(t->diags, id, doc_name_place(doc, t->surface), first, t->model, third);
 }
 
-/* Any number that is no special case. */
+/* The number of the user. */
 static bool general_value(void *user_data, const struct ir_graph *graph, ir_ref ref,
                           struct ir_value *out)
 {
-    (void)user_data;
+    const float *number = user_data;
     *out = (struct ir_value){.type = ir_type_of(graph, ref)};
     for (unsigned i = 0; i < ir_type_components(out->type); i++)
-        out->w[i].f = 0.5f;
+        out->w[i].f = *number;
     return ir_type_scalar(out->type) == IR_TYPE_FLOAT;
 }
 
-/* A mode or a switch takes its value in the general case: BLEND, where the opacity is a texture. */
+static const char *text_of(const struct translation *t, const struct operand *value)
+{
+    struct text text;
+    text_init(&text, t->arena);
+    value_write(value, &text);
+    return text_cstr(&text);
+}
+
+static bool has_default(const struct translation *t, const struct translated_input *input)
+{
+    return translate_is_default(&input->port, t->document->layer.doc.strings,
+                                text_of(t, &input->value));
+}
+
+/*
+ * A mode or a switch takes its value in the general case: BLEND, where the opacity is a texture. It
+ * may be another one above a threshold than below; the first that is no default serves both.
+ */
 static bool choose_generally(struct translation *t, ir_ref root, struct translated_input *input)
 {
-    const struct ir_eval_env env = {.source = general_value};
+    static const float numbers[] = {0.5f, 0.000001f, 0.999999f}; /* none is a special case */
     bool is_choice = input->value.type == VALUE_INTEGER || input->value.type == VALUE_BOOLEAN;
-    if (is_choice && input->value.kind != OPERAND_CONSTANT
-        && ir_eval(&t->value->graph, root, &env, t->arena, &input->value.value))
+    bool is_varying = input->value.kind != OPERAND_CONSTANT;
+    for (size_t i = 0; is_choice && is_varying && i < sizeof numbers / sizeof *numbers; i++) {
+        float number = numbers[i];
+        const struct ir_eval_env env = {.source = general_value, .user_data = &number};
+        if (!ir_eval(&t->value->graph, root, &env, t->arena, &input->value.value))
+            break;
         input->value.kind = OPERAND_CONSTANT;
+        if (!has_default(t, input))
+            break;
+    }
     return input->value.kind == OPERAND_CONSTANT;
 }
 
@@ -53,10 +77,12 @@ void translate_set_input(struct translation *t, struct translated_input *input, 
     }
     const char *lacks = value_nodes_add(&t->nodes, &t->value->graph, root, type, &input->value);
     bool fits = !lacks && (choose_generally(t, root, input) || !input->port.uniform);
+    const struct operand zero = value_zero(type); /* what an input without a default has */
     if (lacks)
         translate_report(t, DIAG_ID_translation_op, input->port.name, lacks);
     else if (!fits)
-        translate_report(t, DIAG_ID_translation_varies, input->port.name, input->port.value);
+        translate_report(t, DIAG_ID_translation_varies, input->port.name,
+                         *input->port.value ? input->port.value : text_of(t, &zero));
     input->is_set = fits;
 }
 
