@@ -18,7 +18,7 @@ vec3 mx_coat_darkening(vec3 base_color, float metalness, float specular, float s
     return mix(vec3(1.0), escape / (1.0 - albedo * (1.0 - escape)), weight);
 }
 
-// What a coat lets out of the light that shines below it, facing the viewer.
+// The part that a coat lets out of the light that shines below it, facing the viewer.
 vec3 mx_coat_glow(vec3 coat_color, float ior, float weight)
 {
     return mix(vec3(1.0), coat_color * mx_open_pbr_transmittance(ior), weight);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * What a translation loses. Each input that the document sets is a uniform, while the others have
- * their values: it is lost if the old surface reads it and nothing that the new one reads does.
- * Where a chain leads through other models, the inputs of the surfaces between are looked at in
- * the same way, because a part of an input may be lost there: a hue, while its brightness stays.
+ * Inputs that a translation loses. Each input that the document sets is a uniform, while the others
+ * have their values: it is lost if the old surface reads it and nothing that the new one reads
+ * does. Where a chain leads through other models, the inputs of the surfaces between are looked at
+ * in the same way, because a part of an input may be lost there: a hue, while its brightness stays.
  */
 #include "api/translate.h"
 
@@ -178,7 +178,7 @@ static void forget_draft(struct translation *t)
     t->draft = NULL;
 }
 
-/* What the rest of the chain loses, as if the surface between were the document's. */
+/* Finds what the rest of the chain loses, as if the surface between were the document's. */
 static void find_lost_between(struct translation *t, unsigned step, struct between *b)
 {
     struct translation kept = *t;
