@@ -59,7 +59,7 @@ check 'OSL has no facet without glints' eval '! grep -q slab_facet out'
 check 'a tint gives a shader of OSL' exits 0 "$mxgen" "$examples/slab_glints.mtlx" -e PearlPaint --features -glints --target osl --stdout
 check 'OSL draws the facet of a tint by the point' eval 'test ! -s err && grep -q "hashnoise(P, time)" out && ! grep -q glint_facet out'
 check 'threads give a shader of OSL' exits 0 "$mxgen" "$slabs" -e WrappedSilk --target osl --stdout
-check 'OSL adds vectors as vectors, not as colours' eval 'grep -qF "vector weft_reflection_sum = " out && ! grep -qF "color weft_reflection_sum" out'
+check 'OSL adds vectors as vectors, not as colours' eval 'grep -qF "vector weft_reflection_ggx_compensation = " out && ! grep -qF "color weft_reflection_ggx_compensation" out'
 check 'a clear body gives a shader of OSL' exits 0 "$mxgen" "$examples/slab_bodies.mtlx" -e Amber --target osl --stdout
 check 'OSL lets light through a body in its colour, without total reflection from behind' eval 'grep -q "transparent_bsdf()" out && ! grep -q "vector(0.33333334)" out && grep -q "float(backfacing_)" out'
 cat >regimes.mtlx <<'END'
