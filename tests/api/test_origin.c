@@ -5,43 +5,32 @@
  */
 #include "tests/api/fixture.h"
 
-#define IMAGE(file) \
-    "<image name='img' type='color3'><input name='file' type='filename' value='" file \
-    "'/></image><output name='out' type='color3' nodename='img'/>"
-#define INCLUDE(file) "<xi:include href='" file "'/>"
+/* clang-format off */
+#define GRAPH(attributes, file) \
+    "<nodegraph " attributes "><image name='img' type='color3'><input name='file' type='filename' " file "/></image>" \
+    "<output name='out' type='color3' nodename='img'/></nodegraph>"
+#define DOCUMENT(attributes, elements) "<materialx version='1.39'" attributes ">" elements "</materialx>"
 
 static const struct memory_file files[] = {
-    {"show/lib/wood.mtlx",
-     "<materialx version='1.39'><nodegraph name='wood'>" IMAGE(
-         "wood.png") "</nodegraph>"
-                     "<nodegraph name='own' fileprefix='set/'>" IMAGE(
-                         "own.png") "</nodegraph>"
-                                    "<nodegraph name='fixed' fileprefix='/disk/'>" IMAGE(
-                                        "fixed.png") "</nodegraph>"
-                                                     "<nodedef name='ND_grain' node='grain'><input "
-                                                     "name='file' type='filename' "
-                                                     "value='grain.png'/>"
-                                                     "<output name='out' type='color3'/></nodedef>"
-                                                     "<nodegraph name='NG_grain' "
-                                                     "nodedef='ND_grain'><image name='img' "
-                                                     "type='color3'>"
-                                                     "<input name='file' type='filename' "
-                                                     "interfacename='file'/></image>"
-                                                     "<output name='out' type='color3' "
-                                                     "nodename='img'/></nodegraph></materialx>"},
-    {"maps/iron.mtlx", "<materialx version='1.39'><nodegraph name='iron'>" IMAGE(
-                           "iron.png") "</nodegraph></materialx>"},
-    {"/disk/steel.mtlx", "<materialx version='1.39'><nodegraph name='steel'>" IMAGE(
-                             "steel.png") "</nodegraph></materialx>"},
+    {"show/lib/wood.mtlx", DOCUMENT("",
+        GRAPH("name='wood'", "value='wood.png'")
+        GRAPH("name='own' fileprefix='set/'", "value='own.png'")
+        GRAPH("name='fixed' fileprefix='/disk/'", "value='fixed.png'")
+        "<nodedef name='ND_grain' node='grain'><input name='file' type='filename' value='grain.png'/>"
+        "<output name='out' type='color3'/></nodedef>"
+        GRAPH("name='NG_grain' nodedef='ND_grain'", "interfacename='file'"))},
+    {"maps/iron.mtlx", DOCUMENT("", GRAPH("name='iron'", "value='iron.png'"))},
+    {"/disk/steel.mtlx", DOCUMENT("", GRAPH("name='steel'", "value='steel.png'"))},
     {NULL, NULL},
 };
 
-static const char text[] =
-    "<materialx version='1.39' fileprefix='tex/' "
-    "xmlns:xi='http://www.w3.org/2001/XInclude'>" INCLUDE("show/lib/wood.mtlx")
-        INCLUDE("maps/iron.mtlx") INCLUDE("/disk/steel.mtlx") "<nodegraph name='main'>" IMAGE(
-            "main.png") "</nodegraph><grain name='grain' type='color3'/>"
-                        "</materialx>";
+static const char text[] = DOCUMENT(" fileprefix='tex/' xmlns:xi='http://www.w3.org/2001/XInclude'",
+    "<xi:include href='show/lib/wood.mtlx'/>"
+    "<xi:include href='maps/iron.mtlx'/>"
+    "<xi:include href='/disk/steel.mtlx'/>"
+    GRAPH("name='main'", "value='main.png'")
+    "<grain name='grain' type='color3'/>");
+/* clang-format on */
 
 static const struct row {
     const char *element, *path;
@@ -126,8 +115,8 @@ static void test_copied(struct suite *s)
 /* The file is another one if another document names it. */
 static void test_changed(struct suite *s)
 {
-    static const char moved[] = "<materialx version='1.39' fileprefix='tex/'><nodegraph "
-                                "name='wood'>" IMAGE("wood.png") "</nodegraph></materialx>";
+    static const char moved[] =
+        DOCUMENT(" fileprefix='tex/'", GRAPH("name='wood'", "value='wood.png'"));
     mxg_document *after = NULL;
     mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
     mxg_result *results[2] = {NULL, NULL};
