@@ -218,22 +218,21 @@ static bool check_required(struct gltf_source *source)
 
 /* ---- Numbers of the schema ---- */
 
-/* Members that count bytes, or name the scene: whole numbers of 0 or more, or absent. */
+/* Members that count bytes: whole numbers of 0 or more, or absent. */
 static const struct {
-    const char *array, *parts[2], *member;
+    const char *array, *shown, *path[3];
 } counts[] = {
-    {"accessors", {NULL}, "byteOffset"},
-    {"accessors", {"sparse", "indices"}, "byteOffset"},
-    {"accessors", {"sparse", "values"}, "byteOffset"},
-    {"bufferViews", {NULL}, "byteOffset"},
-    {"bufferViews", {NULL}, "byteLength"},
-    {"bufferViews", {NULL}, "byteStride"},
-    {"buffers", {NULL}, "byteLength"},
+    {"accessors", "byteOffset", {"byteOffset"}},
+    {"accessors", "sparse.indices.byteOffset", {"sparse", "indices", "byteOffset"}},
+    {"accessors", "sparse.values.byteOffset", {"sparse", "values", "byteOffset"}},
+    {"bufferViews", "byteOffset", {"byteOffset"}},
+    {"bufferViews", "byteLength", {"byteLength"}},
+    {"bufferViews", "byteStride", {"byteStride"}},
+    {"buffers", "byteLength", {"byteLength"}},
 };
 
-static bool is_count_or_absent(const json_t *object, const char *member)
+static bool is_count_or_absent(const json_t *value)
 {
-    const json_t *value = json_object_get(object, member);
     return !value || (json_is_integer(value) && json_integer_value(value) >= 0);
 }
 
@@ -245,18 +244,14 @@ static bool check_counts(struct gltf_source *source)
         size_t i;
         json_array_foreach(json_object_get(source->root, counts[row].array), i, item)
         {
-            for (size_t part = 0; part < 2 && counts[row].parts[part]; ++part)
-                item = json_object_get(item, counts[row].parts[part]);
-            if (!is_count_or_absent(item, counts[row].member))
-                return gltf_source_fail(source, "%s[%zu]%s%s%s%s.%s is no whole number from 0",
-                                        counts[row].array, i, counts[row].parts[0] ? "." : "",
-                                        counts[row].parts[0] ? counts[row].parts[0] : "",
-                                        counts[row].parts[1] ? "." : "",
-                                        counts[row].parts[1] ? counts[row].parts[1] : "",
-                                        counts[row].member);
+            for (size_t part = 0; part < 3 && counts[row].path[part]; ++part)
+                item = json_object_get(item, counts[row].path[part]);
+            if (!is_count_or_absent(item))
+                return gltf_source_fail(source, "%s[%zu].%s is no whole number from 0",
+                                        counts[row].array, i, counts[row].shown);
         }
     }
-    return is_count_or_absent(source->root, "scene")
+    return is_count_or_absent(json_object_get(source->root, "scene"))
            || gltf_source_fail(source, "its \"scene\" is no whole number from 0");
 }
 
