@@ -12,8 +12,8 @@
 #include <string>
 
 /*
- * An OpenEXR file has the date of its making, so that equal pictures differ, unless the attribute
- * has a type that no file keeps. OpenImageIO tells that where it tells programmers of faults.
+ * OpenImageIO writes the date into each OpenEXR file, and equal pictures would differ. It leaves
+ * out an attribute of a type that OpenEXR does not have, and says so only with its option "debug".
  */
 inline void leave_out_date(const OIIO::ImageOutput &output, OIIO::ImageSpec &spec)
 {

@@ -319,11 +319,12 @@ static void keep_files(struct edit_change *c, const struct document *from)
 {
     struct document *doc = edit_tree(c->edit);
     const char *folder = doc_place(doc, doc->root).file;
-    for (elem_id old = c->other, new = c->result; old &&new && !c->failed;
-         old = doc_next_in_tree(from, c->other, old), new = doc_next_in_tree(doc, c->result, new)) {
-        const char *prefix = doc_prefix_from(from, old, folder, &c->edit->document->object.arena);
+    elem_id copy = c->result;
+    for (elem_id e = c->other; e && copy && !c->failed; e = doc_next_in_tree(from, c->other, e)) {
+        const char *prefix = doc_prefix_from(from, e, folder, &c->edit->document->object.arena);
         if (prefix)
-            doc_set_attr(doc, new, STR_fileprefix, edit_word(c, prefix));
+            doc_set_attr(doc, copy, STR_fileprefix, edit_word(c, prefix));
+        copy = doc_next_in_tree(doc, c->result, copy);
     }
 }
 

@@ -186,16 +186,23 @@ static ir_ref build_plain(struct ir_graph *g, enum ir_op op, ir_type_id wanted, 
     return type == IR_TYPE_VOID ? 0 : ir_build(g, op, type, 0, args, n);
 }
 
+/* False for an op that node.h does not offer: a source, a call, or one with an attribute. */
+static bool is_offered(enum ir_op op)
+{
+    bool is_source = op <= IR_POISON, is_special = op == IR_SWIZZLE || op == IR_MEMBER,
+         is_call = op >= IR_CALL && op <= IR_LEAF;
+    return !is_source && !is_special && !is_call;
+}
+
 /* IR_NUM_OPS: there is no op of this name that node.h offers. */
 static enum ir_op find_op(const char *name)
 {
-    unsigned op = name ? 0 : IR_NUM_OPS;
-    for (const char *text; op < IR_NUM_OPS; op++)
-        if (*(text = ir_op_info((enum ir_op)op)->text) == *name && strcmp(text, name) == 0)
-            break;
-    bool is_source = op <= IR_POISON, is_special = op == IR_SWIZZLE || op == IR_MEMBER,
-         is_call = op >= IR_CALL && op <= IR_LEAF;
-    return is_source || is_special || is_call ? IR_NUM_OPS : (enum ir_op)op;
+    for (unsigned op = 0; name && op < IR_NUM_OPS; op++) {
+        const char *text = ir_op_info((enum ir_op)op)->text;
+        if (text[0] == name[0] && strcmp(text, name) == 0)
+            return is_offered((enum ir_op)op) ? (enum ir_op)op : IR_NUM_OPS;
+    }
+    return IR_NUM_OPS;
 }
 
 static void make_op(void *request)

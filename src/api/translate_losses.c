@@ -50,6 +50,10 @@ static bool **find_dependences(struct translation *t)
     return all;
 }
 
+/*
+ * True if the new surface depends on a source while the others have their values. `all` tells which
+ * inputs may, so that the others need no generation.
+ */
 static bool stays(struct translation *t, bool *const *all, uint32_t source)
 {
     bool found = t->sources.items[source].is_used;

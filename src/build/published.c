@@ -117,12 +117,10 @@ static str_id variable_name(struct builder *b, elem_id node, str_id input)
     struct text *name = &b->scratch;
     name->len = 0;
     str_id owner = doc_element(build_doc(b), node)->name; /* 0: the document */
-    str_id outer[] = {b->slot, owner}; /* the slot, because layers may share nodes */
-    for (unsigned i = 0; i < 2; i++)
-        if (outer[i]) {
-            text_str(name, build_text(b, outer[i]));
-            text_char(name, '_');
-        }
+    if (b->slot)                                          /* layers may share nodes */
+        text_fmt(name, "%s_", build_text(b, b->slot));
+    if (owner)
+        text_fmt(name, "%s_", build_text(b, owner));
     text_str(name, build_text(b, input));
     return str_intern(b->shader->strings, name->data, name->len);
 }

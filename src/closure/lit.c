@@ -132,7 +132,8 @@ static void accumulate_parts(struct emitter *e, const char *section,
     ir_ref sum = 0;
     for (uint32_t i = 0; i < count; i++) {
         sum = ir_sum(g, sum, parts[i].value);
-        ir_suggest_name(g, sum, i ? STR_response : 0, IR_NAME_ROLE);
+        if (i)
+            ir_suggest_name(g, sum, STR_response, IR_NAME_ROLE);
     }
     comment_leaves(e, section, parts, count);
     if (guard) {

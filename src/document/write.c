@@ -117,10 +117,12 @@ static void write_start_tag(const struct document *doc, elem_id element, uint32_
         e->file != doc_element(doc, doc->root)->file
             ? doc_prefix_from(doc, element, doc_place(doc, doc->root).file, out->arena)
             : NULL;
-    for (uint32_t i = 0; i < e->num_attrs; i++)
-        if (declares_xi ? strcmp(str_text(doc->strings, attrs[i].name), "xmlns:xi") != 0
-                        : !prefix || attrs[i].name != STR_fileprefix)
+    for (uint32_t i = 0; i < e->num_attrs; i++) {
+        bool is_xi = declares_xi && strcmp(str_text(doc->strings, attrs[i].name), "xmlns:xi") == 0,
+             is_prefix = prefix && attrs[i].name == STR_fileprefix;
+        if (!is_xi && !is_prefix)
             write_attr(doc, attrs[i].name, attrs[i].value, out);
+    }
     if (declares_xi)
         text_str(out, " xmlns:xi=\"http://www.w3.org/2001/XInclude\"");
     if (prefix)

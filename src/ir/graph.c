@@ -6,7 +6,7 @@
 
 #include <assert.h>
 
-/* a shading model has a few hundred nodes */
+/* a shading model has about a thousand nodes */
 enum { FIRST_NODES = 1280 };
 
 static struct ir_content content_of(const struct ir_graph *graph, ir_ref ref)

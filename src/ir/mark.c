@@ -65,14 +65,14 @@ static ir_ref used_poison(const struct ir_graph *graph, ir_ref ref)
 ir_ref ir_find_poison(const struct ir_graph *graph, const ir_ref *roots, uint32_t num_roots,
                       struct arena *arena)
 {
-    ir_ref ref = 1, found = 0;
+    ir_ref ref = 1; /* nodes before the first poison use none */
     while (ref < graph->nodes.len && !is_poison(graph, ref))
         ref++;
     if (ref == graph->nodes.len)
         return 0;
     const uint8_t *marked = ir_mark(graph, roots, num_roots, arena);
-    found = first_poison(graph, roots, num_roots);
-    for (ref = 1; ref < graph->nodes.len && !found; ref++)
+    ir_ref found = first_poison(graph, roots, num_roots);
+    for (; ref < graph->nodes.len && !found; ref++)
         if (marked[ref])
             found = used_poison(graph, ref);
     return found;

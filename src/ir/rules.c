@@ -33,7 +33,10 @@ enum { FINITE, EXACT };
 #define OPERANDS(...) __VA_ARGS__, A, A
 #define IS_VARIABLE(token) ((token) >= A && (token) < K)
 #define OP_OF(token) ((token) < A ? (token) : CONST)
-/* Operands behind one that has operands of its own stand elsewhere in the pattern. */
+/*
+ * The members `at` and `op` of a rule. Operands behind one that has operands of its own stand
+ * elsewhere in the pattern, so the first one is taken.
+ */
 #define CHECKED_(op, a, b, c, ...) \
     !IS_VARIABLE(a)   ? 0 \
     : !IS_VARIABLE(b) ? 1 \

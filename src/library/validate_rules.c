@@ -322,8 +322,10 @@ void validate_implementations(struct validate *v, struct arena *scratch)
                      text_of(v, doc_element(v->doc, claims[i - 1].element)->name));
 }
 
-/* The version of `a` that a node without a version gets may be `b`, too: alike outputs, and no
- * input of another type. */
+/*
+ * True if a node without a version may mean both definitions: their outputs are alike, and no input
+ * has another type.
+ */
 static bool is_rival(const struct library *lib, const struct nodedef *a, const struct nodedef *b)
 {
     const struct port *of_a = &lib->ports.items[a->first_port];

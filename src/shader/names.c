@@ -9,7 +9,7 @@
 void names_init(struct name_set *names, struct arena *arena, const struct lang_syntax *syntax)
 {
     *names = (struct name_set){.arena = arena, .syntax = syntax};
-    table_reserve(&names->table, arena, 128);
+    table_reserve(&names->table, arena, 128); /* as many as a shading model has */
 }
 
 const char *names_renamed(const struct name_rules *rules, const char *text, size_t len)

@@ -134,8 +134,10 @@ struct shader_light {
     str_id name; /* of the node, for comments and reflection */
     /* lang function: inputs, P, out direction, out intensity; or LANG_NONE with */
     uint32_t function;
-    /* lang function of one of its points, for roles that trace paths: inputs, P, random numbers,
-     * out direction, out intensity, out distance; or LANG_NONE */
+    /*
+     * lang function of one of its points, for roles that trace paths: inputs, P, random numbers,
+     * out direction, out intensity, out distance; or LANG_NONE
+     */
     uint32_t sample;
     /* verbatim source: (LightData, P, out lightshader); or UINT32_MAX with */
     uint32_t source;

@@ -616,13 +616,18 @@ static void find_scattering(struct walk *w)
     }
 }
 
+/* False: no node up to this one is a slab, so none depends on one. */
+static bool may_have_slabs(const struct ir_graph *g, ir_ref last)
+{
+    while (last && !is_slab(ir_get(g, last)))
+        last--;
+    return last != 0;
+}
+
 bool slabs_has(const struct shader *shader, ir_ref ref)
 {
     struct slab_nodes nodes;
-    ir_ref any = ref;
-    while (any && !is_slab(ir_get(shader->graph, any)))
-        any--;
-    if (!any)
+    if (!may_have_slabs(shader->graph, ref))
         return false;
     slabs_find_nodes(shader->graph, ref, shader->arena, &nodes);
     return find_slabs(shader, &nodes)[nodes.items.len - 1];
@@ -646,10 +651,12 @@ ir_ref slabs_walk(struct shader *shader, const struct slabs_host *host, ir_ref r
 {
     struct ir_graph *g = shader->graph;
     struct walk w = {.shader = shader, .graph = g, .host = host};
-    if (!slabs_has(shader, root))
+    if (!may_have_slabs(g, root))
         return root;
     slabs_find_nodes(g, root, shader->arena, &w.nodes);
     w.has_slabs = find_slabs(shader, &w.nodes);
+    if (!has_slabs(&w, root))
+        return root;
     w.spreads = find_variances(&w, SLAB_ROUGHNESS, slab_spread);
     w.slopes = find_variances(&w, SLAB_REFRACTION, slab_slope);
     if (!host->walks)

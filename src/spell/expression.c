@@ -368,14 +368,9 @@ static void write_light(struct spell *spell, uint32_t attr, enum lang_precedence
     struct text light;
     text_init(&light, spell->scratch);
     const char *instance = spell_instance(spell, BLOCK_LIGHT_DATA);
-    const char *parts[] = {instance ? instance : "",
-                           instance ? "." : "",
-                           spell_frame_name(spell, "u_lightData"),
-                           "[",
-                           spell->loop_index,
-                           "]"};
-    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
-        text_str(&light, parts[i]);
+    if (instance)
+        text_fmt(&light, "%s.", instance);
+    text_fmt(&light, "%s[%s]", spell_frame_name(spell, "u_lightData"), spell->loop_index);
     if (!ir_is_light_member(attr)) {
         text_mem(spell->out, light.data, light.len);
         return;

@@ -55,6 +55,7 @@ enum lang_kind {
     LANG_NUM_KINDS
 };
 
+/* beside the name in the member c of an operation: it is that of a function */
 #define LANG_OF_FUNCTION (1u << 31)
 
 struct lang_node {
