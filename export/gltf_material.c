@@ -4,6 +4,7 @@
 
 #include "program/memory.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -42,18 +43,26 @@ static float value_of(const struct state *state, const char *name, float otherwi
 
 /* ---- Values ---- */
 
-static void clamp(const struct state *state, const struct cell *cell, float low, float high)
+static float clamped(const struct gltf_input *row, float value)
+{
+    bool is_zero = row->or_zero && value == 0;
+    return is_zero ? value : fmaxf(fminf(value, row->high), row->low);
+}
+
+/* Tells that numbers from `low` to `high` become those of the range. */
+static void tell_clamped(const struct state *state, const struct gltf_input *row, float low,
+                         float high)
 {
     const float slack = 1e-3f; /* of values that are rounded */
-    bool is_open = cell->row->is_open;
-    if (low >= -slack && (is_open || high <= 1 + slack))
+    if (fabsf(clamped(row, low) - low) <= slack && fabsf(clamped(row, high) - high) <= slack)
         return;
     const struct flat *flat = state->gltf->flat;
-    char *place = flat_input_place(flat, state->material, cell->row->name);
+    char *place = flat_input_place(flat, state->material, row->name);
     report_warning(flat->report, "export-clamped",
-                   "'%s/%s' (%s) has values from %g to %g; glTF keeps those from 0 to %s",
-                   state->material->name, cell->row->name, place, (double)low, (double)high,
-                   is_open ? "infinity" : "1");
+                   "'%s/%s' (%s) has values from %g to %g; glTF keeps %sthose from %g to %s",
+                   state->material->name, row->name, place, (double)low, (double)high,
+                   row->or_zero ? "0 and " : "", (double)row->low,
+                   isinf(row->high) ? "infinity" : "1");
     free(place);
 }
 
@@ -70,8 +79,8 @@ static bool read_texture(const struct state *state, struct cell *cell)
     if (is_number
         && !texture_find_range(state->gltf->flat->report, &cell->input->image, &low, &high))
         return false;
-    clamp(state, cell, low, high);
-    cell->range = cell->row->is_open && high > 1 ? high : 1;
+    tell_clamped(state, cell->row, low, high);
+    cell->range = fmaxf(clamped(cell->row, high), 1);
     for (unsigned i = 0; i < 4; ++i)
         cell->factor[i] = is_angle(cell) ? 0 : cell->range;
     return true;
@@ -84,12 +93,9 @@ static void read_value(const struct state *state, struct cell *cell)
         float value = cell->input ? cell->input->values[i] : cell->row->value;
         low = fminf(low, value);
         high = fmaxf(high, value);
-        cell->factor[i] = fmaxf(cell->row->is_open ? value : fminf(value, 1), 0);
+        cell->factor[i] = clamped(cell->row, value);
     }
-    if (is_angle(cell))
-        cell->factor[0] = cell->input ? cell->input->values[0] : 0;
-    else
-        clamp(state, cell, low, high);
+    tell_clamped(state, cell->row, low, high);
     cell->is_plain =
         !cell->row->factor && cell->row->count == 1 && cell->factor[0] != cell->row->omitted;
     cell->is_textured = cell->is_plain;
@@ -127,7 +133,7 @@ static void move_strength(struct state *state)
         return;
     for (unsigned i = 0; i < 3; ++i)
         color->factor[i] /= most;
-    strength->factor[0] *= most;
+    strength->factor[0] = fminf(strength->factor[0] * most, FLT_MAX);
 }
 
 static bool is_zero(struct state *state, const char *name)
@@ -178,7 +184,9 @@ static bool does_something(struct state *state, const struct cell *cell)
     for (size_t i = 0; i < 2 && cell->row->needs[i]; ++i)
         if (is_zero(state, cell->row->needs[i]))
             return false;
-    return strcmp(cell->row->name, "alpha") != 0 || state->alpha_mode != OPAQUE_MODE;
+    return strcmp(cell->row->name, "alpha") == 0          ? state->alpha_mode != OPAQUE_MODE
+           : strcmp(cell->row->name, "alpha_cutoff") == 0 ? state->alpha_mode == MASK_MODE
+                                                          : true;
 }
 
 /* ---- Textures ---- */
@@ -392,23 +400,11 @@ static bool add_texture_info(struct state *state, const struct cell *cell)
     return true;
 }
 
-static void add_alpha(struct state *state)
-{
-    const float usual = 0.5f;
-    float cutoff = value_of(state, "alpha_cutoff", usual);
-    if (state->alpha_mode != OPAQUE_MODE)
-        json_set(state->json, "alphaMode",
-                 json_string(state->alpha_mode == MASK_MODE ? "MASK" : "BLEND"));
-    if (state->alpha_mode == MASK_MODE && cutoff != usual)
-        json_set(state->json, "alphaCutoff", number(cutoff));
-}
-
 static void tell_others(struct state *state)
 {
-    static const char *const modes[] = {"alpha_mode", "alpha_cutoff", NULL};
     for (size_t i = 0; i < state->material->num_inputs; ++i) {
         const char *name = state->material->inputs[i].name;
-        bool is_known = args_is_one_of(name, modes);
+        bool is_known = strcmp(name, "alpha_mode") == 0;
         for (size_t k = 0; k < gltf_num_inputs; ++k)
             is_known = is_known || strcmp(gltf_inputs[k].name, name) == 0;
         if (!is_known)
@@ -442,7 +438,8 @@ bool gltf_add_material(struct gltf *gltf, const struct flat_material *material, 
             || (cell->is_textured && !cell->row->factor && !cell->is_plain && cell->row->count == 3)
             || cell->row->image == GLTF_ANISOTROPY;
     }
-    add_alpha(&state);
+    if (state.alpha_mode != OPAQUE_MODE)
+        json_set_text(state.json, "alphaMode", state.alpha_mode == MASK_MODE ? "MASK" : "BLEND");
     /* Both sides of a surface are the material, unless it bounds a volume. */
     if (is_zero(&state, "thickness"))
         json_set(state.json, "doubleSided", json_true());

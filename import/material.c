@@ -121,35 +121,35 @@ static void add_input(struct import_material *material, mxg_element shader,
 /* ---- Surfaces ---- */
 
 /* 0 opaque, 1 mask, 2 blend */
-static int alpha_mode_of(const struct import_material *material, float *out_cutoff)
+static int alpha_mode_of(const struct import_material *material)
 {
     const char *mode = json_text_of(material->json, "alphaMode");
-    const json_t *cutoff = json_object_get(material->json, "alphaCutoff");
-    *out_cutoff = cutoff ? (float)json_number_value(cutoff) : 0.5f;
     return strcmp(mode, "MASK") == 0 ? 1 : strcmp(mode, "BLEND") == 0 ? 2 : 0;
 }
 
 static void add_lit(struct import_material *material, mxg_element shader)
 {
     mxg_edit *edit = material->importing->edit;
-    const float usual = 0.5f;
-    float cutoff;
-    int mode = alpha_mode_of(material, &cutoff);
-    for (size_t i = 0; i < gltf_num_inputs; ++i)
-        if (mode || strcmp(gltf_inputs[i].name, "alpha") != 0)
+    int mode = alpha_mode_of(material);
+    for (size_t i = 0; i < gltf_num_inputs; ++i) {
+        const char *name = gltf_inputs[i].name;
+        bool is_idle = strcmp(name, "alpha") == 0          ? mode == 0
+                       : strcmp(name, "alpha_cutoff") == 0 ? mode != 1
+                                                           : false;
+        if (!is_idle)
             add_input(material, shader, &gltf_inputs[i]);
+    }
     if (mode)
         mxg_edit_set_value(edit, shader, "alpha_mode", "integer", mode == 1 ? "1" : "2");
-    if (mode == 1 && cutoff != usual)
-        mxg_edit_set_numbers(edit, shader, "alpha_cutoff", "float", &cutoff, 1);
 }
 
 /* A mask as a number: 1 where alpha reaches the cutoff. */
-static void add_mask(struct import_material *material, mxg_element shader, float alpha,
-                     float cutoff)
+static void add_mask(struct import_material *material, mxg_element shader, float alpha)
 {
     mxg_edit *edit = material->importing->edit;
     const float one = 1;
+    float cutoff;
+    read_factor(material->json, gltf_find_input("alpha_cutoff"), &cutoff);
     struct import_port port = read_texture(material, gltf_find_input("alpha"), &alpha);
     open_graph(material);
     mxg_element mask = import_node(material, "ifgreatereq", "opaque", "float");
@@ -165,12 +165,12 @@ static void add_mask(struct import_material *material, mxg_element shader, float
 /* KHR_materials_unlit: the base colour as it is. */
 static void add_unlit(struct import_material *material, mxg_element shader)
 {
-    float color[4], cutoff;
-    int mode = alpha_mode_of(material, &cutoff);
+    float color[4];
+    int mode = alpha_mode_of(material);
     read_color(material, color);
     add_value(material, shader, gltf_find_input("base_color"), "emission_color", color);
     if (mode == 1)
-        add_mask(material, shader, color[3], cutoff);
+        add_mask(material, shader, color[3]);
     else if (mode == 2)
         add_value(material, shader, gltf_find_input("alpha"), "opacity", &color[3]);
 }

@@ -24,7 +24,6 @@ struct member {
 
 /* Those beside the factors of program/gltf_inputs.h. */
 static const struct member members[] = {
-    {"alphaCutoff", NUMBER, 0, {0}},
     {"alphaMode", WORD, 0, {"OPAQUE", "MASK", "BLEND"}},
     {"extensions", OBJECT, 0, {0}},
     {"index", COUNT, INT32_MAX, {0}},

@@ -41,7 +41,8 @@ struct gltf_input {
     unsigned count;       /* of its numbers */
     unsigned at;          /* of the factor: its first number there */
     bool has_array;       /* the factor is an array, of which other inputs may be a part */
-    bool is_open;         /* it may be greater than 1, also in a texture */
+    float low, high;      /* the range of its numbers, a texture's too; an end may be infinite */
+    bool or_zero;         /* 0 is allowed below the range, too */
     float value;          /* without the input */
     float omitted;        /* the value that glTF has without the member */
     const char *needs[2]; /* inputs that must not be 0, or this one does nothing */

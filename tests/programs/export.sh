@@ -279,6 +279,23 @@ EOF
 check 'what glTF does not have is a loss' eval 'exits 0 "$mxgen" export bad.mtlx -e turned -o loss.gltf && has err "turned/tangent'"'"' (bad.mtlx:3:" "[export-loss]" "from 0 to 3" "[export-clamped]"'
 check 'or an error' eval 'exits 1 "$mxgen" export bad.mtlx -e turned -o none.gltf -W error=export-loss && has err "error: '"'"'turned/tangent" && test ! -e none.gltf'
 check 'or nobody wants to know' eval 'exits 0 "$mxgen" export bad.mtlx -e turned -o loss.gltf -Wno-export-loss && ! grep export-loss err'
+# Each number out of the range of glTF's schemas, with the weights that make it do something.
+ranges() { # VALUE NAME...
+    local value=$1 name
+    shift
+    echo '<?xml version="1.0"?>' '<materialx version="1.39"><gltf_pbr name="S" type="surfaceshader">'
+    for name in alpha_mode:integer:1 "$@"; do
+        IFS=: read -r name type own <<<"$name"
+        echo "<input name=\"$name\" type=\"${type:-float}\" value=\"${own:-$value}\"/>"
+    done
+    echo '</gltf_pbr></materialx>'
+}
+weights='emissive:color3:1,1,1 transmission::1 thickness::1 iridescence::1 sheen_color:color3:1,1,1 clearcoat::1 anisotropy_strength::1'
+low='alpha alpha_cutoff metallic roughness occlusion emissive_strength ior specular clearcoat_roughness sheen_roughness attenuation_distance dispersion iridescence_ior iridescence_thickness'
+check 'numbers below the range of glTF are told, each one' eval 'ranges -1 $weights $low anisotropy_rotation >low.mtlx && exits 0 "$mxgen" export low.mtlx -o low.glb && [ "$(grep -c "has values from -1 to -1; glTF keeps .*\[export-clamped\]" err)" = "$(wc -w <<<"$low")" ] && ! grep rotation err'
+check 'and are in the range' eval 'member low.glb materials/0/extensions/KHR_materials_iridescence/iridescenceIor 1.0 && member low.glb materials/0/alphaCutoff 0.0'
+check 'indices between 0 and 1 are told, and 0 is not' eval 'ranges 0.5 $weights iridescence_ior ior >half.mtlx && exits 0 "$mxgen" export half.mtlx -o half.glb && has err "/ior" "glTF keeps 0 and those from 1 to infinity" "/iridescence_ior" && ranges 0 ior >zero.mtlx && exits 0 "$mxgen" export zero.mtlx -o zero.glb && ! grep export-clamped err && member zero.glb materials/0/extensions/KHR_materials_ior/ior 0.0'
+check 'a strength beyond all numbers stays one' eval 'ranges 3e38 emissive:color3:9,9,9 emissive_strength >huge.mtlx && exits 0 "$mxgen" export huge.mtlx -o huge.glb && member huge.glb materials/0/extensions/KHR_materials_emissive_strength/emissiveStrength 3.402823e+38'
 bad() { exits 1 "$mxgen" export "$1" -e "$2" -o none.gltf && has err "${@:3}" && test ! -e none.gltf && test ! -e none.bin; }
 cat >own.mtlx <<'EOF'
 <?xml version="1.0"?>
@@ -304,7 +321,7 @@ check 'nothing of failures is left' test "$(ls -A "$TMPDIR" | wc -l)" = 0
 check 'an unknown ending fails' exits 2 "$mxgen" export all.mtlx -o none.fbx
 check 'export without an output fails' exits 2 "$mxgen" export all.mtlx
 if [ -d "$root/tests/npm/node_modules/gltf-validator" ] && command -v node >valid.log; then
-    check "Khronos' validator has no objection" valid 'out1/all of it.gltf' all.glb marble.glb image.gltf aces.glb tall.glb loss.gltf placed.gltf unlit.gltf
+    check "Khronos' validator has no objection" valid 'out1/all of it.gltf' all.glb marble.glb image.gltf aces.glb tall.glb loss.gltf placed.gltf unlit.gltf low.glb half.glb zero.glb huge.glb
 else
     skip 'no gltf-validator (npm ci --prefix tests/npm) or no node'
 fi
