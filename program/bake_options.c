@@ -26,8 +26,7 @@ size_t bake_args(struct bake_options *options, struct arg args[MAX_BAKE_ARGS])
          "format of images (default: png for values from 0 to 1, otherwise exr)", &options->format},
         {"depth", 0, ARG_SIZE, "BITS",
          "bits of a number: 8 or 16 in png (default: 8); 16 or 32 in exr (default: 16 for colors "
-         "up to "
-         "65504, otherwise 32)",
+         "up to 65504, otherwise 32); 8 in jpg",
          &options->depth, .low = 8, .high = 32},
         {"padding", 0, ARG_SIZE, "N",
          "texels around the triangles of a mesh that take the nearest color (default: 16)",

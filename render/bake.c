@@ -28,6 +28,27 @@ static const char *setting(const struct cli *cli, const char *key, const char *o
     return otherwise;
 }
 
+/* False after a message, if the format that is asked for does not have the depth. */
+static bool check_depth(const struct bake_options *options)
+{
+    static const struct {
+        const char *format, *text; /* format NULL: by content */
+        size_t depths[3];
+    } rows[] = {{"png", "png has 8 or 16 bits", {8, 16}},
+                {"exr", "exr has 16 or 32 bits", {16, 32}},
+                {"jpg", "jpg has 8 bits", {8}},
+                {NULL, "an image has 8, 16 or 32 bits", {8, 16, 32}}};
+    size_t row = 0;
+    while (rows[row].format && (!options->format || strcmp(rows[row].format, options->format) != 0))
+        ++row;
+    bool is_known = !options->depth;
+    for (size_t i = 0; i < 3; ++i)
+        is_known = is_known || rows[row].depths[i] == options->depth;
+    if (!is_known)
+        fprintf(stderr, "mxgen: %s, and not %zu\n", rows[row].text, options->depth);
+    return is_known;
+}
+
 /* false after a message. */
 static bool parse(struct baking *baking)
 {
@@ -40,15 +61,9 @@ static bool parse(struct baking *baking)
         fputs("usage: mxgen bake FILE|FOLDER -o DIR; --element is for a file\n", stderr);
         return false;
     }
-    if ((options->format && !check_word("format", options->format, formats))
-        || !check_word("missing-texture", options->missing_texture, missing)
-        || !cli_options_apply(cli, (const char *const[]){"vulkan"}, 1))
-        return false;
-    if (options->depth && options->depth != 8 && options->depth != 16 && options->depth != 32) {
-        fprintf(stderr, "mxgen: an image has 8, 16 or 32 bits, and not %zu\n", options->depth);
-        return false;
-    }
-    return true;
+    return (!options->format || check_word("format", options->format, formats))
+           && check_word("missing-texture", options->missing_texture, missing)
+           && check_depth(options) && cli_options_apply(cli, (const char *const[]){"vulkan"}, 1);
 }
 
 void bake_begin(struct baking *baking, const char *path)

@@ -53,11 +53,12 @@ static bool fits_half(const struct bake_drawing *drawing)
 
 static const char *ending_of(struct baking *baking, const struct bake_drawing *drawing)
 {
+    enum { DEPTH_OF_EXR = 32 };
     const char *said = baking->options.format;
     bool is_within = drawing->low >= -SLACK && drawing->high <= 1 + SLACK,
          has_four = bake_channels(drawing->type) == 4;
     if (!said || (has_four && strcmp(said, "jpg") == 0)) /* JPEG has no fourth channel */
-        return is_within && !has_four ? "png" : "exr";
+        return is_within && !has_four && baking->options.depth != DEPTH_OF_EXR ? "png" : "exr";
     if (!is_within && strcmp(said, "exr") != 0)
         tell_clamped(baking, drawing, said, 0, 1);
     return said;
@@ -75,9 +76,8 @@ static struct image_format format_of(struct baking *baking, const struct bake_dr
 {
     bool is_float = strcmp(ending, "exr") == 0;
     uint32_t said = (uint32_t)baking->options.depth;
-    bool is_half = said ? said < 32 : is_color(drawing) && fits_half(drawing);
-    uint32_t float_depth = is_half ? 16 : 32,
-             whole_depth = said >= 16 && strcmp(ending, "png") == 0 ? 16 : 8;
+    bool is_half = said >= 16 ? said < 32 : is_color(drawing) && fits_half(drawing);
+    uint32_t float_depth = is_half ? 16 : 32, whole_depth = said ? said : 8;
     if (is_float && is_half && !fits_half(drawing))
         tell_clamped(baking, drawing, "exr with 16 bits", (double)-MOST_OF_HALF,
                      (double)MOST_OF_HALF);

@@ -203,6 +203,20 @@ EOF
 most() { python3 -c 'import sys; sys.path.insert(0, sys.argv[1]); import exr; print(max(max(row) for rows in exr.read(sys.argv[2])[2].values() for row in rows))' "$here" "$1"; }
 check 'colours beyond half floats have 32 bits' eval 'exits 0 "$mxgen" bake huge.mtlx -o huge --size 8 && ! grep -q bake-clamped err && [ "$(most huge/*.exr)" = 187500.0 ]'
 check 'with 16 bits they are told, and stay finite' eval 'exits 0 "$mxgen" bake huge.mtlx -o half --size 8 --depth 16 && has err "exr with 16 bits keeps those from -65504 to 65504 [bake-clamped]" && [ "$(most half/*.exr)" = 65504.0 ]'
+cat >mild.mtlx <<'EOF'
+<?xml version="1.0"?>
+<materialx version="1.39">
+  <ramplr name="ramp" type="color3"><input name="valuel" type="color3" value="0, 0, 0"/><input name="valuer" type="color3" value="1, 0.5, 0"/></ramplr>
+  <standard_surface name="SR" type="surfaceshader"><input name="base_color" type="color3" nodename="ramp"/></standard_surface>
+</materialx>
+EOF
+for row in 'png 32 8 or 16' 'exr 8 16 or 32' 'jpg 16 8' 'jpg 32 8' 'png 24 8 or 16'; do
+    read -r format depth depths <<<"$row"
+    check "$depth bits in $format are an error that says which it has" eval 'exits 2 "$mxgen" bake mild.mtlx -o none --size 4 -f $format --depth $depth && has err "$format has $depths bits, and not $depth" && test ! -e none'
+done
+check 'a depth that no format has is one, too' eval 'exits 2 "$mxgen" bake mild.mtlx -o none --size 4 --depth 24 && has err "an image has 8, 16 or 32 bits, and not 24"'
+check 'only EXR has 32 bits, so images become EXR' eval 'exits 0 "$mxgen" bake mild.mtlx -o deep --size 4 --depth 32 && [ "$(ls deep)" = "$(printf "SR_base_color.exr\nmild.mtlx")" ]'
+check '8 bits are those of PNG, and numbers beyond it keep theirs' eval 'exits 0 "$mxgen" bake huge.mtlx -o whole --size 8 --depth 8 && ! grep -q bake-clamped err && [ "$(most whole/*.exr)" = 187500.0 ]'
 cat >outputs.mtlx <<'EOF'
 <?xml version="1.0"?>
 <materialx version="1.39">
