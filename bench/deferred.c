@@ -9,9 +9,9 @@
  *   compared.
  */
 #define _POSIX_C_SOURCE 200809L
-#include "bench/drawn.h"
+#include "bench/frame_time.h"
 #include "render/matrix.h"
-#include "render/passes.h"
+#include "render/deferred_passes.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -18,7 +18,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "bench/foreign.h"
 
-#include "bench/drawn.h"
+#include "bench/frame_time.h"
 #include "render/render.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/foreign.h"
 
-#include "bench/drawn.h"
+#include "bench/frame_time.h"
 #include "program/files.h"
 
 #include <stdio.h>

@@ -7,8 +7,8 @@
 #ifndef MXG_BENCH_FOREIGN_H
 #define MXG_BENCH_FOREIGN_H
 
-#include "program/json.h"
-#include "render/bind.h"
+#include "program/json_values.h"
+#include "render/bind_shader.h"
 
 enum { FOREIGN_MAX_VARIABLES = 512 };
 

@@ -12,7 +12,7 @@
  */
 #define _POSIX_C_SOURCE 200809L
 #include "bench/counted.h"
-#include "bench/drawn.h"
+#include "bench/frame_time.h"
 #include "render/render.h"
 
 #include <mxgen/mxgen.h>

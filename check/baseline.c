@@ -2,7 +2,7 @@
 #include "check/baseline.h"
 
 #include "check/compare.h"
-#include "program/json.h"
+#include "program/json_values.h"
 #include "check/record_json.h"
 #include "program/cli.h"
 #include "program/files.h"

@@ -7,7 +7,7 @@
  *     [budget.essl]
  *     max-instructions = 2_000
  */
-#include "check/budget.h"
+#include "check/measure_budget.h"
 #include "program/args.h"
 #include "program/cli.h"
 #include "program/toml.h"

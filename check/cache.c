@@ -2,7 +2,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "check/cache.h"
 
-#include "program/json.h"
+#include "program/json_values.h"
 #include "check/protocol.h"
 #include "check/record_json.h"
 #include "program/cli.h"

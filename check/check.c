@@ -4,13 +4,13 @@
  * document; this file orders, judges and reports the records.
  */
 #define _POSIX_C_SOURCE 200809L
-#include "check/budget.h"
+#include "check/measure_budget.h"
 #include "check/cache.h"
 #include "check/check.h"
 #include "check/gate.h"
-#include "check/documents.h"
+#include "check/document_paths.h"
 #include "program/scene_file.h"
-#include "program/json.h"
+#include "program/json_values.h"
 #include "check/pool.h"
 #include "check/progress.h"
 #include "check/protocol.h"

@@ -5,7 +5,7 @@
 
 #include "check/sink.h"
 #include "program/cli.h"
-#include "program/outputs.h"
+#include "program/output_files.h"
 
 /* The command `mxgen check`; returns its exit code. */
 int command_check(const struct command *command, int argc, char **argv);

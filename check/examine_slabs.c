@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /* The slabs of an element, and the steps of their budget, as `mxgen inspect --slabs` has them. */
 #include "check/examine.h"
-#include "program/json.h"
+#include "program/json_values.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -6,7 +6,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "check/check.h"
 #include "check/gate.h"
-#include "program/json.h"
+#include "program/json_values.h"
 #include "check/record_json.h"
 #include "check/report_reader.h"
 #include "program/memory.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "check/record_json.h"
 
-#include "program/json.h"
+#include "program/json_values.h"
 #include "program/utf8.h"
 
 #include <math.h>

@@ -3,7 +3,7 @@
 #ifndef MXG_CHECK_REPORT_READER_H
 #define MXG_CHECK_REPORT_READER_H
 
-#include "program/json.h"
+#include "program/json_values.h"
 
 #include <stdbool.h>
 #include <stdio.h>

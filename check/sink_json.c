@@ -3,7 +3,7 @@
  * --json: all data, with one document per line (docs/check.md, docs/check.schema.json). The report
  * is one object, and the sink writes its members as they arrive.
  */
-#include "program/json.h"
+#include "program/json_values.h"
 #include "check/below_root.h"
 #include "check/record_json.h"
 #include "check/sink.h"

@@ -3,7 +3,7 @@
  * --sarif: the messages, for code review tools. OASIS SARIF 2.1.0; section numbers below refer to
  * it.
  */
-#include "program/json.h"
+#include "program/json_values.h"
 #include "check/below_root.h"
 #include "check/sink.h"
 #include "program/name_table.h"

@@ -8,7 +8,7 @@
 #include "check/examine.h"
 #include "check/record_json.h"
 #include "program/limit.h"
-#include "program/json.h"
+#include "program/json_values.h"
 #include "program/parent.h"
 #include "program/memory.h"
 #include "compile/compile.h"

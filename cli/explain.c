@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /* mxgen explain: prints cause, cure and example of messages, and the interface of nodes. */
 #include "cli/commands.h"
-#include "cli/nodes.h"
+#include "cli/node_list.h"
 #include "doc/messages.h"
 
 #include <stdlib.h>

@@ -6,7 +6,7 @@
 #include "cli/commands.h"
 #include "program/cli.h"
 #include "program/files.h"
-#include "program/outputs.h"
+#include "program/output_files.h"
 
 #include <errno.h>
 #include <stdlib.h>

@@ -4,7 +4,7 @@
 #define MXG_CLI_GENERATE_H
 
 #include "program/cli.h"
-#include "program/outputs.h"
+#include "program/output_files.h"
 
 struct generate {
     struct cli cli;

@@ -6,8 +6,8 @@
 #define _POSIX_C_SOURCE 200809L
 #include "cli/commands.h"
 #include "program/files.h"
-#include "cli/nodes.h"
-#include "program/outputs.h"
+#include "cli/node_list.h"
+#include "program/output_files.h"
 #include "doc/reference.h"
 
 #include <stdlib.h>

@@ -6,7 +6,7 @@
 #define _XOPEN_SOURCE 700 /* realpath, pipe, poll */
 #include "cli/commands.h"
 #include "lsp/lsp.h"
-#include "program/json.h"
+#include "program/json_values.h"
 #include "program/memory.h"
 
 #include <errno.h>

@@ -5,7 +5,7 @@
  * values in it, so each stack has its own.
  */
 #define _POSIX_C_SOURCE 200809L /* ftello */
-#include "program/json.h"
+#include "program/json_values.h"
 #include "program/files.h"
 #include "cli/generate.h"
 #include "program/memory.h"

@@ -3,7 +3,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "cli/commands.h"
 #include "program/files.h"
-#include "program/outputs.h"
+#include "program/output_files.h"
 #include "program/relocate.h"
 #include "program/scratch.h"
 #include "program/translated.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Answers requests of compile/worker.c, one program after the other. A request is the line "LENGTH LENGTH", then the sources of the vertex
+ * Answers requests of compile/compiler_process.c, one program after the other. A request is the line "LENGTH LENGTH", then the sources of the vertex
  * and the pixel stage; length 0: there is no such stage. The answer is the line "LENGTH LENGTH LENGTH LENGTH", then a log, the words of both
  * stages, and the places of variables (compile/compile.h) that the compiler chose.
  *

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "compile/compile.h"
 #include "compile/command.h"
-#include "compile/hlsl.h"
+#include "compile/hlsl_spirv.h"
 #include "compile/spirv.h"
-#include "compile/worker.h"
+#include "compile/compiler_process.h"
 
 #include <glslang/Include/glslang_c_interface.h>
 #include <glslang/Public/resource_limits_c.h>

@@ -62,7 +62,7 @@ void compile_on_exhaustion(void (*tell)(void));
 
 /*
  * Whether shaders of the target can be compiled here: "glsl", "vulkan", "essl"; others where
- * their compilers are (command.h, worker.h).
+ * their compilers are (command.h, compiler_process.h).
  */
 bool compile_knows_target(const char *target);
 
@@ -89,7 +89,7 @@ void compile_results(const char *target, const mxg_result *const *results, size_
 
 /*
  * Compiles the source of a compute shader in the language of "vulkan", "hlsl" or a target of
- * worker.h; code and messages stand in the place of the pixel stage.
+ * compiler_process.h; code and messages stand in the place of the pixel stage.
  */
 bool compile_compute(const char *target, const char *source, struct compiled *out);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Validates WGSL with Dawn, for compile/worker.c. MXGEN_DAWN names index.js of the package "webgpu". The null backend needs no GPU.
+ * Validates WGSL with Dawn, for compile/compiler_process.c. MXGEN_DAWN names index.js of the package "webgpu". The null backend needs no GPU.
  */
 import { pathToFileURL } from 'node:url';
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Compiles Slang to SPIR-V with slang-wasm, whose module MXGEN_SLANG names, for compile/worker.c. Places of variables are those of Slang's
+ * Compiles Slang to SPIR-V with slang-wasm, whose module MXGEN_SLANG names, for compile/compiler_process.c. Places of variables are those of Slang's
  * reflection.
  */
 import { pathToFileURL } from 'node:url';

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/* The scripts of worker.c: a compiler's part, then the loop that answers requests. */
+/* The scripts of compiler_process.c: a compiler's part, then the loop that answers requests. */
     .section .rodata
     .globl compile_slang_script
     .hidden compile_slang_script

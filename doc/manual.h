@@ -72,7 +72,7 @@ struct manual {
     struct name_table names; /* of nodes */
 };
 
-/* model.c: the definitions from `first` on. */
+/* entries.c: the definitions from `first` on. */
 void manual_init(struct manual *manual, const mxg_library *library, uint32_t first);
 
 /* A copy that lives as long as the reference; frees the text. */

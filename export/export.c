@@ -5,7 +5,7 @@
 #include "export/write.h"
 #include "program/export_options.h"
 #include "program/files.h"
-#include "program/json.h"
+#include "program/json_values.h"
 #include "program/scene_file.h"
 #include "program/scratch.h"
 #include "program/translated.h"

@@ -9,10 +9,10 @@
 #define MXG_EXPORT_GLTF_H
 
 #include "export/flat.h"
-#include "export/texture.h"
+#include "export/texture_image.h"
 #include "export/write.h"
 #include "program/gltf_inputs.h"
-#include "program/json.h"
+#include "program/json_values.h"
 
 struct gltf_texture_file {
     char *key; /* texture_key */

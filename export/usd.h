@@ -9,7 +9,7 @@
 #define MXG_EXPORT_USD_H
 
 #include "export/flat.h"
-#include "export/texture.h"
+#include "export/texture_image.h"
 #include "export/write.h"
 
 #include <stdio.h>

@@ -6,7 +6,7 @@
 #include "export/flat.h"
 #include "export/dressed_site.h"
 #include "program/batch.h"
-#include "program/outputs.h"
+#include "program/output_files.h"
 #include "render/bake_surface.h"
 
 struct writing {

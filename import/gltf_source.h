@@ -7,7 +7,7 @@
 #define MXG_IMPORT_GLTF_SOURCE_H
 
 #include "program/cli.h"
-#include "program/json.h"
+#include "program/json_values.h"
 
 struct gltf_bytes {
     uint8_t *data; /* NULL: not read yet, or it cannot be */

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
  * Documents of the materials of glTF files: the way back from export/. import.c has the whole,
- * material.c the surfaces, members.c the types of their JSON, texture.c the nodes of textures,
- * images.c their files, variants.c looks. The table program/gltf_inputs.h says where each input
- * comes from.
+ * material.c the surfaces, members.c the types of their JSON, texture_nodes.c the nodes of
+ * textures, images.c their files, variants.c looks. The table program/gltf_inputs.h says where each
+ * input comes from.
  */
 #ifndef MXG_IMPORT_IMPORT_H
 #define MXG_IMPORT_IMPORT_H
@@ -12,7 +12,7 @@
 #include "program/batch.h"
 #include "program/gltf_inputs.h"
 #include "program/name_table.h"
-#include "program/outputs.h"
+#include "program/output_files.h"
 
 #include <mxgen/document.h>
 
@@ -80,7 +80,7 @@ char *import_add_material(struct importing *importing, size_t index);
 /* variants.c: looks, if the file has variants. */
 void import_add_looks(struct importing *importing);
 
-/* ---- texture.c: the nodes of a texture, which stand in the graph of the material ---- */
+/* ---- texture_nodes.c: the nodes of a texture, which stand in the graph of the material ---- */
 
 /* An output of a node; NULL: the only one. */
 struct import_port {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /* Attributes that an element may have and lacks. */
 #include "lsp/completion.h"
-#include "lsp/elements.h"
+#include "lsp/element_infos.h"
 #include "program/cli.h"
 
 #include <stdlib.h>

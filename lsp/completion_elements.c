@@ -3,7 +3,7 @@
  * node. */
 #include "lsp/catalogue.h"
 #include "lsp/completion.h"
-#include "lsp/elements.h"
+#include "lsp/element_infos.h"
 #include "program/cli.h"
 #include "program/name_table.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /* Names of elements of the document, for connections and references. */
 #include "lsp/completion.h"
-#include "lsp/elements.h"
-#include "lsp/names.h"
+#include "lsp/element_infos.h"
+#include "lsp/named_elements.h"
 
 #include <string.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /* Values of attributes: words of the catalogue, names of elements, enumerated values, files. */
 #include "lsp/catalogue.h"
-#include "lsp/check.h"
+#include "lsp/check_document.h"
 #include "lsp/completion.h"
-#include "lsp/names.h"
+#include "lsp/named_elements.h"
 #include "program/cli.h"
 #include "program/name_table.h"
 

@@ -3,7 +3,7 @@
 #ifndef MXG_LSP_CURES_H
 #define MXG_LSP_CURES_H
 
-#include "lsp/names.h"
+#include "lsp/named_elements.h"
 #include "lsp/findings.h"
 
 /* How an editor shows what a message is about: `DiagnosticTag`. */

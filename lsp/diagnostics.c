@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lsp/diagnostics.h"
 
-#include "lsp/check.h"
+#include "lsp/check_document.h"
 #include "lsp/cures.h"
 #include "lsp/wire.h"
 #include "program/cli.h"

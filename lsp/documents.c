@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /* The documents that the editor has open, and their changes. */
-#include "lsp/check.h"
+#include "lsp/check_document.h"
 #include "lsp/diagnostics.h"
 #include "lsp/handlers.h"
 #include "lsp/wire.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lsp/family.h"
 
-#include "lsp/check.h"
-#include "lsp/names.h"
+#include "lsp/check_document.h"
+#include "lsp/named_elements.h"
 #include "lsp/system.h"
 #include "lsp/wire.h"
 #include "program/cli.h"

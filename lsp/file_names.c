@@ -5,7 +5,7 @@
  */
 #include "lsp/family.h"
 #include "lsp/handlers.h"
-#include "lsp/names.h"
+#include "lsp/named_elements.h"
 #include "lsp/wire.h"
 #include "program/cli.h"
 #include "program/files.h"

@@ -3,7 +3,7 @@
 #ifndef MXG_LSP_FINDINGS_H
 #define MXG_LSP_FINDINGS_H
 
-#include "lsp/text.h"
+#include "lsp/edited_text.h"
 #include "program/store.h"
 
 #include <mxgen/mxgen.h>

@@ -22,7 +22,7 @@ lsp_handler handle_symbols, handle_folding, handle_links;
 lsp_handler handle_tokens, handle_colours, handle_presentations, handle_hints, handle_formatting;
 /* actions.c, lenses.c */
 lsp_handler handle_actions, handle_lenses, handle_lens;
-/* calls.c */
+/* call_hierarchy.c */
 lsp_handler handle_prepare_calls, handle_incoming_calls, handle_outgoing_calls;
 
 #endif

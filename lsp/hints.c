@@ -2,7 +2,7 @@
 /* Hints say what the text does not: the definition that a node has, units and colour spaces of
  * values. */
 #include "lsp/handlers.h"
-#include "lsp/names.h"
+#include "lsp/named_elements.h"
 #include "lsp/wire.h"
 
 #include <string.h>

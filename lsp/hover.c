@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /* The subject under the cursor: the definition of a node, an input, a texture, an attribute. */
-#include "lsp/check.h"
-#include "lsp/elements.h"
+#include "lsp/check_document.h"
+#include "lsp/element_infos.h"
 #include "lsp/handlers.h"
 #include "lsp/image_header.h"
-#include "lsp/names.h"
+#include "lsp/named_elements.h"
 #include "lsp/system.h"
 #include "lsp/wire.h"
 #include "program/cli.h"

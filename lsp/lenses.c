@@ -3,7 +3,7 @@
  * A line over each material: figures of its shader, which the editor asks for when it shows them,
  * and the client's command that renders.
  */
-#include "lsp/check.h"
+#include "lsp/check_document.h"
 #include "lsp/handlers.h"
 #include "lsp/query.h"
 #include "lsp/wire.h"

@@ -7,7 +7,7 @@
 #ifndef MXG_LSP_MODEL_H
 #define MXG_LSP_MODEL_H
 
-#include "lsp/text.h"
+#include "lsp/edited_text.h"
 
 #define MODEL_NONE 0xffffffffu
 

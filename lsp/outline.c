@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /* The shape of a document: symbols, parts that fold, links to files. */
 #include "lsp/handlers.h"
-#include "lsp/names.h"
+#include "lsp/named_elements.h"
 #include "lsp/wire.h"
 #include "program/cli.h"
 

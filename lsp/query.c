@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lsp/query.h"
 
-#include "lsp/elements.h"
+#include "lsp/element_infos.h"
 
 #include <string.h>
 

@@ -3,7 +3,7 @@
 #ifndef MXG_LSP_REFERENCES_H
 #define MXG_LSP_REFERENCES_H
 
-#include "lsp/names.h"
+#include "lsp/named_elements.h"
 
 /*
  * The element whose name is under the cursor: in its own `name`, or in an attribute that names it.

@@ -7,9 +7,9 @@
 #include "lsp/findings.h"
 #include "lsp/lsp.h"
 #include "lsp/model.h"
-#include "lsp/text.h"
+#include "lsp/edited_text.h"
 #include "program/args.h"
-#include "program/json.h"
+#include "program/json_values.h"
 
 struct catalogue;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /* The meaning of parts of the text for colours: nodes, types, names and references, numbers. */
 #include "lsp/handlers.h"
-#include "lsp/names.h"
+#include "lsp/named_elements.h"
 #include "lsp/wire.h"
 
 #include <string.h>

@@ -6,7 +6,7 @@
 #include "program/memory.h"
 #include "program/name_table.h"
 #include "program/profile.h"
-#include "program/texels.h"
+#include "program/texel_reader.h"
 #include "program/warnings.h"
 
 #include <assert.h>

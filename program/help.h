@@ -37,7 +37,7 @@ struct arg help_generation_arg(uint32_t index);
 /* man.c: a page with the macros of man(7). */
 void help_write_man(const struct help_book *book, FILE *out);
 
-/* completion.c: for "bash", "zsh" or "fish"; false for any other shell. */
+/* cli/shell_completion.c: for "bash", "zsh" or "fish"; false for any other shell. */
 bool help_write_completion(const struct help_book *book, const char *shell, FILE *out);
 
 #endif

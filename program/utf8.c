@@ -2,7 +2,7 @@
 #include "program/utf8.h"
 
 #include "program/memory.h"
-#include "src/base/hidden.h"
+#include "src/base/hidden_chars.h"
 
 #include <stdint.h>
 #include <string.h>

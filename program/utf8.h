@@ -12,8 +12,8 @@
 size_t utf8_length(const char *bytes);
 
 /*
- * True for a character that people do not see and that terminals act on (src/base/hidden.h), and
- * for a byte that is no UTF-8. `len`: utf8_length of the text.
+ * True for a character that people do not see and that terminals act on (src/base/hidden_chars.h),
+ * and for a byte that is no UTF-8. `len`: utf8_length of the text.
  */
 bool utf8_is_hidden(const char *text, size_t len);
 

@@ -13,7 +13,7 @@
 #include "render/bake_plan.h"
 #include "render/bake_surface.h"
 #include "render/picture.h"
-#include "render/spool.h"
+#include "render/texel_spool.h"
 
 struct baking {
     struct cli cli;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /* The attributes that a shader reads and objects lack. */
-#include "render/bind.h"
+#include "render/bind_shader.h"
 
 #include <stdio.h>
 #include <string.h>

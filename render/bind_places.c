@@ -4,7 +4,7 @@
  * names.
  */
 #include "compile/compile.h"
-#include "render/bind.h"
+#include "render/bind_shader.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 #ifndef MXG_RENDER_DILATE_H
 #define MXG_RENDER_DILATE_H
 
-#include "render/spool.h"
+#include "render/texel_spool.h"
 
 /*
  * Rows of a spool, in bands: empty texels take the nearest one within `padding`, and others the

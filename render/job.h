@@ -7,7 +7,7 @@
 #define MXG_RENDER_JOB_H
 
 #include "program/cli.h"
-#include "program/outputs.h"
+#include "program/output_files.h"
 #include "program/render_options.h"
 #include "render/picture.h"
 #include "render/site.h"

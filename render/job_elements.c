@@ -3,7 +3,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "render/job.h"
 #include "render/look_parts.h"
-#include "render/sheet.h"
+#include "render/contact_sheet.h"
 
 #include <stdio.h>
 #include <stdlib.h>

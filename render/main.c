@@ -5,7 +5,7 @@
 #include "program/files.h"
 #include "program/parent.h"
 #include "program/scene_file.h"
-#include "program/texels.h"
+#include "program/texel_reader.h"
 #include "render/applies.h"
 #include "render/bake.h"
 #include "render/prefilter.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The rest of path.glsl for piles of matter.
 //
-// A surface may be a pile of lobes and media, which scatter() has level by level (src/closure/matter.c). Light goes down and up in it, at
+// A surface may be a pile of lobes and media, which scatter() has level by level (src/closure/matter_levels.c). Light goes down and up in it, at
 // one point of the surface, until it leaves: a walk at random without positions (Guo, Hašan, Zhao 2018).
 
 #ifdef MATTER

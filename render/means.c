@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/* mxgen-render --texels FILE LAYER SIZE: the means of an image's parts, for program/texels.c. */
+/* mxgen-render --texels FILE LAYER SIZE: the means of an image's parts, for program/texel_reader.c.
+ */
 #include "render/means.h"
 #include "render/image.h"
 

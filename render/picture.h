@@ -8,9 +8,9 @@
 
 #include "program/cli.h"
 #include "program/name_table.h"
-#include "program/outputs.h"
+#include "program/output_files.h"
 #include "render/aovs.h"
-#include "render/passes.h"
+#include "render/deferred_passes.h"
 #include "render/render.h"
 #include "render/studio.h"
 #include "render/trace.h"

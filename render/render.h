@@ -3,7 +3,7 @@
 #ifndef MXG_RENDER_RENDER_H
 #define MXG_RENDER_RENDER_H
 
-#include "render/bind.h"
+#include "render/bind_shader.h"
 #include "compile/compile.h"
 
 /* A program on the device, for one picture or several. */

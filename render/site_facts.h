@@ -8,7 +8,7 @@
 #define MXG_RENDER_SITE_FACTS_H
 
 #include "program/name_table.h"
-#include "render/bind.h"
+#include "render/bind_shader.h"
 
 #include <mxgen/mxgen.h>
 

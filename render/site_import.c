@@ -3,7 +3,7 @@
  * A site from a file that Assimp reads. Its nodes are primitives; a node with several meshes has a
  * primitive for each below it.
  */
-#include "render/import.h"
+#include "render/assimp.h"
 #include "render/import_primvars.h"
 #include "render/site.h"
 

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The bindings of set 1, as the passes name them (src/deferred/passes.c). */
+/* The bindings of set 1, as the passes name them (src/deferred/pass_texts.c). */
 enum {
     STORED_IMAGE,
     WORD_0,

@@ -4,7 +4,7 @@
  * default colour if there is no file.
  */
 #include "program/cli.h"
-#include "render/bind.h"
+#include "render/bind_shader.h"
 
 #include <stdio.h>
 #include <stdlib.h>

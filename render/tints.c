@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/tints.h"
 
-#include "render/bind.h"
+#include "render/bind_shader.h"
 
 #include <stdio.h>
 #include <string.h>

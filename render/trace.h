@@ -4,7 +4,7 @@
 #define MXG_RENDER_TRACE_H
 
 #include "render/aovs.h"
-#include "render/bind.h"
+#include "render/bind_shader.h"
 #include "render/descriptors.h"
 #include "compile/compile.h"
 

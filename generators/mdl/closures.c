@@ -3,7 +3,7 @@
  * The effects of a material: its parts, as outputs. Every node is older than its users, so one pass
  * upwards rewrites the tree.
  */
-#include "generators/mdl/tree.h"
+#include "generators/mdl/closure_tree.h"
 
 #include "ir/arithmetic.h"
 

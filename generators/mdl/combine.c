@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /* Combines closures: sums, factors, mixes. Constants simplify the result. */
-#include "generators/mdl/tree.h"
+#include "generators/mdl/closure_tree.h"
 
 #include "ir/arithmetic.h"
 #include "shader/formula.h"

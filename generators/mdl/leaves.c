@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /* Leaves become closures of MDL: rows of closures.def are texts with the names of inputs. */
-#include "generators/mdl/tree.h"
+#include "generators/mdl/closure_tree.h"
 
 #include "ir/arithmetic.h"
 #include "shader/formula.h"

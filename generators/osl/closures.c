@@ -3,7 +3,7 @@
  * The effects of a shader in OSL, which has its own closures: one output, or two for a surface with
  * a back. Every node is older than its users, so one pass upwards rewrites the tree.
  */
-#include "generators/osl/tree.h"
+#include "generators/osl/closure_tree.h"
 
 #include "shader/formula.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /* Combines closures: sums, factors, mixes and layers. Constants simplify the result. */
-#include "generators/osl/tree.h"
+#include "generators/osl/closure_tree.h"
 
 #include <assert.h>
 

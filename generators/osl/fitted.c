@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
  * A BSDF that OSL has no closure for becomes a sum of closures, found by evaluating its functions
- * (fit.h). An input that only scales the light stays an input; any other is compiled in.
+ * (closure_fit.h). An input that only scales the light stays an input; any other is compiled in.
  */
-#include "generators/osl/fit.h"
-#include "generators/osl/tree.h"
+#include "generators/osl/closure_fit.h"
+#include "generators/osl/closure_tree.h"
 
 #include "ir/arithmetic.h"
 #include "lower/lower.h"

@@ -9,7 +9,7 @@
  */
 #include "generators/osl/groups.h"
 #include "generators/osl/osl.h"
-#include "generators/osl/tree.h"
+#include "generators/osl/closure_tree.h"
 
 #include <math.h>
 

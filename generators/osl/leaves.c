@@ -2,7 +2,7 @@
 /*
  * Leaves become calls of OSL closures: a row of closures.def gives the closure and its arguments.
  */
-#include "generators/osl/tree.h"
+#include "generators/osl/closure_tree.h"
 
 #include "ir/arithmetic.h"
 #include "shader/formula.h"

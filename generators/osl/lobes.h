@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
  * Closures of stdosl.h whose light is known here. Sums of them stand for BSDFs that OSL has no
- * closure for (fit.h). Directions are in a frame whose third axis is the normal, and the view is
- * above the surface.
+ * closure for (closure_fit.h). Directions are in a frame whose third axis is the normal, and the
+ * view is above the surface.
  */
 #ifndef MXG_GENERATORS_OSL_LOBES_H
 #define MXG_GENERATORS_OSL_LOBES_H
@@ -26,7 +26,8 @@ struct lobe {
 enum { OSL_NUM_LOBES = 23 };
 extern const struct lobe osl_lobes[OSL_NUM_LOBES];
 
-/* The value times the cosine. Lobes of facets lose what they scatter twice (fit.c gives it back).
+/* The value times the cosine. Lobes of facets lose what they scatter twice (closure_fit.c gives it
+ * back).
  */
 double osl_lobe_value(const struct lobe *lobe, const double v[3], const double l[3]);
 /* True for lobes of which renderers give back what facets scatter twice. */

@@ -6,7 +6,7 @@
 #include "generators/osl/osl.h"
 
 #include "shader/verbatim.h"
-#include "generators/osl/tree.h"
+#include "generators/osl/closure_tree.h"
 
 #include <assert.h>
 

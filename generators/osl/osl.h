@@ -82,7 +82,7 @@ void osl_name_same_functions(struct spell *spell);
 const char *osl_function_name(void *user_data, uint32_t id); /* lang_names.function */
 void osl_write_functions(struct osl *osl, struct text *out); /* call this last */
 
-/* structs.c: the structs of the document's functions, with the makers that are called */
+/* struct_setters.c: the structs of the document's functions, with the makers that are called */
 void osl_name_makers(struct osl *osl);
 const char *osl_maker(void *user_data, const char *type); /* lang_names.maker */
 /* True for a type of a library that is no array. */

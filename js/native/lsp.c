@@ -4,7 +4,7 @@
 
 #include "lsp/system.h"
 #include "native/host.h"
-#include "program/json.h"
+#include "program/json_values.h"
 #include "program/memory.h"
 
 #include <errno.h>

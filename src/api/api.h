@@ -189,7 +189,7 @@ void codes_finish(struct mxg_context *context);
 bool codes_serve(const struct mxg_context *context, const char *nodedef, const char *node,
                  const struct target *target);
 
-/* ---- Files: files.c ---- */
+/* ---- Files: open_file.c ---- */
 
 /* The resolver of the context, as an interface for other rooms. */
 struct file_source {
@@ -205,7 +205,7 @@ struct file_source {
 };
 
 /*
- * files.c: folders to search for source files, from the context's description. false: out of
+ * open_file.c: folders to search for source files, from the context's description. false: out of
  * memory.
  */
 bool source_path_add(struct mxg_context *context, const char *folder);
@@ -263,7 +263,7 @@ const char *sandbox_texture_fault(const struct mxg_context *context, const char 
 void sandbox_finish(struct mxg_context *context);
 
 /*
- * folder.c: true if the path is a folder.
+ * library_folder.c: true if the path is a folder.
  */
 bool folder_exists(const char *path);
 struct path_list {
@@ -336,12 +336,12 @@ void document_follow_context(struct mxg_document *document);
 void document_finish(struct mxg_document *document, struct file_source *files);
 
 /*
- * share.c: finishes an edited document that shares the definitions of its origin. false: the
- * definitions may differ, or too much does; nothing is done then.
+ * shared_origin.c: finishes an edited document that shares the definitions of its origin. false:
+ * the definitions may differ, or too much does; nothing is done then.
  */
 bool edit_share(struct mxg_document *document, struct arena *scratch, struct diag_list *diags);
 
-/* ---- Elements: renderable.c, renderables.c, element.c ---- */
+/* ---- Elements: renderable.c, renderables.c, element_path.c ---- */
 
 /* Finds the renderables of a document in one piece. */
 void document_find_renderables(struct mxg_document *document);

@@ -185,7 +185,7 @@ void result_input_ui(const mxg_result *result, elem_id element, elem_id definiti
 /* A hash: equal for shaders that can share a program. false: out of memory. */
 bool result_topology(const mxg_result *result, uint64_t *out_topology);
 
-/* block.c: the bytes of a block; 0: it is in no buffer. */
+/* uniform_block.c: the bytes of a block; 0: it is in no buffer. */
 size_t block_size(const mxg_result *result, mxg_block block);
 /* Fills the buffer of a block, which has `block_size` bytes, with the values of the result. */
 void block_pack(const mxg_result *result, mxg_block block, void *bytes);

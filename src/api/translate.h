@@ -4,7 +4,7 @@
 #define MXG_API_TRANSLATE_H
 
 #include "api/generation.h"
-#include "translate/nodes.h"
+#include "translate/value_nodes.h"
 
 #include <mxgen/document.h>
 

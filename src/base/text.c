@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/text.h"
 
-#include "base/hidden.h"
+#include "base/hidden_chars.h"
 #include "base/num.h"
 
 #include <assert.h>

@@ -87,7 +87,7 @@ size_t text_width(const char *bytes, size_t len);
 
 /*
  * Makes fit for people what was appended from `begin`: '?' stands for hidden characters
- * (hidden.h) but tabs, for line ends, and for bytes that are no UTF-8.
+ * (hidden_chars.h) but tabs, for line ends, and for bytes that are no UTF-8.
  */
 void text_show(struct text *text, size_t begin);
 

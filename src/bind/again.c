@@ -4,7 +4,7 @@
  * the same names. A matcher of new names changes the primitives where it matches, and those below;
  * one that is gone changes no primitive, only the entries of states.
  */
-#include "bind/walk.h"
+#include "bind/scene_walk.h"
 
 #include "base/hash.h"
 

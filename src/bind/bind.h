@@ -13,7 +13,7 @@
 #define MXG_BIND_BIND_H
 
 #include "bind/look.h"
-#include "bind/scene.h"
+#include "bind/primitives.h"
 
 enum item_kind {
     ITEM_LAYER,
@@ -129,7 +129,7 @@ struct idle_list { /* zero at first; serves one state after the other */
 void bind_find_idle(const struct bindings *b, const struct bind_state *state, struct stands *stands,
                     struct idle_list *out);
 
-/* ---- stack.c: the layers of a state ---- */
+/* ---- layer_stacks.c: the layers of a state ---- */
 
 /* Notes about the layers of all states together, for warnings. */
 struct layer_notes {
@@ -150,8 +150,8 @@ void bind_variants(const struct bind_look *look, uint32_t assign, struct arena *
                    struct variant_list *out);
 
 /*
- * walk.c: fills the states of all primitives from b->look, without layers. The arena of b keeps
- * them. `before` is that of bind_resolve.
+ * scene_walk.c: fills the states of all primitives from b->look, without layers. The arena of b
+ * keeps them. `before` is that of bind_resolve.
  */
 void bind_find_states(struct bindings *b, const struct bindings *before, struct arena *scratch);
 
@@ -173,7 +173,7 @@ const char *bind_fact_name(const struct document *doc, elem_id fact);
 /* The renderer that a property is for; the viewers of a visibility; "" for all. */
 const char *bind_fact_target(const struct document *doc, elem_id fact);
 
-/* ---- reasons.c, report.c ---- */
+/* ---- reasons.c, binding_report.c ---- */
 
 /* "stack_8a5f7a0f9c2f6f0e" and a NUL */
 enum { BIND_STACK_NAME_SIZE = 6 + 16 + 1 };

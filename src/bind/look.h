@@ -8,7 +8,7 @@
 
 #include "bind/name.h"
 #include "bind/pattern.h"
-#include "bind/scene.h"
+#include "bind/primitives.h"
 #include "document/document.h"
 
 /* The products of a material that `exclusive` takes from a weaker assignment. */
@@ -180,7 +180,7 @@ static inline bool look_contains(const struct bind_look *look, uint32_t outer, u
 
 /* ---- Shared by the files of the room that read a look ---- */
 
-/* assign.c: the number of a name; adds it. Keeps `text`. */
+/* assignments.c: the number of a name; adds it. Keeps `text`. */
 uint32_t look_intern_name(struct bind_look *look, const struct slot_name *name, const char *text,
                           size_t len);
 /* Reads one <materialassign>, and one <variantassign>. */

@@ -4,7 +4,7 @@
  * the patterns, and nodes beside it for the shaders. The inputs of the Material are the interface
  * of the nodegraph.
  */
-#include "bind/maker.h"
+#include "bind/network_maker.h"
 #include "bind/shade_type.h"
 
 #include "base/hash.h"

@@ -2,7 +2,7 @@
 #ifndef MXG_BIND_MATERIALS_H
 #define MXG_BIND_MATERIALS_H
 
-#include "bind/scene.h"
+#include "bind/primitives.h"
 #include "library/library.h"
 
 /* How the bytes at the beginning of an image are read. */

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /* The bindings of a scene: those that a file brings, and those of a host, which come and go. */
-#include "bind/scene.h"
+#include "bind/primitives.h"
 
 #include <assert.h>
 

@@ -3,7 +3,7 @@
  * The materials of a stage and their names. Materials are prims: two of one name at two paths are
  * two materials. A document has no paths, so each gets a name of its own there.
  */
-#include "bind/scene.h"
+#include "bind/primitives.h"
 
 #include "base/hash.h"
 

@@ -2,7 +2,7 @@
 /* The primitives and bindings of a USD text layer (docs/slots.md, "In USD"). */
 #include "base/hash.h"
 #include "bind/name.h"
-#include "bind/scene.h"
+#include "bind/primitives.h"
 #include "usda/usda.h"
 
 #include <assert.h>

@@ -3,7 +3,7 @@
  * USD's own shaders are nodes of MaterialX, but have more: tokens, defaults, the colour space and
  * the arithmetic of textures, and displacement. preview.c has the tables.
  */
-#include "bind/maker.h"
+#include "bind/network_maker.h"
 
 /* ---- Tokens ---- */
 

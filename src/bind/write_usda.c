@@ -6,7 +6,7 @@
  * stronger one.
  */
 #include "bind/bind.h"
-#include "usda/text.h"
+#include "usda/write_text.h"
 
 #include <assert.h>
 

@@ -87,8 +87,8 @@ struct builder *build_start(const struct library *lib, const struct build_option
 ir_ref build_element(struct builder *builder, elem_id element, unsigned output);
 
 /*
- * stack.c: the material of a stack: all its layers as one; of a primitive without layers the
- * default substance. 0 after an error. `bindings` are those of the builder's document.
+ * stack_material.c: the material of a stack: all its layers as one; of a primitive without layers
+ * the default substance. 0 after an error. `bindings` are those of the builder's document.
  */
 struct bindings;
 ir_ref build_stack(struct builder *builder, const struct bindings *bindings, uint32_t stack);
@@ -146,8 +146,8 @@ struct closure_host build_closure_host(struct builder *builder, struct closure_p
 /* Before the build: the layers of stacks may have slabs. */
 void build_know_slabs(struct builder *builder);
 /*
- * hidden.c: a root without the BSDFs that no slab stands for, as far as the values of the document
- * hide them.
+ * hidden_closures.c: a root without the BSDFs that no slab stands for, as far as the values of the
+ * document hide them.
  */
 ir_ref build_without_hidden(struct builder *builder, ir_ref root);
 /* slabs_walk with the library's slabs; for path tracers slabs_join_matter before it. */

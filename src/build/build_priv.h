@@ -52,8 +52,8 @@ struct own_displacement {
 };
 
 /*
- * The results of nodegraphs, and the functions of outline.c, by definition and arguments: the
- * builder builds equal uses once.
+ * The results of nodegraphs, and the functions of graph_functions.c, by definition and arguments:
+ * the builder builds equal uses once.
  */
 struct memo {
     uint32_t hash, impl;
@@ -219,7 +219,7 @@ void build_unread_inputs(struct builder *b, const struct frame *surface, elem_id
 /* The displacement that was kept for a material without a displacement shader; 0: none. */
 ir_ref build_own_displacement(struct builder *b, const struct frame *material);
 
-/* outline.c: the memo of the function for a nodegraph, or LIBRARY_NONE to inline it. */
+/* graph_functions.c: the memo of the function for a nodegraph, or LIBRARY_NONE to inline it. */
 uint32_t build_outlined(struct builder *b, const struct frame *frame);
 /* Replaces the arguments of frame->inner by parameters. */
 void build_begin_function(struct builder *b, struct frame *frame);
@@ -355,9 +355,9 @@ ir_ref build_unconvert(struct builder *b, ir_ref value, doc_type type,
                        const struct build_meaning *meaning, const char **out_fault);
 
 /*
- * files.c: the meaning of a node's results, from which they are converted: that of the files that
- * it reads, unless an input inside of its definition says it, or of a property of the geometry;
- * false: they are not.
+ * node_files.c: the meaning of a node's results, from which they are converted: that of the files
+ * that it reads, unless an input inside of its definition says it, or of a property of the
+ * geometry; false: they are not.
  */
 bool build_meaning_of_results(struct builder *b, const struct frame *frame,
                               struct build_meaning *out);
@@ -429,7 +429,8 @@ const char *build_absent_name(const struct builder *b, const struct implementati
  */
 uint32_t build_definition_of(const struct builder *b, const char *node, str_id type);
 
-/* node.c: results of a node from its arguments, except graphs. Writes one ref per output. */
+/* node_results.c: results of a node from its arguments, except graphs. Writes one ref per output.
+ */
 void build_node(struct builder *b, const struct frame *frame, ir_ref *results);
 /* The callee index of a leaf family, for a LEAF. */
 uint32_t build_leaf_callee(struct builder *b, uint32_t family);

@@ -198,8 +198,8 @@ struct closure_surface {
     struct closure_aovs aovs;
 };
 /*
- * aov.c: finds the AOVs that become outputs: those that the options list, else those of the
- * surfaces of a root.
+ * blended_aovs.c: finds the AOVs that become outputs: those that the options list, else those of
+ * the surfaces of a root.
  */
 void closure_find_aovs(struct shader *shader, ir_ref root);
 /* Closures and numbers times a factor; the operand stays. */
@@ -258,8 +258,8 @@ struct closure_choices {
 void closure_choose(struct shader *shader, const struct closure_host *host, ir_ref slots,
                     ir_ref number, struct closure_choices *out);
 /*
- * slots.c: a SLOTS node whose layers are shaded with their normals, and no longer have any. moved:
- * the normal of the displaced surface; 0: the stream's.
+ * layer_normals.c: a SLOTS node whose layers are shaded with their normals, and no longer have any.
+ * moved: the normal of the displaced surface; 0: the stream's.
  */
 ir_ref closure_shade_slots(struct shader *shader, ir_ref slots, ir_ref moved);
 

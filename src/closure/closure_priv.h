@@ -57,8 +57,8 @@ struct closure_value closure_call_with(struct shader *shader, const struct closu
 #define CLOSURE_MIXED UINT32_MAX
 
 /*
- * call.c: the throughput of a leaf with its weight, for host->way. Each further way multiplies it
- * by *out_decay; 0: the throughput does not depend on the way.
+ * leaf_call.c: the throughput of a leaf with its weight, for host->way. Each further way multiplies
+ * it by *out_decay; 0: the throughput does not depend on the way.
  */
 ir_ref closure_leaf_throughput(struct shader *shader, const struct closure_host *host, ir_ref leaf,
                                ir_ref *out_decay);
@@ -282,7 +282,7 @@ ir_ref closure_next_turn(struct shader *shader, const struct closure_parts *list
 /* The sum of a value over all samples, for code that does more than add it up: adds effects. */
 ir_ref closure_gathered(struct shader *shader, ir_ref value);
 
-/* aov.c: the algebra of closure_aovs. Nothing changes an operand. */
+/* blended_aovs.c: the algebra of closure_aovs. Nothing changes an operand. */
 
 /* All absent, of weight 1. */
 struct closure_aovs closure_aovs_of(struct shader *shader);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * The levels of a pile of matter (matter.c), from above, and what a random number decides about
- * them; shares and weights are floats:
+ * The levels of a pile of matter (matter_levels.c), from above, and what a random number decides
+ * about them; shares and weights are floats:
  *
  *     layer(top, base)   the levels of both
  *     mix(bg, fg, m)     one or the other

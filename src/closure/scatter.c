@@ -13,7 +13,7 @@
  *         pick -= pᵢ
  *     out2 = vec4(L, is it inside)
  *     out3 = vec4(weight, density)
- *     out4 = vec4(medium, 0), see matter.c for its w
+ *     out4 = vec4(medium, 0), see matter_levels.c for its w
  *     out5 = vec4(Σ wᵢ · evalᵢ(lightWorld.xyz) / (1 + lightWorld.w · Pᵢ · pdfᵢ(lightWorld.xyz)), 0)
  *     out6, out7: one of the bound lights, see light_up
  *     for each BSDF of an AOV: what stands in out3, out5 and out7, for that BSDF

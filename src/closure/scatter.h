@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
  * The files that write the function for path tracers share this: scatter.c for a list of leaves,
- * matter.c for a pile of matter.
+ * matter_levels.c for a pile of matter.
  */
 #ifndef MXG_CLOSURE_SCATTER_H
 #define MXG_CLOSURE_SCATTER_H
@@ -103,7 +103,7 @@ void interior_declare(struct closure_scatter *s); /* after the leaves are known 
 void interior_take(struct closure_scatter *s, ir_ref interior);
 void interior_write(struct closure_scatter *s);
 
-/* ---- matter.c ---- */
+/* ---- matter_levels.c ---- */
 
 /*
  * The response of the level at hand to light from a direction; 1 of a medium. solid_angle 0: the

@@ -24,7 +24,7 @@ enum mark_operand {
     NUM_MARK_OPERANDS
 };
 
-/* ---- store.c ---- */
+/* ---- store_effects.c ---- */
 
 /* True for the mark of a slab. */
 bool deferred_is_mark(const struct shader *shader, ir_ref leaf);
@@ -64,11 +64,12 @@ void deferred_note_lost_light(struct shader *shader, ir_ref emission);
 /* Notes what a sum of equal slabs has more of, by an input of the slab, than there is room for. */
 void deferred_note_lost_weight(struct shader *shader, ir_ref mark, const char *part);
 
-/* ---- passes.c and others ---- */
+/* ---- pass_texts.c and others ---- */
 
 /*
- * passes.c: writes lines of texts.h. Lines that begin with '@' are for texts with functions of the
- * host, for its passes, and for storage outside of a pixel stage (is_hosts), those that begin with
+ * pass_texts.c: writes lines of texts.h. Lines that begin with '@' are for texts with functions of
+ * the host, for its passes, and for storage outside of a pixel stage (is_hosts), those that begin
+ * with
  * '%' for others.
  */
 void deferred_write_lines(const char *const *lines, bool is_hosts, struct text *out);
@@ -76,7 +77,7 @@ void deferred_write_lines(const char *const *lines, bool is_hosts, struct text *
 void deferred_write_storage(const struct deferred_layout *layout, struct text *out);
 
 /*
- * program.c: writes texts of passes as a program (parse/parse.h) that reads and writes these
+ * pass_program.c: writes texts of passes as a program (parse/parse.h) that reads and writes these
  * resources.
  */
 void deferred_make_program(const char *glsl, const struct source_resources *resources,

@@ -14,7 +14,7 @@
 #include "diag/diag.h"
 #include "ir/ir.h"
 
-/* types.c, value.c */
+/* document_types.c, value.c */
 
 /* 0 = none; standard types; from DOC_TYPE_FIRST_USER the types of <typedef> elements */
 typedef uint16_t doc_type;
@@ -155,7 +155,7 @@ struct doc_counts {
     uint32_t elements, attrs, comments, comment_lists;
 };
 
-/* An attribute of an element that names an element of a scope (references.c). */
+/* An attribute of an element that names an element of a scope (name_uses.c). */
 struct doc_reference {
     elem_id scope; /* 0: the name counts anywhere */
     str_id name;
@@ -168,7 +168,7 @@ struct doc_range {
     elem_id first, end;
 };
 
-/* outputs.c: the first two outputs of a nodegraph with a type; 0: of any type. */
+/* graph_outputs.c: the first two outputs of a nodegraph with a type; 0: of any type. */
 struct doc_outputs {
     elem_id graph;
     str_id type;
@@ -323,12 +323,12 @@ elem_id doc_second_of_name(const struct document *doc, elem_id element);
 void doc_index_element(struct document *doc, elem_id element);
 
 /*
- * references.c: which elements name an element. Builds the index for doc_rename; call it after
+ * name_uses.c: which elements name an element. Builds the index for doc_rename; call it after
  * doc_index_names.
  */
 void doc_index_references(struct document *doc);
 
-/* outputs.c */
+/* graph_outputs.c */
 void doc_index_outputs(struct document *doc);
 /* After a change, `element`, if it is an output, is or was below `parent`, if that is not 0. */
 void doc_touch_outputs(struct document *doc, elem_id element, elem_id parent);
@@ -529,9 +529,9 @@ const char *doc_prefix_from(const struct document *doc, elem_id element, const c
                             struct arena *arena);
 
 /*
- * write.c: writes the tree as MaterialX XML: an element per line, two spaces per level, the name
- * first, then the attributes in their order, with the comments and single blank lines of the file.
- * Reading the text gives an equal tree, but for the way to files that an include names.
+ * write_document.c: writes the tree as MaterialX XML: an element per line, two spaces per level,
+ * the name first, then the attributes in their order, with the comments and single blank lines of
+ * the file. Reading the text gives an equal tree, but for the way to files that an include names.
  */
 void doc_write(const struct document *doc, elem_id root, struct text *out);
 
@@ -555,7 +555,7 @@ struct doc_cycle_link {
 void doc_report_cycle(const struct document *doc, struct doc_cycle_link *links, uint32_t n,
                       struct diag_list *diags);
 
-/* validate.c: checks that need no library: names, attributes, value syntax, structure. */
+/* validate_elements.c: checks that need no library: names, attributes, value syntax, structure. */
 void doc_validate(const struct document *doc, struct diag_list *diags);
 /*
  * The part of doc_validate for the children of one element: their places, their required

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /* Checks for attributes that MaterialX does not have, or not on this kind of element. */
-#include "document/validate.h"
+#include "document/validate_elements.h"
 
 #define IN(KIND) ((uint64_t)1 << KIND_##KIND)
 #define ANYWHERE UINT64_MAX

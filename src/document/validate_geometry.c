@@ -3,7 +3,7 @@
  * Geometry names and patterns (MaterialX Geometry Extensions, "Geometry Representation" and
  * "Geometry Name Expressions").
  */
-#include "document/validate.h"
+#include "document/validate_elements.h"
 
 /* One name of a list: [text, end) without surrounding blanks. */
 struct geometry_name {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /* Checks of references: inheritance, looks, and cycles in a nodegraph. */
-#include "document/validate.h"
+#include "document/validate_elements.h"
 
 #include <assert.h>
 

@@ -2,7 +2,7 @@
 /* The nodes of slabs (docs/slabs.md): each is an op of the IR, which the walk of src/slabs reads.
  */
 #include "dynamic/dynamic.h"
-#include "slabs/hidden.h"
+#include "slabs/hidden_slabs.h"
 #include "slabs/regime.h"
 
 #include <math.h>

@@ -16,7 +16,7 @@
 
 #include <assert.h>
 
-/* types.c */
+/* op_types.c */
 
 enum ir_type {
 #define IR_TYPE(ID, text, scalar, components, columns) IR_TYPE_##ID,
@@ -84,7 +84,7 @@ struct ir_user_type {
 };
 
 /*
- * values.c, fold.c: constants and their arithmetic, for the builder and for the evaluator of the
+ * constants.c, fold.c: constants and their arithmetic, for the builder and for the evaluator of the
  * portable language
  */
 
@@ -502,13 +502,13 @@ struct ir_pass {
 const ir_ref *ir_rebuild(struct ir_graph *graph, const uint8_t *needed, const struct ir_pass *pass,
                          struct arena *arena);
 
-/* print.c: the text form (docs/ir.md). */
+/* graph_text.c: the text form (docs/ir.md). */
 void ir_print(const struct ir_graph *graph, const ir_ref *roots, uint32_t num_roots,
               struct text *out);
 
 /*
- * check.c: NULL, or the first broken invariant of a graph. *out_node receives the node that breaks
- * it, or 0 if a table of the graph breaks it.
+ * invariants.c: NULL, or the first broken invariant of a graph. *out_node receives the node that
+ * breaks it, or 0 if a table of the graph breaks it.
  */
 const char *ir_check(const struct ir_graph *graph, ir_ref *out_node);
 /*

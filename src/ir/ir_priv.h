@@ -6,7 +6,7 @@
 #include "ir/ir.h"
 
 /*
- * types.c: true if the product of these types is a product of linear algebra instead of a
+ * op_types.c: true if the product of these types is a product of linear algebra instead of a
  * componentwise one.
  */
 bool ir_is_linear_mul(ir_type_id a, ir_type_id b);
@@ -97,7 +97,7 @@ extern const struct rule_list ir_rules[IR_NUM_OPS];
 ir_ref ir_apply_rules(struct ir_graph *graph, enum ir_op op, ir_type_id type, const ir_ref *args,
                       unsigned num_args);
 
-/* check.c: NULL, or the reason why the node is invalid. */
+/* invariants.c: NULL, or the reason why the node is invalid. */
 const char *ir_node_problem(const struct ir_graph *graph, enum ir_op op, ir_type_id type,
                             uint32_t attr, const ir_ref *args, unsigned num_args);
 /* Ends the program: a node breaks an invariant, which only a defect of mxgen can cause. */

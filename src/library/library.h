@@ -316,8 +316,8 @@ void library_index_units(struct library *lib, elem_id unitdef);
 void library_sort_units(struct library *lib);
 
 /*
- * index.c: fills a layer from its document: definitions, implementations (`reader` reads their
- * source), types, geomprops.
+ * layer_index.c: fills a layer from its document: definitions, implementations (`reader` reads
+ * their source), types, geomprops.
  */
 void library_index(struct library *lib, const struct lang_reader *reader, struct diag_list *diags);
 /* Resolves every nodegraph with a nodedef in the layer. An image stores the result. */
@@ -332,7 +332,7 @@ void library_resolve_graphs(struct library *lib, struct diag_list *diags);
  */
 uint32_t library_match(const struct library *lib, elem_id node, struct diag_list *diags);
 
-/* resolve.c */
+/* connections.c */
 
 /*
  * Inputs of nodes and of plain nodegraphs that other ports drive: the input has the value or the
@@ -449,8 +449,8 @@ int library_resolve_interface(const struct library *lib, elem_id asker, uint32_t
                               struct diag_list *diags);
 
 /*
- * geomprop.c: the property of an input's attribute `defaultgeomprop`, which it has. NULL after a
- * report: no layer defines it, or it is not of the type.
+ * defaultgeomprop.c: the property of an input's attribute `defaultgeomprop`, which it has. NULL
+ * after a report: no layer defines it, or it is not of the type.
  */
 const struct geomprop *library_default_geomprop(const struct library *lib, elem_id element,
                                                 doc_type type, struct diag_list *diags);
@@ -484,7 +484,7 @@ const char *library_suggest_unit_type(const struct library *lib, str_id type,
 const char *library_suggest_unit(const struct library *lib, str_id unit, struct diag_list *diags);
 
 /*
- * validate.c: checks the layer of a document against the definitions, after doc_validate. The
+ * validate_nodes.c: checks the layer of a document against the definitions, after doc_validate. The
  * caller may free `scratch` afterwards.
  */
 void library_validate(const struct library *lib, struct arena *scratch, struct diag_list *diags);
@@ -535,8 +535,9 @@ void library_report_loose(const struct library *lib, elem_id element, doc_type t
                           struct diag_list *diags);
 
 /*
- * write.c: writes the layer as MaterialX. A definition with both code and a nodegraph, which mxgen
- * does not use, keeps the graph alone, behind a comment with the inputs that it does not read.
+ * write_library.c: writes the layer as MaterialX. A definition with both code and a nodegraph,
+ * which mxgen does not use, keeps the graph alone, behind a comment with the inputs that it does
+ * not read.
  */
 void library_write(const struct library *lib, struct text *out);
 /* Warns of each of these inputs. */

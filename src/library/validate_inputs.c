@@ -2,7 +2,7 @@
 /*
  * Checks values against the definition of the input, and against other attributes of the element.
  */
-#include "library/validate.h"
+#include "library/validate_nodes.h"
 
 static const char *text_of(const struct validate *v, str_id id)
 {

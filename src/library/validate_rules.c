@@ -3,7 +3,7 @@
  * Rules of the MaterialX specification that generation does not need: mxgen assumes the most likely
  * meaning, but other programs may not. The section names are those of the main document.
  */
-#include "library/validate.h"
+#include "library/validate_nodes.h"
 
 #include <stdlib.h>
 

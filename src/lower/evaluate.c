@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lower/lower.h"
-#include "tree/eval.h"
+#include "tree/interpret.h"
 
 uint32_t lang_eval_node(const struct lang_unit *unit, const struct ir_graph *graph, ir_ref call,
                         const struct ir_value *args, uint32_t *steps_left, struct arena *scratch,

@@ -4,7 +4,7 @@
  * callee's body, a CALL.
  */
 #include "lower/lower_priv.h"
-#include "tree/eval.h"
+#include "tree/interpret.h"
 
 #include <assert.h>
 

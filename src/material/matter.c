@@ -7,7 +7,7 @@
  */
 #include "material/matter.h"
 
-#include "material/tree.h"
+#include "material/changed_closures.h"
 #include "shader/formula.h"
 #include "slabs/slabs.h"
 

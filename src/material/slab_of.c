@@ -3,7 +3,7 @@
  * The slab that stands for a leaf: libraries/slabs/recognise.mtlx has a definition for each leaf
  * that is a part of matter.
  */
-#include "material/tree.h"
+#include "material/changed_closures.h"
 #include "slabs/regime.h"
 
 #include "shader/formula.h"

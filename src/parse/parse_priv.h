@@ -286,7 +286,7 @@ void parse_begin(struct parser *p, const char *file_name, const char *text, size
 
 void parse_declarations(struct parser *p); /* a whole file */
 void parse_define(struct parser *p);       /* after #define, to the end of the line */
-/* program.c */
+/* program_expressions.c */
 /*
  * In a program, "++" or "--" before or behind a target inside of an expression: the value is a
  * local, which p->before sets.
@@ -319,7 +319,7 @@ lang_ref parse_expression(struct parser *p); /* 0 after an error, which is alrea
 struct local *parse_add_local(struct parser *p, const struct token *name_token, str_id name,
                               ir_type_id type, bool is_const);
 
-/* node.c: building nodes */
+/* tree_nodes.c: building nodes */
 
 static inline struct lang_node *tree_node(struct parser *p, lang_ref ref)
 {
@@ -347,7 +347,7 @@ static inline ir_type_id tree_type(const struct parser *p, lang_ref ref)
 void tree_append(struct parser *p, struct tree_chain *chain, lang_ref ref); /* ignores 0 */
 void tree_join(struct parser *p, struct tree_chain *chain, struct tree_chain more);
 
-/* types.c */
+/* conversions.c */
 
 /* rank of arithmetic scalars, in the order of implicit conversion; 0 for other types */
 unsigned check_rank(ir_type_id scalar);
@@ -360,7 +360,7 @@ bool check_converts(ir_type_id from, ir_type_id to); /* implicitly, or equal */
 bool check_is_array(const struct parser *p, ir_type_id type, ir_type_id *out_element,
                     uint32_t *out_length);
 
-/* check.c: conversions and operators */
+/* check_operator.c: conversions and operators */
 
 /* an explicit CONVERT; folds constants */
 lang_ref check_cast(struct parser *p, lang_ref a, ir_type_id type);

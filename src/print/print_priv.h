@@ -6,7 +6,7 @@
 #include "print/print.h"
 #include "tree/ast.h"
 
-/* ---- value.c ---- */
+/* ---- value_text.c ---- */
 
 const char *print_function_name(const struct lang_names *names, const struct lang_unit *unit,
                                 uint32_t id);

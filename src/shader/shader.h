@@ -406,7 +406,7 @@ struct shader {
 void shader_init(struct shader *shader, const struct role *role, struct arena *arena,
                  struct strpool *strings, struct ir_graph *graph, struct lang_unit *unit);
 
-/* module.c */
+/* module_names.c */
 
 /*
  * Leaves to a module of this name what is the same in each shader of the first `num_functions`

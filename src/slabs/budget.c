@@ -2,7 +2,7 @@
 #include "slabs/budget.h"
 
 #include "slabs/features.h"
-#include "slabs/hidden.h"
+#include "slabs/hidden_slabs.h"
 #include "slabs/recognise.h"
 #include "slabs/search.h"
 #include "slabs/joined_surfaces.h"

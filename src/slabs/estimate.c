@@ -5,7 +5,7 @@
 
 #include "lower/lower.h"
 #include "slabs/difference.h"
-#include "slabs/nodes.h"
+#include "slabs/slab_nodes.h"
 #include "slabs/places.h"
 
 #include <math.h>

@@ -3,7 +3,7 @@
 
 #include "slabs/bytes.h"
 #include "slabs/estimate.h"
-#include "slabs/hidden.h"
+#include "slabs/hidden_slabs.h"
 #include "slabs/recognise.h"
 #include "slabs/joined_surfaces.h"
 

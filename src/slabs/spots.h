@@ -7,7 +7,7 @@
 #define MXG_SLABS_SPOTS_H
 
 #include "base/table.h"
-#include "slabs/nodes.h"
+#include "slabs/slab_nodes.h"
 #include "slabs/slabs.h"
 
 struct slab_spot {

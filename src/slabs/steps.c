@@ -2,7 +2,7 @@
 #include "slabs/steps.h"
 
 #include "slabs/features.h"
-#include "slabs/hidden.h"
+#include "slabs/hidden_slabs.h"
 
 /* ---- The tree ---- */
 

@@ -4,7 +4,7 @@
  * the plan.
  */
 #include "specialise/spec.h"
-#include "tree/eval.h"
+#include "tree/interpret.h"
 
 #include <assert.h>
 

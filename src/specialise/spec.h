@@ -5,7 +5,7 @@
  *
  *     forward    rebuilds the source tree in the unit of the generation, with constants for
  *                variables; folds, and skips branches that never run (statement.c, expression.c)
- *     resolve    redirects calls to versions, or simplifies them (resolve.c)
+ *     resolve    redirects calls to versions, or simplifies them (redirect_calls.c)
  *     backward   unlinks statements without a use, and counts the uses of slots (sweep.c)
  *     single     replaces variables with a single read by their values (single.c)
  *     finish     renumbers slots, and completes the function's record (specialise.c)
@@ -101,7 +101,7 @@ static inline struct lang_node *spec_node(struct spec *s, lang_ref ref)
 
 lang_ref spec_add(struct spec *s, struct lang_node node); /* clears next */
 void spec_append(struct spec *s, struct chain *chain, lang_ref ref);
-/* node.c: the words may belong to the unit. */
+/* result_nodes.c: the words may belong to the unit. */
 lang_ref spec_constant_words(struct spec *s, ir_type_id type, const union ir_word *words);
 lang_ref spec_constant(struct spec *s, const struct ir_value *value);
 bool spec_get(const struct spec *s, lang_ref ref, struct ir_value *out); /* the value of a CONST */
@@ -114,15 +114,15 @@ lang_ref spec_target(struct spec *s, lang_ref ref);
 /* call.c. Before resolve, a call has 1 + the callee's variant in c. */
 lang_ref spec_call(struct spec *s, struct lang_node call);
 
-/* resolve.c: resolves the calls of the variant. */
+/* redirect_calls.c: resolves the calls of the variant. */
 void spec_resolve(struct spec *s);
 
 /*
- * inline.c: the expression that replaces a call of a small function; 0 if the call stays.
+ * inline_calls.c: the expression that replaces a call of a small function; 0 if the call stays.
  */
 lang_ref spec_inline(struct spec *s, const struct lang_node *call);
 
-/* fold.c: an op over operands of the result: a constant, a simpler expression, or 0. */
+/* fold_ops.c: an op over operands of the result: a constant, a simpler expression, or 0. */
 lang_ref spec_fold(struct spec *s, const struct lang_node *op, const lang_ref *args,
                    unsigned num_args);
 

@@ -29,7 +29,7 @@ struct spell_resource {
 };
 enum { SPELL_READS = 1, SPELL_WRITES = 2 };
 
-/* ---- maker.c: functions that build structs ---- */
+/* ---- struct_maker.c: functions that build structs ---- */
 
 struct spell_maker {
     const struct lang_unit *unit;
@@ -178,7 +178,7 @@ void spell_find_passed(struct spell *spell);
 /* The end of a list of parameters or arguments; `is_first`: the list is empty before it. */
 void spell_passed(struct spell *spell, uint32_t function, bool declares, bool is_first);
 
-/* ---- declare.c: declarations above the functions, for frames ---- */
+/* ---- interface_variables.c: declarations above the functions, for frames ---- */
 
 void spell_name_interface(struct spell *spell);
 /* The variable that has the variables of a block as members; NULL: there is none. */
@@ -229,7 +229,7 @@ bool spell_tests_early(const struct spell *spell);
 /* The name of a struct of the program that is being written. */
 const char *spell_program_type(struct spell *spell, ir_type_id type);
 
-/* ---- maker.c ---- */
+/* ---- struct_maker.c ---- */
 
 /* Gives a struct of the stage a maker with a name at file scope: "make_Outer". */
 void spell_name_maker(struct spell *spell, ir_type_id type);
@@ -288,7 +288,7 @@ void spell_title(struct spell *spell); /* "Gold · surfacematerial · …", with
 /* Writes the stage of a C-like target: declarations, functions, main. */
 void spell_stage(struct spell *spell, enum shader_stage_id stage);
 
-/* ---- host.c ---- */
+/* ---- host_functions.c ---- */
 
 /* Declares the functions of the host that the stage calls, in languages that need it. */
 void spell_host_functions(struct spell *spell);

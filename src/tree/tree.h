@@ -212,7 +212,7 @@ struct lang_unit {
     /* plan.c: the constants that functions assume; NULL until the shader is complete */
     struct lang_plan *plan;
     /* by id, of the functions that a module beside the shader has: their names in calls, NULL of
-     * others (module.c); num_module 0: there is no module */
+     * others (shared_functions.c); num_module 0: there is no module */
     const char *const *module;
     uint32_t num_module;
 };

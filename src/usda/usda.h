@@ -67,7 +67,7 @@ enum { USDA_MAX_DEPTH = 1000 }; /* of prims in each other */
 bool usda_read(struct usda_layer *layer, const char *file, const char *text, size_t len,
                uint32_t max_elements, struct arena *arena, struct diag_list *diags);
 
-/* index.c: prims and properties by their names. */
+/* prim_tables.c: prims and properties by their names. */
 /* The prim that had this name before; 0: none. */
 usda_prim_id usda_index_prim(struct usda_layer *layer, usda_prim_id id);
 /* Before usda_index_rows, for properties in the order of the file. */

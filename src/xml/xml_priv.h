@@ -82,7 +82,8 @@ struct diag_place xml_place(struct xml_reader *reader, size_t offset);
 /* The column of the offset; sets the line in source->position. */
 uint32_t xml_column(struct xml_source *source, size_t offset);
 
-/* text.c: converts the bytes of a file to UTF-8 text for libxml2. false after a reported error. */
+/* encoding.c: converts the bytes of a file to UTF-8 text for libxml2. false after a reported error.
+ */
 bool xml_prepare_text(struct xml_reader *reader, const char *data, size_t size);
 /* false after an error: a start tag has too many attributes. */
 bool xml_check_attributes(struct xml_reader *reader);
@@ -93,15 +94,15 @@ bool xml_check_attributes(struct xml_reader *reader);
 bool xml_repair_text(struct xml_reader *reader);
 
 /*
- * comment.c: gives the comments of a file to elements. Each function is called for one part of the
- * text, in the order of the text; none does anything if the document keeps no comments.
+ * read_comment.c: gives the comments of a file to elements. Each function is called for one part of
+ * the text, in the order of the text; none does anything if the document keeps no comments.
  */
 void xml_see_comment(struct xml_reader *reader, str_id text);
 void xml_see_start(struct xml_reader *reader, elem_id element);
 void xml_see_end(struct xml_reader *reader, elem_id element);
 void xml_see_file_end(struct xml_reader *reader, elem_id root);
 
-/* parse.c: parses the source into elements below source->root. false after a reported error. */
+/* sax.c: parses the source into elements below source->root. false after a reported error. */
 bool xml_parse_source(struct xml_reader *reader);
 
 /*

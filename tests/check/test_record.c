@@ -4,7 +4,7 @@
  * it is.
  */
 #define _POSIX_C_SOURCE 200809L
-#include "program/json.h"
+#include "program/json_values.h"
 #include "check/record_json.h"
 #include "unit/test.h"
 

@@ -4,7 +4,7 @@
 
 #include "lines.h"
 #include "program/files.h"
-#include "program/json.h"
+#include "program/json_values.h"
 #include "rows.h"
 
 #include <stdlib.h>

@@ -21,7 +21,7 @@
 #define MXG_TESTS_CONFORMANCE_DRAWS_H
 
 #include "program/scratch.h"
-#include "render/bind.h"
+#include "render/bind_shader.h"
 
 #include <stdio.h>
 

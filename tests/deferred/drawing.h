@@ -3,7 +3,7 @@
 #ifndef MXG_TESTS_DEFERRED_DRAWING_H
 #define MXG_TESTS_DEFERRED_DRAWING_H
 
-#include "render/passes.h"
+#include "render/deferred_passes.h"
 
 #include <mxgen/scene.h>
 

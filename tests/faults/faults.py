@@ -45,7 +45,7 @@ EXPECTED = {
 NETWORK = {"osl_network_ladder20": "network-limit"} # with --osl-network
 GLSL_ONLY = {"verbatim_index_oob", "verbatim_stack"}
 GLSL = ("glsl", "vulkan", "essl", "essl310")
-WORKERS = ("msl", "slang", "wgsl") # their compilers (compile/worker.h) reserve more memory than the limit, and start slowly
+WORKERS = ("msl", "slang", "wgsl") # their compilers (compile/compiler_process.h) reserve more memory than the limit, and start slowly
 NOT_FOR_OSLC = {"many_fn", "osl_network_ladder20"} # it inlines each call, so its time and memory double with each level
 LINES = subprocess.run([MXGEN, "--help"], capture_output=True, text=True, check=True).stdout.splitlines()
 TARGETS = [line.split()[0] for line in LINES[LINES.index("Targets:") + 1:] if line.startswith("  ")]

@@ -7,7 +7,7 @@
 #define _DEFAULT_SOURCE /* mkstemps, mkdtemp */
 #include "fuzz.h"
 
-#include "check/budget.h"
+#include "check/measure_budget.h"
 #include "check/record_json.h"
 #include "check/report_reader.h"
 #include "program/profile.h"

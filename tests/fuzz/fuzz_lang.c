@@ -10,7 +10,7 @@
 #include "parse/parse.h"
 #include "print/print.h"
 #include "specialise/specialise.h"
-#include "tree/eval.h"
+#include "tree/interpret.h"
 #include "tree/reach.h"
 
 enum { MAX_STEPS = 20000 };

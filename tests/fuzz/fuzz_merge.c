@@ -9,7 +9,7 @@
 
 #include "check/check.h"
 #include "cli/commands.h"
-#include "program/json.h"
+#include "program/json_values.h"
 #include "program/scratch.h"
 
 #include <libxml/parser.h>

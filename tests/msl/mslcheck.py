@@ -4,7 +4,7 @@
 Checks Metal Shading Language source with stock clang (draw.py runs it on the CPU). Debian 12: clang python3-clang-14.
  1. check pass: C++ for OpenCL with real address spaces     2. C++17 without address spaces (catches what 1 has to waive; the one that runs)
  3. lint on clang's AST: attributes and their targets, indices, address-space words, stage structs, what Metal bans
- --serve: answers requests of compile/worker.c, whose form is in compile/answer.mjs"""
+ --serve: answers requests of compile/compiler_process.c, whose form is in compile/answer.mjs"""
 import os, re, sys, tempfile
 import clang.cindex as ci
 from clang.cindex import CursorKind as K, TypeKind as T

@@ -497,7 +497,7 @@ static void test_json_strings(struct arena *arena)
 
 /*
  * Texts for people: each hidden character is one '?', and so is a byte that is no UTF-8; joiners,
- * marks and tabs stay (hidden.h).
+ * marks and tabs stay (hidden_chars.h).
  */
 static void test_shown_texts(struct arena *arena)
 {

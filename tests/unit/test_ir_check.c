@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * ir_check finds each rule of src/ir/check.c broken. A case reads a good graph and overwrites one
- * number of it behind the builder's back. Argument: the path of check.c, whose messages must all
- * stand among the cases.
+ * ir_check finds each rule of src/ir/invariants.c broken. A case reads a good graph and overwrites
+ * one number of it behind the builder's back. Argument: the path of invariants.c, whose messages
+ * must all stand among the cases.
  */
 #include "ir/ir.h"
 

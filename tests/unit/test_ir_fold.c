@@ -364,7 +364,7 @@ static void test_coverage(void)
     }
 }
 
-/* The answers of types.c to operand types that do not fit, or fit in more than one way. */
+/* The answers of op_types.c to operand types that do not fit, or fit in more than one way. */
 static const struct {
     uint8_t op;
     ir_type_id result, args[3];

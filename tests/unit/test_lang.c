@@ -7,7 +7,7 @@
 #include "parse/parse.h"
 #include "print/print.h"
 #include "specialise/specialise.h"
-#include "tree/eval.h"
+#include "tree/interpret.h"
 #include "tree/reach.h"
 
 #include "cases.h"

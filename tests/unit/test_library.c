@@ -3,7 +3,7 @@
 #include "cases.h"
 #include "layers_fixture.h"
 #include "specialise/specialise.h"
-#include "tree/eval.h"
+#include "tree/interpret.h"
 
 #include <math.h>
 #include <stdlib.h>

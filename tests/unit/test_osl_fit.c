@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /* Sums of OSL closures for BSDFs: what is a sum of lobes is found again, and what is none is told.
  */
-#include "generators/osl/fit.h"
+#include "generators/osl/closure_fit.h"
 #include "test.h"
 
 #include <math.h>

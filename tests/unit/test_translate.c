@@ -2,7 +2,7 @@
 /* The nodes of a document that compute values of the IR: each op, with its types, and what nodes
  * cannot compute. */
 #include "base/mem.h"
-#include "translate/nodes.h"
+#include "translate/value_nodes.h"
 
 #include "cases.h"
 #include "ir_text.h"

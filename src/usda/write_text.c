@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "usda/write_text.h"
+
+#include "base/hash.h"
+
+static bool is_letter(char c)
+{
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || (c & 0x80);
+}
+
+static bool is_digit(char c)
+{
+    return c >= '0' && c <= '9';
+}
+
+bool usda_is_identifier(struct text_word name)
+{
+    bool good = name.len && is_letter(name.bytes[0]);
+    for (size_t i = 1; i < name.len && good; i++)
+        good = is_letter(name.bytes[i]) || is_digit(name.bytes[i]);
+    return good;
+}
+
+void usda_put_indent(struct usda_text *text, uint32_t depth)
+{
+    for (uint32_t i = 0; i < depth; i++)
+        text_str(text->out, "    ");
+}
+
+void usda_put_name(struct usda_text *text, struct text_word name)
+{
+    if (usda_is_identifier(name)) {
+        text_put(text->out, name);
+        return;
+    }
+    text->num_changed++;
+    if (!name.len || is_digit(name.bytes[0]))
+        text_char(text->out, '_');
+    for (size_t i = 0; i < name.len; i++) {
+        char c = name.bytes[i];
+        text_char(text->out, is_letter(c) || is_digit(c) ? c : '_');
+    }
+    text_fmt(text->out, "_%x", (unsigned)hash_bytes(name.bytes, name.len));
+}
+
+void usda_put_string(struct usda_text *text, struct text_word string)
+{
+    text_char(text->out, '"');
+    for (size_t i = 0; i < string.len; i++) {
+        unsigned char c = (unsigned char)string.bytes[i];
+        if (c == '"' || c == '\\')
+            text_fmt(text->out, "\\%c", c);
+        else if (c < 0x20 || c == 0x7f)
+            text_fmt(text->out, "\\x%02x", (unsigned)c);
+        else
+            text_char(text->out, (char)c);
+    }
+    text_char(text->out, '"');
+}
