@@ -148,8 +148,8 @@ static void add_mask(struct import_material *material, mxg_element shader, float
 {
     mxg_edit *edit = material->importing->edit;
     const float one = 1;
-    float cutoff;
-    read_factor(material->json, gltf_find_input("alpha_cutoff"), &cutoff);
+    float cutoff[4];
+    read_factor(material->json, gltf_find_input("alpha_cutoff"), cutoff);
     struct import_port port = read_texture(material, gltf_find_input("alpha"), &alpha);
     open_graph(material);
     mxg_element mask = import_node(material, "ifgreatereq", "opaque", "float");
@@ -157,7 +157,7 @@ static void add_mask(struct import_material *material, mxg_element shader, float
         mxg_edit_connect_input(edit, mask, "value1", port.node, port.output);
     else
         mxg_edit_set_numbers(edit, mask, "value1", "float", &alpha, 1);
-    mxg_edit_set_numbers(edit, mask, "value2", "float", &cutoff, 1);
+    mxg_edit_set_numbers(edit, mask, "value2", "float", cutoff, 1);
     mxg_edit_set_numbers(edit, mask, "in1", "float", &one, 1);
     connect(material, shader, "opacity", "float", (struct import_port){mask, NULL});
 }
