@@ -389,6 +389,7 @@ static bool emit(struct generation *g)
 {
     struct shader *shader = &g->result->shader;
     const struct target_closures *closures = g->result->target->closures;
+    generation_name_closures(g);
     if (closures)
         return closures->emit(shader, &g->closure_host, g->root, &g->lacks);
     return closure_emit(shader, &g->closure_host, &g->lighting, g->root);

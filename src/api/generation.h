@@ -104,6 +104,8 @@ bool generation_start(struct generation *g); /* target, element, options */
 bool generation_build(struct generation *g); /* g->root */
 /* prepares the closure room; generation_emit calls it itself */
 void generation_start_closures(struct generation *g);
+/* closure_names.c: gives different names to the closures below the root, for locals and comments */
+void generation_name_closures(struct generation *g);
 /*
  * slabs.c: makes the slabs below the root cheaper, as the options ask; needs the closures' host.
  * False, after a message, where they cannot be cheap enough.

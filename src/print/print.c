@@ -104,14 +104,21 @@ static void print_head(struct printer *p, uint32_t id)
     lang_declare(p->style, &head, p->out);
 }
 
+void lang_print_results(struct lang_style *style, const struct lang_names *names,
+                        const struct lang_unit *unit, uint32_t id, struct text *out)
+{
+    if (!lang_has_results(style->syntax, unit, id))
+        return;
+    struct printer p = start(style, names, unit, id, out);
+    print_results_struct(&p, id);
+}
+
 void lang_print_function(struct lang_style *style, const struct lang_names *names,
                          const struct lang_unit *unit, uint32_t id, struct text *out)
 {
     if (print_from_image(style, names, unit, id, out))
         return;
     struct printer p = start(style, names, unit, id, out);
-    if (p.has_results)
-        print_results_struct(&p, id);
     print_head(&p, id);
     if (!p.fn->body) {
         text_str(out, ";\n");

@@ -367,6 +367,9 @@ const struct lang_pieces *lang_typed_form(const struct lang_syntax *syntax,
 void lang_print_value(const struct lang_style *style, const struct strpool *strings,
                       ir_type_id type, const union ir_word *words, enum lang_precedence least,
                       struct text *out);
+/* The struct of a function's results, which stands above the function and its comment, if any. */
+void lang_print_results(struct lang_style *style, const struct lang_names *names,
+                        const struct lang_unit *unit, uint32_t id, struct text *out);
 void lang_print_function(struct lang_style *style, const struct lang_names *names,
                          const struct lang_unit *unit, uint32_t id, struct text *out);
 /*

@@ -251,6 +251,7 @@ static void write_function(struct spell *spell, const struct lang_names *names, 
     const struct lang_unit *unit = spell->program->unit;
     const struct lang_function *fn = lang_function(unit, id, NULL);
     if (fn->body) {
+        lang_print_results(spell->style, names, unit, id, spell->out);
         if (fn->doc)
             spell_doc(spell, fn->doc);
         lang_print_function(spell->style, names, unit, id, spell->out);

@@ -222,6 +222,7 @@ static void write_function(struct spell *spell, uint32_t id)
 {
     if (!lang_function(spell->shader->unit, id, NULL)->body)
         return;
+    lang_print_results(spell->style, &spell->lang_names, spell->shader->unit, id, spell->out);
     spell_function_doc(spell, id);
     lang_print_function(spell->style, &spell->lang_names, spell->shader->unit, id, spell->out);
     spell_text(spell, "\n");

@@ -39,6 +39,7 @@ static const char *print_by(struct fixture *f, const struct lang_syntax *syntax,
     struct text text;
     lang_style_init(&style, syntax, &f->arena);
     text_init(&text, &f->arena);
+    lang_print_results(&style, NULL, &f->unit, function(f, called), &text);
     lang_print_function(&style, NULL, &f->unit, function(f, called), &text);
     return text_cstr(&text);
 }
