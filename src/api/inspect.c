@@ -70,6 +70,7 @@ static void view_closures(struct generation *g, struct text *out)
     if (!generation_budget_slabs(g))
         return;
     generation_walk_slabs(g);
+    generation_name_closures(g);
     closure_describe(&g->result->shader, &g->closure_host, g->root, out);
 }
 

@@ -459,6 +459,8 @@ done
 check 'closures of a material are printed' exits 0 "$mxgen" inspect two.mtlx --closures --element A
 check 'weights have the names of inputs' grep -q 'weight [A-Za-z_]*/[a-z_]*' out
 check 'weights have no numbers of the graph' eval '! grep -q "%[0-9]" out'
+check 'two surfaces of one definition are inspected' exits 0 "$mxgen" inspect --closures "${0%/*}/../golden/two_materials.mtlx"
+check 'each of their closures says whose it is' eval '[ "$(grep -cE "^  (rust|paint)_(reflection|diffuse) " out)" = 4 ]'
 
 # Nodes with more inputs than any list was made for
 many_inputs() { # attributes of the <implementation>, [the end of its source]
