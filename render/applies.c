@@ -16,6 +16,8 @@ static const struct {
     {"turntable", FACT_STUDIO, "only the scene 'studio' has a camera that moves"},
     {"path-trace", FACT_STUDIO, "paths are traced only in the scene 'studio'"},
     {"environment", FACT_STUDIO | FACT_NO_MAP, "only the scene 'studio' takes a map"},
+    {"environment", FACT_RASTER | FACT_NOT_PREFILTERED,
+     "--path-trace traces the environment as it is, not prefiltered"},
     {"background", FACT_PICTURE, "a grid prints values and has no background"},
     {"background", FACT_DISPLAY, "EXR and HDR files have no background"},
     {"output", FACT_PICTURE, "a grid prints its values to standard output"},

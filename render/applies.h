@@ -23,6 +23,7 @@ enum render_fact {
     FACT_SHOWN = 1 << 14,    /* --show has what it draws */
     FACT_CHANNELS = 1 << 13, /* a file is EXR, with channels for AOVs */
     FACT_DRAWN = 1 << 15,    /* a raster draws the role of --role */
+    FACT_NOT_PREFILTERED = 1 << 16,
 };
 
 /* False after a message about the first option that does not apply. */

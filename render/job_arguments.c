@@ -113,6 +113,8 @@ static void apply_environments(struct job *job)
         job->painter.studio.prefiltered = strcmp(word, "prefiltered") == 0;
         job->painter.trace.dark = strcmp(word, "none") == 0;
     }
+    if (job->options.path_trace) /* the tracer has the environment, not its shaders */
+        mxg_options_set(job->cli.options, "environment", "importance");
 }
 
 /* Reduces the interface for a smaller shader: only the inputs that the user sets stay uniforms. */
@@ -190,7 +192,8 @@ static bool parse(struct job *job)
     if (!args_is_given(&job->cli.parser, "aovs") && !job_shows_slots(job)
         && !job_writes_channels(job))
         mxg_options_set(job->cli.options, "aovs", "none");
-    if (!args_is_given(&job->cli.parser, "ambient-occlusion")) /* there is no map of a stage */
+    /* there is no map of a stage */
+    if (!job->options.path_trace && !args_is_given(&job->cli.parser, "ambient-occlusion"))
         mxg_options_set(job->cli.options, "ambient-occlusion", "primvar");
     /* the device's samplers have neither arbitrary border colours nor cubic filters */
     if (!args_is_given(&job->cli.parser, "texture-modes"))
@@ -254,7 +257,8 @@ unsigned job_find_facts(const struct job *job, bool is_grid, bool is_one)
            | fact(!options->stage, FACT_NO_STAGE)
            | fact(job_shows_slots(job) ? options->stage != NULL : is_role(job, "deferred"),
                   FACT_SHOWN)
-           | fact(is_drawn(job), FACT_DRAWN);
+           | fact(is_drawn(job), FACT_DRAWN)
+           | fact(!job->painter.studio.prefiltered, FACT_NOT_PREFILTERED);
 }
 
 bool job_parse(struct job *job)

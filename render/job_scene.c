@@ -122,7 +122,8 @@ static void apply_lights(struct job *job)
                        "the stage has %u lights; the first %d light the picture", stage->num_lights,
                        MAX_LIGHTS);
     if (!stage->has_dome && !job->options.environments.len) {
-        mxg_options_set(job->cli.options, "environment", "none");
+        if (!job->options.path_trace)
+            mxg_options_set(job->cli.options, "environment", "none");
         job->painter.trace.dark = true;
     }
 }

@@ -60,7 +60,8 @@ enum role_task {
     TASK_LIGHTS,      /* the light of bound light shaders */
     TASK_SHADOWS,     /* what hides lights */
     TASK_OCCLUSION,   /* what hides the environment */
-    TASK_ENVIRONMENT, /* samples of the environment */
+    TASK_CAVITIES,    /* the occlusion that nodes read */
+    TASK_ENVIRONMENT, /* light from the environment */
     TASK_OPACITY,     /* what an opacity does to the pixel */
     TASK_BACKGROUND,  /* what is seen through a surface */
     TASK_BODY,        /* the way of light through a body */

@@ -150,7 +150,8 @@ check 'the prefix is in all names' eval 'says "pane_VertexData" Glass.frag && sa
 for options in '--role function --max-lights 8' '--role function --shadow-map' \
     '--role function --lights point_light' '--role scatter --shadow-map' '--role scatter --occlusion-map' \
     '--role scatter --transmission opacity' '--role scatter --encode srgb' '--role scatter --transparency mask' \
-    '--role scatter --quality draft'; do
+    '--role scatter --quality draft' '--role scatter --environment none' '--role scatter --environment prefiltered' \
+    '--role scatter --ambient-occlusion primvar' '--role scatter --ambient-occlusion none'; do
     # shellcheck disable=SC2086
     check "options without effect are an error: $options" eval 'exits 1 "$mxgen" glass.mtlx --target glsl --stdout $options && grep -q "option-without-effect" err'
 done

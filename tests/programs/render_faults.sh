@@ -37,6 +37,7 @@ as-drawn|plain.mtlx -o x.png
 samples=2|plain.mtlx -o x.png --environment none
 samples=2|plain.mtlx -o x.png --environment prefiltered
 samples=2|plain.mtlx -o x.png --path-trace
+environment=prefiltered|plain.mtlx -o x.png --path-trace
 quality=draft|plain.mtlx -o x.png --path-trace
 element=M|plain.mtlx -o x.png --look L
 layer-sample=0.5|plain.mtlx -o x.png

@@ -71,6 +71,8 @@ static const struct setting {
     {"host_occlusion", "host-occlusion", {"false", "true"}},
     {"host_environment", "host-environment", {"false", "true"}},
     {"host_thickness", "host-thickness", {"false", "true"}},
+    {"environment", "environment", {"importance", "prefiltered", "none"}},
+    {"ambient_occlusion", "ambient-occlusion", {"map", "primvar", "none"}},
     {"quality", "quality", {"good", "reference"}},
     {"lights", "lights", {"", "point_light=2"}},
     {"max_lights", "max-lights", {"3", "8"}},
