@@ -36,6 +36,12 @@ float mx_opacity(vec3 opacity)
     return dot(opacity - opacity.zzz, vec3(0.2722287, 0.6740818, 0.0)) + opacity.z;
 }
 
+// The part of UsdPreviewSurface that refracts.
+float mx_preview_glass(float opacity, int mode, float threshold)
+{
+    return threshold > 0.0 || mode == 1 ? 0.0 : 1.0 - opacity;
+}
+
 /* A thin sheet of OpenPBR lets the share (1 + g) / 2 of its subsurface light through, one of standard_surface all of it: the colour of
    the diffuse reflection there that has the rest. */
 vec3 mx_sheet_color(vec3 base, vec3 scattered, float weight, float anisotropy)

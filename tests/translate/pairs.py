@@ -14,7 +14,8 @@ from checks import check, finish
 
 MXGEN = sys.argv[1]
 FOLDER = tempfile.TemporaryDirectory()
-IMAGE = '<image name="T" type="float"><input name="file" type="filename" value="none.png"/></image>'
+IMAGE = '<image name="T" type="float"><input name="file" type="filename" value="none.png"/></image>' \
+    '<image name="C" type="color3"><input name="file" type="filename" value="none.png"/></image>'
 
 
 def kind_of(value):
@@ -26,8 +27,8 @@ def kind_of(value):
 
 
 def port(name, value):
-    if value == "T":
-        return f'<input name="{name}" type="float" nodename="T"/>'
+    if value in ("T", "C"):
+        return f'<input name="{name}" type="{"float" if value == "T" else "color3"}" nodename="{value}"/>'
     kind, text = kind_of(value)
     return f'<input name="{name}" type="{kind}" value="{text}"/>'
 
@@ -156,12 +157,20 @@ def test_specular_workflow():
     for base, f0 in (((0.8, 0.3, 0.1), (0.1, 0.4, 0.9)), ((0.0, 0.0, 0.0), (1.0, 0.77, 0.34)), ((0.8, 0.3, 0.1), (1.0, 0.5, 0.1)), ((0.5, 0.5, 0.5), (0.6, 0.0, 0.0))):
         source = {"diffuseColor": base, "useSpecularWorkflow": 1, "specularColor": f0}
         wanted = [f + (1 - f) * b for f, b in zip(f0, base)]
-        for model, color, metal, default in (("standard_surface", "base_color", "metalness", 0), ("open_pbr_surface", "base_color", "base_metalness", 0), ("disney_principled", "baseColor", "metallic", 0), ("gltf_pbr", "base_color", "metallic", 1)):
+        for model, color, metal, default in (("standard_surface", "base_color", "metalness", 0), ("open_pbr_surface", "base_color", "base_metalness", 0), ("disney_principled", "baseColor", "metallic", 0)):
             values, _, said = translate("UsdPreviewSurface", model, **source)
             d = 0.2 * (1 - values.get(metal, [default])[0])
             found = [d + (1 - d) * b for b in values.get(color, [0.8] * 3)]
             near(found, wanted, f"{f0} above {base} as {model}")
             check(not said, f"nothing is lost: {said[:300]}")
+        for ior in (1.5, 2.0, 1.0):
+            values, _, said = translate("UsdPreviewSurface", "gltf_pbr", ior=ior, **source)
+            reflectance = ((values.get("ior", [1.5])[0] - 1) / (values.get("ior", [1.5])[0] + 1)) ** 2
+            near([c * reflectance for c in values.get("specular_color", [1] * 3)], list(f0), f"gltf_pbr has the reflectance {f0} itself, ior {ior}")
+            near(values.get("base_color"), list(base), "and the colour below it")
+            check(values.get("metallic") == [0] and (ior == 1 or values.get("ior", [1.5]) == [ior]) and not said, f"no metal, the index stays: {values} {said[:300]}")
+    values, connected, said = translate("UsdPreviewSurface", "gltf_pbr", useSpecularWorkflow=1, specularColor="C")
+    check("specular_color" in connected and "ior" not in values and not said, f"a texture of the reflectance stays one: {values} {said[:300]}")
     base, f0 = (0.8, 0.3, 0.1), (0.05, 0.1, 0.2)
     values, _, _ = translate("UsdPreviewSurface", "standard_surface", diffuseColor=base, useSpecularWorkflow=1, specularColor=f0)
     near(values.get("base_color"), [b * (1 - f) / 0.8 for b, f in zip(base, f0)], "a dielectric with a tint lets as much through")
@@ -173,11 +182,34 @@ def test_specular_workflow():
 def test_masks():
     for threshold in (0.01, 0.4, 0.5, 0.9):
         values, connected, said = translate("UsdPreviewSurface", "gltf_pbr", opacity="T", opacityThreshold=threshold)
-        check(values.get("alpha_mode") == [2] and "alpha" in connected and not said, f"a mask above {threshold} is no opaque surface: {values}")
+        check(values.get("alpha_mode") == [1] and values.get("alpha_cutoff", [0.5]) == [threshold] and "alpha" in connected and not said, f"a mask above {threshold} stays one: {values}")
         values, connected, _ = translate("gltf_pbr", "UsdPreviewSurface", alpha="T", alpha_mode=1, alpha_cutoff=threshold)
         check(values.get("opacityMode") == [1] and "opacity" in connected, f"a mask above {threshold} cuts: {values}")
+        values, connected, _ = translate("standard_surface", "gltf_pbr", opacity="C")
+        check(values.get("alpha_mode") == [2] and "alpha" in connected, f"an opacity blends: {values}")
+    values, connected, _ = translate("UsdPreviewSurface", "gltf_pbr", opacity="T", opacityMode=1)
+    check(values.get("alpha_mode") == [2] and "alpha" in connected, f"presence of a texture blends: {values}")
+    values, connected, _ = translate("UsdPreviewSurface", "gltf_pbr", opacity="T")
+    check("alpha_mode" not in values and "transmission" in connected, f"an opacity that refracts is no mask: {values}")
     values, _, _ = translate("UsdPreviewSurface", "gltf_pbr", opacity=0.25, opacityMode=1)
     check(values.get("alpha_mode") == [2] and values.get("alpha") == [0.25], "presence blends")
+
+
+def test_sheen():
+    """The sheen of standard_surface is a part of its dielectric, so metal and glass have none; fuzz of the other two lies on top."""
+    for metalness, transmission in ((0.0, 0.0), (0.25, 0.0), (0.0, 0.5), (0.25, 0.5), (1.0, 0.0), (0.0, 1.0)):
+        inputs = {"sheen": 0.8, "sheen_color": (0.5, 0.25, 1.0), "metalness": metalness, "transmission": transmission}
+        weight = 0.8 * (1 - metalness) * (1 - transmission)
+        values, _, said = translate("standard_surface", "gltf_pbr", **inputs)
+        near(values.get("sheen_color", [0] * 3), [weight * c for c in (0.5, 0.25, 1.0)], f"sheen of metal {metalness}, glass {transmission} as gltf_pbr")
+        check(not said, f"nothing is lost: {said[:300]}")
+        values, _, said = translate("standard_surface", "open_pbr_surface", **inputs)
+        near(values.get("fuzz_weight", [0]), weight, f"sheen of metal {metalness}, glass {transmission} as open_pbr_surface")
+        check(not said, f"nothing is lost: {said[:300]}")
+    for model, fuzz, metal in (("open_pbr_surface", "fuzz_weight", {"base_metalness": 1.0}), ("gltf_pbr", "sheen_color", {"metallic": 1.0}),
+                               ("open_pbr_surface", "fuzz_weight", {"transmission_weight": 1.0})):
+        _, _, said = translate(model, "standard_surface", **{fuzz: (0.9, 0.5, 0.2) if model == "gltf_pbr" else 0.8}, **metal)
+        is_told(said, fuzz, model, "fuzz that lies on metal or glass")
 
 
 def test_principled():
@@ -221,6 +253,7 @@ test_metal()
 test_sheet()
 test_specular_workflow()
 test_masks()
+test_sheen()
 test_principled()
 test_parts()
 finish("translate-pairs")

@@ -57,10 +57,11 @@ def check_lengths():
 
 def check_library():
     """A third of MaterialX's own 20,600 lines of XML and 7,900 of source, written for no target; it has no sampling and one
-    distribution of facets, ours has two, and the nodes of slabs, slots and AOVs, and the formulas that the compiler calls."""
+    distribution of facets, ours has two, and the nodes of slabs, slots and AOVs, and the formulas that the compiler calls. A translation between two models,
+    where a way through a third one loses something, is 40 lines."""
     sizes = {endings: sum(len(lines(path)) for path in files("libraries", *endings)) for endings in ((".mtlx",), (".glsl", ".inline"))}
     whole = sum(sizes.values())
-    check(whole <= 13100, f"libraries: {whole} lines; 13,100 is the budget")
+    check(whole <= 13150, f"libraries: {whole} lines; 13,150 is the budget")
     print(f"libraries: {whole} lines,", ", ".join(f"{size} of {endings[0]}" for endings, size in sizes.items()))
     for path in files("libraries", ".mtlx"):
         bound = [str(number) for number, line in enumerate(lines(path), 1) if "target=" in line and "<!-- only there:" not in line]
