@@ -6,6 +6,7 @@
 #include "generators/mdl/closure_tree.h"
 
 #include "ir/arithmetic.h"
+#include "shader/formula.h"
 
 #include <math.h>
 
@@ -114,8 +115,8 @@ static struct mdl_parts rewrite(struct mdl_tree *t, ir_ref ref)
     case IR_VOLUME_SHADER: return mdl_parts_sum(t, t->of[a[0]], t->of[a[1]]);
     case IR_CLOSURE_SCALE: return mdl_parts_scaled(t, t->of[a[0]], a[1], fills);
     case IR_LIGHT_SHADER:
-        return mdl_parts_scaled(t, t->of[a[0]],
-                                ir_mul(t->graph, a[1], ir_op1(t->graph, IR_EXP2, a[2])), false);
+        return mdl_parts_scaled(t, t->of[a[0]], FORMULA(t->shader, "mx_exposed", a[1], a[2]),
+                                false);
     default: return (struct mdl_parts){0};
     }
 }

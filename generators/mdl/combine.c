@@ -172,24 +172,17 @@ struct mdl_parts mdl_parts_scaled(struct mdl_tree *t, struct mdl_parts p, ir_ref
 static ir_ref mean_anisotropy(struct mdl_tree *t, const struct mdl_parts *a,
                               const struct mdl_parts *b)
 {
-    struct ir_graph *g = t->graph;
     if (!a->anisotropy || !b->anisotropy || a->anisotropy == b->anisotropy)
         return a->anisotropy ? a->anisotropy : b->anisotropy;
-    ir_ref white = ir_const_splat(g, IR_TYPE_VEC3, 1.0f),
-           of_a = ir_op2(g, IR_DOT, a->scattering, white),
-           of_b = ir_op2(g, IR_DOT, b->scattering, white);
-    ir_ref tiny = ir_const_float(g, 1e-6f),
-           share = ir_div(g, of_b, ir_op2(g, IR_MAX, ir_add(g, of_a, of_b), tiny));
-    return ir_mix(g, a->anisotropy, b->anisotropy, share);
+    ir_ref share = FORMULA(t->shader, "mx_blend_share", a->scattering, b->scattering);
+    return ir_mix(t->graph, a->anisotropy, b->anisotropy, share);
 }
 
 /* The media of two ways into a body, each for its part of the light. */
 static void share_body(struct mdl_tree *t, struct mdl_parts *a, struct mdl_parts *b)
 {
-    struct ir_graph *g = t->graph;
-    ir_ref all = ir_add(g, a->into, b->into),
-           share = ir_div(g, b->into, ir_op2(g, IR_MAX, all, ir_const_float(g, 1e-6f))),
-           rest = ir_one_minus(g, share);
+    ir_ref share = FORMULA(t->shader, "mx_blend_share", a->into, b->into),
+           rest = ir_one_minus(t->graph, share);
     a->absorption = times(t, a->absorption, rest);
     a->scattering = times(t, a->scattering, rest);
     b->absorption = times(t, b->absorption, share);

@@ -455,12 +455,11 @@ static struct mdl_parts medium(struct mdl_tree *t, ir_ref ref)
 /* MDL has one tint of all paths through a fibre: the mean of three. */
 static ir_ref hair_tint(const struct leaf *leaf)
 {
-    struct ir_graph *g = leaf->tree->graph;
     ir_ref r = leaf->inputs[INPUT_tint_R], tt = leaf->inputs[INPUT_tint_TT],
            trt = leaf->inputs[INPUT_tint_TRT];
     if (r == tt && r == trt)
         return r;
-    return ir_scaled(g, ir_add(g, r, ir_add(g, tt, trt)), 1.0f / 3.0f);
+    return FORMULA(leaf->tree->shader, "mx_mean", r, tt, trt);
 }
 
 static struct mdl_parts hair(struct leaf *leaf)

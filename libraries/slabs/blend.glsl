@@ -9,17 +9,17 @@
 #include "../pbrlib/shaders/closure.glsl"
 
 // Share of b in the amounts of both; 0 where both are 0.
-float mx_blend_share(float amount_a, float amount_b)
+float mx_blend_share(float a, float b)
 {
-    if (mx_known(amount_a == 0.0) && !mx_known(amount_b == 0.0))
+    if (mx_known(a == 0.0) && !mx_known(b == 0.0))
         return 1.0;
-    return amount_b / max(amount_a + amount_b, 1e-6);
+    return b / max(a + b, 1e-6);
 }
 
 // Share of b in the light of both.
-float mx_blend_share(vec3 light_a, vec3 light_b)
+float mx_blend_share(vec3 a, vec3 b)
 {
-    return mx_blend_share(mx_mean(light_a), mx_mean(light_b));
+    return mx_blend_share(mx_mean(a), mx_mean(b));
 }
 
 // ---- light along the normal ------------------------------------------------------------------------------------------

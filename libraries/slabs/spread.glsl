@@ -53,3 +53,16 @@ float mx_spread_slope(float alpha, float presence, float coverage)
 {
     return alpha * alpha * 0.0801 * presence * coverage;
 }
+
+// The view behind rough interfaces as a covariance of slope and place along an axis: a way through a thickness shears it. `both` grows by the
+// slope that it meets,
+float mx_spread_both(float both, float slope, float thickness)
+{
+    return both + thickness * slope;
+}
+
+// and the place by `both` before and behind.
+float mx_spread_place(float place, float before, float behind, float thickness)
+{
+    return place + thickness * (before + behind);
+}

@@ -10,6 +10,7 @@
  */
 #include "base/folder_names.h"
 #include "build/build_priv.h"
+#include "shader/formula.h"
 
 #include <limits.h>
 #include <stdlib.h>
@@ -244,13 +245,10 @@ static ir_ref layer_table(struct builder *b, const struct shader_tile *tiles, ui
     return ir_build(b->graph, IR_INDEX, IR_TYPE_FLOAT, 0, (ir_ref[]){table, index}, 2);
 }
 
-static ir_ref is_between(struct ir_graph *g, ir_ref x, int32_t length)
+static ir_ref place_of(struct ir_graph *g, int32_t u, int32_t v)
 {
-    ir_ref zero = ir_const_float(g, 0.0f), last = ir_const_float(g, (float)(length - 1));
-    if (length == 1)
-        return ir_op2(g, IR_EQ, x, zero);
-    ir_ref above = ir_op2(g, IR_GE, x, zero), below = ir_op2(g, IR_LE, x, last);
-    return ir_op2(g, IR_LAND, above, below);
+    struct ir_value place = {.type = IR_TYPE_VEC2, .w = {{.f = (float)u}, {.f = (float)v}}};
+    return ir_const(g, &place);
 }
 
 ir_ref build_tile_layer(struct builder *b, const struct shader_variable *texture, ir_ref uv,
@@ -260,15 +258,12 @@ ir_ref build_tile_layer(struct builder *b, const struct shader_variable *texture
     struct ir_graph *g = b->graph;
     const struct shader_tile *tiles = b->shader->interface.tiles.items + texture->first_tile;
     struct cells cells = cells_of(tiles, texture->num_tiles);
-    struct ir_value corner = {.type = IR_TYPE_VEC2,
-                              .w = {{.f = (float)cells.u}, {.f = (float)cells.v}}};
-    ir_ref square = ir_op1(g, IR_FLOOR, uv), at = ir_op2(g, IR_SUB, square, ir_const(g, &corner));
-    ir_ref column = ir_component(g, at, 0), row = ir_component(g, at, 1);
-    ir_ref cell =
-        ir_op2(g, IR_ADD, column, ir_op2(g, IR_MUL, row, ir_const_float(g, (float)cells.width)));
-    ir_ref in_columns = is_between(g, column, cells.width),
-           in_rows = is_between(g, row, cells.height);
-    *out_inside = ir_op2(g, IR_LAND, in_columns, in_rows);
+    ir_ref first = place_of(g, cells.u, cells.v),
+           last = place_of(g, cells.width - 1, cells.height - 1),
+           columns = ir_const_float(g, (float)cells.width);
+    ir_ref whole = ir_op1(g, IR_FLOOR, uv), at = ir_op2(g, IR_SUB, whole, first);
+    ir_ref cell = FORMULA(b->shader, "mx_tile_cell", at, columns);
+    *out_inside = FORMULA(b->shader, "mx_tile_is_inside", at, last);
     if (texture->num_tiles == (uint32_t)(cells.width * cells.height))
         return cell;
     ir_ref layer = layer_table(b, tiles, texture->num_tiles, &cells, cell);

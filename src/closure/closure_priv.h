@@ -5,13 +5,12 @@
 
 #include "closure/closure.h"
 
-/* output.c: a linear colour by the transfer function of sRGB (IEC 61966-2-1, section 5.2). */
-ir_ref closure_encoded(struct ir_graph *graph, ir_ref color);
-/* The colour, a vec3, and its alpha: one output of a program, two members of a function. */
+/* output.c: the colour, a vec3, and its alpha: one output of a program, two members of a function.
+ */
 void closure_write_output(struct shader *shader, ir_ref color, ir_ref alpha, ir_ref through);
 /*
  * Writes a plain value as a colour: scalars are grey, two components are red and green, an alpha is
- * kept. encodes: as closure_encoded. False: the type is no value.
+ * kept. encodes: colours are written as sRGB. False: the type is no value.
  */
 bool closure_emit_value(struct shader *shader, bool encodes, ir_ref root);
 /* occlusion_maps.c: the part of the first light that reaches the shaded point, by the host's shadow

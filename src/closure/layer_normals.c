@@ -13,6 +13,8 @@
  */
 #include "closure/closure_priv.h"
 
+#include "shader/formula.h"
+
 #include <assert.h>
 
 struct normals {
@@ -22,11 +24,6 @@ struct normals {
     ir_ref current;     /* after the layers so far */
     ir_ref everywhere;  /* Σ n - Ng of the layers with `none`; 0: there are none */
 };
-
-static ir_ref unit_sum(struct ir_graph *g, ir_ref a, ir_ref b)
-{
-    return ir_op1(g, IR_NORMALIZE, ir_op2(g, IR_ADD, a, b));
-}
 
 static void find_everywhere(struct normals *n, ir_ref slots)
 {
@@ -47,12 +44,12 @@ static void add_normal(struct normals *n, const struct ir_slot *slot)
         return;
     if (ir_slot_mode(g, slot) == IR_SLOT_ADD) {
         ir_ref bend = ir_op2(g, IR_SUB, slot->normal, n->own);
-        n->current = unit_sum(g, n->current, ir_op2(g, IR_MUL, bend, slot->presence));
+        n->current = FORMULA(n->shader, "mx_normal_bent", n->current, bend, slot->presence);
     } else if (ir_const_is(g, slot->presence, 1.0f)) {
         n->current = slot->normal;
     } else {
         n->current =
-            ir_op1(g, IR_NORMALIZE, ir_op3(g, IR_MIX, n->current, slot->normal, slot->presence));
+            FORMULA(n->shader, "mx_normal_under", n->current, slot->normal, slot->presence);
     }
 }
 
@@ -86,7 +83,9 @@ ir_ref closure_shade_slots(struct shader *shader, ir_ref slots, ir_ref moved)
         if (slot.normal && moved)
             slot.normal = ir_replace(g, slot.normal, n.stream, moved, shader->arena);
         add_normal(&n, &slot);
-        ir_ref normal = n.everywhere ? unit_sum(g, n.current, n.everywhere) : n.current;
+        ir_ref normal = n.current;
+        if (n.everywhere)
+            normal = FORMULA(shader, "mx_normal_bent", n.current, n.everywhere);
         bool is_plain = !moved && normal == n.own;
         if (slot.surface && !is_plain)
             operands[0] = shade(&n, slot.surface, normal);

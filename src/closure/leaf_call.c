@@ -150,9 +150,8 @@ static ir_ref unit_throughput(struct shader *shader, const struct closure_host *
     if (!decay || ir_const_is(g, decay, 1.0f) || ir_const_is(g, through, 0.0f))
         return through;
     if (host->spreads && may_scatter(shader, host, leaf)) {
-        ir_ref way = ir_const_float(g, CLOSURE_MEAN_WAY),
-               ways = ir_construct(g, IR_TYPE_VEC3, &way, 1);
-        return ir_mul(g, through, ir_op2(g, IR_POW, decay, ways));
+        ir_ref way = ir_const_float(g, CLOSURE_MEAN_WAY);
+        return FORMULA(shader, "mx_decayed", through, decay, way);
     }
     *out_decay = decay;
     for (unsigned i = 0; i < host->way; i++)

@@ -102,11 +102,11 @@ static struct closure_surface mixed(const struct surfaces *s, struct closure_sur
 /*
  * Its transmission shows the background (MaterialX PBR specification, <surface_unlit>).
  */
-static struct closure_surface unlit_surface(struct ir_graph *g, ir_ref emitted, ir_ref transmitted,
-                                            ir_ref opacity)
+static struct closure_surface unlit_surface(struct shader *shader, ir_ref emitted,
+                                            ir_ref transmitted, ir_ref opacity)
 {
-    ir_ref through =
-        ir_op2(g, IR_DOT, color_of(g, transmitted), ir_const_splat(g, IR_TYPE_VEC3, 1.0f / 3.0f));
+    struct ir_graph *g = shader->graph;
+    ir_ref through = FORMULA(shader, "mx_mean", color_of(g, transmitted));
     return (struct closure_surface){.unlit = ir_op2(g, IR_MUL, emitted, opacity),
                                     .alpha = ir_op2(g, IR_MUL, opacity, ir_one_minus(g, through)),
                                     .premultiplied = true};
@@ -284,8 +284,8 @@ static ir_ref through_of_leaf(const struct surfaces *s, ir_ref ref,
         return args[2];
     if (ir_get(g, ref)->op != IR_SURFACE_UNLIT)
         return 0;
-    ir_ref opacity = args[2], held = ir_one_minus(g, color_of(g, args[1]));
-    return ir_one_minus(g, ir_op2(g, IR_MUL, held, opacity));
+    ir_ref opacity = args[2];
+    return FORMULA(s->shader, "mx_weighted_throughput", color_of(g, args[1]), opacity);
 }
 
 /* A surface without other surfaces. */
@@ -295,7 +295,7 @@ static struct closure_surface leaf_of(const struct surfaces *s, ir_ref ref)
     bool is_matter = ir_get(s->graph, ref)->attr != 0;
     struct closure_surface out = {0};
     if (ir_get(s->graph, ref)->op == IR_SURFACE_UNLIT)
-        out = unlit_surface(s->graph, args[0], args[1], args[2]);
+        out = unlit_surface(s->shader, args[0], args[1], args[2]);
     else
         out = (struct closure_surface){.bsdf = args[0],
                                        .edf = args[1],
@@ -391,7 +391,7 @@ static ir_ref alpha_of(struct shader *shader, ir_ref ref, const ir_ref *alphas)
     memcpy(args, ir_args(g, ref), (node.num_args < 3 ? node.num_args : 3) * sizeof *args);
     switch (node.op) {
     case IR_SURFACE_SHADER: return alpha_of_leaf(shader, ref);
-    case IR_SURFACE_UNLIT: return unlit_surface(g, args[0], args[1], args[2]).alpha;
+    case IR_SURFACE_UNLIT: return unlit_surface(shader, args[0], args[1], args[2]).alpha;
     case IR_AOV: return alphas[args[0]];
     case IR_SHADER_MIX: return mixed_alpha(g, alphas[args[0]], alphas[args[1]], args[2]);
     default: assert(node.op != IR_SLOTS && node.op != IR_MATTER); return 0;

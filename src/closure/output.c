@@ -2,19 +2,9 @@
 /* Hosts choose the encoding of the output's colour, and transmission as alpha. */
 #include "closure/closure_priv.h"
 
-#include <assert.h>
+#include "shader/formula.h"
 
-ir_ref closure_encoded(struct ir_graph *g, ir_ref color)
-{
-    ir_type_id type = ir_type_of(g, color);
-    ir_ref positive = ir_op2(g, IR_MAX, color, ir_const_float(g, 0.0f));
-    ir_ref power = ir_op2(g, IR_POW, positive, ir_const_splat(g, type, 1.0f / 2.4f));
-    ir_ref curve = ir_op2(g, IR_SUB, ir_op2(g, IR_MUL, power, ir_const_float(g, 1.055f)),
-                          ir_const_splat(g, type, 0.055f));
-    ir_ref line = ir_op2(g, IR_MUL, color, ir_const_float(g, 12.92f));
-    ir_ref is_curve = ir_op2(g, IR_STEP, ir_const_splat(g, type, 0.0031308f), color);
-    return ir_op3(g, IR_MIX, line, curve, is_curve);
-}
+#include <assert.h>
 
 /* The operand of a leaf for an input, for example "tint"; 0: it has none. */
 static ir_ref operand_of(const struct shader *shader, const struct closure_host *host, ir_ref leaf,
@@ -110,6 +100,8 @@ bool closure_emit_value(struct shader *shader, bool encodes, ir_ref root)
         break;
     default: return false;
     }
-    closure_write_output(shader, encodes && is_color ? closure_encoded(g, color) : color, alpha, 0);
+    if (encodes && is_color)
+        color = FORMULA(shader, "mx_srgb_encoded", color);
+    closure_write_output(shader, color, alpha, 0);
     return true;
 }

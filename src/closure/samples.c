@@ -13,6 +13,8 @@
  */
 #include "closure/closure_priv.h"
 
+#include "shader/formula.h"
+
 #include <assert.h>
 
 /* ---- Which parts share a loop ---- */
@@ -146,7 +148,6 @@ ir_ref closure_first_turn(struct ir_graph *g)
 
 ir_ref closure_next_turn(struct shader *shader, const struct closure_parts *list)
 {
-    const float minus_cosine = 0.73736888f, sine = 0.67549029f; /* of the golden angle */
     struct ir_graph *g = shader->graph;
     struct closure_copies seen = {.shader = shader};
     bool any = false;
@@ -155,12 +156,7 @@ ir_ref closure_next_turn(struct shader *shader, const struct closure_parts *list
     if (!any)
         return 0;
     ir_ref turn = ir_build(g, IR_SAMPLE, IR_TYPE_VEC2, IR_SAMPLE_TURN, NULL, 0);
-    ir_ref y = ir_component(g, turn, 1), x = ir_component(g, turn, 0);
-    ir_ref left = ir_construct(g, IR_TYPE_VEC2, (ir_ref[]){ir_op1(g, IR_NEG, y), x}, 2);
-    /* in this order: a GPU changes `turn` in its place, and needs no copy */
-    ir_ref across = ir_op2(g, IR_MUL, left, ir_const_float(g, sine));
-    ir_ref back = ir_op2(g, IR_MUL, turn, ir_const_float(g, minus_cosine));
-    return ir_op2(g, IR_SUB, across, back);
+    return FORMULA(shader, "mx_next_turn", turn);
 }
 
 ir_ref closure_gathered(struct shader *shader, ir_ref value)

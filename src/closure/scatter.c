@@ -374,9 +374,7 @@ static void consider_light(struct closure_scatter *s, const struct closure_light
     for (uint32_t p = 0; p < s->num_parts; p++)
         scatter_effect(s, EFFECT_ASSIGN, c->kept[p], scatter_op2(s, IR_DIV, s->parts[p].lit, mean));
     scatter_effect(s, EFFECT_END, 0, 0);
-    ir_ref rest = scatter_op2(s, IR_SUB, point, mean);
-    rest = scatter_op2(s, IR_DIV, rest, scatter_op2(s, IR_SUB, scatter_read(s, c->sum), mean));
-    rest = ir_op3(s->graph, IR_SELECT, is_it, scatter_op2(s, IR_DIV, point, mean), rest);
+    ir_ref rest = FORMULA(s->shader, "mx_rest_of_choice", point, mean, scatter_read(s, c->sum));
     scatter_effect(s, EFFECT_IF, 0, scatter_op2(s, IR_GT, mean, nothing));
     scatter_effect(s, EFFECT_ASSIGN, c->chance, rest);
     scatter_effect(s, EFFECT_END, 0, 0);

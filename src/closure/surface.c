@@ -13,7 +13,7 @@
 
 static ir_ref encoded(struct emitter *e, ir_ref color)
 {
-    return e->lighting->encodes ? closure_encoded(e->graph, color) : color;
+    return e->lighting->encodes ? FORMULA(e->shader, "mx_srgb_encoded", color) : color;
 }
 
 static void write_surface(struct emitter *e, ir_ref color, ir_ref alpha, ir_ref through)
@@ -41,9 +41,7 @@ static ir_ref output_alpha(struct emitter *e, const struct closure_surface *s)
     struct ir_graph *g = e->graph;
     if (!e->through)
         return s->alpha;
-    ir_ref mean = FORMULA(e->shader, "mx_mean", e->through);
-    ir_ref rest = ir_one_minus(g, ir_saturate(g, mean));
-    return ir_product(g, s->alpha, rest);
+    return ir_product(g, s->alpha, FORMULA(e->shader, "mx_hidden", e->through));
 }
 
 /* Returns what the surface lets through, with the transmitted part. 0: 1 - alpha of the output. */

@@ -49,8 +49,8 @@ ir_ref closure_weight(struct shader *shader, const struct closure_leaf *leaf, ir
     assert(leaf->decay != CLOSURE_MIXED);
     ir_ref color = leaf->color;
     if (!ir_const_is(g, way, 0.0f)) {
-        ir_ref ways = ir_construct(g, IR_TYPE_VEC3, &way, 1);
-        color = ir_product(g, color, ir_op2(g, IR_POW, leaf->decay, ways));
+        color = white_or(g, color);
+        color = FORMULA(shader, "mx_decayed", color, leaf->decay, way);
     }
     color = white_or(g, color);
     if (leaf->steady)
@@ -120,8 +120,7 @@ void closure_put_under(struct shader *shader, const struct closure_host *host,
     struct ir_graph *g = shader->graph;
     ir_ref nothing = ir_const_float(g, 0.0f), way = ir_const_float(g, CLOSURE_MEAN_WAY);
     ir_ref spreads = ir_op2(g, IR_GT, above->spreads, nothing);
-    ir_ref ways = ir_construct(g, IR_TYPE_VEC3, &way, 1), one = ir_white(g);
-    ir_ref mean = ir_mul(g, above->color, ir_op2(g, IR_POW, above->decay, ways));
+    ir_ref one = ir_white(g), mean = FORMULA(shader, "mx_decayed", above->color, above->decay, way);
     for (uint32_t i = 0; i < list->leaves.len; i++) {
         struct closure_leaf *leaf = &list->leaves.items[i];
         assert(!leaf->decay && !leaf->steady);

@@ -166,10 +166,19 @@ void lower_name_slot(struct lower *lo, uint32_t slot, enum ir_name_rank rank)
     lower_name(lo, named->type, frame->leaves[frame->offsets[slot]], named->name, rank);
 }
 
+/* Parameters a, b and c are only counted, which says nothing about an argument. */
+static bool says_something(const struct lower *lo, str_id name)
+{
+    const char *text = str_text(lo->unit->strings, name);
+    return !(*text >= 'a' && *text <= 'c' && !text[1]);
+}
+
 static void name_parameters(struct lower *lo)
 {
-    for (uint32_t i = 0; i < lo->frame->fn->num_params; i++)
-        lower_name_slot(lo, i, IR_NAME_PARAMETER);
+    const struct lower_frame *frame = lo->frame;
+    for (uint32_t i = 0; i < frame->fn->num_params; i++)
+        if (says_something(lo, frame->layer->slots.items[frame->fn->first_slot + i].name))
+            lower_name_slot(lo, i, IR_NAME_PARAMETER);
 }
 
 static void open_frame(struct lower *lo, struct lower_frame *frame, const ir_ref *in)

@@ -18,6 +18,7 @@
 #include "slabs/joined_surfaces.h"
 
 #include "ir/arithmetic.h"
+#include "shader/formula.h"
 
 struct piece {
     ir_ref bsdf;
@@ -178,8 +179,8 @@ static struct piece mix_of(const struct joiner *j, ir_ref ref)
     if (bg.opacity || fg.opacity) {
         ir_ref behind = one_or(j, bg.opacity), before = one_or(j, fg.opacity);
         opacity = ir_op3(g, IR_MIX, behind, before, mix);
-        ir_ref some = ir_op2(g, IR_MAX, opacity, ir_const_float(g, 1e-6f));
-        share = ir_op2(g, IR_DIV, ir_product(j->graph, mix, fg.opacity), some);
+        ir_ref there = ir_product(j->graph, mix, fg.opacity);
+        share = FORMULA(j->shader, "mx_blend_per_coverage", there, opacity);
     }
     struct piece out = beside(j, &bg, &fg, share);
     out.opacity = opacity;
@@ -241,7 +242,6 @@ static struct piece under_sheet(const struct joiner *j, const struct piece *belo
 /* below->aovs NULL: there is nothing. */
 static void put_layer(const struct joiner *j, struct piece *below, struct piece layer, ir_ref mask)
 {
-    struct ir_graph *g = j->graph;
     if (layer.thickness && below->aovs) {
         *below = under_sheet(j, below, &layer, mask);
         return;
@@ -250,10 +250,9 @@ static void put_layer(const struct joiner *j, struct piece *below, struct piece 
     ir_ref presence =
         ir_product(j->graph, mask, layer.opacity ? ir_share(j->graph, layer.opacity) : 0);
     if (below->aovs) {
-        ir_ref missing = ir_one_minus(g, one_or(j, below->opacity));
-        missing = ir_op2(g, IR_MUL, missing, ir_one_minus(g, presence));
-        ir_ref coverage = ir_one_minus(g, missing), least = ir_const_float(g, 1e-6f);
-        ir_ref share = ir_op2(g, IR_DIV, presence, ir_op2(g, IR_MAX, coverage, least));
+        ir_ref whole = one_or(j, below->opacity),
+               coverage = FORMULA(j->shader, "mx_blend_coverage", whole, presence),
+               share = FORMULA(j->shader, "mx_blend_per_coverage", presence, coverage);
         layer = beside(j, below, &layer, share);
         presence = coverage;
     }

@@ -335,15 +335,16 @@ static ir_ref layered(struct walk *w, ir_ref top, ir_ref base)
 }
 
 /* Goes through an interface and then a thickness: a shear, place += thickness * slope. */
-static struct way way_below(struct ir_graph *g, struct way way, ir_ref slope, ir_ref thickness)
+static struct way way_below(struct shader *shader, struct way way, ir_ref slope, ir_ref thickness)
 {
+    struct ir_graph *g = shader->graph;
     way.slope = ir_sum(g, way.slope, slope);
     if (!way.slope)
         return way;
-    ir_ref step = ir_op2(g, IR_MUL, thickness, way.slope), before = way.both;
-    way.both = ir_sum(g, before, step);
-    ir_ref twice = ir_sum(g, before, way.both);
-    way.place = ir_sum(g, way.place, ir_op2(g, IR_MUL, thickness, twice));
+    ir_ref none = ir_const_float(g, 0.0f), before = way.both ? way.both : none,
+           place = way.place ? way.place : none;
+    way.both = FORMULA(shader, "mx_spread_both", before, way.slope, thickness);
+    way.place = FORMULA(shader, "mx_spread_place", place, before, way.both, thickness);
     return way;
 }
 
@@ -364,7 +365,7 @@ static bool visit_layer(struct walk *w, ir_ref ref, struct where where, ir_ref *
     struct where below = where;
     below.spread = ir_sum(g, where.spread, known_for(w, w->spreads, top));
     below.depth = ir_sum(g, where.depth, w->depths ? depth_at(w, top, thickness) : 0);
-    below.way = way_below(g, where.way, known_for(w, w->slopes, top), thickness);
+    below.way = way_below(w->shader, where.way, known_for(w, w->slopes, top), thickness);
     if (!visited(w, base, below, &base))
         return false;
     struct where above = where;

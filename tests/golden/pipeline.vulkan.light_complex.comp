@@ -473,9 +473,9 @@ void surface()
     vec3 fuzz_factor = vd.geomprop_fuzz_color * sheen_albedo;
     vec3 Nf = faceforward(vd.geomprop_normal, -V, vd.geomprop_normal);
     float limited_cos_v = min(cos_v, 1.0);
-    vec3 power = pow(vd.geomprop_decay, vec3(1.145898));
-    vec3 choice = vd.geomprop_spreads > 0.0 ? vd.geomprop_color * power : vd.geomprop_color;
-    vec3 choice_2 = vd.geomprop_spreads > 0.0 ? vec3(1.0) : vd.geomprop_decay;
+    vec3 power_of_decay = pow(vd.geomprop_decay, vec3(1.145898));
+    vec3 light = vd.geomprop_spreads > 0.0 ? vd.geomprop_color * power_of_decay : vd.geomprop_color;
+    vec3 decay = vd.geomprop_spreads > 0.0 ? vec3(1.0) : vd.geomprop_decay;
     vec3 N = normalize(vd.normalWorld);
     float second_reflection_weight = clamp(vd.geomprop_second_roughness_weight, 0.0, 1.0);
     vec3 fresnel_f0 = max(vd.geomprop_f0, 0.0);
@@ -526,16 +526,16 @@ void surface()
         // fuzz
         vec3 light_color = u_lightData[i].color;
         float cosine = dot(L, N);
-        vec3 power_2 = pow(choice_2, vec3(inversesqrt(cosine * cosine + 1.25) * 1.5));
+        vec3 power = pow(decay, vec3(inversesqrt(cosine * cosine + 1.25) * 1.5));
         if (fuzz_weight > 0.0) {
             float fuzz_sheen_zeltner = mx_sheen_zeltner(Nf, V, L, limited_cos_v, r);
             color += light_color * (intensity
-                * (fuzz_factor * (fuzz_sheen_zeltner * (fuzz_weight * (vd.geomprop_steady + choice * power_2)))));
+                * (fuzz_factor * (fuzz_sheen_zeltner * (fuzz_weight * (vd.geomprop_steady + light * power)))));
         }
         // second_reflection
         float half_cosine = sqrt(clamp(dot(V, L) * 0.5 + 0.500001, 0.0, 1.0));
         vec3 fresnel = mx_fresnel_schlick(half_cosine, fresnel_f0, grazing);
-        vec3 sum = vd.geomprop_steady * fuzz_throughput + fuzz_throughput * choice * power_2;
+        vec3 sum = vd.geomprop_steady * fuzz_throughput + fuzz_throughput * light * power;
         if (second_reflection_weight > 0.0)
             color += light_color * (intensity
                 * (second_reflection_scale
@@ -550,13 +550,13 @@ void surface()
     }
     // environment: fuzz
     float cosine = dot(V, N);
-    vec3 power_3 = pow(choice_2, vec3(inversesqrt(cosine * cosine + 1.25) * 1.5));
+    vec3 power = pow(decay, vec3(inversesqrt(cosine * cosine + 1.25) * 1.5));
     vec3 part = textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * Nf)), 0.0).xyz;
     if (fuzz_weight > 0.0)
-        color += fuzz_weight * (vd.geomprop_steady + choice * power_3) * (vd.geomprop_fuzz_color * part)
+        color += fuzz_weight * (vd.geomprop_steady + light * power) * (vd.geomprop_fuzz_color * part)
             * (sheen_albedo * u_envLightIntensity);
     // environment: second_reflection
-    vec3 sum = vd.geomprop_steady * fuzz_throughput + fuzz_throughput * choice * power_3;
+    vec3 sum = vd.geomprop_steady * fuzz_throughput + fuzz_throughput * light * power;
     if (second_reflection_weight > 0.0) {
         vec2 turn = vec2(1.0, 0.0);
         int second_reflection_count = mx_sample_count(second_reflection_alpha);
@@ -623,7 +623,7 @@ void surface()
         vec3 vector_closure_way = vec3(inversesqrt(cosine_2 * cosine_2 + 1.25) * 1.5);
         if (inside_subsurface_weight > 0.0) {
             vec3 subsurface_weight = inside_subsurface_weight
-                * (product + inside_weight * choice * pow(choice_2, vector_closure_way));
+                * (product + inside_weight * light * pow(decay, vector_closure_way));
             color += u_lightData[i].color
                 * (intensity * (vd.geomprop_diffuse_albedo
                 * (mx_subsurface_light(vd.geomprop_free_path, dot(Nf, L)) * subsurface_weight)));
@@ -640,7 +640,7 @@ void surface()
     }
     // environment: subsurface
     if (inside_subsurface_weight > 0.0)
-        color += u_envLightIntensity * (inside_subsurface_weight * (product + inside_weight * choice * power_3)
+        color += u_envLightIntensity * (inside_subsurface_weight * (product + inside_weight * light * power)
             * (vd.geomprop_diffuse_albedo * part));
     // environment: medium
     if (medium_visible) {
@@ -659,7 +659,7 @@ void surface()
         vec3 slab_medium_bsdf_environment = max(vd.geomprop_diffuse_albedo.x,
             max(vd.geomprop_diffuse_albedo.y, vd.geomprop_diffuse_albedo.z)) <= 0.0 ? vec3(0.0) : medium_light;
         color += slab_medium_bsdf_environment
-            * ((1.0 - inside_subsurface_weight) * (product + power * (vd.geomprop_color * inside_weight)));
+            * ((1.0 - inside_subsurface_weight) * (product + power_of_decay * (vd.geomprop_color * inside_weight)));
     }
     out1 = vec4(color, 1.0);
 }

@@ -29,11 +29,11 @@ void main(
     out float4 out1 : SV_Target0)
 {
     // NG
-    float2 whole_uv = floor(vd.texcoord_0);
-    bool are_both = whole_uv.y >= 0.0 && whole_uv.y <= 1.0;
+    float2 tile = floor(vd.texcoord_0);
+    bool in_rows = tile.y >= 0.0 && tile.y <= 1.0;
     float vector_[6] = {0.0, 1.0, -1.0, -1.0, -1.0, 2.0};
-    float wall_element = vector_[int(clamp(whole_uv.x + whole_uv.y * 3.0, 0.0, 5.0))];
-    bool wall_are_both = whole_uv.x >= 0.0 && whole_uv.x <= 2.0 && are_both && wall_element >= 0.0;
+    float wall_element = vector_[int(clamp(tile.x + tile.y * 3.0, 0.0, 5.0))];
+    bool wall_are_both = tile.x >= 0.0 && tile.x <= 2.0 && in_rows && wall_element >= 0.0;
     float2 fraction_uv = frac(vd.texcoord_0);
     float2 slope_x_of_uv = ddx(vd.texcoord_0);
     float2 slope_y_of_uv = ddy(vd.texcoord_0);
@@ -44,20 +44,19 @@ void main(
     float3 stone_weight_2 = stone_weight / dot(stone_weight, float3(1.0, 1.0, 1.0));
     float3 stone_weight_3 = stone_weight_2 / dot(stone_weight_2, float3(1.0, 1.0, 1.0));
     float4 stone_product = stone_filex.Sample(stone_filex_sampler, vd.positionObject.yz) * stone_weight_3.x;
-    float2 whole_along_z = floor(vd.positionObject.xy);
-    bool stone_are_both = whole_along_z.x >= 0.0 && whole_along_z.x <= 2.0;
-    float stone_element = vector_[int(clamp(whole_along_z.x + whole_along_z.y * 3.0, 0.0, 5.0))];
-    bool stone_are_both_2 = stone_are_both && (whole_along_z.y >= 0.0 && whole_along_z.y <= 1.0) && stone_element
-        >= 0.0;
+    float2 stone_tile = floor(vd.positionObject.xy);
+    bool in_columns = stone_tile.x >= 0.0 && stone_tile.x <= 2.0;
+    float stone_element = vector_[int(clamp(stone_tile.x + stone_tile.y * 3.0, 0.0, 5.0))];
+    bool stone_are_both = in_columns && (stone_tile.y >= 0.0 && stone_tile.y <= 1.0) && stone_element >= 0.0;
     float2 slope_x_of_along_z = ddx(vd.positionObject.xy);
     float2 slope_y_of_along_z = ddy(vd.positionObject.xy);
     float4 stone_texel = stone_filez.SampleGrad(stone_filez_sampler, float3(frac(vd.positionObject.xy), stone_element),
         slope_x_of_along_z, slope_y_of_along_z);
-    float4 stone_product_2 = (stone_are_both_2 ? stone_texel : float4(0.0, 0.0, 0.0, 1.0)) * stone_weight_3.z;
+    float4 stone_product_2 = (stone_are_both ? stone_texel : float4(0.0, 0.0, 0.0, 1.0)) * stone_weight_3.z;
     float3 stone = (stone_product + stone_filey.Sample(stone_filey_sampler, vd.positionObject.xz) * stone_weight_3.y
         + stone_product_2).xyz;
-    bool rust_are_both = are_both && (whole_uv.x >= 0.0 && whole_uv.x <= 1.0);
-    float3 rust_vector = float3(fraction_uv, whole_uv.x + whole_uv.y * 2.0);
+    bool tile_is_inside = in_rows && (tile.x >= 0.0 && tile.x <= 1.0);
+    float3 rust_vector = float3(fraction_uv, tile.x + tile.y * 2.0);
     float4 rust_texel = rust_file.SampleGrad(rust_file_sampler, rust_vector, slope_x_of_uv, slope_y_of_uv);
-    out1 = float4(lerp(wall, stone, (rust_are_both ? rust_texel : float4(0.0, 0.0, 0.0, 1.0)).x), 1.0);
+    out1 = float4(lerp(wall, stone, (tile_is_inside ? rust_texel : float4(0.0, 0.0, 0.0, 1.0)).x), 1.0);
 }

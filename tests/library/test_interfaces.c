@@ -289,6 +289,7 @@ static void require_documentation(const mxg_library *library, uint32_t index,
 /*
  * It is part of every program that embeds mxgen, and of its memory. Translations are the part that
  * grows: a pair of models that one step between them cannot keep has a node of its own, of 7 KB.
+ * The formulas that the compiler calls are in it, too: what was arithmetic in C counts here.
  */
 static bool is_small(mxg_library *library)
 {

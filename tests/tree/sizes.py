@@ -61,7 +61,7 @@ def check_library():
     where a way through a third one loses something, is 40 lines."""
     sizes = {endings: sum(len(lines(path)) for path in files("libraries", *endings)) for endings in ((".mtlx",), (".glsl", ".inline"))}
     whole = sum(sizes.values())
-    check(whole <= 13150, f"libraries: {whole} lines; 13,150 is the budget")
+    check(whole <= 13250, f"libraries: {whole} lines; 13,250 is the budget")
     print(f"libraries: {whole} lines,", ", ".join(f"{size} of {endings[0]}" for endings, size in sizes.items()))
     for path in files("libraries", ".mtlx"):
         bound = [str(number) for number, line in enumerate(lines(path), 1) if "target=" in line and "<!-- only there:" not in line]

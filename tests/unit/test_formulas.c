@@ -122,6 +122,25 @@ static const struct row {
     {"mx_rest_of_number", {ONE(0.1f), ONE(0.2f)}, ONE(0.5f)},
     {"mx_rest_of_number", {ONE(0.6f), ONE(0.2f)}, ONE(0.5f)},
     {"mx_scale_of_coverage", {ONE(0.25f)}, ONE(4)},
+    {"mx_mean", {THREE(1, 0, 0), THREE(0, 1, 0), THREE(0, 2, 3)}, THREE(0.33333333f, 1, 1)},
+    {"mx_decayed", {THREE(1, 2, 0), THREE(0.25f, 1, 1), ONE(0.5f)}, THREE(0.5f, 2, 0)},
+    {"mx_hidden", {THREE(1, 0.5f, 0)}, ONE(0.5f)},
+    {"mx_hidden", {THREE(2, 2, 2)}, ONE(0)},
+    {"mx_rest_of_choice", {ONE(0.2f), ONE(0.4f), ONE(1)}, ONE(0.5f)},
+    {"mx_rest_of_choice", {ONE(0.7f), ONE(0.4f), ONE(1)}, ONE(0.5f)},
+    {"mx_normal_under",
+     {THREE(0, 0, 1), THREE(1, 0, 0), ONE(0.5f)},
+     THREE(0.70710678f, 0, 0.70710678f)},
+    {"mx_normal_bent", {THREE(0, 0, 1), THREE(1, 0, 0)}, THREE(0.70710678f, 0, 0.70710678f)},
+    {"mx_normal_bent",
+     {THREE(0, 0, 1), THREE(3, 0, -1), ONE(0.25f)},
+     THREE(0.70710678f, 0, 0.70710678f)},
+    {"mx_next_turn", {TWO(1, 0)}, TWO(-0.73736888f, 0.67549029f)}, /* by 137.5 degrees */
+    {"mx_srgb_encoded", {THREE(0.001f, 0.5f, 1)}, THREE(0.01292f, 0.73535698f, 1)},
+    {"mx_srgb_encoded", {THREE(-1, 0, 0.0031308f)}, THREE(-12.92f, 0, 0.04045f)},
+    {"mx_tile_cell", {TWO(2, 1), ONE(3)}, ONE(5)},
+    {"mx_spread_both", {ONE(1), ONE(2), ONE(3)}, ONE(7)},
+    {"mx_spread_place", {ONE(1), ONE(1), ONE(7), ONE(3)}, ONE(25)},
     {"mx_displacement", {ONE(2), THREE(0, 0, 3)}, THREE(0, 0, 2)},
     {"mx_displacement", {THREE(1, 2, 3), THREE(0, 0, 3), THREE(2, 0, 0)}, THREE(1, 2, 3)},
     {"mx_shadow_lit", {ONE(0.2f), ONE(0.5f), ONE(0.3f)}, ONE(1)},
@@ -188,6 +207,38 @@ static void test_anisotropies(void)
     fixture_close(&f);
 }
 
+/* A grid of 3 columns and 1 row. */
+static void test_tiles(void)
+{
+    struct fixture f;
+    fixture_open(&f, NULL);
+    static const struct {
+        struct number tile;
+        bool is_inside;
+    } tiles[] = {{TWO(0, 0), true},   {TWO(2, 0), true},  {TWO(3, 0), false},
+                 {TWO(-1, 0), false}, {TWO(1, 1), false}, {TWO(1, -1), false}};
+    const struct number last = TWO(2, 0);
+    for (size_t i = 0; i < sizeof tiles / sizeof *tiles; i++) {
+        ir_ref tile = constant(&f, &tiles[i].tile), end = constant(&f, &last);
+        ir_ref is_inside = FORMULA(&f.shader, "mx_tile_is_inside", tile, end);
+        REQUIRE(is_inside == ir_const_bool(&f.graph, tiles[i].is_inside));
+    }
+    fixture_close(&f);
+}
+
+/* An argument has the name of its parameter, if that says something. */
+static void test_names(void)
+{
+    struct fixture f;
+    fixture_open(&f, NULL);
+    ir_ref number = uniform(&f, "number", IR_TYPE_FLOAT), root = ir_op1(&f.graph, IR_SQRT, number);
+    FORMULA(&f.shader, "mx_blend_share", root, number);
+    REQUIRE(f.graph.labels.items[root].name == 0);
+    FORMULA(&f.shader, "mx_rest_of_choice", root, number, number);
+    REQUIRE(f.graph.labels.items[root].name == str_find(f.shader.strings, "point", 5));
+    fixture_close(&f);
+}
+
 /* A formula of variables becomes nodes, and what is known of an operand makes it shorter. */
 static void test_nodes(void)
 {
@@ -205,6 +256,8 @@ int main(void)
 {
     test_values();
     test_anisotropies();
+    test_tiles();
+    test_names();
     test_nodes();
     return test_report("formulas");
 }

@@ -7,6 +7,12 @@ float mx_mean(vec3 light)
     return dot(light, vec3(1.0 / 3.0));
 }
 
+// Mean of three colours.
+vec3 mx_mean(vec3 a, vec3 b, vec3 c)
+{
+    return (a + (b + c)) * (1.0 / 3.0);
+}
+
 // Mean of light that a fit may bring below 0.
 float mx_brightness(vec3 light)
 {
@@ -21,6 +27,12 @@ float mx_between(float x, float a, float b, float c, float d, float e, float f, 
 }
 
 // ---- throughput ------------------------------------------------------------------------------------------------------
+
+// Light after ways through media, of which each lets the decay through.
+vec3 mx_decayed(vec3 light, vec3 decay, float ways)
+{
+    return light * pow(decay, vec3(ways));
+}
 
 // Light that passes a closure which is there with a weight.
 vec3 mx_weighted_throughput(vec3 throughput, float weight)
@@ -210,4 +222,51 @@ float mx_rest_of_number(float number, float chance)
 float mx_scale_of_coverage(float alpha)
 {
     return 1.0 / max(alpha, 1e-6);
+}
+
+// Share of what is hidden of what lies behind.
+float mx_hidden(vec3 through)
+{
+    return 1.0 - clamp(mx_mean(through), 0.0, 1.0);
+}
+
+// The number from 0 to 1 after a choice that it made: a part of `sum`, below the chosen amount or not.
+float mx_rest_of_choice(float point, float chosen, float sum)
+{
+    return point < chosen ? point / chosen : (point - chosen) / (sum - chosen);
+}
+
+// ---- normals of layers -----------------------------------------------------------------------------------------------
+
+// Normal below a layer with a normal and a presence.
+vec3 mx_normal_under(vec3 N, vec3 normal, float presence)
+{
+    return normalize(mix(N, normal, presence));
+}
+
+// Normal that a layer bends.
+vec3 mx_normal_bent(vec3 N, vec3 bend)
+{
+    return normalize(N + bend);
+}
+
+// Normal that a layer bends where it is present.
+vec3 mx_normal_bent(vec3 N, vec3 bend, float presence)
+{
+    return normalize(N + bend * presence);
+}
+
+// ---- samples and output ----------------------------------------------------------------------------------------------
+
+// Direction in a circle after a turn by the golden angle. The new y comes first, so that a GPU changes `turn` in its place.
+vec2 mx_next_turn(vec2 turn)
+{
+    return vec2(-turn.y, turn.x) * 0.67549029 - turn * 0.73736888;
+}
+
+// Light in the encoding of sRGB (IEC 61966-2-1).
+vec3 mx_srgb_encoded(vec3 color)
+{
+    vec3 curve = pow(max(color, 0.0), vec3(1.0 / 2.4)) * 1.055 - 0.055;
+    return mix(color * 12.92, curve, step(0.0031308, color));
 }
