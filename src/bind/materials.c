@@ -237,6 +237,7 @@ static struct text_word input_name(const struct usda_property *property, bool *o
     static const char prefix[] = "inputs:", connect_end[] = ".connect";
     const size_t begin = strlen(prefix), end = strlen(connect_end);
     struct text_word name = property->name;
+    *out_is_connection = false;
     if (name.len <= begin || memcmp(name.bytes, prefix, begin) != 0)
         return (struct text_word){0};
     *out_is_connection =
