@@ -135,12 +135,10 @@ void site_add_lamp(struct site *site, struct scene_light light)
     site_add_light(site, light);
 }
 
-void site_add_camera(struct site *site, const char *path, struct matrix world, double width,
-                     double height)
+void site_add_camera(struct site *site, struct site_camera camera)
 {
     site->cameras = memory_resize(site->cameras, (site->num_cameras + 1) * sizeof *site->cameras);
-    site->cameras[site->num_cameras++] = (struct site_camera){
-        .world = world, .width = width, .height = height, .path = cli_format("%s", path)};
+    site->cameras[site->num_cameras++] = camera;
 }
 
 /* ---- Files ---- */

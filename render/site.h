@@ -122,8 +122,8 @@ void site_add_light(struct site *site, struct scene_light light);
  * illuminance, that of a LIGHT_POINT its intensity.
  */
 void site_add_lamp(struct site *site, struct scene_light light);
-void site_add_camera(struct site *site, const char *path, struct matrix world, double width,
-                     double height);
+/* Adds a camera, and takes the path, which it frees. */
+void site_add_camera(struct site *site, struct site_camera camera);
 /* From the site to a world with y upwards. */
 struct matrix site_upright(const struct site *site);
 /* Rotation and place without scale. */

@@ -64,7 +64,10 @@ static bool add_camera(struct importer *in, const struct gltf_node *node, uint32
                                 "expected an angle between 0 and pi",
                                 index, angle, aspect);
     double height = tan(angle / 2);
-    site_add_camera(in->site, node->path, in->pose.worlds[node->index], aspect * height, height);
+    site_add_camera(in->site, (struct site_camera){.world = in->pose.worlds[node->index],
+                                                   .width = aspect * height,
+                                                   .height = height,
+                                                   .path = cli_format("%s", node->path)});
     return true;
 }
 

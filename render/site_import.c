@@ -194,7 +194,10 @@ static void add_camera(struct importer *in, const struct aiNode *node, const cha
         if (!(camera->mHorizontalFOV > 0.0f))
             continue;
         double width = tan((double)camera->mHorizontalFOV / 2), aspect = (double)camera->mAspect;
-        site_add_camera(in->site, path, world, width, aspect > 0 ? width / aspect : 0);
+        site_add_camera(in->site, (struct site_camera){.world = world,
+                                                       .width = width,
+                                                       .height = aspect > 0 ? width / aspect : 0,
+                                                       .path = cli_format("%s", path)});
     }
 }
 

@@ -140,14 +140,14 @@ static void add_camera(struct site *site, uint32_t primitive, struct matrix worl
                   "is no perspective, which is the only one that mxgen draws");
         return;
     }
-    site->cameras = memory_resize(site->cameras, (site->num_cameras + 1) * sizeof *site->cameras);
-    site->cameras[site->num_cameras++] = (struct site_camera){
+    struct site_camera camera = {
         .world = world,
         .width = usd_number(site, primitive, "horizontalAperture", 20.955) / 2 / focal,
         .height = usd_number(site, primitive, "verticalAperture", 15.2908) / 2 / focal,
         .centre = {usd_number(site, primitive, "horizontalApertureOffset", 0) / focal,
                    usd_number(site, primitive, "verticalApertureOffset", 0) / focal},
         .path = site_path(site->scene, primitive)};
+    site_add_camera(site, camera);
 }
 
 /* ---- Instances ---- */
