@@ -55,6 +55,19 @@ uint32_t scatter_local(struct closure_scatter *s, str_id name, ir_ref value)
     return index;
 }
 
+/* A local of a part: "weight", or "NAME_weight" for the AOV NAME. */
+static uint32_t part_local(struct closure_scatter *s, uint32_t part, str_id name, ir_ref value)
+{
+    struct strpool *strings = s->shader->strings;
+    struct text text;
+    if (part == 0)
+        return scatter_local(s, name, value);
+    text_init(&text, s->shader->arena);
+    str_id aov = s->shader->interface.aovs.items[s->parts[part].aov].name;
+    text_fmt(&text, "%s_%s", str_text(strings, aov), str_text(strings, name));
+    return scatter_local(s, str_intern(strings, text.data, text.len), value);
+}
+
 ir_ref scatter_read(struct closure_scatter *s, uint32_t index)
 {
     assert(index < s->shader->effects.locals.len);
@@ -247,6 +260,8 @@ static void find_shares(struct closure_scatter *s)
         s->total = scatter_op2(s, IR_ADD, s->total, share);
         shader_add_closure(s->shader, leaf->leaf);
     }
+    if (s->leaves.len > 1) /* else it is the only share */
+        scatter_named(s, s->total, "shares");
 }
 
 ir_ref scatter_random_number(struct shader *shader)
@@ -260,7 +275,7 @@ void scatter_declare_locals(struct closure_scatter *s, ir_ref pick)
     s->direction = scatter_local(s, STR_L, scatter_grey(s, 0.0f));
     s->is_inside = scatter_local(s, STR_inside, scatter_number(s, 0.0f));
     for (uint32_t p = 0; p < s->num_parts; p++)
-        s->parts[p].weight = scatter_local(s, STR_weight, scatter_grey(s, 0.0f));
+        s->parts[p].weight = part_local(s, p, STR_weight, scatter_grey(s, 0.0f));
     s->density = scatter_local(s, STR_density, scatter_number(s, 0.0f));
     s->medium = scatter_local(s, STR_medium, scatter_grey(s, 1.0f));
     interior_declare(s);
@@ -269,8 +284,11 @@ void scatter_declare_locals(struct closure_scatter *s, ir_ref pick)
 static void sample_leaves(struct closure_scatter *s)
 {
     for (uint32_t i = 0; i < s->leaves.len; i++)
-        if (s->leaves.items[i].share)
+        if (s->leaves.items[i].share) {
+            ir_push_origin_of(s->graph, s->leaves.items[i].leaf);
             sample(s, &s->leaves.items[i]);
+            ir_pop_origin(s->graph);
+        }
 }
 
 /*
@@ -296,6 +314,26 @@ static ir_ref through_surface(struct closure_scatter *s, const struct closure_le
     return ir_op3(g, IR_SELECT, in_front, value, other);
 }
 
+/* 0: it sends no light of this direction. */
+static ir_ref leaf_response(struct closure_scatter *s, const struct scattering *leaf,
+                            const struct closure_leaf *weighed, ir_ref direction,
+                            ir_ref solid_angle)
+{
+    ir_ref value = closure_call(s->shader, s->host, leaf->leaf, LEAF_EVAL, &direction);
+    if (!value)
+        return 0;
+    value = ir_convert(s->graph, IR_TYPE_VEC3, value);
+    value = scatter_op2(s, IR_MUL, value, weight_from(s, weighed, direction));
+    if (solid_angle) {
+        ir_ref density = closure_call(s->shader, s->host, leaf->leaf, LEAF_PDF, &direction);
+        density = scatter_op2(s, IR_MUL, density, scatter_op2(s, IR_DIV, leaf->share, s->total));
+        value = scatter_balanced(s, value, density, solid_angle);
+    }
+    if (has(s, leaf->leaf, LEAF_REFRACTION))
+        value = through_surface(s, weighed, direction, value, !solid_angle);
+    return value;
+}
+
 /*
  * The response of a part to light from a direction. solid_angle 0: the light of a point, which no
  * sample finds.
@@ -309,22 +347,13 @@ static ir_ref response(struct closure_scatter *s, uint32_t part, ir_ref directio
         return part ? sum : matter_response(s, direction, solid_angle);
     for (uint32_t i = 0; i < s->leaves.len; i++) {
         const struct scattering *leaf = &s->leaves.items[i];
-        if (!leaf->in[part])
-            continue;
-        ir_ref value = closure_call(s->shader, s->host, leaf->leaf, LEAF_EVAL, &direction);
-        if (!value || !leaf->share)
-            continue;
-        value = ir_convert(g, IR_TYPE_VEC3, value);
-        value = scatter_op2(s, IR_MUL, value, weight_from(s, leaf->in[part], direction));
-        if (solid_angle) {
-            ir_ref density = closure_call(s->shader, s->host, leaf->leaf, LEAF_PDF, &direction);
-            density =
-                scatter_op2(s, IR_MUL, density, scatter_op2(s, IR_DIV, leaf->share, s->total));
-            value = scatter_balanced(s, value, density, solid_angle);
-        }
-        if (has(s, leaf->leaf, LEAF_REFRACTION))
-            value = through_surface(s, leaf->in[part], direction, value, !solid_angle);
-        sum = scatter_named(s, scatter_op2(s, IR_ADD, sum, value), "response");
+        ir_push_origin_of(g, leaf->leaf);
+        ir_ref value = leaf->in[part] && leaf->share
+                           ? leaf_response(s, leaf, leaf->in[part], direction, solid_angle)
+                           : 0;
+        ir_pop_origin(g);
+        if (value)
+            sum = scatter_named(s, scatter_op2(s, IR_ADD, sum, value), "response");
     }
     return sum;
 }
@@ -400,13 +429,13 @@ static void light_up(struct closure_scatter *s)
     ir_ref further = scatter_op2(s, IR_MUL, random, scatter_number(s, 4096.0f));
     struct choice_of_light c = {.to_light = s->to_light, .away = s->away};
     c.chance = scatter_local(s, STR_chance, ir_op1(s->graph, IR_FRACT, further));
-    c.sum = scatter_local(s, STR_sum, nothing);
+    c.sum = scatter_local(s, STR_brightness_sum, nothing);
     c.kept = ARENA_ARRAY(s->shader->arena, uint32_t, s->num_parts);
     for (uint32_t p = 0; p < s->num_parts; p++)
-        c.kept[p] = scatter_local(s, STR_light, scatter_grey(s, 0.0f));
+        c.kept[p] = part_local(s, p, STR_light, scatter_grey(s, 0.0f));
     if (!s->is_stack) {
-        c.to_light = s->to_light = scatter_local(s, STR_L, scatter_grey(s, 0.0f));
-        c.away = s->away = scatter_local(s, STR_distance, nothing);
+        c.to_light = s->to_light = scatter_local(s, STR_light_L, scatter_grey(s, 0.0f));
+        c.away = s->away = scatter_local(s, STR_light_distance, nothing);
     }
     scatter_effect(s, EFFECT_LIGHTS, 0, 0);
     struct closure_light light;
@@ -457,12 +486,12 @@ static void declare_layers(struct closure_scatter *s)
     scatter_declare_locals(s, nothing);
     s->emission_local = scatter_local(s, STR_emission, black);
     for (uint32_t p = 0; p < s->num_parts; p++)
-        s->parts[p].seen_local = scatter_local(s, STR_response, black);
+        s->parts[p].seen_local = part_local(s, p, STR_response, black);
     for (uint32_t p = 0; s->lighting->lights && p < s->num_parts; p++)
-        s->parts[p].lit_local = scatter_local(s, STR_light, black);
+        s->parts[p].lit_local = part_local(s, p, STR_light, black);
     if (s->lighting->lights) {
-        s->to_light = scatter_local(s, STR_L, black);
-        s->away = scatter_local(s, STR_distance, nothing);
+        s->to_light = scatter_local(s, STR_light_L, black);
+        s->away = scatter_local(s, STR_light_distance, nothing);
     }
     s->aov_locals = ARENA_ARRAY(s->shader->arena, uint32_t, s->shader->interface.aovs.len);
     for (uint32_t i = 0; i < s->shader->interface.aovs.len; i++)

@@ -393,6 +393,20 @@ static ir_ref simplify_componentwise(struct ir_graph *graph, enum ir_op op, ir_t
     return ir_build(graph, IR_CONSTRUCT, type, 0, &scalar, 1);
 }
 
+/* dot(vec3(a), k) = a (k.x + k.y + k.z) for a constant k. */
+static ir_ref simplify_dot(struct ir_graph *graph, ir_ref a, ir_ref b)
+{
+    bool is_swapped = ir_is_const(graph, a);
+    ir_ref k = is_swapped ? a : b, scalar = splat_of(graph, is_swapped ? b : a);
+    if (graph->exact || !scalar || !ir_is_const(graph, k))
+        return 0;
+    const union ir_word *words = ir_constant_words(graph, k);
+    double sum = 0;
+    for (unsigned i = 0; i < ir_type_info(ir_type_of(graph, k))->components; i++)
+        sum += (double)words[i].f;
+    return ir_op2(graph, IR_MUL, scalar, ir_const_float(graph, (float)sum));
+}
+
 /* The scalar s of a product v s; 0 if `ref` is no such product. */
 static ir_ref scalar_factor(const struct ir_graph *graph, ir_ref ref, ir_ref v)
 {
@@ -445,6 +459,7 @@ ir_ref ir_simplify(struct ir_graph *graph, enum ir_op op, ir_type_id type, uint3
     case IR_SUB:
     case IR_MUL:
     case IR_DIV: return simplify_arithmetic(graph, op, type, args[0], args[1]);
+    case IR_DOT: return simplify_dot(graph, args[0], args[1]);
     case IR_SELECT: return simplify_select(graph, type, args[0], args[1], args[2]);
     case IR_SWIZZLE: return simplify_swizzle(graph, type, attr, args[0]);
     case IR_CONSTRUCT: return simplify_construct(graph, type, args, num_args);

@@ -245,13 +245,19 @@ static int compare_ids(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
+/* 0: it declares nothing, or what has no name. */
+static str_id declared_name(const struct shader *shader, const struct effect *effect)
+{
+    return effect->kind == EFFECT_LET   ? ir_label(shader->graph, effect->value)->name
+           : effect->kind == EFFECT_VAR ? shader->effects.locals.items[effect->index].name
+                                        : 0;
+}
+
 void spell_plan_locals(struct spell *spell, const struct effect_list *statements)
 {
     spell->wanted_names.len = 0;
     for (uint32_t i = 0; i < statements->len; i++) {
-        const struct effect *effect = &statements->items[i];
-        str_id name =
-            effect->kind == EFFECT_LET ? ir_label(spell->shader->graph, effect->value)->name : 0;
+        str_id name = declared_name(spell->shader, &statements->items[i]);
         if (name)
             vec_push(spell->scratch, &spell->wanted_names, name);
     }

@@ -45,7 +45,7 @@ void scatter()
     vec3 L = vec3(0.0);
     float inside = 0.0;
     vec3 weight = vec3(0.0);
-    vec3 weight_2 = vec3(0.0);
+    vec3 diffuse_weight = vec3(0.0);
     float density = 0.0;
     vec3 medium = vec3(1.0);
     vec3 N = normalize(vd.normalMoved);
@@ -56,13 +56,13 @@ void scatter()
     if (pick >= 0.0 && pick < 0.4) {
         mat3 any_frame = mx_frame(facing, abs(facing.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0));
         vec2 polar = sqrt(vd.random.x) * cos((vd.random.y - vec2(0.0, 0.25)) * 6.2831855);
-        vec3 L_2 = any_frame * vec3(polar, sqrt(1.0 - vd.random.x));
-        L = L_2;
-        float facing_dot_l_2 = dot(facing, L_2);
-        float pdf = max(facing_dot_l_2, 0.0) / 3.1415927;
-        vec3 weight_3 = max(facing_dot_l_2, 1e-8) * 0.31830987 * base_constant / max(pdf, 1e-8);
-        weight = weight_3;
-        weight_2 = weight_3;
+        vec3 diffuse_L = any_frame * vec3(polar, sqrt(1.0 - vd.random.x));
+        L = diffuse_L;
+        float facing_dot_diffuse_l = dot(facing, diffuse_L);
+        float pdf = max(facing_dot_diffuse_l, 0.0) / 3.1415927;
+        vec3 diffuse_weight_2 = max(facing_dot_diffuse_l, 1e-8) * 0.31830987 * base_constant / max(pdf, 1e-8);
+        weight = diffuse_weight_2;
+        diffuse_weight = diffuse_weight_2;
         density = pdf;
     }
     pick += -0.4;
@@ -82,6 +82,6 @@ void scatter()
     aov_is_paint = 1;
     aov_id = 7;
     aov_normal = normalize(vd.normalObject);
-    aov_weight_diffuse = weight_2;
+    aov_weight_diffuse = diffuse_weight;
     aov_response_diffuse = response;
 }

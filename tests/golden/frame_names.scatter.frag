@@ -81,13 +81,13 @@ void scatter()
     if (pick >= 0.0 && pick < diffuse_share) {
         mat3 any_frame = mx_frame(facing, abs(facing.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0));
         vec2 polar = sqrt(vd.random.x) * cos((vd.random.y - vec2(0.0, 0.25)) * 6.2831855);
-        vec3 L_2 = any_frame * vec3(polar, sqrt(1.0 - vd.random.x));
-        L = L_2;
-        float facing_dot_l_2 = dot(facing, L_2);
-        float diffuse_cos_l = max(facing_dot_l_2, 1e-8);
-        float diffuse_sum = ab.x + ab.y * max(dot(vd.viewWorld, L_2) - cos_v * diffuse_cos_l, 0.0)
+        vec3 diffuse_L = any_frame * vec3(polar, sqrt(1.0 - vd.random.x));
+        L = diffuse_L;
+        float facing_dot_diffuse_l = dot(facing, diffuse_L);
+        float diffuse_cos_l = max(facing_dot_diffuse_l, 1e-8);
+        float diffuse_sum = ab.x + ab.y * max(dot(vd.viewWorld, diffuse_L) - cos_v * diffuse_cos_l, 0.0)
             / max(diffuse_cos_l, cos_v);
-        float pdf = max(facing_dot_l_2, 0.0) / 3.1415927;
+        float pdf = max(facing_dot_diffuse_l, 0.0) / 3.1415927;
         weight = vec3(diffuse_weight * (diffuse_cos_l * 0.31830987 * 0.18 * diffuse_sum / max(pdf, 1e-8))
             * scaled_diffuse_share);
         density = pdf * scaled_diffuse_share;
@@ -102,27 +102,27 @@ void scatter()
     float diffuse_sum = ab.x + ab.y * max(dot(vd.viewWorld, vd.lightWorld.xyz) - cos_v * diffuse_cos_l, 0.0)
         / max(diffuse_cos_l, cos_v);
     float both = vd.lightWorld.w * (scaled_diffuse_share * (max(facing_dot_l, 0.0) / 3.1415927)) + 1.0;
-    float response = diffuse_weight * (diffuse_cos_l * 0.31830987 * 0.18 * diffuse_sum) / both;
-    out5 = vec4(response, response, response, 0.0);
+    float diffuse_response = diffuse_weight * (diffuse_cos_l * 0.31830987 * 0.18 * diffuse_sum) / both;
+    out5 = vec4(diffuse_response, diffuse_response, diffuse_response, 0.0);
     float chance = fract(vd.random.w * 4096.0);
-    float sum = 0.0;
+    float brightness_sum = 0.0;
     vec3 light = vec3(0.0);
-    vec3 L_3 = vec3(0.0);
-    float distance_ = 0.0;
+    vec3 light_L = vec3(0.0);
+    float light_distance = 0.0;
     // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
-        vec3 L_4;
+        vec3 L_2;
         float intensity;
         float away;
         int light_type = u_lightData[i].type;
         if (light_type == 1) {
-            L_4 = -u_lightData[i].direction;
+            L_2 = -u_lightData[i].direction;
             intensity = u_lightData[i].intensity;
             away = 1e30;
         } else {
             vec3 d = u_lightData[i].position - vd.positionWorld;
             vec3 to_light = normalize(d);
-            L_4 = to_light;
+            L_2 = to_light;
             float magnitude_d = length(d);
             float falloff = u_lightData[i].intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
             if (light_type == 2) {
@@ -136,23 +136,23 @@ void scatter()
                 away = magnitude_d;
             }
         }
-        float diffuse_cos_l_2 = max(dot(facing, L_4), 1e-8);
-        float diffuse_sum_2 = ab.x + ab.y * max(dot(vd.viewWorld, L_4) - cos_v * diffuse_cos_l_2, 0.0)
+        float diffuse_cos_l_2 = max(dot(facing, L_2), 1e-8);
+        float diffuse_sum_2 = ab.x + ab.y * max(dot(vd.viewWorld, L_2) - cos_v * diffuse_cos_l_2, 0.0)
             / max(diffuse_cos_l_2, cos_v);
-        float response_2 = diffuse_weight * (diffuse_cos_l_2 * 0.31830987 * 0.18 * diffuse_sum_2);
-        vec3 lit = u_lightData[i].color * intensity * response_2;
+        float diffuse_response_2 = diffuse_weight * (diffuse_cos_l_2 * 0.31830987 * 0.18 * diffuse_sum_2);
+        vec3 lit = u_lightData[i].color * intensity * diffuse_response_2;
         float brightness = max(dot(lit, vec3(0.33333334)), 0.0);
-        sum += brightness;
-        if (sum * chance < brightness) {
-            L_3 = L_4;
-            distance_ = away;
+        brightness_sum += brightness;
+        if (brightness_sum * chance < brightness) {
+            light_L = L_2;
+            light_distance = away;
             light = lit / brightness;
         }
         if (brightness > 0.0) {
-            float ratio = (sum * chance - brightness) / (sum - brightness);
-            chance = sum * chance < brightness ? sum * chance / brightness : ratio;
+            float ratio = (brightness_sum * chance - brightness) / (brightness_sum - brightness);
+            chance = brightness_sum * chance < brightness ? brightness_sum * chance / brightness : ratio;
         }
     }
-    out6 = vec4(L_3, distance_);
-    out7 = vec4(sum * light, 0.0);
+    out6 = vec4(light_L, light_distance);
+    out7 = vec4(brightness_sum * light, 0.0);
 }

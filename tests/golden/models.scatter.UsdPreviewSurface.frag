@@ -170,8 +170,8 @@ void scatter()
     float reflection_share = max(dot(f * (reflection_product * 0.9) + vec3(0.1), vec3(0.33333334)), 0.0);
     float reflection_throughput = 1.0 - dot(f * reflection_product, vec3(0.33333334));
     float diffuse_share = max(dot(vec3(reflection_throughput * 0.262), vec3(0.33333334)), 0.0);
-    float sum = reflection_share + diffuse_share;
-    float pick = sum * vd.random.w;
+    float shares = reflection_share + diffuse_share;
+    float pick = shares * vd.random.w;
     vec3 L = vec3(0.0);
     float inside = 0.0;
     vec3 weight = vec3(0.0);
@@ -184,23 +184,23 @@ void scatter()
         mx_ggx_scatter(shading_normal, tangent, vd.viewWorld, vd.random.xyz, reflection_L, reflection_weight,
             reflection_pdf);
         L = reflection_L;
-        weight = reflection_weight * (sum / reflection_share);
-        bool is_in_front = shading_normal_dot_lobe_view * dot(shading_normal, reflection_L) > 0.0;
-        inside = is_in_front ? 0.0 : 1.0;
-        density = is_in_front ? reflection_pdf * (reflection_share / sum) : 0.0;
+        weight = reflection_weight * (shares / reflection_share);
+        bool reflection_is_in_front = shading_normal_dot_lobe_view * dot(shading_normal, reflection_L) > 0.0;
+        inside = reflection_is_in_front ? 0.0 : 1.0;
+        density = reflection_is_in_front ? reflection_pdf * (reflection_share / shares) : 0.0;
     }
     pick -= reflection_share;
     vec3 facing = faceforward(shading_normal, -vd.viewWorld, shading_normal);
     if (pick >= 0.0 && pick < diffuse_share) {
         mat3 any_frame = mx_frame(facing, abs(facing.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0));
         vec2 polar = sqrt(vd.random.x) * cos((vd.random.y - vec2(0.0, 0.25)) * 6.2831855);
-        vec3 L_2 = any_frame * vec3(polar, sqrt(1.0 - vd.random.x));
-        L = L_2;
-        float facing_dot_l_2 = dot(facing, L_2);
-        float pdf = max(facing_dot_l_2, 0.0) / 3.1415927;
-        weight = vec3(reflection_throughput * (max(facing_dot_l_2, 1e-8) * 0.31830987 * 0.18 / max(pdf, 1e-8))
-            * (sum / diffuse_share));
-        density = pdf * (diffuse_share / sum);
+        vec3 diffuse_L = any_frame * vec3(polar, sqrt(1.0 - vd.random.x));
+        L = diffuse_L;
+        float facing_dot_diffuse_l = dot(facing, diffuse_L);
+        float pdf = max(facing_dot_diffuse_l, 0.0) / 3.1415927;
+        weight = vec3(reflection_throughput * (max(facing_dot_diffuse_l, 1e-8) * 0.31830987 * 0.18 / max(pdf, 1e-8))
+            * (shares / diffuse_share));
+        density = pdf * (diffuse_share / shares);
     }
     pick -= diffuse_share;
     out1 = vec4(0.0, 0.0, 0.0, 1.0);
@@ -209,32 +209,35 @@ void scatter()
     out4 = vec4(medium, 0.0);
     vec3 fresnel = mx_fresnel_schlick(sqrt(clamp(dot(vd.viewWorld, vd.lightWorld.xyz) * 0.5 + 0.500001, 0.0, 1.0)));
     mat3 frame = mx_frame(facing, tangent);
-    float both = vd.lightWorld.w * (reflection_share / sum
-        * mx_ggx_pdf(shading_normal, tangent, vd.viewWorld, vd.lightWorld.xyz)) + 1.0;
-    vec3 balanced = fresnel * (ggx_compensation * mx_ggx_smith_lobe(frame, vd.viewWorld, vd.lightWorld.xyz)) / both;
-    vec3 response = shading_normal_dot_lobe_view * dot(shading_normal, vd.lightWorld.xyz) > 0.0 ? balanced : vec3(0.0);
+    float reflection_both = vd.lightWorld.w
+        * (reflection_share / shares * mx_ggx_pdf(shading_normal, tangent, vd.viewWorld, vd.lightWorld.xyz)) + 1.0;
+    vec3 balanced = fresnel * (ggx_compensation * mx_ggx_smith_lobe(frame, vd.viewWorld, vd.lightWorld.xyz))
+        / reflection_both;
+    vec3 reflection_response = shading_normal_dot_lobe_view * dot(shading_normal, vd.lightWorld.xyz) > 0.0 ? balanced
+        : vec3(0.0);
     float facing_dot_l = dot(facing, vd.lightWorld.xyz);
-    float both_2 = vd.lightWorld.w * (diffuse_share / sum * (max(facing_dot_l, 0.0) / 3.1415927)) + 1.0;
-    out5 = vec4(response + reflection_throughput * (max(facing_dot_l, 1e-8) * 0.31830987 * 0.18) / both_2, 0.0);
+    float diffuse_both = vd.lightWorld.w * (diffuse_share / shares * (max(facing_dot_l, 0.0) / 3.1415927)) + 1.0;
+    out5 = vec4(reflection_response + reflection_throughput * (max(facing_dot_l, 1e-8) * 0.31830987 * 0.18)
+        / diffuse_both, 0.0);
     float chance = fract(vd.random.w * 4096.0);
-    float sum_2 = 0.0;
+    float brightness_sum = 0.0;
     vec3 light = vec3(0.0);
-    vec3 L_3 = vec3(0.0);
-    float distance_ = 0.0;
+    vec3 light_L = vec3(0.0);
+    float light_distance = 0.0;
     // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
-        vec3 L_4;
+        vec3 L_2;
         float intensity;
         float away;
         int light_type = u_lightData[i].type;
         if (light_type == 1) {
-            L_4 = -u_lightData[i].direction;
+            L_2 = -u_lightData[i].direction;
             intensity = u_lightData[i].intensity;
             away = 1e30;
         } else {
             vec3 d = u_lightData[i].position - vd.positionWorld;
             vec3 to_light = normalize(d);
-            L_4 = to_light;
+            L_2 = to_light;
             float magnitude_d = length(d);
             float falloff = u_lightData[i].intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
             if (light_type == 2) {
@@ -249,23 +252,25 @@ void scatter()
             }
         }
         vec3 reflection_product_2 = ggx_compensation
-            * mx_fresnel_schlick(sqrt(clamp(dot(vd.viewWorld, L_4) * 0.5 + 0.500001, 0.0, 1.0)));
-        bool is_in_front = shading_normal_dot_lobe_view * dot(shading_normal, L_4) > 0.0;
-        vec3 response_2 = reflection_product_2 * (is_in_front ? mx_ggx_smith_lobe(frame, vd.viewWorld, L_4) : 0.0);
-        vec3 response_3 = response_2 + reflection_throughput * (max(dot(facing, L_4), 1e-8) * 0.31830987 * 0.18);
-        vec3 lit = u_lightData[i].color * intensity * response_3;
+            * mx_fresnel_schlick(sqrt(clamp(dot(vd.viewWorld, L_2) * 0.5 + 0.500001, 0.0, 1.0)));
+        bool reflection_is_in_front = shading_normal_dot_lobe_view * dot(shading_normal, L_2) > 0.0;
+        vec3 reflection_response_2 = reflection_product_2
+            * (reflection_is_in_front ? mx_ggx_smith_lobe(frame, vd.viewWorld, L_2) : 0.0);
+        vec3 response = reflection_response_2 + reflection_throughput
+            * (max(dot(facing, L_2), 1e-8) * 0.31830987 * 0.18);
+        vec3 lit = u_lightData[i].color * intensity * response;
         float brightness = max(dot(lit, vec3(0.33333334)), 0.0);
-        sum_2 += brightness;
-        if (sum_2 * chance < brightness) {
-            L_3 = L_4;
-            distance_ = away;
+        brightness_sum += brightness;
+        if (brightness_sum * chance < brightness) {
+            light_L = L_2;
+            light_distance = away;
             light = lit / brightness;
         }
         if (brightness > 0.0) {
-            float ratio = (sum_2 * chance - brightness) / (sum_2 - brightness);
-            chance = sum_2 * chance < brightness ? sum_2 * chance / brightness : ratio;
+            float ratio = (brightness_sum * chance - brightness) / (brightness_sum - brightness);
+            chance = brightness_sum * chance < brightness ? brightness_sum * chance / brightness : ratio;
         }
     }
-    out6 = vec4(L_3, distance_);
-    out7 = vec4(sum_2 * light, 0.0);
+    out6 = vec4(light_L, light_distance);
+    out7 = vec4(brightness_sum * light, 0.0);
 }

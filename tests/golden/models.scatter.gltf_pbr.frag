@@ -179,9 +179,9 @@ void scatter()
             metal_bare_pdf);
         L = metal_bare_L;
         weight = metal_bare_weight * scaled_metal_bare_share;
-        bool is_in_front = axis_dot_lobe_view * dot(axis, metal_bare_L) > 0.0;
-        inside = is_in_front ? 0.0 : 1.0;
-        density = is_in_front ? metal_bare_pdf * scaled_metal_bare_share : 0.0;
+        bool metal_bare_is_in_front = axis_dot_lobe_view * dot(axis, metal_bare_L) > 0.0;
+        inside = metal_bare_is_in_front ? 0.0 : 1.0;
+        density = metal_bare_is_in_front ? metal_bare_pdf * scaled_metal_bare_share : 0.0;
     }
     pick -= metal_bare_share;
     out1 = vec4(0.0, 0.0, 0.0, 1.0);
@@ -195,24 +195,24 @@ void scatter()
     vec3 balanced = fresnel * (ggx_compensation * mx_ggx_smith_lobe(frame, vd.viewWorld, vd.lightWorld.xyz)) / both;
     out5 = vec4(axis_dot_lobe_view * dot(axis, vd.lightWorld.xyz) > 0.0 ? balanced : vec3(0.0), 0.0);
     float chance = fract(vd.random.w * 4096.0);
-    float sum = 0.0;
+    float brightness_sum = 0.0;
     vec3 light = vec3(0.0);
-    vec3 L_2 = vec3(0.0);
-    float distance_ = 0.0;
+    vec3 light_L = vec3(0.0);
+    float light_distance = 0.0;
     // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
-        vec3 L_3;
+        vec3 L_2;
         float intensity;
         float away;
         int light_type = u_lightData[i].type;
         if (light_type == 1) {
-            L_3 = -u_lightData[i].direction;
+            L_2 = -u_lightData[i].direction;
             intensity = u_lightData[i].intensity;
             away = 1e30;
         } else {
             vec3 d = u_lightData[i].position - vd.positionWorld;
             vec3 to_light = normalize(d);
-            L_3 = to_light;
+            L_2 = to_light;
             float magnitude_d = length(d);
             float falloff = u_lightData[i].intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
             if (light_type == 2) {
@@ -227,22 +227,23 @@ void scatter()
             }
         }
         vec3 metal_bare_product = ggx_compensation
-            * mx_fresnel_schlick(sqrt(clamp(dot(vd.viewWorld, L_3) * 0.5 + 0.500001, 0.0, 1.0)));
-        bool is_in_front = axis_dot_lobe_view * dot(axis, L_3) > 0.0;
-        vec3 response = metal_bare_product * (is_in_front ? mx_ggx_smith_lobe(frame, vd.viewWorld, L_3) : 0.0);
+            * mx_fresnel_schlick(sqrt(clamp(dot(vd.viewWorld, L_2) * 0.5 + 0.500001, 0.0, 1.0)));
+        bool metal_bare_is_in_front = axis_dot_lobe_view * dot(axis, L_2) > 0.0;
+        vec3 response = metal_bare_product
+            * (metal_bare_is_in_front ? mx_ggx_smith_lobe(frame, vd.viewWorld, L_2) : 0.0);
         vec3 lit = u_lightData[i].color * intensity * response;
         float brightness = max(dot(lit, vec3(0.33333334)), 0.0);
-        sum += brightness;
-        if (sum * chance < brightness) {
-            L_2 = L_3;
-            distance_ = away;
+        brightness_sum += brightness;
+        if (brightness_sum * chance < brightness) {
+            light_L = L_2;
+            light_distance = away;
             light = lit / brightness;
         }
         if (brightness > 0.0) {
-            float ratio = (sum * chance - brightness) / (sum - brightness);
-            chance = sum * chance < brightness ? sum * chance / brightness : ratio;
+            float ratio = (brightness_sum * chance - brightness) / (brightness_sum - brightness);
+            chance = brightness_sum * chance < brightness ? brightness_sum * chance / brightness : ratio;
         }
     }
-    out6 = vec4(L_2, distance_);
-    out7 = vec4(sum * light, 0.0);
+    out6 = vec4(light_L, light_distance);
+    out7 = vec4(brightness_sum * light, 0.0);
 }

@@ -192,8 +192,8 @@ void scatter()
         * ggx_compensation;
     float reflection_share = max(dot(vec3(dielectric_bsdf_albedo * 0.9 + 0.1), vec3(0.33333334)), 0.0);
     float diffuse_share = max(dot(vec3((1.0 - dielectric_bsdf_albedo) * 0.82), vec3(0.33333334)), 0.0);
-    float sum = reflection_share + diffuse_share;
-    float pick = sum * vd.random.w;
+    float shares = reflection_share + diffuse_share;
+    float pick = shares * vd.random.w;
     vec3 L = vec3(0.0);
     float inside = 0.0;
     vec3 weight = vec3(0.0);
@@ -206,23 +206,23 @@ void scatter()
         mx_ggx_scatter(axis, coat_tangent, vd.viewWorld, vd.random.xyz, vec3(eta), reflection_L, reflection_weight,
             reflection_pdf);
         L = reflection_L;
-        weight = reflection_weight * (sum / reflection_share);
+        weight = reflection_weight * (shares / reflection_share);
         bool is_in_front = axis_dot_lobe_view * dot(axis, reflection_L) > 0.0;
         inside = is_in_front ? 0.0 : 1.0;
-        density = is_in_front ? reflection_pdf * (reflection_share / sum) : 0.0;
+        density = is_in_front ? reflection_pdf * (reflection_share / shares) : 0.0;
     }
     pick -= reflection_share;
     vec3 facing = faceforward(axis, -vd.viewWorld, axis);
     if (pick >= 0.0 && pick < diffuse_share) {
         mat3 any_frame = mx_frame(facing, abs(facing.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0));
         vec2 polar = sqrt(vd.random.x) * cos((vd.random.y - vec2(0.0, 0.25)) * 6.2831855);
-        vec3 L_2 = any_frame * vec3(polar, sqrt(1.0 - vd.random.x));
-        L = L_2;
-        float facing_dot_l_2 = dot(facing, L_2);
-        float pdf = max(facing_dot_l_2, 0.0) / 3.1415927;
-        weight = vec3((1.0 - dielectric_bsdf_albedo) * (max(facing_dot_l_2, 1e-8) * 0.31830987 * 0.8 / max(pdf, 1e-8))
-            * (sum / diffuse_share));
-        density = pdf * (diffuse_share / sum);
+        vec3 diffuse_L = any_frame * vec3(polar, sqrt(1.0 - vd.random.x));
+        L = diffuse_L;
+        float facing_dot_diffuse_l = dot(facing, diffuse_L);
+        float pdf = max(facing_dot_diffuse_l, 0.0) / 3.1415927;
+        weight = vec3((1.0 - dielectric_bsdf_albedo)
+            * (max(facing_dot_diffuse_l, 1e-8) * 0.31830987 * 0.8 / max(pdf, 1e-8)) * (shares / diffuse_share));
+        density = pdf * (diffuse_share / shares);
     }
     pick -= diffuse_share;
     out1 = vec4(0.0, 0.0, 0.0, 1.0);
@@ -233,32 +233,35 @@ void scatter()
         * mx_fresnel_permittivity(sqrt(clamp(dot(vd.viewWorld, vd.lightWorld.xyz) * 0.5 + 0.500001, 0.0, 1.0)),
         scaled_eta);
     mat3 frame = mx_frame(facing, coat_tangent);
-    float both = vd.lightWorld.w * (reflection_share / sum
-        * mx_ggx_pdf(axis, coat_tangent, vd.viewWorld, vd.lightWorld.xyz, eta)) + 1.0;
-    vec3 balanced = vec3(reflection_product * mx_ggx_smith_lobe(frame, vd.viewWorld, vd.lightWorld.xyz) / both);
+    float reflection_both = vd.lightWorld.w
+        * (reflection_share / shares * mx_ggx_pdf(axis, coat_tangent, vd.viewWorld, vd.lightWorld.xyz, eta)) + 1.0;
+    vec3 reflection_balanced = vec3(reflection_product * mx_ggx_smith_lobe(frame, vd.viewWorld, vd.lightWorld.xyz)
+        / reflection_both);
     float facing_dot_l = dot(facing, vd.lightWorld.xyz);
-    float both_2 = vd.lightWorld.w * (diffuse_share / sum * (max(facing_dot_l, 0.0) / 3.1415927)) + 1.0;
-    float balanced_2 = (1.0 - dielectric_bsdf_albedo) * (max(facing_dot_l, 1e-8) * 0.31830987 * 0.8) / both_2;
-    out5 = vec4((axis_dot_lobe_view * dot(axis, vd.lightWorld.xyz) > 0.0 ? balanced : vec3(0.0)) + balanced_2, 0.0);
+    float diffuse_both = vd.lightWorld.w * (diffuse_share / shares * (max(facing_dot_l, 0.0) / 3.1415927)) + 1.0;
+    float diffuse_balanced = (1.0 - dielectric_bsdf_albedo) * (max(facing_dot_l, 1e-8) * 0.31830987 * 0.8)
+        / diffuse_both;
+    out5 = vec4((axis_dot_lobe_view * dot(axis, vd.lightWorld.xyz) > 0.0 ? reflection_balanced : vec3(0.0))
+        + diffuse_balanced, 0.0);
     float chance = fract(vd.random.w * 4096.0);
-    float sum_2 = 0.0;
+    float brightness_sum = 0.0;
     vec3 light = vec3(0.0);
-    vec3 L_3 = vec3(0.0);
-    float distance_ = 0.0;
+    vec3 light_L = vec3(0.0);
+    float light_distance = 0.0;
     // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
-        vec3 L_4;
+        vec3 L_2;
         float intensity;
         float away;
         int light_type = u_lightData[i].type;
         if (light_type == 1) {
-            L_4 = -u_lightData[i].direction;
+            L_2 = -u_lightData[i].direction;
             intensity = u_lightData[i].intensity;
             away = 1e30;
         } else {
             vec3 d = u_lightData[i].position - vd.positionWorld;
             vec3 to_light = normalize(d);
-            L_4 = to_light;
+            L_2 = to_light;
             float magnitude_d = length(d);
             float falloff = u_lightData[i].intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
             if (light_type == 2) {
@@ -273,23 +276,24 @@ void scatter()
             }
         }
         float reflection_product_2 = ggx_compensation
-            * mx_fresnel_permittivity(sqrt(clamp(dot(vd.viewWorld, L_4) * 0.5 + 0.500001, 0.0, 1.0)), scaled_eta);
-        vec3 dielectric_bsdf_eval = vec3(reflection_product_2 * mx_ggx_smith_lobe(frame, vd.viewWorld, L_4));
-        float product = (1.0 - dielectric_bsdf_albedo) * (max(dot(facing, L_4), 1e-8) * 0.31830987 * 0.8);
-        vec3 response = (axis_dot_lobe_view * dot(axis, L_4) > 0.0 ? dielectric_bsdf_eval : vec3(0.0)) + product;
+            * mx_fresnel_permittivity(sqrt(clamp(dot(vd.viewWorld, L_2) * 0.5 + 0.500001, 0.0, 1.0)), scaled_eta);
+        vec3 dielectric_bsdf_eval = vec3(reflection_product_2 * mx_ggx_smith_lobe(frame, vd.viewWorld, L_2));
+        float diffuse_product = (1.0 - dielectric_bsdf_albedo) * (max(dot(facing, L_2), 1e-8) * 0.31830987 * 0.8);
+        vec3 response = (axis_dot_lobe_view * dot(axis, L_2) > 0.0 ? dielectric_bsdf_eval : vec3(0.0))
+            + diffuse_product;
         vec3 lit = u_lightData[i].color * intensity * response;
         float brightness = max(dot(lit, vec3(0.33333334)), 0.0);
-        sum_2 += brightness;
-        if (sum_2 * chance < brightness) {
-            L_3 = L_4;
-            distance_ = away;
+        brightness_sum += brightness;
+        if (brightness_sum * chance < brightness) {
+            light_L = L_2;
+            light_distance = away;
             light = lit / brightness;
         }
         if (brightness > 0.0) {
-            float ratio = (sum_2 * chance - brightness) / (sum_2 - brightness);
-            chance = sum_2 * chance < brightness ? sum_2 * chance / brightness : ratio;
+            float ratio = (brightness_sum * chance - brightness) / (brightness_sum - brightness);
+            chance = brightness_sum * chance < brightness ? brightness_sum * chance / brightness : ratio;
         }
     }
-    out6 = vec4(L_3, distance_);
-    out7 = vec4(sum_2 * light, 0.0);
+    out6 = vec4(light_L, light_distance);
+    out7 = vec4(brightness_sum * light, 0.0);
 }

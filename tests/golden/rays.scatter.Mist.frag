@@ -80,24 +80,24 @@ void scatter()
     out4 = vec4(medium, 0.0);
     out5 = vec4(vd.positionObject * 0.07957747 / (vd.lightWorld.w * (scaled_mist_share * 0.07957747) + 1.0), 0.0);
     float chance = fract(vd.random.w * 4096.0);
-    float sum = 0.0;
+    float brightness_sum = 0.0;
     vec3 light = vec3(0.0);
-    vec3 L_2 = vec3(0.0);
-    float distance_ = 0.0;
+    vec3 light_L = vec3(0.0);
+    float light_distance = 0.0;
     // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
-        vec3 L_3;
+        vec3 L_2;
         float intensity;
         float away;
         int light_type = u_lightData[i].type;
         if (light_type == 1) {
-            L_3 = -u_lightData[i].direction;
+            L_2 = -u_lightData[i].direction;
             intensity = u_lightData[i].intensity;
             away = 1e30;
         } else {
             vec3 d = u_lightData[i].position - vd.positionWorld;
             vec3 to_light = normalize(d);
-            L_3 = to_light;
+            L_2 = to_light;
             float magnitude_d = length(d);
             float falloff = u_lightData[i].intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
             if (light_type == 2) {
@@ -113,19 +113,19 @@ void scatter()
         }
         vec3 lit = vd.positionObject * 0.07957747 * (u_lightData[i].color * intensity);
         float brightness = max(dot(lit, vec3(0.33333334)), 0.0);
-        sum += brightness;
-        if (sum * chance < brightness) {
-            L_2 = L_3;
-            distance_ = away;
+        brightness_sum += brightness;
+        if (brightness_sum * chance < brightness) {
+            light_L = L_2;
+            light_distance = away;
             light = lit / brightness;
         }
         if (brightness > 0.0) {
-            float ratio = (sum * chance - brightness) / (sum - brightness);
-            chance = sum * chance < brightness ? sum * chance / brightness : ratio;
+            float ratio = (brightness_sum * chance - brightness) / (brightness_sum - brightness);
+            chance = brightness_sum * chance < brightness ? brightness_sum * chance / brightness : ratio;
         }
     }
-    out6 = vec4(L_2, distance_);
-    out7 = vec4(sum * light, 0.0);
+    out6 = vec4(light_L, light_distance);
+    out7 = vec4(brightness_sum * light, 0.0);
     out9 = vec4(vd.positionObject, 0.0);
     out10 = vec4(vd.positionObject, 0.0);
 }

@@ -203,8 +203,8 @@ void scatter()
     float glaze_share = max(dot(float3((dielectric_bsdf_albedo * 0.9 + 0.1) * 0.8), float3(0.33333334)), 0.0);
     float glaze_throughput = 1.0 - dielectric_bsdf_albedo * 0.8;
     float clay_share = max(dot(glaze_throughput * float3(0.64, 0.37, 0.28), float3(0.33333334)), 0.0);
-    float sum = glaze_share + clay_share;
-    float pick = sum * vd.random.w;
+    float shares = glaze_share + clay_share;
+    float pick = shares * vd.random.w;
     float3 L = float3(0.0);
     float inside = 0.0;
     float3 weight = float3(0.0);
@@ -216,10 +216,10 @@ void scatter()
         float glaze_pdf;
         mx_ggx_scatter(N, X, vd.viewWorld, vd.random.xyz, float3(eta), glaze_L, glaze_weight, glaze_pdf);
         L = glaze_L;
-        weight = glaze_weight * (sum / glaze_share * 0.8);
+        weight = glaze_weight * (shares / glaze_share * 0.8);
         bool is_in_front = n_dot_lobe_view * dot(N, glaze_L) > 0.0;
         inside = is_in_front ? 0.0 : 1.0;
-        density = is_in_front ? glaze_pdf * (glaze_share / sum) : 0.0;
+        density = is_in_front ? glaze_pdf * (glaze_share / shares) : 0.0;
     }
     pick -= glaze_share;
     float3 facing = faceforward(N, -vd.viewWorld, N);
@@ -227,13 +227,13 @@ void scatter()
     if (pick >= 0.0 && pick < clay_share) {
         float3x3 any_frame = mx_frame(facing, abs(facing.x) < 0.7 ? float3(1.0, 0.0, 0.0) : float3(0.0, 1.0, 0.0));
         float2 polar = sqrt(vd.random.x) * cos((vd.random.y - float2(0.0, 0.25)) * 6.2831855);
-        float3 L_2 = any_frame * float3(polar, sqrt(1.0 - vd.random.x));
-        L = L_2;
-        float facing_dot_l_2 = dot(facing, L_2);
-        float pdf = max(facing_dot_l_2, 0.0) / 3.1415927;
-        float3 weight_2 = max(facing_dot_l_2, 1e-8) * 0.31830987 * clay_constant / max(pdf, 1e-8);
-        weight = weight_2 * (glaze_throughput * (sum / clay_share));
-        density = pdf * (clay_share / sum);
+        float3 clay_L = any_frame * float3(polar, sqrt(1.0 - vd.random.x));
+        L = clay_L;
+        float facing_dot_clay_l = dot(facing, clay_L);
+        float pdf = max(facing_dot_clay_l, 0.0) / 3.1415927;
+        float3 clay_weight = max(facing_dot_clay_l, 1e-8) * 0.31830987 * clay_constant / max(pdf, 1e-8);
+        weight = clay_weight * (glaze_throughput * (shares / clay_share));
+        density = pdf * (clay_share / shares);
     }
     pick -= clay_share;
     out.out1 = float4(0.0, 0.0, 0.0, 1.0);
@@ -244,32 +244,34 @@ void scatter()
         * mx_fresnel_permittivity(sqrt(clamp(dot(vd.viewWorld, vd.lightWorld.xyz) * 0.5 + 0.500001, 0.0, 1.0)),
         scaled_eta);
     float3x3 frame = mx_frame(facing, X);
-    float both = vd.lightWorld.w * (glaze_share / sum * mx_ggx_pdf(N, X, vd.viewWorld, vd.lightWorld.xyz, eta)) + 1.0;
-    float3 balanced = float3(glaze_product * mx_ggx_smith_lobe(frame, vd.viewWorld, vd.lightWorld.xyz) * 0.8 / both);
-    float3 response = n_dot_lobe_view * dot(N, vd.lightWorld.xyz) > 0.0 ? balanced : float3(0.0);
+    float glaze_both = vd.lightWorld.w * (glaze_share / shares * mx_ggx_pdf(N, X, vd.viewWorld, vd.lightWorld.xyz, eta))
+        + 1.0;
+    float3 balanced = float3(glaze_product * mx_ggx_smith_lobe(frame, vd.viewWorld, vd.lightWorld.xyz) * 0.8
+        / glaze_both);
+    float3 glaze_response = n_dot_lobe_view * dot(N, vd.lightWorld.xyz) > 0.0 ? balanced : float3(0.0);
     float facing_dot_l = dot(facing, vd.lightWorld.xyz);
-    float both_2 = vd.lightWorld.w * (clay_share / sum * (max(facing_dot_l, 0.0) / 3.1415927)) + 1.0;
-    out.out5 = float4(response + glaze_throughput * (max(facing_dot_l, 1e-8) * 0.31830987) * clay_constant / both_2,
-        0.0);
+    float clay_both = vd.lightWorld.w * (clay_share / shares * (max(facing_dot_l, 0.0) / 3.1415927)) + 1.0;
+    out.out5 = float4(glaze_response + glaze_throughput * (max(facing_dot_l, 1e-8) * 0.31830987) * clay_constant
+        / clay_both, 0.0);
     float chance = fract(vd.random.w * 4096.0);
-    float sum_2 = 0.0;
+    float brightness_sum = 0.0;
     float3 light = float3(0.0);
-    float3 L_3 = float3(0.0);
-    float distance_ = 0.0;
+    float3 light_L = float3(0.0);
+    float light_distance = 0.0;
     // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_prv.u_numActiveLightSources, 3) - 1; i >= 0; --i) {
-        float3 L_4;
+        float3 L_2;
         float intensity;
         float away;
         int light_type = u_lightData.u_lightData[i].type;
         if (light_type == 1) {
-            L_4 = -u_lightData.u_lightData[i].direction;
+            L_2 = -u_lightData.u_lightData[i].direction;
             intensity = u_lightData.u_lightData[i].intensity;
             away = 1e30;
         } else {
             float3 d = u_lightData.u_lightData[i].position - vd.positionWorld;
             float3 to_light = normalize(d);
-            L_4 = to_light;
+            L_2 = to_light;
             float magnitude_d = length(d);
             float falloff = u_lightData.u_lightData[i].intensity
                 / pow(magnitude_d + 1.0, u_lightData.u_lightData[i].decay_rate);
@@ -286,24 +288,24 @@ void scatter()
             }
         }
         float glaze_product_2 = ggx_compensation
-            * mx_fresnel_permittivity(sqrt(clamp(dot(vd.viewWorld, L_4) * 0.5 + 0.500001, 0.0, 1.0)), scaled_eta);
-        float3 vector = float3(glaze_product_2 * mx_ggx_smith_lobe(frame, vd.viewWorld, L_4) * 0.8);
-        float3 product = glaze_throughput * (max(dot(facing, L_4), 1e-8) * 0.31830987) * clay_constant;
-        float3 response_2 = (n_dot_lobe_view * dot(N, L_4) > 0.0 ? vector : float3(0.0)) + product;
-        float3 lit = u_lightData.u_lightData[i].color * intensity * response_2;
+            * mx_fresnel_permittivity(sqrt(clamp(dot(vd.viewWorld, L_2) * 0.5 + 0.500001, 0.0, 1.0)), scaled_eta);
+        float3 glaze_vector = float3(glaze_product_2 * mx_ggx_smith_lobe(frame, vd.viewWorld, L_2) * 0.8);
+        float3 clay_product = glaze_throughput * (max(dot(facing, L_2), 1e-8) * 0.31830987) * clay_constant;
+        float3 response = (n_dot_lobe_view * dot(N, L_2) > 0.0 ? glaze_vector : float3(0.0)) + clay_product;
+        float3 lit = u_lightData.u_lightData[i].color * intensity * response;
         float brightness = max(dot(lit, float3(0.33333334)), 0.0);
-        sum_2 += brightness;
-        if (sum_2 * chance < brightness) {
-            L_3 = L_4;
-            distance_ = away;
+        brightness_sum += brightness;
+        if (brightness_sum * chance < brightness) {
+            light_L = L_2;
+            light_distance = away;
             light = lit / brightness;
         }
         if (brightness > 0.0) {
-            float ratio = (sum_2 * chance - brightness) / (sum_2 - brightness);
-            chance = sum_2 * chance < brightness ? sum_2 * chance / brightness : ratio;
+            float ratio = (brightness_sum * chance - brightness) / (brightness_sum - brightness);
+            chance = brightness_sum * chance < brightness ? brightness_sum * chance / brightness : ratio;
         }
     }
-    out.out6 = float4(L_3, distance_);
-    out.out7 = float4(sum_2 * light, 0.0);
+    out.out6 = float4(light_L, light_distance);
+    out.out7 = float4(brightness_sum * light, 0.0);
 }
 };

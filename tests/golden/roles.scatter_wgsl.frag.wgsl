@@ -195,8 +195,8 @@ fn scatter()
     let glaze_share: f32 = max(dot(vec3f((dielectric_bsdf_albedo * 0.9 + 0.1) * 0.8), vec3f(0.33333334)), 0.0);
     let glaze_throughput: f32 = 1.0 - dielectric_bsdf_albedo * 0.8;
     let clay_share: f32 = max(dot(glaze_throughput * vec3f(0.64, 0.37, 0.28), vec3f(0.33333334)), 0.0);
-    let sum: f32 = glaze_share + clay_share;
-    var pick: f32 = sum * vd.random.w;
+    let shares: f32 = glaze_share + clay_share;
+    var pick: f32 = shares * vd.random.w;
     var L: vec3f = vec3f(0.0);
     var inside: f32 = 0.0;
     var weight: vec3f = vec3f(0.0);
@@ -209,10 +209,10 @@ fn scatter()
         var glaze_pdf: f32;
         mx_ggx_scatter(N, X, vd.viewWorld, vd.random.xyz, vec3f(eta), &glaze_L, &glaze_weight, &glaze_pdf);
         L = glaze_L;
-        weight = glaze_weight * (sum / glaze_share * 0.8);
+        weight = glaze_weight * (shares / glaze_share * 0.8);
         let is_in_front: bool = n_dot_lobe_view * dot(N, glaze_L) > 0.0;
         inside = select(1.0, 0.0, is_in_front);
-        density = select(0.0, glaze_pdf * (glaze_share / sum), is_in_front);
+        density = select(0.0, glaze_pdf * (glaze_share / shares), is_in_front);
     }
     pick -= glaze_share;
     let facing: vec3f = faceForward(N, -vd.viewWorld, N);
@@ -221,13 +221,13 @@ fn scatter()
         let any_frame: mat3x3f = mx_frame(facing,
             select(vec3f(0.0, 1.0, 0.0), vec3f(1.0, 0.0, 0.0), abs(facing.x) < 0.7));
         let polar: vec2f = sqrt(vd.random.x) * cos((vd.random.y - vec2f(0.0, 0.25)) * 6.2831855);
-        let L_2: vec3f = any_frame * vec3f(polar, sqrt(1.0 - vd.random.x));
-        L = L_2;
-        let facing_dot_l_2: f32 = dot(facing, L_2);
-        let pdf: f32 = max(facing_dot_l_2, 0.0) / 3.1415927;
-        let weight_2: vec3f = max(facing_dot_l_2, 1e-8) * 0.31830987 * clay_constant / max(pdf, 1e-8);
-        weight = weight_2 * (glaze_throughput * (sum / clay_share));
-        density = pdf * (clay_share / sum);
+        let clay_L: vec3f = any_frame * vec3f(polar, sqrt(1.0 - vd.random.x));
+        L = clay_L;
+        let facing_dot_clay_l: f32 = dot(facing, clay_L);
+        let pdf: f32 = max(facing_dot_clay_l, 0.0) / 3.1415927;
+        let clay_weight: vec3f = max(facing_dot_clay_l, 1e-8) * 0.31830987 * clay_constant / max(pdf, 1e-8);
+        weight = clay_weight * (glaze_throughput * (shares / clay_share));
+        density = pdf * (clay_share / shares);
     }
     pick -= clay_share;
     out1 = vec4f(0.0, 0.0, 0.0, 1.0);
@@ -238,32 +238,34 @@ fn scatter()
         * mx_fresnel_permittivity(sqrt(clamp(dot(vd.viewWorld, vd.lightWorld.xyz) * 0.5 + 0.500001, 0.0, 1.0)),
         scaled_eta);
     let frame: mat3x3f = mx_frame(facing, X);
-    let both: f32 = vd.lightWorld.w * (glaze_share / sum * mx_ggx_pdf(N, X, vd.viewWorld, vd.lightWorld.xyz, eta))
-        + 1.0;
-    let balanced: vec3f = vec3f(glaze_product * mx_ggx_smith_lobe(frame, vd.viewWorld, vd.lightWorld.xyz) * 0.8 / both);
-    let response: vec3f = select(vec3f(0.0), balanced, n_dot_lobe_view * dot(N, vd.lightWorld.xyz) > 0.0);
+    let glaze_both: f32 = vd.lightWorld.w
+        * (glaze_share / shares * mx_ggx_pdf(N, X, vd.viewWorld, vd.lightWorld.xyz, eta)) + 1.0;
+    let balanced: vec3f = vec3f(glaze_product * mx_ggx_smith_lobe(frame, vd.viewWorld, vd.lightWorld.xyz) * 0.8
+        / glaze_both);
+    let glaze_response: vec3f = select(vec3f(0.0), balanced, n_dot_lobe_view * dot(N, vd.lightWorld.xyz) > 0.0);
     let facing_dot_l: f32 = dot(facing, vd.lightWorld.xyz);
-    let both_2: f32 = vd.lightWorld.w * (clay_share / sum * (max(facing_dot_l, 0.0) / 3.1415927)) + 1.0;
-    out5 = vec4f(response + glaze_throughput * (max(facing_dot_l, 1e-8) * 0.31830987) * clay_constant / both_2, 0.0);
+    let clay_both: f32 = vd.lightWorld.w * (clay_share / shares * (max(facing_dot_l, 0.0) / 3.1415927)) + 1.0;
+    out5 = vec4f(glaze_response + glaze_throughput * (max(facing_dot_l, 1e-8) * 0.31830987) * clay_constant / clay_both,
+        0.0);
     var chance: f32 = fract(vd.random.w * 4096.0);
-    var sum_2: f32 = 0.0;
+    var brightness_sum: f32 = 0.0;
     var light: vec3f = vec3f(0.0);
-    var L_3: vec3f = vec3f(0.0);
-    var distance_: f32 = 0.0;
+    var light_L: vec3f = vec3f(0.0);
+    var light_distance: f32 = 0.0;
     // from the last light, so that drivers do not unroll the loop
     for (var i: i32 = min(u_prv.u_numActiveLightSources, 3) - 1; i >= 0; i--) {
-        var L_4: vec3f;
+        var L_2: vec3f;
         var intensity: f32;
         var away: f32;
         let light_type_: i32 = u_lightData[i].type_;
         if (light_type_ == 1) {
-            L_4 = -u_lightData[i].direction;
+            L_2 = -u_lightData[i].direction;
             intensity = u_lightData[i].intensity;
             away = 1e30;
         } else {
             let d: vec3f = u_lightData[i].position - vd.positionWorld;
             let to_light: vec3f = normalize(d);
-            L_4 = to_light;
+            L_2 = to_light;
             let magnitude_d: f32 = length(d);
             let falloff: f32 = u_lightData[i].intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
             if (light_type_ == 2) {
@@ -277,23 +279,23 @@ fn scatter()
             }
         }
         let glaze_product_2: f32 = ggx_compensation
-            * mx_fresnel_permittivity(sqrt(clamp(dot(vd.viewWorld, L_4) * 0.5 + 0.500001, 0.0, 1.0)), scaled_eta);
-        let vector: vec3f = vec3f(glaze_product_2 * mx_ggx_smith_lobe(frame, vd.viewWorld, L_4) * 0.8);
-        let product: vec3f = glaze_throughput * (max(dot(facing, L_4), 1e-8) * 0.31830987) * clay_constant;
-        let response_2: vec3f = select(vec3f(0.0), vector, n_dot_lobe_view * dot(N, L_4) > 0.0) + product;
-        let lit: vec3f = u_lightData[i].color * intensity * response_2;
+            * mx_fresnel_permittivity(sqrt(clamp(dot(vd.viewWorld, L_2) * 0.5 + 0.500001, 0.0, 1.0)), scaled_eta);
+        let glaze_vector: vec3f = vec3f(glaze_product_2 * mx_ggx_smith_lobe(frame, vd.viewWorld, L_2) * 0.8);
+        let clay_product: vec3f = glaze_throughput * (max(dot(facing, L_2), 1e-8) * 0.31830987) * clay_constant;
+        let response: vec3f = select(vec3f(0.0), glaze_vector, n_dot_lobe_view * dot(N, L_2) > 0.0) + clay_product;
+        let lit: vec3f = u_lightData[i].color * intensity * response;
         let brightness: f32 = max(dot(lit, vec3f(0.33333334)), 0.0);
-        sum_2 += brightness;
-        if (sum_2 * chance < brightness) {
-            L_3 = L_4;
-            distance_ = away;
+        brightness_sum += brightness;
+        if (brightness_sum * chance < brightness) {
+            light_L = L_2;
+            light_distance = away;
             light = lit / brightness;
         }
         if (brightness > 0.0) {
-            let ratio: f32 = (sum_2 * chance - brightness) / (sum_2 - brightness);
-            chance = select(ratio, sum_2 * chance / brightness, sum_2 * chance < brightness);
+            let ratio: f32 = (brightness_sum * chance - brightness) / (brightness_sum - brightness);
+            chance = select(ratio, brightness_sum * chance / brightness, brightness_sum * chance < brightness);
         }
     }
-    out6 = vec4f(L_3, distance_);
-    out7 = vec4f(sum_2 * light, 0.0);
+    out6 = vec4f(light_L, light_distance);
+    out7 = vec4f(brightness_sum * light, 0.0);
 }

@@ -374,24 +374,24 @@ void scatter()
         ? exp(-(closure_way_2 * extinction_above)) * balanced_2 : choice;
     out5 = vec4(level == 0.0 ? balanced : choice_2, 0.0);
     float chance = fract(vd.random.w * 4096.0);
-    float sum = 0.0;
+    float brightness_sum = 0.0;
     vec3 light = vec3(0.0);
-    vec3 L_3 = vec3(0.0);
-    float distance_ = 0.0;
+    vec3 light_L = vec3(0.0);
+    float light_distance = 0.0;
     // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
-        vec3 L_4;
+        vec3 L_3;
         float intensity;
         float away;
         int light_type = u_lightData[i].type;
         if (light_type == 1) {
-            L_4 = -u_lightData[i].direction;
+            L_3 = -u_lightData[i].direction;
             intensity = u_lightData[i].intensity;
             away = 1e30;
         } else {
             vec3 d = u_lightData[i].position - vd.positionWorld;
             vec3 to_light = normalize(d);
-            L_4 = to_light;
+            L_3 = to_light;
             float magnitude_d = length(d);
             float falloff = u_lightData[i].intensity / pow(magnitude_d + 1.0, u_lightData[i].decay_rate);
             if (light_type == 2) {
@@ -405,18 +405,18 @@ void scatter()
                 away = magnitude_d;
             }
         }
-        float half_cosine_2 = sqrt(clamp(dot(vd.viewWorld, L_4) * 0.5 + 0.500001, 0.0, 1.0));
+        float half_cosine_2 = sqrt(clamp(dot(vd.viewWorld, L_3) * 0.5 + 0.500001, 0.0, 1.0));
         vec3 fresnel_2 = mx_fresnel_schlick(half_cosine_2, vec3(0.04));
         vec3 coat_reflection_slab_reflection_bsdf_eval = coat_reflection_ggx_compensation * fresnel_2
-            * mx_ggx_smith_lobe(vec2(0.01), frame, vd.viewWorld, L_4);
-        float cosine_3 = dot(N, L_4);
+            * mx_ggx_smith_lobe(vec2(0.01), frame, vd.viewWorld, L_3);
+        float cosine_3 = dot(N, L_3);
         float closure_way_3 = inversesqrt(cosine_3 * cosine_3 + 1.25) * 1.5;
         vec3 milk_reflection_slab_reflection_bsdf_eval = milk_reflection_ggx_compensation * fresnel_2
-            * mx_ggx_smith_lobe(vec2(0.25071993), frame, vd.viewWorld, L_4);
+            * mx_ggx_smith_lobe(vec2(0.25071993), frame, vd.viewWorld, L_3);
         vec3 metal_reflection_product = metal_reflection_ggx_compensation
             * mx_fresnel_schlick(half_cosine_2, metal_constant);
         vec3 metal_reflection_slab_reflection_bsdf_eval = metal_reflection_product
-            * mx_ggx_smith_lobe(vec2(0.29886922), frame, vd.viewWorld, L_4);
+            * mx_ggx_smith_lobe(vec2(0.29886922), frame, vd.viewWorld, L_3);
         vec3 choice_3 = is_level_4 ? vec3(1.0) : level == 5.0 ? metal_reflection_slab_reflection_bsdf_eval
             * exp(-((extinction_above + vec3(0.2)) * closure_way_3)) : vec3(0.0);
         vec3 choice_4 = is_level_1 ? vec3(1.0) : level == 2.0 ? vec3(0.0) : level == 3.0
@@ -424,19 +424,19 @@ void scatter()
         vec3 lit = u_lightData[i].color * intensity
             * (level == 0.0 ? coat_reflection_slab_reflection_bsdf_eval : choice_4);
         float brightness = max(dot(lit, vec3(0.33333334)), 0.0);
-        sum += brightness;
-        if (sum * chance < brightness) {
-            L_3 = L_4;
-            distance_ = away;
+        brightness_sum += brightness;
+        if (brightness_sum * chance < brightness) {
+            light_L = L_3;
+            light_distance = away;
             light = lit / brightness;
         }
         if (brightness > 0.0) {
-            float ratio = (sum * chance - brightness) / (sum - brightness);
-            chance = sum * chance < brightness ? sum * chance / brightness : ratio;
+            float ratio = (brightness_sum * chance - brightness) / (brightness_sum - brightness);
+            chance = brightness_sum * chance < brightness ? brightness_sum * chance / brightness : ratio;
         }
     }
-    out6 = vec4(L_3, distance_);
-    out7 = vec4(sum * light, 0.0);
+    out6 = vec4(light_L, light_distance);
+    out7 = vec4(brightness_sum * light, 0.0);
     out9 = vec4(is_level_1 ? vec3(0.0) : is_level_4 ? vec3(0.19811778, 0.19958141, 0.19990106) : vec3(0.0), 0.0);
     float choice_5 = level < 2.0 ? 2.0 : level < 3.0 ? 3.0 : level < 4.0 ? 4.0 : level < 5.0 ? 5.0 : level < 6.0 ? 6.0
         : -1.0;

@@ -265,6 +265,24 @@ static void test_sharing(void)
     teardown(&f);
 }
 
+/* dot(vec3(x), k) is x times the sum of k, and x where k is a mean. */
+static void test_dot_of_scalar(void)
+{
+    struct fixture f;
+    setup(&f);
+    struct ir_graph *g = &f.graph;
+    ir_ref x = ir_build(g, IR_UNIFORM, IR_TYPE_FLOAT, 0, NULL, 0),
+           v = ir_build(g, IR_UNIFORM, IR_TYPE_VEC3, 1, NULL, 0);
+    ir_ref same = ir_construct(g, IR_TYPE_VEC3, &x, 1), two = ir_const_splat(g, IR_TYPE_VEC3, 2.0f),
+           third = ir_const_splat(g, IR_TYPE_VEC3, 1.0f / 3.0f);
+    REQUIRE_EQ(ir_op2(g, IR_DOT, same, two), ir_op2(g, IR_MUL, x, ir_const_float(g, 6.0f)));
+    REQUIRE_EQ(ir_op2(g, IR_DOT, third, same), x);
+    REQUIRE_EQ(ir_get(g, ir_op2(g, IR_DOT, v, two))->op, IR_DOT);
+    g->exact = true;
+    REQUIRE_EQ(ir_get(g, ir_op2(g, IR_DOT, same, third))->op, IR_DOT);
+    teardown(&f);
+}
+
 static void test_convert(void)
 {
     struct fixture f;
@@ -710,6 +728,7 @@ int main(void)
 {
     test_builder();
     test_sharing();
+    test_dot_of_scalar();
     test_convert();
     test_user_types();
     test_round_trip();
