@@ -39,11 +39,11 @@ static void sort_operands(const struct ir_graph *graph, enum ir_op op, ir_ref *a
 
 /*
  * The simplifier sees arithmetic, choices and functions only if they have vector operands. It sees
- * constructors, swizzles, members and indices of every type.
+ * constructors, swizzles, members and indices of every type, and dot products.
  */
 static bool may_simplify(enum ir_op op, ir_type_id type)
 {
-    if (op > IR_SELECT && op <= IR_INDEX)
+    if ((op > IR_SELECT && op <= IR_INDEX) || op == IR_DOT)
         return true;
     bool on_vectors = (op >= IR_SELECT && op <= IR_SMOOTHSTEP) || (op >= IR_ADD && op <= IR_DIV);
     return on_vectors && type >= IR_TYPE_VEC2 && type <= IR_TYPE_VEC4;

@@ -314,8 +314,7 @@ void main()
     vec2 coating_albedo = mx_ggx_albedo_fit(coat_roughness, cos_v);
     float coating_scale = mix(coating_fresnel_f0, 1.0, 0.04761905) * (1.0 / coating_albedo.x - 1.0) + 1.0;
     float coating_throughput = 1.0 - coating_weight
-        * dot(vec3(mix(coating_fresnel_f0, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale),
-        vec3(0.33333334));
+        * (mix(coating_fresnel_f0, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale);
     bool is_equal_useSpecularWorkflow = SR_UsdPreviewSurface_useSpecularWorkflow == 1;
     vec3 grazing_metallic = mix(vec3(1.0), diffuseColor, SR_UsdPreviewSurface_metallic);
     vec3 reflection_fresnel_f0 = max(is_equal_useSpecularWorkflow ? SR_UsdPreviewSurface_specularColor

@@ -269,8 +269,7 @@ Surface surface(float3 positionWorld, float3 normalWorld)
     float ggx_masking = sqrt(cos_v * cos_v * 0.9375 + 0.0625);
     mx_GgxLobe reflection_ggx_lobe = make_mx_GgxLobe(facing, cos_v, float3(0.0, 0.0, 0.0), float2(0.25, 0.25),
         ggx_masking);
-    float reflection_throughput = 1.0 - dot((float3)(lerp(0.04, 1.0, albedo.y) * albedo.x * scale),
-        float3(0.33333334, 0.33333334, 0.33333334));
+    float reflection_throughput = 1.0 - lerp(0.04, 1.0, albedo.y) * albedo.x * scale;
     float diffuse_factor = reflection_throughput * 0.31830987 * 0.18;
     // from the last light, so that drivers do not unroll the loop
     for (int i = mxg_light_count() - 1; i >= 0; --i) {

@@ -169,7 +169,7 @@ void scatter()
     float reflection_product = albedo.x * ggx_compensation;
     float reflection_share = max(dot(f * (reflection_product * 0.9) + vec3(0.1), vec3(0.33333334)), 0.0);
     float reflection_throughput = 1.0 - dot(f * reflection_product, vec3(0.33333334));
-    float diffuse_share = max(dot(vec3(reflection_throughput * 0.262), vec3(0.33333334)), 0.0);
+    float diffuse_share = max(reflection_throughput * 0.262, 0.0);
     float shares = reflection_share + diffuse_share;
     float pick = shares * vd.random.w;
     vec3 L = vec3(0.0);

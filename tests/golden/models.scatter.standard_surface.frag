@@ -190,8 +190,8 @@ void scatter()
     float ggx_compensation = mix(r * r, 1.0, 0.04761905) * (1.0 / albedo.x - 1.0) + 1.0;
     float dielectric_bsdf_albedo = mx_fresnel_permittivity(max(1.0 - pow(albedo.y, 0.2), 1e-8), scaled_eta) * albedo.x
         * ggx_compensation;
-    float reflection_share = max(dot(vec3(dielectric_bsdf_albedo * 0.9 + 0.1), vec3(0.33333334)), 0.0);
-    float diffuse_share = max(dot(vec3((1.0 - dielectric_bsdf_albedo) * 0.82), vec3(0.33333334)), 0.0);
+    float reflection_share = max(dielectric_bsdf_albedo * 0.9 + 0.1, 0.0);
+    float diffuse_share = max((1.0 - dielectric_bsdf_albedo) * 0.82, 0.0);
     float shares = reflection_share + diffuse_share;
     float pick = shares * vd.random.w;
     vec3 L = vec3(0.0);

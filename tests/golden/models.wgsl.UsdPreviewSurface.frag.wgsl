@@ -328,8 +328,7 @@ fn main(vd: VertexData) -> @location(0) vec4f
     let coating_albedo: vec2f = mx_ggx_albedo_fit(coat_roughness, cos_v);
     let coating_scale: f32 = mix(coating_fresnel_f0, 1.0, 0.04761905) * (1.0 / coating_albedo.x - 1.0) + 1.0;
     let coating_throughput: f32 = 1.0 - coating_weight
-        * dot(vec3f(mix(coating_fresnel_f0, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale),
-        vec3f(0.33333334));
+        * (mix(coating_fresnel_f0, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale);
     let is_equal_useSpecularWorkflow: bool = u_pub.SR_UsdPreviewSurface_useSpecularWorkflow == 1;
     let grazing_metallic: vec3f = mix(vec3f(1.0), diffuseColor, u_pub.SR_UsdPreviewSurface_metallic);
     let reflection_fresnel_f0: vec3f = max(select(mix(amplitude * amplitude * grazing_metallic, grazing_metallic,

@@ -200,7 +200,7 @@ void scatter()
     float ggx_compensation = mix(r * r, 1.0, 0.04761905) * (1.0 / albedo.x - 1.0) + 1.0;
     float dielectric_bsdf_albedo = mx_fresnel_permittivity(max(1.0 - pow(albedo.y, 0.2), 1e-8), scaled_eta) * albedo.x
         * ggx_compensation;
-    float glaze_share = max(dot(float3((dielectric_bsdf_albedo * 0.9 + 0.1) * 0.8), float3(0.33333334)), 0.0);
+    float glaze_share = max((dielectric_bsdf_albedo * 0.9 + 0.1) * 0.8, 0.0);
     float glaze_throughput = 1.0 - dielectric_bsdf_albedo * 0.8;
     float clay_share = max(dot(glaze_throughput * float3(0.64, 0.37, 0.28), float3(0.33333334)), 0.0);
     float shares = glaze_share + clay_share;

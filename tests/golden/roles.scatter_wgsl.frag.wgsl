@@ -192,7 +192,7 @@ fn scatter()
     let ggx_compensation: f32 = mix(r * r, 1.0, 0.04761905) * (1.0 / albedo.x - 1.0) + 1.0;
     let dielectric_bsdf_albedo: f32 = mx_fresnel_permittivity(max(1.0 - pow(albedo.y, 0.2), 1e-8), scaled_eta)
         * albedo.x * ggx_compensation;
-    let glaze_share: f32 = max(dot(vec3f((dielectric_bsdf_albedo * 0.9 + 0.1) * 0.8), vec3f(0.33333334)), 0.0);
+    let glaze_share: f32 = max((dielectric_bsdf_albedo * 0.9 + 0.1) * 0.8, 0.0);
     let glaze_throughput: f32 = 1.0 - dielectric_bsdf_albedo * 0.8;
     let clay_share: f32 = max(dot(glaze_throughput * vec3f(0.64, 0.37, 0.28), vec3f(0.33333334)), 0.0);
     let shares: f32 = glaze_share + clay_share;
