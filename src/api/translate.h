@@ -23,8 +23,9 @@ struct source_input {
     const char *text; /* not NULL: the value at a surface between, which has no element */
     bool is_connected;
     enum value_type type;
-    bool is_used;           /* the new surface depends on it */
-    elem_id map;            /* not 0: the leaf is what this input reads, in place of `element` */
+    bool has_other; /* the translation says which value needs no counterpart: not the default */
+    bool is_used;   /* the new surface depends on it */
+    elem_id map;    /* not 0: the leaf is what this input reads, in place of `element` */
     const char *map_output; /* the output of the map's graph for it; NULL: none is added yet */
 };
 
@@ -133,6 +134,8 @@ void translate_generate(struct translation *t, const mxg_document *document, con
 bool translate_is_default(const mxg_port *port, const struct strpool *strings, const char *text);
 /* True if the document connects the input, or gives it another value than the default. */
 bool translate_is_authored(const struct translation *t, const struct source_input *source);
+/* The text of its value, or of the default. */
+const char *translate_value_of(const struct translation *t, const struct source_input *source);
 /* The start of names that no element of the root has. */
 const char *translate_free_name(const struct translation *t);
 /* The name of the draft's node of a step. */

@@ -79,6 +79,12 @@ static const char *text_of(const struct translation *t, const struct source_inpu
     return source->text ? source->text : attribute(t, source->element, STR_value);
 }
 
+const char *translate_value_of(const struct translation *t, const struct source_input *source)
+{
+    const char *text = text_of(t, source);
+    return *text ? text : source->port.value;
+}
+
 bool translate_is_authored(const struct translation *t, const struct source_input *source)
 {
     return (source->element || source->text)
@@ -115,8 +121,7 @@ static void set_value(struct translation *t, mxg_element node, const struct sour
 {
     static const str_id kept[] = {STR_unit, STR_unittype};
     const struct document *doc = &t->document->layer.doc;
-    const char *text = text_of(t, source);
-    text = *text ? text : source->port.value;
+    const char *text = translate_value_of(t, source);
     if (source->is_connected)
         text = source->type == VALUE_NONE ? "" : text_of_zero(t, source->type);
     if (!*text)

@@ -81,23 +81,57 @@ static const char *use_of(struct translation *t, uint32_t index, uint32_t defini
                                                                      : NULL;
 }
 
+/* True if an output of the first step depends on a source. */
+static bool is_read(struct translation *t, uint32_t source)
+{
+    mxg_nodedef info = {.size = sizeof info};
+    bool found = false;
+    mxg_document_nodedef(t->document, t->chain.items[0], &info);
+    for (uint32_t i = 0; i < info.num_outputs && !found; i++) {
+        mxg_port output = {.size = sizeof output};
+        mxg_document_port(t->document, t->chain.items[0], info.num_inputs + i, &output);
+        found = dependences_of(t, 1, output.name, source)[source];
+    }
+    return found;
+}
+
+/*
+ * True if the value of a source is not the one that needs no counterpart. This is the default, but
+ * the first step may have another one for an input that none of its outputs reads: 0 for the radius
+ * of light below the surface, where the new model has none.
+ */
+static bool matters(struct translation *t, uint32_t index)
+{
+    struct source_input *source = &t->sources.items[index];
+    const struct strpool *strings = t->document->layer.doc.strings;
+    mxg_port own;
+    source->has_other = *source->port.value
+                        && translate_find_port(t, t->chain.items[0], source->port.name, false, &own)
+                        && !translate_is_default(&source->port, strings, own.value)
+                        && !is_read(t, index);
+    if (source->has_other && !source->is_connected)
+        return !translate_is_default(&own, strings, translate_value_of(t, source));
+    return translate_is_authored(t, source);
+}
+
 /* By source: why it is lost; NULL: it is not. `definition` is that of the surface. */
 static const char **find_lost(struct translation *t, uint32_t definition)
 {
     const char **lost = ARENA_ARRAY(t->arena, const char *, t->sources.len + 1);
     bool *const *all = find_dependences(t);
     for (uint32_t i = 0; i < t->sources.len; i++)
-        if (translate_is_authored(t, &t->sources.items[i]) && !stays(t, all, i))
+        if (matters(t, i) && !stays(t, all, i))
             lost[i] = use_of(t, i, definition);
     return lost;
 }
 
+/* `source`: the input of the document; NULL, or without an element: it is a default. */
 static void tell(const struct translation *t, const struct source_input *source, const char *input,
                  const char *category, const char *use)
 {
-    diag_add(t->diags, DIAG_ID_translation_loss,
-             doc_name_place(&t->document->layer.doc, source->element), input, category, use,
-             t->model);
+    elem_id place = source && source->element ? source->element : t->surface;
+    diag_add(t->diags, DIAG_ID_translation_loss, doc_name_place(&t->document->layer.doc, place),
+             input, category, use, t->model);
 }
 
 /* ---- Surfaces between ---- */
@@ -132,25 +166,29 @@ static struct source_input source_between(struct translation *t, unsigned step,
 }
 
 /*
- * The first input of the document that an input between depends on, of its type if there is one;
- * sources.len: there is none, or one of them is told already.
+ * Finds the first input of the document that an input between depends on, of its type if there is
+ * one; NULL: it comes from defaults. False: one of them is told already.
  */
-static uint32_t origin_of(struct translation *t, unsigned step, const struct source_input *between,
-                          const char *const *lost)
+static bool find_origin(struct translation *t, unsigned step, const struct source_input *between,
+                        const char *const *lost, const struct source_input **out)
 {
     const char *output = translate_output_name(t, between->port.name);
     const bool *marks = dependences_of(t, step, output, TRANSLATE_ALL_INPUTS);
     uint32_t first = t->sources.len, alike = first;
+    *out = NULL;
     for (uint32_t i = t->sources.len; i-- > 0;) {
         if (!marks[i] || !translate_is_authored(t, &t->sources.items[i])
             || !dependences_of(t, step, output, i)[i])
             continue;
         if (lost[i])
-            return t->sources.len;
+            return false;
         first = i;
         alike = t->sources.items[i].type == between->type ? i : alike;
     }
-    return alike < t->sources.len ? alike : first;
+    first = alike < t->sources.len ? alike : first;
+    if (first < t->sources.len)
+        *out = &t->sources.items[first];
+    return true;
 }
 
 /* A surface that a step makes, on the way to the model. */
@@ -212,14 +250,15 @@ static void report_between(struct translation *t, unsigned step, const char *con
     read_between(t, step, &b);
     find_lost_between(t, step, &b);
     for (uint32_t i = 0; i < b.num_inputs; i++) {
-        uint32_t origin = b.lost[i] ? origin_of(t, step, &b.inputs[i], lost) : t->sources.len;
-        if (origin == t->sources.len)
+        const struct source_input *origin;
+        if (!b.lost[i] || !find_origin(t, step, &b.inputs[i], lost, &origin)
+            || !(origin || b.inputs[i].has_other))
             continue;
         struct text path;
         text_init(&path, t->arena);
         doc_path(&t->document->layer.doc, t->surface, '/', &path);
         text_fmt(&path, "/%s", b.inputs[i].port.name);
-        tell(t, &t->sources.items[origin], text_cstr(&path), b.model, b.lost[i]);
+        tell(t, origin, text_cstr(&path), b.model, b.lost[i]);
     }
 }
 

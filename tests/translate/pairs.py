@@ -247,7 +247,32 @@ def test_parts():
     check("keeps its default 0.0 [translation-varies]" in said, f"an input without a default has 0: {said[:300]}")
 
 
+def test_defaults():
+    """Light below the surface is lost in models without it by the default of the radius, too, and not where the radius is 0."""
+    for source, weight, radius, zero, thin in (("standard_surface", "subsurface", "subsurface_radius", (0, 0, 0), "thin_walled"),
+                                               ("open_pbr_surface", "subsurface_weight", "subsurface_radius", 0.0, "geometry_thin_walled"),
+                                               ("disney_principled", "subsurface", "subsurfaceDistance", (0, 0, 0), None)):
+        for target in "gltf_pbr", "UsdPreviewSurface":
+            direct = source == "standard_surface" or (source, target) == ("open_pbr_surface", "gltf_pbr")
+            told = (radius, source) if direct else ("S/subsurface_radius", "standard_surface")
+            color = {} if source == "disney_principled" else {"subsurface_color": (0.5, 0.25, 0.125)}
+            _, _, said = translate(source, target, **{weight: 0.5}, **color)
+            is_told(said, *told, f"{source} to {target}, the default of the radius")
+            check(said.count("radius' of") == 1 and "in.mtlx:1:" in said, f"once, at the surface: {said[:400]}")
+            _, _, said = translate(source, target, **{weight: 0.5, radius: zero}, **color)
+            check(not direct or "radius' of" not in said, f"{source} to {target}, a radius of 0 is none: {said[:300]}")
+            _, _, said = translate(source, target)
+            check(not said, f"{source} to {target} without it loses nothing: {said[:300]}")
+            if thin:
+                _, _, said = translate(source, target, **{weight: 0.5, thin: True})
+                check("radius' of" not in said, f"{source} to {target}, a sheet has no radius: {said[:300]}")
+    for target in "open_pbr_surface", "disney_principled":
+        _, _, said = translate("standard_surface", target, subsurface=0.5)
+        check(not said, f"{target} has a radius: {said[:300]}")
+
+
 test_emission()
+test_defaults()
 test_transmission()
 test_metal()
 test_sheet()
