@@ -252,6 +252,42 @@ static void drive_by_name(struct driving *d, elem_id source, const struct driver
             drive(d, source, driver, &driven);
 }
 
+/* ---- Tokens ---- */
+
+/* A token of this name, and no input of it: of the element, or of its definition. */
+static bool has_token(struct driving *d, elem_id owner, str_id name)
+{
+    struct driven input;
+    bool is_graph = element(d, owner)->kind == KIND_NODEGRAPH;
+    if (is_graph ? graph_has(d, owner, name, &input) : node_has(d, owner, name, &input))
+        return false;
+    uint32_t nodedef = is_graph ? LIBRARY_NONE : library_match(d->lib, owner, &d->ignored);
+    elem_id definition = nodedef == LIBRARY_NONE ? 0 : library_nodedef(d->lib, nodedef)->element;
+    return doc_child_of_kind(d->doc, owner, KIND_TOKEN, name)
+           || (definition && doc_child_of_kind(d->doc, definition, KIND_TOKEN, name));
+}
+
+static bool drive_token_of(struct driving *d, elem_id owner, elem_id source)
+{
+    str_id name = element(d, source)->name;
+    bool has = has_token(d, owner, name);
+    if (has)
+        library_drive(d->out, d->arena, (struct library_drive){owner, name, source});
+    return has;
+}
+
+/* A token goes the way of an input: to the material, else to the nodegraphs, else to shaders. */
+static void drive_token(struct driving *d, elem_id source)
+{
+    bool any = false;
+    if (drive_token_of(d, d->substance.material, source))
+        return;
+    for (uint32_t i = 0; i < d->substance.graphs.len; i++)
+        any |= drive_token_of(d, d->substance.graphs.items[i], source);
+    for (uint32_t i = 0; i < d->substance.shaders.len && !any; i++)
+        drive_token_of(d, d->substance.shaders.items[i], source);
+}
+
 /* overrides="NG_wood/scale": one input, by its path. */
 static void drive_by_path(struct driving *d, elem_id source, const struct driver *driver,
                           const char *path)
@@ -314,6 +350,8 @@ static void add_variants(struct driving *d, uint32_t assign)
              e = element(d, e)->next)
             if (element(d, e)->kind == KIND_INPUT)
                 drive_by_name(d, e, &variant);
+            else if (element(d, e)->kind == KIND_TOKEN)
+                drive_token(d, e);
 }
 
 /* The inputs that a node has in the document. */

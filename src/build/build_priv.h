@@ -400,7 +400,7 @@ str_id build_file_name(struct builder *b, const struct instance *scope, elem_id 
 str_id build_default_file_name(struct builder *b, const struct instance *scope, elem_id node,
                                const struct port *port);
 /* True if a node sets tokens, so that its results cannot be shared. */
-bool build_has_tokens(const struct builder *b, elem_id node);
+bool build_has_tokens(const struct builder *b, elem_id node, uint32_t nodedef);
 
 /* choose.c */
 

@@ -5,16 +5,33 @@
  */
 #include "build/build_priv.h"
 
-static elem_id token_of(const struct builder *b, elem_id parent, str_id name)
+/* The token of a variant that stands in for a token of an element; 0: none does. */
+static elem_id driver_of(const struct builder *b, elem_id owner, str_id name)
 {
-    return parent ? doc_child_of_kind(build_doc(b), parent, KIND_TOKEN, name) : 0;
+    elem_id source = library_driver(b->resolved.drives, owner, name);
+    return source && doc_element(build_doc(b), source)->kind == KIND_TOKEN ? source : 0;
 }
 
-bool build_has_tokens(const struct builder *b, elem_id node)
+static elem_id token_of(const struct builder *b, elem_id parent, str_id name)
 {
-    for (elem_id e = doc_element(build_doc(b), node)->first_child; e;
-         e = doc_element(build_doc(b), e)->next)
-        if (doc_element(build_doc(b), e)->kind == KIND_TOKEN)
+    elem_id driver = parent ? driver_of(b, parent, name) : 0;
+    if (driver || !parent)
+        return driver;
+    return doc_child_of_kind(build_doc(b), parent, KIND_TOKEN, name);
+}
+
+bool build_has_tokens(const struct builder *b, elem_id node, uint32_t nodedef)
+{
+    const struct document *doc = build_doc(b);
+    for (elem_id e = doc_element(doc, node)->first_child; e; e = doc_element(doc, e)->next)
+        if (doc_element(doc, e)->kind == KIND_TOKEN)
+            return true;
+    if (!b->resolved.drives || nodedef == LIBRARY_NONE)
+        return false;
+    elem_id definition = library_nodedef(b->lib, nodedef)->element;
+    for (elem_id e = doc_element(doc, definition)->first_child; e; e = doc_element(doc, e)->next)
+        if (doc_element(doc, e)->kind == KIND_TOKEN
+            && driver_of(b, node, doc_element(doc, e)->name))
             return true;
     return false;
 }

@@ -336,7 +336,8 @@ uint32_t library_match(const struct library *lib, elem_id node, struct diag_list
 
 /*
  * Inputs of nodes and of plain nodegraphs that other ports drive: the input has the value or the
- * connection of `source`, an <output> or <input>, in the place of its own.
+ * connection of `source`, an <output> or <input>, in the place of its own. Tokens that a <token>
+ * drives are in the same list, because an owner has no input and token of one name.
  */
 struct library_drive {
     elem_id owner;

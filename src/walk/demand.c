@@ -254,7 +254,7 @@ static void enter_graph(struct builder *b, struct frame *frame)
     if (gives_surface(b, def, library_ports(b->lib, frame->node.nodedef, NULL) + def->num_inputs))
         build_unread_inputs(b, frame, graph);
     struct memo *memo = build_memo(b, frame->impl->ref, frame->args, def->num_inputs);
-    frame->has_tokens = build_has_tokens(b, frame->node.element);
+    frame->has_tokens = build_has_tokens(b, frame->node.element, frame->node.nodedef);
     if (memo->first_result && !frame->has_tokens) {
         ir_ref results[LIBRARY_MAX_OUTPUTS];
         memcpy(results, b->results.items + memo->first_result - 1,

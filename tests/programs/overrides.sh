@@ -183,4 +183,43 @@ gives "nothing stays of the look's variant of the set" 'vec4(0.0, 0.0, 1.0, 1.0)
 document "<variantset name='W' node='standard_surface'><variant name='x'>$(input emission_color color3 '0, 1, 0')</variant></variantset>" \
     "<variantassign name='v' variantset='W' variant='x'/>" "$(layer 000 red)"
 gives 'a variant of another node says nothing' 'vec4(1.0, 0.0, 0.0, 1.0)'
+# ---- Tokens of variants ----
+# files WHAT FILE...: the files of the textures of /a's stack, base first, without a message.
+files() {
+    check "a shader is generated: $1" exits 0 generate
+    check "no message is printed: $1" test ! -s err
+    check "the files are ${*:2}: $1" python3 -c 'import json, sys
+bindings = json.load(open("out.d/bindings.json"))
+stack = next(s for s in bindings["stacks"] if s["name"] == bindings["primitives"][0]["stack"])
+have = [t["file"] for t in stack["textures"]]
+sys.exit(f"the files are {have}" if have != sys.argv[1:] else 0)' "${@:2}"
+}
+token() { echo "<token name='$1' type='string' value='$2'/>"; }
+image="<image name='i' type='color3'><input name='file' type='filename' value='t_[map].png'/></image>"
+unlit="<surface_unlit name='s' type='surfaceshader'><input name='emission_color' type='color3' nodename='i'/></surface_unlit>"
+material() { echo "<surfacematerial name='$1' type='material'><input name='surfaceshader' type='surfaceshader' nodename='$2'/></surfacematerial>"; }
+papers="<nodedef name='ND_paper' node='paper'>$(token map dry)<output name='out' type='surfaceshader'/></nodedef>
+  <nodegraph name='NG_paper' nodedef='ND_paper'>$image $unlit<output name='out' type='surfaceshader' nodename='s'/></nodegraph>
+  <paper name='plain' type='surfaceshader'/><paper name='own' type='surfaceshader'>$(token map own)</paper>
+  $(material M plain)$(material O own)
+  <nodegraph name='G'>$(token map graph)$image<output name='out' type='color3' nodename='i'/></nodegraph>
+  <surface_unlit name='g' type='surfaceshader'><input name='emission_color' type='color3' nodegraph='G' output='out'/></surface_unlit>$(material N g)
+  <substance name='H' type='material'><input name='surfaceshader' type='surfaceshader' nodename='plain'/>$(input mask float 0.5)</substance>
+  <variantset name='W'><variant name='wet'>$(token map wet)</variant></variantset>"
+wet="<variantassign name='v' variantset='W' variant='wet'/>"
+worn() { echo "<materialassign slot='$1' material='$2' geom='/a'>${3:-}</materialassign>"; }
+document "$papers" "$(worn 000 M)"
+files 'the token of a definition' t_dry.png
+document "$papers" "$wet" "$(worn 000 M)"
+files 'a token of a variant of the look' t_wet.png
+document "$papers" "$(worn 000 O)"
+files 'the token of a node' t_own.png
+document "$papers" "$(worn 000 O "$wet")"
+files 'a token of a variant wins over that of the node' t_wet.png
+document "$papers" "$(worn 000 N "$wet")"
+files 'a token of a variant drives that of a nodegraph' t_wet.png
+document "$papers" "$(worn 000 H "$wet")" "$(worn 010 H)" "$(worn 020 H "$wet")"
+files 'a layer without the variant keeps its token between two with it, which share a texture' t_wet.png t_dry.png
+document "$papers <variantset name='X'><variant name='x'>$(token maps wet)</variant></variantset>" "<variantassign name='v' variantset='X' variant='x'/>" "$(worn 000 M)"
+files 'a token of another name says nothing' t_dry.png
 finish overrides
