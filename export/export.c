@@ -232,6 +232,7 @@ static void bake_and_write(struct exporting *exporting, const mxg_document *tran
     baking->source = exporting->source;
     baking->spaces = flat_spaces;
     baking->keeps_places = true;
+    baking->has_plain_tile = true; /* no format here has sets */
     baking->draws_missing = baking->painter.checker;
     baking->options = exporting->options.bake;
     baking->options.output = exporting->scratch.path;

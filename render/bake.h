@@ -24,6 +24,7 @@ struct baking {
     const char *const *spaces;  /* as in the plan */
     bool keeps_places;
     bool draws_missing;
+    bool has_plain_tile; /* a set of the tile 1001 alone becomes an image that repeats */
     struct bake_plan plan;
     struct bake_surface surface;
     struct painter painter;

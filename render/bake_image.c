@@ -194,8 +194,9 @@ bool bake_finish_drawing(struct baking *baking, struct bake_drawing *drawing,
     if (drawing->is_value)
         return true;
     const char *ending = ending_of(baking, drawing);
-    const struct bake_tile *tiles = bake_tiles_of(baking, drawing)->items;
-    bool is_set = num_spools > 1 || tiles[0].u || tiles[0].v, good = true;
+    const struct bake_tiles *all = bake_tiles_of(baking, drawing);
+    const struct bake_tile *tiles = all->items;
+    bool is_set = all->is_set || num_spools > 1 || tiles[0].u || tiles[0].v, good = true;
     drawing->spaces = !is_color(drawing)                              ? NULL
                       : strcmp(ending, "exr") == 0 || !baking->is_709 ? baking->space
                                                                       : "srgb_texture";

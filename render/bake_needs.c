@@ -77,6 +77,7 @@ static void read_textures(struct baking *baking, const mxg_result *result, uint3
         if (mxg_result_tile(result, index, i, &tile) == MXG_OK && tile.u >= 0 && tile.v >= 0)
             bake_tiles_add(&drawing->tiles, (struct bake_tile){tile.u, tile.v});
     }
+    drawing->tiles.is_set |= variable->num_tiles && !baking->has_plain_tile;
     if (!variable->num_tiles)
         read_texture(baking, result, index, 0, drawing);
 }

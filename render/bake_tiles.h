@@ -14,6 +14,7 @@ struct bake_tile {
 struct bake_tiles {
     struct bake_tile *items; /* by v and u */
     uint32_t num;
+    bool is_set; /* each has a file with its number, also if it is the only one */
 };
 
 /* Adds a tile if it is new. */

@@ -132,6 +132,12 @@ reads() { # FILE X Y VALUE
 check 'the image has its own size and values' eval "reads tiled/S_base.exr 1 1 $(awk 'BEGIN { print 20 / 255 }')"
 check 'and so have the tiles' eval 'reads tiled/S_metalness.1001.exr 0 0 0.1 && reads tiled/S_metalness.1012.exr 0 0 0.4'
 
+gray lone.1001.pgm 2 '10 20 30 40'
+surface lone.mtlx "$(doubled t 'lone.&lt;UDIM&gt;.pgm')" '<input name="metalness" type="float" nodename="t_2"/>'
+check 'a set whose only tile is 1001 is baked' exits 0 "$mxgen" bake lone.mtlx -o lone -f exr
+check 'and stays a set, which does not repeat' eval 'test "$(ls lone | tr "\n" " ")" = "S_metalness.1001.exr lone.mtlx " && grep -q "value=\"S_metalness.&lt;UDIM&gt;.exr\"" lone/lone.mtlx'
+check 'files of glTF have no sets, so it is an image there' eval 'exits 0 "$mxgen" export lone.mtlx -m plane -o lone.glb'
+
 # ---- Channels ----
 
 echo '<materialx version="1.39"><texcoord name="t" type="vector2"/><separate2 name="s" type="multioutput"><input name="in" type="vector2" nodename="t"/></separate2>
