@@ -295,11 +295,14 @@ static bool parse(struct gltf_source *source, const char *text, size_t size)
 /* The chunks of a binary file: the JSON, then bytes. */
 static bool parse_binary(struct gltf_source *source, const char *data, size_t size)
 {
-    enum { HEADER = 12, CHUNK = 8, VERSION = 2 };
+    enum { WHOLE = 8, HEADER = 12, CHUNK = 8, VERSION = 2 };
     size_t length = size >= HEADER + CHUNK ? word_at(data + HEADER) : 0;
     if (size < HEADER + CHUNK || word_at(data + 4) != VERSION
         || memcmp(data + HEADER + 4, "JSON", 4) != 0 || length > size - HEADER - CHUNK)
         return gltf_source_fail(source, "it is no binary glTF 2.0");
+    if (word_at(data + WHOLE) != size)
+        return gltf_source_fail(source, "it has %zu bytes, and its header says %u", size,
+                                (unsigned)word_at(data + WHOLE));
     const char *next = data + HEADER + CHUNK + length;
     size_t left = size - HEADER - CHUNK - length;
     if (left >= CHUNK && memcmp(next + 4, "BIN", 4) == 0 && word_at(next) <= left - CHUNK) {

@@ -123,6 +123,9 @@ static const char *file_of(struct import_material *material, const struct gltf_i
     else if (index == SIZE_MAX)
         import_tell_loss(material->importing, material->name, "'%s' has no image in PNG or JPEG",
                          row->texture);
+    else if (index >= material->importing->num_images)
+        import_tell_loss(material->importing, material->name, "the image of '%s' is not there",
+                         row->texture);
     return import_image(material->importing, index);
 }
 

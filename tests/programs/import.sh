@@ -242,7 +242,7 @@ check 'no control character goes to a terminal' eval 'imports escape.gltf -o esc
 # Members of wrong types do not count, and are told.
 loses() { imports wrong.gltf -o wrong.mtlx && has err '[import-loss]' "$1" && exits 0 "$mxgen" validate wrong.mtlx; }
 wrong() { # MATERIAL MESSAGE: a material of this JSON has this loss
-    printf '{"asset": {"version": "2.0"}, "images": [{"uri": "a[b].png"}], "textures": [{"source": 0}, {"source": 0, "sampler": 3}], "materials": [%s]}' "$1" >wrong.gltf
+    printf '{"asset": {"version": "2.0"}, "images": [{"uri": "a[b].png"}], "textures": [{"source": 0}, {"source": 0, "sampler": 3}, {"source": 1}, {"source": 0.5}], "materials": [%s]}' "$1" >wrong.gltf
     check "a material $1: $2" loses "$2"
 }
 texture() { printf '{"name": "m", "pbrMetallicRoughness": {"baseColorTexture": %s}}' "$1"; }
@@ -258,9 +258,22 @@ done
 wrong "$(texture '{"index": 0, "extensions": {"KHR_texture_transform": {"offset": [1, 2, 3]}}}')" "'offset' must be an array of 2 numbers"
 wrong "$(texture '{"index": 5}')" "the texture of 'baseColorTexture' is not there"
 wrong "$(texture '{"index": 1}')" "the sampler of a texture is not there"
+wrong "$(texture '{"index": 2}')" "the image of 'baseColorTexture' is not there"
+wrong "$(texture '{"index": 3}')" "'baseColorTexture' has no image in PNG or JPEG"
 wrong "$(texture '{"index": 0}')" "MaterialX reads '[' in a name as a token"
 check 'a file without materials is an error' fails empty.gltf 'it has no materials'
 check 'a broken binary file is an error' fails broken.glb 'no binary glTF 2.0'
+python3 - <<'END'
+import struct
+text = b'{"asset": {"version": "2.0"}, "materials": [{"name": "m"}]}  '
+text += b" " * (-len(text) % 4)
+for name, more in ("whole", 0), ("longer", 4), ("shorter", -4):
+    header = b"glTF" + struct.pack("<II", 2, 20 + len(text) + more)
+    open(name + ".glb", "wb").write(header + struct.pack("<I", len(text)) + b"JSON" + text)
+END
+check 'a binary file is as long as its header says' exits 0 "$mxgen" import whole.glb -o whole.mtlx
+check 'one that is cut off is an error' fails longer.glb 'it has 84 bytes, and its header says 88'
+check 'and one with bytes behind its end' fails shorter.glb 'it has 84 bytes, and its header says 80'
 check 'a missing file is an error' fails missing.gltf 'No such file'
 check 'a document is no glTF' fails values.mtlx 'it is no glTF'
 printf 'PK\3\4' >packed.usdz
