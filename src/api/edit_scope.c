@@ -11,11 +11,19 @@ static const struct {
     const char *none; /* a value that is as good as none */
 } kinds[EDIT_NUM_SCOPES] = {{STR_colorspace, "none"}, {STR_fileprefix, ""}, {STR_geomprefix, ""}};
 
+static bool names_geometry(const struct document *doc, elem_id element)
+{
+    uint32_t i = 0, num = doc_element(doc, element)->num_attrs;
+    while (i < num && !doc_is_geometry(doc, element, doc_attrs(doc, element)[i].name))
+        i++;
+    return i < num;
+}
+
 /* True if the attribute has a meaning for this element itself. */
 static bool counts(const struct document *doc, elem_id element, str_id attr)
 {
     if (attr == STR_geomprefix)
-        return doc_attr(doc, element, STR_geom) != NULL;
+        return names_geometry(doc, element);
     doc_type type = doc_type_of(doc_attr_value(doc, element, STR_type));
     return doc_attr(doc, element, STR_value)
            && (type == DOC_TYPE_filename || (attr == STR_colorspace && doc_type_is_color(type)));

@@ -94,14 +94,14 @@ static const char *list_fault(const char *text)
     }
 }
 
-static bool is_geometry(const struct document *doc, const struct element *e, str_id attr,
-                        elem_id element)
+bool doc_is_geometry(const struct document *doc, elem_id element, str_id attr)
 {
     if (attr == STR_geom || attr == STR_includegeom || attr == STR_excludegeom
         || attr == STR_viewergeom)
         return true;
-    str_id type =
-        attr == STR_value && e->kind != KIND_NODE ? doc_attr_value(doc, element, STR_type) : 0;
+    if (attr != STR_value || doc_element(doc, element)->kind == KIND_NODE)
+        return false;
+    str_id type = doc_attr_value(doc, element, STR_type);
     return type == STR_geomname || type == STR_geomnamearray;
 }
 
@@ -110,7 +110,7 @@ void validate_geometry(struct validation *v, elem_id element)
     const struct element *e = doc_element(v->doc, element);
     const struct attribute *attrs = doc_attrs(v->doc, element);
     for (uint32_t i = 0; i < e->num_attrs; i++) {
-        if (!attrs[i].value || !is_geometry(v->doc, e, attrs[i].name, element))
+        if (!attrs[i].value || !doc_is_geometry(v->doc, element, attrs[i].name))
             continue;
         const char *text = str_text(v->doc->strings, attrs[i].value);
         const char *fault = list_fault(text);

@@ -74,6 +74,37 @@ static void test_copies(const struct fixture *f)
     mxg_document_destroy(after);
 }
 
+/* Each element that names geometry keeps the prefix of these names; others need none. */
+static void test_geometry(const struct fixture *f)
+{
+    static const struct {
+        const char *element, *prefix;
+    } rows[] = {
+        {"<collection name='c' includegeom='a'/>", "/x/"},
+        {"<collection name='c' includegeom='/a' excludegeom='a'/>", "/x/"},
+        {"<collection name='c' excludegeom='a'/>", "/x/"},
+        {"<collection name='c' includecollection='d'/>", "-"},
+        {"<look name='c'><visibility name='v' geom='a'/></look>", "/x/"},
+        {"<look name='c'><visibility name='v' collection='d' viewergeom='a'/></look>", "/x/"},
+        {"<geominfo name='c' geom='a'/>", "/x/"},
+        {"<propertyset name='c'><property name='p' type='geomname' value='a'/></propertyset>",
+         "/x/"},
+        {"<propertyset name='c'><property name='p' type='geomnamearray' "
+         "value='a,b'/></propertyset>",
+         "/x/"},
+        {"<propertyset name='c'><property name='p' type='float' value='1'/></propertyset>", "-"},
+        {"<collection name='c' geomprefix='/own/' includegeom='a'/>", "/own/"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        char text[512];
+        snprintf(text, sizeof text, HEAD " geomprefix='/x/'>%s</materialx>", rows[i].element);
+        mxg_document *from = parse(f, text), *after = copied(f, f->acescg, from, "c");
+        REQUIRE_STR(own_attribute(after, "copy", "geomprefix"), rows[i].prefix);
+        mxg_document_destroy(from);
+        mxg_document_destroy(after);
+    }
+}
+
 static void test_moves(const struct fixture *f)
 {
     mxg_edit *edit = NULL;
@@ -98,6 +129,7 @@ int main(void)
     f.acescg = parse(&f, HEAD " colorspace='acescg'></materialx>");
     f.plain = parse(&f, HEAD ">" GRAPH "</materialx>");
     test_copies(&f);
+    test_geometry(&f);
     test_moves(&f);
     mxg_document_destroy(f.srgb);
     mxg_document_destroy(f.acescg);

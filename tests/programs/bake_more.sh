@@ -33,6 +33,9 @@ check 'looks and collections stay' eval 'exits 0 "$mxgen" bake looks.mtlx -o loo
 check 'names of images do not take theirs' eval 'has looks/looks.mtlx "<look name=\"S_base\">" && ! grep -q "<image name=\"S_base\"" looks/looks.mtlx && exits 0 "$mxgen" validate looks/looks.mtlx'
 check 'a layer that is a nodegraph is told' eval '"$mxgen" bake looks.mtlx -o looks --size 4 2>err; has err "'"'wet_look/w' (looks.mtlx:"'" "changes inputs that are baked [bake-look]" && ! grep -q wet\" looks/looks.mtlx'
 
+sed 's|version="1.39"|& geomprefix="/x/"|; s|includegeom="/a, /b"|includegeom="a" excludegeom="b"|' looks.mtlx >prefix.mtlx
+check 'and the geomprefix of the document' eval 'exits 0 "$mxgen" bake prefix.mtlx -o prefix --size 4 && has prefix/prefix.mtlx "<collection name=\"parts\" includegeom=\"a\" excludegeom=\"b\" geomprefix=\"/x/\"/>"'
+
 # Names that a document cannot have give way to those that it can, and looks follow.
 material_of() { # NAME NUMBER COLOUR
     printf '<checkerboard name="k%s" type="color3"><input name="color1" type="color3" value="%s"/></checkerboard>' "$2" "$3"
