@@ -90,6 +90,10 @@ char *bake_place(const struct baking *baking, mxg_element element);
  */
 bool bake_keep_files(struct baking *baking);
 
+/*
+ * Copies an element to the new document; names of files are relative to that. Changes no names.
+ */
+void bake_copy(const struct baking *baking, mxg_edit *edit, mxg_element element);
 /* Adds the looks to the new document, which has its materials. */
 void bake_add_looks(struct baking *baking, mxg_edit *edit);
 

@@ -19,11 +19,10 @@ struct writer {
 /* ---- Files ---- */
 
 /* The name of a file that an element of the document has, for the new one. The caller frees it. */
-static char *name_file(struct writer *writer, mxg_element origin, const char *file)
+static char *name_file(const struct baking *baking, mxg_element origin, const char *file)
 {
-    char *path =
-        *file ? bake_file_path(writer->baking->document, writer->baking->path, origin, file) : NULL;
-    char *name = path ? relocate_file(writer->baking->options.output, path) : cli_format("%s", "");
+    char *path = *file ? bake_file_path(baking->document, baking->path, origin, file) : NULL;
+    char *name = path ? relocate_file(baking->options.output, path) : cli_format("%s", "");
     free(path);
     return name;
 }
@@ -55,7 +54,7 @@ static void keep(struct writer *writer, mxg_element node, const struct bake_inpu
     const char *value = bake_attribute(document, origin, "value");
     bool is_file = strcmp(type, "filename") == 0, is_color = strncmp(type, "color", 5) == 0;
     char *file = kept->copy ? cli_format("%s", kept->copy)
-                 : is_file  ? name_file(writer, origin, value)
+                 : is_file  ? name_file(writer->baking, origin, value)
                             : NULL;
     mxg_edit_set_value(writer->edit, node, input, type, file ? file : value);
     if (is_file || is_color)
@@ -140,10 +139,27 @@ static void add_output(struct writer *writer, size_t index)
         mxg_edit_connect_input(writer->edit, writer->nodes[index], NULL, from, NULL);
 }
 
+/* The definition of a node may read its tokens; those of nodegraphs around it are values now. */
+static void add_tokens(struct writer *writer, mxg_element to, mxg_element from)
+{
+    const mxg_document *document = writer->baking->document;
+    for (mxg_element child = bake_element(document, from).first_child; child;) {
+        mxg_element_info info = bake_element(document, child);
+        const char *value =
+            bake_is_token(document, child) ? bake_token_value(document, child) : NULL;
+        mxg_element token =
+            value ? mxg_edit_add_element(writer->edit, to, "token", info.name, info.type) : 0;
+        if (token)
+            mxg_edit_set_attribute(writer->edit, token, "value", value);
+        child = info.next;
+    }
+}
+
 static void add_node(struct writer *writer, size_t index)
 {
-    static const char *const others[] = {"name",      "type",     "colorspace", "fileprefix",
-                                         "nodegraph", "nodename", "output",     NULL};
+    static const char *const others[] = {"name",       "type",      "colorspace",
+                                         "fileprefix", "nodegraph", "nodename",
+                                         "output",     "namespace", NULL};
     const mxg_document *document = writer->baking->document;
     const struct bake_node *node = &writer->baking->plan.nodes[index];
     mxg_element_info info = bake_element(document, node->element);
@@ -161,37 +177,48 @@ static void add_node(struct writer *writer, size_t index)
     }
     for (size_t i = 0; i < node->num_inputs; ++i)
         add_input(writer, made, &node->inputs[i]);
+    add_tokens(writer, made, node->element);
+}
+
+/* ---- Elements that stay as they are ---- */
+
+/* The next element of a tree in document order; 0: the last. */
+static mxg_element next_below(const mxg_document *document, mxg_element top, mxg_element at)
+{
+    mxg_element next = bake_element(document, at).first_child;
+    for (; !next && at != top; at = bake_element(document, at).parent)
+        next = bake_element(document, at).next;
+    return next;
+}
+
+/* Files that an element names are relative to the new document, and have their prefix. */
+static void rename_files(const struct baking *baking, mxg_edit *edit, mxg_element from)
+{
+    const mxg_document *document = baking->document;
+    const char *type = bake_element(document, from).type,
+               *file = bake_attribute(document, from, "file"),
+               *value =
+                   strcmp(type, "filename") == 0 ? bake_attribute(document, from, "value") : NULL;
+    char *path = bake_path(document, from);
+    mxg_element copy = mxg_edit_find_element(edit, 0, path);
+    if (copy && (file || value)) {
+        char *name = name_file(baking, from, file ? file : value);
+        mxg_edit_set_attribute(edit, copy, file ? "file" : "value", name);
+        free(name);
+    }
+    if (copy)
+        mxg_edit_set_attribute(edit, copy, "fileprefix", NULL);
+    free(path);
+}
+
+void bake_copy(const struct baking *baking, mxg_edit *edit, mxg_element top)
+{
+    mxg_edit_copy_element(edit, 0, baking->document, top, NULL);
+    for (mxg_element e = top; e; e = next_below(baking->document, top, e))
+        rename_files(baking, edit, e);
 }
 
 /* ---- Definitions ---- */
-
-/* Files that a definition names are relative to the new document, too. */
-static void rename_files(struct writer *writer, mxg_element from, mxg_element to)
-{
-    const mxg_document *document = writer->baking->document;
-    const char *file = bake_attribute(document, from, "file");
-    char *name = file ? name_file(writer, from, file) : NULL;
-    if (name)
-        mxg_edit_set_attribute(writer->edit, to, "file", name);
-    free(name);
-    for (mxg_element node = bake_element(document, from).first_child; node;) {
-        mxg_element_info info = bake_element(document, node);
-        for (mxg_element input = info.first_child; input;) {
-            mxg_element_info port = bake_element(document, input);
-            const char *value = bake_attribute(document, input, "value");
-            if (value && strcmp(port.type, "filename") == 0) {
-                char *path = cli_format("%s/%s", info.name, port.name);
-                name = name_file(writer, input, value);
-                mxg_edit_set_attribute(writer->edit, mxg_edit_find_element(writer->edit, to, path),
-                                       "value", name);
-                free(name);
-                free(path);
-            }
-            input = port.next;
-        }
-        node = info.next;
-    }
-}
 
 /* True if a node that stays has a definition of the document. */
 static bool needs_definitions(const struct baking *baking)
@@ -205,17 +232,18 @@ static bool needs_definitions(const struct baking *baking)
     return false;
 }
 
+/* Types, units and properties stay in any case: values that stay may have them. */
 static void copy_definitions(struct writer *writer)
 {
+    static const char *const of_nodes[] = {"nodedef", "implementation", "nodegraph", NULL};
     const mxg_document *document = writer->baking->document;
-    mxg_element child =
-        needs_definitions(writer->baking) ? bake_element(document, 0).first_child : 0;
-    while (child) {
-        if (bake_is_definition(document, child)) {
-            mxg_element made = mxg_edit_copy_element(writer->edit, 0, document, child, NULL);
-            rename_files(writer, child, made);
-        }
-        child = bake_element(document, child).next;
+    const bool has_nodes = needs_definitions(writer->baking);
+    for (mxg_element child = bake_element(document, 0).first_child; child;) {
+        mxg_element_info info = bake_element(document, child);
+        if (bake_is_definition(document, child)
+            && (has_nodes || !args_is_one_of(info.category, of_nodes)))
+            bake_copy(writer->baking, writer->edit, child);
+        child = info.next;
     }
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Looks of the document, with their collections and sets of properties, over the materials of the
- * new one. Layers that are nodegraphs and variants change inputs that may be images now, so they
- * are left out, and told.
+ * Looks of the document, with their collections, sets of properties and what the document says of
+ * geometries, over the materials of the new one. Layers that are nodegraphs and variants change
+ * inputs that may be images now, so they are left out, and told.
  */
 #include "render/bake.h"
 
@@ -11,8 +11,8 @@
 
 bool bake_is_of_look(const mxg_document *document, mxg_element element)
 {
-    static const char *const categories[] = {"look", "lookgroup", "collection", "propertyset",
-                                             NULL};
+    static const char *const categories[] = {
+        "look", "lookgroup", "collection", "propertyset", "geominfo", "tokendefault", NULL};
     return args_is_one_of(bake_element(document, element).category, categories);
 }
 
@@ -78,7 +78,7 @@ void bake_add_looks(struct baking *baking, mxg_edit *edit)
          child = bake_element(document, child).next) {
         if (!bake_is_of_look(document, child))
             continue;
-        mxg_edit_copy_element(edit, 0, document, child, NULL);
+        bake_copy(baking, edit, child);
         adapt(baking, edit, child);
     }
 }

@@ -55,22 +55,6 @@ const char *bake_inherited(const mxg_document *document, mxg_element element, co
     return value;
 }
 
-char *bake_file_path(const mxg_document *document, const char *path, mxg_element element,
-                     const char *file)
-{
-    const char *prefix = bake_inherited(document, element, "fileprefix"),
-               *from = bake_element(document, element).file;
-    char *whole = cli_format("%s%s", prefix ? prefix : "", file);
-    char *out = cli_beside(from ? from : path, whole);
-    free(whole);
-    return out;
-}
-
-bool bake_is_set(const char *file)
-{
-    return strchr(file, '<') || strchr(file, '{');
-}
-
 /* The output of a nodegraph; "" is its only one. 0: there is none. */
 static mxg_element find_output(const mxg_document *document, mxg_element graph, const char *name)
 {
@@ -225,14 +209,24 @@ static bool take(struct bake_plan *plan, const char *name, bool is_file)
     return is_new && is_new_file;
 }
 
-/* Letters, digits and '_', and no digit first, as names are in documents. The caller frees it. */
-static char *valid_name(const char *wanted)
+static bool is_letter(char c, bool is_first)
 {
-    static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_";
+    static const char letters[] = "0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_";
+    return c && strchr(is_first ? letters + 10 : letters, c);
+}
+
+/*
+ * Letters, digits and '_', and no digit first, as names are in documents. What is no file may have
+ * a namespace, "show:gold". The caller frees it.
+ */
+static char *valid_name(const char *wanted, bool is_file)
+{
     enum { MAX_NAME = 120 };
     char *name = cli_format("%s%.*s", isdigit((unsigned char)*wanted) ? "_" : "", MAX_NAME, wanted);
-    for (char *c = name; *c; ++c)
-        *c = strchr(letters, *c) ? *c : '_';
+    for (char *c = name; *c; ++c) {
+        bool is_colon = *c == ':' && !is_file && c > name && is_letter(c[1], true);
+        *c = is_colon || is_letter(*c, false) ? *c : '_';
+    }
     return name;
 }
 
@@ -242,7 +236,7 @@ static char *valid_name(const char *wanted)
  */
 static char *free_name(struct bake_plan *plan, const char *wanted, bool is_file)
 {
-    char *base = valid_name(wanted), *name = cli_format("%s", base);
+    char *base = valid_name(wanted, is_file), *name = cli_format("%s", base);
     bool is_changed = strcmp(base, wanted) != 0;
     for (unsigned number = 2; (is_changed && mxg_document_find_element(plan->document, 0, name))
                               || !take(plan, name, is_file);
@@ -433,9 +427,9 @@ static bool implements(const mxg_document *document, const char *graph)
 
 bool bake_is_definition(const mxg_document *document, mxg_element element)
 {
-    static const char *const categories[] = {
-        "nodedef", "implementation", "typedef",     "targetdef",
-        "unitdef", "unittypedef",    "geompropdef", NULL};
+    static const char *const categories[] = {"nodedef",     "implementation", "typedef",
+                                             "targetdef",   "unitdef",        "unittypedef",
+                                             "geompropdef", "attributedef",   NULL};
     mxg_element_info info = bake_element(document, element);
     return args_is_one_of(info.category, categories)
            || (strcmp(info.category, "nodegraph") == 0

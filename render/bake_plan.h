@@ -82,7 +82,7 @@ struct bake_plan {
 /* True for what belongs to the document's own definitions, which stay as they are. */
 bool bake_is_definition(const mxg_document *document, mxg_element element);
 
-/* True for looks, and what they name beside materials (bake_looks.c). */
+/* True for looks, what they name beside materials, and facts of geometries (bake_looks.c). */
 bool bake_is_of_look(const mxg_document *document, mxg_element element);
 
 /* An empty plan for a document. */
@@ -107,9 +107,13 @@ const char *bake_attribute(const mxg_document *document, mxg_element element, co
 /* The attribute of the element or the nearest one around it. */
 const char *bake_inherited(const mxg_document *document, mxg_element element, const char *name);
 
+/* bake_file.c */
+bool bake_is_token(const mxg_document *document, mxg_element element);
+/* The value of a token, which may name another one. NULL: it has none. */
+const char *bake_token_value(const mxg_document *document, mxg_element token);
 /*
- * The path of a file that an element names in the document at `path`, with its fileprefix. The
- * caller frees it.
+ * The path of a file that an element names in the document at `path`, with its fileprefix and the
+ * values of its tokens. The caller frees it.
  */
 char *bake_file_path(const mxg_document *document, const char *path, mxg_element element,
                      const char *file);
