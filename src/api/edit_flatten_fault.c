@@ -51,8 +51,14 @@ static bool changes_file(const struct flat_check *check, str_id input)
     return false;
 }
 
-/* True if a file has a space or a unit that the graph does not state, from which it is converted.
- */
+/* True if the graph states the attribute, or its images are converted instead of its results. */
+static bool is_inside(const struct flat_check *check, const struct port *port, str_id attr)
+{
+    return library_graph_says(check->lib, check->graph, port->name, attr)
+           || library_images_convert(check->lib, check->nodedef, attr);
+}
+
+/* True if the results are converted from the space or the unit of a file. */
 static bool is_converted(const struct flat_check *check, const struct port *port, elem_id from)
 {
     bool is_library = from < check->doc->first_element;
@@ -60,9 +66,8 @@ static bool is_converted(const struct flat_check *check, const struct port *port
                               : doc_inherited_attr(check->doc, from, STR_colorspace);
     const char *name = library_canonical_space(str_text(check->doc->strings, space));
     bool has_space = space && strcmp(name, "none") != 0 && strcmp(name, library_color_hub) != 0;
-    return (has_space && !library_graph_says(check->lib, check->graph, port->name, STR_colorspace))
-           || (doc_attr_value(check->doc, from, STR_unit)
-               && !library_graph_says(check->lib, check->graph, port->name, STR_unit));
+    return (has_space && !is_inside(check, port, STR_colorspace))
+           || (doc_attr_value(check->doc, from, STR_unit) && !is_inside(check, port, STR_unit));
 }
 
 static void check_input(const struct flat_check *check, const struct port *port)

@@ -22,6 +22,8 @@ struct instance {
     uint32_t origin;
     elem_id node; /* the node that uses it */
     uint32_t depth;
+    /* by input of the definition: how the images inside convert a file; NULL: they do not */
+    const struct build_meaning *files;
 };
 
 enum slot_state { SLOT_EMPTY, SLOT_BUSY, SLOT_ERROR, SLOT_RESULTS };
@@ -36,7 +38,7 @@ struct frame {
     uint32_t next;      /* index of the next input or output to visit */
     uint8_t phase;      /* enum frame_phase */
     ir_ref *args;
-    bool has_tokens; /* it sets tokens, so no other use can share its results */
+    bool is_alone; /* it sets tokens or says how files are converted, which no other use does */
     uint32_t memo_key;
     /* memo of the function that `inner` becomes; LIBRARY_NONE: inlined */
     uint32_t outline;
@@ -304,8 +306,6 @@ ir_ref build_color_transform(struct builder *b, ir_ref value, doc_type type, str
                              struct diag_place place);
 /* build_color_transform without a report; 0: the library has no such transform. */
 ir_ref build_find_transform(struct builder *b, ir_ref value, doc_type type, str_id space);
-/* True for types whose values have a unit. */
-bool build_is_measure(doc_type type);
 /* Reports an option with an unsupported space or unit. */
 void build_check_colorspace(struct builder *b);
 void build_check_distance_unit(struct builder *b);
@@ -361,6 +361,8 @@ ir_ref build_unconvert(struct builder *b, ir_ref value, doc_type type,
  */
 bool build_meaning_of_results(struct builder *b, const struct frame *frame,
                               struct build_meaning *out);
+/* instance.files of a node that is a graph */
+const struct build_meaning *build_meaning_inside(struct builder *b, const struct frame *frame);
 /*
  * True for an input, of such a node, that stands in where a file has no texels, or a geometry no
  * property: `default`. It is converted with them afterwards, so build_border gives it in the space

@@ -193,6 +193,25 @@ static elem_id file_holder(const struct builder *b, const struct frame *frame, u
     return frame->scope->graph ? 0 : texture->definition;
 }
 
+/* The node that uses the graph says what the inputs inside of the graph do not say. */
+static void add_argument(struct builder *b, const struct instance *scope, const struct port *port,
+                         const struct binding *binding, struct build_meaning *meaning)
+{
+    int index = library_resolve_interface(b->lib, binding->element, scope->nodedef, binding, port,
+                                          b->diags);
+    if (index < 0)
+        return;
+    const struct build_meaning *argument = &scope->files[index];
+    if (!meaning->of_space && argument->space) {
+        meaning->of_space = argument->of_space;
+        meaning->space = argument->space;
+    }
+    if (!meaning->of_unit && argument->of_unit) {
+        meaning->of_unit = argument->of_unit;
+        meaning->port = argument->port;
+    }
+}
+
 struct build_meaning build_meaning_of_file(struct builder *b, const struct frame *frame,
                                            uint32_t input)
 {
@@ -204,15 +223,13 @@ struct build_meaning build_meaning_of_file(struct builder *b, const struct frame
     elem_id holder = file_holder(b, frame, input);
     struct build_meaning meaning =
         meaning_of(b, frame->node.element, port, holder, binding->element);
-    if (binding->kind == BIND_INTERFACE && meaning.of_unit == holder)
+    if (binding->kind != BIND_INTERFACE)
+        return meaning;
+    if (meaning.of_unit == holder)
         meaning.of_unit = 0; /* a default has the unit that its definition declares */
+    if (frame->scope->files)
+        add_argument(b, frame->scope, port, binding, &meaning);
     return meaning;
-}
-
-bool build_is_measure(doc_type type)
-{
-    return type == DOC_TYPE_float || type == DOC_TYPE_vector2 || type == DOC_TYPE_vector3
-           || type == DOC_TYPE_vector4;
 }
 
 ir_ref build_convert(struct builder *b, ir_ref value, doc_type type,
@@ -222,6 +239,6 @@ ir_ref build_convert(struct builder *b, ir_ref value, doc_type type,
         return build_color_transform(
             b, value, type, meaning->space,
             doc_attr_place(&b->lib->doc, meaning->of_space, STR_colorspace));
-    return value && build_is_measure(type) && meaning->of_unit ? convert_unit(b, value, meaning)
-                                                               : value;
+    return value && doc_type_is_measure(type) && meaning->of_unit ? convert_unit(b, value, meaning)
+                                                                  : value;
 }

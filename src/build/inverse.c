@@ -158,7 +158,7 @@ ir_ref build_unconvert(struct builder *b, ir_ref value, doc_type type,
 {
     if (doc_type_is_color(type) && meaning->space)
         return unconvert_color(b, value, type, meaning->space, out_fault);
-    if (!build_is_measure(type) || !meaning->of_unit)
+    if (!doc_type_is_measure(type) || !meaning->of_unit)
         return value;
     float factor = build_unit_factor(b, meaning->of_unit, meaning->port->element);
     return ir_op2(b->graph, IR_DIV, value, ir_const_float(b->graph, factor));

@@ -62,6 +62,7 @@ unsigned doc_read_loosely(doc_type type, const char *text, size_t len, struct ir
 /* True for numbers with a fraction, and arrays of them. */
 bool doc_type_is_float(doc_type type);
 bool doc_type_is_color(doc_type type);
+bool doc_type_is_measure(doc_type type); /* a float or a vector: a type that has a unit */
 /* The reason why a value is invalid, as a suffix for a message. */
 const char *doc_value_fault(doc_type type, const char *text, size_t len, struct arena *arena);
 

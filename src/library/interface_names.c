@@ -35,6 +35,22 @@ bool library_graph_says(const struct library *lib, elem_id graph, str_id input, 
     return false;
 }
 
+bool library_images_convert(const struct library *lib, uint32_t nodedef, str_id attr)
+{
+    const struct nodedef *def = library_nodedef(lib, nodedef);
+    const struct port *outputs = library_ports(lib, nodedef, NULL) + def->num_inputs;
+    bool is_any = false;
+    assert(attr == STR_colorspace || attr == STR_unit);
+    for (uint32_t i = 0; i < def->num_outputs; i++) {
+        doc_type type = outputs[i].type;
+        ir_type_id ir = library_type_ir(lib, type);
+        if (ir_type_is_closure(ir) || ir_type_is_shader(ir))
+            return true;
+        is_any |= attr == STR_colorspace ? doc_type_is_color(type) : doc_type_is_measure(type);
+    }
+    return !is_any;
+}
+
 /* True if the node reads a file. */
 static bool has_file(const struct library *lib, elem_id node)
 {

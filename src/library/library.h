@@ -432,6 +432,13 @@ bool library_graph_reads(const struct library *lib, elem_id graph, str_id input)
 /* True if an element in it that reads this input has the attribute. */
 bool library_graph_says(const struct library *lib, elem_id graph, str_id input, str_id attr);
 /*
+ * attr: STR_colorspace or STR_unit, of files that a definition's nodegraph reads. True if its
+ * images convert what they read: a result is a closure or a shader, or none is of a kind that has a
+ * space (colours) or a unit (floats and vectors). Else the results of the node are converted, as
+ * renderers do for definitions around an image.
+ */
+bool library_images_convert(const struct library *lib, uint32_t nodedef, str_id attr);
+/*
  * True if a nodegraph hands its input to a node that reads a file, as the value that stands in for
  * the file: to `default` of an image, or `fallback` of a UsdUVTexture.
  */

@@ -208,8 +208,8 @@ static void finish_node(struct builder *b, const struct frame *frame, ir_ref *re
  */
 static void finish_graph(struct builder *b, struct frame *frame, ir_ref *results)
 {
-    assert(frame->has_tokens || frame->memo_key < b->memos.len);
-    if (!frame->has_tokens)
+    assert(frame->is_alone || frame->memo_key < b->memos.len);
+    if (!frame->is_alone)
         b->memos.items[frame->memo_key].first_result =
             add_results(b, results, library_nodedef(b->lib, frame->node.nodedef)->num_outputs) + 1;
     struct frame use = *frame; /* frames move while a conversion applies definitions */
@@ -254,8 +254,9 @@ static void enter_graph(struct builder *b, struct frame *frame)
     if (gives_surface(b, def, library_ports(b->lib, frame->node.nodedef, NULL) + def->num_inputs))
         build_unread_inputs(b, frame, graph);
     struct memo *memo = build_memo(b, frame->impl->ref, frame->args, def->num_inputs);
-    frame->has_tokens = build_has_tokens(b, frame->node.element, frame->node.nodedef);
-    if (memo->first_result && !frame->has_tokens) {
+    const struct build_meaning *files = build_meaning_inside(b, frame);
+    frame->is_alone = files || build_has_tokens(b, frame->node.element, frame->node.nodedef);
+    if (memo->first_result && !frame->is_alone) {
         ir_ref results[LIBRARY_MAX_OUTPUTS];
         memcpy(results, b->results.items + memo->first_result - 1,
                def->num_outputs * sizeof *results);
@@ -264,7 +265,7 @@ static void enter_graph(struct builder *b, struct frame *frame)
         return;
     }
     frame->memo_key = (uint32_t)(memo - b->memos.items);
-    frame->outline = frame->has_tokens ? LIBRARY_NONE : build_outlined(b, frame);
+    frame->outline = frame->is_alone ? LIBRARY_NONE : build_outlined(b, frame);
     uint32_t function =
         frame->outline == LIBRARY_NONE ? 0 : b->memos.items[frame->outline].function;
     if (function) {
@@ -276,6 +277,7 @@ static void enter_graph(struct builder *b, struct frame *frame)
     frame->inner->args = frame->args;
     frame->inner->node = frame->node.element;
     frame->inner->origin = b->graph->origin;
+    frame->inner->files = files;
     if (frame->outline != LIBRARY_NONE)
         build_begin_function(b, frame);
     frame->phase = PHASE_OUTPUTS;

@@ -25,6 +25,15 @@ static uint32_t first_file(const struct builder *b, const struct frame *frame)
     return found;
 }
 
+/* True if the results of a node are not converted from the space or the unit of its file. */
+static bool images_convert(const struct builder *b, const struct frame *frame,
+                           const struct port *port, str_id attr)
+{
+    return frame->impl->kind == IMPL_GRAPH
+           && (library_graph_says(b->lib, frame->impl->ref, port->name, attr)
+               || library_images_convert(b->lib, frame->node.nodedef, attr));
+}
+
 static bool meaning_of_files(struct builder *b, const struct frame *frame,
                              struct build_meaning *out)
 {
@@ -33,12 +42,33 @@ static bool meaning_of_files(struct builder *b, const struct frame *frame,
     if (i == library_nodedef(b->lib, frame->node.nodedef)->num_inputs)
         return false;
     *out = build_meaning_of_file(b, frame, i);
-    bool is_graph = frame->impl->kind == IMPL_GRAPH;
-    if (is_graph && library_graph_says(b->lib, frame->impl->ref, ports[i].name, STR_colorspace))
+    if (images_convert(b, frame, &ports[i], STR_colorspace))
         out->space = 0;
-    if (is_graph && library_graph_says(b->lib, frame->impl->ref, ports[i].name, STR_unit))
+    if (images_convert(b, frame, &ports[i], STR_unit))
         out->of_unit = 0;
     return true;
+}
+
+const struct build_meaning *build_meaning_inside(struct builder *b, const struct frame *frame)
+{
+    const struct nodedef *def = library_nodedef(b->lib, frame->node.nodedef);
+    const struct port *ports = library_ports(b->lib, frame->node.nodedef, NULL);
+    bool has_space = library_images_convert(b->lib, frame->node.nodedef, STR_colorspace),
+         has_unit = library_images_convert(b->lib, frame->node.nodedef, STR_unit), says = false;
+    if ((!has_space && !has_unit) || first_file(b, frame) == def->num_inputs)
+        return NULL;
+    struct build_meaning *files = ARENA_ARRAY(b->arena, struct build_meaning, def->num_inputs);
+    for (uint32_t i = 0; i < def->num_inputs; i++) {
+        if (ports[i].type != DOC_TYPE_filename)
+            continue;
+        files[i] = build_meaning_of_file(b, frame, i);
+        if (!has_space)
+            files[i].space = 0;
+        if (!has_unit)
+            files[i].of_unit = 0;
+        says |= files[i].space || files[i].of_unit;
+    }
+    return says ? files : NULL;
 }
 
 bool build_meaning_of_results(struct builder *b, const struct frame *frame,
@@ -50,7 +80,7 @@ bool build_meaning_of_results(struct builder *b, const struct frame *frame,
 
 bool build_is_border(const struct builder *b, const struct frame *frame, const struct port *port)
 {
-    if (!doc_type_is_color(port->type) && !build_is_measure(port->type))
+    if (!doc_type_is_color(port->type) && !doc_type_is_measure(port->type))
         return false;
     return frame->impl->kind == IMPL_GRAPH
                ? library_graph_has_border(b->lib, frame->impl->ref, port->name)

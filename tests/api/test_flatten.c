@@ -301,6 +301,33 @@ static void test_conversions(struct fixture *f)
     }
 }
 
+/* Results that are no colours leave the conversion to the image, which keeps it. */
+static void test_converted_inside(struct fixture *f)
+{
+    mxg_document *before =
+        parse(f, DOCUMENT("", "<nodedef name='ND_g' node='green'>"
+                              "<input name='file' type='filename' value='a.png'/>"
+                              "<output name='out' type='float'/></nodedef>"
+                              "<nodegraph name='NG_g' nodedef='ND_g'><image name='i' type='color3'>"
+                              "<input name='file' type='filename' interfacename='file'/></image>"
+                              "<extract name='e' type='float'>"
+                              "<input name='in' type='color3' nodename='i'/></extract>"
+                              "<output name='out' type='float' nodename='e'/></nodegraph>"
+                              "<green name='P' type='float'><input name='file' type='filename' "
+                              "value='wood.png' colorspace='srgb_texture'/></green>" SURFACE(
+                                  "<input name='base' type='float' nodename='P'/>")));
+    mxg_document *after = flatten(f, before, (const char *const[]){"P", NULL});
+    expect_attribute(after, "P_i/file", "colorspace", "srgb_texture");
+    mxg_document *both[] = {before, after};
+    for (int i = 0; i < 2; i++) {
+        mxg_result *result = generate_reduced(f->context, both[i], "S");
+        REQUIRE(strstr(mxg_result_source(result, MXG_STAGE_PIXEL, NULL),
+                       "mx_srgb_texture_to_lin_rec709(texture("));
+        mxg_result_destroy(result);
+        mxg_document_destroy(both[i]);
+    }
+}
+
 /* A string that names a file has no prefix, and the file has the space of the definition. */
 static void test_named_files(struct fixture *f)
 {
@@ -417,8 +444,8 @@ static void test_failures(void)
 }
 
 static void (*const tests[])(struct fixture *f) = {
-    test_values,      test_defaults,    test_outputs, test_files,
-    test_conversions, test_named_files, test_levels,  test_library,
+    test_values,           test_defaults,    test_outputs, test_files,   test_conversions,
+    test_converted_inside, test_named_files, test_levels,  test_library,
 };
 
 int main(void)
