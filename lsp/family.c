@@ -255,6 +255,15 @@ bool family_names(const struct lsp_query *of, uint32_t target, const struct lsp_
            && (!is_node || names_scope(in, element) == query_root(in));
 }
 
+/* True for a value of this name in a <variant>, which changes inputs of any definition. */
+static bool is_in_variant(const struct lsp_query *in, uint32_t element, const struct lsp_query *of,
+                          struct span name)
+{
+    uint32_t parent = in->model->elements[element].parent;
+    return query_is(in, parent, "variant")
+           && is_same(of, name, in, query_value(in, element, "name"));
+}
+
 bool family_uses_input(const struct family *family, const struct lsp_query *of, uint32_t target)
 {
     uint32_t nodedef = of->model->elements[target].parent;
@@ -269,9 +278,10 @@ bool family_uses_input(const struct family *family, const struct lsp_query *of, 
         for (uint32_t e = 0; e < in.model->num_elements; ++e) {
             const struct span names[] = {query_value(&in, e, "nodedef"),
                                          query_value(&in, e, "inherit")};
-            bool is_node =
-                is_same(of, category, &in, family_local_name(&in, in.model->elements[e].name));
-            if (is_node || is_full_name(of, own, &in, names[0])
+            bool uses =
+                is_same(of, category, &in, family_local_name(&in, in.model->elements[e].name))
+                || is_in_variant(&in, e, of, query_value(of, target, "name"));
+            if (uses || is_full_name(of, own, &in, names[0])
                 || is_full_name(of, own, &in, names[1]))
                 return true;
         }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lsp/named_elements.h"
 
+#include "lsp/definition_inputs.h"
+
 #include <stdio.h>
 #include <string.h>
 
@@ -63,8 +65,7 @@ const struct model_attribute *names_file(const struct lsp_query *query, uint32_t
 static uint32_t at_root(const struct lsp_query *query, uint32_t element, struct span name)
 {
     (void)element;
-    uint32_t root = query_root(query);
-    return root == MODEL_NONE ? root : query_child(query, root, name);
+    return query_at_root(query, name);
 }
 
 static uint32_t in_scope(const struct lsp_query *query, uint32_t element, struct span name)
@@ -88,76 +89,19 @@ static uint32_t graph_of(const struct lsp_query *query, uint32_t element, struct
     return query_is(query, beside, "nodegraph") ? beside : at_root(query, element, name);
 }
 
-/* The child of this category and name. */
-static uint32_t child_of(const struct lsp_query *query, uint32_t parent, const char *category,
-                         struct span name)
-{
-    if (parent == MODEL_NONE)
-        return parent;
-    uint32_t child = model_first(query->model, parent);
-    while (child != MODEL_NONE
-           && !(query_is(query, child, category)
-                && query_is_same(query->text, query_value(query, child, "name"), name)))
-        child = model_next(query->model, child);
-    return child;
-}
-
-/* The input of a definition, or of one that it inherits from. */
-static uint32_t input_of_nodedef(const struct lsp_query *query, uint32_t nodedef, struct span name)
-{
-    enum { MAX_DEPTH = 64 }; /* of definitions that inherit; they may be a circle */
-    uint32_t found = MODEL_NONE;
-    for (unsigned i = 0; i < MAX_DEPTH && nodedef != MODEL_NONE && found == MODEL_NONE; ++i) {
-        found = child_of(query, nodedef, "input", name);
-        struct span from = query_value(query, nodedef, "inherit");
-        nodedef = from.start == from.end ? MODEL_NONE : at_root(query, nodedef, from);
-    }
-    return found;
-}
-
-/* The element that implements or defines the interface of a nodegraph. */
-static uint32_t definition_of(const struct lsp_query *query, uint32_t graph)
-{
-    struct span nodedef = query_value(query, graph, "nodedef");
-    return nodedef.start == nodedef.end ? MODEL_NONE : at_root(query, graph, nodedef);
-}
-
-static uint32_t input_of_graph(const struct lsp_query *query, uint32_t element, struct span name)
-{
-    uint32_t graph = query_around(query, parent_of(query, element), "nodegraph"),
-             found = child_of(query, graph, "input", name);
-    if (found != MODEL_NONE || graph == MODEL_NONE)
-        return found;
-    return input_of_nodedef(query, definition_of(query, graph), name);
-}
-
 static uint32_t output_of_source(const struct lsp_query *query, uint32_t element, struct span name)
 {
     struct span graph = query_value(query, element, "nodegraph");
     if (graph.start == graph.end)
         return MODEL_NONE;
-    return child_of(query, graph_of(query, element, graph), "output", name);
+    return query_child_of(query, graph_of(query, element, graph), "output", name);
 }
 
-/* An input of a node of the document's own definitions. */
-static uint32_t input_of_definition(const struct lsp_query *query, uint32_t element,
-                                    struct span name)
+/* A frame has nodes that stand beside it. */
+static uint32_t beside(const struct lsp_query *query, uint32_t element, struct span name)
 {
-    uint32_t node = parent_of(query, element);
-    mxg_nodedef nodedef;
-    uint32_t index = query_is(query, element, "input") && query_is_node(query, node)
-                         ? catalogue_resolve(query, node)
-                         : MXG_NONE;
-    if (index == MXG_NONE || index < mxg_library_num_nodedefs(query->session->desc.library)
-        || !catalogue_nodedef(query, index, &nodedef))
-        return MODEL_NONE;
-    uint32_t root = query_root(query),
-             child = root == MODEL_NONE ? root : model_first(query->model, root);
-    while (child != MODEL_NONE
-           && !(query_is(query, child, "nodedef")
-                && query_equals(query->text, query_value(query, child, "name"), nodedef.name)))
-        child = model_next(query->model, child);
-    return input_of_nodedef(query, child, name);
+    uint32_t parent = parent_of(query, element);
+    return parent == MODEL_NONE ? parent : query_child(query, parent, name);
 }
 
 /* Attributes that name elements, and who finds what they name. */
@@ -167,7 +111,7 @@ static const struct reference {
 } references[] = {
     {"nodename", in_scope},
     {"nodegraph", graph_of},
-    {"interfacename", input_of_graph},
+    {"interfacename", inputs_of_graph},
     {"output", output_of_source},
     {"nodedef", at_root},
     {"inherit", at_root},
@@ -180,7 +124,10 @@ static const struct reference {
     {"looks", at_root},
     {"default", of_group},
     {"viewercollection", at_root},
-    {"name", input_of_definition},
+    {"contains", beside},
+    {"defaultinput", inputs_passed_through},
+    {"sourcecode", inputs_of_source},
+    {"name", inputs_of_owner},
 };
 
 static const struct reference *reference_of(const struct lsp_query *query,
@@ -205,9 +152,26 @@ uint32_t names_target(const struct lsp_query *query, uint32_t element,
     return names_target_of(query, element, attribute, attribute->value);
 }
 
-bool names_next_item(const struct lsp_query *query, struct span value, struct span *item)
+/* Source text names inputs as "{{tint}}". */
+static bool next_in_source(const struct lsp_query *query, struct span value, struct span *item)
 {
     const char *bytes = query->text->bytes;
+    uint32_t at = item->end;
+    while (at + 1 < value.end && memcmp(bytes + at, "{{", 2) != 0)
+        ++at;
+    item->start = item->end = at + 1 < value.end ? at + 2 : value.end;
+    while (item->end < value.end && bytes[item->end] != '}')
+        ++item->end;
+    return item->end > item->start;
+}
+
+bool names_next_item(const struct lsp_query *query, const struct model_attribute *attribute,
+                     struct span *item)
+{
+    const char *bytes = query->text->bytes;
+    const struct span value = attribute->value;
+    if (query_equals(query->text, attribute->name, "sourcecode"))
+        return next_in_source(query, value, item);
     uint32_t at = item->end;
     while (at < value.end && strchr(", \t\r\n", bytes[at]))
         ++at;
@@ -225,6 +189,7 @@ bool names_is_reference(const struct lsp_query *query, uint32_t element,
     bool is_value = query_equals(query->text, attribute->name, "default")
                     && !query_is(query, element, "lookgroup");
     return reference_of(query, attribute) && !is_value
+           && !query_equals(query->text, attribute->name, "sourcecode")
            && !query_equals(query->text, attribute->name, "name");
 }
 

@@ -36,11 +36,12 @@ uint32_t names_target_of(const struct lsp_query *query, uint32_t element,
 uint32_t names_target(const struct lsp_query *query, uint32_t element,
                       const struct model_attribute *attribute);
 /*
- * The next item of a value with commas between its items, without blanks; begin with an empty span
- * at the begin of the value. False: there are no more.
+ * The next item of a value with commas between its items, without blanks, or the next input in
+ * source text; begin with an empty span at the begin of the value. False: there are no more.
  */
-bool names_next_item(const struct lsp_query *query, struct span value, struct span *item);
-/* True for an attribute of an element that names elements. */
+bool names_next_item(const struct lsp_query *query, const struct model_attribute *attribute,
+                     struct span *item);
+/* True for an attribute of an element whose value is the names of elements. */
 bool names_is_reference(const struct lsp_query *query, uint32_t element,
                         const struct model_attribute *attribute);
 

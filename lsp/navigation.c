@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /* From a name to its element and back: definition, references, highlights, rename. */
+#include "lsp/definition_inputs.h"
 #include "lsp/diagnostics.h"
 #include "lsp/family.h"
 #include "lsp/handlers.h"
@@ -185,8 +186,8 @@ static void collect_in(struct places *places, const struct aim *aim)
         for (uint32_t a = 0; a < element->num_attributes; ++a) {
             const struct model_attribute *attribute =
                 &in->model->attributes[element->first_attribute + a];
-            struct span value = attribute->value, item = {value.start, value.start};
-            while (names_next_item(in, value, &item)) {
+            struct span item = {attribute->value.start, attribute->value.start};
+            while (names_next_item(in, attribute, &item)) {
                 struct span name = item;
                 if (family_names(&aim->query, aim->target, in, i, attribute, &name))
                     take_place(places, i, attribute, name);
@@ -273,6 +274,7 @@ json_t *handle_prepare_rename(struct lsp_session *session, const json_t *params,
     if (!query_files(session, params, &query, error))
         return NULL;
     if (find_aim(&query, &aim) && can_rename(&aim.query, aim.target)
+        && !inputs_share_graph(&aim.query, aim.target)
         && !family_uses_input(&aim.family, &aim.query, aim.target)) {
         result = json_object();
         json_object_set_new(result, "range", wire_range(session, query.text, aim.name));
@@ -337,6 +339,8 @@ json_t *handle_rename(struct lsp_session *session, const json_t *params, struct 
         return NULL;
     const char *fault = !find_aim(&query, &aim) || !can_rename(&aim.query, aim.target)
                             ? "there is no name here that can change"
+                        : inputs_share_graph(&aim.query, aim.target)
+                            ? "another definition has the same nodegraph, and would lose the input"
                         : family_uses_input(&aim.family, &aim.query, aim.target)
                             ? "other files use this input of the definition, and would lose it"
                         : !is_name(new_name)

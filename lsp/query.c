@@ -86,6 +86,25 @@ uint32_t query_root(const struct lsp_query *query)
     return root;
 }
 
+uint32_t query_child_of(const struct lsp_query *query, uint32_t parent, const char *category,
+                        struct span name)
+{
+    if (parent == MODEL_NONE)
+        return parent;
+    uint32_t child = model_first(query->model, parent);
+    while (child != MODEL_NONE
+           && !(query_is(query, child, category)
+                && query_is_same(query->text, query_value(query, child, "name"), name)))
+        child = model_next(query->model, child);
+    return child;
+}
+
+uint32_t query_at_root(const struct lsp_query *query, struct span name)
+{
+    uint32_t root = query_root(query);
+    return root == MODEL_NONE ? root : query_child(query, root, name);
+}
+
 uint32_t query_around(const struct lsp_query *query, uint32_t element, const char *category)
 {
     while (element != MODEL_NONE && !query_is(query, element, category))

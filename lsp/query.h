@@ -24,6 +24,11 @@ const char *query_category(const struct lsp_query *query, uint32_t element, char
 
 /* The child of this name; MODEL_NONE: there is none. `parent` may be MODEL_NONE. */
 uint32_t query_child(const struct lsp_query *query, uint32_t parent, struct span name);
+/* The child of this category and name. */
+uint32_t query_child_of(const struct lsp_query *query, uint32_t parent, const char *category,
+                        struct span name);
+/* The element of this name at the root of the document. */
+uint32_t query_at_root(const struct lsp_query *query, struct span name);
 /* <materialx>; MODEL_NONE: there is none. */
 uint32_t query_root(const struct lsp_query *query);
 /* The element itself or the innermost one around it of this category. */

@@ -299,6 +299,7 @@ def check_navigation(client):
     edits = client.at("textDocument/rename", URI, at, newName="value")["changes"][URI]
     changed = edited(client.texts[URI], edits)
     same((changed.count('interfacename="value"'), changed.count('interfacename="in"')), (3, 0), "an input in the graph of a definition that inherits it")
+    check_inputs(client)
     open_text(client, definition)
     at = client.texts[URI].index('"out"') + 1
     same(client.at("textDocument/prepareRename", URI, at), None, "outputs of a definition have their names in two places")
@@ -315,6 +316,46 @@ def check_navigation(client):
     same([item["label"] for item in client.at("textDocument/completion", URI, at)["items"]], ["far"], "names of an included file")
     links = client.of("textDocument/documentLink", URI)
     same([(line_of(item["range"]), item["target"]) for item in links], [(1, uri_of(WORK / "part.mtlx"))], "a link to an include")
+
+
+def check_inputs(client):
+    """Whatever names an input of a definition, and a frame around nodes."""
+    text = """<materialx version="1.39">
+  <nodedef name="ND_p" node="p"><input name="rough" type="float" value="1"/><output name="res" type="float" defaultinput="rough"/></nodedef>
+  <implementation name="IM_p" nodedef="ND_p" nodegraph="NG_p"/>
+  <implementation name="IM_glsl" nodedef="ND_p" target="genglsl" sourcecode="{{rough}} * 2.0 + {{rough}}"><input name="rough" type="float" implname="r"/></implementation>
+  <nodegraph name="NG_p"><dot name="d" type="float"><input name="in" type="float" interfacename="rough"/></dot><output name="res" type="float" nodename="d"/></nodegraph>
+  <nodedef name="ND_heir" node="p" version="2" inherit="ND_p"><input name="rough" type="float" value="2"/></nodedef>
+  <p name="P" type="float"><input name="rough" type="float" value="3"/></p>
+  <backdrop name="frame" contains="Q, P"/>
+  <variantset name="any"><variant name="x"><input name="rough" type="float" value="0.3"/></variant></variantset>
+  <variantset name="of_node" node="p"><variant name="x"><input name="rough" type="float" value="0.3"/></variant></variantset>
+  <variantset name="of_nodedef" nodedef="ND_p"><variant name="x"><input name="rough" type="float" value="0.3"/></variant></variantset>
+  <variantset name="of_others" node="q"><variant name="x"><input name="rough" type="float" value="0.3"/></variant></variantset>
+  <output name="o" type="float" nodename="P" output="res"/>
+</materialx>
+"""
+    named = text.replace("rough", "grain").replace('node="q"><variant name="x"><input name="grain"', 'node="q"><variant name="x"><input name="rough"')
+    for place in 'name="rough" type="float" value="1"', 'interfacename="rough"', '{{rough}} *', 'name="rough" type="float" implname', 'name="rough" type="float" value="2"', 'name="rough" type="float" value="0.3"':
+        open_text(client, text)
+        client.diagnostics(URI)
+        at = text.index(place) + place.index("rough")
+        same(edited(text, client.at("textDocument/rename", URI, at, newName="grain")["changes"][URI]), named, f"an input renamed at {place}")
+    at = text.index('name="P"') + 6
+    changed = edited(text, client.at("textDocument/rename", URI, at, newName="R")["changes"][URI])
+    same((changed.count('"R"'), 'contains="Q, R"' in changed), (2, True), "a node in a frame")
+    shared = text.replace("</materialx>", '  <nodedef name="ND_q" node="q"><input name="rough" type="float"/><output name="res" type="float"/></nodedef>\n'
+                          '  <implementation name="IM_q" nodedef="ND_q" nodegraph="NG_p"/>\n</materialx>')
+    open_text(client, shared)
+    client.diagnostics(URI)
+    for place in 'name="rough" type="float" value="1"', 'name="rough" type="float"/>':
+        at = shared.index(place) + 6
+        same(client.at("textDocument/prepareRename", URI, at), None, "an input that another definition of the nodegraph has")
+        try:
+            client.at("textDocument/rename", URI, at, newName="grain")
+            check(False, "a rename would take an input from another definition")
+        except Failure as failure:
+            same(failure.args[0]["message"], "another definition has the same nodegraph, and would lose the input", "a rename that would take an input from another definition")
 
 
 def check_families(client):
@@ -372,6 +413,11 @@ def check_families(client):
         check(False, "a rename would take an input from nodes of another file")
     except Failure as failure:
         same(failure.args[0]["message"], "other files use this input of the definition, and would lose it", "a rename that would take an input from another file")
+    main.write_text(include.format(named.name, '  <variantset name="set"><variant name="x"><input name="in" type="float" value="1"/></variant></variantset>\n'))
+    client.close(uri_of(main))
+    client.open(uri_of(main), main.read_text())
+    client.diagnostics(uri_of(main))
+    same(client.at("textDocument/prepareRename", uri_of(named), place), None, "an input that a variant of another file changes stays")
     inside = part.read_text().index('"tone" type="float"/><output') + 2
     same(list(client.at("textDocument/rename", uri_of(part), inside, newName="deep")["changes"]), [uri_of(part)], "names inside of a graph are its own")
 
