@@ -16,7 +16,8 @@ static void resolve(void *arg)
     struct bind_job *job = arg;
     mxg_bindings *result = job->result;
     struct object *object = &result->object;
-    const struct document *doc = &result->document->layer.doc;
+    const struct library *lib = &result->document->layer;
+    const struct document *doc = &lib->doc;
     const struct bind_options options = {.solo = job->desc.solo,
                                          .mute = job->desc.mute,
                                          .num_solo = job->desc.num_solo,
@@ -41,11 +42,11 @@ static void resolve(void *arg)
         before = &previous->bindings;
         facts = previous->facts.states.len ? &previous->facts : NULL;
     }
-    bind_resolve(&result->bindings, doc, look, scene, before, &options, &object->arena,
+    bind_resolve(&result->bindings, lib, look, scene, before, &options, &object->arena,
                  &job->scratch, diags);
-    bind_facts(&result->facts, doc, look, scene, facts, &object->arena, &job->scratch, diags);
+    bind_facts(&result->facts, lib, look, scene, facts, &object->arena, &job->scratch, diags);
     if (!options.num_solo && !options.num_mute)
-        bind_check_drives(&result->bindings, &result->document->layer, &job->scratch, diags);
+        bind_check_drives(&result->bindings, lib, &job->scratch, diags);
     result->is_resolved = true;
 }
 

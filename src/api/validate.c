@@ -179,7 +179,7 @@ static void check_look(struct generation *g, elem_id element, struct told *told)
     struct scene scene;
     scene_init(&scene, UINT32_MAX, &g->scratch);
     diag_list_init(&found, diags->arena);
-    look_read(&look, &g->document->layer.doc, element, &scene, &g->scratch, &found);
+    look_read(&look, &g->document->layer, element, &scene, &g->scratch, &found);
     look_finish(&look);
     for (uint32_t i = 0; i < found.items.len; i++) {
         const struct diag *d = &found.items.items[i];

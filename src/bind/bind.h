@@ -77,7 +77,7 @@ struct bind_options {
  * before: bindings of the scene from an earlier time, when it perhaps had fewer primitives; NULL:
  * none. Only primitives at or below a difference are then resolved. The result is the same.
  */
-void bind_resolve(struct bindings *b, const struct document *doc, elem_id look,
+void bind_resolve(struct bindings *b, const struct library *lib, elem_id look,
                   const struct scene *scene, const struct bindings *before,
                   const struct bind_options *options, struct arena *arena, struct arena *scratch,
                   struct diag_list *diags);
@@ -140,14 +140,7 @@ struct layer_notes {
 void bind_layers(struct bindings *b, uint32_t state, struct stands *stands,
                  struct layer_notes *notes);
 /* Finds the stack of a state; `adds` a new one if there is none. */
-void bind_stack(struct bindings *b, uint32_t state, bool adds, struct arena *scratch);
-/* The variants that apply to an assignment's material, in order; a later one wins. */
-struct variant_list {
-    struct look_variant *items;
-    uint32_t len, cap;
-};
-void bind_variants(const struct bind_look *look, uint32_t assign, struct arena *arena,
-                   struct variant_list *out);
+void bind_stack(struct bindings *b, uint32_t state, bool adds);
 
 /*
  * scene_walk.c: fills the states of all primitives from b->look, without layers. The arena of b
@@ -164,7 +157,7 @@ extern const char *const bind_fact_words[NUM_FACTS];
  * an assignment whose target is the element of the fact. Without facts there are no states. Call
  * bindings_finish in the end.
  */
-void bind_facts(struct bindings *b, const struct document *doc, elem_id look,
+void bind_facts(struct bindings *b, const struct library *lib, elem_id look,
                 const struct scene *scene, const struct bindings *before, struct arena *arena,
                 struct arena *scratch, struct diag_list *diags);
 enum bind_fact_kind bind_fact_kind(const struct document *doc, elem_id fact);

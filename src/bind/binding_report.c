@@ -212,17 +212,16 @@ static void put_source(struct bind_writer *w, struct json *json, const struct pl
 
 static void put_variants(struct bind_writer *w, struct json *json, const struct bind_item *item)
 {
-    struct variant_list variants = {0};
-    bind_variants(&w->b->look, item->assign, w->scratch, &variants);
-    if (!variants.len)
+    const struct variant_list *variants = &assign_of(w, item)->variants;
+    if (!variants->len)
         return;
     json_key(json, "variants");
     json_open(json, '[');
-    for (uint32_t i = 0; i < variants.len; i++) {
+    for (uint32_t i = 0; i < variants->len; i++) {
         json_item(json);
         json_open(json, '{');
-        json_put_text(json, "variantset", name_of(w, variants.items[i].set));
-        json_put_text(json, "variant", name_of(w, variants.items[i].variant));
+        json_put_text(json, "variantset", name_of(w, variants->items[i].set));
+        json_put_text(json, "variant", name_of(w, variants->items[i].variant));
         json_close(json, '}');
     }
     json_close(json, ']');

@@ -10,14 +10,7 @@
  */
 #include "bind/drive.h"
 
-#include "base/hash.h"
-
 #include <assert.h>
-
-struct substance { /* the parts of a layer's material that outputs may drive */
-    elem_id material;
-    VEC(elem_id) graphs, shaders;
-};
 
 /* A driver: a variant or an override, or a product. */
 struct driver {
@@ -33,11 +26,7 @@ struct driving {
     struct substance substance;
     struct library_drives *out;
     struct drive_notes *notes; /* NULL: silent */
-    struct diag_list ignored;
-    struct resolve_out resolved;
-    VEC(elem_id) open; /* nodes to visit */
-    struct table met;  /* elements that were visited, in `order` */
-    VEC(elem_id) order;
+    elem_id set;               /* of the variant at hand, if it is for some nodes alone; 0 */
 };
 
 static const char *text_of(const struct driving *d, str_id id)
@@ -48,87 +37,6 @@ static const char *text_of(const struct driving *d, str_id id)
 static const struct element *element(const struct driving *d, elem_id id)
 {
     return doc_element(d->doc, id);
-}
-
-/* ---- The substance ---- */
-
-/* True if the element is met for the first time. */
-static bool meet(struct driving *d, elem_id id)
-{
-    uint32_t hash = hash_pair(id, 0);
-    for (uint32_t at = hash, found; (found = table_next(&d->met, hash, &at));)
-        if (d->order.items[found - 1] == id)
-            return false;
-    vec_push(d->arena, &d->order, id);
-    table_add(&d->met, d->arena, hash, d->order.len);
-    return true;
-}
-
-static void meet_graph(struct driving *d, elem_id graph)
-{
-    bool is_plain = graph && element(d, graph)->kind == KIND_NODEGRAPH
-                    && !doc_attr_value(d->doc, graph, STR_nodedef);
-    if (is_plain && meet(d, graph))
-        vec_push(d->arena, &d->substance.graphs, graph);
-}
-
-static struct binding resolve(struct driving *d, elem_id port)
-{
-    return library_resolve_port(d->lib, port, DOC_TYPE_NONE, &d->resolved, &d->ignored);
-}
-
-/* Follows the connection of an input to its node, and notes the nodegraph that it names. */
-static void follow(struct driving *d, elem_id input)
-{
-    str_id graph = doc_attr_value(d->doc, input, STR_nodegraph);
-    if (graph)
-        meet_graph(d, doc_top_level(d->doc, KIND_NODEGRAPH, graph));
-    struct binding binding = resolve(d, input);
-    if (binding.kind == BIND_NODE && meet(d, binding.ref))
-        vec_push(d->arena, &d->open, binding.ref);
-}
-
-static void follow_inputs(struct driving *d, elem_id owner)
-{
-    for (elem_id e = element(d, owner)->first_child; e; e = element(d, e)->next)
-        if (element(d, e)->kind == KIND_INPUT)
-            follow(d, e);
-}
-
-static void visit_open(struct driving *d)
-{
-    while (d->open.len) {
-        elem_id node = vec_pop(&d->open);
-        str_id type = doc_attr_value(d->doc, node, STR_type);
-        if (type == STR_surfaceshader || type == STR_displacementshader || type == STR_volumeshader)
-            vec_push(d->arena, &d->substance.shaders, node);
-        meet_graph(d, element(d, node)->parent);
-        follow_inputs(d, node);
-    }
-}
-
-elem_id bind_material_node(const struct library *lib, elem_id target, struct diag_list *ignored)
-{
-    const struct document *doc = &lib->doc;
-    if (doc_element(doc, target)->kind == KIND_NODE)
-        return target;
-    elem_id output = doc_outputs(doc, target, STR_material).first;
-    if (!output)
-        return 0;
-    struct resolve_out out = {.arena = ignored->arena};
-    struct binding binding = library_resolve_port(lib, output, DOC_TYPE_NONE, &out, ignored);
-    return binding.kind == BIND_NODE ? binding.ref : 0;
-}
-
-static void find_substance(struct driving *d, elem_id target)
-{
-    d->substance.material = bind_material_node(d->lib, target, &d->ignored);
-    if (!d->substance.material)
-        return;
-    meet(d, d->substance.material);
-    meet_graph(d, element(d, d->substance.material)->parent);
-    follow_inputs(d, d->substance.material);
-    visit_open(d);
 }
 
 /* ---- Inputs ---- */
@@ -143,7 +51,7 @@ struct driven {
 
 static bool node_has(struct driving *d, elem_id node, str_id input, struct driven *out)
 {
-    uint32_t nodedef = library_match(d->lib, node, &d->ignored);
+    uint32_t nodedef = library_match(d->lib, node, &d->substance.ignored);
     int port = nodedef == LIBRARY_NONE ? -1 : library_find_input(d->lib, nodedef, input);
     if (port < 0)
         return false;
@@ -191,7 +99,7 @@ static elem_id holder_of(struct driving *d, elem_id source, const struct binding
         is_constant ? doc_child_of_kind(d->doc, binding->ref, KIND_INPUT, STR_value) : 0;
     if (!value)
         return 0;
-    struct binding end = resolve(d, value);
+    struct binding end = substance_resolve(&d->substance, value);
     return end.kind == BIND_VALUE ? end.element : 0;
 }
 
@@ -213,7 +121,7 @@ static void drive(struct driving *d, elem_id source, const struct driver *driver
                   const struct driven *driven)
 {
     str_id type = doc_attr_value(d->doc, source, STR_type);
-    struct binding binding = resolve(d, source);
+    struct binding binding = substance_resolve(&d->substance, source);
     elem_id holder = holder_of(d, source, &binding);
     if (d->notes)
         d->notes->seen[source - d->doc->first_element] |= DRIVE_MATCHED;
@@ -233,22 +141,31 @@ static void drive(struct driving *d, elem_id source, const struct driver *driver
 
 /* ---- By name ---- */
 
+/* False if a variant at hand is for other nodes; nodegraphs are no nodes. */
+static bool takes(struct driving *d, elem_id owner)
+{
+    return !d->set
+           || (element(d, owner)->kind == KIND_NODE
+               && substance_set_takes(&d->substance, d->set, owner));
+}
+
 static void drive_by_name(struct driving *d, elem_id source, const struct driver *driver)
 {
     str_id name = element(d, source)->name;
     struct driven driven;
     bool any = false;
-    if (material_has(d, name, false, &driven)) {
+    if (takes(d, d->substance.material) && material_has(d, name, false, &driven)) {
         drive(d, source, driver, &driven);
         return;
     }
     for (uint32_t i = 0; i < d->substance.graphs.len; i++)
-        if (graph_has(d, d->substance.graphs.items[i], name, &driven)) {
+        if (!d->set && graph_has(d, d->substance.graphs.items[i], name, &driven)) {
             drive(d, source, driver, &driven);
             any = true;
         }
     for (uint32_t i = 0; i < d->substance.shaders.len && !any; i++)
-        if (node_has(d, d->substance.shaders.items[i], name, &driven))
+        if (takes(d, d->substance.shaders.items[i])
+            && node_has(d, d->substance.shaders.items[i], name, &driven))
             drive(d, source, driver, &driven);
 }
 
@@ -261,7 +178,8 @@ static bool has_token(struct driving *d, elem_id owner, str_id name)
     bool is_graph = element(d, owner)->kind == KIND_NODEGRAPH;
     if (is_graph ? graph_has(d, owner, name, &input) : node_has(d, owner, name, &input))
         return false;
-    uint32_t nodedef = is_graph ? LIBRARY_NONE : library_match(d->lib, owner, &d->ignored);
+    uint32_t nodedef =
+        is_graph ? LIBRARY_NONE : library_match(d->lib, owner, &d->substance.ignored);
     elem_id definition = nodedef == LIBRARY_NONE ? 0 : library_nodedef(d->lib, nodedef)->element;
     return doc_child_of_kind(d->doc, owner, KIND_TOKEN, name)
            || (definition && doc_child_of_kind(d->doc, definition, KIND_TOKEN, name));
@@ -270,7 +188,7 @@ static bool has_token(struct driving *d, elem_id owner, str_id name)
 static bool drive_token_of(struct driving *d, elem_id owner, elem_id source)
 {
     str_id name = element(d, source)->name;
-    bool has = has_token(d, owner, name);
+    bool has = takes(d, owner) && has_token(d, owner, name);
     if (has)
         library_drive(d->out, d->arena, (struct library_drive){owner, name, source});
     return has;
@@ -297,8 +215,8 @@ static void drive_by_path(struct driving *d, elem_id source, const struct driver
     struct text own;
     struct driven driven;
     text_init(&own, d->arena);
-    for (uint32_t i = 0; input && i < d->order.len; i++) {
-        elem_id owner = d->order.items[i];
+    for (uint32_t i = 0; input && i < d->substance.order.len; i++) {
+        elem_id owner = d->substance.order.items[i];
         own.len = 0;
         doc_path(d->doc, owner, '/', &own);
         if (own.len != (size_t)(slash - path) || memcmp(own.data, path, own.len) != 0)
@@ -329,29 +247,35 @@ static void add_product(struct driving *d, const struct bind_item *item)
     const struct look_assign *a = &d->b->look.assigns.items[item->assign];
     const char *word = bind_product_names[item->product];
     str_id name = str_find(d->doc->strings, word, strlen(word));
-    elem_id from = bind_material_node(d->lib, a->target, &d->ignored);
+    elem_id from = bind_material_node(d->lib, a->target, &d->substance.ignored);
     elem_id source = from && name ? doc_child_of_kind(d->doc, from, KIND_INPUT, name) : 0;
     struct driven driven;
     struct driver product = {.slot = NULL};
     if (!source || !material_has(d, name, true, &driven))
         return;
     drive(d, source, &product, &driven);
-    follow(d, source); /* its graphs and shaders belong to the substance now */
-    visit_open(d);
+    substance_follow(&d->substance, source); /* its graphs and shaders belong to it now */
+}
+
+static void add_variant(struct driving *d, const struct look_variant *variant)
+{
+    struct driver driver = {.slot = NULL};
+    bool is_restricted = doc_attr_value(d->doc, variant->set, STR_node)
+                         || doc_attr_value(d->doc, variant->set, STR_nodedef);
+    d->set = is_restricted ? variant->set : 0;
+    for (elem_id e = element(d, variant->variant)->first_child; e; e = element(d, e)->next)
+        if (element(d, e)->kind == KIND_INPUT)
+            drive_by_name(d, e, &driver);
+        else if (element(d, e)->kind == KIND_TOKEN)
+            drive_token(d, e);
+    d->set = 0;
 }
 
 static void add_variants(struct driving *d, uint32_t assign)
 {
-    struct variant_list variants = {0};
-    struct driver variant = {.slot = NULL};
-    bind_variants(&d->b->look, assign, d->arena, &variants);
-    for (uint32_t i = 0; i < variants.len; i++)
-        for (elem_id e = element(d, variants.items[i].variant)->first_child; e;
-             e = element(d, e)->next)
-            if (element(d, e)->kind == KIND_INPUT)
-                drive_by_name(d, e, &variant);
-            else if (element(d, e)->kind == KIND_TOKEN)
-                drive_token(d, e);
+    const struct variant_list *variants = &d->b->look.assigns.items[assign].variants;
+    for (uint32_t i = 0; i < variants->len; i++)
+        add_variant(d, &variants->items[i]);
 }
 
 /* The inputs that a node has in the document. */
@@ -368,7 +292,7 @@ static void add_inputs(struct driving *d, elem_id node, const struct driver *dri
  */
 static void add_material(struct driving *d, elem_id target, const struct driver *driver)
 {
-    elem_id material = bind_material_node(d->lib, target, &d->ignored);
+    elem_id material = bind_material_node(d->lib, target, &d->substance.ignored);
     for (elem_id e = material ? element(d, material)->first_child : 0; e; e = element(d, e)->next) {
         str_id type = doc_attr_value(d->doc, e, STR_type);
         if (element(d, e)->kind != KIND_INPUT)
@@ -377,7 +301,7 @@ static void add_material(struct driving *d, elem_id target, const struct driver 
             drive_output(d, e, driver);
             continue;
         }
-        struct binding binding = resolve(d, e);
+        struct binding binding = substance_resolve(&d->substance, e);
         if (binding.kind == BIND_NODE)
             add_inputs(d, binding.ref, driver);
     }
@@ -409,20 +333,14 @@ void bind_drives(const struct bindings *b, const struct library *lib, const stru
                  uint32_t num, struct drive_notes *notes, struct arena *arena,
                  struct library_drives *out)
 {
-    struct driving d = {.b = b,
-                        .lib = lib,
-                        .doc = &lib->doc,
-                        .arena = arena,
-                        .out = out,
-                        .notes = notes,
-                        .resolved.arena = arena};
+    struct driving d = {
+        .b = b, .lib = lib, .doc = &lib->doc, .arena = arena, .out = out, .notes = notes};
     assert(num > 0
            && (items->kind == ITEM_LAYER || items->kind == ITEM_VERTICAL
                || items->kind == ITEM_VOLUME));
-    diag_list_init(&d.ignored, arena);
     if (num == 1 && !b->look.variants.len)
         return;
-    find_substance(&d, b->look.assigns.items[items->assign].target);
+    substance_find(&d.substance, lib, b->look.assigns.items[items->assign].target, arena);
     if (!d.substance.material)
         return;
     for (uint32_t i = 1; i < num; i++)
@@ -447,12 +365,14 @@ void drive_note(struct drive_notes *notes, elem_id source, struct diag_place pla
 
 static void guess_inputs(struct driving *d, struct diag_guess *guess)
 {
-    for (uint32_t i = 0; i < d->order.len; i++)
-        for (elem_id e = element(d, d->order.items[i])->first_child; e; e = element(d, e)->next)
+    for (uint32_t i = 0; i < d->substance.order.len; i++)
+        for (elem_id e = element(d, d->substance.order.items[i])->first_child; e;
+             e = element(d, e)->next)
             if (element(d, e)->kind == KIND_INPUT)
                 diag_guess_add(guess, text_of(d, element(d, e)->name));
     for (uint32_t i = 0; i < d->substance.shaders.len; i++) {
-        uint32_t nodedef = library_match(d->lib, d->substance.shaders.items[i], &d->ignored);
+        uint32_t nodedef =
+            library_match(d->lib, d->substance.shaders.items[i], &d->substance.ignored);
         for (unsigned k = 0;
              nodedef != LIBRARY_NONE && k < library_nodedef(d->lib, nodedef)->num_inputs; k++)
             diag_guess_add(guess, text_of(d, library_ports(d->lib, nodedef, NULL)[k].name));
@@ -472,13 +392,8 @@ static const char *nearest(const struct bindings *b, const struct library *lib, 
         const char *own = b->look.names.items[a->name].text;
         if (a->kind != ASSIGN_LAYER || strlen(own) != len || memcmp(own, slot, len) != 0)
             continue;
-        struct driving d = {.b = b,
-                            .lib = lib,
-                            .doc = &lib->doc,
-                            .arena = notes->arena,
-                            .resolved.arena = notes->arena};
-        diag_list_init(&d.ignored, notes->arena);
-        find_substance(&d, a->target);
+        struct driving d = {.b = b, .lib = lib, .doc = &lib->doc, .arena = notes->arena};
+        substance_find(&d.substance, lib, a->target, notes->arena);
         guess_inputs(&d, &guess);
     }
     return diag_guess_text(&guess);

@@ -4,7 +4,7 @@
 #define MXG_BIND_DRIVE_H
 
 #include "bind/bind.h"
-#include "library/library.h"
+#include "bind/substance.h"
 
 /* The states of an output of an override, by element. */
 enum drive_seen { DRIVE_MET = 1, DRIVE_MATCHED = 2, DRIVE_REPORTED = 4 };
@@ -40,8 +40,5 @@ void bind_drives(const struct bindings *b, const struct library *lib, const stru
 /* Reports the faults of the overrides of all stacks, and outputs that drive nothing, once each. */
 void bind_check_drives(const struct bindings *b, const struct library *lib, struct arena *scratch,
                        struct diag_list *diags);
-
-/* The node of a material that an assignment names: itself, or in a nodegraph; 0: it has none. */
-elem_id bind_material_node(const struct library *lib, elem_id target, struct diag_list *ignored);
 
 #endif

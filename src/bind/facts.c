@@ -103,10 +103,11 @@ static void add_of_look(struct bind_look *look, elem_id element)
     }
 }
 
-static void read_facts(struct bind_look *look, const struct document *doc, elem_id element,
+static void read_facts(struct bind_look *look, const struct library *lib, elem_id element,
                        const struct scene *scene, struct arena *arena, struct diag_list *diags)
 {
-    look_begin(look, doc, element, scene, arena, diags);
+    const struct document *doc = &lib->doc;
+    look_begin(look, lib, element, scene, arena, diags);
     for (elem_id e = doc_element(doc, doc->root)->first_child; e; e = doc_element(doc, e)->next)
         if (doc_element(doc, e)->kind == KIND_GEOMINFO)
             add_children(look, e, e);
@@ -128,13 +129,13 @@ static void list_facts(struct bindings *b, uint32_t state, struct stands *stands
     s->num_items = b->items.len - s->first_item;
 }
 
-void bind_facts(struct bindings *b, const struct document *doc, elem_id look,
+void bind_facts(struct bindings *b, const struct library *lib, elem_id look,
                 const struct scene *scene, const struct bindings *before, struct arena *arena,
                 struct arena *scratch, struct diag_list *diags)
 {
     struct stands stands = {.scratch = scratch};
     *b = (struct bindings){.arena = arena, .scene = scene};
-    read_facts(&b->look, doc, look, scene, arena, diags);
+    read_facts(&b->look, lib, look, scene, arena, diags);
     if (!b->look.assigns.len)
         return;
     bind_find_states(b, before, scratch);

@@ -10,64 +10,6 @@ static const struct look_assign *assign_of(const struct bindings *b, const struc
     return &b->look.assigns.items[stand->assign];
 }
 
-/* ---- Variants ---- */
-
-/* The node that an input is connected to; 0: none. */
-static elem_id connected_node(const struct document *doc, elem_id input)
-{
-    str_id name = doc_attr_value(doc, input, STR_nodename);
-    return name ? doc_top_level(doc, KIND_NODE, name) : 0;
-}
-
-/* A variant set for one node or definition applies to materials whose shaders are such nodes. */
-static bool has_node(const struct document *doc, elem_id material, str_id node, str_id nodedef)
-{
-    for (elem_id e = doc_element(doc, material)->first_child; e; e = doc_element(doc, e)->next) {
-        elem_id shader = connected_node(doc, e);
-        if (shader && (!node || doc_element(doc, shader)->category == node)
-            && (!nodedef || doc_attr_value(doc, shader, STR_nodedef) == nodedef))
-            return true;
-    }
-    return false;
-}
-
-static bool applies(const struct document *doc, elem_id set, elem_id material)
-{
-    str_id node = doc_attr_value(doc, set, STR_node),
-           nodedef = doc_attr_value(doc, set, STR_nodedef);
-    return (!node && !nodedef) || has_node(doc, material, node, nodedef);
-}
-
-/* The variants of a set exclude each other: the last one that is assigned counts alone. */
-static void add_variant(const struct look_variant *variant, struct arena *arena,
-                        struct variant_list *out)
-{
-    uint32_t num = 0;
-    for (uint32_t i = 0; i < out->len; i++)
-        if (out->items[i].set != variant->set)
-            out->items[num++] = out->items[i];
-    out->len = num;
-    vec_push(arena, out, *variant);
-}
-
-static void add_variants(const struct bind_look *look, elem_id material, uint32_t first,
-                         uint32_t num, struct arena *arena, struct variant_list *out)
-{
-    for (uint32_t i = first; i < first + num; i++)
-        if (applies(look->doc, look->variants.items[i].set, material))
-            add_variant(&look->variants.items[i], arena, out);
-}
-
-void bind_variants(const struct bind_look *look, uint32_t assign, struct arena *arena,
-                   struct variant_list *out)
-{
-    const struct look_assign *a = &look->assigns.items[assign];
-    if (!a->target || a->kind == ASSIGN_GRAPH)
-        return;
-    add_variants(look, a->target, 0, look->num_look_variants, arena, out);
-    add_variants(look, a->target, a->first_variant, a->num_variants, arena, out);
-}
-
 /* ---- From stands to items ---- */
 
 static void add_item(struct bindings *b, enum item_kind kind, const struct stand *stand,
@@ -178,20 +120,17 @@ static uint64_t hash_text(uint64_t hash, const char *text)
     return hash_stable(hash, text, strlen(text) + 1);
 }
 
-static uint64_t hash_item(const struct bindings *b, const struct bind_item *item, uint64_t hash,
-                          struct arena *scratch)
+static uint64_t hash_item(const struct bindings *b, const struct bind_item *item, uint64_t hash)
 {
     const struct bind_look *look = &b->look;
     const struct look_assign *a = &look->assigns.items[item->assign];
     const struct document *doc = look->doc;
-    struct variant_list variants = {0};
     uint8_t kinds[3] = {item->kind, item->product, a->kind};
     hash = hash_stable(hash, kinds, sizeof kinds);
     hash = hash_text(hash, look->names.items[a->name].text);
     hash = hash_text(hash, str_text(doc->strings, doc_element(doc, a->target)->name));
-    bind_variants(look, item->assign, scratch, &variants);
-    for (uint32_t i = 0; i < variants.len; i++) {
-        const struct look_variant *v = &variants.items[i];
+    for (uint32_t i = 0; i < a->variants.len; i++) {
+        const struct look_variant *v = &a->variants.items[i];
         hash = hash_text(hash, str_text(doc->strings, doc_element(doc, v->set)->name));
         hash = hash_text(hash, str_text(doc->strings, doc_element(doc, v->variant)->name));
     }
@@ -204,11 +143,10 @@ static bool are_equal(const struct bind_look *look, const struct bind_item *x,
     const struct look_assign *a = &look->assigns.items[x->assign],
                              *b = &look->assigns.items[y->assign];
     if (x->kind != y->kind || x->product != y->product || a->name != b->name
-        || a->target != b->target || a->kind != b->kind || a->num_variants != b->num_variants)
+        || a->target != b->target || a->kind != b->kind || a->variants.len != b->variants.len)
         return false;
-    for (uint32_t i = 0; i < a->num_variants; i++)
-        if (look->variants.items[a->first_variant + i].variant
-            != look->variants.items[b->first_variant + i].variant)
+    for (uint32_t i = 0; i < a->variants.len; i++)
+        if (a->variants.items[i].variant != b->variants.items[i].variant)
             return false;
     return true;
 }
@@ -224,12 +162,12 @@ static bool has_items(const struct bindings *b, const struct bind_stack *stack,
     return same;
 }
 
-void bind_stack(struct bindings *b, uint32_t number, bool adds, struct arena *scratch)
+void bind_stack(struct bindings *b, uint32_t number, bool adds)
 {
     struct bind_state *state = &b->states.items[number];
     uint64_t hash = HASH_STABLE_SEED;
     for (uint32_t i = 0; i < state->num_items; i++)
-        hash = hash_item(b, &b->items.items[state->first_item + i], hash, scratch);
+        hash = hash_item(b, &b->items.items[state->first_item + i], hash);
     uint32_t key = (uint32_t)(hash ^ hash >> 32);
     for (uint32_t at = key, found; (found = table_next(&b->stack_table, key, &at));)
         if (has_items(b, &b->stacks.items[found - 1], state)) {

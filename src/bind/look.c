@@ -189,11 +189,15 @@ static void find_parents(struct bind_look *look, struct chain *chain)
     }
 }
 
-void look_begin(struct bind_look *look, const struct document *doc, elem_id element,
+void look_begin(struct bind_look *look, const struct library *lib, elem_id element,
                 const struct scene *scene, struct arena *arena, struct diag_list *diags)
 {
-    *look = (struct bind_look){
-        .doc = doc, .arena = arena, .diags = diags, .element = element, .scene = scene};
+    *look = (struct bind_look){.lib = lib,
+                               .doc = &lib->doc,
+                               .arena = arena,
+                               .diags = diags,
+                               .element = element,
+                               .scene = scene};
     pattern_set_init(&look->patterns, arena);
     text_init(&look->written, arena);
 }
@@ -228,11 +232,12 @@ static void read_assigns(struct bind_look *look, elem_id element)
             look_read_assign(look, e, ++ordinal);
 }
 
-void look_read(struct bind_look *look, const struct document *doc, elem_id element,
+void look_read(struct bind_look *look, const struct library *lib, elem_id element,
                const struct scene *scene, struct arena *arena, struct diag_list *diags)
 {
+    const struct document *doc = &lib->doc;
     struct chain chain = {0};
-    look_begin(look, doc, element, scene, arena, diags);
+    look_begin(look, lib, element, scene, arena, diags);
     /* at one primitive a collection beats a direct binding */
     for (unsigned is_collection = 0; is_collection < 2; is_collection++)
         for (uint32_t i = 0; i < scene->bindings.len; i++)
@@ -248,6 +253,7 @@ void look_read(struct bind_look *look, const struct document *doc, elem_id eleme
     look->num_look_variants = look->variants.len;
     for (uint32_t i = chain.len; i-- > 0;)
         read_assigns(look, chain.items[i]);
+    look_apply_variants(look);
     look_close_collections(look);
     look_sort_names(look);
 }

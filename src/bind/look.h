@@ -9,7 +9,7 @@
 #include "bind/name.h"
 #include "bind/pattern.h"
 #include "bind/primitives.h"
-#include "document/document.h"
+#include "library/library.h"
 
 /* The products of a material that `exclusive` takes from a weaker assignment. */
 enum bind_product {
@@ -38,6 +38,14 @@ struct look_name {
     bool is_muted;
 };
 
+struct look_variant {
+    elem_id set, variant;
+};
+struct variant_list {
+    struct look_variant *items;
+    uint32_t len, cap;
+};
+
 struct look_assign {
     elem_id element, look;
     uint32_t ordinal;    /* in its look, from 1 */
@@ -46,8 +54,9 @@ struct look_assign {
     elem_id target;      /* the material or nodegraph; 0: a removal */
     uint32_t collection; /* 1 + index; 0: it has a geom, or stands nowhere */
     uint32_t members;    /* 1 + index in `members`: it is for a collection of USD; 0: it is not */
-    uint32_t first_variant, num_variants;
-    uint8_t kind;     /* enum assign_kind */
+    uint32_t first_variant, num_variants; /* inside of it */
+    struct variant_list variants;         /* all that apply, in order; a later one wins */
+    uint8_t kind;                         /* enum assign_kind */
     uint8_t products; /* bits of enum bind_product: the inputs that the material has */
     bool is_shared;   /* exclusive="false" */
 };
@@ -56,10 +65,6 @@ struct look_assign {
 struct look_instance {
     prim_id prim;
     uint32_t matcher;
-};
-
-struct look_variant {
-    elem_id set, variant;
 };
 
 struct look_collection {
@@ -99,7 +104,8 @@ struct look_matcher {
 };
 
 struct bind_look {
-    const struct document *doc;
+    const struct library *lib;
+    const struct document *doc; /* that of `lib` */
     struct arena *arena;
     struct diag_list *diags;
     elem_id element; /* the look; 0: only the bindings of the scene */
@@ -141,7 +147,7 @@ uint32_t look_count(const struct document *doc);
  * Reads the bindings of a scene, and a look with its parents. Errors leave an assignment out. The
  * arena keeps everything. Call look_finish in the end.
  */
-void look_read(struct bind_look *look, const struct document *doc, elem_id element,
+void look_read(struct bind_look *look, const struct library *lib, elem_id element,
                const struct scene *scene, struct arena *arena, struct diag_list *diags);
 void look_finish(struct bind_look *look);
 
@@ -149,7 +155,7 @@ void look_finish(struct bind_look *look);
  * Builds a look in parts, for what stands at paths beside materials: begins with an empty look;
  * visits it and its parents, the parents first.
  */
-void look_begin(struct bind_look *look, const struct document *doc, elem_id element,
+void look_begin(struct bind_look *look, const struct library *lib, elem_id element,
                 const struct scene *scene, struct arena *arena, struct diag_list *diags);
 void look_each_ancestor(struct bind_look *look,
                         void (*visit)(struct bind_look *look, elem_id element));
@@ -187,6 +193,9 @@ uint32_t look_intern_name(struct bind_look *look, const struct slot_name *name, 
 void look_read_assign(struct bind_look *look, elem_id element, uint32_t ordinal);
 void look_read_variant(struct bind_look *look, elem_id element);
 void look_read_binding(struct bind_look *look, uint32_t binding);
+
+/* worn_variants.c: fills the lists of all assignments. */
+void look_apply_variants(struct bind_look *look);
 
 /* collection.c: the number of a collection, from 1; 0 after a diagnostic at the element's
  * attribute. */

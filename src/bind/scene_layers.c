@@ -174,7 +174,7 @@ static void add_to_stack(struct resolver *r, uint32_t number, bool is_drawn, uin
     struct bindings *b = r->b;
     struct bind_state *state = &b->states.items[number];
     if (state->stack == STACK_NONE)
-        bind_stack(b, number, is_drawn, r->scratch);
+        bind_stack(b, number, is_drawn);
     if (state->stack != STACK_NONE)
         b->stacks.items[state->stack].num_prims += num;
 }
@@ -202,14 +202,14 @@ static void make_layers(struct resolver *r)
         }
 }
 
-void bind_resolve(struct bindings *b, const struct document *doc, elem_id look,
+void bind_resolve(struct bindings *b, const struct library *lib, elem_id look,
                   const struct scene *scene, const struct bindings *before,
                   const struct bind_options *options, struct arena *arena, struct arena *scratch,
                   struct diag_list *diags)
 {
     *b = (struct bindings){.arena = arena, .scene = scene};
     struct resolver r = {.b = b, .scratch = scratch, .diags = diags};
-    look_read(&b->look, doc, look, scene, arena, diags);
+    look_read(&b->look, lib, look, scene, arena, diags);
     mute_names(&r, options);
     bind_find_states(b, before, scratch);
     make_layers(&r);

@@ -57,9 +57,7 @@ static const char *loss_of(const struct usda_writer *u, const struct bind_state 
          i-- > 0 && assign_of(b, &items[i])->name == assign_of(b, &items[index])->name;)
         if (items[i].kind != ITEM_PRODUCT)
             return "it stands beside a layer of its name";
-    struct variant_list variants = {0};
-    bind_variants(&b->look, items[index].assign, u->w->scratch, &variants);
-    return variants.len ? "its variants" : NULL;
+    return assign_of(b, &items[index])->variants.len ? "its variants" : NULL;
 }
 
 static const struct said *find_said(const struct said_list *list, uint32_t name)

@@ -70,7 +70,18 @@ static void qualify_definition(struct qualifier *q, elem_id element)
         doc_set_attr(doc, element, STR_node, add_qualified(q, node));
 }
 
-/* Replaces the names of a list that exist in the namespace. */
+static bool is_category(const struct qualifier *q, str_id name)
+{
+    for (uint32_t i = 0; i < q->nodes.len; i++)
+        if (q->nodes.items[i] == name)
+            return true;
+    return false;
+}
+
+/*
+ * Replaces the names of a list that exist in the namespace: those of categories in `node`, of
+ * elements otherwise.
+ */
 static void qualify_reference(struct qualifier *q, elem_id element, str_id attr)
 {
     struct document *doc = q->doc;
@@ -82,7 +93,9 @@ static void qualify_reference(struct qualifier *q, elem_id element, str_id attr)
     while (text < end) {
         size_t separator = strspn(text, ", "), len = strcspn(text + separator, ", ");
         str_id qualified = len ? find_qualified(q, text + separator, len) : STR_EMPTY;
-        bool found = qualified && is_top_level(doc, qualified);
+        bool found =
+            qualified
+            && (attr == STR_node ? is_category(q, qualified) : is_top_level(doc, qualified));
         text_mem(&list, text, separator);
         text += separator;
         text_mem(&list, found ? str_text(doc->strings, qualified) : text,
@@ -101,9 +114,8 @@ static void qualify_category(struct qualifier *q, elem_id element)
     str_id category = doc_element(doc, element)->category;
     str_id qualified =
         find_qualified(q, str_text(doc->strings, category), str_len(doc->strings, category));
-    for (uint32_t i = 0; qualified && i < q->nodes.len; i++)
-        if (q->nodes.items[i] == qualified)
-            doc_set_category(doc, element, qualified);
+    if (qualified && is_category(q, qualified))
+        doc_set_category(doc, element, qualified);
 }
 
 /*
@@ -121,6 +133,9 @@ static void qualify_references(struct qualifier *q, elem_id top)
             continue;
         if (doc_element(doc, element)->kind == KIND_NODE)
             qualify_category(q, element);
+        if (doc_element(doc, element)->kind == KIND_VARIANTSET
+            && doc_attr_value(doc, element, STR_node))
+            qualify_reference(q, element, STR_node);
         for (size_t i = 0; i < sizeof references / sizeof *references; i++)
             if (doc_attr_value(doc, element, references[i]))
                 qualify_reference(q, element, references[i]);

@@ -222,4 +222,53 @@ document "$papers" "$(worn 000 H "$wet")" "$(worn 010 H)" "$(worn 020 H "$wet")"
 files 'a layer without the variant keeps its token between two with it, which share a texture' t_wet.png t_dry.png
 document "$papers <variantset name='X'><variant name='x'>$(token maps wet)</variant></variantset>" "<variantassign name='v' variantset='X' variant='x'/>" "$(worn 000 M)"
 files 'a token of another name says nothing' t_dry.png
+# ---- Sets that are for some nodes ----
+# chosen RESTRICTION [TEXT [LOOK...]]: a set of a green variant under a look of a red material.
+chosen() {
+    document "<variantset name='R' $1><variant name='x'>$(input emission_color color3 '0, 1, 0')$(input opacity float 0.5)</variant></variantset> ${2:-}" \
+        "<variantassign name='v' variantset='R' variant='x'/>" "${3:-$(layer 000 red)}"
+}
+green='vec4(0.0, 0.5, 0.0, 0.5)'
+chosen "node='open_pbr_surface, surface_unlit'"
+gives 'a set lists its nodes' "$green"
+chosen "nodedef='ND_surface_unlit'"
+gives 'a set names a definition that the node has without saying so' "$green"
+chosen "nodedef='ND_standard_surface_surfaceshader,ND_surface_unlit'"
+gives 'a set lists its definitions' "$green"
+chosen "nodedef='ND_standard_surface_surfaceshader'"
+gives 'a set of another definition says nothing' 'vec4(1.0, 0.0, 0.0, 1.0)'
+chosen "node='surface_unlit' nodedef='ND_standard_surface_surfaceshader'"
+gives 'a set of a node and of a definition of another says nothing' 'vec4(1.0, 0.0, 0.0, 1.0)'
+inner="<nodegraph name='shades'><surface_unlit name='s' type='surfaceshader'>$(input emission_color color3 '1, 0, 0')</surface_unlit>
+  <output name='out' type='surfaceshader' nodename='s'/></nodegraph>
+  <surfacematerial name='I' type='material'><input name='surfaceshader' type='surfaceshader' nodegraph='shades' output='out'/></surfacematerial>"
+chosen "node='surface_unlit'" "$inner" "$(layer 000 I)"
+gives 'a set is for a shader in a nodegraph' "$green"
+wears='"variants":[{"variantset":"R","variant":"x"}]'
+check 'mxgen bind tells the variant' eval '"$mxgen" bind look.mtlx --look L --stage stage.txt --json bound.json >out && tr -d " \n" <bound.json | grep -qF "$wears"'
+# one set, two shaders with an input of its name: the set is for one of them
+papers="<nodedef name='ND_note' node='note'>$(input emission_color color3 '0, 0, 1')<output name='out' type='surfaceshader'/></nodedef>
+  <nodegraph name='NG_note' nodedef='ND_note'><surface_unlit name='s' type='surfaceshader'><input name='emission_color' type='color3' interfacename='emission_color'/></surface_unlit>
+  <output name='out' type='surfaceshader' nodename='s'/></nodegraph><note name='n' type='surfaceshader'/>
+  <mix name='mixed' type='surfaceshader'><input name='fg' type='surfaceshader' nodename='n'/><input name='bg' type='surfaceshader' nodename='s_red'/>$(input mix float 0.5)</mix>
+  $(material B mixed)"
+chosen "node='note'" "$papers" "$(layer 000 B)"
+gives 'the variants of a set drive its nodes alone' 'vec4(0.5, 0.5, 0.0, 1.0)'
+# the document and the set have a namespace
+mkdir -p library
+sed "s|<materialx version=\"1.39\">|<materialx version=\"1.39\" namespace=\"lib\">|; s|<look.*</look>||" look.mtlx >library/lib.mtlx
+for restriction in "node='note'" "nodedef='ND_note'" "node='other, note'"; do
+    sed -i "s|<variantset name='R' [^>]*>|<variantset name='R' $restriction>|" library/lib.mtlx
+    echo '<?xml version="1.0"?><materialx version="1.39" xmlns:xi="http://www.w3.org/2001/XInclude"><xi:include href="library/lib.mtlx"/>
+  <look name="L"><variantassign name="v" variantset="lib:R" variant="x"/><materialassign material="lib:B" geom="/a"/></look></materialx>' >look.mtlx
+    gives "a set in a namespace: $restriction" 'vec4(0.5, 0.5, 0.0, 1.0)'
+done
+chosen "nodedef='ND_surface_unlit'"
+check 'validate knows a set of a definition' eval 'exits 0 "$mxgen" validate look.mtlx && test ! -s err'
+chosen "nodedef='ND_surface_unlot'"
+check 'validate tells a set of a definition that is not there' eval '"$mxgen" validate look.mtlx 2>err; grep -q "ND_surface_unlot.*\[dangling-reference\]" err'
+printf '/a\n/b\n' >stage.txt
+chosen "node='standard_surface'" '' "$(layer 000 red)<materialassign material='red' geom='/b'><variantassign name='w' variantset='R' variant='x'/></materialassign>"
+check 'a variant that does not apply makes no stack' eval 'generate >out 2>err && grep -q "^1 stack, 1 program" out'
+echo /a >stage.txt
 finish overrides
