@@ -9,6 +9,7 @@ void doc_complete(struct document *doc, struct diag_list *diags)
     doc_fix_paths(doc, diags);
     doc_qualify_names(doc, diags);
     doc_index_names(doc, diags);
+    doc_inherit_values(doc, diags);
     doc_index_references(doc);
     doc_index_outputs(doc);
 }

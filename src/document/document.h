@@ -360,9 +360,12 @@ void doc_rename(struct document *doc, elem_id element, str_id name);
 
 /*
  * complete.c: completes a tree that has all its elements: expands templates, mends file names,
- * qualifies and indexes names. A tree that an edit has changed is completed again.
+ * qualifies and indexes names, copies inherited values. A tree that an edit has changed is
+ * completed again.
  */
 void doc_complete(struct document *doc, struct diag_list *diags);
+/* inherited_values.c: copies what nodes inherit from others; the names are indexed */
+void doc_inherit_values(struct document *doc, struct diag_list *diags);
 
 /* The number of elements of this layer, removed ones included. */
 static inline uint32_t doc_num_elements(const struct document *doc)
