@@ -226,9 +226,10 @@ MXG_API mxg_status mxg_result_block(const mxg_result *result, mxg_block block, m
  * `document` NULL: the values that the result was made with. Otherwise those that another document
  * has for the program: the next document after an edit of inputs that are uniforms
  * (mxg_result_input_state). This reads these inputs and nothing else, so it is much faster than a
- * generation, which mxg_result_change needs. MXG_ERROR_DOCUMENT if the document has another node or
- * no value there, for example because the input is connected; the buffer is then not filled, and
- * the host generates. MXG_ERROR_ARGUMENT if the document has another library.
+ * generation, which mxg_result_change needs. MXG_ERROR_DOCUMENT if the document has another node,
+ * or no value there, for example because the input is connected or has a geometric property, or one
+ * in another unit or colour space, whose conversion the program has compiled in; the buffer is then
+ * not filled, and the host generates. MXG_ERROR_ARGUMENT if the document has another library.
  */
 MXG_API mxg_status mxg_result_pack_block(const mxg_result *result, const mxg_document *document,
                                          mxg_block block, void *bytes, size_t capacity);

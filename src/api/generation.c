@@ -101,6 +101,7 @@ static void set_build_options(struct generation *g)
         .cancel_user_data = context->cancel_user_data,
     };
     generation_name_targets(g);
+    g->result->colorspace = g->build_options.colorspace;
 }
 
 /* The result's own library layers, because generation does not write to the document. */

@@ -45,6 +45,7 @@ struct mxg_result {
     /* paths by origin of the graph; filled on demand during generation */
     const char **origin_paths;
     uint64_t options;               /* a hash of the options */
+    str_id colorspace;              /* of the values that it computes with */
     struct deferred_layout storage; /* of a material that stores, and of a pass */
     enum deferred_pass pass;        /* of a role that is one */
     bool has_shader;                /* the generation succeeded */

@@ -28,19 +28,58 @@ static bool is_connected(const struct document *doc, elem_id input)
            || doc_attr(doc, input, STR_interfacename) || doc_attr(doc, input, STR_output);
 }
 
+/* The name of a space from which colours are converted; "": they stay as they are. */
+static const char *converted_space(const mxg_result *program, const char *space)
+{
+    const char *working = str_text(&program->strings, program->colorspace);
+    space = library_canonical_space(space);
+    return strcmp(space, "none") == 0 || strcmp(space, library_canonical_space(working)) == 0
+               ? ""
+               : space;
+}
+
+static bool is_same(const char *a, const char *b)
+{
+    return strcmp(a, b) == 0;
+}
+
+/*
+ * True if the value of the input is in the colour space and the unit of the program, which has
+ * their conversions compiled in, and counts: a geometric property is read in place of any value.
+ */
+static bool has_same_meaning(const mxg_result *program, const struct document *doc,
+                             const struct shader_variable *v, elem_id input)
+{
+    const struct strpool *now = doc->strings, *then = &program->strings;
+    const char *unit = "", *type = "", *space = "", *value_type = str_text(then, v->doc_type);
+    if (input) {
+        unit = str_text(now, doc_attr_value(doc, input, STR_unit));
+        type = str_text(now, doc_attr_value(doc, input, STR_unittype));
+        space = str_text(now, doc_inherited_attr(doc, input, STR_colorspace));
+    }
+    bool is_color = doc_type_is_color(doc_type_of(str_find(now, value_type, strlen(value_type))));
+    return !(input && doc_attr_value(doc, input, STR_defaultgeomprop))
+           && is_same(unit, str_text(then, v->unit)) && is_same(type, str_text(then, v->unittype))
+           && (!is_color
+               || is_same(converted_space(program, space),
+                          converted_space(program, str_text(then, v->colorspace))));
+}
+
 /* The text of the value that the document has for a variable, or of its default. NULL: none. */
 static const char *value_text(const mxg_result *program, const struct document *doc,
                               const struct shader_variable *v)
 {
     const char *path = str_text(&program->strings, v->path);
     elem_id input = find_own(doc, path, strlen(path));
-    if (!has_same_owner(program, doc, path) || (input && is_connected(doc, input)))
+    if (!has_same_owner(program, doc, path) || (input && is_connected(doc, input))
+        || !has_same_meaning(program, doc, v, input))
         return NULL;
     const char *type = str_text(&program->strings, v->doc_type);
     const struct attribute *value = input ? doc_attr(doc, input, STR_value) : NULL;
     if (input && strcmp(str_text(doc->strings, doc_attr_value(doc, input, STR_type)), type) != 0)
         return NULL;
-    if (!value && v->definition && v->definition < doc->first_element)
+    if (!value && v->definition && v->definition < doc->first_element
+        && !doc_attr_value(doc, v->definition, STR_defaultgeomprop))
         value = doc_attr(doc, v->definition, STR_value);
     return value ? str_text(doc->strings, value->value) : NULL;
 }

@@ -433,6 +433,88 @@ static void test_values(void)
     close_world(&w);
 }
 
+/* A nodegraph that hands on an input. */
+static mxg_document *graph_of(struct world *w, const char *type, const char *root,
+                              const char *input)
+{
+    char text[1024];
+    int len = snprintf(text, sizeof text,
+                       "<materialx version='1.39' %s><nodegraph name='g'>"
+                       "<input name='k' type='%s' %s/><dot name='d' type='%s'>"
+                       "<input name='in' type='%s' interfacename='k'/></dot>"
+                       "<output name='o' type='%s' nodename='d'/></nodegraph></materialx>",
+                       root, type, input, type, type, type);
+    return parse(w, text, (size_t)len);
+}
+
+/* Packs the values of `after` for the program of `before`; where that works, they are right. */
+static void check_pack(struct world *w, mxg_document *before, mxg_document *after,
+                       mxg_status status)
+{
+    mxg_generate_desc desc = MXG_GENERATE_DESC_INIT;
+    mxg_result *old = NULL, *new = NULL;
+    unsigned char now[64], expected[64];
+    desc.target = "vulkan";
+    desc.element = "g/o";
+    REQUIRE_EQ(mxg_generate(w->context, before, &desc, &old), MXG_OK);
+    REQUIRE_EQ(mxg_generate(w->context, after, &desc, &new), MXG_OK);
+    mxg_block_info block = MXG_INIT(mxg_block_info);
+    mxg_result_block(old, MXG_BLOCK_PUBLIC_UNIFORMS, &block);
+    REQUIRE(block.byte_size > 0 && block.byte_size <= sizeof now);
+    REQUIRE_EQ(mxg_result_pack_block(old, after, MXG_BLOCK_PUBLIC_UNIFORMS, now, sizeof now),
+               status);
+    if (status == MXG_OK) {
+        REQUIRE_EQ(mxg_result_change(old, new, NULL, 0, NULL), MXG_CHANGE_VALUES);
+        mxg_result_pack_block(new, NULL, MXG_BLOCK_PUBLIC_UNIFORMS, expected, sizeof expected);
+        REQUIRE(memcmp(now, expected, block.byte_size) == 0);
+    } else {
+        REQUIRE_EQ(mxg_result_change(old, new, NULL, 0, NULL), MXG_CHANGE_SHADER);
+    }
+    mxg_result_destroy(old);
+    mxg_result_destroy(new);
+    mxg_document_destroy(before);
+    mxg_document_destroy(after);
+}
+
+/*
+ * A value whose meaning changes needs a generation: the program has its conversion compiled in. One
+ * whose meaning stays is packed.
+ */
+static void test_meanings(void)
+{
+    static const struct {
+        const char *type, *before, *after;
+        mxg_status status;
+    } rows[] = {
+        {"float", "value='1' unit='foot' unittype='distance'",
+         "value='2' unit='foot' unittype='distance'", MXG_OK},
+        {"float", "value='1' unit='foot' unittype='distance'",
+         "value='2' unit='inch' unittype='distance'", MXG_ERROR_DOCUMENT},
+        {"float", "value='1' unit='foot' unittype='distance'", "value='2'", MXG_ERROR_DOCUMENT},
+        {"float", "value='1'", "value='2' unit='inch' unittype='distance'", MXG_ERROR_DOCUMENT},
+        {"color3", "value='1,1,1' colorspace='srgb_texture'",
+         "value='.5,1,1' colorspace='srgb_texture'", MXG_OK},
+        {"color3", "value='1,1,1' colorspace='srgb_texture'", "value='.5,1,1' colorspace='acescg'",
+         MXG_ERROR_DOCUMENT},
+        {"color3", "value='1,1,1' colorspace='srgb_texture'", "value='.5,1,1'", MXG_ERROR_DOCUMENT},
+        {"color3", "value='1,1,1'", "value='.5,1,1' colorspace='srgb_texture'", MXG_ERROR_DOCUMENT},
+        {"color3", "value='1,1,1'", "value='.5,1,1' colorspace='lin_rec709'", MXG_OK},
+        {"color3", "value='1,1,1' colorspace='none'", "value='.5,1,1'", MXG_OK},
+        {"vector3", "value='1,1,1'", "value='.5,1,1' colorspace='acescg'", MXG_OK},
+        {"vector3", "value='1,1,1'", "defaultgeomprop='Pworld'", MXG_ERROR_DOCUMENT},
+        {"vector3", "value='1,1,1'", "value='2,1,1' defaultgeomprop='Pworld'", MXG_ERROR_DOCUMENT},
+    };
+    struct world w = open_world();
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
+        mxg_document *before = graph_of(&w, rows[i].type, "", rows[i].before),
+                     *after = graph_of(&w, rows[i].type, "", rows[i].after);
+        check_pack(&w, before, after, rows[i].status);
+    }
+    check_pack(&w, graph_of(&w, "color3", "", "value='1,1,1'"),
+               graph_of(&w, "color3", "colorspace='acescg'", "value='.5,1,1'"), MXG_ERROR_DOCUMENT);
+    close_world(&w);
+}
+
 /* Without materials, outputs are what can be drawn: one of them goes, and the other stays. */
 static void test_outputs(void)
 {
@@ -515,6 +597,7 @@ int main(void)
     test_outputs();
     test_assumed_outputs();
     test_values();
+    test_meanings();
     test_memory();
     test_series();
     test_slider();
