@@ -27,6 +27,19 @@ void text_reserve(struct text *text, size_t more)
     assert(text->cap - text->len >= more);
 }
 
+bool text_next_item(const char **rest, struct text_word *out)
+{
+    const char *item = *rest + strspn(*rest, " ");
+    size_t len = strcspn(item, ",");
+    if (!*item)
+        return false;
+    *rest = item + len + (item[len] == ',');
+    while (len && item[len - 1] == ' ')
+        len--;
+    *out = (struct text_word){item, len};
+    return true;
+}
+
 void text_u32(struct text *text, uint32_t value)
 {
     char digits[10];

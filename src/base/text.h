@@ -36,6 +36,12 @@ struct text_word {
     size_t len;
 };
 
+/*
+ * Takes the next word of a list with commas, without the blanks around it; false: the list ends.
+ * `rest` is what follows.
+ */
+bool text_next_item(const char **rest, struct text_word *out);
+
 static inline void text_put(struct text *text, struct text_word word)
 {
     text_mem(text, word.bytes, word.len);

@@ -93,7 +93,8 @@ struct property_name {
 };
 
 struct builder {
-    const struct library *lib;
+    struct library view;       /* the layer of the document, for the target */
+    const struct library *lib; /* the view */
     const struct build_options *options;
     struct shader *shader;
     struct ir_graph *graph;

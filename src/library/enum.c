@@ -15,29 +15,19 @@ struct words {
 
 static void split(const char *list, struct arena *arena, struct words *out)
 {
-    for (; *list; list += *list == ',') {
-        list += strspn(list, " ");
-        size_t len = strcspn(list, ","), trimmed = len;
-        while (trimmed && list[trimmed - 1] == ' ')
-            trimmed--;
-        vec_push(arena, out, arena_strndup(arena, list, trimmed));
-        list += len;
-    }
+    struct text_word item;
+    while (text_next_item(&list, &item))
+        vec_push(arena, out, arena_strndup(arena, item.bytes, item.len));
 }
 
-/* Looks a word up without splitting the list, because most values are valid. */
-static bool has(const char *list, const char *word, size_t len)
+int library_enum_index(const char *list, const char *word)
 {
-    for (const char *p = list; *p; p += *p == ',') {
-        p += strspn(p, " ");
-        size_t n = strcspn(p, ","), trimmed = n;
-        while (trimmed && p[trimmed - 1] == ' ')
-            trimmed--;
-        if (trimmed == len && memcmp(p, word, len) == 0)
-            return true;
-        p += n;
-    }
-    return false;
+    size_t len = strlen(word);
+    struct text_word item;
+    for (int index = 0; text_next_item(&list, &item); index++)
+        if (item.len == len && memcmp(item.bytes, word, len) == 0)
+            return index;
+    return -1;
 }
 
 void library_check_enum(const struct library *lib, const struct port *port, str_id text,
@@ -47,7 +37,7 @@ void library_check_enum(const struct library *lib, const struct port *port, str_
         return;
     const char *list = text_of(lib, doc_attr_value(&lib->doc, port->element, STR_enum)),
                *word = text_of(lib, text);
-    if (has(list, word, strlen(word)))
+    if (library_enum_index(list, word) >= 0)
         return;
     struct words words = {0};
     split(list, diags->arena, &words);

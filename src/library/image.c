@@ -75,7 +75,7 @@ static uint64_t checksum(const void *image, size_t size)
 static uint64_t fingerprint(void)
 {
     uint64_t h = HASH_STABLE_SEED;
-    uint32_t facts[NUM_VECS + 4] = {9 /* increase it when meanings change but sizes do not */,
+    uint32_t facts[NUM_VECS + 4] = {10 /* increase it when meanings change but sizes do not */,
                                     STR_NUM_WORDS, IR_NUM_OPS, NUM_ELEMENT_KINDS};
     for (unsigned i = 0; i < NUM_VECS; i++)
         facts[i + 4] = (uint32_t)section_infos[i].item_size;

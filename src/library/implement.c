@@ -448,71 +448,90 @@ static bool is_foreign(const struct indexer *ix, str_id target)
            && !ix->lib->knows_target(ix->lib->target_user_data, index_text(ix, target));
 }
 
+/* The definition of an implementation; LIBRARY_NONE after a diagnostic. */
+static uint32_t implemented(struct indexer *ix, elem_id element)
+{
+    struct library *lib = ix->lib;
+    str_id name = index_attr(ix, element, STR_nodedef);
+    bool is_graph = doc_element(&lib->doc, element)->kind == KIND_NODEGRAPH;
+    if (!name)
+        return LIBRARY_NONE; /* a plain nodegraph, or validation reports it */
+    uint32_t nodedef = library_nodedef_by_name(lib, name);
+    if (nodedef == LIBRARY_NONE && is_graph)
+        library_report_nodedef(lib, element, name, ix->diags);
+    else if (nodedef == LIBRARY_NONE)
+        diag_add(ix->diags, DIAG_ID_implementation_unknown_nodedef,
+                 doc_attr_place(&lib->doc, element, STR_nodedef),
+                 str_text(&lib->strings, doc_element(&lib->doc, element)->name),
+                 str_text(&lib->strings, name));
+    bool is_known = nodedef != LIBRARY_NONE
+                    && library_is_unique(lib, library_nodedef(lib, nodedef)->element, element,
+                                         STR_nodedef, ix->diags);
+    return is_known ? nodedef : LIBRARY_NONE;
+}
+
+static bool has_source(const struct indexer *ix, elem_id element)
+{
+    const struct document *doc = &ix->lib->doc;
+    bool outputs = false;
+    for (elem_id c = doc_element(doc, element)->first_child; c; c = doc_element(doc, c)->next)
+        outputs = outputs || doc_attr(doc, c, STR_sourcecode);
+    return outputs || index_attr(ix, element, STR_file) || index_attr(ix, element, STR_sourcecode);
+}
+
+/* Fills in the kind of an <implementation> without a nodegraph. */
+static void read_source(struct indexer *ix, struct implementation *impl)
+{
+    if (is_foreign(ix, impl->target)) {
+        impl->kind = IMPL_FOREIGN;
+    } else if (has_source(ix, impl->element)) {
+        parse_implementation(ix, impl);
+    } else if (index_attr(ix, impl->element, STR_function) == STR_chosen_input
+               || !index_served(ix, impl)) {
+        impl->kind = IMPL_DYNAMIC;
+        impl->ref = index_attr(ix, impl->element, STR_function);
+    }
+}
+
+/* Adds an implementation for each of its targets. `graph`: 0 for source. */
+static void add_for_targets(struct indexer *ix, const struct implementation *common, elem_id graph)
+{
+    struct index_targets targets;
+    index_read_targets(ix, common->element, &targets);
+    for (uint32_t i = 0; i < targets.len; i++) {
+        struct implementation impl = *common;
+        impl.target = targets.items[i];
+        impl.kind = IMPL_GRAPH;
+        impl.ref = graph;
+        if (!graph)
+            read_source(ix, &impl);
+        add_impl(ix, impl);
+    }
+}
+
 void index_implementation(struct indexer *ix, elem_id element)
 {
     struct library *lib = ix->lib;
-    const struct element *e = doc_element(&lib->doc, element);
-    struct implementation impl = {
-        .name = e->name, .target = index_attr(ix, element, STR_target), .element = element};
-    str_id nodedef = index_attr(ix, element, STR_nodedef);
-    if (!nodedef)
-        return; /* validation reports the missing nodedef */
-    impl.nodedef = library_nodedef_by_name(lib, nodedef);
-    if (impl.nodedef == LIBRARY_NONE) {
-        diag_add(ix->diags, DIAG_ID_implementation_unknown_nodedef,
-                 doc_attr_place(&lib->doc, element, STR_nodedef), str_text(&lib->strings, e->name),
-                 str_text(&lib->strings, nodedef));
-        return;
-    }
-    if (!library_is_unique(lib, library_nodedef(lib, impl.nodedef)->element, element, STR_nodedef,
-                           ix->diags))
-        return;
-    if (!library_nodedef(lib, impl.nodedef)->num_outputs)
-        return; /* reported as no-output or unknown-type */
-    str_id graph = index_attr(ix, element, STR_nodegraph);
-    bool outputs = false;
-    for (elem_id c = e->first_child; c; c = doc_element(&lib->doc, c)->next)
-        outputs = outputs || doc_attr(&lib->doc, c, STR_sourcecode);
-    if (graph) {
-        impl.kind = IMPL_GRAPH;
-        impl.ref = find_nodegraph(lib, graph);
-        if (!impl.ref)
-            diag_add(ix->diags, DIAG_ID_dangling_nodegraph,
-                     doc_attr_place(&lib->doc, element, STR_nodegraph),
-                     str_text(&lib->strings, graph), "");
-        if (!impl.ref)
-            return;
-    } else if (is_foreign(ix, impl.target)) {
-        impl.kind = IMPL_FOREIGN;
-    } else if (index_attr(ix, element, STR_file) || index_attr(ix, element, STR_sourcecode)
-               || outputs) {
-        parse_implementation(ix, &impl);
-    } else if (index_attr(ix, element, STR_function) == STR_chosen_input
-               || !index_served(ix, &impl)) {
-        impl.kind = IMPL_DYNAMIC;
-        impl.ref = index_attr(ix, element, STR_function);
-    }
-    add_impl(ix, impl);
+    struct implementation impl = {.name = doc_element(&lib->doc, element)->name,
+                                  .nodedef = implemented(ix, element),
+                                  .element = element};
+    if (impl.nodedef == LIBRARY_NONE || !library_nodedef(lib, impl.nodedef)->num_outputs)
+        return; /* reported, also as no-output or unknown-type */
+    str_id name = index_attr(ix, element, STR_nodegraph);
+    elem_id graph = name ? find_nodegraph(lib, name) : 0;
+    if (name && !graph)
+        diag_add(ix->diags, DIAG_ID_dangling_nodegraph,
+                 doc_attr_place(&lib->doc, element, STR_nodegraph), str_text(&lib->strings, name),
+                 "");
+    else
+        add_for_targets(ix, &impl, graph);
 }
 
 void index_functional_graph(struct indexer *ix, elem_id element)
 {
-    struct library *lib = ix->lib;
-    str_id name = index_attr(ix, element, STR_nodedef);
-    if (!name)
-        return;
-    struct implementation impl = {.name = doc_element(&lib->doc, element)->name,
-                                  .target = index_attr(ix, element, STR_target),
-                                  .element = element,
-                                  .kind = IMPL_GRAPH,
-                                  .ref = element};
-    impl.nodedef = library_nodedef_by_name(lib, name);
-    if (impl.nodedef == LIBRARY_NONE) {
-        library_report_nodedef(lib, element, name, ix->diags);
-        return;
-    }
-    if (!library_is_unique(lib, library_nodedef(lib, impl.nodedef)->element, element, STR_nodedef,
-                           ix->diags))
-        return;
-    add_impl(ix, impl);
+    struct implementation impl = {.name = doc_element(&ix->lib->doc, element)->name,
+                                  .nodedef = implemented(ix, element),
+                                  .element = element};
+    if (impl.nodedef != LIBRARY_NONE)
+        add_for_targets(ix, &impl, element);
 }

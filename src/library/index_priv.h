@@ -30,6 +30,7 @@ struct indexer {
 enum {
     INDEX_MAX_PORTS = 1024,   /* inputs of a definition, because lookups are linear */
     INDEX_MAX_VARIANTS = 256, /* definitions of a node, and implementations of a definition */
+    INDEX_MAX_TARGETS = 64,   /* of a definition or an implementation */
 };
 
 static inline const char *index_text(const struct indexer *ix, str_id id)
@@ -58,6 +59,13 @@ bool index_type(struct indexer *ix, elem_id element, doc_type *out_type);
  * inherits come first into the layer's list. The result is valid until the next call.
  */
 const struct port_list *index_ports(struct indexer *ix, elem_id nodedef);
+
+/* targets.c: the names in the attribute `target`, each once; at least one, 0: for all targets. */
+struct index_targets {
+    str_id items[INDEX_MAX_TARGETS];
+    uint32_t len;
+};
+void index_read_targets(struct indexer *ix, elem_id element, struct index_targets *out);
 
 /* implement.c: adds the implementation of an <implementation>, or of a functional <nodegraph>. */
 void index_implementation(struct indexer *ix, elem_id element);

@@ -111,6 +111,15 @@ static void make_node_table(struct indexer *ix)
             limit_definitions(ix, i);
 }
 
+static void add_targets(struct indexer *ix, struct nodedef *def)
+{
+    struct index_targets targets;
+    index_read_targets(ix, def->element, &targets);
+    def->first_target = ix->lib->refs.len;
+    for (uint32_t i = 0; i < targets.len && targets.items[i]; i++, def->num_targets++)
+        vec_push(ix->arena, &ix->lib->refs, targets.items[i]);
+}
+
 static void add_nodedef(struct indexer *ix, elem_id element)
 {
     struct library *lib = ix->lib;
@@ -118,7 +127,6 @@ static void add_nodedef(struct indexer *ix, elem_id element)
         .name = doc_element(&lib->doc, element)->name,
         .node = index_attr(ix, element, STR_node),
         .version = index_attr(ix, element, STR_version),
-        .target = index_attr(ix, element, STR_target),
         .is_default_version = doc_attr_is_true(&lib->doc, element, STR_isdefaultversion),
         .element = element,
         .first_impl = LIBRARY_NONE,
@@ -133,6 +141,7 @@ static void add_nodedef(struct indexer *ix, elem_id element)
     def.first_port = ports->first;
     def.num_inputs = ports->num_inputs;
     def.num_outputs = ports->num_outputs;
+    add_targets(ix, &def);
     vec_push(ix->arena, &lib->nodedefs, def);
     set_info(ix, element, lib->nodedefs.len - 1);
 }
@@ -145,7 +154,7 @@ static uint32_t default_nodedef(const struct library *lib, str_id node, doc_type
         for (uint32_t i = library_first_of_node(lib, node); i != LIBRARY_NONE;
              i = lib->nodedefs.items[i].next_same_node) {
             const struct nodedef *def = &lib->nodedefs.items[i];
-            if (def->num_outputs
+            if (def->num_outputs && !def->num_targets
                 && lib->ports.items[def->first_port + def->num_inputs].type == type)
                 return lib->base_nodedefs + i;
         }
@@ -242,10 +251,13 @@ static void resolve_graph(struct library *lib, const struct implementation *impl
             || lib->element_info.items[e - lib->doc.first_element])
             continue;
         uint32_t first = out->bindings.len;
+        bool is_settled = !library_depends_on_target(lib, e);
         struct graph_node node = library_resolve_node(lib, e, out, diags);
         assert(node.first_binding == first);
         number_interface(lib, impl->nodedef, out->bindings.items + first,
                          out->bindings.len - first);
+        if (!is_settled)
+            continue;
         assert(lib->graph_nodes.len < doc_num_elements(&lib->doc));
         vec_push(out->arena, &lib->graph_nodes, node);
         lib->element_info.items[e - lib->doc.first_element] = lib->graph_nodes.len;

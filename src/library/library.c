@@ -244,7 +244,7 @@ void library_report_foreign(const struct library *lib, struct arena *scratch,
         unsigned num;
     };
     VEC(struct count) targets = {0};
-    elem_id first = 0;
+    elem_id first = 0, last = 0;
     unsigned num = 0;
     for (uint32_t i = 0; i < lib->impls.len; i++) {
         const struct implementation *impl = &lib->impls.items[i];
@@ -256,7 +256,9 @@ void library_report_foreign(const struct library *lib, struct arena *scratch,
         if (at == targets.len)
             vec_push(scratch, &targets, (struct count){.target = impl->target});
         targets.items[at].num++;
-        first = num++ ? first : impl->element;
+        num += impl->element != last; /* one may be for several targets */
+        first = first ? first : impl->element;
+        last = impl->element;
     }
     struct text list;
     text_init(&list, scratch);

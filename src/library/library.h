@@ -35,14 +35,16 @@ struct port { /* an input or output of a definition */
 enum { LIBRARY_MAX_OUTPUTS = 64 }; /* of a definition: the builder has room for them */
 
 struct nodedef {
-    str_id name, node, version, target;
+    str_id name, node, version;
+    uint32_t first_target; /* in refs: the names of the targets that it is for */
     elem_id element;
     uint32_t first_port; /* inputs first, then outputs */
     uint16_t num_inputs, num_outputs;
     uint32_t first_impl;     /* of the same layer, linked by next; LIBRARY_NONE */
     uint32_t next_same_node; /* next definition of the same node in this layer; LIBRARY_NONE */
+    uint16_t num_targets;    /* 0: it is for all */
     bool is_default_version;
-    uint8_t reserved[3]; /* 0: no record of a library image has padding, which would be garbage */
+    uint8_t reserved; /* 0: no record of a library image has padding, which would be garbage */
 };
 
 enum impl_kind {
@@ -200,6 +202,10 @@ struct library {
     /* true for the MaterialX name of a target that mxgen has; NULL: it has all */
     bool (*knows_target)(const void *user_data, const char *materialx_name);
     const void *target_user_data;
+    /* of a generation: the target and what it inherits, nearest first; 0: no target is meant */
+    const str_id *targets;
+    unsigned num_targets;
+    const struct strpool *target_strings;
     struct strpool strings;
     struct document doc;
     struct lang_unit unit;
@@ -323,12 +329,26 @@ void library_index(struct library *lib, const struct lang_reader *reader, struct
 /* Resolves every nodegraph with a nodedef in the layer. An image stores the result. */
 void library_resolve_graphs(struct library *lib, struct diag_list *diags);
 
+/* targets.c */
+
+/*
+ * How fit a definition is for the target of a generation; higher is better, 0: it is for others.
+ * Without a target, a definition for all targets is better than one for some.
+ */
+unsigned library_target_fit(const struct library *lib, uint32_t nodedef);
+/* True if there is a target for both definitions, which are of this layer; for all is none. */
+bool library_share_target(const struct library *layer, const struct nodedef *a,
+                          const struct nodedef *b);
+/* True if the definition of a node may depend on the target. */
+bool library_depends_on_target(const struct library *lib, elem_id node);
+
 /* match.c */
 
 /*
- * The definition of a node element: by its `nodedef` attribute, otherwise by name, version and
- * types. If none matches, the closest one that gives the node's type, after a diagnostic for each
- * fault of the node. LIBRARY_NONE after a diagnostic: an unknown node, or one of another type.
+ * The definition of a node element: by its `nodedef` attribute, otherwise by name, version, types
+ * and the target. If none matches, the closest one that gives the node's type, after a diagnostic
+ * for each fault of the node. LIBRARY_NONE after a diagnostic: an unknown node, or one of another
+ * type.
  */
 uint32_t library_match(const struct library *lib, elem_id node, struct diag_list *diags);
 
@@ -503,6 +523,8 @@ void library_validate(const struct library *lib, struct arena *scratch, struct d
  */
 void library_check_enum(const struct library *lib, const struct port *port, str_id text,
                         struct diag_place place, struct diag_list *diags);
+/* The index of a word in a list of words; -1: it is not there. */
+int library_enum_index(const char *list, const char *word);
 
 /*
  * shader_inputs.c: reports values where a node of this layer takes a shader, and a material without

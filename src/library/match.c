@@ -67,6 +67,8 @@ static bool has_version(const struct library *lib, const struct nodedef *def, st
 struct candidate {
     uint32_t nodedef;
     bool is_of_version, is_default;
+    unsigned fit;         /* library_target_fit */
+    bool is_for_some;     /* it is for some targets, and no target is meant */
     bool is_marked;       /* it says that it is the default, and the node asks for no version */
     unsigned wrong_types; /* inputs of another type */
     unsigned before;      /* inputs of the right type before the first of another type */
@@ -88,6 +90,8 @@ static struct candidate examine(const struct library *lib, uint32_t id, elem_id 
     c.is_of_version = has_version(lib, def, wanted);
     c.is_default = has_version(lib, def, 0);
     c.is_marked = def->is_default_version && !wanted;
+    c.fit = library_target_fit(lib, id);
+    c.is_for_some = def->num_targets && !lib->num_targets;
     for (elem_id child = doc_element(&lib->doc, node)->first_child; child;
          child = doc_element(&lib->doc, child)->next) {
         const struct element *input = doc_element(&lib->doc, child);
@@ -104,7 +108,8 @@ static struct candidate examine(const struct library *lib, uint32_t id, elem_id 
 
 static bool is_exact(const struct candidate *c)
 {
-    return c->nodedef != LIBRARY_NONE && c->is_of_version && !c->wrong_types && !c->has_unknown;
+    return c->nodedef != LIBRARY_NONE && c->is_of_version && !c->wrong_types && !c->has_unknown
+           && !c->is_for_some;
 }
 
 /* The first of equal candidates is best. */
@@ -118,12 +123,35 @@ static bool is_better(const struct candidate *c, const struct candidate *best)
         return c->wrong_types < best->wrong_types;
     if (c->wrong_types && c->before != best->before)
         return c->before > best->before;
+    if (c->fit != best->fit)
+        return c->fit > best->fit;
     if (c->has_unknown != best->has_unknown)
         return best->has_unknown;
     return c->is_marked && !best->is_marked;
 }
 
 /* ---- Reports ---- */
+
+/*
+ * True for an input of a definition of the same node for other targets, which this one ignores
+ * (specification, "Custom Inputs").
+ */
+static bool is_for_others(const struct library *lib, uint32_t id, elem_id node, str_id input)
+{
+    str_id type = doc_attr_value(&lib->doc, node, STR_type);
+    const struct nodedef *chosen = library_nodedef(lib, id), *def;
+    for (const struct library *layer = lib; layer; layer = layer->base)
+        for (uint32_t own = library_first_of_node(layer, chosen->node); own != LIBRARY_NONE;
+             own = def->next_same_node) {
+            uint32_t other = layer->base_nodedefs + own;
+            def = &layer->nodedefs.items[own];
+            if ((chosen->num_targets || def->num_targets)
+                && library_find_input(lib, other, input) >= 0
+                && gives_type(lib, def, library_ports(lib, other, NULL), type))
+                return true;
+        }
+    return false;
+}
 
 /* Inputs that the definition lacks, or that have another type there. */
 static void report_inputs(const struct library *lib, uint32_t id, elem_id node,
@@ -140,7 +168,7 @@ static void report_inputs(const struct library *lib, uint32_t id, elem_id node,
                      text_of(lib, input->name), text_of(lib, def->node),
                      text_of(lib, library_type_name(lib, ports[index].type)),
                      text_of(lib, doc_attr_value(&lib->doc, child, STR_type)));
-        if (index >= 0 || input->kind != KIND_INPUT)
+        if (index >= 0 || input->kind != KIND_INPUT || is_for_others(lib, id, node, input->name))
             continue;
         struct diag_guess guess;
         bool may_guess = diag_guess_begin(&guess, diags, text_of(lib, input->name));
@@ -214,6 +242,26 @@ static void report_type(const struct library *lib, elem_id node, uint32_t only,
     diag_add(diags, DIAG_ID_no_matching_nodedef, doc_attr_place(doc, node, STR_type),
              text_cstr(&who), text_of(lib, doc_attr_value(doc, node, STR_type)),
              list_of(lib, node, only, type_of, diags->arena));
+}
+
+/* Lists the targets of the node's definitions, which are all for others. */
+static void report_targets(const struct library *lib, elem_id node, struct diag_list *diags)
+{
+    struct word_list list = {.words = ARENA_ARRAY(diags->arena, str_id, MAX_WORDS)};
+    struct text own;
+    str_id category = doc_element(&lib->doc, node)->category;
+    text_init(&list.text, diags->arena);
+    text_init(&own, diags->arena);
+    for (const struct library *layer = lib; layer; layer = layer->base)
+        for (uint32_t i = library_first_of_node(layer, category); i != LIBRARY_NONE;
+             i = layer->nodedefs.items[i].next_same_node)
+            for (unsigned k = 0; k < layer->nodedefs.items[i].num_targets; k++)
+                add_word(lib, &list, layer->refs.items[layer->nodedefs.items[i].first_target + k]);
+    for (unsigned i = 0; i < lib->num_targets; i++)
+        text_fmt(&own, "%s%s", i ? ", " : "", str_text(lib->target_strings, lib->targets[i]));
+    diag_add(diags, DIAG_ID_definition_of_other_target, doc_place(&lib->doc, node),
+             text_of(lib, category), text_cstr(&list.text));
+    diag_add(diags, DIAG_ID_accepted_targets, doc_place(&lib->doc, node), text_cstr(&own));
 }
 
 static void report_version(const struct library *lib, elem_id node, struct diag_list *diags)
@@ -342,31 +390,50 @@ static uint32_t match_explicit(const struct library *lib, elem_id node, str_id n
     return settle(lib, node, &c, diags);
 }
 
-uint32_t library_match(const struct library *lib, elem_id node, struct diag_list *diags)
+/* The result of a search for the definition of a node. */
+struct search {
+    struct candidate best;
+    bool is_known;     /* the node has a definition */
+    bool is_for_other; /* one for other targets would give the node's type */
+};
+
+static struct search search(const struct library *lib, elem_id node)
 {
-    str_id explicit_name = doc_attr_value(&lib->doc, node, STR_nodedef),
-           type = doc_attr_value(&lib->doc, node, STR_type),
-           category = doc_element(&lib->doc, node)->category;
-    if (explicit_name)
-        return match_explicit(lib, node, explicit_name, diags);
-    struct candidate best = {.nodedef = LIBRARY_NONE};
-    bool known = false;
-    for (const struct library *layer = lib; layer && !is_exact(&best); layer = layer->base)
-        for (uint32_t own = library_first_of_node(layer, category);
-             own != LIBRARY_NONE && !(is_exact(&best) && best.is_marked);
-             own = layer->nodedefs.items[own].next_same_node) {
+    struct search s = {.best = {.nodedef = LIBRARY_NONE}};
+    str_id category = doc_element(&lib->doc, node)->category,
+           type = doc_attr_value(&lib->doc, node, STR_type);
+    const struct nodedef *def;
+    for (const struct library *layer = lib; layer && !is_exact(&s.best); layer = layer->base)
+        for (uint32_t own = library_first_of_node(layer, category); own != LIBRARY_NONE;
+             own = def->next_same_node) {
             uint32_t id = layer->base_nodedefs + own;
-            known = true;
-            if (!gives_type(lib, &layer->nodedefs.items[own], library_ports(lib, id, NULL), type))
+            def = &layer->nodedefs.items[own];
+            s.is_known = true;
+            if (!def->num_targets && is_exact(&s.best) && s.best.is_marked)
+                continue;
+            if (!gives_type(lib, def, library_ports(lib, id, NULL), type))
                 continue;
             struct candidate c = examine(lib, id, node);
-            if (is_better(&c, &best))
-                best = c;
+            if (!c.fit)
+                s.is_for_other = true;
+            else if (is_better(&c, &s.best))
+                s.best = c;
         }
-    assert(best.nodedef == LIBRARY_NONE || known);
-    if (best.nodedef != LIBRARY_NONE)
-        return settle(lib, node, &best, diags);
-    if (known)
+    assert(s.best.nodedef == LIBRARY_NONE || s.is_known);
+    return s;
+}
+
+uint32_t library_match(const struct library *lib, elem_id node, struct diag_list *diags)
+{
+    str_id explicit_name = doc_attr_value(&lib->doc, node, STR_nodedef);
+    if (explicit_name)
+        return match_explicit(lib, node, explicit_name, diags);
+    struct search s = search(lib, node);
+    if (s.best.nodedef != LIBRARY_NONE)
+        return settle(lib, node, &s.best, diags);
+    if (s.is_for_other)
+        report_targets(lib, node, diags);
+    else if (s.is_known)
         report_type(lib, node, LIBRARY_NONE, diags);
     else
         report_unknown_node(lib, node, diags);

@@ -295,7 +295,8 @@ static int compare_claims(const void *left, const void *right)
 static bool is_competing(const struct claim *a, const struct claim *b)
 {
     return a->nodedef == b->nodedef && a->target == b->target && a->format == b->format
-           && a->is_graph == b->is_graph && !(a->is_graph && a->graph == b->graph);
+           && a->is_graph == b->is_graph && a->element != b->element
+           && !(a->is_graph && a->graph == b->graph);
 }
 
 void validate_implementations(struct validate *v, struct arena *scratch)
@@ -313,13 +314,17 @@ void validate_implementations(struct validate *v, struct arena *scratch)
     }
     if (count > 1)
         qsort(claims, count, sizeof *claims, compare_claims);
-    for (uint32_t i = 1; i < count; i++)
-        if (is_competing(&claims[i - 1], &claims[i]))
+    /* each element once, though it may compete for several targets */
+    bool *is_told = ARENA_ARRAY(scratch, bool, doc_num_elements(v->doc));
+    for (uint32_t i = 1; i < count; i++) {
+        bool *told = &is_told[claims[i].element - v->doc->first_element];
+        if (!*told && (*told = is_competing(&claims[i - 1], &claims[i])))
             diag_add(v->diags, DIAG_ID_competing_implementations,
                      doc_place(v->doc, claims[i].element),
                      text_of(v, doc_element(v->doc, claims[i].element)->name),
                      text_of(v, library_nodedef(v->lib, claims[i].nodedef)->name),
                      text_of(v, doc_element(v->doc, claims[i - 1].element)->name));
+    }
 }
 
 /*
@@ -330,7 +335,7 @@ static bool is_rival(const struct library *lib, const struct nodedef *a, const s
 {
     const struct port *of_a = &lib->ports.items[a->first_port];
     const struct port *of_b = &lib->ports.items[b->first_port];
-    if (a->num_outputs != b->num_outputs || a->target != b->target)
+    if (a->num_outputs != b->num_outputs || !library_share_target(lib, a, b))
         return false;
     for (uint32_t i = 0; i < a->num_outputs; i++)
         if (of_a[a->num_inputs + i].type != of_b[b->num_inputs + i].type)

@@ -25,7 +25,8 @@ static uint32_t find_light(const struct builder *b, const char *node, size_t len
     for (const struct library *layer = name ? lib : NULL; layer; layer = layer->base)
         for (uint32_t i = library_first_of_node(layer, name); i != LIBRARY_NONE;
              i = layer->nodedefs.items[i].next_same_node)
-            if (gives_light(layer, &layer->nodedefs.items[i]))
+            if (gives_light(layer, &layer->nodedefs.items[i])
+                && library_target_fit(lib, layer->base_nodedefs + i))
                 return layer->base_nodedefs + i;
     return LIBRARY_NONE;
 }

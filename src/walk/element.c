@@ -93,7 +93,11 @@ struct builder *build_start(const struct library *lib, const struct build_option
     assert(shader->unit->base_globals == lib->unit.base_globals + lib->unit.globals.len);
     assert(shader->strings->base == &lib->strings && shader->unit->strings == shader->strings);
     struct builder *b = ARENA_NEW(shader->arena, struct builder);
-    b->lib = lib;
+    b->view = *lib;
+    b->view.targets = options->targets;
+    b->view.num_targets = options->num_targets;
+    b->view.target_strings = shader->strings;
+    b->lib = &b->view;
     b->options = options;
     b->shader = shader;
     b->graph = shader->graph;

@@ -186,17 +186,7 @@ static int index_in_enum(const struct source_call *c, const struct port *port, s
         port->flags & PORT_ENUM
             ? build_text(c->b, doc_attr_value(&c->b->lib->doc, port->element, STR_enum))
             : "";
-    const char *text = build_text(c->b, word);
-    for (int index = 0; *list; index++, list += *list == ',') {
-        list += strspn(list, " ");
-        size_t len = strcspn(list, ","), trimmed = len;
-        while (trimmed && list[trimmed - 1] == ' ')
-            trimmed--;
-        if (trimmed == strlen(text) && memcmp(list, text, trimmed) == 0)
-            return index;
-        list += len;
-    }
-    return -1;
+    return library_enum_index(list, build_text(c->b, word));
 }
 
 /* A string as the integer that libraries expect: its index in the enumeration, else 0. */

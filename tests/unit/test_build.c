@@ -369,7 +369,23 @@ static void test_targets(void)
                                     "nodedef='ND_which' target='gen'><gain name='g' "
                                     "type='float'/><output name='out' type='float' "
                                     "nodename='g'/></nodegraph>",
-                      only[] = "<only name='n' type='float'/>";
+                      own_list[] = "<which name='n' type='float'/><nodegraph name='G' "
+                                   "nodedef='ND_which' target=' gen ,other'><gain name='g' "
+                                   "type='float'/><output name='out' type='float' "
+                                   "nodename='g'/></nodegraph>",
+                      own_source[] = "<which name='n' type='float'/><implementation name='I' "
+                                     "nodedef='ND_which' target='other,gen' sourcecode='9.0'/>",
+                      only[] = "<only name='n' type='float'/>",
+                      ink[] = "<ink name='n' type='float'/>",
+                      inked[] = "<inked name='n' type='float'/>",
+                      sole[] = "<sole name='n' type='float'/>",
+                      named[] = "<sole name='n' type='float' nodedef='ND_sole'/>";
+    /* the specification's "Custom Inputs": what one target knows, the others ignore */
+    static const char filter[] =
+        "<nodedef name='ND_gain_maya' node='gain' target='maya, sub' inherit='ND_gain'>"
+        "<input name='filter' type='float' value='1'/></nodedef>"
+        "<implementation name='I' nodedef='ND_gain_maya' sourcecode='{{in}} + {{filter}}'/>"
+        "<gain name='n' type='float'><input name='filter' type='float' value='0.5'/></gain>";
     static const struct {
         const char *targets[2], *document, *expected, *messages;
         unsigned num_foreign; /* of the targets, the last ones, whose language is another */
@@ -389,6 +405,28 @@ static void test_targets(void)
         {{"new", "gen"}, own_gen, "1", "", 1},   /* source has a language, */
         {{"new", "gen"}, own_graph, "6", "", 1}, /* a graph has none */
         {{"new"}, own_graph, "1", "", 0},
+        {{"gen"}, own_list, "6", "", 0},
+        {{"other"}, own_list, "6", "", 0},
+        {{"new"}, own_list, "1", "", 0},
+        {{"gen"}, own_source, "9", "", 0},
+        {{"other"}, own_source, "9", "", 0},
+        {{"sub", "gen"}, own_source, "3", "", 0},
+        {{NULL}, ink, "8", "", 0}, /* definitions have targets, too */
+        {{"gen"}, ink, "4", "", 0},
+        {{"old"}, ink, "4", "", 0},
+        {{"sub", "gen"}, ink, "6", "", 0},
+        {{"new", "gen"}, ink, "4", "", 0},
+        {{"new"}, ink, "8", "", 0},
+        {{"gen"}, inked, "4", "", 0}, /* in a graph of the library, too */
+        {{"new"}, inked, "8", "", 0},
+        {{NULL}, sole, "5", "", 0},
+        {{"gen"}, sole, "5", "", 0},
+        {{"new"}, sole, "nothing", "definition-of-other-target, accepted-targets", 0},
+        {{"new"}, named, "5", "", 0}, /* who names one has chosen */
+        {{"maya"}, filter, "3.5", "", 0},
+        {{"sub", "gen"}, filter, "3.5", "", 0},
+        {{"gen"}, filter, "6", "", 0},
+        {{NULL}, filter, "6", "", 0},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct work w;
