@@ -118,6 +118,28 @@ test("a name changes wherever it stands", () => withEditor(async page => {
     assert.equal(await textOf(page), RED.replaceAll('"SR"', '"Paint"'));
 }));
 
+test("places of a name are marked, and visited one after the other", () => withEditor(async page => {
+    await open(page, RED);
+    await goTo(page, 'name="SR"', 7);
+    await page.until(`${INSIDE}.querySelectorAll(".place").length === 2`);
+    assert.deepEqual(await page.evaluate(`[...${INSIDE}.querySelectorAll(".place")].map(place => place.textContent)`), ["SR", "SR"]);
+    for (const line of ['nodename="SR"', "<standard_surface", 'nodename="SR"']) {
+        await page.key("F12", 8);
+        await page.until(`${has(".cm-activeLine")}.textContent.includes(${JSON.stringify(line)})`);
+    }
+    await goTo(page, "<?xml");
+    await page.until(`!${has(".place")}`);
+}));
+
+test("hints say which definition a node has, and in which space a colour is", () => withEditor(async page => {
+    await open(page, `<materialx version="1.39" colorspace="acescg">
+  <nodegraph name="NG"><multiply name="m" type="color3"><input name="in1" type="color3" value="0.1, 0.2, 0.3"/><input name="in2" type="float" value="2"/></multiply>
+    <output name="out" type="color3" nodename="m"/></nodegraph></materialx>`);
+    await page.until(has(".hint"));
+    assert.deepEqual(await page.evaluate(`[...${INSIDE}.querySelectorAll(".hint")].map(hint => hint.textContent)`), ["ND_multiply_color3FA", "acescg"]);
+    assert.equal(await page.evaluate(`${EDITOR}.value.includes("ND_multiply")`), false);
+}));
+
 test("the text is laid out, and back", () => withEditor(async page => {
     const wild = RED.replaceAll("\n    <input", "\n<input");
     await open(page, wild);

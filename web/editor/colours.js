@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Boxes of colours before the values of colours, with the browser's picker.
 
-import { StateEffect, StateField } from "@codemirror/state";
-import { Decoration, EditorView, ViewPlugin, WidgetType } from "@codemirror/view";
+import { Decoration, WidgetType } from "@codemirror/view";
 
 import { changesOf, rangeOf, spanOf } from "./client.js";
-
-const PAUSE = 300; // milliseconds after a change
+import { decorations } from "./decorations.js";
 
 const toHex = ({ red, green, blue }) => "#" + [red, green, blue].map(x => Math.round(255 * x).toString(16).padStart(2, "0")).join("");
 
@@ -42,34 +40,7 @@ class Box extends WidgetType {
     }
 }
 
-const setBoxes = StateEffect.define();
-const boxes = StateField.define({
-    create: () => Decoration.none,
-    update(value, transaction) {
-        const found = transaction.effects.find(effect => effect.is(setBoxes));
-        return found ? found.value : value.map(transaction.changes);
-    },
-    provide: field => EditorView.decorations.from(field),
+export const colours = client => decorations(() => client.ask("documentColor"), (doc, { range, color }) => {
+    const { from, to } = spanOf(doc, range);
+    return Decoration.widget({ widget: new Box(client, color, to - from), side: -1 }).range(from);
 });
-
-export function colours(client) {
-    return [boxes, ViewPlugin.define(view => {
-        let timer = 0;
-        const show = async () => {
-            const { doc } = view.state, found = await client.ask("documentColor").catch(() => null);
-            if (!found || doc !== view.state.doc)
-                return;
-            const made = found.map(({ range, color }) => {
-                const { from, to } = spanOf(doc, range);
-                return Decoration.widget({ widget: new Box(client, color, to - from), side: -1 }).range(from);
-            });
-            view.dispatch({ effects: setBoxes.of(Decoration.set(made, true)) });
-        };
-        const ask = pause => {
-            clearTimeout(timer);
-            timer = setTimeout(show, pause);
-        };
-        ask(0);
-        return { update: update => update.docChanged && ask(PAUSE), destroy: () => clearTimeout(timer) };
-    })];
-}

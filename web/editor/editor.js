@@ -14,6 +14,7 @@ import { Client } from "./client.js";
 import { colours } from "./colours.js";
 import { completionSource } from "./completion.js";
 import { showDiagnostics } from "./diagnostics.js";
+import { hints, places } from "./hints.js";
 import { format, hover, navigation } from "./navigation.js";
 import { look } from "./theme.js";
 
@@ -46,6 +47,7 @@ class MaterialText extends HTMLElement {
         return [
             autocompletion({ override: [completionSource(this.#client)], icons: false, maxRenderedOptions: 400 }),
             linter(null), lintGutter({ hoverTime: 100 }), hover(this.#client), navigation(this.#client, tell), colours(this.#client),
+            hints(this.#client), places(this.#client),
             EditorView.updateListener.of(update => {
                 if (!update.docChanged)
                     return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hover, go to definition, rename, formatting.
+// Hover, go to definition and to references, rename, formatting.
 
 import { EditorView, hoverTooltip, keymap, showDialog } from "@codemirror/view";
 
@@ -19,6 +19,11 @@ export function hover(client) {
     }, { hideOnChange: true });
 }
 
+function goTo(view, { from, to }) {
+    view.dispatch({ selection: { anchor: from, head: to }, effects: EditorView.scrollIntoView(from, { y: "center" }), userEvent: "select" });
+    view.focus();
+}
+
 /** Moves the cursor to what a name means. `tell` takes sentences for the user. */
 async function goToDefinition(client, view, pos, tell) {
     const { doc } = view.state, answer = await client.ask("definition", { position: positionOf(doc, pos) }).catch(() => null);
@@ -29,11 +34,21 @@ async function goToDefinition(client, view, pos, tell) {
         tell("Nothing in the document defines what is here.");
     else if (target.uri !== URI)
         tell(`That is in ${fileOf(target.uri)}.`);
-    else {
-        const { from, to } = spanOf(doc, target.range);
-        view.dispatch({ selection: { anchor: from, head: to }, effects: EditorView.scrollIntoView(from, { y: "center" }), userEvent: "select" });
-        view.focus();
-    }
+    else
+        goTo(view, spanOf(doc, target.range));
+}
+
+/** Moves the cursor to the next place of the document where the name under it stands, and from the last one to the first. */
+async function goToNextReference(client, view, tell) {
+    const { doc, selection } = view.state, { head } = selection.main;
+    const answer = await client.ask("references", { position: positionOf(doc, head), context: { includeDeclaration: true } }).catch(() => null);
+    if (doc !== view.state.doc)
+        return;
+    const spans = (answer ?? []).filter(({ uri }) => uri === URI).map(({ range }) => spanOf(doc, range)).sort((a, b) => a.from - b.from);
+    if (!spans.length)
+        tell("Here is no name that the document refers to.");
+    else
+        goTo(view, spans.find(({ from }) => from > head) ?? spans[0]);
 }
 
 async function rename(client, view, tell) {
@@ -71,6 +86,7 @@ export function navigation(client, tell) {
     return [
         keymap.of([
             { key: "F12", run: run(view => goToDefinition(client, view, view.state.selection.main.head, tell)) },
+            { key: "Shift-F12", run: run(view => goToNextReference(client, view, tell)) },
             { key: "F2", run: run(view => rename(client, view, tell)) },
             { key: "Shift-Alt-f", run: run(view => format(client, view).catch(error => tell(error.message))) },
         ]),

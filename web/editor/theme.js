@@ -65,6 +65,8 @@ const theme = EditorView.theme({
     ".cm-button": { ...button, backgroundImage: "none" },
     ".cm-searchMatch": { background: "var(--match)" },
     ".cm-snippetField": { background: "var(--stripe)", outline: "1px solid var(--line)" },
+    ".hint": { marginLeft: "4px", color: "var(--faint)", fontStyle: "italic" },
+    ".place": { background: "var(--line)", borderRadius: "2px" },
     ".colour": { appearance: "none", width: "14px", height: "14px", margin: "0 4px 0 0", padding: 0, border: "1px solid var(--faint)", borderRadius: "3px", background: "none", verticalAlign: "-2px", cursor: "pointer" },
     ".colour::-webkit-color-swatch-wrapper": { padding: 0 },
     ".colour::-webkit-color-swatch": { border: 0, borderRadius: "2px" },
