@@ -28,6 +28,7 @@ const struct lang_syntax glsl_syntax = {
     .forms = forms,
     .reserved = reserved,
     .num_reserved = sizeof reserved / sizeof *reserved,
+    .reserved_prefix = "GL_", /* macros, of extensions and others */
     .phrases = phrases,
     .wide_constants = true,
     .sizes_count_layers = true,

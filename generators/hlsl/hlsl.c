@@ -57,6 +57,7 @@ const struct lang_syntax hlsl_syntax = {
     .forms_alone = forms_alone,
     .reserved = reserved,
     .num_reserved = sizeof reserved / sizeof *reserved,
+    .reserved_prefix = "GL_", /* macros of extensions; glslang has them in HLSL, too */
     .phrases = phrases,
     .lists_components = true,
     .array_braces = true,
