@@ -97,9 +97,11 @@ void translate_forget_surface(struct translation *t);
 /* An edit of the document; and its end, after which the document is t->product. */
 void translate_start_edit(struct translation *t);
 void translate_commit_edit(struct translation *t);
-/* Visits the surfaces below an element. */
-void translate_visit_surfaces(struct translation *t, elem_id parent,
+/* Visits the surfaces of the document that are not made of other ones, or its materials. */
+void translate_visit_surfaces(struct translation *t,
                               void (*visit)(struct translation *t, elem_id surface));
+void translate_visit_materials(struct translation *t,
+                               void (*visit)(struct translation *t, elem_id material));
 /* Visits the surfaces of the document, which then is t->product, as t->edit made it. */
 void translate_each_surface(struct translation *t,
                             void (*visit)(struct translation *t, elem_id surface));

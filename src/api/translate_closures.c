@@ -404,7 +404,7 @@ static void visit(struct translation *t, elem_id surface)
 void translate_closures(struct translation *t)
 {
     t->num_left = 0;
-    translate_visit_surfaces(t, t->document->layer.doc.root, count);
+    translate_visit_surfaces(t, count);
     if (!t->num_left)
         return;
     t->slab_step = first_step(t);

@@ -2,8 +2,8 @@
 /*
  * Definitions that are nodegraphs, where what is inside of them has to stand in the document. A
  * surface with another one inside, for which there is a translation, becomes that one. A closure
- * with textures or patterns inside, which are no formulas of its inputs, becomes its nodes. Both
- * happen level by level.
+ * with textures or patterns inside, which are no formulas of its inputs, becomes its nodes. A
+ * material becomes its nodes, too, because there is a surface inside. All happen level by level.
  */
 #include "api/translate.h"
 
@@ -17,27 +17,32 @@ static bool is_tree(const struct document *doc, elem_id node)
     return ir_type_is_closure(type) || ir_type_is_shader(type);
 }
 
-/* Without an edit it only counts. What nothing reads in the end goes, except for surfaces. */
-static void flatten(struct translation *t, elem_id node)
+/*
+ * Without an edit it only counts. What nothing reads in the end goes, except for surfaces and
+ * materials.
+ */
+static bool flatten(struct translation *t, elem_id node)
 {
     t->num_flattened++;
     if (!t->edit)
-        return;
+        return true;
     const struct document *doc = edit_tree(t->edit);
     elem_id scope = doc_element(doc, node)->parent,
             first = doc->first_element + doc_num_elements(doc);
     if (mxg_edit_flatten_node(t->edit, node) != MXG_OK) {
         t->num_flattened--; /* another surface has it, too, or the document is full */
-        return;
+        return false;
     }
     for (elem_id e = first; e < doc->first_element + doc_num_elements(doc); e++) {
         if (doc_element(doc, e)->parent != scope)
             continue;
         if (is_tree(doc, e))
             vec_push(t->kept, &t->opened, e);
-        if (doc_attr_value(doc, e, STR_type) != STR_surfaceshader)
+        str_id type = doc_attr_value(doc, e, STR_type);
+        if (type != STR_surfaceshader && type != STR_material)
             vec_push(t->kept, &t->replaced, e);
     }
+    return true;
 }
 
 static uint32_t definition_of(const struct translation *t, elem_id node)
@@ -132,18 +137,37 @@ static void open_one(struct translation *t, elem_id surface)
     translate_forget_surface(t);
 }
 
+/* A material by a nodegraph stands in the document with its surface, which is then translated. */
+static void open_material(struct translation *t, elem_id node)
+{
+    const struct document *doc = &t->document->layer.doc;
+    uint32_t nodedef =
+        doc_attr_value(doc, node, STR_type) == STR_material ? definition_of(t, node) : LIBRARY_NONE;
+    if (nodedef == LIBRARY_NONE || !edit_find_graph(&t->document->layer, nodedef))
+        return;
+    t->surface = node;
+    if (translate_is_sound(t) && !flatten(t, node))
+        diag_add(t->diags, DIAG_ID_no_translation, doc_name_place(doc, node),
+                 str_text(doc->strings, doc_element(doc, node)->category), t->wanted);
+    translate_forget_surface(t);
+}
+
 /* False: no node was flattened. */
-static bool open_level(struct translation *t)
+static bool open_level(struct translation *t,
+                       void (*visit_all)(struct translation *t,
+                                         void (*visit)(struct translation *t, elem_id node)),
+                       void (*open)(struct translation *t, elem_id node))
 {
     for (unsigned with_edit = 0; with_edit < 2; with_edit++) {
         t->num_flattened = 0;
         t->patterns = ARENA_ARRAY(t->kept, uint8_t, library_num_nodedefs(&t->document->layer));
         translate_forget_closures(t);
         if (with_edit)
-            translate_each_surface(t, open_one);
-        else
-            translate_visit_surfaces(t, t->document->layer.doc.root, open_one);
-        if (!t->num_flattened)
+            translate_start_edit(t);
+        visit_all(t, open);
+        if (with_edit)
+            translate_commit_edit(t);
+        if (!t->num_flattened || t->diags->num_errors)
             return false;
     }
     return true;
@@ -195,7 +219,9 @@ void translate_definitions(struct translation *t)
 {
     const struct document *doc = &t->document->layer.doc;
     elem_id first_inside = doc->first_element + doc_num_elements(doc);
-    while (open_level(t)) {
+    while (open_level(t, translate_visit_materials, open_material)) {
+    }
+    while (open_level(t, translate_visit_surfaces, open_one)) {
     }
     if (t->opened.len)
         fold(t, first_inside);

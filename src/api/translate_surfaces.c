@@ -124,32 +124,44 @@ bool translate_is_sound(struct translation *t)
 
 /* ---- All surfaces ---- */
 
-/* True for a node that is a surface and is not made of other surfaces. */
-static bool is_surface(const struct translation *t, elem_id element)
+/* True for a node of the type; a surface that is made of other surfaces is none. */
+static bool is_node(const struct translation *t, elem_id element, str_id type)
 {
     const struct document *doc = &t->document->layer.doc;
     const struct element *e = doc_element(doc, element);
-    if (e->kind != KIND_NODE || doc_attr_value(doc, element, STR_type) != STR_surfaceshader)
+    if (e->kind != KIND_NODE || doc_attr_value(doc, element, STR_type) != type)
         return false;
     bool is_second = e->name && doc_child(doc, e->parent, e->name) != element; /* of its name */
     bool is_made = false;
     for (elem_id child = e->first_child; child && !is_made; child = doc_element(doc, child)->next)
-        is_made = doc_attr_value(doc, child, STR_type) == STR_surfaceshader;
+        is_made = type == STR_surfaceshader && doc_attr_value(doc, child, STR_type) == type;
     return !is_made && !is_second;
 }
 
-void translate_visit_surfaces(struct translation *t, elem_id parent,
-                              void (*visit)(struct translation *t, elem_id surface))
+static void visit_nodes(struct translation *t, elem_id parent, str_id type,
+                        void (*visit)(struct translation *t, elem_id node))
 {
     const struct document *doc = &t->document->layer.doc;
     for (elem_id e = doc_element(doc, parent)->first_child, next; e; e = next) {
         next = doc_element(doc, e)->next;
-        if (is_surface(t, e))
+        if (is_node(t, e, type))
             visit(t, e);
         else if (doc_element(doc, e)->kind == KIND_NODEGRAPH
                  && !doc_attr_value(doc, e, STR_nodedef))
-            translate_visit_surfaces(t, e, visit);
+            visit_nodes(t, e, type, visit);
     }
+}
+
+void translate_visit_surfaces(struct translation *t,
+                              void (*visit)(struct translation *t, elem_id surface))
+{
+    visit_nodes(t, t->document->layer.doc.root, STR_surfaceshader, visit);
+}
+
+void translate_visit_materials(struct translation *t,
+                               void (*visit)(struct translation *t, elem_id material))
+{
+    visit_nodes(t, t->document->layer.doc.root, STR_material, visit);
 }
 
 void translate_start_edit(struct translation *t)
@@ -173,6 +185,6 @@ void translate_each_surface(struct translation *t,
                             void (*visit)(struct translation *t, elem_id surface))
 {
     translate_start_edit(t);
-    translate_visit_surfaces(t, t->document->layer.doc.root, visit);
+    translate_visit_surfaces(t, visit);
     translate_commit_edit(t);
 }

@@ -70,6 +70,24 @@ def test_textures():
     check(inputs(twice, "S_i")["file"].get("value") == "a.png" and inputs(twice, "T_i")["file"].get("value") == "b.png", "each surface has its own")
 
 
+def test_materials():
+    inner = define("coated", "material", HUE, node("standard_surface", "s", "surfaceshader", port("base_color", "color3", interfacename="hue"))
+                   + node("surfacematerial", "m", "material", port("surfaceshader", "surfaceshader", nodename="s")), "m")
+    outer = define("painted", "material", port("tone", "color3", value="0, 0, 1"), node("coated", "c", "material", port("hue", "color3", interfacename="tone")), "c")
+    look = '<look name="L"><materialassign name="a" material="T" geom="/a"/></look>'
+    for name, text, tone in (("coated", inner, "hue"), ("painted", inner + outer, "tone")):
+        root, said = translate(text + node(name, "T", "material", port(tone, "color3", value="0.1, 0.7, 0.3")) + look, "gltf_pbr", f"the material <{name}>")
+        surface = named(root, "T").find("input")
+        check(named(root, "T").tag == "surfacematerial" and not said, f"<{name}> is a material with its name: {named(root, 'T').tag} {said}")
+        shader = surface.get("nodename") if surface is not None else ""
+        check(named(root, shader).tag == "gltf_pbr" and inputs(root, shader)["base_color"]["value"] == "0.1, 0.7, 0.3", f"<{name}> has the new surface")
+    broken = inner.replace('interfacename="hue"', 'nodename="nowhere"') + node("coated", "T", "material")
+    path = PLACE / "broken.mtlx"
+    path.write_text(f'<?xml version="1.0"?><materialx version="1.39">{broken}</materialx>', encoding="utf-8")
+    done = subprocess.run([MXGEN, "translate", path, "--to", "gltf_pbr"], capture_output=True, text=True, check=False)
+    check(done.returncode == 1 and "[dangling-nodename]" in done.stderr and not done.stdout, f"a material with a fault inside is told: {done.stderr[:300]}")
+
+
 def test_levels():
     inner = define("worn", "BSDF", port("wear", "float", value="0.25"),
                    node("noise3d", "n", "float", port("amplitude", "float", interfacename="wear"))
@@ -124,6 +142,7 @@ def test_spaces():
 
 
 test_textures()
+test_materials()
 test_levels()
 test_models_inside()
 test_faults()
