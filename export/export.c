@@ -150,6 +150,33 @@ static void tell_other_input(struct exporting *exporting, const char *input)
     free(place);
 }
 
+/* False after an error: a surface that is a mix of others is several materials. */
+static bool check_surface(struct exporting *exporting, const mxg_document *from, mxg_element node)
+{
+    bool is_material = strcmp(bake_element(from, node).type, "material") == 0;
+    mxg_element port = is_material ? mxg_document_find_element(from, node, "surfaceshader") : 0,
+                surface = is_material ? (port ? bake_follow(from, port).node : 0) : node;
+    if (!is_material && strcmp(bake_element(from, node).type, "surfaceshader") != 0)
+        return true;
+    if (surface && strcmp(bake_element(from, surface).category, exporting->format->model) == 0)
+        return true;
+    struct report *report = &exporting->baking.cli.report;
+    const struct flat of = {
+        .report = report, .source = exporting->source, .source_path = exporting->path};
+    char *path = bake_path(from, surface ? surface : node), *place = flat_place(&of, path);
+    if (surface)
+        report_error(report, "export-mixed",
+                     "'%s' (%s) is made of other surfaces, and a material of this format has one: "
+                     "mix them inside of a definition, or mix their inputs",
+                     path, place);
+    else
+        report_warning(report, "export-loss", "'%s' (%s) is not in the file: it has no surface",
+                       path, place);
+    free(path);
+    free(place);
+    return !surface;
+}
+
 /* Removes what a material has beside its surface, which it returns; 0: it has none. */
 static mxg_element keep_surface(struct exporting *exporting, const mxg_document *from,
                                 mxg_element material, mxg_edit *edit)
@@ -170,10 +197,29 @@ static mxg_element keep_surface(struct exporting *exporting, const mxg_document 
     return surface;
 }
 
-/* True for a material of the file: every one, or of a stage those that its objects have. */
-static bool is_wanted(const struct exporting *exporting, const char *material)
+/* True for an element of the file: every one or --element, or of a stage what its objects have. */
+static bool is_wanted(const struct exporting *exporting, const char *path)
 {
-    return !exporting->options.stage || names_find(&exporting->stage.worn, material);
+    const char *element = exporting->options.bake.element;
+    return exporting->options.stage ? names_find(&exporting->stage.worn, path) != NULL
+                                    : !element || strcmp(element, path) == 0;
+}
+
+/* False after errors. */
+static bool check_surfaces(struct exporting *exporting, const mxg_document *from)
+{
+    const char *element = exporting->options.bake.element;
+    uint32_t num = element ? 1 : mxg_document_num_renderables(from);
+    bool good = true;
+    for (uint32_t i = 0; i < num; ++i) {
+        mxg_renderable renderable = {.size = sizeof renderable, .path = element};
+        if (!element)
+            mxg_document_renderable(from, i, &renderable);
+        mxg_element node = mxg_document_find_element(from, 0, renderable.path);
+        if (node && is_wanted(exporting, renderable.path))
+            good = check_surface(exporting, from, node) && good;
+    }
+    return good;
 }
 
 /*
@@ -312,7 +358,7 @@ static void run(struct exporting *exporting)
         translated =
             translated_make(&baking->cli, source, exporting->path, exporting->format->model);
     exporting->source = source;
-    if (translated)
+    if (translated && check_surfaces(exporting, translated))
         kept = keep_surfaces(exporting, translated);
     if (kept)
         bake_and_write(exporting, kept);

@@ -312,6 +312,26 @@ check 'a missing image is told' eval 'sed "s,flat/S,flat/N," image.mtlx >lost.mt
 check 'or is a checker' eval 'exits 0 "$mxgen" export lost.mtlx --missing-texture checker -s 16 -o lost.glb && texel lost.glb materials/M/pbrMetallicRoughness/baseColorTexture 0.1 0.1 255 0 255'
 check 'another space of colors is told' bad bad.mtlx wide '(bad.mtlx:5:' '[export-space]'
 check 'tiles are told' bad bad.mtlx tiles '(bad.mtlx:6:3) are several images' '[export-tiles]'
+cat >mixed.mtlx <<'EOF'
+<?xml version="1.0"?>
+<materialx version="1.39">
+  <nodedef name="ND_t" node="t"><input name="c" type="color3" value="1, 1, 1"/><output name="out" type="material"/></nodedef>
+  <nodegraph name="NG_t" nodedef="ND_t"><standard_surface name="s" type="surfaceshader"><input name="base_color" type="color3" interfacename="c"/></standard_surface>
+    <surfacematerial name="m" type="material"><input name="surfaceshader" type="surfaceshader" nodename="s"/></surfacematerial><output name="out" type="material" nodename="m"/></nodegraph>
+  <t name="T" type="material"/>
+  <standard_surface name="F" type="surfaceshader"/>
+  <standard_surface name="B" type="surfaceshader"/>
+  <mix name="X" type="surfaceshader"><input name="fg" type="surfaceshader" nodename="F"/><input name="bg" type="surfaceshader" nodename="B"/><input name="mix" type="float" value="0.25"/></mix>
+  <surfacematerial name="Mix" type="material"><input name="surfaceshader" type="surfaceshader" nodename="X"/></surfacematerial>
+  <displacement name="D" type="displacementshader"/>
+  <surfacematerial name="Moved" type="material"><input name="displacementshader" type="displacementshader" nodename="D"/></surfacematerial>
+</materialx>
+EOF
+check 'a surface of several surfaces is told' bad mixed.mtlx Mix "'X' (mixed.mtlx:9:3) is made of other surfaces" '[export-mixed]'
+check 'also by its own name' bad mixed.mtlx X '[export-mixed]'
+check 'and for all materials' eval 'exits 1 "$mxgen" export mixed.mtlx -o none.gltf && has err "[export-mixed]" "no surface [export-loss]" && test ! -e none.gltf'
+check 'a surface of it is exported' eval 'exits 0 "$mxgen" export mixed.mtlx -e F -o part.glb && ! grep export-mixed err'
+check 'and a material by a definition' eval 'exits 0 "$mxgen" export mixed.mtlx -e T -o defined.glb && member defined.glb materials/0/name \"T\" && ! grep -q warning err'
 check 'surfaces of closures go through slabs' eval 'exits 0 "$mxgen" export closures.mtlx -e closures -o closures.gltf && grep -A4 baseColorFactor closures.gltf | tr -d " \n" | grep -q "0.5,0.25,0.125"'
 check 'a document is not written over itself' eval 'cp all.mtlx all.gltf && exits 1 "$mxgen" export all.gltf -o all.gltf && has err "[output-clash]" && cmp all.mtlx all.gltf'
 check 'nor an image that it reads' eval 'cp flat/S_base_color.png clash_M_baseColor.png && sed "s,flat/S_base_color,clash_M_baseColor," image.mtlx >clash.mtlx && exits 1 "$mxgen" export clash.mtlx -o clash.gltf && has err "[output-clash]" && cmp flat/S_base_color.png clash_M_baseColor.png && test ! -e clash.gltf'
