@@ -101,8 +101,9 @@ static json_t *tiles_of(const mxg_result *result, uint32_t index, uint32_t num)
     return list;
 }
 
+/* `document`: the file that textures without an `origin` are of. */
 static json_t *describe(const mxg_result *result, uint32_t index, const mxg_variable *v,
-                        const char *name)
+                        const char *name, const char *document)
 {
     json_t *item = json_object();
     json_set_text(item, "name", name);
@@ -110,6 +111,8 @@ static json_t *describe(const mxg_result *result, uint32_t index, const mxg_vari
     json_set_text(item, "path", v->path);
     if (v->block == MXG_BLOCK_TEXTURES) {
         json_set_text(item, "file", v->file);
+        if (strcmp(v->origin, document) != 0)
+            json_set_text(item, "origin", v->origin);
         json_set_text(item, "uaddressmode", v->uaddressmode);
         json_set_text(item, "vaddressmode", v->vaddressmode);
         json_set_text(item, "filtertype", v->filtertype);
@@ -127,13 +130,14 @@ static void add_stack(struct stacks *s, uint32_t stack, const struct program *pr
 {
     json_t *item = json_object(), *values = json_array(), *textures = json_array();
     char *name = stack_name(s, stack), *owner = stack_name(s, program->stack);
+    const char *document = mxg_document_file(s->stage.document, 0);
     for (uint32_t i = 0; i < mxg_result_num_variables(result); ++i) {
         mxg_variable v = {sizeof v};
         mxg_result_variable(result, i, &v);
         bool is_texture = v.block == MXG_BLOCK_TEXTURES && *v.path;
         if (is_texture || v.block == MXG_BLOCK_PUBLIC_UNIFORMS)
             json_array_append_new(is_texture ? textures : values,
-                                  describe(result, i, &v, program->names.items[i]));
+                                  describe(result, i, &v, program->names.items[i], document));
     }
     json_set_text(item, "name", name);
     json_set_text(item, "program", owner);
