@@ -87,7 +87,11 @@ const struct primvar *scene_primvar(const struct scene_object *object, const cha
 {
     char wanted[SCENE_MAX_NAME];
     scene_primvar_name(name, wanted);
-    return object->path ? object_primvar(object, wanted) : NULL;
+    if (!object->path)
+        return NULL;
+    const struct primvar *found = object_primvar(object, wanted);
+    bool may_stand_in = !found && strcmp(wanted, "displayColor") == 0;
+    return may_stand_in ? object_primvar(object, "geomcolor") : found; /* of a <geominfo> */
 }
 
 static bool store_primvar(const struct primvar *primvar, uint32_t index, float *out)

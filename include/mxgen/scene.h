@@ -252,7 +252,7 @@ MXG_API size_t mxg_bindings_stack_name(const mxg_bindings *bindings, uint32_t st
 
 typedef enum mxg_fact_kind {
     MXG_FACT_GEOMPROP,   /* a geometric property, of a <geominfo> */
-    MXG_FACT_TOKEN,      /* a token for file names, of a <geominfo> */
+    MXG_FACT_TOKEN,      /* a token for file names, of a <geominfo>, or a <tokendefault> */
     MXG_FACT_PROPERTY,   /* of a <propertyassign> or a <propertysetassign> */
     MXG_FACT_VISIBILITY, /* the name is the vistype, "" for all; the value "true" or "false" */
     MXG_FACT_MAX_ENUM = 0x7fffffff
@@ -262,7 +262,8 @@ typedef enum mxg_fact_kind {
 typedef struct mxg_fact {
     size_t size; /* in */
     mxg_fact_kind kind;
-    const char *name, *type, *value; /* as in the document */
+    /* as in the document; the value of a geometric property in the unit of its <geompropdef> */
+    const char *name, *type, *value;
     /* the renderer that a property is for; the geometry that sees a visibility; "": all */
     const char *target;
     uint32_t from; /* the primitive where it stands; MXG_NONE: "/" */

@@ -223,7 +223,8 @@ mxg_status mxg_bindings_fact(const mxg_bindings *bindings, uint32_t primitive, u
     const struct bind_item *item =
         &b->items.items[facts_of(bindings, primitive)->first_item + index];
     const struct document *doc = b->look.doc;
-    elem_id fact = b->look.assigns.items[item->assign].target;
+    const struct look_assign *assign = &b->look.assigns.items[item->assign];
+    elem_id fact = assign->target;
     bool is_visibility = bind_fact_kind(doc, fact) == FACT_VISIBILITY;
     struct diag_place place = doc_place(doc, fact);
     prim_id from = bind_prim_at(b, primitive + 1, item->level);
@@ -232,8 +233,10 @@ mxg_status mxg_bindings_fact(const mxg_bindings *bindings, uint32_t primitive, u
         .name = bind_fact_name(doc, fact),
         .type =
             is_visibility ? "boolean" : str_text(doc->strings, doc_attr_value(doc, fact, STR_type)),
-        .value = str_text(doc->strings,
-                          doc_attr_value(doc, fact, is_visibility ? STR_visible : STR_value)),
+        .value = assign->value
+                     ? assign->value
+                     : str_text(doc->strings,
+                                doc_attr_value(doc, fact, is_visibility ? STR_visible : STR_value)),
         .target = bind_fact_target(doc, fact),
         .from = from ? from - 1 : MXG_NONE,
         .file = place.file,

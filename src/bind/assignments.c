@@ -310,6 +310,12 @@ static void match_prim(struct bind_look *look, prim_id prim)
     vec_last(&look->matchers).num_prims++;
 }
 
+void look_match_prim(struct bind_look *look, enum matcher_kind kind, prim_id prim)
+{
+    add_matcher(look, look->assigns.len, kind);
+    match_prim(look, prim);
+}
+
 /*
  * A matcher of the members of a collection that are excluded, or of those that are not: its number.
  * Members that were removed from the scene match nothing.
@@ -357,8 +363,7 @@ void look_read_binding(struct bind_look *look, uint32_t number)
         move_beside(look, &assign, &name, &text);
     if (binding->is_collection)
         assign.members = find_members(look, binding);
-    add_matcher(look, look->assigns.len, assign.members ? MATCHER_BOUND : MATCHER_ASSIGN);
-    match_prim(look, binding->prim);
+    look_match_prim(look, assign.members ? MATCHER_BOUND : MATCHER_ASSIGN, binding->prim);
     assign.name = look_intern_name(look, &name, text, strlen(text));
     vec_push(look->arena, &look->assigns, assign);
 }

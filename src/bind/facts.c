@@ -57,6 +57,58 @@ static uint32_t key_of(struct bind_look *look, elem_id fact)
     return look_intern_name(look, &none, text_cstr(&key), key.len);
 }
 
+/*
+ * The value of a <geomprop> in the unit that its <geompropdef> names, which is that of the
+ * geometry's own values; NULL: it has this unit, or it is no measure.
+ */
+static const char *converted(struct bind_look *look, elem_id fact)
+{
+    const struct document *doc = look->doc;
+    const struct geomprop *def = library_geomprop(look->lib, doc_element(doc, fact)->name);
+    str_id unit = doc_attr_value(doc, fact, STR_unit),
+           kind = doc_attr_value(doc, fact, STR_unittype),
+           usual = def ? doc_attr_value(doc, def->element, STR_unit) : 0;
+    doc_type type = doc_type_of(doc_attr_value(doc, fact, STR_type));
+    float from, to;
+    struct ir_value value;
+    struct text out;
+    if (bind_fact_kind(doc, fact) != FACT_GEOMPROP || !unit || !usual || unit == usual
+        || !doc_type_is_measure(type))
+        return NULL;
+    kind = kind ? kind : library_unit_type_of(look->lib, unit);
+    if (!library_unit_scale(look->lib, kind, unit, &from)
+        || !library_unit_scale(look->lib, kind, usual, &to)) {
+        library_report_unit(look->lib, kind, unit, doc_attr_place(doc, fact, STR_unit),
+                            look->diags);
+        return NULL;
+    }
+    const char *text = value_of(doc, fact, STR_value);
+    if (!doc_parse_value(type, text, strlen(text), NULL, &value))
+        return NULL;
+    text_init(&out, look->arena);
+    for (unsigned i = 0; i < ir_type_info(value.type)->components; i++) {
+        text_str(&out, i ? ", " : "");
+        text_float(&out, value.w[i].f * (from / to));
+    }
+    return text_cstr(&out);
+}
+
+/* Adds a fact for the matcher or the collection of `assign`. */
+static void add_assign(struct bind_look *look, struct look_assign assign, elem_id fact)
+{
+    assign.name = key_of(look, fact);
+    assign.value = converted(look, fact);
+    vec_push(look->arena, &look->assigns, assign);
+}
+
+/* A <tokendefault> stands at "/", and is weaker than all that stands there, too. */
+static void add_default(struct bind_look *look, elem_id fact)
+{
+    look_match_prim(look, MATCHER_ASSIGN, 0);
+    add_assign(look, (struct look_assign){.element = fact, .target = fact, .kind = ASSIGN_LAYER},
+               fact);
+}
+
 /* Adds a fact that stands where `placed` says. */
 static void add_fact(struct bind_look *look, elem_id placed, elem_id fact)
 {
@@ -75,8 +127,7 @@ static void add_fact(struct bind_look *look, elem_id placed, elem_id fact)
         assign.collection = look_read_collection(look, collection, placed, STR_collection);
     if (!geom && !assign.collection)
         return;
-    assign.name = key_of(look, fact);
-    vec_push(look->arena, &look->assigns, assign);
+    add_assign(look, assign, fact);
 }
 
 static void add_children(struct bind_look *look, elem_id placed, elem_id parent)
@@ -108,6 +159,9 @@ static void read_facts(struct bind_look *look, const struct library *lib, elem_i
 {
     const struct document *doc = &lib->doc;
     look_begin(look, lib, element, scene, arena, diags);
+    for (elem_id e = doc_element(doc, doc->root)->first_child; e; e = doc_element(doc, e)->next)
+        if (doc_element(doc, e)->kind == KIND_TOKENDEFAULT)
+            add_default(look, e);
     for (elem_id e = doc_element(doc, doc->root)->first_child; e; e = doc_element(doc, e)->next)
         if (doc_element(doc, e)->kind == KIND_GEOMINFO)
             add_children(look, e, e);

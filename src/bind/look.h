@@ -56,9 +56,10 @@ struct look_assign {
     uint32_t members;    /* 1 + index in `members`: it is for a collection of USD; 0: it is not */
     uint32_t first_variant, num_variants; /* inside of it */
     struct variant_list variants;         /* all that apply, in order; a later one wins */
-    uint8_t kind;                         /* enum assign_kind */
-    uint8_t products; /* bits of enum bind_product: the inputs that the material has */
-    bool is_shared;   /* exclusive="false" */
+    const char *value; /* of a fact in the unit of its <geompropdef>; NULL: as in the document */
+    uint8_t kind;      /* enum assign_kind */
+    uint8_t products;  /* bits of enum bind_product: the inputs that the material has */
+    bool is_shared;    /* exclusive="false" */
 };
 
 /* A primitive of an instance that a matcher names. */
@@ -193,6 +194,8 @@ uint32_t look_intern_name(struct bind_look *look, const struct slot_name *name, 
 void look_read_assign(struct bind_look *look, elem_id element, uint32_t ordinal);
 void look_read_variant(struct bind_look *look, elem_id element);
 void look_read_binding(struct bind_look *look, uint32_t binding);
+/* A new matcher at a primitive, 0 for "/", of the assignment that comes next. */
+void look_match_prim(struct bind_look *look, enum matcher_kind kind, prim_id prim);
 
 /* worn_variants.c: fills the lists of all assignments. */
 void look_apply_variants(struct bind_look *look);

@@ -28,7 +28,7 @@ static const struct {
                     {STR_type}},
     [KIND_OUTPUT] = {IN(MATERIALX) | IN_INTERFACE | IN(IMPLEMENTATION), true, {0}},
     [KIND_TOKEN] = {IN(MATERIALX) | IN_INTERFACE | IN(VARIANT) | IN(GEOMINFO), true, {STR_type}},
-    [KIND_TOKENDEFAULT] = {IN(MATERIALX) | IN(GEOMINFO), true, {STR_type}},
+    [KIND_TOKENDEFAULT] = {IN(MATERIALX), true, {STR_type}},
     [KIND_IMPLEMENTATION] = {IN(MATERIALX), true, {0}},
     [KIND_TYPEDEF] = {IN(MATERIALX), true, {0}},
     [KIND_MEMBER] = {IN(TYPEDEF), true, {STR_type}},

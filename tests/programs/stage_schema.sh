@@ -144,6 +144,46 @@ document=geominfo.mtlx check 'tokens of <geominfo> name files' draw tokens
 check 'without a message' test ! -s err
 sees 'the file of the first primitive' tokens -3.5 3.5 r
 sees 'the file of the second' tokens -1.5 3.5 g
+# A unit, a default of tokens, and a property that stands in for colours.
+cat >facts.mtlx <<'XML'
+<materialx version="1.39">
+  <geompropdef name="h" type="float" unittype="distance" unit="centimeter"/>
+  <tokendefault name="id" type="string" value="red"/>
+  <geominfo name="A" geom="/high"><geomprop name="h" type="float" value="1" unit="meter" unittype="distance"/></geominfo>
+  <geominfo name="B" geom="/colored, /own"><geomprop name="geomcolor" type="color3" value="0, 1, 0"/></geominfo>
+  <geominfo name="C" geom="/given"><token name="id" type="string" value="green"/></geominfo>
+  <geompropvalue name="gh" type="float"><input name="geomprop" type="string" value="h"/></geompropvalue>
+  <combine3 name="high" type="color3"><input name="in2" type="float" nodename="gh"/></combine3>
+  <geomcolor name="color" type="color3"/>
+  <image name="picture" type="color3"><input name="file" type="filename" value="of_&lt;id&gt;.ppm"/></image>
+XML
+for pair in High:high Colored:color Pictured:picture; do
+    echo "  <surface_unlit name='S_${pair%:*}' type='surfaceshader'><input name='emission_color' type='color3' nodename='${pair#*:}'/></surface_unlit>
+  <surfacematerial name='${pair%:*}' type='material'><input name='surfaceshader' type='surfaceshader' nodename='S_${pair%:*}'/></surfacematerial>" >>facts.mtlx
+done
+echo '</materialx>' >>facts.mtlx
+mesh() { # NAME MATERIAL X Y [TEXT]
+    echo "def Mesh \"$1\" { ${5:-}
+    rel material:binding = </$2>
+    $quad
+    $(at "$3" "$4")
+}"
+}
+{
+    echo "$head"
+    mesh high High -3.5 3.5
+    mesh colored Colored -1.5 3.5
+    mesh own Colored 0.5 3.5 'color3f[] primvars:displayColor = [(1, 0, 0)]'
+    mesh given Pictured 2.5 3.5
+    mesh other Pictured -3.5 1.5
+} >facts.usda
+document=facts.mtlx check 'units, colours and defaults of tokens are drawn' draw facts
+check 'without a message' test ! -s err
+sees 'a property in the unit of its definition' facts -3.5 3.5 g
+sees 'a colour of the document' facts -1.5 3.5 g
+sees "the geometry's own colour before that of the document" facts 0.5 3.5 r
+sees 'the token of a <geominfo>' facts 2.5 3.5 g
+sees 'the default of a token' facts -3.5 1.5 r
 mkdir -p inner/of_
 cp geominfo.mtlx of_green.ppm inner
 sed 's/"red"/"out"/' tokens.usda >inner/out.usda
