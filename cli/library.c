@@ -101,10 +101,11 @@ static const struct action {
     const char *name;
     void (*run)(struct cli *cli, const struct library_args *args);
     bool on_builtin;            /* the paths extend the built-in library */
+    bool makes_image;           /* which has no library below it */
     bool has_output, has_pages; /* takes -o; takes --html, --markdown and --pictures */
     bool has_words;             /* arguments that are no paths are words */
     bool has_notes;             /* prints the notes of loading, which are otherwise hidden */
-} actions[] = {{"pack", pack, .has_output = true},
+} actions[] = {{"pack", pack, .makes_image = true, .has_output = true},
                {"list", list, .has_words = true, .has_notes = true},
                {"expand", expand, .on_builtin = true, .has_output = true},
                {"doc", library_doc, true, true, true}};
@@ -136,6 +137,36 @@ static bool check_options(const struct cli *cli, const struct action *action,
     return !action->has_pages || !args->output || args_check_path("--output", "DIR", args->output);
 }
 
+/* True if an image of the library would lack nothing. */
+static bool is_whole(const mxg_library *library)
+{
+    const mxg_diagnostics *list = library ? mxg_library_diagnostics(library) : NULL;
+    bool good = list && mxg_diagnostics_num_errors(list) == 0;
+    for (uint32_t i = 0; good && i < mxg_diagnostics_num_items(list); ++i) {
+        mxg_diagnostic item = {.size = sizeof item};
+        good = mxg_diagnostics_item(list, i, &item) == MXG_OK
+               && strcmp(item.id, "broken-implementation") != 0;
+    }
+    return good;
+}
+
+/* False after telling that all faults of the library come from the lack of the built-in one. */
+static bool stands_alone(struct cli *cli, const struct arg_list *paths, mxg_library *builtin)
+{
+    mxg_library *above = NULL;
+    if (!builtin || is_whole(cli->library))
+        return true;
+    mxg_library_load(cli->context, builtin, paths->items, paths->len, &above);
+    bool needs_builtin = is_whole(above);
+    mxg_library_unref(above);
+    if (needs_builtin)
+        report_error(&cli->report, "image-needs-library",
+                     "'%s' uses what the built-in library defines, and an image has no library "
+                     "below it; load the files themselves with --library",
+                     paths->items[0]);
+    return !needs_builtin;
+}
+
 /* Loads the library from the paths; without paths the built-in one. */
 static bool load(struct cli *cli, const struct action *action)
 {
@@ -154,8 +185,11 @@ static bool load(struct cli *cli, const struct action *action)
     }
     mxg_status status = mxg_library_load(cli->context, action->on_builtin ? builtin : NULL,
                                          paths.items, paths.len, &cli->library);
+    bool good = !action->makes_image || stands_alone(cli, &paths, builtin);
     free(paths.items);
     mxg_library_unref(builtin);
+    if (!good)
+        return false;
     bool verbose = cli->report.verbose;
     cli->report.verbose |= action->has_notes && !cli->report.quiet;
     if (cli->library)

@@ -44,6 +44,45 @@ static void add_list(struct completion *completion, const char *list)
     }
 }
 
+static size_t count_items(const char *list)
+{
+    size_t count = *list != '\0';
+    for (; *list; ++list)
+        count += *list == ',';
+    return count;
+}
+
+/* The end of the first `count` items of a list with commas. */
+static const char *end_of_items(const char *list, size_t count)
+{
+    const char *end = list + strcspn(list, ",");
+    while (--count && *end)
+        end += 1 + strcspn(end + 1, ",");
+    return end;
+}
+
+/* The values of an enumeration with their words; a string has the words as values. */
+static void add_enumeration(struct completion *completion, const mxg_port *port)
+{
+    const char *words = port->enum_names, *values = port->enum_values;
+    size_t num_words = count_items(words);
+    size_t size = num_words ? count_items(values) / num_words : 0; /* numbers of a value */
+    if (!size || strcmp(port->type, "string") == 0) {
+        add_list(completion, words);
+        return;
+    }
+    for (size_t i = 0; i < num_words && *values; ++i) {
+        const char *word_end = end_of_items(words, 1), *end = end_of_items(values, size);
+        char *value = cli_copy(values, (size_t)(end - values));
+        char *word = cli_copy(words, (size_t)(word_end - words));
+        add_value(completion, value, COMPLETE_ENUM, word);
+        free(word);
+        free(value);
+        words = word_end + strspn(word_end, ", ");
+        values = end + strspn(end, ", ");
+    }
+}
+
 static bool ends_with(const char *text, const char *end)
 {
     size_t len = strlen(text), end_len = strlen(end);
@@ -93,7 +132,7 @@ static void complete_textures(struct completion *completion)
 static void complete_value(struct completion *completion)
 {
     char type[QUERY_NAME];
-    mxg_port port = {.enum_names = "", .value = ""};
+    mxg_port port = {.enum_names = "", .enum_values = "", .value = ""};
     bool is_known = catalogue_port_of(&completion->query, completion->place.element, &port);
     query_text(&completion->query, completion->place.element, "type", type, sizeof type);
     const char *value_type = is_known && !*type ? port.type : type;
@@ -102,7 +141,7 @@ static void complete_value(struct completion *completion)
     else if (strcmp(value_type, "boolean") == 0)
         add_list(completion, "true, false");
     else if (is_known)
-        add_list(completion, *port.enum_names ? port.enum_names : "");
+        add_enumeration(completion, &port);
     if (is_known && *port.value && !*port.enum_names && strcmp(value_type, "boolean") != 0)
         add_value(completion, port.value, COMPLETE_VALUE, "default");
     if (is_known && strcmp(port.name, "geomprop") == 0)

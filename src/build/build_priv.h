@@ -455,6 +455,8 @@ void build_verbatim(struct builder *b, const struct frame *frame, ir_ref *result
  * parameter is an int, and extra inputs follow.
  */
 const ir_ref *build_function_arguments(struct builder *b, const struct frame *frame);
+/* source_words.c: the arguments of a call with the values that the source has for words. */
+ir_ref *build_source_arguments(struct builder *b, const struct frame *frame);
 /* True if the source is the function of a light shader. */
 bool build_is_light_source(const struct builder *b, const struct implementation *impl);
 /* Adds the function of a light shader to the shader; UINT32_MAX after a diagnostic. */

@@ -6,42 +6,6 @@
 
 #include <math.h>
 
-/* The name of an enum value stands for the value at the same position of enumvalues. */
-static str_id enum_value(struct builder *b, const struct port *port, str_id text)
-{
-    str_id names = doc_attr_value(build_doc(b), port->element, STR_enum);
-    str_id values = doc_attr_value(build_doc(b), port->element, STR_enumvalues);
-    if (!names || !values)
-        return 0;
-    const char *name = build_text(b, names), *value = build_text(b, values),
-               *word = build_text(b, text);
-    size_t len = strlen(word);
-    while (*name) {
-        size_t n = strcspn(name, ","), m = strcspn(value, ",");
-        while (*name == ' ') {
-            name++;
-            n--;
-        }
-        if (n == len && memcmp(name, word, len) == 0)
-            return str_intern(b->shader->strings, value, m);
-        name += n + (name[n] == ',');
-        value += m + (value[m] == ',');
-    }
-    return 0;
-}
-
-static bool parse(struct builder *b, doc_type type, str_id text, const struct port *port,
-                  struct ir_value *out)
-{
-    const char *z = build_text(b, text);
-    if (doc_parse_value(type, z, str_len(b->shader->strings, text), b->shader->strings, out))
-        return true;
-    str_id value = port && (port->flags & PORT_ENUM) ? enum_value(b, port, text) : 0;
-    return value
-           && doc_parse_value(type, build_text(b, value), str_len(b->shader->strings, value), NULL,
-                              out);
-}
-
 static void report_infinite(struct builder *b, const struct ir_value *value, str_id text,
                             elem_id element)
 {
@@ -63,7 +27,8 @@ ir_ref build_constant(struct builder *b, const struct port *port, str_id text, e
                            b->diags);
         return ir_const_string(b->graph, text);
     }
-    if (parse(b, port->type, text, port, &value)) {
+    if (doc_parse_value(port->type, build_text(b, text), str_len(b->shader->strings, text),
+                        b->shader->strings, &value)) {
         report_infinite(b, &value, text, element);
         return ir_const(b->graph, &value);
     }

@@ -11,27 +11,29 @@ static bool is_closure(doc_type type)
     return type == DOC_TYPE_BSDF || type == DOC_TYPE_EDF || type == DOC_TYPE_VDF;
 }
 
-static uint32_t input_types(const struct indexer *ix, uint32_t nodedef, struct lang_input *out,
-                            uint32_t max)
+static uint32_t input_types(const struct indexer *ix, const struct implementation *impl,
+                            struct lang_input *out, uint32_t max)
 {
-    const struct nodedef *def = library_nodedef(ix->lib, nodedef);
+    const struct nodedef *def = library_nodedef(ix->lib, impl->nodedef);
     assert(def->num_inputs <= max);
-    const struct port *ports = library_ports(ix->lib, nodedef, NULL);
+    const struct port *ports = library_ports(ix->lib, impl->nodedef, NULL);
     uint32_t n = def->num_inputs < max ? def->num_inputs : max;
     for (uint32_t i = 0; i < n; i++)
-        out[i] = (struct lang_input){ports[i].name, library_type_ir(ix->lib, ports[i].type)};
+        out[i] = (struct lang_input){
+            ports[i].name,
+            library_type_ir(ix->lib, library_source_type(ix->lib, impl->element, &ports[i]))};
     return n;
 }
 
-static uint32_t parse_expression(struct indexer *ix, uint32_t nodedef, unsigned output,
-                                 str_id source, uint32_t file, struct diag_place where,
-                                 struct diag_list *diags)
+static uint32_t parse_expression(struct indexer *ix, const struct implementation *impl,
+                                 unsigned output, str_id source, uint32_t file,
+                                 struct diag_place where, struct diag_list *diags)
 {
     struct lang_input inputs[INDEX_MAX_PORTS];
-    uint32_t n = input_types(ix, nodedef, inputs, INDEX_MAX_PORTS);
-    const struct nodedef *def = library_nodedef(ix->lib, nodedef);
+    uint32_t n = input_types(ix, impl, inputs, INDEX_MAX_PORTS);
+    const struct nodedef *def = library_nodedef(ix->lib, impl->nodedef);
     assert(output < def->num_outputs);
-    const struct port *out = library_ports(ix->lib, nodedef, NULL) + def->num_inputs + output;
+    const struct port *out = library_ports(ix->lib, impl->nodedef, NULL) + def->num_inputs + output;
     return lang_parse_expression(&ix->lib->unit, index_text(ix, source),
                                  str_len(&ix->lib->strings, source), inputs, n,
                                  library_type_ir(ix->lib, out->type), file, where, diags);
@@ -54,7 +56,7 @@ bool index_parse_expressions(struct indexer *ix, struct implementation *impl, st
                      "each output needs an <output> child with sourcecode");
             return false;
         }
-        ids[i] = parse_expression(ix, impl->nodedef, i, own ? own : source, file, where, diags);
+        ids[i] = parse_expression(ix, impl, i, own ? own : source, file, where, diags);
         if (ids[i] == LANG_NONE)
             return false;
     }
@@ -164,7 +166,9 @@ static const char *check_signature(const struct indexer *ix, struct implementati
             return "inputs need `in` parameters, and outputs need `out` parameters";
         if (is_extra)
             continue;
-        ir_type_id type = library_type_ir(ix->lib, ports[out ? i - count_extra(extra) : i].type);
+        const struct port *port = &ports[out ? i - count_extra(extra) : i];
+        ir_type_id type = library_type_ir(
+            ix->lib, out ? port->type : library_source_type(ix->lib, impl->element, port));
         bool is_word = impl->target && type == IR_TYPE_STRING && slot->type == IR_TYPE_INT;
         if (slot->type != type && !is_word)
             return "a parameter differs in type from its input or output";
@@ -190,7 +194,7 @@ bool index_find_function(struct indexer *ix, struct implementation *impl, str_id
     }
     struct lang_input inputs[INDEX_MAX_PORTS];
     ir_type_id types[2 * INDEX_MAX_PORTS];
-    uint32_t n = input_types(ix, impl->nodedef, inputs, INDEX_MAX_PORTS);
+    uint32_t n = input_types(ix, impl, inputs, INDEX_MAX_PORTS);
     for (uint32_t i = 0; i < n; i++)
         types[i] = inputs[i].type;
     uint32_t function = lang_find_function(&ix->lib->unit, file, name, types, n);

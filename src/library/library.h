@@ -525,6 +525,18 @@ void library_check_enum(const struct library *lib, const struct port *port, str_
                         struct diag_place place, struct diag_list *diags);
 /* The index of a word in a list of words; -1: it is not there. */
 int library_enum_index(const char *list, const char *word);
+/*
+ * The <input> of an <implementation> that has values of its own for the words of the definition's
+ * input (specification, "Implementation Elements": enumvalues); 0: there is none.
+ */
+elem_id library_source_words(const struct library *lib, elem_id implementation,
+                             const struct port *port);
+/* The type of an input in the source of an implementation: `impltype` of such values, or its own.
+ */
+doc_type library_source_type(const struct library *lib, elem_id implementation,
+                             const struct port *port);
+/* The value at an index of a list of values of a type; len 0: the list is shorter. */
+struct text_word library_enum_value(const char *list, doc_type type, unsigned index);
 
 /*
  * shader_inputs.c: reports values where a node of this layer takes a shader, and a material without

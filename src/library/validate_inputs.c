@@ -137,15 +137,53 @@ static uint32_t count_words(const char *list)
     return count;
 }
 
+/*
+ * The words that the values of an <input> are for: its own, or in an <implementation>, those of the
+ * definition, with another type.
+ */
+static str_id words_of(const struct validate *v, elem_id element, doc_type *type)
+{
+    elem_id parent = doc_element(v->doc, element)->parent;
+    *type = doc_type_of(doc_attr_value(v->doc, element, STR_type));
+    if (!parent || doc_element(v->doc, parent)->kind != KIND_IMPLEMENTATION)
+        return doc_attr_value(v->doc, element, STR_enum);
+    uint32_t nodedef = library_nodedef_by_name(v->lib, doc_attr_value(v->doc, parent, STR_nodedef));
+    int index = nodedef == LIBRARY_NONE
+                    ? -1
+                    : library_find_input(v->lib, nodedef, doc_element(v->doc, element)->name);
+    if (index < 0)
+        return 0;
+    const struct port *port = &library_ports(v->lib, nodedef, NULL)[index];
+    *type = library_source_type(v->lib, parent, port);
+    return doc_attr_value(v->doc, port->element, STR_enum);
+}
+
+/* Generation takes these values as they are. */
+static void check_values_of_source(struct validate *v, elem_id element, doc_type type, str_id list)
+{
+    struct ir_value value;
+    struct text_word text;
+    for (unsigned i = 0; (text = library_enum_value(text_of(v, list), type, i)).len; i++) {
+        if (!doc_type_components(type) || doc_parse_value(type, text.bytes, text.len, NULL, &value))
+            continue;
+        doc_report_value(type, text_of(v, library_type_name(v->lib, type)),
+                         arena_strndup(v->resolved.arena, text.bytes, text.len),
+                         doc_attr_place(v->doc, element, STR_enumvalues), v->diags);
+        return;
+    }
+}
+
 /* A value of several numbers takes as many places in the list. */
 static void check_enum_values(struct validate *v, elem_id element)
 {
-    str_id words = doc_attr_value(v->doc, element, STR_enum),
-           values = doc_attr_value(v->doc, element, STR_enumvalues);
-    if (!words || !values)
+    str_id values = doc_attr_value(v->doc, element, STR_enumvalues);
+    doc_type type;
+    str_id words = values ? words_of(v, element, &type) : 0;
+    if (!words)
         return;
-    uint32_t components =
-        doc_type_components(doc_type_of(doc_attr_value(v->doc, element, STR_type)));
+    if (words != doc_attr_value(v->doc, element, STR_enum))
+        check_values_of_source(v, element, type, values);
+    uint32_t components = doc_type_components(type);
     uint32_t num_words = count_words(text_of(v, words)),
              num_values = count_words(text_of(v, values));
     components = components ? components : 1;
@@ -180,7 +218,8 @@ static bool has_more_to_say(const struct document *doc, elem_id element)
         case STR_colorspace:
         case STR_uimin:
         case STR_uisoftmin:
-        case STR_enum: return true;
+        case STR_enum:
+        case STR_enumvalues: return true;
         default: break;
         }
     }

@@ -162,10 +162,10 @@ static bool converts(const struct signature *s, ir_type_id value, ir_type_id par
 }
 
 /* A parameter of a known type must take the value of its input, or give that of its output. */
-static bool has_type(const struct signature *s, unsigned parameter, const struct port *port)
+static bool has_type(const struct signature *s, unsigned parameter, doc_type of_port)
 {
     const struct scan_word *type = &s->parameters[parameter].type;
-    ir_type_id value = library_type_ir(s->ix->lib, port->type);
+    ir_type_id value = library_type_ir(s->ix->lib, of_port);
     for (ir_type_id known = IR_TYPE_BOOL; known <= IR_TYPE_SAMPLER; known++)
         if (scan_is(type, ir_type_text(known)))
             return value > IR_TYPE_SAMPLER || converts(s, value, known);
@@ -197,10 +197,11 @@ static const char *signature_fault(struct signature *s, bool is_light)
                      "one per output"
                    : "it needs one parameter per input, then one `out` parameter per output";
     for (unsigned i = 0; i < inputs; i++)
-        if (!has_type(s, s->leading + i, &s->ports[i]))
+        if (!has_type(s, s->leading + i,
+                      library_source_type(s->ix->lib, s->impl->element, &s->ports[i])))
             return "a parameter differs in type from its input";
     for (unsigned i = 0; i < s->def->num_outputs; i++)
-        if (!has_type(s, first + i, &s->ports[s->def->num_inputs + i]))
+        if (!has_type(s, first + i, s->ports[s->def->num_inputs + i].type))
             return "a parameter differs in type from its output";
     return NULL;
 }

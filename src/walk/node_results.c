@@ -120,8 +120,9 @@ void build_report_index(void *user_data, int32_t index, uint32_t length)
 }
 
 /* False after a report. */
-static void call(struct builder *b, const struct frame *frame, ir_ref *results)
+static void call(struct builder *b, const struct frame *of_node, ir_ref *results)
 {
+    struct frame own = *of_node, *frame = &own;
     const struct implementation *impl = frame->impl;
     const struct nodedef *def = library_nodedef(b->lib, impl->nodedef);
     ir_type_id type =
@@ -133,6 +134,7 @@ static void call(struct builder *b, const struct frame *frame, ir_ref *results)
     }
     uint32_t first_node = b->graph->nodes.len;
     b->called = frame->node.element;
+    frame->args = build_source_arguments(b, of_node);
     bool has_tiles = build_note_textures(b, frame);
     assert(frame->node.nodedef == impl->nodedef);
     if (impl->kind == IMPL_EXPRESSION)

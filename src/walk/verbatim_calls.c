@@ -182,10 +182,11 @@ static uint32_t callee_of(const struct source_call *c, uint32_t verbatim)
 /* The index of a word in the enumeration of an input; -1: it has none. */
 static int index_in_enum(const struct source_call *c, const struct port *port, str_id word)
 {
+    const struct document *doc = &c->b->lib->doc;
+    elem_id words = library_source_words(c->b->lib, c->impl->element, port);
+    str_id of_port = port->flags & PORT_ENUM ? doc_attr_value(doc, port->element, STR_enum) : 0;
     const char *list =
-        port->flags & PORT_ENUM
-            ? build_text(c->b, doc_attr_value(&c->b->lib->doc, port->element, STR_enum))
-            : "";
+        build_text(c->b, words ? doc_attr_value(doc, words, STR_enumvalues) : of_port);
     return library_enum_index(list, build_text(c->b, word));
 }
 
@@ -221,7 +222,8 @@ static unsigned put_arguments(const struct source_call *c, ir_ref *out)
 {
     unsigned n = 0;
     for (unsigned i = 0; i < c->def->num_inputs; i++) {
-        bool is_number = type_of(c, i) == IR_TYPE_STRING && !(c->b->options->caps & CAP_STRINGS);
+        bool is_number = ir_type_of(c->b->graph, c->frame->args[i]) == IR_TYPE_STRING
+                         && !(c->b->options->caps & CAP_STRINGS);
         out[n++] =
             is_number ? number_of_string(c, &c->ports[i], c->frame->args[i]) : c->frame->args[i];
     }
@@ -242,7 +244,7 @@ const ir_ref *build_function_arguments(struct builder *b, const struct frame *fr
         return frame->args;
     ir_ref *args = ARENA_ARRAY(b->arena, ir_ref, c.def->num_inputs + LIBRARY_NUM_EXTRA_INPUTS);
     for (unsigned i = 0; i < c.def->num_inputs; i++) {
-        bool is_number = type_of(&c, i) == IR_TYPE_STRING
+        bool is_number = ir_type_of(b->graph, frame->args[i]) == IR_TYPE_STRING
                          && unit->slots.items[fn->first_slot + i].type == IR_TYPE_INT;
         args[i] = is_number ? number_of_string(&c, &c.ports[i], frame->args[i]) : frame->args[i];
     }
@@ -445,7 +447,7 @@ static void build_leaf(const struct source_call *c, const struct shader_verbatim
     bool is_native = !has_convention(c);
     ir_type_id *types = ARENA_ARRAY(shader->arena, ir_type_id, num_args);
     for (unsigned i = 0; i < c->def->num_inputs; i++)
-        types[i] = type_of(c, i);
+        types[i] = ir_type_of(c->b->graph, args[i]);
     leaf.operand_types = types;
     for (unsigned i = 0; i < NUM_SOURCE_CONTEXTS; i++)
         leaf.verbatim[i] = c->verbatim->contexts >> i & 1

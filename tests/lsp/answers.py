@@ -191,6 +191,10 @@ def check_completion(client):
     check({"noise2d", "standard_surface", "input", "output"} <= set(found) and "look" not in found, "categories in a graph")
     enum = within(GRAPH, '<input name="file"', '<input name="uaddressmode" type="string" value="¦"/><input name="file"')
     same(labels(client, enum)[:4], ["constant", "clamp", "periodic", "mirror"], "values of an enumeration")
+    numbers = '<materialx version="1.39"><unifiednoise2d name="u" type="float"><input name="type" type="integer" value="¦"/>'
+    same(labels(client, numbers), ["0", "1", "2", "3"], "numbers of an enumeration, whose words are no values")
+    lumas = '<materialx version="1.39"><luminance name="l" type="color3"><input name="lumacoeffs" type="color3" value="¦"/>'
+    same(labels(client, lumas)[1], "0.2126,0.7152,0.0722", "colours of an enumeration")
     found = labels(client, within(GRAPH, 'type="float"/>', 'type="float" ¦/>'))
     check("doc" in found and "uniform" not in found and "type" not in found, "attributes of a node")
     at = open_text(client, within(GRAPH, '<constant name="grey"', "<nois¦\n    <constant name=\"grey\""))

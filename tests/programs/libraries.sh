@@ -159,6 +159,31 @@ END
 check 'a library with faults gives no image' exits 1 "$mxgen" library pack partly.mtlx -o partly.mxlib
 check 'the error says that images have no faults' grep -q '^error: an image has no faulty implementations' err
 check 'no image is written' test ! -e partly.mxlib
+
+# A library on top of the built-in one is no image: by its graphs, or by what it inherits.
+cat >upper.mtlx <<'END'
+<materialx version="1.39">
+  <nodedef name="ND_upper" node="upper"><input name="in" type="float" value="1"/><output name="out" type="float"/></nodedef>
+  <nodegraph name="NG_upper" nodedef="ND_upper">
+    <sin name="s" type="float"><input name="in" type="float" interfacename="in"/></sin>
+    <output name="out" type="float" nodename="s"/>
+  </nodegraph>
+</materialx>
+END
+cat >heir.mtlx <<'END'
+<materialx version="1.39">
+  <nodedef name="ND_heir" node="heir" inherit="ND_sin_float"/>
+  <implementation name="IM_heir" nodedef="ND_heir" sourcecode="{{in}}"/>
+</materialx>
+END
+for file in upper heir; do
+    check "$file gives no image" exits 1 "$mxgen" library pack $file.mtlx -o $file.mxlib
+    check "the error of $file names the reason" grep -q "^error: '$file.mtlx' uses what the built-in library defines.*\[image-needs-library\]" err
+    check "the error of $file is the only one" test "$(grep -c error: err)" = 1
+    check "$file is no image" test ! -e $file.mxlib
+    check "$file alone has faults" exits 1 "$mxgen" library pack $file.mtlx -o $file.mxlib --no-builtin-library
+    check "the faults of $file are told" grep -Eq 'unknown node|inherit' err
+done
 check 'the warning can be made an error' exits 1 "$mxgen" good.mtlx --library partly.mtlx -o made-strict -Werror=broken-implementation
 
 # Included documents, too.

@@ -15,6 +15,7 @@ static const struct layer_file files[] = {
     {"matte.glsl", "vec3 matte_eval(vec3 color, float shade, vec3 L) { return color * shade; }\n"},
     {"lamp.glsl", "void lamp(float power, vec3 P, out vec3 L, out vec3 light)\n"
                   "{ L = P; light = vec3(power); }\n"},
+    {"mode.glsl", "float mode_of(int mode, int level) { return float(mode * 2 + level) + 2.0; }\n"},
     {NULL, NULL},
 };
 

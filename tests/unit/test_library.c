@@ -14,6 +14,8 @@ static const struct layer_file files[] = {
     {"matte.glsl", "vec3 matte_eval(vec3 color, vec3 L) { return color * L.z; }\n"
                    "vec3 matte_albedo(vec3 color) { return color; }\n"},
     {"old.c", "void old(float x, float by, int mode, out float y) { goto end; end: y = x; }\n"},
+    {"typed.c",
+     "void typed(float x, float by, float mode, out float y) { goto end; end: y = x; }\n"},
     {NULL, NULL},
 };
 
@@ -187,6 +189,24 @@ static void test_implementations(void)
     REQUIRE_STR(layers_text(&l, verbatim->function), "old");
     REQUIRE_STR(layers_text(&l, library_source(&l.lib, verbatim->file, NULL)->text), files[2].text);
     layers_close(&l);
+}
+
+/* Source takes the type of the values that it has for words. */
+static void test_source_types(void)
+{
+#define TYPED "target='gentyped' file='typed.c' function='typed'"
+    struct layers l;
+    layers_open(&l, files, standard,
+                "<implementation name='IM_typed' nodedef='ND_gain_float' " TYPED ">"
+                "<input name='mode' type='string' enumvalues='1.5, 2.5' impltype='float'/>"
+                "</implementation>");
+    REQUIRE_EQ(l.lib.impls.len, 1);
+    REQUIRE_EQ(l.lib.impls.items[0].kind, IMPL_VERBATIM);
+    layers_close(&l);
+    layers_open(&l, files, standard, IMPL("IM_typed", "ND_gain_float", TYPED));
+    REQUIRE_EQ(l.lib.impls.items[0].kind, IMPL_BROKEN);
+    layers_close(&l);
+#undef TYPED
 }
 
 static void test_trust(void)
@@ -600,6 +620,7 @@ int main(int argc, char **argv)
     test_types();
     test_inheritance();
     test_implementations();
+    test_source_types();
     test_trust();
     test_connections();
     test_interfaces();
