@@ -108,7 +108,7 @@ static const struct action {
 } actions[] = {{"pack", pack, .makes_image = true, .has_output = true},
                {"list", list, .has_words = true, .has_notes = true},
                {"expand", expand, .on_builtin = true, .has_output = true},
-               {"doc", library_doc, true, true, true}};
+               {"doc", library_doc, .on_builtin = true, .has_output = true, .has_pages = true}};
 #define NUM_ACTIONS (sizeof actions / sizeof *actions)
 
 static const struct action *find_action(const char *name)
@@ -162,7 +162,7 @@ static bool stands_alone(struct cli *cli, const struct arg_list *paths, mxg_libr
     if (needs_builtin)
         report_error(&cli->report, "image-needs-library",
                      "'%s' uses what the built-in library defines, and an image has no library "
-                     "below it; load the files themselves with --library",
+                     "below it; load the files themselves above the built-in one",
                      paths->items[0]);
     return !needs_builtin;
 }

@@ -192,8 +192,10 @@ def test_losses():
     twice = flat("standard_surface", {"metalness": ("float", "0.5")}) + flat("standard_surface", {"metalness": ("float", "0.25")})
     root, _, _ = translate(twice, "gltf_pbr", "two of one name")
     check(len(root) == 1 and values(root).get("metallic") == [0.5], "the first of two of one name counts")
-    root, _, _ = translate(flat("gltf_pbr", {"alpha_mode": ("integer", "BLEND"), "alpha": ("float", "0.5")}), "open_pbr_surface", "a mode by its name")
-    check(values(root).get("geometry_opacity") == [0.5], "a value may be a name of its enumeration")
+    root, _, _ = translate(flat("gltf_pbr", {"alpha_mode": ("integer", "2"), "alpha": ("float", "0.5")}), "open_pbr_surface", "a mode by its number")
+    check(values(root).get("geometry_opacity") == [0.5], "the mode BLEND has the number 2")
+    _, said, _ = translate(flat("gltf_pbr", {"alpha_mode": ("integer", "BLEND")}), "open_pbr_surface", "a mode by its name", 1)
+    check("[bad-value]" in said, "the value of an integer is a number, also where its enumeration has names")
     cycle = "".join(f'<nodegraph name="{a}"><output name="o" type="vector3" nodegraph="{b}" output="o"/></nodegraph>' for a, b in ("AB", "BA"))
     translate(cycle + '<standard_surface name="S" type="surfaceshader"><input name="normal" type="vector3" nodegraph="A" output="o"/></standard_surface>',
               "UsdPreviewSurface", "a cycle", 1)
