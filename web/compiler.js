@@ -4,7 +4,7 @@
 const TOO_LONG = 20_000; // milliseconds
 
 export class Compiler {
-    #worker = null;
+    #worker = null; // its promise, so requests arrive in their order
     #waiting = new Map();
     #next = 1;
     #remembered = new Map();
@@ -13,15 +13,20 @@ export class Compiler {
     onSaid = () => {}; // what the worker says by itself
     onStop = () => {};
 
-    /** `source` is the text of the worker, `complaint` a sentence for work that takes too long. */
+    /** `source` is the text of the worker, or its promise, `complaint` a sentence for work that takes too long. */
     constructor(source, complaint = "The document takes longer than 20 seconds; the compiler was stopped.") {
-        this.#source = source;
+        this.#source = Promise.resolve(source);
         this.#complaint = complaint;
     }
 
     #start() {
-        this.#worker = new Worker(URL.createObjectURL(new Blob([this.#source], { type: "text/javascript" })));
-        this.#worker.onmessage = ({ data: { id, answer, error, said } }) => {
+        this.#worker = this.#source.then(source => this.#listen(new Worker(URL.createObjectURL(new Blob([source], { type: "text/javascript" })))));
+        for (const [kind, request] of this.#remembered.values())
+            this.ask(kind, request).catch(() => {});
+    }
+
+    #listen(worker) {
+        worker.onmessage = ({ data: { id, answer, error, said } }) => {
             if (id === undefined) {
                 this.onSaid(said);
                 return;
@@ -34,14 +39,13 @@ export class Compiler {
             else
                 reject(new Error(error));
         };
-        this.#worker.onerror = event => this.#stop(event.message || "the compiler does not start");
-        for (const [kind, request] of this.#remembered.values())
-            this.ask(kind, request).catch(() => {});
+        worker.onerror = event => this.#stop(event.message || "the compiler does not start");
+        return worker;
     }
 
     /** Ends the worker with all that waits for it; the next request starts another one. */
     #stop(reason) {
-        this.#worker.terminate();
+        this.#worker.then(worker => worker.terminate());
         this.#worker = null;
         for (const { reject, timer } of this.#waiting.values()) {
             clearTimeout(timer);
@@ -59,7 +63,7 @@ export class Compiler {
         return new Promise((resolve, reject) => {
             const timer = setTimeout(() => this.#stop(this.#complaint), TOO_LONG);
             this.#waiting.set(id, { resolve, reject, timer });
-            this.#worker.postMessage({ id, kind, ...request });
+            this.#worker.then(worker => worker.postMessage({ id, kind, ...request }));
         });
     }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The compiler's module from the letters that pack.py makes of it.
+// What the page has compressed: the compiler's module from the letters that pack.py makes of it, and the text of the worker.
 
 const BARRED = [0, 10, 13, 34, 92]; // letters that stand with the next one in a letter of two bytes
 
@@ -28,7 +28,10 @@ function unpack(size, letters) {
     return bytes;
 }
 
+const inflated = bytes => new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip")));
+
 /** The module of WebAssembly, for `instantiate`. */
-export function moduleOf({ size, letters }) {
-    return new Response(new Blob([unpack(size, letters)]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
-}
+export const moduleOf = ({ size, letters }) => inflated(unpack(size, letters)).arrayBuffer();
+
+/** A text that gzip and base64 packed (bundle.sh). */
+export const inflate = packed => inflated(Uint8Array.from(atob(packed), letter => letter.charCodeAt(0))).text();

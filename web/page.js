@@ -13,10 +13,11 @@ import { Compiler } from "./compiler.js";
 import { filterInputs, showInputs, valueText } from "./inputs.js";
 import { Layout } from "./layout.js";
 import { addressOf, textOf } from "./link.js";
+import { inflate } from "./module.js";
 import { SHAPE_NAMES } from "./scene.js";
 import { PlainText } from "./text.js";
 import { View, ViewError } from "./view.js";
-import workerSource from "worker.bundle.js";
+import packedWorker from "worker.bundle.js";
 
 const EXAMPLES = { "Gold": gold, "Marble": marble, "Car paint": carPaint, "Displaced": displaced, "ShaderX nodes": shaderx, "Custom node": expression, "Fog": fog };
 const DOCUMENT = "document.mtlx";
@@ -25,6 +26,7 @@ const SCENERY = /\.(hdr|exr|obj|glb)$/i;
 const PAUSE = 250; // milliseconds after a key before the document is compiled
 
 const $ = id => document.getElementById(id);
+const workerSource = inflate(packedWorker);
 const compiler = new Compiler(workerSource), language = new Compiler(workerSource); // a document that takes long does not hold up the editor
 const layout = new Layout();
 let text = new PlainText($("text"));

@@ -110,17 +110,23 @@ export class LanguageServer extends Owner {
         const { id, method } = read(text);
         if (REFRESHING.includes(method))
             this.#caches.forEach(cache => cache.clear());
-        await this.#complete(() => this.#take(text), id !== undefined);
+        let lacksFiles = false; // an answer that waited for the first check of a document needs the check with the files
+        await this.#complete(() => {
+            if (lacksFiles)
+                this.#tell(this.#work());
+            lacksFiles = true;
+            return this.#take(text);
+        }, id !== undefined);
     }
 
     /** Repeats a call, if that is possible, with the files that it lacked; sends its messages. */
     async #complete(call, canRepeat) {
         for (;;) {
-            const { status, pieces } = call(), isComplete = this.#caches.every(cache => cache.isComplete);
+            const called = call(), isComplete = this.#caches.every(cache => cache.isComplete);
             if (isComplete || !canRepeat)
-                pieces.forEach(piece => this.#send(JSON.parse(decoder.decode(piece))));
+                this.#tell(called);
             if (isComplete)
-                return status !== 0;
+                return called.status !== 0;
             await Promise.all(this.#caches.map(cache => cache.fetch()));
             if (this._isDestroyed)
                 return false;
@@ -128,6 +134,10 @@ export class LanguageServer extends Owner {
             if (!canRepeat)
                 return true;
         }
+    }
+
+    #tell({ pieces }) {
+        pieces.forEach(piece => this.#send(JSON.parse(decoder.decode(piece))));
     }
 
     #take(text) {

@@ -19,12 +19,15 @@ MXG_API mxg_status mxgen_js_context(mxg_context_desc *desc, void *host, bool lis
 mxg_status mxgen_js_context(mxg_context_desc *desc, void *host, bool lists_folders, bool cancels,
                             bool reads_texels, mxg_context **out_context)
 {
-    mxg_resolver resolver = resolvers[lists_folders];
+    /* the description has them afterwards, too, when JavaScript asks what is wrong with it */
+    static mxg_resolver resolver;
+    static mxg_texel_reader reader;
+    resolver = resolvers[lists_folders];
     resolver.user_data = host;
     desc->resolver = &resolver;
     desc->cancel = cancels ? host_cancel : NULL;
     desc->cancel_user_data = host;
-    const mxg_texel_reader reader = {host, host_read_texels};
+    reader = (mxg_texel_reader){host, host_read_texels};
     desc->texels = reads_texels ? &reader : NULL;
     return mxg_context_create(desc, out_context);
 }
