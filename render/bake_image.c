@@ -187,6 +187,52 @@ static void tell_overlap(struct baking *baking, struct bake_tile tile, uint32_t 
     baking->has_told_overlap |= part > told;
 }
 
+/* ---- Outputs ---- */
+
+/* The <output> that a drawing is the image of; 0: none. */
+static mxg_element output_of(const struct baking *baking, const struct bake_drawing *drawing)
+{
+    mxg_connection connection = {.size = sizeof connection};
+    const mxg_document *document = baking->document;
+    if (strcmp(bake_element(document, drawing->port).category, "output") == 0)
+        return drawing->port;
+    if (mxg_document_connection(document, drawing->port, &connection) != MXG_OK
+        || strcmp(bake_element(document, connection.source).category, "nodegraph") != 0)
+        return 0;
+    return bake_find_output(document, connection.source, connection.output);
+}
+
+static void tell_asked(struct baking *baking, mxg_element output, const char *name, const char *has)
+{
+    const char *asked = bake_attribute(baking->document, output, name);
+    if (!asked || strcmp(asked, has) == 0)
+        return;
+    char *path = bake_path(baking->document, output), *place = bake_place(baking, output);
+    report_warning(&baking->cli.report, "bake-output",
+                   "'%s' (%s) asks for %s '%s', and its image has '%s': the options size, "
+                   "depth and format say what images have",
+                   path, place, name, asked, has);
+    free(path);
+    free(place);
+}
+
+/* Tells what an output says of its image and the image does not have. */
+static void tell_output(struct baking *baking, const struct bake_drawing *drawing,
+                        const struct image_format *format)
+{
+    mxg_element output = output_of(baking, drawing);
+    if (!output)
+        return;
+    char *size = cli_format("%u", format->width), *depth = cli_format("%u", format->depth);
+    tell_asked(baking, output, "width", size);
+    tell_asked(baking, output, "height", size);
+    tell_asked(baking, output, "bitdepth", depth);
+    if (drawing->spaces)
+        tell_asked(baking, output, "colorspace", drawing->spaces);
+    free(size);
+    free(depth);
+}
+
 bool bake_finish_drawing(struct baking *baking, struct bake_drawing *drawing,
                          const struct spool *spools, uint32_t num_spools)
 {
@@ -201,6 +247,8 @@ bool bake_finish_drawing(struct baking *baking, struct bake_drawing *drawing,
                       : strcmp(ending, "exr") == 0 || !baking->is_709 ? baking->space
                                                                       : "srgb_texture";
     struct image_format format = format_of(baking, drawing, ending, spools[0].width);
+    if (!baking->source) /* the files of an export are others */
+        tell_output(baking, drawing, &format);
     drawing->file = cli_format(is_set ? "%s.<UDIM>.%s" : "%s.%s", drawing->name, ending);
     for (uint32_t t = 0; good && t < num_spools; ++t) {
         char *name = is_set ? cli_format("%s.%d.%s", drawing->name,

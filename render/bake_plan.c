@@ -55,8 +55,7 @@ const char *bake_inherited(const mxg_document *document, mxg_element element, co
     return value;
 }
 
-/* The output of a nodegraph; "" is its only one. 0: there is none. */
-static mxg_element find_output(const mxg_document *document, mxg_element graph, const char *name)
+mxg_element bake_find_output(const mxg_document *document, mxg_element graph, const char *name)
 {
     mxg_element child = bake_element(document, graph).first_child;
     while (child) {
@@ -81,7 +80,7 @@ struct bake_end bake_follow(const mxg_document *document, mxg_element port)
             return (struct bake_end){.value = bake_attribute(document, port, "value") ? port : 0,
                                      .output = ""};
         if (is_category(document, connection.source, "nodegraph"))
-            port = find_output(document, connection.source, connection.output);
+            port = bake_find_output(document, connection.source, connection.output);
         else if (*connection.interfacename || is_category(document, connection.source, "output"))
             port = connection.source;
         else if (is_category(document, connection.source, "dot"))

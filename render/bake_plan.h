@@ -120,6 +120,9 @@ char *bake_file_path(const mxg_document *document, const char *path, mxg_element
 /* True for a name that stands for several files: tiles, or frames. */
 bool bake_is_set(const char *file);
 
+/* The output of a nodegraph; "" is its only one. 0: there is none. */
+mxg_element bake_find_output(const mxg_document *document, mxg_element graph, const char *name);
+
 /* Where an input or output gets its value from. */
 struct bake_end {
     mxg_element node;   /* 0: no node */

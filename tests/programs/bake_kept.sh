@@ -89,4 +89,21 @@ cat >facts.mtlx <<'EOF'
 EOF
 check 'what a document says of geometries stays' eval 'exits 0 "$mxgen" bake facts.mtlx -o facts && has facts/facts.mtlx "<geominfo name=\"gi\" geom=\"/a\">" "<geomprop name=\"wear\" type=\"float\" value=\"0.5\"/>" "<token name=\"txt\" type=\"string\" value=\"hi\"/>" "<geompropdef" "<tokendefault" "<attributedef"'
 check 'without new warnings' exits 0 "$mxgen" validate facts/facts.mtlx -Werror
+
+# ---- What outputs ask for ----
+
+cat >asks.mtlx <<'EOF'
+<materialx version="1.39">
+  <nodegraph name="g">
+    <noise2d name="n" type="color3"><input name="amplitude" type="vector3" value="0.3, 0.3, 0.3"/><input name="pivot" type="float" value="0.5"/></noise2d>
+    <output name="o" type="color3" nodename="n" colorspace="acescg" width="8" height="4" bitdepth="16"/>
+    <output name="p" type="color3" nodename="n" colorspace="srgb_texture" width="8" height="8" bitdepth="8"/>
+  </nodegraph>
+  <standard_surface name="S" type="surfaceshader"><input name="base_color" type="color3" nodegraph="g" output="o"/></standard_surface>
+</materialx>
+EOF
+asks() { has err "'g/o' (asks.mtlx:4:5) asks for height '4', and its image has '8'" "asks for bitdepth '16', and its image has '8'" "asks for colorspace 'acescg', and its image has 'srgb_texture'" "[bake-output]" && ! grep -e width -e g/p err; }
+check 'an output that asks for another image is told' eval 'exits 0 "$mxgen" bake asks.mtlx -e g/o -o asks --size 8 -f png && asks'
+check 'also where a surface reads it' eval 'exits 0 "$mxgen" bake asks.mtlx -e S -o asks_s --size 8 -f png && asks'
+check 'and one that has what it asks for is not' eval 'exits 0 "$mxgen" bake asks.mtlx -e g/p -o asks_p --size 8 -f png && ! grep warning err'
 finish bake-kept
