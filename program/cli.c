@@ -469,6 +469,18 @@ char *cli_copy(const char *text, size_t len)
     return memcpy(copy, text, len);
 }
 
+mxg_element cli_next_element(const mxg_document *document, mxg_element top, mxg_element at)
+{
+    mxg_element_info info = {.size = sizeof info};
+    mxg_document_element(document, at, &info);
+    mxg_element next = info.first_child;
+    for (; !next && at != top; at = info.parent) {
+        mxg_document_element(document, at, &info);
+        next = info.next;
+    }
+    return next;
+}
+
 char *cli_beside(const char *from, const char *file)
 {
     int folder = file[0] == '/' ? 0 : (int)(files_base_name(from) - from);

@@ -105,6 +105,9 @@ bool cli_find_target(const char *name, size_t len, mxg_target *out);
  */
 bool cli_options_apply(const struct cli *cli, const char *const *targets, size_t num_targets);
 
+/* The element after `at` in document order, `top` or below it; 0: `at` is the last. */
+mxg_element cli_next_element(const mxg_document *document, mxg_element top, mxg_element at);
+
 /* The path of a file that the file `from` names, relative to its folder. The caller frees it. */
 char *cli_beside(const char *from, const char *file);
 

@@ -58,19 +58,6 @@ static bool is_absolute(const char *prefix)
     return prefix[0] == '/' || strstr(prefix, "://");
 }
 
-/* The next element of the tree in document order; 0: the last. */
-static mxg_element next_element(const mxg_document *document, mxg_element at)
-{
-    mxg_element_info info = {.size = sizeof info};
-    mxg_document_element(document, at, &info);
-    mxg_element next = info.first_child;
-    for (mxg_element e = at; !next && e; e = info.parent) {
-        mxg_document_element(document, e, &info);
-        next = info.next;
-    }
-    return next;
-}
-
 static bool set_prefix(mxg_edit *edit, const mxg_document *document, mxg_element element,
                        const char *way)
 {
@@ -93,8 +80,8 @@ static mxg_document *with_way(struct cli *cli, mxg_document *document, const cha
     mxg_document *out = NULL;
     mxg_status status = mxg_edit_create(cli->context, cli->library, document, NULL, &edit);
     bool good = status == MXG_OK;
-    for (mxg_element e = mxg_document_find_element(document, 0, ""); e && good;
-         e = next_element(document, e))
+    const mxg_element root = mxg_document_find_element(document, 0, "");
+    for (mxg_element e = root; e && good; e = cli_next_element(document, root, e))
         good = set_prefix(edit, document, e, way);
     status = good ? mxg_edit_commit(edit, &out) : status == MXG_OK ? MXG_ERROR_MEMORY : status;
     report_status(&cli->report, status);

@@ -182,15 +182,6 @@ static void add_node(struct writer *writer, size_t index)
 
 /* ---- Elements that stay as they are ---- */
 
-/* The next element of a tree in document order; 0: the last. */
-static mxg_element next_below(const mxg_document *document, mxg_element top, mxg_element at)
-{
-    mxg_element next = bake_element(document, at).first_child;
-    for (; !next && at != top; at = bake_element(document, at).parent)
-        next = bake_element(document, at).next;
-    return next;
-}
-
 /* Files that an element names are relative to the new document, and have their prefix. */
 static void rename_files(const struct baking *baking, mxg_edit *edit, mxg_element from)
 {
@@ -214,7 +205,7 @@ static void rename_files(const struct baking *baking, mxg_edit *edit, mxg_elemen
 void bake_copy(const struct baking *baking, mxg_edit *edit, mxg_element top)
 {
     mxg_edit_copy_element(edit, 0, baking->document, top, NULL);
-    for (mxg_element e = top; e; e = next_below(baking->document, top, e))
+    for (mxg_element e = top; e; e = cli_next_element(baking->document, top, e))
         rename_files(baking, edit, e);
 }
 
