@@ -51,18 +51,9 @@ static const char *name_of(const struct document *doc, elem_id element)
     return str_text(doc->strings, doc_element(doc, element)->name);
 }
 
-/* False after a report. */
-static bool may_inherit(const struct document *doc, elem_id node, elem_id base,
-                        struct diag_list *diags)
+static const char *category_of(const struct document *doc, elem_id element)
 {
-    struct diag_place place = doc_attr_place(doc, node, STR_inherit);
-    str_id category = doc_element(doc, node)->category;
-    bool is_other = doc_element(doc, base)->category != category;
-    if (is_other)
-        diag_add(diags, DIAG_ID_inherit_category, place, name_of(doc, node),
-                 str_text(doc->strings, category), name_of(doc, base),
-                 str_text(doc->strings, doc_element(doc, base)->category));
-    return !is_other;
+    return str_text(doc->strings, doc_element(doc, element)->category);
 }
 
 static void inherit(struct document *doc, elem_id node, struct diag_list *diags)
@@ -74,8 +65,13 @@ static void inherit(struct document *doc, elem_id node, struct diag_list *diags)
                      name_of(doc, node));
             return;
         }
-        if (at == node && !may_inherit(doc, node, base, diags))
+        if (doc_element(doc, base)->category != doc_element(doc, node)->category) {
+            if (at == node) /* else `at` has the report */
+                diag_add(diags, DIAG_ID_inherit_category, doc_attr_place(doc, node, STR_inherit),
+                         name_of(doc, node), category_of(doc, node), name_of(doc, base),
+                         category_of(doc, base));
             return;
+        }
         take_values(doc, node, base);
     }
     if (at == node)
