@@ -166,8 +166,8 @@ static bool check_surface(struct exporting *exporting, const mxg_document *from,
     char *path = bake_path(from, surface ? surface : node), *place = flat_place(&of, path);
     if (surface)
         report_error(report, "export-mixed",
-                     "'%s' (%s) is made of other surfaces, and a material of this format has one: "
-                     "mix them inside of a definition, or mix their inputs",
+                     "'%s' (%s) is made of other surfaces, and a material of this format has one; "
+                     "mix the inputs of one surface instead",
                      path, place);
     else
         report_warning(report, "export-loss", "'%s' (%s) is not in the file: it has no surface",
