@@ -110,11 +110,11 @@ export class LanguageServer extends Owner {
         const { id, method } = read(text);
         if (REFRESHING.includes(method))
             this.#caches.forEach(cache => cache.clear());
-        let lacksFiles = false; // an answer that waited for the first check of a document needs the check with the files
+        let isRepeated = false;
         await this.#complete(() => {
-            if (lacksFiles)
+            if (isRepeated) // the files are there now, and an answer may wait for the first check of a document
                 this.#tell(this.#work());
-            lacksFiles = true;
+            isRepeated = true;
             return this.#take(text);
         }, id !== undefined);
     }
