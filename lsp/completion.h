@@ -60,7 +60,7 @@ void complete_graphs(struct completion *completion);
 void complete_outputs(struct completion *completion);
 void complete_interface(struct completion *completion);
 void complete_materials(struct completion *completion);
-void complete_looks(struct completion *completion);
-void complete_collections(struct completion *completion);
+/* The elements at the root that the attribute may name. */
+void complete_named(struct completion *completion);
 
 #endif

@@ -149,12 +149,17 @@ void complete_materials(struct completion *completion)
     add_included(completion, is_material, "");
 }
 
-void complete_looks(struct completion *completion)
+void complete_named(struct completion *completion)
 {
-    add_children(completion, query_root(&completion->query), "look", "");
-}
-
-void complete_collections(struct completion *completion)
-{
-    add_children(completion, query_root(&completion->query), "collection", "");
+    const struct lsp_query *query = &completion->query;
+    const struct place *place = &completion->place;
+    uint32_t root = query_root(query);
+    char category[QUERY_NAME];
+    for (uint32_t child = root == MODEL_NONE ? root : model_first(query->model, root);
+         child != MODEL_NONE && !completion->is_cut; child = model_next(query->model, child)) {
+        query_category(query, child, category, sizeof category);
+        if (child != place->element && names_other_files(query, place->element, place->attribute)
+            && names_category(query, place->element, place->attribute, category))
+            add_element(completion, child, "");
+    }
 }

@@ -298,10 +298,6 @@ static const struct {
     {"target", complete_targets},
     {"version", complete_versions},
     {"material", complete_materials},
-    {"active", complete_looks},
-    {"looks", complete_looks},
-    {"collection", complete_collections},
-    {"includecollection", complete_collections},
     {"space", complete_spaces},
     {"href", complete_includes},
     {"file", complete_sources},
@@ -315,8 +311,13 @@ static const struct {
 
 void complete_values(struct completion *completion)
 {
-    for (size_t i = 0; i < sizeof sources / sizeof *sources; ++i)
-        if (query_equals(completion->query.text, completion->place.attribute->name,
-                         sources[i].attribute))
+    const struct model_attribute *attribute = completion->place.attribute;
+    bool is_found = false;
+    for (size_t i = 0; i < sizeof sources / sizeof *sources && !is_found; ++i) {
+        is_found = query_equals(completion->query.text, attribute->name, sources[i].attribute);
+        if (is_found)
             sources[i].complete(completion);
+    }
+    if (!is_found)
+        complete_named(completion);
 }

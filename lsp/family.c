@@ -239,8 +239,7 @@ bool family_names(const struct lsp_query *of, uint32_t target, const struct lsp_
     struct span own = query_value(of, target, "name"), whole = *name;
     bool is_output = query_equals(in->text, attribute->name, "output");
     if (!family_can_name(of, target) || is_output != (named != target)
-        || !names_is_reference(in, element, attribute)
-        || query_equals(in->text, attribute->name, "interfacename"))
+        || !names_other_files(in, element, attribute))
         return false;
     if (is_output) {
         const struct model_attribute *graph = query_attribute(in, element, "nodegraph");

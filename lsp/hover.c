@@ -182,7 +182,7 @@ static bool put_target(struct page *page, const struct lsp_query *query, const s
     uint32_t target = names_target(query, place->element, place->attribute);
     char category[QUERY_NAME], name[QUERY_NAME], type[QUERY_NAME];
     mxg_element_info info;
-    if (target == MODEL_NONE && names_is_reference(query, place->element, place->attribute)
+    if (target == MODEL_NONE && names_other_files(query, place->element, place->attribute)
         && names_find_included(query, place->attribute->value, &info)) {
         put(page, "`<%s name=\"%s\" type=\"%s\">` in %s", info.category, info.name, info.type,
             info.file);

@@ -60,6 +60,94 @@ const struct model_attribute *names_file(const struct lsp_query *query, uint32_t
     return query_attribute(query, element, "value");
 }
 
+/* ---- Attributes that name elements: the table of the library ---- */
+
+enum {
+    KIND_NODE,
+#define KIND(ID, word) KIND_##ID,
+#include "src/document/kinds.def"
+#undef KIND
+    NUM_KINDS
+};
+
+static const char *const kinds[NUM_KINDS] = {
+#define KIND(ID, word) [KIND_##ID] = #word,
+#include "src/document/kinds.def"
+#undef KIND
+};
+
+enum place_of_name {
+    AT_ROOT,
+    IN_SCOPE,
+    IN_SCOPE_OR_AT_ROOT,
+    BESIDE,
+    BESIDE_OR_AT_ROOT,
+    IN_INTERFACE,
+    IN_SOURCE,
+    IN_DEFINITION,
+    IN_UNITS,
+    IN_VARIANTSET,
+    NUM_PLACES
+};
+
+#define IN(KIND) ((uint64_t)1 << KIND_##KIND)
+#define ANYWHERE UINT64_MAX
+#define SAME UINT64_MAX
+
+static const struct reference {
+    const char *attribute;
+    enum place_of_name place;
+    uint64_t users, targets;
+} references[] = {
+#define REFERENCE(attribute, users, targets, place, checked) {#attribute, place, users, targets},
+#include "src/document/references.def"
+#undef REFERENCE
+};
+
+static unsigned kind_of(const struct lsp_query *query, uint32_t element)
+{
+    unsigned kind = NUM_KINDS - 1;
+    while (kind != KIND_NODE && !query_is(query, element, kinds[kind]))
+        --kind;
+    return kind;
+}
+
+/* NULL: the attribute of this element names no elements. */
+static const struct reference *reference_of(const struct lsp_query *query, uint32_t element,
+                                            const struct model_attribute *attribute)
+{
+    for (size_t i = 0; i < sizeof references / sizeof *references; ++i)
+        if (query_equals(query->text, attribute->name, references[i].attribute))
+            return references[i].users >> kind_of(query, element) & 1 ? &references[i] : NULL;
+    return NULL;
+}
+
+bool names_is_reference(const struct lsp_query *query, uint32_t element,
+                        const struct model_attribute *attribute)
+{
+    return reference_of(query, element, attribute);
+}
+
+bool names_other_files(const struct lsp_query *query, uint32_t element,
+                       const struct model_attribute *attribute)
+{
+    const struct reference *reference = reference_of(query, element, attribute);
+    bool is_inside = reference
+                     && (reference->place == IN_INTERFACE || reference->place == IN_DEFINITION
+                         || reference->place == IN_UNITS || reference->place == IN_VARIANTSET);
+    return reference && !is_inside;
+}
+
+bool names_category(const struct lsp_query *query, uint32_t element,
+                    const struct model_attribute *attribute, const char *category)
+{
+    const struct reference *reference = reference_of(query, element, attribute);
+    unsigned kind = NUM_KINDS - 1;
+    while (kind != KIND_NODE && strcmp(kinds[kind], category) != 0)
+        --kind;
+    return reference && reference->targets >> kind & 1;
+}
+
 /* ---- What a name means ---- */
 
 static uint32_t at_root(const struct lsp_query *query, uint32_t element, struct span name)
@@ -75,12 +163,6 @@ static uint32_t in_scope(const struct lsp_query *query, uint32_t element, struct
     return found != MODEL_NONE && query_is(query, found, "input") ? MODEL_NONE : found;
 }
 
-/* The look that a <lookgroup> has by default; other defaults are values. */
-static uint32_t of_group(const struct lsp_query *query, uint32_t element, struct span name)
-{
-    return query_is(query, element, "lookgroup") ? at_root(query, element, name) : MODEL_NONE;
-}
-
 /* A nodegraph stands beside the element that reads it, or at the root. */
 static uint32_t graph_of(const struct lsp_query *query, uint32_t element, struct span name)
 {
@@ -89,61 +171,85 @@ static uint32_t graph_of(const struct lsp_query *query, uint32_t element, struct
     return query_is(query, beside, "nodegraph") ? beside : at_root(query, element, name);
 }
 
+/* An output of the nodegraph that the element names, or one at the root. */
 static uint32_t output_of_source(const struct lsp_query *query, uint32_t element, struct span name)
 {
-    struct span graph = query_value(query, element, "nodegraph");
-    if (graph.start == graph.end)
-        return MODEL_NONE;
-    return query_child_of(query, graph_of(query, element, graph), "output", name);
+    struct span graph = query_value(query, element, "nodegraph"),
+                node = query_value(query, element, "nodename");
+    if (graph.start < graph.end)
+        return query_child_of(query, graph_of(query, element, graph), "output", name);
+    return node.start < node.end ? MODEL_NONE : at_root(query, element, name);
 }
 
-/* A frame has nodes that stand beside it. */
 static uint32_t beside(const struct lsp_query *query, uint32_t element, struct span name)
 {
     uint32_t parent = parent_of(query, element);
     return parent == MODEL_NONE ? parent : query_child(query, parent, name);
 }
 
-/* Attributes that name elements, and who finds what they name. */
-static const struct reference {
-    const char *attribute;
-    uint32_t (*find)(const struct lsp_query *query, uint32_t element, struct span name);
-} references[] = {
-    {"nodename", in_scope},
-    {"nodegraph", graph_of},
-    {"interfacename", inputs_of_graph},
-    {"output", output_of_source},
-    {"nodedef", at_root},
-    {"inherit", at_root},
-    {"material", at_root},
-    {"collection", at_root},
-    {"includecollection", at_root},
-    {"active", at_root},
-    {"variantset", at_root},
-    {"propertyset", at_root},
-    {"looks", at_root},
-    {"default", of_group},
-    {"viewercollection", at_root},
-    {"contains", beside},
-    {"defaultinput", inputs_passed_through},
-    {"sourcecode", inputs_of_source},
-    {"name", inputs_of_owner},
+static uint32_t beside_or_at_root(const struct lsp_query *query, uint32_t element, struct span name)
+{
+    uint32_t found = beside(query, element, name);
+    return found == MODEL_NONE ? at_root(query, element, name) : found;
+}
+
+static uint32_t in_variantset(const struct lsp_query *query, uint32_t element, struct span name)
+{
+    uint32_t set = query_at_root(query, query_value(query, element, "variantset"));
+    return query_child_of(query, set, "variant", name);
+}
+
+/* The unit of this name in the units of the element's unit type, or of any if it has none. */
+static uint32_t in_units(const struct lsp_query *query, uint32_t element, struct span name)
+{
+    struct span type = query_value(query, element, "unittype");
+    uint32_t root = query_root(query), found = MODEL_NONE;
+    for (uint32_t child = root == MODEL_NONE ? root : model_first(query->model, root);
+         child != MODEL_NONE && found == MODEL_NONE; child = model_next(query->model, child)) {
+        bool fits = query_is(query, child, "unitdef")
+                    && (type.start == type.end
+                        || query_is_same(query->text, type, query_value(query, child, "unittype")));
+        found = fits ? query_child_of(query, child, "unit", name) : found;
+    }
+    return found;
+}
+
+/* Who finds the elements of a place. */
+static uint32_t (*const finders[NUM_PLACES])(const struct lsp_query *query, uint32_t element,
+                                             struct span name) = {
+    [AT_ROOT] = at_root,
+    [IN_SCOPE] = in_scope,
+    [IN_SCOPE_OR_AT_ROOT] = graph_of,
+    [BESIDE] = beside,
+    [BESIDE_OR_AT_ROOT] = beside_or_at_root,
+    [IN_INTERFACE] = inputs_of_graph,
+    [IN_SOURCE] = output_of_source,
+    [IN_DEFINITION] = inputs_passed_through,
+    [IN_UNITS] = in_units,
+    [IN_VARIANTSET] = in_variantset,
 };
 
-static const struct reference *reference_of(const struct lsp_query *query,
-                                            const struct model_attribute *attribute)
+/* Two attributes that name inputs of definitions without a row of the table. */
+static uint32_t input_of_definition(const struct lsp_query *query, uint32_t element,
+                                    const struct model_attribute *attribute, struct span name)
 {
-    for (size_t i = 0; i < sizeof references / sizeof *references; ++i)
-        if (query_equals(query->text, attribute->name, references[i].attribute))
-            return &references[i];
-    return NULL;
+    if (query_equals(query->text, attribute->name, "sourcecode"))
+        return inputs_of_source(query, element, name);
+    bool is_name = query_equals(query->text, attribute->name, "name");
+    return is_name ? inputs_of_owner(query, element, name) : MODEL_NONE;
 }
 
 uint32_t names_target_of(const struct lsp_query *query, uint32_t element,
                          const struct model_attribute *attribute, struct span name)
 {
-    const struct reference *reference = reference_of(query, attribute);
-    return reference && name.end > name.start ? reference->find(query, element, name) : MODEL_NONE;
+    const struct reference *reference = reference_of(query, element, attribute);
+    if (name.end <= name.start)
+        return MODEL_NONE;
+    if (!reference)
+        return input_of_definition(query, element, attribute, name);
+    uint32_t found = finders[reference->place](query, element, name);
+    bool fits = found != MODEL_NONE && reference->targets >> kind_of(query, found) & 1;
+    return fits ? found : MODEL_NONE;
 }
 
 uint32_t names_target(const struct lsp_query *query, uint32_t element,
@@ -181,16 +287,6 @@ bool names_next_item(const struct lsp_query *query, const struct model_attribute
     while (item->end > at && strchr(" \t\r\n", bytes[item->end - 1]))
         --item->end;
     return item->end > at;
-}
-
-bool names_is_reference(const struct lsp_query *query, uint32_t element,
-                        const struct model_attribute *attribute)
-{
-    bool is_value = query_equals(query->text, attribute->name, "default")
-                    && !query_is(query, element, "lookgroup");
-    return reference_of(query, attribute) && !is_value
-           && !query_equals(query->text, attribute->name, "sourcecode")
-           && !query_equals(query->text, attribute->name, "name");
 }
 
 /* ---- Included files ---- */

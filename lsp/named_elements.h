@@ -44,6 +44,12 @@ bool names_next_item(const struct lsp_query *query, const struct model_attribute
 /* True for an attribute of an element whose value is the names of elements. */
 bool names_is_reference(const struct lsp_query *query, uint32_t element,
                         const struct model_attribute *attribute);
+/* As above, and these may stand at the root of another file. */
+bool names_other_files(const struct lsp_query *query, uint32_t element,
+                       const struct model_attribute *attribute);
+/* As above, and elements of this category may be among them. */
+bool names_category(const struct lsp_query *query, uint32_t element,
+                    const struct model_attribute *attribute, const char *category);
 
 /* The next element at the root of the document that stands in another file; begin with 0. */
 mxg_element names_next_included(const struct lsp_query *query, mxg_element after,

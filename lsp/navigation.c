@@ -82,7 +82,7 @@ json_t *handle_definition(struct lsp_session *session, const json_t *params,
         return locate(&query, name_of(&query, target));
     if (place.part == PLACE_CATEGORY)
         return locate_nodedef(&query, place.element);
-    if (place.part == PLACE_VALUE && names_is_reference(&query, place.element, place.attribute)
+    if (place.part == PLACE_VALUE && names_other_files(&query, place.element, place.attribute)
         && names_find_included(&query, name, &info))
         return locate_included(&query, &info);
     return NULL;
@@ -103,7 +103,7 @@ static void aim_at_included(struct aim *aim, const struct lsp_query *query)
 {
     mxg_element_info info;
     struct place place = query_place(query);
-    if (place.part != PLACE_VALUE || !names_is_reference(query, place.element, place.attribute)
+    if (place.part != PLACE_VALUE || !names_other_files(query, place.element, place.attribute)
         || !names_find_included(query, aim->name, &info))
         return;
     for (size_t i = 0; i < aim->family.num_files; ++i) {
@@ -254,8 +254,9 @@ static bool is_shared_output(const struct lsp_query *query, uint32_t output)
  */
 static bool can_rename(const struct lsp_query *query, uint32_t target)
 {
-    static const char *const others[] = {"nodegraph",  "nodedef",     "look",      "lookgroup",
-                                         "collection", "propertyset", "variantset"};
+    static const char *const others[] = {"nodegraph",   "nodedef",     "look",       "lookgroup",
+                                         "collection",  "propertyset", "variantset", "typedef",
+                                         "unittypedef", "targetdef"};
     bool is_input = query_is(query, target, "input"), is_output = query_is(query, target, "output");
     bool is_known = is_input || is_output || query_is_node(query, target);
     for (size_t i = 0; i < sizeof others / sizeof *others; ++i)

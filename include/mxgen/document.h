@@ -166,7 +166,11 @@ MXG_API mxg_element mxg_edit_add_element(mxg_edit *edit, mxg_element parent, con
  */
 MXG_API mxg_status mxg_edit_set_attribute(mxg_edit *edit, mxg_element element,
                                           const char *attribute, const char *value);
-/* Renames an element, and changes the references to it: connections, definitions, assignments. */
+/*
+ * Renames an element, and changes every attribute that names it: of connections, definitions,
+ * types, units, looks, frames of editors. Nodes keep the names of their inputs if an input of their
+ * definition gets another one, and names inside of values stay ("[token]" of a file).
+ */
 MXG_API mxg_status mxg_edit_rename_element(mxg_edit *edit, mxg_element element, const char *name);
 /*
  * Gives an input of a node a value, and removes its connection. Adds the input if the node has

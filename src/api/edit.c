@@ -160,8 +160,10 @@ static void complete(struct end_job *job)
 /* True if an element of the kind and name is there again. */
 static bool is_found(const struct document *doc, const struct lost_reference *lost, elem_id parent)
 {
-    elem_id found = doc_has_element(doc, parent) ? doc_child(doc, parent, lost->name) : 0;
-    return found && doc_element(doc, found)->kind == lost->kind;
+    enum element_kind kind = (enum element_kind)lost->kind;
+    return parent == doc->root
+               ? doc_top_level(doc, kind, lost->name)
+               : doc_has_element(doc, parent) && doc_child_of_kind(doc, parent, kind, lost->name);
 }
 
 static void report_lost(mxg_document *document, const struct lost_reference *lost)

@@ -65,6 +65,8 @@ elem_id edit_add(struct edit_change *change, elem_id parent, const char *categor
                  const char *type);
 /* The name of an element, or its category if it has no name. */
 const char *edit_label(const mxg_edit *edit, elem_id element);
+/* Backdrops around an element contain another one of the name in its place; 0: nothing. */
+void edit_replace_in_frames(struct edit_change *change, elem_id element, str_id name);
 /* The text in the pool of the document; NULL is "". */
 str_id edit_word(const struct edit_change *change, const char *text);
 

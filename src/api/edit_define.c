@@ -37,6 +37,8 @@ static void note_user(void *arg, elem_id user, str_id attr)
     struct edit_change *c = d->c;
     const struct document *doc = tree_of(d);
     uint16_t kind = doc_element(doc, user)->kind;
+    if (attr == STR_contains)
+        return;
     if (attr != STR_nodegraph || (kind != KIND_INPUT && kind != KIND_OUTPUT)
         || stands_in_graph(doc, user))
         edit_fail(c, "'%s' refers to '%s' by '%s', which can name no node beside it",
@@ -185,6 +187,7 @@ static void add_node(struct defining *d)
     elem_id next = doc_element(doc, d->c->element)->next;
     if (next != d->node)
         doc_move_before(doc, d->node, next);
+    edit_replace_in_frames(d->c, d->c->element, doc_element(doc, d->node)->name);
 }
 
 /* Moves the connections of a port to another one. */

@@ -263,11 +263,31 @@ static void lose_reference(void *arg, elem_id user, str_id attr)
     vec_push(&c->edit->document->object.arena, &c->edit->lost, lost);
 }
 
+struct framing {
+    struct document *doc;
+    str_id old, name;
+};
+
+static void replace_in_frame(void *arg, elem_id user, str_id attr)
+{
+    const struct framing *framing = arg;
+    if (attr == STR_contains)
+        doc_replace_name(framing->doc, user, attr, framing->old, framing->name);
+}
+
+void edit_replace_in_frames(struct edit_change *change, elem_id element, str_id name)
+{
+    struct document *doc = edit_tree(change->edit);
+    struct framing framing = {doc, doc_element(doc, element)->name, name};
+    doc_visit_users(doc, element, replace_in_frame, &framing);
+}
+
 static void remove_element(void *arg)
 {
     struct edit_change *c = arg;
     if (!edit_check_element(c, &c->element, false))
         return;
+    edit_replace_in_frames(c, c->element, 0);
     doc_visit_users(edit_tree(c->edit), c->element, lose_reference, c);
     doc_remove_element(edit_tree(c->edit), c->element);
 }
@@ -298,6 +318,8 @@ static void move(void *arg)
         return;
     struct edit_scope scope;
     edit_note_scope(doc, c->element, &scope);
+    if (doc_element(doc, c->element)->parent != c->other)
+        edit_replace_in_frames(c, c->element, 0);
     if (c->before)
         doc_move_before(doc, c->element, c->before);
     else

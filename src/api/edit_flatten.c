@@ -475,15 +475,13 @@ static void connect_user(void *arg, elem_id user, str_id attr)
         connect(f, user, output);
 }
 
-/* The node behind the only output gets the name, by which other elements may know it. */
-static void keep_name(struct flattening *f, str_id name)
+/* The node behind the only output, which gets the name of the flattened one; 0: there is none. */
+static elem_id find_heir(struct flattening *f)
 {
     struct document *doc = tree_of(f);
     bool is_only = library_nodedef(view_of(f), f->nodedef)->num_outputs == 1;
     elem_id output = is_only ? output_of(f, 0) : 0;
-    elem_id node = output ? copy_of(f, doc_attr_value(doc, output, STR_nodename)) : 0;
-    if (node)
-        doc_rename(doc, node, name);
+    return output ? copy_of(f, doc_attr_value(doc, output, STR_nodename)) : 0;
 }
 
 static void flatten(void *arg)
@@ -496,8 +494,12 @@ static void flatten(void *arg)
     copy_nodes(&f);
     connect_copies(&f);
     doc_visit_users(doc, f.c->element, connect_user, &f);
+    elem_id heir = find_heir(&f);
+    if (!heir)
+        edit_replace_in_frames(f.c, f.c->element, 0);
     doc_remove_element(doc, f.c->element);
-    keep_name(&f, name);
+    if (heir)
+        doc_rename(doc, heir, name);
 }
 
 mxg_status mxg_edit_flatten_node(mxg_edit *edit, mxg_element node)

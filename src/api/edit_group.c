@@ -81,7 +81,8 @@ static void note_user(void *arg, elem_id user, str_id attr)
     struct grouping *g = arg;
     struct edit_change *c = g->c;
     const struct document *doc = tree_of(g);
-    if (is_in_group(g, doc_element(doc, user)->parent) || c->failed)
+    bool is_frame = attr == STR_contains;
+    if (is_frame || is_in_group(g, doc_element(doc, user)->parent) || c->failed)
         return;
     str_id output = doc_attr_value(doc, user, STR_output);
     c->text = output ? str_text(doc->strings, output) : NULL;
@@ -130,6 +131,7 @@ static void move_nodes(struct grouping *g)
     g->graph = edit_add(g->c, doc->root, "nodegraph", g->c->name, NULL);
     doc_move_before(doc, g->graph, g->c->nodes[0]);
     for (uint32_t i = 0; i < g->num; i++) {
+        edit_replace_in_frames(g->c, g->c->nodes[i], doc_element(doc, g->graph)->name);
         doc_move_element(doc, g->c->nodes[i], g->graph);
         doc_index_change(doc, g->c->nodes[i]);
     }

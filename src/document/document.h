@@ -323,6 +323,55 @@ elem_id doc_second_of_name(const struct document *doc, elem_id element);
 /* Indexes one element that was added, renamed or moved since. */
 void doc_index_element(struct document *doc, elem_id element);
 
+/* naming.c: the attributes that name elements (references.def) */
+enum doc_name_place {
+    NAME_AT_ROOT,
+    NAME_IN_SCOPE, /* beside the node or graph that has the port (doc_port_scope) */
+    NAME_IN_SCOPE_OR_AT_ROOT,
+    NAME_BESIDE, /* beside the user */
+    NAME_BESIDE_OR_AT_ROOT,
+    NAME_IN_INTERFACE, /* in the graph around the port, or in the definition that it implements */
+    NAME_IN_SOURCE,    /* in the node or graph that the port names; if it names none, at the root */
+    NAME_IN_DEFINITION, /* in the definition that has the user */
+    NAME_IN_UNITS,      /* in a <unitdef> of the user's unit type */
+    NAME_IN_VARIANTSET, /* in the set of variants that the user names */
+};
+struct doc_naming {
+    str_id attr;
+    enum doc_name_place place;
+    uint64_t users, targets, checked; /* of kinds: references.def */
+};
+enum {
+#define REFERENCE(attribute, users, targets, place, checked) DOC_NAMING_##attribute,
+#include "document/references.def"
+#undef REFERENCE
+    DOC_NUM_NAMINGS
+};
+extern const struct doc_naming doc_namings[DOC_NUM_NAMINGS];
+/*
+ * How an attribute of an element names others; NULL: it names none, a type of MaterialX, or an
+ * output of a node or graph.
+ */
+const struct doc_naming *doc_naming(const struct document *doc, elem_id user, str_id attr);
+/*
+ * The parent of the elements that a port can name: for an input of a node the graph of the node,
+ * for an input of a graph the parent of the graph, for an output its graph.
+ */
+elem_id doc_port_scope(const struct document *doc, elem_id port);
+/* True if the named element is a child of doc_naming_scope, which is 0 for other places. */
+bool doc_is_local_name(enum doc_name_place place);
+elem_id doc_naming_scope(const struct document *doc, elem_id user, enum doc_name_place place);
+/* True if an attribute of `user`, which has the name of the element, names it. */
+bool doc_can_name(const struct document *doc, elem_id user, str_id attr, elem_id element);
+/* True if a name in a checked attribute of `user` is that of an element, here or in a library. */
+bool doc_names_element(const struct document *doc, elem_id user, const struct doc_naming *naming,
+                       str_id name);
+/* A name in a list "a, b" or alone, from *text, which moves behind it; its length is 0 at the end.
+ */
+const char *doc_next_name(const char **text, size_t *len);
+/* True if an attribute has the name, alone or in a list. */
+bool doc_has_name(const struct document *doc, elem_id user, str_id attr, str_id name);
+
 /*
  * name_uses.c: which elements name an element. Builds the index for doc_rename; call it after
  * doc_index_names.
@@ -341,8 +390,8 @@ bool doc_is_used(const struct document *doc, elem_id node);
 /* Visits each attribute of the document that names an element. A visit may change the attribute. */
 void doc_visit_users(struct document *doc, elem_id element,
                      void (*visit)(void *arg, elem_id user, str_id attr), void *arg);
-/* True if an attribute has the name, alone or in a list. */
-bool doc_has_name(const struct document *doc, elem_id user, str_id attr, str_id name);
+/* Replaces a name in an attribute; `name` 0 removes it, and the attribute with the last one. */
+void doc_replace_name(struct document *doc, elem_id user, str_id attr, str_id old, str_id name);
 /* The attributes that connect a port, and whether it has one of them. */
 enum { DOC_NUM_CONNECTIONS = 4 };
 extern const str_id doc_connections[DOC_NUM_CONNECTIONS];

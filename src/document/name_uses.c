@@ -1,69 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Who names whom: an index of the attributes that name elements, and renaming. */
+/* Who names whom: an index of the attributes that name elements (references.def), and renaming. */
 #include "base/hash.h"
 #include "document/document.h"
 
 #include <assert.h>
-
-enum scope {
-    NOWHERE,  /* the attribute names no element */
-    ANYWHERE, /* elements of the whole document */
-    BESIDE,   /* elements of the port's scope */
-};
-
-static const uint8_t scope_of_attr[STR_NUM_WORDS] = {
-    [STR_nodename] = BESIDE,
-    [STR_interfacename] = BESIDE,
-    [STR_nodegraph] = ANYWHERE,
-    [STR_output] = ANYWHERE,
-    [STR_material] = ANYWHERE,
-    [STR_nodedef] = ANYWHERE,
-    [STR_inherit] = ANYWHERE,
-    [STR_type] = ANYWHERE,
-    [STR_look] = ANYWHERE,
-    [STR_looks] = ANYWHERE,
-    [STR_collection] = ANYWHERE,
-    [STR_variantset] = ANYWHERE,
-    [STR_includecollection] = ANYWHERE,
-    [STR_geomprop] = ANYWHERE,
-    [STR_defaultgeomprop] = ANYWHERE,
-};
-
-/* Which attributes name elements of a kind: one name, or several with commas. */
-static const struct {
-    uint8_t kind; /* enum element_kind */
-    str_id attr;
-} references[] = {
-    {KIND_NODE, STR_nodename},
-    {KIND_NODE, STR_material},
-    {KIND_NODEGRAPH, STR_nodename},
-    {KIND_NODEGRAPH, STR_nodegraph},
-    {KIND_INPUT, STR_interfacename},
-    {KIND_OUTPUT, STR_output},
-    {KIND_NODEDEF, STR_nodedef},
-    {KIND_NODEDEF, STR_inherit},
-    {KIND_TYPEDEF, STR_type},
-    {KIND_LOOK, STR_look},
-    {KIND_LOOK, STR_looks},
-    {KIND_LOOK, STR_inherit},
-    {KIND_LOOKGROUP, STR_looks},
-    {KIND_COLLECTION, STR_collection},
-    {KIND_COLLECTION, STR_includecollection},
-    {KIND_VARIANTSET, STR_variantset},
-    {KIND_GEOMPROPDEF, STR_geomprop},
-    {KIND_GEOMPROPDEF, STR_defaultgeomprop},
-};
-
-/*
- * The parent of the elements that a port can name: for an input of a node the graph of the node,
- * for an input of a graph the parent of the graph, for an output its graph.
- */
-static elem_id scope_of(const struct document *doc, elem_id port)
-{
-    const struct element *e = doc_element(doc, port);
-    elem_id beyond = e->parent ? doc_element(doc, e->parent)->parent : 0;
-    return e->kind == KIND_OUTPUT || !beyond ? e->parent : beyond;
-}
 
 /* ---- The index ---- */
 
@@ -90,44 +30,22 @@ static void add_reference(struct document *doc, elem_id scope, str_id name, elem
         table_add(&doc->reference_table, doc->arena, hash_pair(scope, name), doc->references.len);
 }
 
-static bool is_list(const char *text)
-{
-    return text[strcspn(text, ", ")] != '\0';
-}
-
 static void add_names(struct document *doc, elem_id scope, str_id names, elem_id element)
 {
-    const char *text = str_text(doc->strings, names);
-    if (!is_list(text)) {
-        add_reference(doc, scope, names, element);
-        return;
-    }
-    while (*text) {
-        text += strspn(text, ", ");
-        size_t len = strcspn(text, ", ");
-        if (len)
-            add_reference(doc, scope, str_intern(doc->strings, text, len), element);
-        text += len;
-    }
-}
-
-/* Standard types are in no document, and the outputs of nodes and graphs are known by these. */
-static bool names_element(const struct document *doc, elem_id element, const struct attribute *attr)
-{
-    return attr->name < STR_NUM_WORDS && scope_of_attr[attr->name] && attr->value
-           && (attr->name != STR_type || !doc_type_of(attr->value))
-           && (attr->name != STR_output
-               || (!doc_attr(doc, element, STR_nodename)
-                   && !doc_attr(doc, element, STR_nodegraph)));
+    const char *text = str_text(doc->strings, names), *name;
+    bool is_list = text[strcspn(text, ", ")] != '\0';
+    size_t len;
+    while (name = doc_next_name(&text, &len), len)
+        add_reference(doc, scope, is_list ? str_intern(doc->strings, name, len) : names, element);
 }
 
 static void index_references(struct document *doc, elem_id element)
 {
     for (uint32_t i = 0; i < doc_element(doc, element)->num_attrs; i++) {
         const struct attribute attr = doc_attrs(doc, element)[i];
-        if (names_element(doc, element, &attr))
-            add_names(doc, scope_of_attr[attr.name] == BESIDE ? scope_of(doc, element) : 0,
-                      attr.value, element);
+        const struct doc_naming *naming = doc_naming(doc, element, attr.name);
+        if (naming && attr.value)
+            add_names(doc, doc_naming_scope(doc, element, naming->place), attr.value, element);
     }
 }
 
@@ -201,7 +119,7 @@ elem_id doc_named_node(const struct document *doc, elem_id port)
     str_id name = e->kind == KIND_INPUT || e->kind == KIND_OUTPUT
                       ? doc_attr_value(doc, port, STR_nodename)
                       : STR_EMPTY;
-    return name ? doc_child(doc, scope_of(doc, port), name) : 0;
+    return name ? doc_child(doc, doc_port_scope(doc, port), name) : 0;
 }
 
 /* ---- Users ---- */
@@ -224,58 +142,59 @@ static elem_id *find_users(const struct document *doc, elem_id scope, str_id nam
     return users.items;
 }
 
-/* True if an attribute of `at`, which has the name in it, names `element` below `parent`. */
-static bool can_name(const struct document *doc, elem_id at, str_id attr, elem_id element)
-{
-    const struct element *e = doc_element(doc, element);
-    if (!doc_attr_value(doc, at, attr) || !doc_has_element(doc, at))
-        return false;
-    elem_id scope = scope_of(doc, at), first;
-    switch (attr) {
-    case STR_nodename:
-    case STR_interfacename: return scope == e->parent;
-    case STR_nodegraph:
-        first = doc_child(doc, scope, e->name);
-        return first ? first == element : e->parent == doc->root;
-    case STR_output: return e->parent == doc->root;
-    case STR_inherit: return doc_element(doc, at)->kind == e->kind;
-    default: return true;
-    }
-}
-
-/* A name in a list "a, b" or alone, from *text, which moves behind it; its length is 0 at the end.
+/*
+ * The elements of the index whose attribute names `named`, and that have `name` in the attribute
+ * `visited`.
  */
-static const char *next_name(const char **text, size_t *len)
-{
-    const char *name = *text + strspn(*text, ", ");
-    *len = strcspn(name, ", ");
-    *text = name + *len;
-    return name;
-}
-
-bool doc_has_name(const struct document *doc, elem_id user, str_id attr, str_id name)
-{
-    const char *text = str_text(doc->strings, doc_attr_value(doc, user, attr)), *part;
-    size_t len;
-    while (part = next_name(&text, &len), len)
-        if (len == str_len(doc->strings, name)
-            && memcmp(part, str_text(doc->strings, name), len) == 0)
-            return true;
-    return false;
-}
-
-/* The elements whose attribute `attr` names `named`, and that have `name` in the attribute
- * `visited`. */
-static void visit_users(struct document *doc, elem_id named, str_id attr, str_id visited,
-                        str_id name, const struct visitor *visitor)
+static void visit_users(struct document *doc, elem_id named, const struct doc_naming *naming,
+                        str_id visited, str_id name, const struct visitor *visitor)
 {
     uint32_t num;
     const struct element *e = doc_element(doc, named);
     const elem_id *users =
-        find_users(doc, scope_of_attr[attr] == BESIDE ? e->parent : 0, e->name, &num);
+        find_users(doc, doc_is_local_name(naming->place) ? e->parent : 0, e->name, &num);
     for (uint32_t i = 0; i < num; i++)
-        if (can_name(doc, users[i], attr, named) && doc_has_name(doc, users[i], visited, name))
+        if (doc_can_name(doc, users[i], naming->attr, named)
+            && doc_has_name(doc, users[i], visited, name))
             visitor->visit(visitor->arg, users[i], visited);
+}
+
+/* An output has the name by which others read it of a nodegraph or node. */
+static void visit_readers(struct document *doc, elem_id output, const struct visitor *visitor)
+{
+    const struct element e = *doc_element(doc, output);
+    for (unsigned i = 0; i < DOC_NUM_NAMINGS; i++)
+        if (doc_namings[i].attr == STR_nodegraph || doc_namings[i].attr == STR_nodename)
+            visit_users(doc, e.parent, &doc_namings[i], STR_output, e.name, visitor);
+}
+
+/* The nodegraph that implements a definition, as `user` says; 0: it says nothing. */
+static elem_id implementing_graph(const struct document *doc, elem_id user)
+{
+    enum element_kind kind = (enum element_kind)doc_element(doc, user)->kind;
+    if (kind == KIND_IMPLEMENTATION)
+        return doc_child_of_kind(doc, doc->root, KIND_NODEGRAPH,
+                                 doc_attr_value(doc, user, STR_nodegraph));
+    return kind == KIND_NODEGRAPH ? user : 0;
+}
+
+/* A nodegraph reads the inputs of the definition that it implements, unless it has its own. */
+static void visit_interface(struct document *doc, elem_id input, const struct visitor *visitor)
+{
+    uint32_t num, num_ports;
+    const struct element e = *doc_element(doc, input);
+    const elem_id *users = find_users(doc, 0, doc_element(doc, e.parent)->name, &num);
+    for (uint32_t i = 0; i < num; i++) {
+        bool is_heir = doc_can_name(doc, users[i], STR_nodedef, e.parent);
+        elem_id graph = is_heir ? implementing_graph(doc, users[i]) : 0;
+        if (!graph || doc_child_of_kind(doc, graph, (enum element_kind)e.kind, e.name))
+            continue;
+        const elem_id *ports = find_users(doc, graph, e.name, &num_ports);
+        for (uint32_t k = 0; k < num_ports; k++)
+            if (doc_has_element(doc, ports[k]) && doc_port_scope(doc, ports[k]) == graph
+                && doc_has_name(doc, ports[k], STR_interfacename, e.name))
+                visitor->visit(visitor->arg, ports[k], STR_interfacename);
+    }
 }
 
 void doc_visit_users(struct document *doc, elem_id element,
@@ -283,13 +202,13 @@ void doc_visit_users(struct document *doc, elem_id element,
 {
     const struct visitor visitor = {visit, arg};
     const struct element e = *doc_element(doc, element);
-    for (size_t i = 0; e.name && i < sizeof references / sizeof *references; i++)
-        if (references[i].kind == e.kind)
-            visit_users(doc, element, references[i].attr, references[i].attr, e.name, &visitor);
-    if (e.kind == KIND_OUTPUT && e.name && e.parent != doc->root) {
-        visit_users(doc, e.parent, STR_nodegraph, STR_output, e.name, &visitor);
-        visit_users(doc, e.parent, STR_nodename, STR_output, e.name, &visitor);
-    }
+    for (unsigned i = 0; e.name && i < DOC_NUM_NAMINGS; i++)
+        if (doc_namings[i].targets >> e.kind & 1)
+            visit_users(doc, element, &doc_namings[i], doc_namings[i].attr, e.name, &visitor);
+    if (e.kind == KIND_OUTPUT && e.name && e.parent != doc->root)
+        visit_readers(doc, element, &visitor);
+    if (e.name && e.parent && doc_element(doc, e.parent)->kind == KIND_NODEDEF)
+        visit_interface(doc, element, &visitor);
 }
 
 /* ---- Renaming ---- */
@@ -300,23 +219,36 @@ struct renaming {
     struct text list;
 };
 
+/* Replaces a name of a list; without a new name, or where the list has that one, it goes. */
 static void replace_name(void *arg, elem_id user, str_id attr)
 {
     struct renaming *r = arg;
     struct document *doc = r->doc;
+    bool is_new = r->name && !doc_has_name(doc, user, attr, r->name);
     const char *text = str_text(doc->strings, doc_attr_value(doc, user, attr)), *rest = text, *part;
     size_t len, old_len = str_len(doc->strings, r->old);
     r->list.len = 0;
-    while (part = next_name(&rest, &len), len) {
+    while (part = doc_next_name(&rest, &len), len) {
         bool is_old = len == old_len && memcmp(part, str_text(doc->strings, r->old), len) == 0;
-        text_mem(&r->list, text, (size_t)(part - text));
-        text_mem(&r->list, is_old ? str_text(doc->strings, r->name) : part,
-                 is_old ? str_len(doc->strings, r->name) : len);
+        if (!is_old || is_new) {
+            text_mem(&r->list, r->list.len ? text : part, r->list.len ? (size_t)(part - text) : 0);
+            text_mem(&r->list, is_old ? str_text(doc->strings, r->name) : part,
+                     is_old ? str_len(doc->strings, r->name) : len);
+        }
         text = rest;
     }
-    text_str(&r->list, text);
-    doc_set_attr(doc, user, attr, str_intern(doc->strings, r->list.data, r->list.len));
+    if (r->list.len)
+        doc_set_attr(doc, user, attr, str_intern(doc->strings, r->list.data, r->list.len));
+    else
+        doc_remove_attr(doc, user, attr);
     doc_index_change(doc, user);
+}
+
+void doc_replace_name(struct document *doc, elem_id user, str_id attr, str_id old, str_id name)
+{
+    struct renaming r = {.doc = doc, .old = old, .name = name};
+    text_init(&r.list, doc->arena);
+    replace_name(&r, user, attr);
 }
 
 void doc_rename(struct document *doc, elem_id element, str_id name)

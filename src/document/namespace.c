@@ -8,13 +8,6 @@
 
 #include <assert.h>
 
-/* Attributes whose value names top-level elements; lists have commas. */
-static const str_id references[] = {
-    STR_nodedef,           STR_nodegraph, STR_inherit, STR_material,   STR_collection,
-    STR_includecollection, STR_look,      STR_looks,   STR_variantset, STR_geomprop,
-    STR_defaultgeomprop,
-};
-
 struct qualifier {
     struct document *doc;
     str_id namespace;
@@ -118,15 +111,18 @@ static void qualify_category(struct qualifier *q, elem_id element)
         doc_set_category(doc, element, qualified);
 }
 
-/*
- * Qualifies the references of an element and its descendants. Only top-level elements search for
- * node names at the top level.
- */
+/* True if an attribute of an element may name elements at the root, which have qualified names. */
+static bool is_of_root(const struct document *doc, elem_id user, enum doc_name_place place)
+{
+    bool is_child = place == NAME_IN_UNITS || place == NAME_IN_VARIANTSET;
+    return doc_is_local_name(place) ? doc_naming_scope(doc, user, place) == doc->root : !is_child;
+}
+
+/* Qualifies the references of an element and its descendants. */
 static void qualify_references(struct qualifier *q, elem_id top)
 {
     struct document *doc = q->doc;
     assert(doc_element(doc, top)->parent == doc->root);
-    bool in_graph = doc_element(doc, top)->kind == KIND_NODEGRAPH;
     for (elem_id element = top; element; element = doc_next_in_tree(doc, top, element)) {
         q->namespace = doc_inherited_attr(doc, element, STR_namespace);
         if (!q->namespace)
@@ -136,14 +132,12 @@ static void qualify_references(struct qualifier *q, elem_id top)
         if (doc_element(doc, element)->kind == KIND_VARIANTSET
             && doc_attr_value(doc, element, STR_node))
             qualify_reference(q, element, STR_node);
-        for (size_t i = 0; i < sizeof references / sizeof *references; i++)
-            if (doc_attr_value(doc, element, references[i]))
-                qualify_reference(q, element, references[i]);
-        if (!in_graph && doc_attr_value(doc, element, STR_nodename))
-            qualify_reference(q, element, STR_nodename);
-        str_id type = doc_attr_value(doc, element, STR_type);
-        if (type && !doc_type_of(type))
-            qualify_reference(q, element, STR_type);
+        for (uint32_t i = 0; i < doc_element(doc, element)->num_attrs; i++) {
+            str_id attr = doc_attrs(doc, element)[i].name;
+            const struct doc_naming *naming = doc_naming(doc, element, attr);
+            if (naming && is_of_root(doc, element, naming->place))
+                qualify_reference(q, element, attr);
+        }
     }
 }
 

@@ -9,39 +9,32 @@ static const char *text_of(const struct validation *v, str_id id)
     return str_text(v->doc->strings, id);
 }
 
-/* Attributes that refer to top-level elements; lists have commas. */
-static const struct {
-    enum element_kind kind;
-    str_id attr;
-    enum element_kind target;
-} references[] = {
-    {KIND_MATERIALASSIGN, STR_collection, KIND_COLLECTION},
-    {KIND_VISIBILITY, STR_collection, KIND_COLLECTION},
-    {KIND_PROPERTYASSIGN, STR_collection, KIND_COLLECTION},
-    {KIND_PROPERTYSETASSIGN, STR_collection, KIND_COLLECTION},
-    {KIND_PROPERTYSETASSIGN, STR_propertyset, KIND_PROPERTYSET},
-    {KIND_COLLECTION, STR_includecollection, KIND_COLLECTION},
-    {KIND_LOOKGROUP, STR_looks, KIND_LOOK},
-    {KIND_VARIANTSET, STR_nodedef, KIND_NODEDEF},
-    {KIND_VARIANTASSIGN, STR_variantset, KIND_VARIANTSET},
-    {KIND_UNITDEF, STR_unittype, KIND_UNITTYPEDEF},
-    {KIND_MATERIALASSIGN, STR_material, KIND_NODE},
-};
+/* The kind of element that an attribute names, as messages call it. */
+static const char *target_of(const struct validation *v, const struct doc_naming *naming)
+{
+    static const str_id words[] = {
+#define KIND(ID, word) [KIND_##ID] = STR_##word,
+#include "document/kinds.def"
+#undef KIND
+    };
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (words[i] && naming->targets >> i & 1)
+            return text_of(v, naming->attr == STR_material ? STR_material : words[i]);
+    return "node";
+}
 
-static void check_reference(struct validation *v, elem_id element, str_id attr,
-                            enum element_kind target)
+/* Lists have commas. */
+static void check_reference(struct validation *v, elem_id element, const struct doc_naming *naming)
 {
     const struct document *doc = v->doc;
-    str_id value = doc_attr_value(doc, element, attr);
-    const char *text = str_text(doc->strings, value);
-    for (text += strspn(text, ", "); *text; text += strspn(text, ", ")) {
-        size_t len = strcspn(text, ", ");
-        str_id name = str_find(doc->strings, text, len);
-        bool graph_has_material = target == KIND_NODE && doc_top_level(doc, KIND_NODEGRAPH, name);
-        if ((!name || !doc_top_level(doc, target, name)) && !graph_has_material)
-            diag_add(v->diags, DIAG_ID_dangling_reference, doc_attr_place(doc, element, attr),
-                     text_of(v, attr), arena_strndup(v->arena, text, len));
-        text += len;
+    const char *text = text_of(v, doc_attr_value(doc, element, naming->attr)), *part;
+    size_t len;
+    while (part = doc_next_name(&text, &len), len) {
+        str_id name = str_find(doc->strings, part, len);
+        if (!name || !doc_names_element(doc, element, naming, name))
+            diag_add(v->diags, DIAG_ID_dangling_reference,
+                     doc_attr_place(doc, element, naming->attr), target_of(v, naming),
+                     arena_strndup(v->arena, part, len));
     }
 }
 
@@ -49,10 +42,13 @@ static void check_references(struct validation *v, elem_id element)
 {
     enum element_kind kind = (enum element_kind)doc_element(v->doc, element)->kind;
     if (kind == KIND_NODE || kind == KIND_INPUT || kind == KIND_OUTPUT)
-        return; /* most attributes are not in the table */
-    for (size_t i = 0; i < sizeof references / sizeof *references; i++)
-        if (references[i].kind == kind && doc_attr_value(v->doc, element, references[i].attr))
-            check_reference(v, element, references[i].attr, references[i].target);
+        return; /* most attributes are not checked here */
+    for (uint32_t i = 0; i < doc_element(v->doc, element)->num_attrs; i++) {
+        const struct doc_naming *naming =
+            doc_naming(v->doc, element, doc_attrs(v->doc, element)[i].name);
+        if (naming && naming->checked >> kind & 1)
+            check_reference(v, element, naming);
+    }
 }
 
 /*

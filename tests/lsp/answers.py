@@ -473,6 +473,26 @@ def check_looks(client):
         same((changed.count(new), changed.replace(new, old)), (count, text), f"{old} renamed")
     place = client.at("textDocument/definition", URI, text.index("top ,legs2") + 1)
     same(line_of(place["range"]), 3, "an item of a list")
+    check_references(client)
+
+
+def check_references(client):
+    """Each attribute of the library's table of references leads to what it names, and follows a rename."""
+    text = (ROOT / "tests/api/documents/names.mtlx").read_text(encoding="utf-8")
+    open_text(client, text)
+    for use in re.finditer(r'[ "](\w+)="(?:[^"]*, )?(old_\w+)[^"]*"', text):
+        if use[1] == "name" or use[2] == "old_token":  # which files name, too
+            continue
+        place = client.at("textDocument/definition", URI, use.start(2) + 1)
+        where = text.split("\n")[line_of(place["range"])] if place else None
+        check(where and f'name="{use[2]}"' in where, f"{use[1]} of {use[2]} leads to {where}")
+    # inputs of a definition and outputs have names in other places, which are tested above; files do not know units and variants of others
+    for name in sorted(set(re.findall(r'name="(old_\w+)"', text)) - {"old_in", "old_token", "old_out", "old_unit", "old_variant", "old_prop"}):
+        edits = client.at("textDocument/rename", URI, text.index(f'name="{name}"') + 7, newName="x_" + name)["changes"][URI]
+        same(edited(text, edits), text.replace(f'"{name}', f'"x_{name}').replace(f", {name}", f", x_{name}"), f"{name} renamed")
+    found = client.at("textDocument/completion", URI, text.index('old_collection" geom="/"/>'))
+    labels = {item["label"] for item in (found["items"] if isinstance(found, dict) else found)}
+    check("more" in labels and "old_look" not in labels, f"collections for viewercollection: {labels}")
 
 
 def check_moves(client):
