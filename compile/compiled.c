@@ -288,7 +288,7 @@ static bool compile_function(const char *target, const mxg_result *result,
     *out = (struct compiled){0};
     if (!host)
         return false;
-    snprintf(above, sizeof above, "%s%s", *info->device_feature ? host->feature_head : "",
+    snprintf(above, sizeof above, "%s%s", *info->device_features ? host->feature_head : "",
              host->head);
     if (host->main)
         write_caller(host, result, info, behind, sizeof behind);

@@ -7,7 +7,7 @@ import { pathToFileURL } from 'node:url';
 console.log = console.error; // the standard output belongs to the answers
 const { create } = await import(pathToFileURL(process.env.MXGEN_DAWN));
 const gpu = (globalThis.gpu = create(['backend=null'])); // Dawn crashes if it is collected before its device
-const device = await (await gpu.requestAdapter()).requestDevice({ requiredFeatures: ['shader-f16'] });
+const device = await (await gpu.requestAdapter()).requestDevice({ requiredFeatures: ['shader-f16', 'dual-source-blending'] });
 
 async function compile(sources) {
     let log = '';

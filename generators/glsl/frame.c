@@ -53,10 +53,9 @@ static void write_location(struct spell *spell, enum shader_block block, uint32_
     spell_text(spell, ") ");
 }
 
-/* Both sources of a blend have the first location. */
 static void write_place(struct spell *spell, const struct shader_variable *variable)
 {
-    if (variable->block == BLOCK_OUTPUTS && variable->semantic == STR_transmittance)
+    if (shader_is_second_source(variable))
         spell_text(spell, "layout(location = 0, index = 1) ");
     else
         write_location(spell, variable->block, variable->location);

@@ -86,7 +86,8 @@ const struct target target_hlsl = {
     .brief = "HLSL of shader model 5.1 and 6, for Direct3D 12 and Vulkan",
     .caps = CAP_VERTEX_STAGE | CAP_HOST_FILES | CAP_OVERLOADS | CAP_BITWISE | CAP_IMPLICIT_LOD
             | CAP_TEXTURE_ARRAYS | CAP_UNIFORM_BLOCKS | CAP_BINDINGS | CAP_SETS | CAP_BLOCK_STAGE_IO
-            | CAP_SAMPLERS | CAP_VULKAN_ATTRIBUTES | CAP_STORES | CAP_PASSES | CAP_MEDIUMP,
+            | CAP_SAMPLERS | CAP_VULKAN_ATTRIBUTES | CAP_STORES | CAP_PASSES | CAP_MEDIUMP
+            | CAP_TWO_SOURCES,
     .versions = versions,
     .syntax = &hlsl_syntax,
     .frame = &hlsl_frame,

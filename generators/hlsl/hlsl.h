@@ -51,6 +51,7 @@ struct hlsl_io {
     const char *heads[NUM_STAGES]; /* of main: "void main(" */
     /* vertex data and properties of the geometry have their names as semantics */
     bool own_semantics;
+    bool places_sources; /* the two sources of a blend say their places in Vulkan */
 };
 
 /* Declares the vertex data, and the results of a function that other code calls. */

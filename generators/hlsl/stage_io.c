@@ -49,10 +49,16 @@ static void write_semantic(struct spell *spell, const struct hlsl_io *io, uint32
 
 /* ---- Declarations ---- */
 
-static void write_location(struct spell *spell, uint32_t location)
+/* D3D blends with the target behind the first one, Vulkan with index 1 of the first location. */
+static void write_location(struct spell *spell, const struct hlsl_io *io,
+                           const struct shader_variable *variable)
 {
-    if (spell->options->vulkan_attributes)
-        text_fmt(spell->out, "[[vk::location(%u)]] ", (unsigned)location);
+    bool blends = variable->block == BLOCK_OUTPUTS && spell->shader->has_two_sources;
+    if (!spell->options->vulkan_attributes && !(blends && io->places_sources))
+        return;
+    text_fmt(spell->out, "[[vk::location(%u)]] ", (unsigned)variable->location);
+    if (blends)
+        text_fmt(spell->out, "[[vk::index(%u)]] ", (unsigned)shader_is_second_source(variable));
 }
 
 /* Both stages declare the whole struct, also members that they do not read, so that they match. */
@@ -65,7 +71,7 @@ static void write_vertex_data(struct spell *spell, const struct hlsl_io *io)
     {
         const struct shader_variable *variable = spell_interface_variable(spell, i);
         spell_indent(spell, 1);
-        write_location(spell, variable->location);
+        write_location(spell, io, variable);
         spell_text(spell, variable->flat ? "nointerpolation " : "");
         hlsl_variable(spell, variable);
         spell_text(spell, " : ");
@@ -141,15 +147,15 @@ static void write_parameters(struct spell *spell, const struct hlsl_io *io, enum
         if (!spell_uses(spell, variable))
             continue;
         begin_parameter(spell, is_first);
-        write_location(spell, variable->location);
+        write_location(spell, io, variable);
         spell_text(spell, block == BLOCK_OUTPUTS ? "out " : "");
         hlsl_variable(spell, variable);
-        if (block == BLOCK_OUTPUTS) {
-            text_fmt(spell->out, " : SV_Target%u", (unsigned)variable->location);
-        } else {
-            spell_text(spell, " : ");
+        spell_text(spell, " : ");
+        if (block == BLOCK_OUTPUTS)
+            text_fmt(spell->out, "SV_Target%u",
+                     variable->location + shader_is_second_source(variable));
+        else
             write_semantic(spell, io, i);
-        }
     }
 }
 

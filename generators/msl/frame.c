@@ -138,12 +138,10 @@ static void write_vertex_data(struct spell *spell)
     spell_text(spell, "};\n");
 }
 
-/* Both sources of a blend have the first number. */
 static void write_color(struct spell *spell, const struct shader_variable *variable)
 {
-    bool is_second = variable->semantic == STR_transmittance;
-    text_fmt(spell->out, " [[color(%u)%s]]", is_second ? 0u : (unsigned)variable->location,
-             is_second ? ", index(1)" : "");
+    text_fmt(spell->out, " [[color(%u)%s]]", (unsigned)variable->location,
+             shader_is_second_source(variable) ? ", index(1)" : "");
 }
 
 static void write_outputs(struct spell *spell)

@@ -93,7 +93,8 @@ const struct target target_msl = {
     .brief = "Metal Shading Language 2.3 and 3.0",
     .caps = CAP_VERTEX_STAGE | CAP_OVERLOADS | CAP_BITWISE | CAP_IMPLICIT_LOD | CAP_TEXTURE_ARRAYS
             | CAP_UNIFORM_BLOCKS | CAP_BINDINGS | CAP_OWN_NUMBERS | CAP_BLOCK_STAGE_IO
-            | CAP_SAMPLERS | CAP_HOST_FILES | CAP_STORES | CAP_PASSES | CAP_MEDIUMP,
+            | CAP_SAMPLERS | CAP_HOST_FILES | CAP_STORES | CAP_PASSES | CAP_MEDIUMP
+            | CAP_TWO_SOURCES,
     .max_attributes = 24, /* each has a buffer before those of blocks; there are 31 in all */
     .max_textures = 16,   /* section 2.10: samplers of a function */
     .versions = versions,

@@ -6,6 +6,7 @@ static const struct hlsl_io io = {
     .heads = {"[shader(\"vertex\")]\nvoid vertexMain(",
               "[shader(\"fragment\")]\nvoid fragmentMain("},
     .own_semantics = true,
+    .places_sources = true,
 };
 
 /* ---- Textures ---- */

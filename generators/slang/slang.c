@@ -61,7 +61,7 @@ const struct target target_slang = {
     .brief = "Slang 2025.3, with the names of MaterialX's generator",
     .caps = CAP_VERTEX_STAGE | CAP_OVERLOADS | CAP_BITWISE | CAP_IMPLICIT_LOD | CAP_TEXTURE_ARRAYS
             | CAP_BLOCK_STAGE_IO | CAP_SAMPLERS | CAP_HOST_FILES | CAP_STORES | CAP_PASSES
-            | CAP_MEDIUMP | CAP_PROGRAM_BINDINGS,
+            | CAP_MEDIUMP | CAP_TWO_SOURCES | CAP_PROGRAM_BINDINGS,
     .versions = versions,
     .syntax = &syntax,
     .frame = &slang_frame,

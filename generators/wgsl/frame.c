@@ -160,14 +160,24 @@ static uint32_t num_outputs(const struct spell *spell)
     return spell->stage_id == STAGE_PIXEL ? first[1] - first[0] : 0;
 }
 
+/* True for a main whose two outputs are the sources of one blend. */
+static bool blends_sources(const struct spell *spell)
+{
+    return spell->shader->has_two_sources && !is_called(spell) && num_outputs(spell) > 0;
+}
+
 /* The struct of several outputs; a single one is the result of main. */
 static void write_outputs(struct spell *spell)
 {
     spell_text(spell, "struct PixelOutputs {\n");
     SPELL_EACH_OF_BLOCK(i, spell, BLOCK_OUTPUTS)
     {
+        const struct shader_variable *variable = spell_interface_variable(spell, i);
         spell_indent(spell, 1);
-        write_located(spell, spell_interface_variable(spell, i));
+        if (blends_sources(spell))
+            spell_text(spell,
+                       shader_is_second_source(variable) ? "@blend_src(1) " : "@blend_src(0) ");
+        write_located(spell, variable);
         spell_text(spell, ",\n");
     }
     spell_text(spell, "}\n");
@@ -196,7 +206,8 @@ static void declare(struct spell *spell)
 {
     spell_text(spell, "// ");
     spell_title(spell);
-    SPELL(spell, "\n", spell->half_style ? "enable f16;\n\n" : "\n");
+    SPELL(spell, "\n", spell->half_style ? "enable f16;\n" : "",
+          blends_sources(spell) ? "enable dual_source_blending;\n" : "", "\n");
     spell_structs(spell);
     write_buffers(spell);
     write_lights(spell);

@@ -126,7 +126,8 @@ const struct target target_wgsl = {
     .brief = "WGSL for WebGPU",
     .caps = CAP_VERTEX_STAGE | CAP_BITWISE | CAP_IMPLICIT_LOD | CAP_TEXTURE_ARRAYS
             | CAP_UNIFORM_BLOCKS | CAP_BINDINGS | CAP_SETS | CAP_BLOCK_STAGE_IO | CAP_SAMPLERS
-            | CAP_SAMPLER_BINDINGS | CAP_HOST_FILES | CAP_STORES | CAP_PASSES | CAP_MEDIUMP,
+            | CAP_SAMPLER_BINDINGS | CAP_HOST_FILES | CAP_STORES | CAP_PASSES | CAP_MEDIUMP
+            | CAP_TWO_SOURCES,
     .max_textures = 16, /* WebGPU, default of maxSampledTexturesPerShaderStage */
     .versions = versions,
     .syntax = &syntax,
@@ -136,6 +137,7 @@ const struct target target_wgsl = {
     .images = images,
     .tests_late = true,
     .half_feature = "shader-f16",
+    .sources_feature = "dual-source-blending",
     .any_format = "rgba16f",
     .instances = instances,
     .position = ".position",

@@ -175,8 +175,11 @@ typedef struct mxg_shader_info {
      * MXG_BLOCK_OUTPUTS, both in order. "": a program
      */
     const char *function, *function_type;
-    /* A feature that the device must have, or "": "shader-f16" with precision=mediump in WGSL */
-    const char *device_feature;
+    /*
+     * Features that the device must have, with commas between, or "". In WGSL: "shader-f16" with
+     * precision=mediump, "dual-source-blending" with transparency=dual
+     */
+    const char *device_features;
 } mxg_shader_info;
 MXG_API mxg_status mxg_result_info(const mxg_result *result, mxg_shader_info *out);
 

@@ -695,8 +695,8 @@ export interface ShaderInfo {
     /** with role=function: the names of the function and of the struct that it returns; otherwise "" */
     function: string;
     functionType: string;
-    /** a feature that the device must have, for requiredFeatures: "shader-f16" of WebGPU with precision=mediump; otherwise "" */
-    deviceFeature: string;
+    /** features that the device must have, with commas between: "shader-f16" with precision=mediump, "dual-source-blending" with transparency=dual */
+    deviceFeatures: string;
 }
 
 /** The images that a shader stores for the passes of the deferred pipeline, or that a pass reads. */

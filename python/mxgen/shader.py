@@ -271,8 +271,9 @@ class ShaderInfo:
     #: with role=function, the names of the function and of the struct that it returns; else ""
     function: str
     function_type: str
-    #: a feature that the device must have, "shader-f16" of WebGPU with precision=mediump; else ""
-    device_feature: str
+    #: features that the device must have, with commas between: in WGSL "shader-f16" with precision=mediump, "dual-source-blending" with
+    #: transparency=dual
+    device_features: str
 
 @dataclass(frozen=True)
 class Storage:

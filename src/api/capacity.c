@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/* Reports textures and AOVs of a shader for which a host has too little room. */
+/* Reports textures and AOVs for which a host has too little room; features that a device must have.
+ */
 #include "api/generation.h"
 
 #include "shader/shader.h"
@@ -105,4 +106,19 @@ bool generation_keeps_outputs(struct generation *g)
     diag_add(diags_of(g), DIAG_ID_aov_limit, doc_place(&g->document->layer.doc, last),
              (unsigned)num, (unsigned)limit, text_cstr(&list));
     return false;
+}
+
+void generation_tell_features(struct generation *g, bool has_halves)
+{
+    const struct target *target = g->result->target;
+    struct shader *shader = &g->result->shader;
+    bool blends = shader->has_two_sources && shader->role->stages != STAGES_NONE;
+    const char *features[] = {has_halves ? target->half_feature : NULL,
+                              blends ? target->sources_feature : NULL};
+    struct text list;
+    text_init(&list, &g->result->object.arena);
+    for (size_t i = 0; i < sizeof features / sizeof *features; ++i)
+        if (features[i])
+            text_fmt(&list, "%s%s", list.len ? "," : "", features[i]);
+    shader->reflection.device_features = text_cstr(&list);
 }

@@ -474,8 +474,7 @@ bool generation_finish(struct generation *g)
     g->result->graph.max_nodes = 0;
     struct shader_layout_rules rules = generation_layout_rules(g);
     shader_finish(&g->result->shader, &rules);
-    if (has_halves(g) && g->result->target->half_feature)
-        g->result->shader.reflection.device_feature = g->result->target->half_feature;
+    generation_tell_features(g, has_halves(g));
     return is_good(g);
 }
 

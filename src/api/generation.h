@@ -225,6 +225,8 @@ bool generation_keeps_textures(struct generation *g);
 bool generation_keeps_attributes(struct generation *g);
 /* False, after a diagnostic, if AOVs are more than the attachments of the host. */
 bool generation_keeps_outputs(struct generation *g);
+/* Sets the features of a device that the finished shader needs. */
+void generation_tell_features(struct generation *g, bool has_halves);
 
 /*
  * role.c: finds the role; false, after diagnostics, if the target cannot have it, or if the values

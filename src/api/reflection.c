@@ -263,7 +263,7 @@ mxg_status mxg_result_info(const mxg_result *result, mxg_shader_info *out)
         .displaced = shader->reflection.displaced,
         .function = shader->reflection.function,
         .function_type = shader->reflection.function_type,
-        .device_feature = shader->reflection.device_feature,
+        .device_features = shader->reflection.device_features,
         .lit = shader->reflection.lit,
     };
     /* only the topology is expensive */

@@ -64,7 +64,7 @@ void shader_init(struct shader *shader, const struct role *role, struct arena *a
                               .interface.naming_of_members.prefix = "",
                               .reflection.function = "",
                               .reflection.function_type = "",
-                              .reflection.device_feature = ""};
+                              .reflection.device_features = ""};
     for (int stage = 0; stage < NUM_STAGES; stage++)
         shader->stages[stage].reach.arena = arena;
     vec_reserve(arena, &shader->interface.variables, FIRST_VARIABLES);

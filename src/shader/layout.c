@@ -148,6 +148,11 @@ bool shader_has_locations(const struct shader *shader, enum shader_block block)
     return shader->interface.rules.bindings || are_several_outputs;
 }
 
+bool shader_is_second_source(const struct shader_variable *variable)
+{
+    return variable->block == BLOCK_OUTPUTS && variable->semantic == STR_transmittance;
+}
+
 static void finish_buffers(struct shader *shader)
 {
     for (int block = 0; block < NUM_BLOCKS; block++)
@@ -252,8 +257,8 @@ void shader_layout(struct shader *shader)
             if (variable->block >= BLOCK_OWN) {
                 place_uniform(shader, variable);
             } else if (shader_has_locations(shader, (enum shader_block)variable->block)) {
-                if (variable->semantic == STR_transmittance && variable->block == BLOCK_OUTPUTS)
-                    break; /* the second source of the first location */
+                if (shader_is_second_source(variable))
+                    break;
                 variable->location = location[variable->block];
                 location[variable->block] += num_locations(variable->type);
             }

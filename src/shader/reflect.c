@@ -322,8 +322,8 @@ static void put_surface(struct reflect *r)
     if (shader->reflection.displaced)
         json_put_bool(&r->json, "displaced", true);
     json_put_bool(&r->json, "lit", shader->reflection.lit);
-    if (*shader->reflection.device_feature)
-        json_put_text(&r->json, "deviceFeature", shader->reflection.device_feature);
+    if (*shader->reflection.device_features)
+        json_put_text(&r->json, "deviceFeatures", shader->reflection.device_features);
     if (shader->role->is_in_host_file) {
         json_put_text(&r->json, "function", shader->reflection.function);
         json_put_text(&r->json, "functionType", shader->reflection.function_type);

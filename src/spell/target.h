@@ -147,8 +147,10 @@ struct target {
     const struct target_function *functions;
     uint32_t first_resource; /* the number of the first resource of programs */
     bool tests_late; /* pixel stages that write images run before the depth test: they read depth */
-    const char *half_feature; /* that half floats ask of a device: "shader-f16"; NULL: none */
-    const char *any_format;   /* of images of any format of floats; NULL: the host chooses */
+    /* what half floats and a second source of a blend ask of a device: "shader-f16"; NULL: nothing
+     */
+    const char *half_feature, *sources_feature;
+    const char *any_format; /* of images of any format of floats; NULL: the host chooses */
     const struct target_image *images; /* ends with kind NULL; NULL: from base */
     enum shader_packing packing;       /* of blocks of uniforms */
     /* the language's own, NULL-terminated: a module of functions has another name; NULL: the

@@ -497,8 +497,8 @@ test("a scene that changes", () => {
 
 test("the feature of a device", () => {
     const document = mxgen.createContext().parse(GOLD);
-    assert.equal(document.generate("wgsl", { options: { precision: "mediump" } }).info.deviceFeature, "shader-f16");
-    assert.equal(document.generate("wgsl").info.deviceFeature, "");
+    assert.equal(document.generate("wgsl", { options: { precision: "mediump" } }).info.deviceFeatures, "shader-f16");
+    assert.equal(document.generate("wgsl").info.deviceFeatures, "");
 });
 
 test("functions of the host", () => {

@@ -76,7 +76,7 @@ def check_halves(folder, target):
     for precision in "mediump", "highp":
         run(MXGEN, DOCUMENT, "--target", target, "--precision", precision, "--reflect", "-q", "-o", folder)
         texts.append(pathlib.Path(f"{folder}/Coloured.{ending}").read_text(encoding="utf-8"))
-        features.append(json.loads(pathlib.Path(f"{folder}/Coloured.json").read_text(encoding="utf-8")).get("deviceFeature"))
+        features.append(json.loads(pathlib.Path(f"{folder}/Coloured.json").read_text(encoding="utf-8")).get("deviceFeatures"))
     checks.check(set(re.findall(local, texts[0])) == {"image", "tinted", "faded", "fresnel_facing"}, f"{target}: {re.findall(local, texts[0])}")
     checks.check(not re.search(local, texts[1]), f"{target}: half floats without the option")
     checks.check(features == [feature, None], f"{target}: {features}")

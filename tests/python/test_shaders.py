@@ -103,8 +103,8 @@ class Shaders(unittest.TestCase):
 
     def test_device_feature(self):
         document = self.context.load(common.EXAMPLES / "gold.mtlx")
-        self.assertEqual(document.generate("wgsl", options={"precision": "mediump"}).info.device_feature, "shader-f16")
-        self.assertEqual(document.generate("wgsl").info.device_feature, "")
+        self.assertEqual(document.generate("wgsl", options={"precision": "mediump"}).info.device_features, "shader-f16")
+        self.assertEqual(document.generate("wgsl").info.device_features, "")
 
     def test_parts(self):
         shader = self.context.load(common.EXAMPLES / "car_paint.mtlx").generate("osl", options={"osl-network": True})

@@ -20,6 +20,14 @@ MXGEN, COMPILE, RENDER = (pathlib.Path(arg).resolve() if arg else None for arg i
 PATHS = 0.1, 0.01, 0.005  # mean free paths; the sheet is 0.01 thick
 CLEAR = 1e4, 1e4, 1e4
 SIZE = 32
+SOURCES = [  # target, stage, and what the language says of the two sources
+    ("vulkan", "frag", ["layout(location = 0, index = 1) out vec4 out2;"]),
+    ("glsl", "frag", ["layout(location = 0, index = 1) out vec4 out2;"]),
+    ("hlsl", "ps.hlsl", ["out float4 out1 : SV_Target0", "out float4 out2 : SV_Target1"]),
+    ("slang", "frag.slang", [f"[[vk::location(0)]] [[vk::index({i})]] out float4 out{i + 1} : SV_Target{i}" for i in (0, 1)]),
+    ("msl", "frag.metal", ["float4 out1 [[color(0)]];", "float4 out2 [[color(0), index(1)]];"]),
+    ("wgsl", "frag.wgsl", ["enable dual_source_blending;", "@blend_src(0) @location(0) out1: vec4f", "@blend_src(1) @location(0) out2: vec4f"]),
+]
 
 
 def sheet(paths):
@@ -62,14 +70,16 @@ def check_pictures(folder):
 def check_sources(folder):
     document = folder / "sheet.mtlx"
     document.write_text(sheet(PATHS))
-    for target in "vulkan", "glsl":
+    for target, stage, declarations in SOURCES:
         made = run(COMPILE, document, "--targets", target, "--transparency", "dual") if COMPILE else None
         check(not made or made.returncode == 0, f"{target}: {made and made.stderr}")
         made = run(MXGEN, document, "--target", target, "--transparency", "dual", "-o", folder, "--reflect")
-        check("layout(location = 0, index = 1) out vec4 out2;" in (folder / "Glass.frag").read_text(), f"{target}: no second source")
+        text = (folder / f"Glass.{stage}").read_text()
+        check(all(line in text for line in declarations), f"{target}: no second source")
         check('"transmittance"' in (folder / "Glass.json").read_text(), f"{target}: the reflection does not name the second source")
-        json.loads((folder / "Glass.json").read_text())
-    for target in "essl", "hlsl":
+        features = json.loads((folder / "Glass.json").read_text()).get("deviceFeatures")
+        check(features == ("dual-source-blending" if target == "wgsl" else None), f"{target}: features {features}")
+    for target in "essl", "essl310":
         made = run(MXGEN, document, "--target", target, "--transparency", "dual", "--stdout")
         check(made.returncode == 1 and "[options-clash]" in made.stderr, f"{target} has no second source: {made.stderr}")
     made = run(MXGEN, HERE.parent / "golden" / "aov.mtlx", "--target", "vulkan", "--transparency", "dual", "--stdout")
