@@ -129,7 +129,8 @@ void translate_make_draft(struct translation *t, uint32_t definition);
 /* An edit of a new draft, without nodes; and its end, which makes it t->draft. */
 void translate_start_draft(struct translation *t);
 void translate_commit_draft(struct translation *t);
-/* Runs steps of a generation over an element. The result is t->value. */
+/* Runs steps of a generation over an element, for any target or this one. The result is t->value.
+ */
 void translate_generate(struct translation *t, const mxg_document *document, const char *path,
                         const char *uniforms, void steps(struct generation *g), void *user_data);
 /* True if a text has the value of a port's default, however it is spelt. */
@@ -138,21 +139,19 @@ bool translate_is_default(const mxg_port *port, const struct strpool *strings, c
 bool translate_is_authored(const struct translation *t, const struct source_input *source);
 /* The text of its value, or of the default. */
 const char *translate_value_of(const struct translation *t, const struct source_input *source);
+const char *translate_text_of_zero(const struct translation *t, enum value_type type);
 /* The start of names that no element of the root has. */
 const char *translate_free_name(const struct translation *t);
 /* The name of the draft's node of a step. */
 const char *translate_step_name(const struct translation *t, unsigned step);
+void translate_generate_for(struct translation *t, const struct target *target,
+                            const mxg_document *document, const char *path, const char *uniforms,
+                            void steps(struct generation *g), void *user_data);
 /* The value of an element in the graph of t->value; 0: it has none. */
 ir_ref translate_build_path(struct translation *t, const mxg_document *document, const char *path,
                             const char *uniforms);
 /* True if the surface itself has a value; else t->value has the errors. */
 bool translate_can_build(struct translation *t);
-/*
- * True if the shader of the draft's surface of a step reads an input that is a uniform. `uniforms`
- * lists paths of inputs.
- */
-bool translate_surface_reads(struct translation *t, unsigned step, const char *input,
-                             const char *uniforms);
 /*
  * The paths of inputs of the draft that become uniforms: those that are connected, and one more by
  * its index, or all that are set.
@@ -193,10 +192,26 @@ void translate_geometry(struct translation *t);
  * coat that it does not have. Keeps what no shader of either model reads, and both have: an
  * occlusion.
  */
-/* True if a nodegraph implements the model, and does not read the input at all. */
-bool translate_is_for_others(const struct translation *t, uint32_t definition, const char *input);
 void translate_keep_for_others(struct translation *t);
 void translate_drop_idle(struct translation *t);
+
+/*
+ * translate_reads.c. True if the shader of the draft's surface of a step reads an input that is a
+ * uniform. `uniforms` lists paths of inputs.
+ */
+bool translate_surface_reads(struct translation *t, unsigned step, const char *input,
+                             const char *uniforms);
+/* True if it is another shader where an input has `other` in place of its own value. */
+bool translate_surface_differs(struct translation *t, unsigned step, const char *input,
+                               const char *own, const char *other, const char *uniforms);
+/* True if a nodegraph implements the model, and does not read the input at all. */
+bool translate_is_for_others(const struct translation *t, uint32_t definition, const char *input);
+/*
+ * True if an input of a definition does nothing, because its weight is 0, or that of its weight.
+ * `value_of` is the text of the value of an input; NULL: it varies.
+ */
+bool translate_is_off(struct translation *t, uint32_t definition, const char *input,
+                      const char *value_of(struct translation *t, const char *input));
 
 /*
  * translate_losses.c: warns about inputs that change the old surface and not the new one, and about

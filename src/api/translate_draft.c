@@ -95,7 +95,7 @@ bool translate_is_authored(const struct translation *t, const struct source_inpu
 
 /* ---- The nodes of the draft ---- */
 
-static const char *text_of_zero(const struct translation *t, enum value_type type)
+const char *translate_text_of_zero(const struct translation *t, enum value_type type)
 {
     const struct operand zero = value_zero(type);
     struct text text;
@@ -123,7 +123,7 @@ static void set_value(struct translation *t, mxg_element node, const struct sour
     const struct document *doc = &t->document->layer.doc;
     const char *text = translate_value_of(t, source);
     if (source->is_connected)
-        text = source->type == VALUE_NONE ? "" : text_of_zero(t, source->type);
+        text = source->type == VALUE_NONE ? "" : translate_text_of_zero(t, source->type);
     if (!*text)
         return;
     mxg_element input =
@@ -266,9 +266,9 @@ const char *translate_uniforms(const struct translation *t, uint32_t more)
     return text_cstr(&list);
 }
 
-static void generate_for(struct translation *t, const struct target *target,
-                         const mxg_document *document, const char *path, const char *uniforms,
-                         void steps(struct generation *g), void *user_data)
+void translate_generate_for(struct translation *t, const struct target *target,
+                            const mxg_document *document, const char *path, const char *uniforms,
+                            void steps(struct generation *g), void *user_data)
 {
     mxg_options_destroy(t->options); /* lists grow */
     t->options = NULL;
@@ -290,7 +290,7 @@ void translate_generate(struct translation *t, const mxg_document *document, con
                         const char *uniforms, void steps(struct generation *g), void *user_data)
 {
     /* any target: only the graph of the shader is read */
-    generate_for(t, targets[0], document, path, uniforms, steps, user_data);
+    translate_generate_for(t, targets[0], document, path, uniforms, steps, user_data);
 }
 
 ir_ref translate_build_path(struct translation *t, const mxg_document *document, const char *path,
@@ -307,24 +307,6 @@ bool translate_can_build(struct translation *t)
     text_init(&path, t->arena);
     doc_path(&t->document->layer.doc, t->surface, '/', &path);
     return translate_build_path(t, t->document, text_cstr(&path), "") != 0;
-}
-
-bool translate_surface_reads(struct translation *t, unsigned step, const char *input,
-                             const char *uniforms)
-{
-    struct text path;
-    text_init(&path, t->arena);
-    text_fmt(&path, "%s/%s", translate_step_name(t, step), input);
-    for (size_t i = 0; targets[i]; i++) {
-        if (i && !targets[i]->closures) /* rasters read alike; renderers with closures read more */
-            continue;
-        generate_for(t, targets[i], t->draft, translate_step_name(t, step), uniforms,
-                     generation_run_all, NULL);
-        if (!t->value->has_shader
-            || mxg_result_find_variable(t->value, text_cstr(&path)) != MXG_NONE)
-            return true;
-    }
-    return false;
 }
 
 ir_ref translate_build(struct translation *t, unsigned step, const char *output, uint32_t more)

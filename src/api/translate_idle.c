@@ -3,11 +3,10 @@
  * Inputs that do nothing: the new surface is built with one input after the other as a uniform. An
  * input whose uniform the surface does not read goes, before the next one is tried, because two
  * inputs may each be idle only beside the other. One that the nodegraph of the model never reads
- * stays: it is for renderers that know more of the model, as the volume of glTF is.
+ * stays: it is for renderers that know more of the model, as the volume of glTF is, unless its
+ * weight is 0.
  */
 #include "api/translate.h"
-
-#include "api/edit.h"
 
 /* The draft's node of the new surface. */
 static const char *node_name(const struct translation *t)
@@ -74,14 +73,6 @@ static bool says_nothing(const struct translated_input *input)
            && ir_value_equal(&input->value.value, &zero.value);
 }
 
-bool translate_is_for_others(const struct translation *t, uint32_t definition, const char *input)
-{
-    const struct library *lib = &t->document->layer;
-    elem_id graph = edit_find_graph(lib, definition);
-    return graph
-           && !library_graph_reads(lib, graph, str_find(lib->doc.strings, input, strlen(input)));
-}
-
 void translate_keep_for_others(struct translation *t)
 {
     uint32_t from = mxg_document_find_nodedef(t->document, t->surface);
@@ -114,14 +105,33 @@ static void drop(struct translation *t, struct translated_input *input)
     translate_commit_draft(t);
 }
 
+/* The value that the new surface has. */
+static const char *value_of(struct translation *t, const char *name)
+{
+    const struct translated_input *input = t->inputs.items;
+    while (strcmp(input->port.name, name) != 0)
+        input++;
+    if (!input->is_set)
+        return input->port.value;
+    struct text text;
+    text_init(&text, t->arena);
+    value_write(&input->value, &text);
+    return input->value.kind == OPERAND_CONSTANT ? text_cstr(&text) : NULL;
+}
+
+static bool is_for_others(struct translation *t, const struct translated_input *input)
+{
+    return !says_nothing(input) && translate_is_for_others(t, t->definition, input->port.name)
+           && !translate_is_off(t, t->definition, input->port.name, value_of);
+}
+
 void translate_drop_idle(struct translation *t)
 {
     add_surface(t);
     for (uint32_t i = 0; i < t->inputs.len; i++) {
         struct translated_input *input = &t->inputs.items[i];
-        bool is_for_others =
-            !says_nothing(input) && translate_is_for_others(t, t->definition, input->port.name);
-        if (input->is_set && !*input->port.defaultgeomprop && !is_for_others && !reads(t, i))
+        if (input->is_set && !*input->port.defaultgeomprop && !is_for_others(t, input)
+            && !reads(t, i))
             drop(t, input);
     }
 }

@@ -63,24 +63,6 @@ static bool stays(struct translation *t, bool *const *all, uint32_t source)
     return found;
 }
 
-/*
- * Why a source that is set matters to a surface of a definition: its shader reads it, or programs
- * that know more of the model. NULL: it does nothing. One that the geometry fills has no uniform,
- * so a connection counts.
- */
-static const char *use_of(struct translation *t, uint32_t index, uint32_t definition)
-{
-    const struct source_input *source = &t->sources.items[index];
-    bool is_geometry = source->is_connected && *source->port.defaultgeomprop;
-    if (is_geometry
-        || translate_surface_reads(t, 0, source->port.name, translate_uniforms(t, index)))
-        return "changes this surface";
-    if (strcmp(source->port.name, "displacement") == 0)
-        return "moves the vertices";
-    return translate_is_for_others(t, definition, source->port.name) ? "is for other programs"
-                                                                     : NULL;
-}
-
 /* True if an output of the first step depends on a source. */
 static bool is_read(struct translation *t, uint32_t source)
 {
@@ -96,22 +78,74 @@ static bool is_read(struct translation *t, uint32_t source)
 }
 
 /*
- * True if the value of a source is not the one that needs no counterpart. This is the default, but
- * the first step may have another one for an input that none of its outputs reads: 0 for the radius
- * of light below the surface, where the new model has none.
+ * The value of a source that needs no counterpart: the default. But the first step may have another
+ * one for an input that none of its outputs reads: 0 for the radius of light below the surface,
+ * where the new model has none.
  */
-static bool matters(struct translation *t, uint32_t index)
+static const char *value_of_none(struct translation *t, uint32_t index)
 {
     struct source_input *source = &t->sources.items[index];
-    const struct strpool *strings = t->document->layer.doc.strings;
     mxg_port own;
-    source->has_other = *source->port.value
-                        && translate_find_port(t, t->chain.items[0], source->port.name, false, &own)
-                        && !translate_is_default(&source->port, strings, own.value)
-                        && !is_read(t, index);
-    if (source->has_other && !source->is_connected)
-        return !translate_is_default(&own, strings, translate_value_of(t, source));
-    return translate_is_authored(t, source);
+    source->has_other =
+        *source->port.value
+        && translate_find_port(t, t->chain.items[0], source->port.name, false, &own)
+        && !translate_is_default(&source->port, t->document->layer.doc.strings, own.value)
+        && !is_read(t, index);
+    return source->has_other ? own.value : source->port.value;
+}
+
+static bool matters(struct translation *t, uint32_t index, const char *none)
+{
+    const struct source_input *source = &t->sources.items[index];
+    mxg_port port = source->port;
+    port.value = none;
+    return source->is_connected || !source->has_other
+               ? translate_is_authored(t, source)
+               : !translate_is_default(&port, t->document->layer.doc.strings,
+                                       translate_value_of(t, source));
+}
+
+/* The value that the old surface has. */
+static const char *value_of(struct translation *t, const char *name)
+{
+    const struct source_input *source = t->sources.items;
+    while (strcmp(source->port.name, name) != 0)
+        source++;
+    return source->is_connected ? NULL : translate_value_of(t, source);
+}
+
+/*
+ * True if the shader of a surface reads a source, and is another one than with the value that needs
+ * no counterpart. A source that the geometry fills has no uniform, so a connection counts.
+ */
+static bool changes(struct translation *t, uint32_t index, const char *none)
+{
+    const struct source_input *source = &t->sources.items[index];
+    const char *name = source->port.name;
+    if (source->is_connected && *source->port.defaultgeomprop)
+        return true;
+    return translate_surface_reads(t, 0, name, translate_uniforms(t, index))
+           && (source->is_connected || !*none
+               || translate_surface_differs(t, 0, name, translate_value_of(t, source), none,
+                                            translate_uniforms(t, TRANSLATE_CONNECTED)));
+}
+
+/*
+ * Why a source that is set matters to a surface of a definition: its shader reads it, or programs
+ * that know more of the model. NULL: it does nothing.
+ */
+static const char *use_of(struct translation *t, uint32_t index, uint32_t definition,
+                          const char *none)
+{
+    const char *name = t->sources.items[index].port.name;
+    if (changes(t, index, none))
+        return "changes this surface";
+    if (strcmp(name, "displacement") == 0)
+        return "moves the vertices";
+    return translate_is_for_others(t, definition, name)
+                   && !translate_is_off(t, definition, name, value_of)
+               ? "is for other programs"
+               : NULL;
 }
 
 /* By source: why it is lost; NULL: it is not. `definition` is that of the surface. */
@@ -119,9 +153,11 @@ static const char **find_lost(struct translation *t, uint32_t definition)
 {
     const char **lost = ARENA_ARRAY(t->arena, const char *, t->sources.len + 1);
     bool *const *all = find_dependences(t);
-    for (uint32_t i = 0; i < t->sources.len; i++)
-        if (matters(t, i) && !stays(t, all, i))
-            lost[i] = use_of(t, i, definition);
+    for (uint32_t i = 0; i < t->sources.len; i++) {
+        const char *none = value_of_none(t, i);
+        if (matters(t, i, none) && !stays(t, all, i))
+            lost[i] = use_of(t, i, definition, none);
+    }
     return lost;
 }
 

@@ -23,6 +23,31 @@ uint32_t build_leaf_callee(struct builder *b, uint32_t family)
                                             .name = library_family(b->lib, family)->name});
 }
 
+/* True if it is known that a lobe has one roughness. */
+static bool is_round(struct builder *b, const struct nodedef *def, const struct port *ports,
+                     const ir_ref *args)
+{
+    for (unsigned i = 0; i < def->num_inputs; i++) {
+        if (ports[i].name != STR_roughness || ir_type_of(b->graph, args[i]) != IR_TYPE_VEC2)
+            continue;
+        ir_ref along = ir_component(b->graph, args[i], 0),
+               across = ir_component(b->graph, args[i], 1);
+        const union ir_word *known =
+            ir_constant_words(b->graph, ir_op2(b->graph, IR_EQ, along, across));
+        return known && known->u != 0;
+    }
+    return false;
+}
+
+/* An argument of a lobe. One that is round needs no tangent of its own. */
+static ir_ref lobe_argument(struct builder *b, const struct nodedef *def, const struct port *ports,
+                            const ir_ref *args, unsigned index)
+{
+    const struct port *port = &ports[index];
+    bool is_idle = port->name == STR_tangent && port->geomprop && is_round(b, def, ports, args);
+    return is_idle ? build_default_geomprop(b, port->element, port->type) : args[index];
+}
+
 /*
  * Weight first if the definition has one (else 1), then the inputs in order without closures, then
  * the base of a modifier. So equal lobes with different weights differ only in the first operand.
@@ -44,7 +69,7 @@ static void build_leaf(struct builder *b, const struct implementation *impl, con
         else if (ports[i].name == STR_weight)
             operands[0] = args[i];
         else
-            operands[n++] = args[i];
+            operands[n++] = lobe_argument(b, def, ports, args, i);
     }
     if (family->functions[FAMILY_FACTOR] != LANG_NONE) {
         if (!base) {

@@ -271,7 +271,36 @@ def test_defaults():
         check(not said, f"{target} has a radius: {said[:300]}")
 
 
+def test_off():
+    """An input that changes nothing beside the values of others is no loss; with another value of one of them it is."""
+    volume = {"thickness": 0.5, "attenuation_distance": 2.0, "attenuation_color": (0.2, 0.9, 0.3), "dispersion": 0.4}
+    for source, target, weight, inputs in (
+            ("gltf_pbr", "UsdPreviewSurface", {"transmission": 0.5}, volume),
+            ("gltf_pbr", "UsdPreviewSurface", {"anisotropy_strength": 0.5, "roughness": 0.3}, {"anisotropy_rotation": 0.4}),
+            ("standard_surface", "UsdPreviewSurface", {"transmission": 0.5}, {"transmission_depth": 2.0, "transmission_dispersion": 40.0}),
+            ("standard_surface", "UsdPreviewSurface", {"transmission": 0.5, "transmission_scatter": (0.1, 0.2, 0.3)}, {"transmission_scatter_anisotropy": 0.5}),
+            ("open_pbr_surface", "disney_principled", {"transmission_weight": 0.5, "transmission_depth": 1.0}, {"transmission_scatter": (0.2, 0.9, 0.3)}),
+            ("open_pbr_surface", "disney_principled", {"transmission_weight": 0.5}, {"transmission_dispersion_scale": 1.0})):
+        for name, value in inputs.items():
+            _, _, said = translate(source, target, **{name: value})
+            check(not said, f"{name} of {source} alone does nothing: {said[:300]}")
+        _, _, said = translate(source, target, **weight, **inputs)
+        for name in inputs:
+            check(f"'{name}'" in said or f"/{name}'" in said, f"{name} of {source} with {weight} is told: {said[:600]}")
+    for source, name in (("gltf_pbr", "alpha_mode"), ("UsdPreviewSurface", "opacityMode")):
+        _, _, said = translate(source, "standard_surface", **{name: 1})
+        check(not said, f"{name} of {source} without an opacity does nothing: {said[:300]}")
+    for target in "standard_surface", "open_pbr_surface":
+        values, _, said = translate("gltf_pbr", target, **volume)
+        check(not said and not any(name.startswith("transmission") for name in values), f"a volume without transmission has no counterpart, and is no loss: {values} {said[:300]}")
+    off, _, _ = translate("standard_surface", "gltf_pbr", transmission_depth=2.0, transmission_dispersion=40.0)
+    check("thickness" not in off and "attenuation_distance" not in off and "dispersion" not in off, f"what is off is left out: {off}")
+    on, _, _ = translate("standard_surface", "gltf_pbr", transmission=0.5, transmission_depth=2.0, transmission_dispersion=40.0)
+    check(on.get("attenuation_distance") == [2] and "dispersion" in on, f"and stays where it is on: {on}")
+
+
 test_emission()
+test_off()
 test_defaults()
 test_transmission()
 test_metal()

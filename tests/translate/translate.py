@@ -209,7 +209,7 @@ def test_inputs_of_others():
     """What no shader reads stays where the other model has it, and is told as lost elsewhere."""
     for occlusion in ('value="0.5"', 'nodename="T"'):
         text = '<image name="T" type="float"/><gltf_pbr name="S" type="surfaceshader">' \
-            f'<input name="occlusion" type="float" {occlusion}/><input name="thickness" type="float" value="0.1"/></gltf_pbr>'
+            f'<input name="occlusion" type="float" {occlusion}/><input name="transmission" type="float" value="0.5"/><input name="thickness" type="float" value="0.1"/></gltf_pbr>'
         root, said, _ = translate(text, "UsdPreviewSurface", "an occlusion")
         kept = surface(root).find("input[@name='occlusion']")
         check(kept is not None and f'{kept.get("value")}{kept.get("nodename")}' in ("0.5None", "NoneT"), f"an occlusion stays: {occlusion}")
