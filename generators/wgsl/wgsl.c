@@ -72,14 +72,6 @@ static const char *const phrases[NUM_PHRASES] = {
 };
 /* clang-format on */
 
-/* Operators of different kinds stand between parentheses, which C does not ask for. */
-static const uint8_t operand_levels[LANG_PREC_PRIMARY + 1] = {
-    [LANG_PREC_LOR] = LANG_PREC_EQUAL,   [LANG_PREC_OR] = LANG_PREC_UNARY,
-    [LANG_PREC_XOR] = LANG_PREC_UNARY,   [LANG_PREC_AND] = LANG_PREC_UNARY,
-    [LANG_PREC_EQUAL] = LANG_PREC_SUM,   [LANG_PREC_COMPARE] = LANG_PREC_SUM,
-    [LANG_PREC_SHIFT] = LANG_PREC_UNARY,
-};
-
 static const struct lang_syntax syntax = {
     .name = "wgsl",
     .base = &lang_syntax_portable,
@@ -91,7 +83,6 @@ static const struct lang_syntax syntax = {
     .num_reserved = sizeof reserved / sizeof *reserved,
     .reserved_prefix = WGSL_PREFIX,
     .phrases = phrases,
-    .operand_levels = operand_levels,
     .argument_level = LANG_PREC_SHIFT, /* f(a < b, c > d) would be a template, a<b, c> */
     .copies_params = true,
     .one_per_declaration = true,

@@ -12,6 +12,12 @@ vec3 mx_slab_grazing(vec3 f0, vec3 f90)
     return hue * clamp(50.0 * max(f0.x, max(f0.y, f0.z)), 0.0, 1.0);
 }
 
+// 0 for an interface that is known to reflect nothing, which has no lobe; else 1.
+float mx_slab_reflects(vec3 f0)
+{
+    return mx_known(max(f0.x, max(f0.y, f0.z)) <= 0.0) ? 0.0 : 1.0;
+}
+
 // A body whose medium scatters is seen through nowhere.
 float mx_slab_is_thick(vec3 color, vec3 mean_free_path, float is_body, float scatters)
 {

@@ -226,6 +226,11 @@ static inline void print_operand(struct printer *p, const struct lang_node *oper
     text_char(p->out, ')');
 }
 
+static unsigned op_of(const struct lang_node *node)
+{
+    return node->kind == LANG_OP ? node->op : IR_NUM_OPS;
+}
+
 void print_form(struct printer *p, const struct lang_pieces *form, ir_type_id type,
                 const struct lang_node *const *operands)
 {
@@ -238,7 +243,8 @@ void print_form(struct printer *p, const struct lang_pieces *form, ir_type_id ty
         if (piece->index == LANG_PIECE_TYPE)
             lang_print_type(p->style, p->names, p->unit, type, p->out);
         else
-            print_operand(p, operands[piece->index], wide, (enum lang_precedence)piece->least);
+            print_operand(p, operands[piece->index], wide,
+                          lang_least(form, piece, op_of(operands[piece->index])));
     }
     if (form->rest.len)
         text_put(p->out, form->rest);

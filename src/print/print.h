@@ -80,12 +80,7 @@ struct lang_syntax {
     uint32_t num_reserved;
     const char *reserved_prefix; /* no identifier begins with it; NULL: none */
     bool begins_with_letter;     /* an identifier; otherwise it may begin with '_' */
-    /*
-     * [LANG_PREC_PRIMARY + 1], by the precedence of an infix operator: what its operands need, if
-     * that is more than in C; 0: as in C. NULL: all are as in C.
-     */
-    const uint8_t *operand_levels;
-    uint8_t argument_level; /* the precedence that an argument needs; 0: LANG_PREC_ASSIGN */
+    uint8_t argument_level;      /* the precedence that an argument needs; 0: LANG_PREC_ASSIGN */
     /* parameters are read-only: an assigned parameter is copied to a local first */
     bool copies_params;
     bool plain_scalars; /* the language has no bool and uint: their literals are int literals */
@@ -161,13 +156,22 @@ struct lang_pieces {
     bool infix;
     bool spreads; /* a constant beside a vector is written as a vector */
     uint8_t num;  /* number of operands */
+    uint16_t op;  /* enum ir_op; IR_NUM_OPS: the form was made at run time */
     struct lang_piece {
         uint8_t index; /* index of the operand, or LANG_PIECE_TYPE for the name of the type */
         uint8_t least; /* the precedence that the operand needs */
+        bool joins;    /* an operand that has the op of the form needs no parentheses */
         struct text_word before;
     } pieces[LANG_MAX_PIECES];
     struct text_word rest; /* characters after the last operand */
 };
+
+/* The precedence that an operand needs which has this op; IR_NUM_OPS: it is no operation. */
+static inline enum lang_precedence lang_least(const struct lang_pieces *form,
+                                              const struct lang_piece *piece, unsigned op)
+{
+    return (enum lang_precedence)(piece->joins && op == form->op ? form->precedence : piece->least);
+}
 
 /* True for the form "$0", whose text is that of its operand, with parentheses where that needs
  * them. */

@@ -35,13 +35,35 @@ struct lang_style *lang_style_of_halves(const struct lang_style *style, struct a
     return halves;
 }
 
+/*
+ * The precedence that operands of an infix operator need, where that is more than in C, by its own:
+ * operators of different kinds stand between parentheses. WGSL requires it, and readers of other
+ * languages, and their compilers, stumble without.
+ */
+static const uint8_t operand_levels[LANG_PREC_PRIMARY + 1] = {
+    [LANG_PREC_LOR] = LANG_PREC_EQUAL,   [LANG_PREC_OR] = LANG_PREC_UNARY,
+    [LANG_PREC_XOR] = LANG_PREC_UNARY,   [LANG_PREC_AND] = LANG_PREC_UNARY,
+    [LANG_PREC_EQUAL] = LANG_PREC_SUM,   [LANG_PREC_COMPARE] = LANG_PREC_SUM,
+    [LANG_PREC_SHIFT] = LANG_PREC_UNARY,
+};
+
+/*
+ * True if an operand with the op of the form itself needs no parentheses: the first, "a | b | c",
+ * and the others where the order of evaluation does not matter.
+ */
+static bool joins_operand(enum ir_op op, unsigned index)
+{
+    bool is_word = op == IR_AND || op == IR_OR || op == IR_XOR;
+    return index == 0 ? is_word || op == IR_LOR : is_word || op == IR_LOR || op == IR_LAND;
+}
+
 /* The precedence that an operand needs, by the characters around it in the form. */
-static enum lang_precedence operand_precedence(const uint8_t *levels, const struct lang_form *form,
-                                               unsigned index, char before, char after)
+static enum lang_precedence operand_precedence(const struct lang_form *form, unsigned index,
+                                               char before, char after)
 {
     enum lang_precedence own = (enum lang_precedence)form->precedence;
-    if (form->infix && levels && levels[own])
-        return (enum lang_precedence)levels[own];
+    if (form->infix && operand_levels[own])
+        return (enum lang_precedence)operand_levels[own];
     if (form->infix)
         return index == 0 ? own : own + 1;
     bool opens = before == '(' || before == '[' || before == ',' || before == '{';
@@ -64,11 +86,11 @@ static bool spreads_constants(const struct lang_syntax *syntax, enum ir_op op)
     return fits && syntax->wide_constants && op != IR_REFRACT;
 }
 
-/* split->text is NULL if there is no form; `levels` as in struct lang_syntax */
-static void split_form(const struct lang_form *form, const uint8_t *levels,
-                       struct lang_pieces *split)
+/* split->text is NULL if there is no form */
+static void split_form(const struct lang_form *form, enum ir_op op, struct lang_pieces *split)
 {
     split->text = form ? form->text : NULL;
+    split->op = (uint16_t)op;
     split->num = 0;
     split->spreads = false;
     if (!split->text)
@@ -86,8 +108,8 @@ static void split_form(const struct lang_form *form, const uint8_t *levels,
         split->pieces[split->num++] = (struct lang_piece){
             .before = {from, (size_t)(p - from)},
             .index = p[1] == 'T' ? LANG_PIECE_TYPE : (uint8_t)index,
-            .least =
-                p[1] == 'T' ? 0 : (uint8_t)operand_precedence(levels, form, index, before, p[2]),
+            .least = p[1] == 'T' ? 0 : (uint8_t)operand_precedence(form, index, before, p[2]),
+            .joins = form->infix && joins_operand(op, index),
         };
         from = p + 2;
         p++;
@@ -99,7 +121,7 @@ const struct lang_pieces *lang_form_of(struct arena *arena, const char *text,
                                        enum lang_precedence precedence)
 {
     struct lang_pieces *form = ARENA_NEW(arena, struct lang_pieces);
-    split_form(&(struct lang_form){text, (uint8_t)precedence, false}, NULL, form);
+    split_form(&(struct lang_form){text, (uint8_t)precedence, false}, IR_NUM_OPS, form);
     return form;
 }
 
@@ -107,10 +129,7 @@ const struct lang_pieces *lang_style_split(struct lang_style *style, enum ir_op 
 {
     assert(!style->forms[op]);
     struct lang_pieces *split = style->forms[op] = arena_alloc(style->arena, sizeof *split);
-    const struct lang_syntax *syntax = style->syntax;
-    while (!syntax->operand_levels && syntax->base)
-        syntax = syntax->base;
-    split_form(lang_syntax_form(style->syntax, op), syntax->operand_levels, split);
+    split_form(lang_syntax_form(style->syntax, op), op, split);
     split->spreads = split->text && spreads_constants(style->syntax, op);
     return split;
 }

@@ -162,6 +162,7 @@ void shader_finish(struct shader *shader, const struct shader_layout_rules *rule
     assert(shader->interface.used.len == 0);
     shader->interface.rules = *rules;
     shader_specialise_calls(shader, rules->typed_textures);
+    shader_drop_idle(shader, STAGE_PIXEL);
     complete_loops(shader, STAGE_PIXEL);
     mark_outputs(shader, STAGE_PIXEL);
     shader_schedule(shader, STAGE_PIXEL);

@@ -531,6 +531,12 @@ void shader_finish(struct shader *shader, const struct shader_layout_rules *rule
 void shader_specialise_calls(struct shader *shader, bool typed_textures);
 
 /*
+ * idle_effects.c: drops effects that change nothing, such as a loop over samples that reflect
+ * nothing. Part of shader_finish.
+ */
+void shader_drop_idle(struct shader *shader, enum shader_stage_id stage);
+
+/*
  * The variable of a uniform or stream that a portable function reads; UINT32_MAX for constants, and
  * before shader_finish.
  */

@@ -3,6 +3,7 @@
 #include "specialise/spec.h"
 
 #include <assert.h>
+#include <string.h>
 
 static lang_ref fold_constants(struct spec *s, const struct lang_node *op, const lang_ref *args,
                                unsigned num_args)
@@ -119,8 +120,19 @@ static lang_ref simplify_logic(struct spec *s, const struct lang_node *op, lang_
                : 0;
 }
 
+static bool is_same_constant(const struct spec *s, lang_ref a, lang_ref b)
+{
+    const struct lang_node *x = ast_node(s->unit, a), *y = ast_node(s->unit, b);
+    size_t count = ir_type_info(x->type)->components;
+    return x->kind == LANG_CONST && y->kind == LANG_CONST && x->type == y->type
+           && memcmp(ast_words(s->unit, x), ast_words(s->unit, y), count * sizeof(union ir_word))
+                  == 0;
+}
+
 static lang_ref simplify_mix(struct spec *s, const struct lang_node *op, const lang_ref *args)
 {
+    if (is_same_constant(s, args[0], args[1]) && !lang_has_effects(s->unit, args[2]))
+        return as_result(s, op, args[0]);
     if (is_number(s, args[2], 0) && !lang_has_effects(s->unit, args[1]))
         return as_result(s, op, args[0]);
     if (is_number(s, args[2], 1) && !lang_has_effects(s->unit, args[0]))

@@ -280,7 +280,8 @@ static void write_form(struct spell *spell, const struct ir_node *node,
 {
     assert(form->text);
     bool parentheses = (enum lang_precedence)form->precedence < least;
-    const ir_ref *args = spell->shader->graph->args.items + node->first_arg;
+    const struct ir_graph *graph = spell->shader->graph;
+    const ir_ref *args = graph->args.items + node->first_arg;
     if (lang_is_operand(form)) {
         write_operand(spell, args[0], least);
         return;
@@ -294,7 +295,8 @@ static void write_form(struct spell *spell, const struct ir_node *node,
         if (piece->index == LANG_PIECE_TYPE)
             spell_type(spell, node->type);
         else
-            write_operand(spell, args[piece->index], (enum lang_precedence)piece->least);
+            write_operand(spell, args[piece->index],
+                          lang_least(form, piece, graph->nodes.items[args[piece->index]].op));
     }
     if (form->rest.len)
         text_put(spell->out, form->rest);

@@ -644,6 +644,28 @@ static void test_module(const struct bench *b)
     test_no_module(b);
 }
 
+/* Lobes that reflect nothing have no loops: over samples of the environment, or over lights. */
+static void test_idle_lobes(void)
+{
+    static const struct {
+        const char *element;
+        bool has_samples, has_lights;
+    } surfaces[] = {{"slab_without_interface", false, true},
+                    {"matte", false, true},
+                    {"nothing", false, false},
+                    {"glossy", true, true}};
+    struct bench b;
+    bench_open(&b, "unlit_lobes.mtlx");
+    for (size_t i = 0; i < sizeof surfaces / sizeof *surfaces; i++) {
+        mxg_result *result = generate_reduced(b.context, b.document, surfaces[i].element);
+        const char *source = mxg_result_source(result, MXG_STAGE_PIXEL, NULL);
+        REQUIRE_EQ(strstr(source, "for (int i = 0;") != NULL, surfaces[i].has_samples);
+        REQUIRE_EQ(strstr(source, "u_lightData[i]") != NULL, surfaces[i].has_lights);
+        mxg_result_destroy(result);
+    }
+    bench_close(&b);
+}
+
 int main(void)
 {
     struct bench b;
@@ -666,5 +688,6 @@ int main(void)
     test_network();
     test_options_of_targets();
     test_lifetimes();
+    test_idle_lobes();
     return test_report("api-generation");
 }

@@ -556,7 +556,7 @@ void main()
     // environment: metal_film, metal_bare, reflection_film, reflection
     int count = mx_sample_count(alpha);
     mx_GgxSamples samples = mx_ggx_samples(specular_roughness, count, N, specular_tangent, V);
-    if (reflection_weight > 0.0 || (reflection_film_weight > 0.0 || (metal_film_visible || metal_bare_weight > 0.0))) {
+    if (reflection_weight > 0.0 || reflection_film_weight > 0.0 || metal_film_visible || metal_bare_weight > 0.0) {
         if (iridescence_thickness > 0.0) {
             vec2 turn = vec2(1.0, 0.0);
             for (int i = 0; i < count; ++i) {

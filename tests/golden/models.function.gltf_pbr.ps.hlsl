@@ -126,14 +126,6 @@ float2 mx_ggx_albedo_fit(float c)
         * x);
 }
 
-// Schlick's curve from f0 to f90 at a cosine, less `bend` times cos (1 - cos)^6.
-// Here f0 = float3(1.0, 1.0, 1.0), bend = float3(0.0, 0.0, 0.0), f90 = float3(1.0, 1.0, 1.0), exponent = 5.0.
-float3 mx_fresnel_schlick(float cosine)
-{
-    float x = 1.0 - cosine;
-    return lerp(float3(1.0, 1.0, 1.0), float3(1.0, 1.0, 1.0), x * x * x * x * x);
-}
-
 // The square of the length of the facet's normal H after the roughness divided its parts along the surface, times the
 // product of the roughness along x and y; cos_h is its part along N.
 // Here is_round = true, is_wide = true.
@@ -259,7 +251,7 @@ Surface surface(float3 positionWorld, float3 normalWorld)
     float3 V = normalize(u_viewPosition - positionWorld);
     // SR_gltf_pbr
     float cosine = max(abs(dot(axis, V)), 1e-8);
-    float scale = 1.0 / mx_ggx_albedo_fit(cosine).x;
+    float3 vector_scale = (float3)(1.0 / mx_ggx_albedo_fit(cosine).x);
     mx_GgxLobe metal_bare_ggx_lobe = make_mx_GgxLobe(faceforward(axis, -V, axis), cosine, float3(0.0, 0.0, 0.0),
         float2(1.0, 1.0), 1.0);
     // from the last light, so that drivers do not unroll the loop
@@ -267,8 +259,7 @@ Surface surface(float3 positionWorld, float3 normalWorld)
         // metal_bare
         float3 light_L, light_radiance;
         mxg_light(i, positionWorld, light_L, light_radiance);
-        float3 metal_bare_product = scale * mx_fresnel_schlick(sqrt(clamp(dot(light_L, V) * 0.5 + 0.500001, 0.0, 1.0)));
-        color += light_radiance * (metal_bare_product * mx_ggx_light(metal_bare_ggx_lobe, V, light_L));
+        color += light_radiance * (vector_scale * mx_ggx_light(metal_bare_ggx_lobe, V, light_L));
     }
     // environment: metal_bare
     float2 turn = float2(1.0, 0.0);
@@ -276,7 +267,7 @@ Surface surface(float3 positionWorld, float3 normalWorld)
     mx_GgxSamples metal_bare_ggx_samples = mx_ggx_samples(count, axis, V);
     for (int i = 0; i < count; ++i) {
         mx_GgxLight light = mx_ggx_reflected(metal_bare_ggx_samples, i, turn);
-        color += light.color * (light.weight * (scale * mx_fresnel_schlick(light.cosine)));
+        color += light.color * (light.weight * vector_scale);
         turn = float2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
     }
     result.color = color;

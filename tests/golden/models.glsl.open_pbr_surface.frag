@@ -687,8 +687,8 @@ void main()
     // environment: metal_film, metal_bare, reflection_film, reflection_bare
     int count = mx_sample_count(alpha);
     mx_GgxSamples samples = mx_ggx_samples(roughness, count, N, X, V);
-    if (reflection_bare_weight > 0.0 || (reflection_film_weight > 0.0
-        || (metal_film_weight > 0.0 || metal_bare_weight > 0.0))) {
+    if (reflection_bare_weight > 0.0 || reflection_film_weight > 0.0 || metal_film_weight > 0.0 || metal_bare_weight
+        > 0.0) {
         if (film_thickness > 0.0) {
             vec2 turn = vec2(1.0, 0.0);
             for (int i = 0; i < count; ++i) {

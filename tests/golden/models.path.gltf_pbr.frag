@@ -73,14 +73,6 @@ vec2 mx_ggx_albedo_fit(const float c)
         4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, c), 1.0), x * x * x * x * x);
 }
 
-// Schlick's curve from f0 to f90 at a cosine, less `bend` times cos (1 - cos)^6.
-// Here f0 = vec3(1.0), bend = vec3(0.0), f90 = vec3(1.0), exponent = 5.0.
-vec3 mx_fresnel_schlick(const float cosine)
-{
-    float x = 1.0 - cosine;
-    return mix(vec3(1.0), vec3(1.0), x * x * x * x * x);
-}
-
 // Axes of the tangent space around N with x along X: `w * frame` enters it, `frame * w` leaves it.
 mat3 mx_frame(const vec3 N, const vec3 X)
 {
@@ -216,7 +208,7 @@ void main()
     vec3 axis = normalize(vd.normalWorld);
     vec3 V = normalize(u_viewPosition - vd.positionWorld);
     // SR_gltf_pbr
-    float scale = 1.0 / mx_ggx_albedo_fit(max(abs(dot(axis, V)), 1e-8)).x;
+    vec3 vector_scale = vec3(1.0 / mx_ggx_albedo_fit(max(abs(dot(axis, V)), 1e-8)).x);
     mat3 metal_bare_frame = mx_frame(faceforward(axis, -V, axis), normalize(vd.tangentWorld));
     // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
@@ -241,8 +233,7 @@ void main()
             }
         }
         // metal_bare
-        vec3 metal_bare_product = scale * mx_fresnel_schlick(sqrt(clamp(dot(L, V) * 0.5 + 0.500001, 0.0, 1.0)));
-        color += u_lightData[i].color * (intensity * (metal_bare_product * mx_ggx_smith_lobe(metal_bare_frame, V, L)));
+        color += u_lightData[i].color * (intensity * (vector_scale * mx_ggx_smith_lobe(metal_bare_frame, V, L)));
     }
     // environment: metal_bare
     vec2 turn = vec2(1.0, 0.0);
@@ -250,7 +241,7 @@ void main()
     mx_GgxSamples metal_bare_ggx_samples = mx_ggx_samples(count, axis, V);
     for (int i = 0; i < count; ++i) {
         mx_GgxLight light = mx_ggx_reflected(metal_bare_ggx_samples, i, turn);
-        color += light.color * (light.weight * (scale * mx_fresnel_schlick(light.cosine)));
+        color += light.color * (light.weight * vector_scale);
         turn = vec2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
     }
     out1 = vec4(color, 1.0);

@@ -50,14 +50,6 @@ vec2 mx_ggx_albedo_fit(const float c)
         4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, c), 1.0), x * x * x * x * x);
 }
 
-// Schlick's curve from f0 to f90 at a cosine, less `bend` times cos (1 - cos)^6.
-// Here f0 = vec3(1.0), bend = vec3(0.0), f90 = vec3(1.0), exponent = 5.0.
-vec3 mx_fresnel_schlick(const float cosine)
-{
-    float x = 1.0 - cosine;
-    return mix(vec3(1.0), vec3(1.0), x * x * x * x * x);
-}
-
 // Masking and shadowing of the directions v and l over 4 cos_v, each with the roughness in its direction (Heitz 2014,
 // equations 80 and 99).
 // Here alpha = vec2(1.0).
@@ -108,7 +100,7 @@ void mx_ggx_scatter(const vec3 N, const vec3 X, const vec3 V, const vec3 xi, out
     pdf = 0.0;
     if (l.z <= 0.0)
         return;
-    weight = mx_fresnel_schlick(clamp(dot(v, h), 1e-8, 1.0)) * (mx_ggx_smith_visibility(v, l) * 4.0 / density)
+    weight = vec3(1.0) * (mx_ggx_smith_visibility(v, l) * 4.0 / density)
         * (vec3(1.0) + vec3(1.0 / mx_ggx_albedo_fit(v.z).x - 1.0));
     pdf = 0.25;
     pdf *= density * (1.0 / (3.1415927 * dot(h, h) * dot(h, h)));
@@ -149,7 +141,7 @@ float mx_ggx_pdf(const vec3 N, const vec3 X, const vec3 V, const vec3 L)
     vec3 l = L * frame;
     bool is_reflected = l.z > 0.0;
     vec3 h = is_reflected ? normalize(v + l) : mx_refracting_normal(v, l);
-    if (dot(v, h) <= 0.0 || !is_reflected && dot(l, h) >= 0.0)
+    if (dot(v, h) <= 0.0 || (!is_reflected && dot(l, h) >= 0.0))
         return 0.0;
     return 2.0 / (v.z + length(vec3(v.xy, v.z))) * (1.0 / (3.1415927 * dot(h, h) * dot(h, h)))
         * (is_reflected ? 0.25 : 0.0);
@@ -160,10 +152,9 @@ void scatter()
     vec3 axis = normalize(vd.normalWorld);
     // SR_gltf_pbr
     float axis_dot_lobe_view = dot(axis, vd.viewWorld);
-    vec2 albedo = mx_ggx_albedo_fit(max(abs(axis_dot_lobe_view), 1e-8));
-    vec3 f = mx_fresnel_schlick(max(1.0 - pow(albedo.y, 0.2), 1e-8));
-    float ggx_compensation = 1.0 / albedo.x;
-    float metal_bare_share = max(dot(f * (albedo.x * ggx_compensation * 0.9) + vec3(0.1), vec3(0.33333334)), 0.0);
+    float part_of_albedo = mx_ggx_albedo_fit(max(abs(axis_dot_lobe_view), 1e-8)).x;
+    float metal_bare_share = max(dot(vec3(part_of_albedo * (1.0 / part_of_albedo) * 0.9) + vec3(0.1), vec3(0.33333334)),
+        0.0);
     float pick = metal_bare_share * vd.random.w;
     vec3 L = vec3(0.0);
     float inside = 0.0;
@@ -188,11 +179,10 @@ void scatter()
     out2 = vec4(L, inside);
     out3 = vec4(weight, density);
     out4 = vec4(medium, 0.0);
-    vec3 fresnel = mx_fresnel_schlick(sqrt(clamp(dot(vd.viewWorld, vd.lightWorld.xyz) * 0.5 + 0.500001, 0.0, 1.0)));
     mat3 frame = mx_frame(faceforward(axis, -vd.viewWorld, axis), specular_tangent);
     float both = vd.lightWorld.w * (scaled_metal_bare_share
         * mx_ggx_pdf(axis, specular_tangent, vd.viewWorld, vd.lightWorld.xyz)) + 1.0;
-    vec3 balanced = fresnel * (ggx_compensation * mx_ggx_smith_lobe(frame, vd.viewWorld, vd.lightWorld.xyz)) / both;
+    vec3 balanced = vec3(1.0 / part_of_albedo * mx_ggx_smith_lobe(frame, vd.viewWorld, vd.lightWorld.xyz)) / both;
     out5 = vec4(axis_dot_lobe_view * dot(axis, vd.lightWorld.xyz) > 0.0 ? balanced : vec3(0.0), 0.0);
     float chance = fract(vd.random.w * 4096.0);
     float brightness_sum = 0.0;
@@ -226,10 +216,8 @@ void scatter()
                 away = magnitude_d;
             }
         }
-        vec3 metal_bare_product = ggx_compensation
-            * mx_fresnel_schlick(sqrt(clamp(dot(vd.viewWorld, L_2) * 0.5 + 0.500001, 0.0, 1.0)));
         bool metal_bare_is_in_front = axis_dot_lobe_view * dot(axis, L_2) > 0.0;
-        vec3 response = metal_bare_product
+        vec3 response = vec3(1.0 / part_of_albedo)
             * (metal_bare_is_in_front ? mx_ggx_smith_lobe(frame, vd.viewWorld, L_2) : 0.0);
         vec3 lit = u_lightData[i].color * intensity * response;
         float brightness = max(dot(lit, vec3(0.33333334)), 0.0);

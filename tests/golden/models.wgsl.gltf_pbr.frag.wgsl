@@ -581,7 +581,7 @@ fn main(vd: VertexData) -> @location(0) vec4f
     // environment: metal_film, metal_bare, reflection_film, reflection
     let count: i32 = mx_sample_count(alpha);
     let samples: mx_GgxSamples = mx_ggx_samples_2(specular_roughness, count, N, specular_tangent, V);
-    if (reflection_weight > 0.0 || (reflection_film_weight > 0.0 || (metal_film_visible || metal_bare_weight > 0.0))) {
+    if (reflection_weight > 0.0 || reflection_film_weight > 0.0 || metal_film_visible || metal_bare_weight > 0.0) {
         if (iridescence_thickness > 0.0) {
             var turn: vec2f = vec2f(1.0, 0.0);
             for (var i: i32 = 0; i < count; i++) {

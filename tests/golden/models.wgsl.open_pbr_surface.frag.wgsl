@@ -724,8 +724,8 @@ fn main(vd: VertexData) -> @location(0) vec4f
     // environment: metal_film, metal_bare, reflection_film, reflection_bare
     let count: i32 = mx_sample_count(alpha);
     let samples: mx_GgxSamples = mx_ggx_samples(roughness, count, N, X, V);
-    if (reflection_bare_weight > 0.0 || (reflection_film_weight > 0.0
-        || (metal_film_weight > 0.0 || metal_bare_weight > 0.0))) {
+    if (reflection_bare_weight > 0.0 || reflection_film_weight > 0.0 || metal_film_weight > 0.0 || metal_bare_weight
+        > 0.0) {
         if (film_thickness > 0.0) {
             var turn: vec2f = vec2f(1.0, 0.0);
             for (var i: i32 = 0; i < count; i++) {

@@ -23,19 +23,19 @@ uint mx_hash_final(const uint x, const uint y, const uint z)
     uint b = y;
     uint c = z;
     c ^= b;
-    c -= b << 14 | b >> 18;
+    c -= (b << 14) | (b >> 18);
     a ^= c;
-    a -= c << 11 | c >> 21;
+    a -= (c << 11) | (c >> 21);
     b ^= a;
-    b -= a << 25 | a >> 7;
+    b -= (a << 25) | (a >> 7);
     c ^= b;
-    c -= b << 16 | b >> 16;
+    c -= (b << 16) | (b >> 16);
     a ^= c;
-    a -= c << 4 | c >> 28;
+    a -= (c << 4) | (c >> 28);
     b ^= a;
-    b -= a << 14 | a >> 18;
+    b -= (a << 14) | (a >> 18);
     c ^= b;
-    c -= b << 24 | b >> 8;
+    c -= (b << 24) | (b >> 8);
     return c;
 }
 

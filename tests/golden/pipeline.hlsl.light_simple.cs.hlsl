@@ -264,7 +264,7 @@ uint4 mx_word2_load(int2 at)
 // The class of a pixel by its first word.
 uint mx_class(uint first)
 {
-    return (first >> 20u & 1024u) != 0u ? 4u : first >> 28u;
+    return ((first >> 20u) & 1024u) != 0u ? 4u : first >> 28u;
 }
 
 // A direction from its place in the octahedral square.
@@ -280,7 +280,7 @@ float3 mx_of_octahedral(float2 square)
 // A number from 0 to 1 from its bits of a word.
 float mx_uncut(uint word, uint shift, uint bits)
 {
-    return float(word >> shift & (1u << bits) - 1u) / float((1u << bits) - 1u);
+    return float((word >> shift) & ((1u << bits) - 1u)) / float((1u << bits) - 1u);
 }
 
 // A direction from its bits.
@@ -338,7 +338,7 @@ uint mx_get(inout MxReader reader)
 // The features of a closure.
 uint mx_features(uint core)
 {
-    return core >> 20u & ((core >> 20u & 1024u) != 0u ? 1023u : 255u);
+    return (core >> 20u) & (((core >> 20u) & 1024u) != 0u ? 1023u : 255u);
 }
 
 // A colour from its 20 bits.
@@ -357,8 +357,8 @@ float3 mx_linear(float3 srgb)
 // A number from -1 to 1 from its bits of a word.
 float mx_uncut_signed(uint word, uint shift, uint bits)
 {
-    float most = float((1u << bits - 1u) - 1u);
-    return float(int(word << 32u - bits - shift) >> int(32u - bits)) / most;
+    float most = float((1u << (bits - 1u)) - 1u);
+    return float(int(word << (32u - bits - shift)) >> int(32u - bits)) / most;
 }
 
 // Two axes across a normal. Duff et al. 2017, "Building an Orthonormal Basis, Revisited".
@@ -402,7 +402,7 @@ MxClosure mx_unpack(MxRecord r, float3 normal, float roughness)
     float3 part = mx_uncut_color(r.medium);
     c.free_path = part / max(1.0 - part, 1e-6);
     c.phase_anisotropy = mx_uncut_signed(r.medium, 20u, 6u);
-    c.is_thick = float(r.medium >> 26u & 1u);
+    c.is_thick = float((r.medium >> 26u) & 1u);
     c.anisotropy = mx_uncut_signed(r.anisotropy, 16u, 16u);
     float3 x;
     float3 y;
@@ -421,9 +421,9 @@ MxClosure mx_unpack(MxRecord r, float3 normal, float roughness)
     c.tint_weight = mx_uncut(r.tint, 16u, 8u);
     c.tangent = cos(turn) * x + sin(turn) * y;
     c.steady = 1.0 - mx_uncut_color(r.weights[0]);
-    c.color = mx_uncut_color(r.weights[0] >> 20u | r.weights[1] << 12u);
+    c.color = mx_uncut_color((r.weights[0] >> 20u) | (r.weights[1] << 12u));
     c.decay = mx_uncut_color(r.weights[1] >> 8u);
-    c.spreads = float(r.weights[1] >> 28u & 1u);
+    c.spreads = float((r.weights[1] >> 28u) & 1u);
     c.blur = mx_blur_of(r.weights[1] >> 29u);
     return c;
 }
@@ -446,7 +446,7 @@ MxClosure mx_next(inout MxReader reader)
     if (!is_last) {
         r.core = mx_get(reader);
         uint kept_;
-        if ((r.core >> 20u & 32u) != 0u)
+        if (((r.core >> 20u) & 32u) != 0u)
             kept_ = 0u;
         else
             kept_ = mx_get(reader);
@@ -471,7 +471,7 @@ MxClosure mx_next(inout MxReader reader)
         for (int i = 0; i < 4; ++i)
             r.glints[i] = mx_get(reader);
     }
-    uint number = has >> 6u & 3u;
+    uint number = (has >> 6u) & 3u;
     if (number == 1u) {
         reader.normals[2] = reader.normals[1];
         reader.normals[1] = mx_uncut_normal(mx_get(reader), 16u);
@@ -519,6 +519,39 @@ void mx_run(uint2 group, uint2 place)
     mx_lit_store(pixel, lit_);
 }
 
+// x^5.
+float mx_power5(float x)
+{
+    return x * x * x * x * x;
+}
+
+// Height and fall of the bump of light that a rough surface of gloss g sends back.
+float2 mx_chan_bump(float g)
+{
+    return float2((34.5 * g - 59.0) * g + 24.5, max(73.2 * g - 21.2, 8.9));
+}
+
+// Chan's diffuse lobe of gloss g, times its directional albedo, for a light whose half vector has the cosine cos_d to
+// V; `even` is the part that a smooth surface lets out to the viewer.
+float mx_chan_lobe(float g, float cos_v, float cos_l, float cos_d, float even)
+{
+    float2 bump = mx_chan_bump(g);
+    return max(lerp(cos_d + mx_power5(1.0 - cos_d), even * (1.0 - 0.75 * mx_power5(1.0 - cos_l)),
+        clamp(2.2 * g - 0.5, 0.0, 1.0)) + bump.x * cos_d
+        * exp2(-bump.y * sqrt(min((cos_l + cos_v) / (2.0 * cos_d), 1.0))), 0.0);
+}
+
+// 1 / (pi times the directional albedo) of Chan's lobe of gloss g at the cosine c, within 0.0012.
+float mx_chan_share(float c, float g)
+{
+    float4 fit = mul(float4(1.0, c, c * c, c * c * c),
+        float4x4(0.711052, 0.000476, 0.474855, 0.02628, 0.152583, 0.003146, 1.026027, -0.718545, 0.102579, -0.004832,
+        -2.223248, 0.347306, -0.053764, 0.001611, 2.069558, -0.492125));
+    float2 bump = mx_chan_bump(g);
+    return 1.0 / (3.1415927 * (lerp(fit.x, 0.96428573 * (1.0 - 0.75 * mx_power5(1.0 - c)),
+        clamp(2.2 * g - 0.5, 0.0, 1.0)) + bump.x * exp2((8.9 - bump.y) * fit.z) * fit.y / (fit.w + c)));
+}
+
 // A cubic polynomial of x and y with the coefficients m, to which directional albedos are fitted.
 float mx_bicubic(float4x4 m, float x, float y)
 {
@@ -564,39 +597,6 @@ float mx_ggx_light(mx_GgxLobe lobe, float3 V, float3 L)
     float e = mx_ggx_stretched(lobe, V + L, lobe.cosine + dot(lobe.N, L));
     return area / 6.2831855 * square * square * cos_l
         / (e * e * (lobe.cosine * sqrt(area + (1.0 - area) * (cos_l * cos_l)) + cos_l * lobe.masking));
-}
-
-// x^5.
-float mx_power5(float x)
-{
-    return x * x * x * x * x;
-}
-
-// Height and fall of the bump of light that a rough surface of gloss g sends back.
-float2 mx_chan_bump(float g)
-{
-    return float2((34.5 * g - 59.0) * g + 24.5, max(73.2 * g - 21.2, 8.9));
-}
-
-// Chan's diffuse lobe of gloss g, times its directional albedo, for a light whose half vector has the cosine cos_d to
-// V; `even` is the part that a smooth surface lets out to the viewer.
-float mx_chan_lobe(float g, float cos_v, float cos_l, float cos_d, float even)
-{
-    float2 bump = mx_chan_bump(g);
-    return max(lerp(cos_d + mx_power5(1.0 - cos_d), even * (1.0 - 0.75 * mx_power5(1.0 - cos_l)),
-        clamp(2.2 * g - 0.5, 0.0, 1.0)) + bump.x * cos_d
-        * exp2(-bump.y * sqrt(min((cos_l + cos_v) / (2.0 * cos_d), 1.0))), 0.0);
-}
-
-// 1 / (pi times the directional albedo) of Chan's lobe of gloss g at the cosine c, within 0.0012.
-float mx_chan_share(float c, float g)
-{
-    float4 fit = mul(float4(1.0, c, c * c, c * c * c),
-        float4x4(0.711052, 0.000476, 0.474855, 0.02628, 0.152583, 0.003146, 1.026027, -0.718545, 0.102579, -0.004832,
-        -2.223248, 0.347306, -0.053764, 0.001611, 2.069558, -0.492125));
-    float2 bump = mx_chan_bump(g);
-    return 1.0 / (3.1415927 * (lerp(fit.x, 0.96428573 * (1.0 - 0.75 * mx_power5(1.0 - c)),
-        clamp(2.2 * g - 0.5, 0.0, 1.0)) + bump.x * exp2((8.9 - bump.y) * fit.z) * fit.y / (fit.w + c)));
 }
 
 // The angle, over pi, with this sine and cosine; the cosine is not negative. It errs by 2.9e-5 at most.
@@ -710,27 +710,28 @@ void surface()
 {
     float3 color = float3(0.0, 0.0, 0.0);
     // lights
+    float3 V = normalize(u_viewPosition - vd.positionWorld);
     // simple_slab
+    float3 facing = faceforward(vd.geomprop_normal, -V, vd.geomprop_normal);
+    float alpha = vd.geomprop_roughness * vd.geomprop_roughness;
+    float square = clamp(alpha, 0.001, 1.0);
+    float chan_gloss = clamp(log2(2.0 / (square * square) - 1.0) / 18.0, 0.0, 1.0);
+    float cos_v = max(abs(dot(vd.geomprop_normal, V)), 1e-8);
+    float x = 1.0 - cos_v;
+    float chan_even = 1.0 - x * (x * (x * (x * x))) * 0.75;
     float3 fresnel_f0 = max(vd.geomprop_f0, 0.0);
     float3 grazing = (float3)clamp(max(vd.geomprop_f0.x, max(vd.geomprop_f0.y, vd.geomprop_f0.z)) * 50.0, 0.0, 1.0);
-    float alpha = vd.geomprop_roughness * vd.geomprop_roughness;
     float reflection_alpha = clamp(alpha, 1e-8, 1.0);
-    float3 V = normalize(u_viewPosition - vd.positionWorld);
-    float cos_v = max(abs(dot(vd.geomprop_normal, V)), 1e-8);
     float2 albedo = mx_ggx_albedo_fit(reflection_alpha, cos_v);
-    float3 scale = lerp(fresnel_f0, grazing, 0.04761905) * (1.0 / albedo.x - 1.0) + float3(1.0, 1.0, 1.0);
-    float3 facing = faceforward(vd.geomprop_normal, -V, vd.geomprop_normal);
+    float3 reflection_factor = lerp(fresnel_f0, grazing, 0.04761905) * (1.0 / albedo.x - 1.0) + float3(1.0, 1.0, 1.0);
+    float3 reflection_throughput = float3(1.0, 1.0, 1.0)
+        - (float3(1.0, 1.0, 1.0) - max(float3(1.0, 1.0, 1.0) - lerp(fresnel_f0, grazing, albedo.y) * albedo.x
+        * reflection_factor, 0.0));
+    float3 medium_factor = mx_chan_share(cos_v, chan_gloss) * (vd.geomprop_diffuse_albedo * reflection_throughput);
     float ggx_masking = sqrt(reflection_alpha * reflection_alpha + (1.0 - reflection_alpha * reflection_alpha)
         * (cos_v * cos_v));
     mx_GgxLobe reflection_ggx_lobe = make_mx_GgxLobe(facing, cos_v, float3(0.0, 0.0, 0.0), (float2)reflection_alpha,
         ggx_masking);
-    float square = clamp(alpha, 0.001, 1.0);
-    float chan_gloss = clamp(log2(2.0 / (square * square) - 1.0) / 18.0, 0.0, 1.0);
-    float x = 1.0 - cos_v;
-    float chan_even = 1.0 - x * (x * (x * (x * x))) * 0.75;
-    float3 reflection_throughput = max(float3(1.0, 1.0, 1.0) - lerp(fresnel_f0, grazing, albedo.y) * albedo.x * scale,
-        0.0);
-    float3 medium_factor = mx_chan_share(cos_v, chan_gloss) * (vd.geomprop_diffuse_albedo * reflection_throughput);
     // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         float3 L;
@@ -753,13 +754,17 @@ void surface()
                     : 0.0;
             }
         }
-        // reflection, medium
-        float half_cosine = sqrt(clamp(dot(V, L) * 0.5 + 0.500001, 0.0, 1.0));
-        float3 reflection_product = scale * mx_fresnel_schlick(half_cosine, fresnel_f0, grazing);
+        // medium
         float cos_l = max(dot(L, facing), 1e-8);
-        float3 medium_response = cos_l * mx_chan_lobe(chan_gloss, cos_v, cos_l, half_cosine, chan_even) * medium_factor;
+        float half_cosine = sqrt(clamp(dot(V, L) * 0.5 + 0.500001, 0.0, 1.0));
         color += u_lightData[i].color * (intensity
-            * (reflection_product * mx_ggx_light(reflection_ggx_lobe, V, L) + medium_response));
+            * (cos_l * mx_chan_lobe(chan_gloss, cos_v, cos_l, half_cosine, chan_even) * medium_factor));
+        // reflection
+        if (true) {
+            float3 fresnel = mx_fresnel_schlick(half_cosine, fresnel_f0, grazing);
+            color += u_lightData[i].color
+                * (intensity * (reflection_factor * (fresnel * mx_ggx_light(reflection_ggx_lobe, V, L))));
+        }
     }
     // environment: medium
     bool is_black = max(vd.geomprop_diffuse_albedo.x, max(vd.geomprop_diffuse_albedo.y, vd.geomprop_diffuse_albedo.z))
@@ -772,13 +777,16 @@ void surface()
     color += reflection_throughput * (is_black ? float3(0.0, 0.0, 0.0) : vd.geomprop_diffuse_albedo
         * environment_irradiance);
     // environment: reflection
-    float2 turn = float2(1.0, 0.0);
-    int count = mx_sample_count((float2)reflection_alpha);
-    mx_GgxSamples reflection_ggx_samples = mx_ggx_samples((float2)alpha, count, vd.geomprop_normal, V);
-    for (int i = 0; i < count; ++i) {
-        mx_GgxLight light = mx_ggx_reflected(reflection_ggx_samples, i, turn);
-        color += light.color * (light.weight * (scale * mx_fresnel_schlick(light.cosine, fresnel_f0, grazing)));
-        turn = float2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
+    if (true) {
+        float2 turn = float2(1.0, 0.0);
+        int count = mx_sample_count((float2)reflection_alpha);
+        mx_GgxSamples reflection_ggx_samples = mx_ggx_samples((float2)alpha, count, vd.geomprop_normal, V);
+        for (int i = 0; i < count; ++i) {
+            mx_GgxLight light = mx_ggx_reflected(reflection_ggx_samples, i, turn);
+            color += reflection_factor * (light.color
+                * (light.weight * mx_fresnel_schlick(light.cosine, fresnel_f0, grazing)));
+            turn = float2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
+        }
     }
     out1 = float4(color, 1.0);
 }

@@ -44,7 +44,7 @@ uint mx_or_in_group(uint bits, uint index)
 // The class of a pixel by its first word.
 uint mx_class(uint first)
 {
-    return (first >> 20u & 1024u) != 0u ? 4u : first >> 28u;
+    return ((first >> 20u) & 1024u) != 0u ? 4u : first >> 28u;
 }
 
 uint4 mx_word0_load(int2 at)
@@ -76,7 +76,7 @@ void mx_run(uint2 group, uint2 place)
     bool is_outside = mx_is_outside(pixel);
     uint class_ = place.y * 8u + place.x;
     uint classes = mx_or_in_group(is_outside ? 0u : 1u << mx_class(mx_word0_load(pixel).x), class_);
-    if (class_ < 5u && (classes >> class_ & 1u) != 0u)
+    if (class_ < 5u && ((classes >> class_) & 1u) != 0u)
         mx_add_tile(class_, group.y * mx_uniforms.mx_tiles_per_row + group.x);
 }
 

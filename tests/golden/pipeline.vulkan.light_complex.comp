@@ -303,8 +303,8 @@ mx_GgxLight mx_ggx_reflected_by_direction(const mx_GgxSamples s, const int i, co
 // A body whose medium scatters is seen through nowhere.
 float mx_slab_is_thick(const vec3 color, const vec3 mean_free_path, const float is_body, const float scatters)
 {
-    return max(mean_free_path.x, max(mean_free_path.y, mean_free_path.z)) <= 0.0 || scatters == 0.0
-        && max(color.x, max(color.y, color.z)) <= 0.0 ? 0.0 : is_body;
+    return max(mean_free_path.x, max(mean_free_path.y, mean_free_path.z)) <= 0.0
+        || (scatters == 0.0 && max(color.x, max(color.y, color.z)) <= 0.0) ? 0.0 : is_body;
 }
 
 // Light that arrives at a point of a circle of this curvature by subsurface scattering, where the cosine of the light
@@ -589,11 +589,13 @@ void surface()
     // lights: subsurface, medium
     float inside_subsurface_weight = clamp(mx_slab_is_thick(vd.geomprop_diffuse_albedo, vd.geomprop_free_path,
         vd.geomprop_is_thick, vd.geomprop_is_thick), 0.0, 1.0);
-    vec3 reflection_throughput = max(vec3(1.0) - mix(fresnel_f0, grazing, reflection_albedo.y) * reflection_albedo.x
-        * reflection_scale, 0.0);
+    vec3 reflection_throughput = vec3(1.0)
+        - (vec3(1.0) - max(vec3(1.0) - mix(fresnel_f0, grazing, reflection_albedo.y) * reflection_albedo.x
+        * reflection_scale, 0.0));
     vec3 inside_weight = fuzz_throughput
-        * mix(reflection_throughput, max(vec3(1.0) - mix(fresnel_f0, grazing, second_reflection_albedo.y)
-        * second_reflection_albedo.x * second_reflection_scale, 0.0), second_reflection_weight);
+        * mix(reflection_throughput, vec3(1.0)
+        - (vec3(1.0) - max(vec3(1.0) - mix(fresnel_f0, grazing, second_reflection_albedo.y) * second_reflection_albedo.x
+        * second_reflection_scale, 0.0)), second_reflection_weight);
     vec3 product = vd.geomprop_steady * inside_weight;
     bool medium_visible = 1.0 - inside_subsurface_weight > 0.0;
     // from the last light, so that drivers do not unroll the loop

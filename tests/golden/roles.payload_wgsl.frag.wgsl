@@ -131,9 +131,9 @@ fn mx_uncut(word: u32, shift: u32, bits: u32) -> f32
 // 7, 7 and 6 bits. Ten bits hold the eighths of a channel, so that one addition dithers all three.
 fn mx_cut_color(color: vec3f) -> u32
 {
-    var eighths: u32 = (mx_eighths(color.x, 7u) | (mx_eighths(color.y, 7u) << 10u)) | (mx_eighths(color.z, 6u) << 20u);
-    eighths += (mx_noise_of(0u) | (mx_noise_of(1u) << 10u)) | (mx_noise_of(2u) << 20u);
-    return (((eighths >> 3u) & 127u) | (((eighths >> 13u) & 127u) << 7u)) | (((eighths >> 23u) & 63u) << 14u);
+    var eighths: u32 = mx_eighths(color.x, 7u) | (mx_eighths(color.y, 7u) << 10u) | (mx_eighths(color.z, 6u) << 20u);
+    eighths += mx_noise_of(0u) | (mx_noise_of(1u) << 10u) | (mx_noise_of(2u) << 20u);
+    return ((eighths >> 3u) & 127u) | (((eighths >> 13u) & 127u) << 7u) | (((eighths >> 23u) & 63u) << 14u);
 }
 
 // A colour from its 20 bits.
@@ -235,7 +235,7 @@ fn mx_medium_word(c: MxClosure) -> u32
         || max(c.diffuse_albedo.x, max(c.diffuse_albedo.y, c.diffuse_albedo.z)) <= 0.0) {
         return 0u;
     }
-    return (max(mx_cut_color(c.free_path / (1.0 + c.free_path)), 1u) | (mx_cut_signed(c.phase_anisotropy, 6u) << 20u))
+    return max(mx_cut_color(c.free_path / (1.0 + c.free_path)), 1u) | (mx_cut_signed(c.phase_anisotropy, 6u) << 20u)
         | select(0u, 67108864u, c.is_thick > 0.0);
 }
 
@@ -245,16 +245,16 @@ fn mx_lobes_word(c: MxClosure) -> u32
     let weight: u32 = mx_cut(c.second_roughness_weight, 6u, 4u);
     let roughness: u32 = select(mx_cut(c.second_roughness, 8u, 5u), 0u, weight == 0u);
     let hue: vec3f = max(c.f90, vec3f(0.0)) / max(max(c.f90.x, max(c.f90.y, c.f90.z)), 1e-6);
-    return (((roughness | (weight << 8u)) | (mx_cut(1.0 - hue.x, 6u, 6u) << 14u))
-        | (mx_cut(1.0 - hue.y, 6u, 7u) << 20u)) | (mx_cut(1.0 - hue.z, 6u, 8u) << 26u);
+    return roughness | (weight << 8u) | (mx_cut(1.0 - hue.x, 6u, 6u) << 14u) | (mx_cut(1.0 - hue.y, 6u, 7u) << 20u)
+        | (mx_cut(1.0 - hue.z, 6u, 8u) << 26u);
 }
 
 // The word of fuzz: amount, colour and roughness. 0 without fuzz.
 fn mx_fuzz_word(c: MxClosure) -> u32
 {
     let amount: u32 = mx_cut(c.fuzz_amount, 6u, 9u);
-    return select((amount | (mx_cut_color(mx_srgb(c.fuzz_color)) << 6u)) | (mx_cut(c.fuzz_roughness, 6u, 10u) << 26u),
-        0u, amount == 0u);
+    return select(amount | (mx_cut_color(mx_srgb(c.fuzz_color)) << 6u) | (mx_cut(c.fuzz_roughness, 6u, 10u) << 26u), 0u,
+        amount == 0u);
 }
 
 // The tangent is an angle from the first axis across the normal, below half a turn: both its directions are one.
@@ -287,10 +287,10 @@ fn mx_glint_words(c: MxClosure, normal: vec3f) -> array<u32, 4>
     let rest: vec2i = vec2i(round(clamp((mx_octahedral(c.normal) - mx_octahedral(normal)) * 65520.0, vec2f(-8.0),
         vec2f(7.0)))) & vec2i(15);
     return array<u32, 4>(bitcast<u32>(c.glint_uv.x), bitcast<u32>(c.glint_uv.y),
-        ((u32(round(extent.x * 1023.0)) | (u32(round(extent.y * 1023.0)) << 10u))
+        (u32(round(extent.x * 1023.0)) | (u32(round(extent.y * 1023.0)) << 10u)
         | (max(u32(round(clamp(c.glint_density / 32.0, 0.0, 1.0) * 4095.0)), 1u) << 20u)),
-        ((((u32(round(fract(turn) * 4096.0)) & 4095u) | (u32(round(clamp(c.roughness, 0.0, 1.0) * 4095.0)) << 12u))
-        | (u32(rest.x) << 24u)) | (u32(rest.y) << 28u)));
+        ((u32(round(fract(turn) * 4096.0)) & 4095u) | (u32(round(clamp(c.roughness, 0.0, 1.0) * 4095.0)) << 12u)
+        | (u32(rest.x) << 24u) | (u32(rest.y) << 28u)));
 }
 
 // Three bits: 0 for none, else its logarithm, in seven steps up to a half.
@@ -335,7 +335,7 @@ fn mx_pack(c: MxClosure, stored_normal: vec3f) -> MxRecord
     let color: u32 = mx_cut_color(c.color);
     let decay: u32 = select(mx_cut_color(c.decay), 0u, color == 0u);
     r.weights[0] = steady | (color << 20u);
-    r.weights[1] = ((color >> 12u) | (decay << 8u)) | select(0u, 268435456u, decay != 0u && c.spreads > 0.0);
+    r.weights[1] = (color >> 12u) | (decay << 8u) | select(0u, 268435456u, decay != 0u && c.spreads > 0.0);
     r.medium = mx_medium_word(c);
     r.lobes = mx_lobes_word(c);
     r.fuzz = mx_fuzz_word(c);
@@ -344,9 +344,9 @@ fn mx_pack(c: MxClosure, stored_normal: vec3f) -> MxRecord
     r.normal = 0u;
     let has_glints: bool = c.glint_density > 0.0 && max(c.glint_extent.x, c.glint_extent.y) > 0.0;
     r.glints = wgsl_choose_array_u32_4(has_glints, mx_glint_words(c, stored_normal), array<u32, 4>(0u, 0u, 0u, 0u));
-    let has: u32 = (((((select(0u, 1u, (r.weights[0] | r.weights[1]) != 0u) | select(0u, 2u, r.medium != 0u))
-        | select(0u, 4u, r.lobes != 0u)) | select(0u, 8u, r.fuzz != 0u)) | select(0u, 16u, r.anisotropy != 0u))
-        | select(0u, 1280u, r.tint != 0u)) | select(0u, 1536u, has_glints);
+    let has: u32 = select(0u, 1u, (r.weights[0] | r.weights[1]) != 0u) | select(0u, 2u, r.medium != 0u)
+        | select(0u, 4u, r.lobes != 0u) | select(0u, 8u, r.fuzz != 0u) | select(0u, 16u, r.anisotropy != 0u)
+        | select(0u, 1280u, r.tint != 0u) | select(0u, 1536u, has_glints);
     r.core = mx_core(c) | (has << 20u);
     r.body = mx_body(c);
     return r;

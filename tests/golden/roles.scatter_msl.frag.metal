@@ -177,7 +177,7 @@ float mx_ggx_pdf(float3 N, float3 X, float3 V, float3 L, float eta)
     float3 l = L * frame;
     bool is_reflected = l.z > 0.0;
     float3 h = is_reflected ? normalize(v + l) : mx_refracting_normal(v, l, eta);
-    if (dot(v, h) <= 0.0 || !is_reflected && dot(l, h) >= 0.0)
+    if (dot(v, h) <= 0.0 || (!is_reflected && dot(l, h) >= 0.0))
         return 0.0;
     return 2.0 / (v.z + length(float3(v.xy * 0.2, v.z))) * mx_ggx_distribution(h / float3(0.2, 0.2, 1.0))
         * (is_reflected ? 0.25 : 0.0);

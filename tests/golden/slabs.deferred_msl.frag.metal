@@ -148,7 +148,7 @@ float2 mx_octahedral(float3 n)
 uint mx_cut_normal(float3 normal, uint bits)
 {
     uint2 p = uint2(rint(mx_octahedral(normal) * float((1u << bits) - 1u)));
-    return p.x | p.y << bits;
+    return p.x | (p.y << bits);
 }
 
 // A number from 0 to 1 in eighths of the steps of its bits.
@@ -161,19 +161,19 @@ uint mx_eighths(float value, uint bits)
 // Channels differ by 5 eighths, near the golden ratio.
 uint mx_noise_of(uint channel)
 {
-    return mx_noise + 5u * channel & 7u;
+    return (mx_noise + 5u * channel) & 7u;
 }
 
 // A number from 0 to 1 in so many bits. Each channel has noise of its own.
 uint mx_cut(float value, uint bits, uint channel)
 {
-    return mx_eighths(value, bits) + mx_noise_of(channel) >> 3u;
+    return (mx_eighths(value, bits) + mx_noise_of(channel)) >> 3u;
 }
 
 // The third word of a pixel: normal and roughness of the closure on top.
 uint mx_top(float3 normal, float roughness)
 {
-    return mx_cut_normal(normal, 12u) | mx_cut(roughness, 8u, 3u) << 24u;
+    return mx_cut_normal(normal, 12u) | (mx_cut(roughness, 8u, 3u) << 24u);
 }
 
 void mx_words_store(int3 at, uint4 value)
@@ -192,7 +192,7 @@ void mx_put(uint word)
 // The features of a closure.
 uint mx_features(uint core)
 {
-    return core >> 20u & ((core >> 20u & 1024u) != 0u ? 1023u : 255u);
+    return (core >> 20u) & (((core >> 20u) & 1024u) != 0u ? 1023u : 255u);
 }
 
 // Writes the words that follow the first two of a closure.
@@ -217,7 +217,7 @@ void mx_put_features(MxRecord r)
         for (int i = 0; i < 4; ++i)
             mx_put(r.glints[i]);
     }
-    if ((has >> 6u & 3u) == 1u)
+    if (((has >> 6u) & 3u) == 1u)
         mx_put(r.normal);
 }
 
@@ -247,16 +247,16 @@ uint mx_number_normal(float3 normal, thread uint& word)
 // 7, 7 and 6 bits. Ten bits hold the eighths of a channel, so that one addition dithers all three.
 uint mx_cut_color(float3 color)
 {
-    uint eighths = mx_eighths(color.x, 7u) | mx_eighths(color.y, 7u) << 10u | mx_eighths(color.z, 6u) << 20u;
-    eighths += mx_noise_of(0u) | mx_noise_of(1u) << 10u | mx_noise_of(2u) << 20u;
-    return eighths >> 3u & 127u | (eighths >> 13u & 127u) << 7u | (eighths >> 23u & 63u) << 14u;
+    uint eighths = mx_eighths(color.x, 7u) | (mx_eighths(color.y, 7u) << 10u) | (mx_eighths(color.z, 6u) << 20u);
+    eighths += mx_noise_of(0u) | (mx_noise_of(1u) << 10u) | (mx_noise_of(2u) << 20u);
+    return ((eighths >> 3u) & 127u) | (((eighths >> 13u) & 127u) << 7u) | (((eighths >> 23u) & 63u) << 14u);
 }
 
 // A number from -1 to 1; 0 has no bit.
 uint mx_cut_signed(float value, uint bits)
 {
-    float most = float((1u << bits - 1u) - 1u);
-    return uint(int(rint(clamp(value, -1.0, 1.0) * most))) & (1u << bits) - 1u;
+    float most = float((1u << (bits - 1u)) - 1u);
+    return uint(int(rint(clamp(value, -1.0, 1.0) * most))) & ((1u << bits) - 1u);
 }
 
 // The word of a medium: free path, anisotropy of its phase function, and whether it is a body. 0 for opaque matter.
@@ -265,7 +265,7 @@ uint mx_medium_word(MxClosure c)
     if (max(c.free_path.x, max(c.free_path.y, c.free_path.z)) <= 0.0
         || max(c.diffuse_albedo.x, max(c.diffuse_albedo.y, c.diffuse_albedo.z)) <= 0.0)
         return 0u;
-    return max(mx_cut_color(c.free_path / (1.0 + c.free_path)), 1u) | mx_cut_signed(c.phase_anisotropy, 6u) << 20u
+    return max(mx_cut_color(c.free_path / (1.0 + c.free_path)), 1u) | (mx_cut_signed(c.phase_anisotropy, 6u) << 20u)
         | (c.is_thick > 0.0 ? 67108864u : 0u);
 }
 
@@ -275,8 +275,8 @@ uint mx_lobes_word(MxClosure c)
     uint weight = mx_cut(c.second_roughness_weight, 6u, 4u);
     uint roughness = weight == 0u ? 0u : mx_cut(c.second_roughness, 8u, 5u);
     float3 hue = max(c.f90, 0.0) / max(max(c.f90.x, max(c.f90.y, c.f90.z)), 1e-6);
-    return roughness | weight << 8u | mx_cut(1.0 - hue.x, 6u, 6u) << 14u | mx_cut(1.0 - hue.y, 6u, 7u) << 20u
-        | mx_cut(1.0 - hue.z, 6u, 8u) << 26u;
+    return roughness | (weight << 8u) | (mx_cut(1.0 - hue.x, 6u, 6u) << 14u) | (mx_cut(1.0 - hue.y, 6u, 7u) << 20u)
+        | (mx_cut(1.0 - hue.z, 6u, 8u) << 26u);
 }
 
 // IEC 61966-2-1
@@ -290,8 +290,8 @@ float3 mx_srgb(float3 linear)
 uint mx_fuzz_word(MxClosure c)
 {
     uint amount = mx_cut(c.fuzz_amount, 6u, 9u);
-    return amount == 0u ? 0u : amount | mx_cut_color(mx_srgb(c.fuzz_color)) << 6u | mx_cut(c.fuzz_roughness, 6u, 10u)
-        << 26u;
+    return amount == 0u ? 0u : amount | (mx_cut_color(mx_srgb(c.fuzz_color)) << 6u)
+        | (mx_cut(c.fuzz_roughness, 6u, 10u) << 26u);
 }
 
 // Two axes across a normal. Duff et al. 2017, "Building an Orthonormal Basis, Revisited".
@@ -312,14 +312,14 @@ uint mx_anisotropy_word(MxClosure c, float3 normal)
     float3 y;
     mx_across(normal, x, y);
     float turn = atan2(dot(c.tangent, y), dot(c.tangent, x)) / 3.1415927;
-    return amount == 0u ? 0u : uint(rint(fract(turn) * 65536.0)) & 65535u | amount << 16u;
+    return amount == 0u ? 0u : (uint(rint(fract(turn) * 65536.0)) & 65535u) | (amount << 16u);
 }
 
 // The number of the table, and how much it tints.
 uint mx_tint_word(MxClosure c)
 {
     uint weight = mx_cut(c.tint_weight, 8u, 11u);
-    return weight == 0u ? 0u : uint(c.tint_index) & 65535u | weight << 16u;
+    return weight == 0u ? 0u : (uint(c.tint_index) & 65535u) | (weight << 16u);
 }
 
 // Facets need exact places and slopes, so their words are not dithered: coordinates; logarithms of the extents and of
@@ -333,9 +333,10 @@ array<uint, 4> mx_glint_words(MxClosure c, float3 normal)
     float turn = atan2(dot(c.tangent, y), dot(c.tangent, x)) / 6.2831855;
     int2 rest = int2(rint(clamp((mx_octahedral(c.normal) - mx_octahedral(normal)) * 65520.0, -8.0, 7.0))) & 15;
     return array<uint, 4>{as_type<uint>(c.glint_uv.x), as_type<uint>(c.glint_uv.y), uint(rint(extent.x * 1023.0))
-        | uint(rint(extent.y * 1023.0)) << 10u | max(uint(rint(clamp(c.glint_density / 32.0, 0.0, 1.0) * 4095.0)), 1u)
-        << 20u, uint(rint(fract(turn) * 4096.0)) & 4095u | uint(rint(clamp(c.roughness, 0.0, 1.0) * 4095.0)) << 12u
-        | uint(rest.x) << 24u | uint(rest.y) << 28u};
+        | (uint(rint(extent.y * 1023.0)) << 10u)
+        | (max(uint(rint(clamp(c.glint_density / 32.0, 0.0, 1.0) * 4095.0)), 1u) << 20u),
+        (uint(rint(fract(turn) * 4096.0)) & 4095u) | (uint(rint(clamp(c.roughness, 0.0, 1.0) * 4095.0)) << 12u)
+        | (uint(rest.x) << 24u) | (uint(rest.y) << 28u)};
 }
 
 // The words that every closure has, without its features.
@@ -347,7 +348,7 @@ uint mx_core(MxClosure c)
 // The second word of a closure: diffuse albedo and roughness.
 uint mx_body(MxClosure c)
 {
-    return mx_cut_color(mx_srgb(c.diffuse_albedo)) | mx_cut(c.roughness, 8u, 3u) << 20u;
+    return mx_cut_color(mx_srgb(c.diffuse_albedo)) | (mx_cut(c.roughness, 8u, 3u) << 20u);
 }
 
 // All words of a closure but its normal, which the caller chooses. stored_normal: as it will be read.
@@ -357,8 +358,8 @@ MxRecord mx_pack(MxClosure c, float3 stored_normal)
     uint steady = mx_cut_color(1.0 - c.steady);
     uint color = mx_cut_color(c.color);
     uint decay = color == 0u ? 0u : mx_cut_color(c.decay);
-    r.weights[0] = steady | color << 20u;
-    r.weights[1] = color >> 12u | decay << 8u | (decay != 0u && c.spreads > 0.0 ? 268435456u : 0u);
+    r.weights[0] = steady | (color << 20u);
+    r.weights[1] = (color >> 12u) | (decay << 8u) | (decay != 0u && c.spreads > 0.0 ? 268435456u : 0u);
     r.medium = mx_medium_word(c);
     r.lobes = mx_lobes_word(c);
     r.fuzz = mx_fuzz_word(c);
@@ -370,7 +371,7 @@ MxRecord mx_pack(MxClosure c, float3 stored_normal)
     uint has = ((r.weights[0] | r.weights[1]) != 0u ? 1u : 0u) | (r.medium != 0u ? 2u : 0u) | (r.lobes != 0u ? 4u : 0u)
         | (r.fuzz != 0u ? 8u : 0u) | (r.anisotropy != 0u ? 16u : 0u) | (r.tint != 0u ? 1280u : 0u)
         | (has_glints ? 1536u : 0u);
-    r.core = mx_core(c) | has << 20u;
+    r.core = mx_core(c) | (has << 20u);
     r.body = mx_body(c);
     return r;
 }
@@ -388,7 +389,7 @@ float3 mx_of_octahedral(float2 square)
 // A number from 0 to 1 from its bits of a word.
 float mx_uncut(uint word, uint shift, uint bits)
 {
-    return float(word >> shift & (1u << bits) - 1u) / float((1u << bits) - 1u);
+    return float((word >> shift) & ((1u << bits) - 1u)) / float((1u << bits) - 1u);
 }
 
 // A direction from its bits.
@@ -406,7 +407,7 @@ float3 mx_top_normal(uint word)
 // The class of a pixel by its first word.
 uint mx_class(uint first)
 {
-    return (first >> 20u & 1024u) != 0u ? 4u : first >> 28u;
+    return ((first >> 20u) & 1024u) != 0u ? 4u : first >> 28u;
 }
 
 // The last closure of all keeps its words in `mx_pending`.
@@ -492,8 +493,8 @@ int mx_finish_closures(int stored)
         return 0;
     uint class_ = mx_is_special ? 4u : stored > 1 ? 3u : mx_class_of(mx_features(mx_pending.core));
     mx_put_features(mx_pending);
-    mx_word0 = mx_pending.core | class_ << 28u;
-    mx_word1 = mx_pending.body | uint(stored - 1) << 28u;
+    mx_word0 = mx_pending.core | (class_ << 28u);
+    mx_word1 = mx_pending.body | (uint(stored - 1) << 28u);
     return stored;
 }
 

@@ -98,21 +98,21 @@ uint_4 choose(bool condition, uint_4 yes, uint_4 no)
 #endif
 
 
-#ifndef MXG_1a7b63f26a8b6a6d
-#define MXG_1a7b63f26a8b6a6d
+#ifndef MXG_10dcd44917ddbe3a
+#define MXG_10dcd44917ddbe3a
 static uint mx_noise = 4u;
 static uint mx_payload_words[16];
 
 // The class of a pixel by its first word.
 uint mx_class(uint first)
 {
-    return (first >> 20u & 1024u) != 0u ? 4u : first >> 28u;
+    return ((first >> 20u) & 1024u) != 0u ? 4u : first >> 28u;
 }
 
 // The features of a closure.
 uint mx_features(uint core)
 {
-    return core >> 20u & ((core >> 20u & 1024u) != 0u ? 1023u : 255u);
+    return (core >> 20u) & (((core >> 20u) & 1024u) != 0u ? 1023u : 255u);
 }
 
 // From 0 to below 1. Jimenez 2014, "Next Generation Post Processing in Call of Duty: Advanced Warfare": interleaved
@@ -143,21 +143,21 @@ uint mx_eighths(float value, uint bits)
 // A number from 0 to 1 in so many bits. Each channel has noise of its own.
 uint mx_cut(float value, uint bits, uint channel)
 {
-    return mx_eighths(value, bits) + mx_noise_of(channel) >> 3u;
+    return (mx_eighths(value, bits) + mx_noise_of(channel)) >> 3u;
 }
 
 // A number from 0 to 1 from its bits of a word.
 float mx_uncut(uint word, uint shift, uint bits)
 {
-    return float(word >> shift & (1u << bits) - 1u) / float((1u << bits) - 1u);
+    return float((word >> shift) & ((1u << bits) - 1u)) / float((1u << bits) - 1u);
 }
 
 // 7, 7 and 6 bits. Ten bits hold the eighths of a channel, so that one addition dithers all three.
 uint mx_cut_color(float3 color)
 {
-    uint eighths = mx_eighths(color.x, 7u) | mx_eighths(color.y, 7u) << 10u | mx_eighths(color.z, 6u) << 20u;
-    eighths += mx_noise_of(0u) | mx_noise_of(1u) << 10u | mx_noise_of(2u) << 20u;
-    return eighths >> 3u & 127u | (eighths >> 13u & 127u) << 7u | (eighths >> 23u & 63u) << 14u;
+    uint eighths = mx_eighths(color.x, 7u) | (mx_eighths(color.y, 7u) << 10u) | (mx_eighths(color.z, 6u) << 20u);
+    eighths += mx_noise_of(0u) | (mx_noise_of(1u) << 10u) | (mx_noise_of(2u) << 20u);
+    return ((eighths >> 3u) & 127u) | (((eighths >> 13u) & 127u) << 7u) | (((eighths >> 23u) & 63u) << 14u);
 }
 
 // A colour from its 20 bits.
@@ -169,15 +169,15 @@ float3 mx_uncut_color(uint word)
 // A number from -1 to 1; 0 has no bit.
 uint mx_cut_signed(float value, uint bits)
 {
-    float most = float((1u << bits - 1u) - 1u);
-    return uint(int(round(clamp(value, -1.0, 1.0) * most))) & (1u << bits) - 1u;
+    float most = float((1u << (bits - 1u)) - 1u);
+    return uint(int(round(clamp(value, -1.0, 1.0) * most))) & ((1u << bits) - 1u);
 }
 
 // A number from -1 to 1 from its bits of a word.
 float mx_uncut_signed(uint word, uint shift, uint bits)
 {
-    float most = float((1u << bits - 1u) - 1u);
-    return float(int(word << 32u - bits - shift) >> int(32u - bits)) / most;
+    float most = float((1u << (bits - 1u)) - 1u);
+    return float(int(word << (32u - bits - shift)) >> int(32u - bits)) / most;
 }
 
 // IEC 61966-2-1
@@ -217,7 +217,7 @@ float3 mx_of_octahedral(float2 square)
 uint mx_cut_normal(float3 normal, uint bits)
 {
     uint2 p = uint2(round(mx_octahedral(normal) * float((1u << bits) - 1u)));
-    return p.x | p.y << bits;
+    return p.x | (p.y << bits);
 }
 
 // A direction from its bits.
@@ -239,7 +239,7 @@ void mx_across(float3 n, out float3 x, out float3 y)
 // The third word of a pixel: normal and roughness of the closure on top.
 uint mx_top(float3 normal, float roughness)
 {
-    return mx_cut_normal(normal, 12u) | mx_cut(roughness, 8u, 3u) << 24u;
+    return mx_cut_normal(normal, 12u) | (mx_cut(roughness, 8u, 3u) << 24u);
 }
 
 // The normal of the closure on top.
@@ -260,7 +260,7 @@ uint mx_medium_word(MxClosure c)
     if (max(c.free_path.x, max(c.free_path.y, c.free_path.z)) <= 0.0
         || max(c.diffuse_albedo.x, max(c.diffuse_albedo.y, c.diffuse_albedo.z)) <= 0.0)
         return 0u;
-    return max(mx_cut_color(c.free_path / (1.0 + c.free_path)), 1u) | mx_cut_signed(c.phase_anisotropy, 6u) << 20u
+    return max(mx_cut_color(c.free_path / (1.0 + c.free_path)), 1u) | (mx_cut_signed(c.phase_anisotropy, 6u) << 20u)
         | (c.is_thick > 0.0 ? 67108864u : 0u);
 }
 
@@ -270,16 +270,16 @@ uint mx_lobes_word(MxClosure c)
     uint weight = mx_cut(c.second_roughness_weight, 6u, 4u);
     uint roughness = weight == 0u ? 0u : mx_cut(c.second_roughness, 8u, 5u);
     float3 hue = max(c.f90, 0.0) / max(max(c.f90.x, max(c.f90.y, c.f90.z)), 1e-6);
-    return roughness | weight << 8u | mx_cut(1.0 - hue.x, 6u, 6u) << 14u | mx_cut(1.0 - hue.y, 6u, 7u) << 20u
-        | mx_cut(1.0 - hue.z, 6u, 8u) << 26u;
+    return roughness | (weight << 8u) | (mx_cut(1.0 - hue.x, 6u, 6u) << 14u) | (mx_cut(1.0 - hue.y, 6u, 7u) << 20u)
+        | (mx_cut(1.0 - hue.z, 6u, 8u) << 26u);
 }
 
 // The word of fuzz: amount, colour and roughness. 0 without fuzz.
 uint mx_fuzz_word(MxClosure c)
 {
     uint amount = mx_cut(c.fuzz_amount, 6u, 9u);
-    return amount == 0u ? 0u : amount | mx_cut_color(mx_srgb(c.fuzz_color)) << 6u | mx_cut(c.fuzz_roughness, 6u, 10u)
-        << 26u;
+    return amount == 0u ? 0u : amount | (mx_cut_color(mx_srgb(c.fuzz_color)) << 6u)
+        | (mx_cut(c.fuzz_roughness, 6u, 10u) << 26u);
 }
 
 // The tangent is an angle from the first axis across the normal, below half a turn: both its directions are one.
@@ -290,14 +290,14 @@ uint mx_anisotropy_word(MxClosure c, float3 normal)
     float3 y;
     mx_across(normal, x, y);
     float turn = atan2(dot(c.tangent, y), dot(c.tangent, x)) / 3.1415927;
-    return amount == 0u ? 0u : uint(round(frac(turn) * 65536.0)) & 65535u | amount << 16u;
+    return amount == 0u ? 0u : (uint(round(frac(turn) * 65536.0)) & 65535u) | (amount << 16u);
 }
 
 // The number of the table, and how much it tints.
 uint mx_tint_word(MxClosure c)
 {
     uint weight = mx_cut(c.tint_weight, 8u, 11u);
-    return weight == 0u ? 0u : uint(c.tint_index) & 65535u | weight << 16u;
+    return weight == 0u ? 0u : (uint(c.tint_index) & 65535u) | (weight << 16u);
 }
 
 // Facets need exact places and slopes, so their words are not dithered: coordinates; logarithms of the extents and of
@@ -311,9 +311,10 @@ uint_4 mx_glint_words(MxClosure c, float3 normal)
     float turn = atan2(dot(c.tangent, y), dot(c.tangent, x)) / 6.2831855;
     int2 rest = int2(round(clamp((mx_octahedral(c.normal) - mx_octahedral(normal)) * 65520.0, -8.0, 7.0))) & 15;
     return make_uint_4(asuint(c.glint_uv.x), asuint(c.glint_uv.y), uint(round(extent.x * 1023.0))
-        | uint(round(extent.y * 1023.0)) << 10u | max(uint(round(clamp(c.glint_density / 32.0, 0.0, 1.0) * 4095.0)), 1u)
-        << 20u, uint(round(frac(turn) * 4096.0)) & 4095u | uint(round(clamp(c.roughness, 0.0, 1.0) * 4095.0)) << 12u
-        | uint(rest.x) << 24u | uint(rest.y) << 28u);
+        | (uint(round(extent.y * 1023.0)) << 10u)
+        | (max(uint(round(clamp(c.glint_density / 32.0, 0.0, 1.0) * 4095.0)), 1u) << 20u),
+        (uint(round(frac(turn) * 4096.0)) & 4095u) | (uint(round(clamp(c.roughness, 0.0, 1.0) * 4095.0)) << 12u)
+        | (uint(rest.x) << 24u) | (uint(rest.y) << 28u));
 }
 
 // Three bits: 0 for none, else its logarithm, in seven steps up to a half.
@@ -346,7 +347,7 @@ uint mx_core(MxClosure c)
 // The second word of a closure: diffuse albedo and roughness.
 uint mx_body(MxClosure c)
 {
-    return mx_cut_color(mx_srgb(c.diffuse_albedo)) | mx_cut(c.roughness, 8u, 3u) << 20u;
+    return mx_cut_color(mx_srgb(c.diffuse_albedo)) | (mx_cut(c.roughness, 8u, 3u) << 20u);
 }
 
 // All words of a closure but its normal, which the caller chooses. stored_normal: as it will be read.
@@ -356,8 +357,8 @@ MxRecord mx_pack(MxClosure c, float3 stored_normal)
     uint steady = mx_cut_color(1.0 - c.steady);
     uint color = mx_cut_color(c.color);
     uint decay = color == 0u ? 0u : mx_cut_color(c.decay);
-    r.weights[0] = steady | color << 20u;
-    r.weights[1] = color >> 12u | decay << 8u | (decay != 0u && c.spreads > 0.0 ? 268435456u : 0u);
+    r.weights[0] = steady | (color << 20u);
+    r.weights[1] = (color >> 12u) | (decay << 8u) | (decay != 0u && c.spreads > 0.0 ? 268435456u : 0u);
     r.medium = mx_medium_word(c);
     r.lobes = mx_lobes_word(c);
     r.fuzz = mx_fuzz_word(c);
@@ -369,7 +370,7 @@ MxRecord mx_pack(MxClosure c, float3 stored_normal)
     uint has = ((r.weights[0] | r.weights[1]) != 0u ? 1u : 0u) | (r.medium != 0u ? 2u : 0u) | (r.lobes != 0u ? 4u : 0u)
         | (r.fuzz != 0u ? 8u : 0u) | (r.anisotropy != 0u ? 16u : 0u) | (r.tint != 0u ? 1280u : 0u)
         | (has_glints ? 1536u : 0u);
-    r.core = mx_core(c) | has << 20u;
+    r.core = mx_core(c) | (has << 20u);
     r.body = mx_body(c);
     return r;
 }
@@ -391,7 +392,7 @@ MxClosure mx_unpack(MxRecord r, float3 normal, float roughness)
     float3 part = mx_uncut_color(r.medium);
     c.free_path = part / max(1.0 - part, 1e-6);
     c.phase_anisotropy = mx_uncut_signed(r.medium, 20u, 6u);
-    c.is_thick = float(r.medium >> 26u & 1u);
+    c.is_thick = float((r.medium >> 26u) & 1u);
     c.anisotropy = mx_uncut_signed(r.anisotropy, 16u, 16u);
     float3 x;
     float3 y;
@@ -410,9 +411,9 @@ MxClosure mx_unpack(MxRecord r, float3 normal, float roughness)
     c.tint_weight = mx_uncut(r.tint, 16u, 8u);
     c.tangent = cos(turn) * x + sin(turn) * y;
     c.steady = 1.0 - mx_uncut_color(r.weights[0]);
-    c.color = mx_uncut_color(r.weights[0] >> 20u | r.weights[1] << 12u);
+    c.color = mx_uncut_color((r.weights[0] >> 20u) | (r.weights[1] << 12u));
     c.decay = mx_uncut_color(r.weights[1] >> 8u);
-    c.spreads = float(r.weights[1] >> 28u & 1u);
+    c.spreads = float((r.weights[1] >> 28u) & 1u);
     c.blur = mx_blur_of(r.weights[1] >> 29u);
     return c;
 }
@@ -424,7 +425,7 @@ void mx_keep(MxClosure c)
     c.tint_weight = 0.0;
     c.glint_density = 0.0;
     MxRecord r = mx_pack(c, mx_uncut_normal(word, 16u));
-    { uint made[16] = {r.core | mx_class_of(r.core >> 20u) << 28u, r.body, r.weights[0], r.weights[1], r.medium,
+    { uint made[16] = {r.core | (mx_class_of(r.core >> 20u) << 28u), r.body, r.weights[0], r.weights[1], r.medium,
         r.lobes, r.fuzz, r.anisotropy, word, 0u, 0u, 0u, 0u, 0u, 0u, 0u}; mx_payload_words = made; }
 }
 

@@ -205,7 +205,7 @@ float mx_ggx_pdf(const vec2 roughness, const vec3 N, const vec3 X, const vec3 V,
     vec3 l = L * frame;
     bool is_reflected = l.z > 0.0;
     vec3 h = is_reflected ? normalize(v + l) : mx_refracting_normal(v, l);
-    if (dot(v, h) <= 0.0 || !is_reflected && dot(l, h) >= 0.0)
+    if (dot(v, h) <= 0.0 || (!is_reflected && dot(l, h) >= 0.0))
         return 0.0;
     return 2.0 / (v.z + length(vec3(v.xy * alpha, v.z))) * mx_ggx_distribution(h / vec3(alpha, 1.0), alpha.x * alpha.y)
         * (is_reflected ? 0.25 : 0.0);

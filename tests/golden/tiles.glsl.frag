@@ -40,14 +40,14 @@ void main()
     vec2 stone_tile = floor(vd.positionObject.xy);
     bool in_columns = stone_tile.x >= 0.0 && stone_tile.x <= 2.0;
     float stone_element = vector[int(clamp(stone_tile.x + stone_tile.y * 3.0, 0.0, 5.0))];
-    bool stone_are_both = in_columns && (stone_tile.y >= 0.0 && stone_tile.y <= 1.0) && stone_element >= 0.0;
+    bool stone_are_both = in_columns && stone_tile.y >= 0.0 && stone_tile.y <= 1.0 && stone_element >= 0.0;
     vec2 slope_x_of_along_z = dFdx(vd.positionObject.xy);
     vec2 slope_y_of_along_z = dFdy(vd.positionObject.xy);
     vec4 stone_texel = textureGrad(stone_filez, vec3(fract(vd.positionObject.xy), stone_element), slope_x_of_along_z,
         slope_y_of_along_z);
     vec4 stone_product_2 = (stone_are_both ? stone_texel : vec4(0.0, 0.0, 0.0, 1.0)) * stone_weight_3.z;
     vec3 stone = (stone_product + texture(stone_filey, vd.positionObject.xz) * stone_weight_3.y + stone_product_2).xyz;
-    bool tile_is_inside = in_rows && (tile.x >= 0.0 && tile.x <= 1.0);
+    bool tile_is_inside = in_rows && tile.x >= 0.0 && tile.x <= 1.0;
     vec3 rust_vector = vec3(fraction_uv, tile.x + tile.y * 2.0);
     vec4 rust_texel = textureGrad(rust_file, rust_vector, slope_x_of_uv, slope_y_of_uv);
     out1 = vec4(mix(wall, stone, (tile_is_inside ? rust_texel : vec4(0.0, 0.0, 0.0, 1.0)).x), 1.0);

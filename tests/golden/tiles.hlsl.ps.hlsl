@@ -47,7 +47,7 @@ void main(
     float2 stone_tile = floor(vd.positionObject.xy);
     bool in_columns = stone_tile.x >= 0.0 && stone_tile.x <= 2.0;
     float stone_element = vector_[int(clamp(stone_tile.x + stone_tile.y * 3.0, 0.0, 5.0))];
-    bool stone_are_both = in_columns && (stone_tile.y >= 0.0 && stone_tile.y <= 1.0) && stone_element >= 0.0;
+    bool stone_are_both = in_columns && stone_tile.y >= 0.0 && stone_tile.y <= 1.0 && stone_element >= 0.0;
     float2 slope_x_of_along_z = ddx(vd.positionObject.xy);
     float2 slope_y_of_along_z = ddy(vd.positionObject.xy);
     float4 stone_texel = stone_filez.SampleGrad(stone_filez_sampler, float3(frac(vd.positionObject.xy), stone_element),
@@ -55,7 +55,7 @@ void main(
     float4 stone_product_2 = (stone_are_both ? stone_texel : float4(0.0, 0.0, 0.0, 1.0)) * stone_weight_3.z;
     float3 stone = (stone_product + stone_filey.Sample(stone_filey_sampler, vd.positionObject.xz) * stone_weight_3.y
         + stone_product_2).xyz;
-    bool tile_is_inside = in_rows && (tile.x >= 0.0 && tile.x <= 1.0);
+    bool tile_is_inside = in_rows && tile.x >= 0.0 && tile.x <= 1.0;
     float3 rust_vector = float3(fraction_uv, tile.x + tile.y * 2.0);
     float4 rust_texel = rust_file.SampleGrad(rust_file_sampler, rust_vector, slope_x_of_uv, slope_y_of_uv);
     out1 = float4(lerp(wall, stone, (tile_is_inside ? rust_texel : float4(0.0, 0.0, 0.0, 1.0)).x), 1.0);

@@ -27,7 +27,7 @@ void main()
     bool wall_in_columns = wall_tile.x >= 0.0 && wall_tile.x <= 2.0;
     float vector[6] = float[6](0.0, 1.0, -1.0, -1.0, -1.0, 2.0);
     float wall_element = vector[int(clamp(wall_tile.x + wall_tile.y * 3.0, 0.0, 5.0))];
-    bool wall_are_both = wall_in_columns && (wall_tile.y >= 0.0 && wall_tile.y <= 1.0) && wall_element >= 0.0;
+    bool wall_are_both = wall_in_columns && wall_tile.y >= 0.0 && wall_tile.y <= 1.0 && wall_element >= 0.0;
     vec2 dx = dFdx(vd.texcoord_0);
     vec2 dy = dFdy(vd.texcoord_0);
     vec4 wall_texel = textureGrad(wall_file, vec3(fract(vd.texcoord_0), wall_element), dx, dy);
@@ -38,7 +38,7 @@ void main()
     vec2 stone_tile = floor(vd.positionObject.xy);
     bool stone_in_columns = stone_tile.x >= 0.0 && stone_tile.x <= 2.0;
     float stone_element = vector[int(clamp(stone_tile.x + stone_tile.y * 3.0, 0.0, 5.0))];
-    bool stone_are_both = stone_in_columns && (stone_tile.y >= 0.0 && stone_tile.y <= 1.0) && stone_element >= 0.0;
+    bool stone_are_both = stone_in_columns && stone_tile.y >= 0.0 && stone_tile.y <= 1.0 && stone_element >= 0.0;
     vec2 slope_x_of_along_z = dFdx(vd.positionObject.xy);
     vec2 slope_y_of_along_z = dFdy(vd.positionObject.xy);
     const vec4 stone_constant = vec4(0.0, 0.0, 0.0, 1.0);
@@ -55,7 +55,7 @@ void main()
     vec2 low = (whole_texel - vec2(0.5) + w1 / (w1 + (vec2(1.0) - f) * scaled_g / vec2(6.0))) / size;
     vec2 rust_tile = floor(low);
     bool rust_in_columns = rust_tile.x >= 0.0 && rust_tile.x <= 1.0;
-    bool rust_tile_is_inside = rust_in_columns && (rust_tile.y >= 0.0 && rust_tile.y <= 1.0);
+    bool rust_tile_is_inside = rust_in_columns && rust_tile.y >= 0.0 && rust_tile.y <= 1.0;
     vec3 rust_vector = vec3(fract(low), rust_tile.x + rust_tile.y * 2.0);
     vec4 rust_choice = rust_tile_is_inside ? textureGrad(rust_file, rust_vector, dx, dy) : stone_constant;
     vec2 w3 = f * (f * f) / vec2(6.0);
@@ -64,19 +64,19 @@ void main()
     vec2 rust_vector_2 = vec2(high.x, low.y);
     vec2 rust_tile_2 = floor(rust_vector_2);
     bool rust_in_columns_2 = rust_tile_2.x >= 0.0 && rust_tile_2.x <= 1.0;
-    bool rust_tile_is_inside_2 = rust_in_columns_2 && (rust_tile_2.y >= 0.0 && rust_tile_2.y <= 1.0);
+    bool rust_tile_is_inside_2 = rust_in_columns_2 && rust_tile_2.y >= 0.0 && rust_tile_2.y <= 1.0;
     vec3 rust_vector_3 = vec3(fract(rust_vector_2), rust_tile_2.x + rust_tile_2.y * 2.0);
     vec4 rust_blend = mix(rust_choice, rust_tile_is_inside_2 ? textureGrad(rust_file, rust_vector_3, dx, dy)
         : stone_constant, t.x);
     vec2 rust_vector_4 = vec2(low.x, high.y);
     vec2 rust_tile_3 = floor(rust_vector_4);
     bool rust_in_columns_3 = rust_tile_3.x >= 0.0 && rust_tile_3.x <= 1.0;
-    bool rust_tile_is_inside_3 = rust_in_columns_3 && (rust_tile_3.y >= 0.0 && rust_tile_3.y <= 1.0);
+    bool rust_tile_is_inside_3 = rust_in_columns_3 && rust_tile_3.y >= 0.0 && rust_tile_3.y <= 1.0;
     vec3 rust_vector_5 = vec3(fract(rust_vector_4), rust_tile_3.x + rust_tile_3.y * 2.0);
     vec4 rust_choice_2 = rust_tile_is_inside_3 ? textureGrad(rust_file, rust_vector_5, dx, dy) : stone_constant;
     vec2 rust_tile_4 = floor(high);
     bool rust_in_columns_4 = rust_tile_4.x >= 0.0 && rust_tile_4.x <= 1.0;
-    bool rust_tile_is_inside_4 = rust_in_columns_4 && (rust_tile_4.y >= 0.0 && rust_tile_4.y <= 1.0);
+    bool rust_tile_is_inside_4 = rust_in_columns_4 && rust_tile_4.y >= 0.0 && rust_tile_4.y <= 1.0;
     vec3 rust_vector_6 = vec3(fract(high), rust_tile_4.x + rust_tile_4.y * 2.0);
     float rust = mix(rust_blend, mix(rust_choice_2, rust_tile_is_inside_4
         ? textureGrad(rust_file, rust_vector_6, dx, dy) : stone_constant, t.x), t.y).x;

@@ -111,7 +111,9 @@ static void test_expressions(void)
                select_of(f, op2(f, IR_LAND, op1(f, IR_NOT, op2(f, IR_LOR, t, t)), t), a, b));
     EXPRESSION("(t || t) && t ? a : b",
                select_of(f, op2(f, IR_LAND, op2(f, IR_LOR, t, t), t), a, b));
-    EXPRESSION("i << (i & 3) | ~i",
+    EXPRESSION("t || (t && t) || t ? a : b",
+               select_of(f, op2(f, IR_LOR, t, op2(f, IR_LOR, op2(f, IR_LAND, t, t), t)), a, b));
+    EXPRESSION("(i << (i & 3)) | ~i",
                op2(f, IR_OR, op2(f, IR_SHL, i, op2(f, IR_AND, i, ir_const_int(&f->graph, 3))),
                    op1(f, IR_BITNOT, i)));
     EXPRESSION("vec3(a)", (f->graph.no_fold = false, vec3_of(f, a)));
