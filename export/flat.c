@@ -3,6 +3,7 @@
 
 #include "program/memory.h"
 #include "render/bake_plan.h"
+#include "render/default_tokens.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -184,8 +185,12 @@ static void read_place(const struct flat *flat, mxg_element node, struct flat_im
 /* The path of a file, relative to the document. NULL after an error. The caller frees it. */
 static char *file_of(const struct flat *flat, mxg_element node, const char *file)
 {
-    if (!bake_is_set(file))
-        return bake_file_path(flat->document, flat->path, node, file);
+    char *named = default_tokens_replace(flat->source, file);
+    bool is_set = bake_is_set(named);
+    char *path = is_set ? NULL : bake_file_path(flat->document, flat->path, node, named);
+    free(named);
+    if (!is_set)
+        return path;
     char *name = bake_path(flat->document, node), *place = flat_place(flat, name);
     report_error(flat->report, "export-tiles",
                  "'%s' (%s) are several images, and a texture of this format is one: export onto a "

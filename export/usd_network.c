@@ -10,6 +10,7 @@
 #include "program/memory.h"
 #include "program/relocate.h"
 #include "render/bake_plan.h"
+#include "render/default_tokens.h"
 
 #include <ctype.h>
 #include <errno.h>
@@ -131,8 +132,10 @@ static char *pack(struct network *network, const char *path)
 static char *file_of(struct network *network, mxg_element origin, const char *file)
 {
     const struct writing *writing = network->usd->writing;
-    char *path = bake_file_path(network->document, writing->source_path, origin, file),
+    char *named = default_tokens_replace(writing->source, file),
+         *path = bake_file_path(network->document, writing->source_path, origin, named),
          *folder = write_folder(writing->path);
+    free(named);
     char *name = network->usd->is_package ? pack(network, path) : relocate_file(folder, path);
     free(path);
     free(folder);

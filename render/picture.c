@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "render/default_tokens.h"
 #include "render/picture_tell.h"
 
 #include <math.h>
@@ -146,10 +147,13 @@ static bool fail(struct painter *painter, const struct part *part, const struct 
     return false;
 }
 
-static void init_bind(const struct painting *painting, const struct part *part,
+static void init_bind(const struct painting *painting, struct part *part,
                       const struct subject *subject)
 {
     const struct painter *painter = painting->painter;
+    if (!subject->bindings)
+        default_tokens_find(subject->document, painter->cli->context, painter->unwraps,
+                            &part->defaults);
     *part->bind = (struct bind){.result = part->result,
                                 .scene = &painting->scene,
                                 .objects = part->fine ? part->fine : subject->objects,
@@ -158,7 +162,7 @@ static void init_bind(const struct painting *painting, const struct part *part,
                                 .files = painter->files,
                                 .values = painter->values,
                                 .num_values = painter->num_values,
-                                .tokens = subject->tokens,
+                                .tokens = part->defaults.num ? &part->defaults : subject->tokens,
                                 .unwraps = painter->unwraps,
                                 .checker = painter->checker};
 }
@@ -413,6 +417,7 @@ void painting_close(struct painting *painting)
         if (part->bind)
             bind_finish(part->bind);
         free(part->bind);
+        default_tokens_finish(&part->defaults);
         mxg_result_destroy(part->result);
         for (uint32_t k = 0; k < part->num_fine; ++k)
             object_finish(&part->fine[k]);

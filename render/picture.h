@@ -67,6 +67,7 @@ struct part {
     const struct subject *subject;
     mxg_result *result;
     struct bind *bind;
+    struct bind_tokens defaults; /* of the names of files, where the subject has none */
     struct render render;
     struct scene_object *fine; /* the objects for displaced materials; NULL: those of the subject */
     uint32_t num_fine;

@@ -5,6 +5,7 @@
  */
 #include "program/cli.h"
 #include "render/bind_shader.h"
+#include "render/default_tokens.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -104,37 +105,10 @@ static bool read_path(struct bind *bind, const struct texture *texture, const ch
            && (make_checker(out) || fail(bind, "out of memory"));
 }
 
-/* The token whose mark a text begins with: "<id>"; NULL: none. */
-static const struct bind_token *token_at(const struct bind_tokens *tokens, const char *text)
-{
-    for (size_t i = 0; i < tokens->num; ++i) {
-        size_t len = strlen(tokens->items[i].name);
-        if (strncmp(text + 1, tokens->items[i].name, len) == 0 && text[len + 1] == '>')
-            return &tokens->items[i];
-    }
-    return NULL;
-}
-
-/* The name of a file with the values of its tokens. The caller frees it. */
-static char *replace_tokens(const struct bind_tokens *tokens, const char *file)
-{
-    char *name = cli_format("%.*s", (int)strcspn(file, "<"), file);
-    for (const char *at = strchr(file, '<'); at; at = strchr(at, '<')) {
-        const struct bind_token *token = token_at(tokens, at);
-        const char *rest = token ? at + strlen(token->name) + 2 : at + 1;
-        char *more =
-            cli_format("%s%s%.*s", name, token ? token->value : "<", (int)strcspn(rest, "<"), rest);
-        free(name);
-        name = more;
-        at = rest;
-    }
-    return name;
-}
-
 static bool read_file(struct bind *bind, const struct texture *texture, const char *file,
                       struct image *out, bool *out_checker)
 {
-    char *name = bind->tokens ? replace_tokens(bind->tokens, file) : NULL,
+    char *name = bind->tokens ? tokens_replace(bind->tokens, file) : NULL,
          *path = cli_beside(texture->users ? bind->document : texture->variable->origin,
                             name ? name : file);
     free(name);

@@ -262,7 +262,8 @@ typedef enum mxg_fact_kind {
 typedef struct mxg_fact {
     size_t size; /* in */
     mxg_fact_kind kind;
-    /* as in the document; the value of a geometric property in the unit of its <geompropdef> */
+    /* as in the document; a geometric property in the unit of its <geompropdef>, or in lin_rec709
+     */
     const char *name, *type, *value;
     /* the renderer that a property is for; the geometry that sees a visibility; "": all */
     const char *target;

@@ -13,9 +13,14 @@ const char *const bind_fact_words[NUM_FACTS] = {
     [FACT_VISIBILITY] = "visibility",
 };
 
+static const char *text_of_id(const struct document *doc, str_id id)
+{
+    return str_text(doc->strings, id);
+}
+
 static const char *value_of(const struct document *doc, elem_id element, str_id attr)
 {
-    return str_text(doc->strings, doc_attr_value(doc, element, attr));
+    return text_of_id(doc, doc_attr_value(doc, element, attr));
 }
 
 enum bind_fact_kind bind_fact_kind(const struct document *doc, elem_id fact)
@@ -57,23 +62,62 @@ static uint32_t key_of(struct bind_look *look, elem_id fact)
     return look_intern_name(look, &none, text_cstr(&key), key.len);
 }
 
+/* Numbers as a value of a document. */
+static const char *write_numbers(struct bind_look *look, const float *numbers, unsigned num)
+{
+    struct text out;
+    text_init(&out, look->arena);
+    for (unsigned i = 0; i < num; i++) {
+        text_str(&out, i ? ", " : "");
+        text_float(&out, numbers[i]);
+    }
+    return text_cstr(&out);
+}
+
+/* The numbers of a <geomprop> of a type; false: its value has a fault. */
+static bool read_numbers(const struct bind_look *look, elem_id fact, doc_type type, float *out)
+{
+    const char *text = value_of(look->doc, fact, STR_value);
+    struct ir_value value;
+    if (!doc_parse_value(type, text, strlen(text), NULL, &value))
+        return false;
+    for (unsigned i = 0; i < ir_type_info(value.type)->components; i++)
+        out[i] = value.w[i].f;
+    return true;
+}
+
+/*
+ * The colour of a <geomprop> in the space in which geometry has its own colours; NULL: it has this
+ * space.
+ */
+static const char *converted_color(struct bind_look *look, elem_id fact, doc_type type)
+{
+    const struct document *doc = look->doc;
+    const char *space =
+        library_canonical_space(text_of_id(doc, doc_inherited_attr(doc, fact, STR_colorspace)));
+    float numbers[4];
+    if (!*space || strcmp(space, "none") == 0 || strcmp(space, library_color_hub) == 0
+        || !read_numbers(look, fact, type, numbers))
+        return NULL;
+    if (library_convert_color(look->lib, space, numbers, look->arena))
+        return write_numbers(look, numbers, doc_type_components(type));
+    library_report_space(look->lib, space, doc_attr_place(doc, fact, STR_colorspace), look->diags);
+    return NULL;
+}
+
 /*
  * The value of a <geomprop> in the unit that its <geompropdef> names, which is that of the
  * geometry's own values; NULL: it has this unit, or it is no measure.
  */
-static const char *converted(struct bind_look *look, elem_id fact)
+static const char *converted_measure(struct bind_look *look, elem_id fact, doc_type type)
 {
     const struct document *doc = look->doc;
     const struct geomprop *def = library_geomprop(look->lib, doc_element(doc, fact)->name);
     str_id unit = doc_attr_value(doc, fact, STR_unit),
            kind = doc_attr_value(doc, fact, STR_unittype),
            usual = def ? doc_attr_value(doc, def->element, STR_unit) : 0;
-    doc_type type = doc_type_of(doc_attr_value(doc, fact, STR_type));
-    float from, to;
-    struct ir_value value;
-    struct text out;
-    if (bind_fact_kind(doc, fact) != FACT_GEOMPROP || !unit || !usual || unit == usual
-        || !doc_type_is_measure(type))
+    float from, to, numbers[16];
+    if (!unit || !usual || unit == usual || !doc_type_is_measure(type))
         return NULL;
     kind = kind ? kind : library_unit_type_of(look->lib, unit);
     if (!library_unit_scale(look->lib, kind, unit, &from)
@@ -82,15 +126,21 @@ static const char *converted(struct bind_look *look, elem_id fact)
                             look->diags);
         return NULL;
     }
-    const char *text = value_of(doc, fact, STR_value);
-    if (!doc_parse_value(type, text, strlen(text), NULL, &value))
+    if (!read_numbers(look, fact, type, numbers))
         return NULL;
-    text_init(&out, look->arena);
-    for (unsigned i = 0; i < ir_type_info(value.type)->components; i++) {
-        text_str(&out, i ? ", " : "");
-        text_float(&out, value.w[i].f * (from / to));
-    }
-    return text_cstr(&out);
+    for (unsigned i = 0; i < doc_type_components(type); i++)
+        numbers[i] *= from / to;
+    return write_numbers(look, numbers, doc_type_components(type));
+}
+
+/* The value of a geometric property as geometry would have it; NULL: as in the document. */
+static const char *converted(struct bind_look *look, elem_id fact)
+{
+    doc_type type = doc_type_of(doc_attr_value(look->doc, fact, STR_type));
+    if (bind_fact_kind(look->doc, fact) != FACT_GEOMPROP)
+        return NULL;
+    return doc_type_is_color(type) ? converted_color(look, fact, type)
+                                   : converted_measure(look, fact, type);
 }
 
 /* Adds a fact for the matcher or the collection of `assign`. */
@@ -169,17 +219,41 @@ static void read_facts(struct bind_look *look, const struct library *lib, elem_i
     look_close_collections(look);
 }
 
+/*
+ * Reports, once, that two <geominfo>s give one geometry a value: `hidden` is of the same name as
+ * the one before it, which is stronger.
+ */
+static void check_twice(struct bindings *b, const struct stand *hidden, bool *is_told)
+{
+    struct bind_look *look = &b->look;
+    const struct look_assign *weak = &look->assigns.items[hidden->assign],
+                             *strong = &look->assigns.items[hidden[-1].assign];
+    bool are_infos = doc_element(look->doc, weak->element)->kind == KIND_GEOMINFO
+                     && doc_element(look->doc, strong->element)->kind == KIND_GEOMINFO;
+    if (!are_infos || hidden->level != hidden[-1].level || is_told[hidden->assign])
+        return;
+    is_told[hidden->assign] = true;
+    diag_add(look->diags, DIAG_ID_geominfo_twice, doc_place(look->doc, strong->target),
+             bind_fact_words[bind_fact_kind(look->doc, strong->target)],
+             bind_fact_name(look->doc, strong->target));
+    diag_add(look->diags, DIAG_ID_defined_here, doc_place(look->doc, weak->target),
+             bind_fact_name(look->doc, weak->target));
+}
+
 /* The strongest of each name. */
-static void list_facts(struct bindings *b, uint32_t state, struct stands *stands)
+static void list_facts(struct bindings *b, uint32_t state, struct stands *stands, bool *is_told)
 {
     struct bind_state *s = &b->states.items[state];
     s->first_item = b->items.len;
     bind_stands(b, s, stands);
-    for (uint32_t i = 0; i < stands->len; i++)
-        if (!i || stands->items[i].name != stands->items[i - 1].name)
-            vec_push(
-                b->arena, &b->items,
-                (struct bind_item){stands->items[i].assign, stands->items[i].level, ITEM_LAYER, 0});
+    for (uint32_t i = 0; i < stands->len; i++) {
+        const struct stand *stand = &stands->items[i];
+        if (i && stand->name == stand[-1].name)
+            check_twice(b, stand, is_told);
+        else
+            vec_push(b->arena, &b->items,
+                     (struct bind_item){stand->assign, stand->level, ITEM_LAYER, 0});
+    }
     s->num_items = b->items.len - s->first_item;
 }
 
@@ -193,6 +267,7 @@ void bind_facts(struct bindings *b, const struct library *lib, elem_id look,
     if (!b->look.assigns.len)
         return;
     bind_find_states(b, before, scratch);
+    bool *is_told = ARENA_ARRAY(scratch, bool, b->look.assigns.len);
     for (uint32_t i = 0; i < b->states.len; i++)
-        list_facts(b, i, &stands);
+        list_facts(b, i, &stands, is_told);
 }

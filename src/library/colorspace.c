@@ -4,6 +4,8 @@
  * library defines the spaces.
  */
 #include "library/library.h"
+#include "lower/lower.h"
+#include "tree/interpret.h"
 
 #include <assert.h>
 #include <stdio.h>
@@ -74,6 +76,39 @@ uint32_t library_color_transform(const struct library *lib, const char *from, co
 }
 
 const char *const library_color_hub = "lin_rec709";
+
+/* The function of a definition with one output that serves every target; LIBRARY_NONE: none. */
+static uint32_t portable_function(const struct library *lib, uint32_t nodedef)
+{
+    for (uint32_t i = library_nodedef(lib, nodedef)->first_impl; i != LIBRARY_NONE;) {
+        const struct library *layer;
+        const struct implementation *impl = library_impl(lib, i, &layer);
+        bool is_portable = library_is_portable(lib, impl);
+        if (impl->kind == IMPL_EXPRESSION && is_portable)
+            return layer->refs.items[impl->ref];
+        if (impl->kind == IMPL_FUNCTION && is_portable)
+            return impl->ref;
+        i = impl->next;
+    }
+    return LIBRARY_NONE;
+}
+
+bool library_convert_color(const struct library *lib, const char *space, float *rgb,
+                           struct arena *scratch)
+{
+    uint32_t nodedef = library_color_transform(lib, space, library_color_hub, "color3"),
+             function = nodedef == LIBRARY_NONE ? LIBRARY_NONE : portable_function(lib, nodedef),
+             steps_left = LANG_MAX_STEPS;
+    struct ir_value color = {.type = IR_TYPE_VEC3}, result;
+    for (unsigned i = 0; i < 3; i++)
+        color.w[i].f = rgb[i];
+    if (function == LIBRARY_NONE
+        || !lang_eval_call(&lib->unit, function, &color, &result, &steps_left, scratch))
+        return false;
+    for (unsigned i = 0; i < 3; i++)
+        rgb[i] = result.w[i].f;
+    return true;
+}
 
 /* "; expected one of: lin_rec709, …": the spaces that the library can convert to the hub. */
 static const char *known_spaces(const struct library *lib, struct arena *arena)

@@ -491,6 +491,12 @@ const char *library_canonical_space(const char *space);
 uint32_t library_color_transform(const struct library *lib, const char *from, const char *to,
                                  const char *type);
 extern const char *const library_color_hub; /* the library can convert every space to this one */
+/*
+ * Converts a colour of a canonical space to the hub; false: the library has no transform that can
+ * run here.
+ */
+bool library_convert_color(const struct library *lib, const char *space, float *rgb,
+                           struct arena *scratch);
 /* The working space that the user may mean by an unknown word, or a list of all. */
 const char *library_expect_working_space(const struct library *lib, const char *space,
                                          struct diag_list *diags);

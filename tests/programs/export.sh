@@ -312,6 +312,22 @@ check 'a missing image is told' eval 'sed "s,flat/S,flat/N," image.mtlx >lost.mt
 check 'or is a checker' eval 'exits 0 "$mxgen" export lost.mtlx --missing-texture checker -s 16 -o lost.glb && texel lost.glb materials/M/pbrMetallicRoughness/baseColorTexture 0.1 0.1 255 0 255'
 check 'another space of colors is told' bad bad.mtlx wide '(bad.mtlx:5:' '[export-space]'
 check 'tiles are told' bad bad.mtlx tiles '(bad.mtlx:6:3) are several images' '[export-tiles]'
+# A default of tokens that no geometry replaces holds for all.
+printf 'P3 1 1 255 255 0 0\n' >of_red.ppm
+cat >tokens.mtlx <<'EOF'
+<?xml version="1.0"?>
+<materialx version="1.39">
+  <tokendefault name="id" type="string" value="red"/>
+  <image name="i" type="color3"><input name="file" type="filename" value="of_&lt;id&gt;.ppm"/></image>
+  <standard_surface name="S" type="surfaceshader"><input name="base_color" type="color3" nodename="i"/></standard_surface>
+  <surfacematerial name="M" type="material"><input name="surfaceshader" type="surfaceshader" nodename="S"/></surfacematerial>
+</materialx>
+EOF
+check 'the default of a token names a texture' exits 0 "$mxgen" export tokens.mtlx -m plane -o tokens.glb
+check 'it is the red file' texel tokens.glb materials/M/pbrMetallicRoughness/baseColorTexture 0.5 0.5 255 0 0
+check 'also in USD' eval 'exits 0 "$mxgen" export tokens.mtlx -m plane -o tokens.usda && has tokens.usda "of_red.ppm" && ! grep -q "<id>" tokens.usda'
+sed -i 's|  <image|  <geominfo name="g" geom="/a"><token name="id" type="string" value="green"/></geominfo>\n&|' tokens.mtlx
+check 'a default that a geometry replaces does not' bad tokens.mtlx M '[export-tiles]'
 cat >mixed.mtlx <<'EOF'
 <?xml version="1.0"?>
 <materialx version="1.39">

@@ -310,6 +310,22 @@ check 'a default of tokens counts elsewhere' fact /e tokens Asset none
 check 'a default of another token counts everywhere' fact /a/c tokens Part lid
 check 'a unit of another type is told' eval 'sed "s/unit=.meter. unittype=.distance./unit=\"degree\" unittype=\"distance\"/" look.mtlx >degrees.mtlx; "$mxgen" degrees.mtlx --stage stage.txt --look L -t glsl -o degrees.d 2>&1 | grep -q "degree.*\[unit-of-other-type\]"'
 check 'a default of tokens inside of a <geominfo> is misplaced' eval 'sed "s|<token name=.Asset.|<tokendefault name=\"Asset\"|" look.mtlx >inner.mtlx; "$mxgen" validate inner.mtlx 2>&1 | grep -q "<tokendefault> is not allowed in <geominfo> \[misplaced-element\]"'
+# Colours go to the space of geometry: 0.5 of sRGB is 0.21404114, and ACES gives the matrix from AP1.
+sed 's|  <propertyset name|  <geominfo name="c1" geom="/a/c" colorspace="srgb_texture"><geomprop name="tint" type="color3" value="0.5, 1, 0"/></geominfo>\n  <geominfo name="c2" geom="/a/b"><geomprop name="tint" type="color4" value="0.5, 0.2, 1, 0.25" colorspace="lin_ap1"/></geominfo>\n  <geominfo name="c3" geom="/e"><geomprop name="tint" type="color3" value="0.5, 0.2, 1" colorspace="none"/></geominfo>\n&|' look.mtlx >spaces.mtlx
+mv look.mtlx before.mtlx
+cp spaces.mtlx look.mtlx
+check 'colours of geometry are generated' exits 0 stacks --look L
+check 'without a message' test ! -s err
+colour() { json "next(all(abs(a - b) < 1e-4 for a, b in zip(map(float, f['value'].split(',')), [$2], strict=True)) for p in d['primitives'] if p['path'] == '$1' for f in p['geomprops'] if f['name'] == 'tint')"; }
+check 'a colour has the space of the element around it' colour /a/c '0.21404114, 1, 0'
+check 'a colour with alpha has its own space' colour /a/b '0.64491, 0.15249, 1.11518, 0.25'
+check 'a colour without a space stays' colour /e '0.5, 0.2, 1'
+check 'a space that nobody knows is told' eval 'sed "s/lin_ap1/lin_ap7/" look.mtlx >unknown.mtlx; "$mxgen" unknown.mtlx --stage stage.txt --look L -t glsl -o unknown.d 2>&1 | grep -q "lin_ap7.*\[unknown-colorspace\]"'
+# No two <geominfo>s give one geometry a value, however they name it; the parent's value is another matter.
+sed -i 's|  <propertyset name|  <collection name="both" includegeom="/a/c, /x"/>\n  <geominfo name="c4" collection="both"><geomprop name="tint" type="color3" value="1, 1, 1"/></geominfo>\n&|' look.mtlx
+check 'two values at one geometry are generated' exits 0 stacks --look L
+check 'they are told once, and the later one wins' eval '[ "$(grep -c "tint.*\[geominfo-twice\]" err)" = 1 ] && [ "$(grep -c "\[geominfo-twice\]" err)" = 1 ] && colour /a/c "1, 1, 1"'
+mv before.mtlx look.mtlx
 check 'a set of properties that is missing is an error' eval 'sed -i "s/propertyset=\"PS\"/propertyset=\"QS\"/" look.mtlx; exits 1 stacks --look L && grep -q "no propertyset .QS.*\[unknown-assigned\]" err'
 
 # A texture of an included file is beside that file.

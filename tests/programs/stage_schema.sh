@@ -184,6 +184,12 @@ sees 'a colour of the document' facts -1.5 3.5 g
 sees "the geometry's own colour before that of the document" facts 0.5 3.5 r
 sees 'the token of a <geominfo>' facts 2.5 3.5 g
 sees 'the default of a token' facts -3.5 1.5 r
+# Without a stage no geometry has a token.
+mean() { # NAME: the mean colour
+    python3 -c 'import sys; d = open(sys.argv[1], "rb").read().split(None, 4); w, h = int(d[1]), int(d[2]); p = d[4][-3 * w * h:]; print(*(round(sum(p[c::3]) / (w * h)) for c in range(3)))' "$1"
+}
+check 'the default of a token is drawn without a stage' exits 0 "$render" facts.mtlx -e Pictured -m plane -s 4 --environment none --background none -o plane.ppm
+check 'it is the red file' eval 'read -r r g b <<<"$(mean plane.ppm)"; [ "$r" -gt 40 ] && [ "$g" = 0 ] && [ "$b" = 0 ]'
 mkdir -p inner/of_
 cp geominfo.mtlx of_green.ppm inner
 sed 's/"red"/"out"/' tokens.usda >inner/out.usda
