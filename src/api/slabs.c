@@ -92,7 +92,7 @@ static void report_failure(struct generation *g, const struct slab_budget *budge
     if (g->role->returns == RETURNS_PAYLOAD)
         text_str(&limits, "a payload, which is one slab");
     else if (budget->max_slabs)
-        text_fmt(&limits, "%u slabs", (unsigned)budget->max_slabs);
+        text_count(&limits, budget->max_slabs, "slab", "slabs");
     if (budget->max_bytes)
         text_fmt(&limits, "%s%u bytes", limits.len ? ", " : "", (unsigned)budget->max_bytes);
     if (budget->max_error >= 0.0f) {

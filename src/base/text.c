@@ -91,6 +91,13 @@ void text_fmt(struct text *text, const char *format, ...)
     va_end(args);
 }
 
+void text_count(struct text *text, uint32_t n, const char *one, const char *many)
+{
+    text_u32(text, n);
+    text_char(text, ' ');
+    text_str(text, n == 1 ? one : many);
+}
+
 /*
  * Length of the UTF-8 sequence at p (1 to 4), and its code point; 0 if it is invalid (RFC 3629).
  */

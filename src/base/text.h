@@ -75,6 +75,8 @@ __attribute__((format(printf, 2, 3)))
 #endif
 void text_fmt(struct text *text, const char *format, ...);
 void text_vfmt(struct text *text, const char *format, va_list args);
+/* "1 slab" or "3 slabs" */
+void text_count(struct text *text, uint32_t n, const char *one, const char *many);
 
 /*
  * Copies a text to the buffer of a caller as far as it fits, with a NUL; returns `len`. The buffer

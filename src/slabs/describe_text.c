@@ -92,9 +92,13 @@ static void write_tree(const struct slab_sheet *sheet, const struct slab_tree *t
         put_name(sheet, tree->shared.items[i].second, out);
         text_str(out, " share a mask, but count as independent\n");
     }
-    text_fmt(out, "  %u slabs, %u tangent bases, %u closures, %u bytes\n",
-             (unsigned)tree->num_slabs, (unsigned)tree->num_bases, (unsigned)tree->cost.closures,
-             (unsigned)tree->cost.bytes);
+    text_str(out, "  ");
+    text_count(out, tree->num_slabs, "slab", "slabs");
+    text_str(out, ", ");
+    text_count(out, tree->num_bases, "tangent basis", "tangent bases");
+    text_str(out, ", ");
+    text_count(out, tree->cost.closures, "closure", "closures");
+    text_fmt(out, ", %u bytes\n", (unsigned)tree->cost.bytes);
 }
 
 static void write_error(float error, struct text *out)

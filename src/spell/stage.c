@@ -158,15 +158,6 @@ static const char *user_type_name(void *user_data, ir_type_id type)
 
 /* ---- Sections ---- */
 
-static void write_plural(struct text *out, uint32_t n, const char *what)
-{
-    text_u32(out, n);
-    text_char(out, ' ');
-    text_str(out, what);
-    if (n != 1)
-        text_char(out, 's');
-}
-
 /* "Gold · surfacematerial · mxgen 0.1 · vulkan · reduced · 1 closure · 0 textures" */
 void spell_title(struct spell *spell)
 {
@@ -187,9 +178,9 @@ void spell_title(struct spell *spell)
         spell_comment(spell, parts[i], strlen(parts[i]));
         spell_text(spell, " · ");
     }
-    write_plural(spell->out, shader->reflection.closures.len, "closure");
+    text_count(spell->out, shader->reflection.closures.len, "closure", "closures");
     spell_text(spell, " · ");
-    write_plural(spell->out, textures, "texture");
+    text_count(spell->out, textures, "texture", "textures");
 }
 
 static bool is_variable(const struct spell *spell, uint32_t global)

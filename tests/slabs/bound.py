@@ -24,6 +24,7 @@ FACTOR, REST = 2.5, 0.5
 PARTS = ("fuzz", "second-lobe", "anisotropy")
 BUDGETS = {"one slab": ("--max-slabs", "1"), "fewer parts": ("--features", ",".join(f"-{part}" for part in PARTS))}
 STEP = re.compile(r"slabs \d+ to (\d+), .* estimated error (\S+)")
+ALONE = re.compile(r"^  1 slab, ", re.MULTILINE)
 
 
 class Material:
@@ -98,9 +99,13 @@ def run(*command):
 
 
 def estimate(document, name, budget):
-    """The closures and the estimated error after the steps of a budget; None: it has none."""
-    steps = STEP.findall(run(MXGEN, "inspect", document, "-e", name, "--slabs", *BUDGETS[budget]).stdout)
-    return (int(steps[-1][0]), float(steps[-1][1])) if steps else None
+    """The slabs and the estimated error after the steps of a budget. A slab that hides the others takes no step; a budget of parts may have none
+    to leave out, which is None."""
+    told = run(MXGEN, "inspect", document, "-e", name, "--slabs", *BUDGETS[budget]).stdout
+    steps = STEP.findall(told)
+    if steps:
+        return int(steps[-1][0]), float(steps[-1][1])
+    return (1, 0.0) if budget == "one slab" and ALONE.search(told) else None
 
 
 def draw(document, name, camera, path, *options):

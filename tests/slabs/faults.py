@@ -82,7 +82,7 @@ def check_hidden():
     for name in "Constant", "Covered", "Nested", "Closures":
         for way in shaders if name == "Closures" else shaders + reports:
             check(hidden(name, *way) == hidden(f"{name}_alone", *way), f"{name} with {way} is not {name}_alone")
-    check("4 slabs, 1 tangent bases, 4 closures, 64 bytes" in hidden("Nested", "inspect", "--slabs"), "the coat and three opaque slabs count")
+    check("4 slabs, 1 tangent basis, 4 closures, 64 bytes" in hidden("Nested", "inspect", "--slabs"), "the coat and three opaque slabs count")
     for name, num in ("Partly", 3), ("Splashed", 2):
         check(f" {num} slabs" in hidden(name, "inspect", "--slabs"), f"the base of {name} is seen, so it counts")
 
