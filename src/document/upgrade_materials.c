@@ -381,23 +381,20 @@ static void convert_material(struct upgrade *u, elem_id material)
                  volume ? "volumematerial" : "surfacematerial");
 }
 
-/* Gives a material the shaders of its ancestors, in addition to its own. */
-static void inherit_shaders(struct upgrade *u, elem_id material)
+/*
+ * A material without shaders is of the category of the one that it inherits from:
+ * inherited_values.c gives it the inputs.
+ */
+static void take_category(struct upgrade *u, elem_id heir)
 {
     enum { MAX_INHERITANCE = 64 }; /* a longer chain is a cycle */
     struct document *doc = u->doc;
-    str_id name = doc_attr_value(doc, material, STR_inherit);
-    for (int depth = 0; name && depth < MAX_INHERITANCE; depth++) {
-        elem_id from = doc_child(doc, u->root, name);
-        for (elem_id e = from ? doc_element(doc, from)->first_child : 0; e;
-             e = doc_element(doc, e)->next)
-            if (!doc_child(doc, material, doc_element(doc, e)->name))
-                upgrade_copy_input(u, e, material,
-                                   str_text(doc->strings, doc_element(doc, e)->name), NULL);
-        name = from ? doc_attr_value(doc, from, STR_inherit) : STR_EMPTY;
-    }
-    doc_remove_attr(doc, material, STR_inherit);
-    upgrade_note(u, material, "the shaders of an inherited material are now inputs");
+    elem_id from = heir;
+    for (int depth = 0; from && depth < MAX_INHERITANCE && !doc_element(doc, from)->first_child;
+         depth++)
+        from = doc_child(doc, u->root, doc_attr_value(doc, from, STR_inherit));
+    if (from && doc_element(doc, from)->category == STR_volumematerial)
+        doc_set_category(doc, heir, STR_volumematerial);
 }
 
 void upgrade_materials(struct upgrade *u)
@@ -410,5 +407,5 @@ void upgrade_materials(struct upgrade *u)
     for (elem_id e = upgrade_first(u); e; e = upgrade_next(u, e))
         if (doc_element(doc, e)->category == STR_surfacematerial
             && doc_attr_value(doc, e, STR_inherit))
-            inherit_shaders(u, e);
+            take_category(u, e);
 }
