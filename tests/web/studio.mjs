@@ -284,11 +284,20 @@ function glbOf(change = () => {}, isShort = false) {
     return joined(word(0x46546c67), word(2), word(chunks.length + 12), chunks);
 }
 
+/** The length of the file stands in its header. */
+function resized(bytes) {
+    const copy = Uint8Array.from(bytes);
+    new DataView(copy.buffer).setUint32(8, copy.length, true);
+    return copy;
+}
+
 test("meshes that are damaged, too large, or of another kind are told", () => {
     const faults = [
         ["x.obj", ascii("nothing"), /no triangles/], ["x.obj", ascii("v 0 0 0\nf 1 2 3"), /line 2 has a corner '2' that is not there/], ["x.obj", ascii("v 0 zero 0"), /line 1 has no 3 numbers/],
         ["x.obj", ascii("v 0 0 0\nf 1 1 1"), /no area/], ["x.obj", ascii(`v 0 0 0\nv 1 0 0\nv 0 1 0\n${"f 1 2 3\n".repeat(500_001)}`), /more than 500000 triangles/],
-        ["x.glb", ascii("glTF, but no mesh at all"), /no binary glTF 2.0/], ["x.glb", glbOf().subarray(0, 3000), /ends too early/],
+        ["x.glb", ascii("glTF, but no mesh at all"), /no binary glTF 2.0/], ["x.glb", ascii("glTF"), /no binary glTF 2.0/],
+        ["x.glb", glbOf().subarray(0, 3000), /has 3000 bytes, and its header says \d+/], ["x.glb", joined(glbOf(), [0, 0, 0, 0]), /has \d+ bytes, and its header says \d+/],
+        ["x.glb", resized(glbOf().subarray(0, 3000)), /last chunk is longer/], ["x.glb", resized(joined(glbOf(), [0, 0, 0, 0])), /last chunk is longer/],
         ["x.glb", glbOf(gltf => { gltf.accessors[3].count = 1e6; }), /behind its end/], ["x.glb", glbOf(gltf => { gltf.accessors[0].count = 3; }), /corners that are not there/],
         ["x.glb", glbOf(gltf => { gltf.nodes[1].children = [0]; }), /nested more than 100 deep/], ["x.glb", glbOf(gltf => { gltf.buffers[0].uri = "x.bin"; }), /in another file/],
         ["x.glb", glbOf(gltf => { gltf.accessors[0].sparse = {}; }), /sparse or compressed/], ["x.glb", glbOf(gltf => { gltf.meshes[0].primitives[0].extensions = { KHR_draco_mesh_compression: {} }; }), /Draco/],

@@ -13,12 +13,15 @@ const IDENTITY = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
 
 function chunksOf(bytes) {
     const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength), chunks = new Map();
-    if (view.getUint32(0, true) !== 0x46546c67 || view.getUint32(4, true) !== 2)
+    if (bytes.length < 12 || view.getUint32(0, true) !== 0x46546c67 || view.getUint32(4, true) !== 2)
         throw new Unreadable("it is no binary glTF 2.0");
-    for (let at = 12; at + 8 <= bytes.length;) {
-        const length = view.getUint32(at, true);
+    const whole = view.getUint32(8, true);
+    if (whole !== bytes.length)
+        throw new Unreadable(`it has ${bytes.length} bytes, and its header says ${whole}`);
+    for (let at = 12; at < bytes.length;) {
+        const length = at + 8 <= bytes.length ? view.getUint32(at, true) : Infinity;
         if (at + 8 + length > bytes.length)
-            throw new Unreadable("it ends too early");
+            throw new Unreadable("its last chunk is longer than the file");
         chunks.set(view.getUint32(at + 4, true), bytes.subarray(at + 8, at + 8 + length));
         at += 8 + length;
     }
