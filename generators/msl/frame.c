@@ -162,8 +162,6 @@ static void declare_for_function(struct spell *spell)
 {
     spell_text(spell, "#include <metal_stdlib>\nusing namespace metal;\n\n");
     spell_structs(spell);
-    for (uint32_t i = 0; i < spell->stage->reach.user_types.len; i++)
-        spell_name_maker(spell, spell->stage->reach.user_types.items[i]);
     write_textures(spell);
     write_blocks(spell);
 }

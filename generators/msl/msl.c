@@ -10,8 +10,8 @@ static const char *const reserved[] = {
 
 static const struct lang_form forms[IR_NUM_OPS] = {
     OPERATORS_OF_VECTORS,
-    [IR_RADIANS] = {"$0 * 0.017453292", LANG_PREC_PRODUCT, false},
-    [IR_DEGREES] = {"$0 * 57.29578", LANG_PREC_PRODUCT, false},
+    [IR_RADIANS] = {"$0 * 0.017453292", LANG_PREC_PRODUCT, true},
+    [IR_DEGREES] = {"$0 * 57.29578", LANG_PREC_PRODUCT, true},
     CALL(ATAN2, "atan2($0, $1)"),
     CALL(RSQRT, "rsqrt($0)"),
     CALL(ROUND, "rint($0)"), /* round() rounds halves away from zero */
@@ -61,6 +61,7 @@ static const struct lang_syntax syntax = {
     .num_reserved = sizeof reserved / sizeof *reserved,
     .phrases = phrases,
     .array_braces = true,
+    .struct_braces = true,
     .exact_constructors = true,
     .infinity = "INFINITY",
     .nan = "NAN",
@@ -101,7 +102,6 @@ const struct target target_msl = {
     .syntax = &syntax,
     .frame = &msl_frame,
     .form = msl_form,
-    .maker = spell_helper_maker,
     .functions = functions,
     .first_resource = 16, /* behind the textures that have samplers, and buffers of uniforms */
     .images = images,

@@ -97,6 +97,12 @@ void emitter_comment(struct emitter *e, str_id text)
     shader_effect(e->shader, STAGE_PIXEL, (struct effect){.kind = EFFECT_COMMENT, .text = text});
 }
 
+/* The name of the closure that a part comes from; 0: none. */
+static str_id leaf_name(const struct emitter *e, const struct closure_part *part)
+{
+    return e->graph->origins.items[ir_get(e->graph, part->leaf)->origin].name;
+}
+
 /*
  * Writes a comment such as "environment: metal, reflection": the section and the leaves of the next
  * parts, each once. section "": the leaves alone; NULL: no comment.
@@ -112,7 +118,7 @@ static void comment_leaves(struct emitter *e, const char *section, const struct 
     text_str(&names, section);
     size_t opening = names.len;
     for (uint32_t i = 0; i < count; i++) {
-        str_id name = e->graph->origins.items[ir_get(e->graph, parts[i].leaf)->origin].name;
+        str_id name = leaf_name(e, &parts[i]);
         if (!name || name == last)
             continue;
         text_str(&names, names.len > opening ? ", " : opening ? ": " : "");
@@ -343,7 +349,10 @@ static void loop_samples(struct emitter *e, struct closure_parts *list, ir_ref f
 {
     ir_ref next = closure_next_turn(e->shader, list);
     if (next)
-        emitter_effect(e, EFFECT_TURN, 0, closure_first_turn(e->graph));
+        shader_effect(e->shader, STAGE_PIXEL,
+                      (struct effect){.kind = EFFECT_TURN,
+                                      .value = closure_first_turn(e->graph),
+                                      .text = leaf_name(e, list->parts.items)});
     emitter_effect(e, EFFECT_SAMPLES, 0, list->parts.items[0].count);
     closure_enter_loop(&e->copies, e->shader->effects.num_sample_loops++);
     if (list->parts.len == 1)

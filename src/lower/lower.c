@@ -167,17 +167,16 @@ void lower_name_slot(struct lower *lo, uint32_t slot, enum ir_name_rank rank)
 }
 
 /* Parameters a, b and c are only counted, which says nothing about an argument. */
-static bool says_something(const struct lower *lo, str_id name)
+static bool says_something(str_id name)
 {
-    const char *text = str_text(lo->unit->strings, name);
-    return !(*text >= 'a' && *text <= 'c' && !text[1]);
+    return name != STR_a && name != STR_b && name != STR_c;
 }
 
 static void name_parameters(struct lower *lo)
 {
     const struct lower_frame *frame = lo->frame;
     for (uint32_t i = 0; i < frame->fn->num_params; i++)
-        if (says_something(lo, frame->layer->slots.items[frame->fn->first_slot + i].name))
+        if (says_something(frame->layer->slots.items[frame->fn->first_slot + i].name))
             lower_name_slot(lo, i, IR_NAME_PARAMETER);
 }
 

@@ -180,15 +180,14 @@ static void print_construct(struct printer *p, const struct lang_node *node)
         print_initialiser(p, node);
         return;
     }
-    if (maker) {
+    bool braces = is_struct && !maker && p->style->syntax->struct_braces;
+    if (maker)
         text_str(p->out, maker);
-        text_char(p->out, '(');
-    } else {
+    else
         lang_print_type(p->style, p->names, p->unit, node->type, p->out);
-        text_char(p->out, '(');
-    }
+    text_char(p->out, braces ? '{' : '(');
     print_list(p, node->a);
-    text_char(p->out, ')');
+    text_char(p->out, braces ? '}' : ')');
 }
 
 static void print_swizzle(struct printer *p, const struct lang_node *node)

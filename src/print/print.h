@@ -101,6 +101,7 @@ struct lang_syntax {
     /* array constructors are {a, b} instead of float[2](a, b); behind PHRASE_ARRAY, if there is one
      */
     bool array_braces;
+    bool struct_braces; /* a struct is made so: "S{a, b}" */
     /*
      * Constructors take as many components as they need: v.xy for vec2(v), and a product with the
      * identity for mat3(x).

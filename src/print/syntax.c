@@ -156,10 +156,9 @@ const char *lang_syntax_phrase(const struct lang_syntax *syntax, enum lang_phras
 
 const char *lang_syntax_beginning(const struct lang_syntax *syntax, const char *name)
 {
-    bool is_refused =
-        (syntax->begins_with_letter && *name == '_')
-        || (syntax->reserved_prefix
-            && strncmp(name, syntax->reserved_prefix, strlen(syntax->reserved_prefix)) == 0);
+    const char *prefix = syntax->reserved_prefix;
+    bool is_refused = (syntax->begins_with_letter && *name == '_')
+                      || (prefix && *name == *prefix && strncmp(name, prefix, strlen(prefix)) == 0);
     return is_refused ? "x" : "";
 }
 

@@ -44,7 +44,10 @@ static void mark_assigned(struct sweep *s, uint32_t local)
     uint32_t place = 0;
     while (place < s->declared.len && s->declared.items[place] != local)
         place++;
-    assert(place < s->declared.len);
+    if (place == s->declared.len) { /* no effect declares it */
+        mark_all(s);
+        return;
+    }
     for (uint32_t i = 0; i < s->blocks.len; i++)
         s->blocks.items[i].works |= place < s->blocks.items[i].num_declared;
 }

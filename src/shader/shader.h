@@ -173,13 +173,13 @@ enum effect_kind {
     EFFECT_POSITION,   /* the vertex's clip position = value */
     EFFECT_IF,         /* if (value) { */
     EFFECT_LIGHTS,     /* for each active light {; CONTEXT nodes read its data */
-    EFFECT_TURN,       /* before SAMPLES: declares the turn of the first sample = value */
-    EFFECT_SAMPLES,    /* for `value` samples {; SAMPLE nodes are the index of each, and its turn */
-    EFFECT_NEXT,       /* at the end of SAMPLES: the turn of the next sample = value */
-    EFFECT_ELSE,       /* } else { of the IF */
-    EFFECT_END,        /* } */
-    EFFECT_COMMENT,    /* a line of comment: text */
-    EFFECT_DISCARD,    /* alpha test: if (value) discard */
+    EFFECT_TURN,    /* before SAMPLES: turn of the first sample = value; text: of which closure */
+    EFFECT_SAMPLES, /* for `value` samples {; SAMPLE nodes are the index of each, and its turn */
+    EFFECT_NEXT,    /* at the end of SAMPLES: the turn of the next sample = value */
+    EFFECT_ELSE,    /* } else { of the IF */
+    EFFECT_END,     /* } */
+    EFFECT_COMMENT, /* a line of comment: text */
+    EFFECT_DISCARD, /* alpha test: if (value) discard */
     /* added by schedule.c */
     /* a local for node `value`; for a call with several results, a local for each */
     EFFECT_LET,

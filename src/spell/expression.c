@@ -105,15 +105,16 @@ static void write_list(struct spell *spell, ir_ref ref)
 static void write_construct(struct spell *spell, ir_ref ref, ir_type_id type)
 {
     const struct ir_user_type *user = user_type(spell, type);
-    bool braces = user && user->array_length && spell->target->syntax->array_braces,
-         is_struct = user && !user->array_length;
+    const struct lang_syntax *syntax = spell->target->syntax;
+    bool is_struct = user && !user->array_length, is_array = user && !is_struct,
+         braces = is_array ? syntax->array_braces : is_struct && syntax->struct_braces;
     const struct lang_names *names = &spell->lang_names;
     const char *maker = is_struct && names->maker
                             ? names->maker(names->user_data, struct_name(spell, user->name))
                             : NULL;
     if (maker)
         spell_text(spell, maker);
-    else if (!braces || spell->style->phrases[PHRASE_ARRAY])
+    else if (!is_array || !braces || spell->style->phrases[PHRASE_ARRAY])
         spell_type(spell, type);
     text_char(spell->out, braces ? '{' : '(');
     write_list(spell, ref);

@@ -260,8 +260,9 @@ static void join(struct spell *spell, struct text *out, const struct text *body)
 {
     spell->out = out;
     for (uint32_t i = 0; i < spell->helpers.len; i++) {
+        bool is_before_blank = i + 1 == spell->helpers.len && body->len && *body->data == '\n';
         spell_once(spell, spell->helpers.items[i], strlen(spell->helpers.items[i]));
-        spell_text(spell, "\n");
+        spell_text(spell, is_before_blank ? "" : "\n");
     }
     for (uint32_t i = 0; i < spell->marks.len; i++)
         spell->marks.items[i].at += (uint32_t)out->len;

@@ -391,14 +391,29 @@ static void write_last_light(struct spell *spell)
     spell_text(spell, ") - 1");
 }
 
-/* The turn is carried from sample to sample. */
-static void write_first_turn(struct spell *spell, unsigned indent, ir_ref turn)
+/* "turn", or "coat_turn" where another loop beside this one has that name. */
+static struct spell_name turn_name(struct spell *spell, str_id leaf)
 {
-    spell->loop_turn = names_unique(&spell->names, "turn", 4);
+    static const char turn[] = "turn";
+    size_t len = strlen(turn);
+    if (!leaf || spell->shader->interface.rules.neutral_names
+        || names_is_free(&spell->names, turn, len))
+        return names_unique(&spell->names, turn, len);
+    struct text name;
+    text_init(&name, spell->scratch);
+    text_fmt(&name, "%s_%s", str_text(spell->shader->strings, leaf), turn);
+    const char *identifier = identifier_from(text_cstr(&name), name.len, spell->scratch, &len);
+    return names_unique(&spell->names, identifier, len);
+}
+
+/* The turn is carried from sample to sample. */
+static void write_first_turn(struct spell *spell, unsigned indent, const struct effect *effect)
+{
+    spell->loop_turn = turn_name(spell, effect->text);
     spell_open_line(spell, indent, 0);
     spell_variable(spell, PHRASE_LOCAL, IR_TYPE_VEC2, spell->loop_turn);
     text_mem(spell->out, " = ", 3);
-    spell_expression(spell, turn, LANG_PREC_ASSIGN);
+    spell_expression(spell, effect->value, LANG_PREC_ASSIGN);
     text_mem(spell->out, ";\n", 2);
 }
 
@@ -562,7 +577,7 @@ void spell_effect(struct spell *spell, unsigned indent, const struct effect *eff
     case EFFECT_POSITION:
         write_assignment(spell, indent, position_name(spell), " = ", effect->value);
         break;
-    case EFFECT_TURN: write_first_turn(spell, indent, effect->value); break;
+    case EFFECT_TURN: write_first_turn(spell, indent, effect); break;
     case EFFECT_LIGHTS:
     case EFFECT_SAMPLES: write_loop(spell, indent, effect); break;
     case EFFECT_NEXT:

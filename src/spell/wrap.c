@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Breaks long lines where the expression nests least: after a comma or before an operator. A long
- * comment continues in the next line. Strings, preprocessor directives and verbatim source stay
- * unbroken.
+ * Breaks long lines where the expression nests least, and there where it binds most loosely: after
+ * a comma, or before an operator. A long comment continues in the next line. Strings, preprocessor
+ * directives and verbatim source stay unbroken.
  */
 #include "spell/spell.h"
 
@@ -30,6 +30,15 @@ static const uint8_t meanings[256] = {
     ['?'] = OPERATOR, [':'] = OPERATOR,
 };
 
+/* True for the space of "array<uint, 4>". */
+static bool is_before_length(const char *at)
+{
+    at++;
+    while (isdigit((unsigned char)*at))
+        at++;
+    return *at == '>' && isdigit((unsigned char)at[-1]);
+}
+
 /*
  * True if a line may break at this space, beside an operator or a comma. The break replaces the
  * space.
@@ -39,11 +48,33 @@ static bool may_break(const char *at, const char *end)
     if (at + 2 >= end)
         return false;
     if (at[-1] == ',')
-        return true;
+        return !is_before_length(at);
     if (meanings[(unsigned char)at[1]] != OPERATOR && at[1] != '/')
         return false;
     bool ends = at[2] == ' ' || (at + 3 < end && at[3] == ' ' && ispunct((unsigned char)at[2]));
     return ends && !(at[1] == '=' && at[2] == ' ');
+}
+
+/* How tightly the comma before this space binds, or the operator behind it; 0: most loosely. */
+static int binding(const char *at)
+{
+    if (at[-1] == ',')
+        return 0;
+    bool is_double = at[1] == at[2];
+    switch (at[1]) {
+    case '?':
+    case ':': return 1;
+    case '|':
+    case '&': return !is_double ? 4 : at[1] == '|' ? 2 : 3;
+    case '^': return 4;
+    case '<':
+    case '>': return is_double ? 6 : 5;
+    case '=':
+    case '!': return 5;
+    case '+':
+    case '-': return at[2] == '=' ? 9 : 7;
+    default: return at[2] == '=' ? 9 : 8;
+    }
 }
 
 /* The closing quote of the string that starts at `at`. */
@@ -56,8 +87,9 @@ static const char *end_of_string(const char *at, const char *end)
 
 /*
  * Finds the break of [from, end), which starts at column `column`. Among the places within
- * MAX_COLUMNS it is the last one with the fewest open brackets; where there is none, it is behind
- * the sign of an assignment, or before MIN_COLUMNS. NULL: there is no such place either.
+ * MAX_COLUMNS it is the last one that binds most loosely of those with the fewest open brackets;
+ * where there is none, it is behind the sign of an assignment, or before MIN_COLUMNS. NULL: there
+ * is no such place either.
  */
 static const char *find_break(const char *from, const char *end, size_t column)
 {
@@ -65,7 +97,7 @@ static const char *find_break(const char *from, const char *end, size_t column)
                *first = column < MIN_COLUMNS ? from + (MIN_COLUMNS - column) : from;
     size_t room = column < MAX_COLUMNS ? MAX_COLUMNS - column + 1 : 0;
     const char *stop = (size_t)(end - from) < room ? end : from + room;
-    int depth = 0, best_depth = 0;
+    int depth = 0, best_depth = 0, best_binding = 0;
     for (const char *at = from; at < stop; at++) {
         enum meaning meaning = meanings[(unsigned char)*at];
         if (meaning <= OPERATOR)
@@ -80,11 +112,13 @@ static const char *find_break(const char *from, const char *end, size_t column)
             assigned = at;
         } else if (at > from && (at < first || !best || depth <= best_depth)
                    && may_break(at, end)) {
+            int level = at < first ? 0 : binding(at);
             if (at < first) {
                 early = at;
-            } else {
+            } else if (!best || depth < best_depth || level <= best_binding) {
                 best = at;
                 best_depth = depth;
+                best_binding = level;
             }
         }
     }

@@ -88,8 +88,9 @@ void main()
                 intensity = falloff;
             } else {
                 float edge = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
-                intensity = light_type == 3 ? falloff
-                    * smoothstep(edge, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light)) : 0.0;
+                intensity = light_type == 3
+                    ? falloff * smoothstep(edge, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
+                    : 0.0;
             }
         }
         // diffuse (2)

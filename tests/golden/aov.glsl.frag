@@ -51,8 +51,8 @@ vec2 mx_map_point(const vec3 d)
 {
     float square = mx_map_square(d);
     float stretch = inversesqrt(square);
-    return vec2(fract((d.z > 0.0 ? -0.5 : 0.5) * (mx_half_turn(d.x * stretch, abs(d.z) * stretch) + 0.5) + 0.25), 0.5
-        - mx_half_turn(d.y, square * stretch));
+    return vec2(fract((d.z > 0.0 ? -0.5 : 0.5) * (mx_half_turn(d.x * stretch, abs(d.z) * stretch) + 0.5) + 0.25),
+        0.5 - mx_half_turn(d.y, square * stretch));
 }
 
 void main()
@@ -117,8 +117,9 @@ void main()
                 intensity = falloff;
             } else {
                 float edge = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
-                intensity = light_type == 3 ? falloff
-                    * smoothstep(edge, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light)) : 0.0;
+                intensity = light_type == 3
+                    ? falloff * smoothstep(edge, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
+                    : 0.0;
             }
         }
         // diffuse (2)

@@ -25,17 +25,6 @@ struct PixelOutputs {
     float4 out1 [[color(0)]];
 };
 
-mx_GgxLobe make_mx_GgxLobe(float3 N, float cosine, float3 x, float2 alpha, float masking)
-{
-    mx_GgxLobe made;
-    made.N = N;
-    made.cosine = cosine;
-    made.x = x;
-    made.alpha = alpha;
-    made.masking = masking;
-    return made;
-}
-
 // A cubic polynomial of x and y with the coefficients m, to which directional albedos are fitted.
 float mx_bicubic(float4x4 m, float x, float y)
 {
@@ -52,8 +41,8 @@ float2 mx_ggx_albedo_fit(float c)
         0.0, 1.0);
     float u = 0.04 / (0.04 + 0.6 * c);
     return float2(min(1.0017 - u * u * mx_bicubic(float4x4(-0.0334, 3.1441, -6.1576, 3.0758, 0.6997, 7.8981, -14.3238,
-        8.7382, 4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, 0.04 * c), 1.0), x * x * x
-        * x * x);
+        8.7382, 4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, 0.04 * c), 1.0),
+        x * x * x * x * x);
 }
 
 // Unpolarised reflectance of an interface whose squared index is `re`, with c for the cosine in front of it:
@@ -117,7 +106,7 @@ void FragmentMain()
     float scale = (1.0 / albedo.x - 1.0) * 0.079748526 + 1.0;
     float3 h = faceforward(N, -V, N);
     float ggx_masking = sqrt(cos_v * cos_v * 0.9984 + 0.0016);
-    mx_GgxLobe coat_ggx_lobe = make_mx_GgxLobe(h, cos_v, float3(0.0), float2(0.04), ggx_masking);
+    mx_GgxLobe coat_ggx_lobe = mx_GgxLobe{h, cos_v, float3(0.0), float2(0.04), ggx_masking};
     float paint_weight = (1.0 - mix(0.03373595, 1.0, albedo.y) * albedo.x * scale) * 0.75;
     float3 paint_factor = paint_weight * 0.31830987 * float3(0.6, 0.1, 0.05);
     // from the last light, so that drivers do not unroll the loop

@@ -51,11 +51,11 @@ uint mx_hash_final(const uint x, const uint y, const uint z)
 vec3 mx_noise_face_vec3(const int x, const int y, const int z, const vec3 f, const vec3 w)
 {
     return mix(mix(mx_gradient_vec3(mx_hash_final(3735928584u + uint(x), 3735928584u + uint(y), 3735928584u + uint(z)),
-        f), mx_gradient_vec3(mx_hash_final(3735928584u + uint(x + 1), 3735928584u + uint(y), 3735928584u + uint(z)), f
-        - vec3(1.0, 0.0, 0.0)), w.x), mix(mx_gradient_vec3(mx_hash_final(3735928584u + uint(x), 3735928584u
-        + uint(y + 1), 3735928584u + uint(z)), f - vec3(0.0, 1.0, 0.0)),
-        mx_gradient_vec3(mx_hash_final(3735928584u + uint(x + 1), 3735928584u + uint(y + 1), 3735928584u + uint(z)), f
-        - vec3(1.0, 1.0, 0.0)), w.x), w.y);
+        f), mx_gradient_vec3(mx_hash_final(3735928584u + uint(x + 1), 3735928584u + uint(y), 3735928584u + uint(z)),
+        f - vec3(1.0, 0.0, 0.0)), w.x), mix(mx_gradient_vec3(mx_hash_final(3735928584u + uint(x),
+        3735928584u + uint(y + 1), 3735928584u + uint(z)), f - vec3(0.0, 1.0, 0.0)),
+        mx_gradient_vec3(mx_hash_final(3735928584u + uint(x + 1), 3735928584u + uint(y + 1), 3735928584u + uint(z)),
+        f - vec3(1.0, 1.0, 0.0)), w.x), w.y);
 }
 
 // The curve 6t^5 - 15t^4 + 10t^3 between lattice points (Perlin 2002, "Improving Noise").

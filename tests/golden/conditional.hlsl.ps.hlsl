@@ -58,11 +58,11 @@ uint mx_hash_final(uint x, uint y, uint z)
 // Perlin noise, in three components, on one face of the lattice cube around a point, at the height z.
 float3 mx_noise_face_vec3(int x, int y, int z, float3 f, float3 w)
 {
-    return lerp(lerp(mx_gradient_vec3(mx_hash_final(3735928584u + uint(x), 3735928584u + uint(y), 3735928584u
-        + uint(z)), f), mx_gradient_vec3(mx_hash_final(3735928584u + uint(x + 1), 3735928584u + uint(y), 3735928584u
-        + uint(z)), f - float3(1.0, 0.0, 0.0)), w.x),
-        lerp(mx_gradient_vec3(mx_hash_final(3735928584u + uint(x), 3735928584u + uint(y + 1), 3735928584u + uint(z)), f
-        - float3(0.0, 1.0, 0.0)), mx_gradient_vec3(mx_hash_final(3735928584u + uint(x + 1), 3735928584u + uint(y + 1),
+    return lerp(lerp(mx_gradient_vec3(mx_hash_final(3735928584u + uint(x), 3735928584u + uint(y),
+        3735928584u + uint(z)), f), mx_gradient_vec3(mx_hash_final(3735928584u + uint(x + 1), 3735928584u + uint(y),
+        3735928584u + uint(z)), f - float3(1.0, 0.0, 0.0)), w.x),
+        lerp(mx_gradient_vec3(mx_hash_final(3735928584u + uint(x), 3735928584u + uint(y + 1), 3735928584u + uint(z)),
+        f - float3(0.0, 1.0, 0.0)), mx_gradient_vec3(mx_hash_final(3735928584u + uint(x + 1), 3735928584u + uint(y + 1),
         3735928584u + uint(z)), f - float3(1.0, 1.0, 0.0)), w.x), w.y);
 }
 

@@ -61,8 +61,8 @@ vec2 mx_map_point(const vec3 d)
 {
     float square = mx_map_square(d);
     float stretch = inversesqrt(square);
-    return vec2(fract((d.z > 0.0 ? -0.5 : 0.5) * (mx_half_turn(d.x * stretch, abs(d.z) * stretch) + 0.5) + 0.25), 0.5
-        - mx_half_turn(d.y, square * stretch));
+    return vec2(fract((d.z > 0.0 ? -0.5 : 0.5) * (mx_half_turn(d.x * stretch, abs(d.z) * stretch) + 0.5) + 0.25),
+        0.5 - mx_half_turn(d.y, square * stretch));
 }
 
 void main()
@@ -108,8 +108,8 @@ void main()
     }
     // environment: diffuse
     if (diffuse_weight > 0.0) {
-        vec2 fit = PublicUniforms_2 * (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + PublicUniforms_2
-            * vec2(1.4385, 2.0315)) + vec2(1.0);
+        vec2 fit = PublicUniforms_2 * (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076)
+            + PublicUniforms_2 * vec2(1.4385, 2.0315)) + vec2(1.0);
         float diffuse_product = u_envLightIntensity * (clamp(fit.x / fit.y, 0.0, 1.0) * (diffuse_weight * 0.18));
         color += textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * facing)), 0.0).xyz
             * diffuse_product;

@@ -64,8 +64,8 @@ void scatter()
     float PublicUniforms_2 = vd_2(vd.texcoord_0.y);
     vec3 N = normalize(vd.normalWorld);
     float cos_v = max(abs(dot(N, vd.viewWorld)), 1e-8);
-    vec2 fit = PublicUniforms_2 * (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + PublicUniforms_2
-        * vec2(1.4385, 2.0315)) + vec2(1.0);
+    vec2 fit = PublicUniforms_2 * (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076)
+        + PublicUniforms_2 * vec2(1.4385, 2.0315)) + vec2(1.0);
     float diffuse_share = max(diffuse_weight * (clamp(fit.x / fit.y, 0.0, 1.0) * 0.18 * 0.9 + 0.1), 0.0);
     float pick = diffuse_share * vd.random.w;
     vec3 L = vec3(0.0);

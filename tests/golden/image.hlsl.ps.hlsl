@@ -24,7 +24,7 @@ void main(
 {
     // NG
     float3 base = mx_srgb_texture_to_lin_rec709(NG_file.Sample(NG_file_sampler, vd.texcoord_0).xyz);
-    float3 tiled = mx_srgb_texture_to_lin_rec709(tiled_file.Sample(tiled_file_sampler, vd.texcoord_0
-        * float2(4.0, 2.0)).xyz);
+    float3 tiled = mx_srgb_texture_to_lin_rec709(tiled_file.Sample(tiled_file_sampler,
+        vd.texcoord_0 * float2(4.0, 2.0)).xyz);
     out1 = float4(base * framed_file.Sample(framed_file_sampler, vd.texcoord_0).xyz + tiled, 1.0);
 }

@@ -373,8 +373,8 @@ vec2 mx_map_point(const vec3 d)
 {
     float square = mx_map_square(d);
     float stretch = inversesqrt(square);
-    return vec2(fract((d.z > 0.0 ? -0.5 : 0.5) * (mx_half_turn(d.x * stretch, abs(d.z) * stretch) + 0.5) + 0.25), 0.5
-        - mx_half_turn(d.y, square * stretch));
+    return vec2(fract((d.z > 0.0 ? -0.5 : 0.5) * (mx_half_turn(d.x * stretch, abs(d.z) * stretch) + 0.5) + 0.25),
+        0.5 - mx_half_turn(d.y, square * stretch));
 }
 
 // The number of samples, from 1, that a lobe takes; roughness is that along two directions, squared.
@@ -398,8 +398,8 @@ mx_GgxSamples mx_ggx_samples(const vec2 roughness, const int count, const vec3 N
     float reach = length(v * stretch);
     float area = stretch.x * stretch.y;
     float share = 1.0 / float(count);
-    return mx_GgxSamples(mat3(u_envMatrix) * frame, stretch, area, v, lobe.masking, reach, share * (v.z + reach), area
-        * (v.z + lobe.masking) * max(2.0 / float(count), 4.4 / float(max(u_envRadianceSamples, 1)))
+    return mx_GgxSamples(mat3(u_envMatrix) * frame, stretch, area, v, lobe.masking, reach, share * (v.z + reach),
+        area * (v.z + lobe.masking) * max(2.0 / float(count), 4.4 / float(max(u_envRadianceSamples, 1)))
         * exp2(2.0 * float(u_envRadianceMips) - 4.6485), u_envLightIntensity * (share * (v.z + lobe.masking)));
 }
 
@@ -440,8 +440,8 @@ mx_GgxLight mx_ggx_reflected(const mx_GgxSamples s, const int i, const vec2 turn
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     vec3 l = facet.mirror * facet.h - s.v;
     float cos_l = max(l.z, 1e-8);
-    return mx_GgxLight(mx_filtered_light(s.to_map * l, facet.texels), s.weight * cos_l
-        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l),
+    return mx_GgxLight(mx_filtered_light(s.to_map * l, facet.texels),
+        s.weight * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l),
         sqrt(clamp(0.5 * (facet.mirror * facet.cosine), 1e-8, 1.0)));
 }
 
@@ -450,8 +450,8 @@ mx_GgxLight mx_ggx_transmitted(const mx_GgxSamples s, const float ior, const int
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     vec3 h = normalize(facet.h);
-    return mx_GgxLight(mx_filtered_light(s.to_map * reflect(s.v, refract(-s.v, h, 1.0 / ior)), facet.texels), s.weight
-        * 0.5 / s.v.z, clamp(dot(s.v, h), 1e-8, 1.0));
+    return mx_GgxLight(mx_filtered_light(s.to_map * reflect(s.v, refract(-s.v, h, 1.0 / ior)), facet.texels),
+        s.weight * 0.5 / s.v.z, clamp(dot(s.v, h), 1e-8, 1.0));
 }
 
 void main()
@@ -495,8 +495,8 @@ void main()
         * (clamped_coat_tint * coating_throughput);
     float fuzz_weight = clamp(SR_standard_surface_sheen, 0.0, 1.0);
     float sheen_albedo = clamp(mx_bicubic(mat4(3.7341, -15.9587, 23.621, -11.0989, -8.2265, 35.1081, -49.7137, 23.2945,
-        4.0691, -17.882, 25.6639, -12.0167, -0.5833, 2.6552, -3.9393, 1.8999), 1.0 / (cos_v + 1.0), 1.0
-        / (SR_standard_surface_sheen_roughness + 0.2)), 0.0, 1.0);
+        4.0691, -17.882, 25.6639, -12.0167, -0.5833, 2.6552, -3.9393, 1.8999), 1.0 / (cos_v + 1.0),
+        1.0 / (SR_standard_surface_sheen_roughness + 0.2)), 0.0, 1.0);
     float fuzz_throughput = 1.0 - fuzz_weight * sheen_albedo;
     float metal_weight = clamp(SR_standard_surface_metalness, 0.0, 1.0);
     float clamped_transmission = clamp(SR_standard_surface_transmission, 0.0, 1.0);
@@ -519,8 +519,8 @@ void main()
     mx_GgxLobe coating_lobe = mx_ggx_lobe(coat_lobe, N, coat_tangent, V);
     float scaled_coat_IOR = SR_standard_surface_coat_IOR * SR_standard_surface_coat_IOR;
     vec3 metal_ior, metal_extinction;
-    mx_artistic_ior(SR_standard_surface_base * SR_standard_surface_base_color, SR_standard_surface_specular
-        * SR_standard_surface_specular_color, metal_ior, metal_extinction);
+    mx_artistic_ior(SR_standard_surface_base * SR_standard_surface_base_color,
+        SR_standard_surface_specular * SR_standard_surface_specular_color, metal_ior, metal_extinction);
     vec3 re = metal_ior * metal_ior - metal_extinction * metal_extinction;
     vec3 im = metal_extinction * (metal_ior * 2.0);
     vec3 metal_scale = lost * mix(mx_fresnel_facing(re, im, SR_standard_surface_thin_film_thickness,
@@ -597,8 +597,8 @@ void main()
     // environment: fuzz, scatter, diffuse
     vec3 part = textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * Nf)), 0.0).xyz;
     vec2 fit = SR_standard_surface_diffuse_roughness
-        * (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + SR_standard_surface_diffuse_roughness
-        * vec2(1.4385, 2.0315)) + vec2(1.0);
+        * (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076)
+        + SR_standard_surface_diffuse_roughness * vec2(1.4385, 2.0315)) + vec2(1.0);
     vec3 diffuse_response = diffuse_product * part * (u_envLightIntensity * clamp(fit.x / fit.y, 0.0, 1.0));
     vec3 fuzz_response = fuzz_factor * part * (sheen_albedo * u_envLightIntensity);
     color += diffuse_response + (fuzz_response + u_envLightIntensity * (scatter_factor * part));

@@ -105,8 +105,8 @@ layout(location = 0) out vec4 out1;
 //     M^-1 = [a 0 b; 0 a 0; 0 0 1] in the plane of V and N
 vec2 mx_sheen_transform(const float c, const float r)
 {
-    return vec2((2.58126 * c + 0.813703 * r) * r / (1.0 + 0.310327 * c * c + 2.60994 * c * r), sqrt(1.0 - c) * (r - 1.0)
-        * r * r * r / (0.0000254053 + 1.71228 * c - 1.71506 * c * r + 1.34174 * r * r));
+    return vec2((2.58126 * c + 0.813703 * r) * r / (1.0 + 0.310327 * c * c + 2.60994 * c * r),
+        sqrt(1.0 - c) * (r - 1.0) * r * r * r / (0.0000254053 + 1.71228 * c - 1.71506 * c * r + 1.34174 * r * r));
 }
 
 // The direction w in the tangent space around N, whose x lies along the unit tangent `x`.
@@ -272,8 +272,8 @@ vec3 mx_open_pbr_coat_darkening(const vec3 base_color, const float base_metalnes
 {
     float kept = max(1.0 - 4.0 * coat_ior / ((coat_ior + 1.0) * (coat_ior + 1.0)) / (coat_ior * coat_ior), 0.0);
     return mix(vec3(1.0), vec3(1.0 - kept)
-        / (vec3(1.0) - kept * mix(mix(base_color, subsurface_color, subsurface_weight), base_color
-        * min(specular_weight, 1.0), base_metalness)), coat_darkening);
+        / (vec3(1.0) - kept * mix(mix(base_color, subsurface_color, subsurface_weight),
+        base_color * min(specular_weight, 1.0), base_metalness)), coat_darkening);
 }
 
 // Schlick's curve from f0 to f90 at a cosine, less `bend` times cos (1 - cos)^6.
@@ -422,8 +422,8 @@ vec2 mx_map_point(const vec3 d)
 {
     float square = mx_map_square(d);
     float stretch = inversesqrt(square);
-    return vec2(fract((d.z > 0.0 ? -0.5 : 0.5) * (mx_half_turn(d.x * stretch, abs(d.z) * stretch) + 0.5) + 0.25), 0.5
-        - mx_half_turn(d.y, square * stretch));
+    return vec2(fract((d.z > 0.0 ? -0.5 : 0.5) * (mx_half_turn(d.x * stretch, abs(d.z) * stretch) + 0.5) + 0.25),
+        0.5 - mx_half_turn(d.y, square * stretch));
 }
 
 // The number of samples, from 1, that a lobe takes; roughness is that along two directions, squared.
@@ -447,8 +447,8 @@ mx_GgxSamples mx_ggx_samples(const vec2 roughness, const int count, const vec3 N
     float reach = length(v * stretch);
     float area = stretch.x * stretch.y;
     float share = 1.0 / float(count);
-    return mx_GgxSamples(mat3(u_envMatrix) * frame, stretch, area, v, lobe.masking, reach, share * (v.z + reach), area
-        * (v.z + lobe.masking) * max(2.0 / float(count), 4.4 / float(max(u_envRadianceSamples, 1)))
+    return mx_GgxSamples(mat3(u_envMatrix) * frame, stretch, area, v, lobe.masking, reach, share * (v.z + reach),
+        area * (v.z + lobe.masking) * max(2.0 / float(count), 4.4 / float(max(u_envRadianceSamples, 1)))
         * exp2(2.0 * float(u_envRadianceMips) - 4.6485), u_envLightIntensity * (share * (v.z + lobe.masking)));
 }
 
@@ -489,8 +489,8 @@ mx_GgxLight mx_ggx_reflected(const mx_GgxSamples s, const int i, const vec2 turn
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     vec3 l = facet.mirror * facet.h - s.v;
     float cos_l = max(l.z, 1e-8);
-    return mx_GgxLight(mx_filtered_light(s.to_map * l, facet.texels), s.weight * cos_l
-        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l),
+    return mx_GgxLight(mx_filtered_light(s.to_map * l, facet.texels),
+        s.weight * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l),
         sqrt(clamp(0.5 * (facet.mirror * facet.cosine), 1e-8, 1.0)));
 }
 
@@ -499,8 +499,8 @@ mx_GgxLight mx_ggx_transmitted(const mx_GgxSamples s, const float ior, const int
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     vec3 h = normalize(facet.h);
-    return mx_GgxLight(mx_filtered_light(s.to_map * reflect(s.v, refract(-s.v, h, 1.0 / ior)), facet.texels), s.weight
-        * 0.5 / s.v.z, clamp(dot(s.v, h), 1e-8, 1.0));
+    return mx_GgxLight(mx_filtered_light(s.to_map * reflect(s.v, refract(-s.v, h, 1.0 / ior)), facet.texels),
+        s.weight * 0.5 / s.v.z, clamp(dot(s.v, h), 1e-8, 1.0));
 }
 
 // Light that arrives at a point of a circle of this curvature by subsurface scattering, where the cosine of the light
@@ -527,8 +527,8 @@ vec3 mx_subsurface_light(const vec3 radius, const float curvature, const float c
 float mx_fujii_albedo(const float cosine, const float r)
 {
     float sine = sqrt(max(1.0 - cosine * cosine, 0.0));
-    float g = sine * (acos(min(cosine, 1.0)) - sine * cosine) + 0.6666667
-        * (sine / cosine * (1.0 - sine * sine * sine) - sine);
+    float g = sine * (acos(min(cosine, 1.0)) - sine * cosine)
+        + 0.6666667 * (sine / cosine * (1.0 - sine * sine * sine) - sine);
     return (1.0 + r * g / 3.1415927) / (1.0 + 0.28779334 * r);
 }
 
@@ -692,8 +692,8 @@ void main()
     // environment: metal_film, metal_bare, reflection_film, reflection_bare
     int count = mx_sample_count(alpha);
     mx_GgxSamples samples = mx_ggx_samples(roughness, count, N, X, V);
-    if (reflection_bare_weight > 0.0 || reflection_film_weight > 0.0 || metal_film_weight > 0.0 || metal_bare_weight
-        > 0.0) {
+    if (reflection_bare_weight > 0.0 || reflection_film_weight > 0.0 || metal_film_weight > 0.0
+        || metal_bare_weight > 0.0) {
         if (film_thickness > 0.0) {
             vec2 turn = vec2(1.0, 0.0);
             for (int i = 0; i < count; ++i) {
@@ -744,8 +744,8 @@ void main()
             : SR_open_pbr_surface_transmission_color, 0.0);
         vec3 absorbed = -(SR_open_pbr_surface_transmission_scatter + log(SR_open_pbr_surface_transmission_color))
             / SR_open_pbr_surface_transmission_depth;
-        vec3 product = exp(-(SR_open_pbr_surface_transmission_depth > 0.0 ? absorbed
-            - min(min(min(absorbed.x, absorbed.y), absorbed.z), 0.0) : vec3(0.0))) * tint;
+        vec3 product = exp(-(SR_open_pbr_surface_transmission_depth > 0.0
+            ? absorbed - min(min(min(absorbed.x, absorbed.y), absorbed.z), 0.0) : vec3(0.0))) * tint;
         vec3 product_2 = (u_refractionTwoSided ? tint : vec3(1.0)) * product;
         vec3 refraction_film_factor = body_weight * (clamped_thin_film_weight * filled_weight) * product_2;
         vec3 refraction_bare_factor = product_2 * (body_weight * refraction_bare_weight);
@@ -820,9 +820,9 @@ void main()
                 intensity = falloff;
             } else {
                 float spot_light_edge = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
-                intensity = light_type == 3 ? falloff
-                    * smoothstep(spot_light_edge, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
-                    : 0.0;
+                intensity = light_type == 3
+                    ? falloff * smoothstep(spot_light_edge, u_lightData[i].inner_angle,
+                    -dot(u_lightData[i].direction, to_light)) : 0.0;
             }
         }
         // sheet_front, sheet_back
@@ -851,8 +851,8 @@ void main()
         }
     }
     // environment: sheet_front, scatter
-    vec2 fit = base_diffuse_roughness * (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076) + base_diffuse_roughness
-        * vec2(1.4385, 2.0315)) + vec2(1.0);
+    vec2 fit = base_diffuse_roughness * (cos_v * vec2(-0.7632, -0.4993) - vec2(0.4297, 0.6076)
+        + base_diffuse_roughness * vec2(1.4385, 2.0315)) + vec2(1.0);
     vec3 sheet_front_response = sheet_front_product * part * (envLightIntensity * clamp(fit.x / fit.y, 0.0, 1.0));
     color += sheet_front_response + envLightIntensity * (scatter_factor * part);
     // environment: sheet_back

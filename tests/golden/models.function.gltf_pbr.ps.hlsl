@@ -122,8 +122,8 @@ float2 mx_ggx_albedo_fit(float c)
         36.4897, -72.9122, 58.0878, -20.917, -31.4763, 79.0768, -73.9706, 26.5429), 1.0 / (1.0 + c), 1.0), 0.0, 1.0);
     float u = 1.0 / (1.0 + 0.6 * c);
     return float2(min(1.0017 - u * u * mx_bicubic(float4x4(-0.0334, 3.1441, -6.1576, 3.0758, 0.6997, 7.8981, -14.3238,
-        8.7382, 4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, c), 1.0), x * x * x * x
-        * x);
+        8.7382, 4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, c), 1.0),
+        x * x * x * x * x);
 }
 
 // The square of the length of the facet's normal H after the roughness divided its parts along the surface, times the
@@ -173,8 +173,8 @@ mx_GgxSamples mx_ggx_samples(int count, float3 N, float3 V)
     float area = stretch.x * stretch.y;
     float share = 1.0 / float(count);
     return make_mx_GgxSamples(mul(float3x3(x, cross(lobe.N, x), lobe.N), (float3x3)u_envMatrix), stretch, area, v,
-        lobe.masking, reach, share * (v.z + reach), area * (v.z + lobe.masking)
-        * max(2.0 / float(count), 4.4 / float(max(u_envRadianceSamples, 1)))
+        lobe.masking, reach, share * (v.z + reach),
+        area * (v.z + lobe.masking) * max(2.0 / float(count), 4.4 / float(max(u_envRadianceSamples, 1)))
         * exp2(2.0 * float(u_envRadianceMips) - 4.6485), u_envLightIntensity * (share * (v.z + lobe.masking)));
 }
 
@@ -195,15 +195,15 @@ float2 mx_map_point(float3 d)
 {
     float square = mx_map_square(d);
     float stretch = rsqrt(square);
-    return float2(frac((d.z > 0.0 ? -0.5 : 0.5) * (mx_half_turn(d.x * stretch, abs(d.z) * stretch) + 0.5) + 0.25), 0.5
-        - mx_half_turn(d.y, square * stretch));
+    return float2(frac((d.z > 0.0 ? -0.5 : 0.5) * (mx_half_turn(d.x * stretch, abs(d.z) * stretch) + 0.5) + 0.25),
+        0.5 - mx_half_turn(d.y, square * stretch));
 }
 
 // Light of the environment from the unit direction d of its picture, filtered over as many texels.
 float3 mx_filtered_light(float3 d, float texels)
 {
-    return u_envRadiance.SampleLevel(u_envRadiance_sampler, mx_map_point(d), 0.5
-        * log2(texels * rsqrt(mx_map_square(d)))).xyz;
+    return u_envRadiance.SampleLevel(u_envRadiance_sampler, mx_map_point(d),
+        0.5 * log2(texels * rsqrt(mx_map_square(d)))).xyz;
 }
 
 // Height-correlated masking and shadowing G2 over 2 cos_v cos_l (Heitz 2014, equation 99); `masking` is that of the
@@ -237,8 +237,8 @@ mx_GgxLight mx_ggx_reflected(mx_GgxSamples s, int i, float2 turn)
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     float3 l = facet.mirror * facet.h - s.v;
     float cos_l = max(l.z, 1e-8);
-    return make_mx_GgxLight(mx_filtered_light(mul(l, s.to_map), facet.texels), s.weight * cos_l
-        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l),
+    return make_mx_GgxLight(mx_filtered_light(mul(l, s.to_map), facet.texels),
+        s.weight * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l),
         sqrt(clamp(0.5 * (facet.mirror * facet.cosine), 1e-8, 1.0)));
 }
 

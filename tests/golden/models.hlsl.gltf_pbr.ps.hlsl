@@ -153,8 +153,8 @@ float2 mx_ggx_albedo_fit(float a, float c)
         36.4897, -72.9122, 58.0878, -20.917, -31.4763, 79.0768, -73.9706, 26.5429), a / (a + c), a), 0.0, 1.0);
     float u = a / (a + 0.6 * c);
     return float2(min(1.0017 - u * u * mx_bicubic(float4x4(-0.0334, 3.1441, -6.1576, 3.0758, 0.6997, 7.8981, -14.3238,
-        8.7382, 4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, a * c), 1.0), x * x * x * x
-        * x);
+        8.7382, 4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, a * c), 1.0),
+        x * x * x * x * x);
 }
 
 // Light of one polarisation that interferes in a film, as Gaussian i of the CIE curves sees it: `a` is the amplitude of
@@ -351,8 +351,8 @@ float2 mx_map_point(float3 d)
 {
     float square = mx_map_square(d);
     float stretch = rsqrt(square);
-    return float2(frac((d.z > 0.0 ? -0.5 : 0.5) * (mx_half_turn(d.x * stretch, abs(d.z) * stretch) + 0.5) + 0.25), 0.5
-        - mx_half_turn(d.y, square * stretch));
+    return float2(frac((d.z > 0.0 ? -0.5 : 0.5) * (mx_half_turn(d.x * stretch, abs(d.z) * stretch) + 0.5) + 0.25),
+        0.5 - mx_half_turn(d.y, square * stretch));
 }
 
 // The number of samples, from 1, that a lobe takes; roughness is that along two directions, squared.
@@ -386,16 +386,16 @@ mx_GgxSamples mx_ggx_samples(float2 roughness, int count, float3 N, float3 V)
     float area = stretch.x * stretch.y;
     float share = 1.0 / float(count);
     return make_mx_GgxSamples(mul(float3x3(x, cross(lobe.N, x), lobe.N), (float3x3)u_envMatrix), stretch, area, v,
-        lobe.masking, reach, share * (v.z + reach), area * (v.z + lobe.masking)
-        * max(2.0 / float(count), 4.4 / float(max(u_envRadianceSamples, 1)))
+        lobe.masking, reach, share * (v.z + reach),
+        area * (v.z + lobe.masking) * max(2.0 / float(count), 4.4 / float(max(u_envRadianceSamples, 1)))
         * exp2(2.0 * float(u_envRadianceMips) - 4.6485), u_envLightIntensity * (share * (v.z + lobe.masking)));
 }
 
 // Light of the environment from the unit direction d of its picture, filtered over as many texels.
 float3 mx_filtered_light(float3 d, float texels)
 {
-    return u_envRadiance.SampleLevel(u_envRadiance_sampler, mx_map_point(d), 0.5
-        * log2(texels * rsqrt(mx_map_square(d)))).xyz;
+    return u_envRadiance.SampleLevel(u_envRadiance_sampler, mx_map_point(d),
+        0.5 * log2(texels * rsqrt(mx_map_square(d)))).xyz;
 }
 
 // Height-correlated masking and shadowing G2 over 2 cos_v cos_l (Heitz 2014, equation 99); `masking` is that of the
@@ -429,8 +429,8 @@ mx_GgxLight mx_ggx_reflected(mx_GgxSamples s, int i, float2 turn)
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     float3 l = facet.mirror * facet.h - s.v;
     float cos_l = max(l.z, 1e-8);
-    return make_mx_GgxLight(mx_filtered_light(mul(l, s.to_map), facet.texels), s.weight * cos_l
-        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l),
+    return make_mx_GgxLight(mx_filtered_light(mul(l, s.to_map), facet.texels),
+        s.weight * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l),
         sqrt(clamp(0.5 * (facet.mirror * facet.cosine), 1e-8, 1.0)));
 }
 
@@ -446,8 +446,8 @@ mx_GgxSamples mx_ggx_samples(float2 roughness, int count, float3 N, float3 X, fl
     float reach = length(v * stretch);
     float area = stretch.x * stretch.y;
     float share = 1.0 / float(count);
-    return make_mx_GgxSamples(mul(frame, (float3x3)u_envMatrix), stretch, area, v, lobe.masking, reach, share
-        * (v.z + reach), area * (v.z + lobe.masking)
+    return make_mx_GgxSamples(mul(frame, (float3x3)u_envMatrix), stretch, area, v, lobe.masking, reach,
+        share * (v.z + reach), area * (v.z + lobe.masking)
         * max(2.0 / float(count), 4.4 / float(max(u_envRadianceSamples, 1)))
         * exp2(2.0 * float(u_envRadianceMips) - 4.6485), u_envLightIntensity * (share * (v.z + lobe.masking)));
 }
@@ -476,8 +476,8 @@ void main(
     float3 fresnel_f0 = max(SR_gltf_pbr_specular * min(SR_gltf_pbr_specular_color * (amplitude * amplitude), 1.0), 0.0);
     float3 f90 = (float3)max(SR_gltf_pbr_specular, 0.0);
     float alpha_bitangent = SR_gltf_pbr_roughness * SR_gltf_pbr_roughness;
-    float2 specular_roughness = clamp(float2(lerp(alpha_bitangent, 1.0, SR_gltf_pbr_anisotropy_strength
-        * SR_gltf_pbr_anisotropy_strength), alpha_bitangent), 0.00001, 1.0);
+    float2 specular_roughness = clamp(float2(lerp(alpha_bitangent, 1.0,
+        SR_gltf_pbr_anisotropy_strength * SR_gltf_pbr_anisotropy_strength), alpha_bitangent), 0.00001, 1.0);
     float2 alpha = clamp(specular_roughness, 1e-8, 1.0);
     float cos_v = max(abs(dot(N, V)), 1e-8);
     float2 albedo = mx_ggx_albedo_fit(sqrt(alpha.x * alpha.y), cos_v);
@@ -500,11 +500,11 @@ void main(
     float fuzz_weight = clamp(sheen_weight, 0.0, 1.0);
     float sheen_rough = SR_gltf_pbr_sheen_roughness * SR_gltf_pbr_sheen_roughness;
     float sheen_albedo = clamp(mx_bicubic(float4x4(3.7341, -15.9587, 23.621, -11.0989, -8.2265, 35.1081, -49.7137,
-        23.2945, 4.0691, -17.882, 25.6639, -12.0167, -0.5833, 2.6552, -3.9393, 1.8999), 1.0 / (cos_v + 1.0), 1.0
-        / (sheen_rough + 0.2)), 0.0, 1.0);
+        23.2945, 4.0691, -17.882, 25.6639, -12.0167, -0.5833, 2.6552, -3.9393, 1.8999), 1.0 / (cos_v + 1.0),
+        1.0 / (sheen_rough + 0.2)), 0.0, 1.0);
     float substrate_weight = coating_throughput * (1.0 - fuzz_weight * sheen_albedo);
-    float body_weight = lerp(reflection_throughput, 1.0
-        - dot(single * reflection_film_scale, float3(0.33333334, 0.33333334, 0.33333334)), clamped_iridescence)
+    float body_weight = lerp(reflection_throughput,
+        1.0 - dot(single * reflection_film_scale, float3(0.33333334, 0.33333334, 0.33333334)), clamped_iridescence)
         * substrate_weight;
     float metal_weight = clamp(SR_gltf_pbr_metallic, 0.0, 1.0);
     float clamped_transmission = clamp(SR_gltf_pbr_transmission, 0.0, 1.0);
@@ -671,8 +671,8 @@ void main(
     }
     // opacity
     float mask = SR_gltf_pbr_alpha >= SR_gltf_pbr_alpha_cutoff ? 1.0 : 0.0;
-    float opacity = clamp(1 > SR_gltf_pbr_alpha_mode ? 1.0 : 2 > SR_gltf_pbr_alpha_mode ? mask : 3
-        > SR_gltf_pbr_alpha_mode ? SR_gltf_pbr_alpha : 0.0, 0.0, 1.0);
+    float opacity = clamp(1 > SR_gltf_pbr_alpha_mode ? 1.0 : 2 > SR_gltf_pbr_alpha_mode ? mask
+        : 3 > SR_gltf_pbr_alpha_mode ? SR_gltf_pbr_alpha : 0.0, 0.0, 1.0);
     if (opacity < u_alphaThreshold)
         discard;
     out1 = float4(opacity * color, opacity);

@@ -242,8 +242,8 @@ float2 mx_ggx_albedo_fit(float a, float c)
         36.4897, -72.9122, 58.0878, -20.917, -31.4763, 79.0768, -73.9706, 26.5429), a / (a + c), a), 0.0, 1.0);
     float u = a / (a + 0.6 * c);
     return float2(min(1.0017 - u * u * mx_bicubic(float4x4(-0.0334, 3.1441, -6.1576, 3.0758, 0.6997, 7.8981, -14.3238,
-        8.7382, 4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, a * c), 1.0), x * x * x * x
-        * x);
+        8.7382, 4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, a * c), 1.0),
+        x * x * x * x * x);
 }
 
 // The vector v turned clockwise around an axis of unit length, by an angle in radians (Rodrigues' formula).
@@ -402,8 +402,8 @@ float3 mx_fresnel(float cosine, float3 n, float film, float film_ior)
 float mx_subsurface_light(float radius, float curvature, float cos_l)
 {
     float x = curvature * max(radius, 0.1);
-    float3 bend = (float3(0.1573, 0.0104, 0.1632) + x
-        * (float3(0.662, 0.1732, 0.6079) + x * float3(0.6075, 0.4138, 0.8133)))
+    float3 bend = (float3(0.1573, 0.0104, 0.1632)
+        + x * (float3(0.662, 0.1732, 0.6079) + x * float3(0.6075, 0.4138, 0.8133)))
         / (6.2831855 * (0.1602 + x * (0.6652 + x)));
     return bend.x * cos_l + sqrt(bend.y * bend.y + (bend.z * bend.z - bend.y * bend.y) * (cos_l * cos_l));
 }
@@ -434,8 +434,8 @@ float2 mx_map_point(float3 d)
 {
     float square = mx_map_square(d);
     float stretch = rsqrt(square);
-    return float2(frac((d.z > 0.0 ? -0.5 : 0.5) * (mx_half_turn(d.x * stretch, abs(d.z) * stretch) + 0.5) + 0.25), 0.5
-        - mx_half_turn(d.y, square * stretch));
+    return float2(frac((d.z > 0.0 ? -0.5 : 0.5) * (mx_half_turn(d.x * stretch, abs(d.z) * stretch) + 0.5) + 0.25),
+        0.5 - mx_half_turn(d.y, square * stretch));
 }
 
 // The number of samples, from 1, that a lobe takes; roughness is that along two directions, squared.
@@ -459,8 +459,8 @@ mx_GgxSamples mx_ggx_samples(float2 roughness, int count, float3 N, float3 X, fl
     float reach = length(v * stretch);
     float area = stretch.x * stretch.y;
     float share = 1.0 / float(count);
-    return make_mx_GgxSamples(mul(frame, (float3x3)u_envMatrix), stretch, area, v, lobe.masking, reach, share
-        * (v.z + reach), area * (v.z + lobe.masking)
+    return make_mx_GgxSamples(mul(frame, (float3x3)u_envMatrix), stretch, area, v, lobe.masking, reach,
+        share * (v.z + reach), area * (v.z + lobe.masking)
         * max(2.0 / float(count), 4.4 / float(max(u_envRadianceSamples, 1)))
         * exp2(2.0 * float(u_envRadianceMips) - 4.6485), u_envLightIntensity * (share * (v.z + lobe.masking)));
 }
@@ -468,8 +468,8 @@ mx_GgxSamples mx_ggx_samples(float2 roughness, int count, float3 N, float3 X, fl
 // Light of the environment from the unit direction d of its picture, filtered over as many texels.
 float3 mx_filtered_light(float3 d, float texels)
 {
-    return u_envRadiance.SampleLevel(u_envRadiance_sampler, mx_map_point(d), 0.5
-        * log2(texels * rsqrt(mx_map_square(d)))).xyz;
+    return u_envRadiance.SampleLevel(u_envRadiance_sampler, mx_map_point(d),
+        0.5 * log2(texels * rsqrt(mx_map_square(d)))).xyz;
 }
 
 // Height-correlated masking and shadowing G2 over 2 cos_v cos_l (Heitz 2014, equation 99); `masking` is that of the
@@ -503,8 +503,8 @@ mx_GgxLight mx_ggx_reflected(mx_GgxSamples s, int i, float2 turn)
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     float3 l = facet.mirror * facet.h - s.v;
     float cos_l = max(l.z, 1e-8);
-    return make_mx_GgxLight(mx_filtered_light(mul(l, s.to_map), facet.texels), s.weight * cos_l
-        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l),
+    return make_mx_GgxLight(mx_filtered_light(mul(l, s.to_map), facet.texels),
+        s.weight * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l),
         sqrt(clamp(0.5 * (facet.mirror * facet.cosine), 1e-8, 1.0)));
 }
 
@@ -558,13 +558,13 @@ void main(
     float coating_scale = lerp(coating_r * coating_r, 1.0, 0.04761905) * (1.0 / coating_albedo.x - 1.0) + 1.0;
     float coating_throughput = 1.0 - coat_weight
         * (lerp(coating_r * coating_r, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale);
-    float3 body_weight = (float3(1.0, 1.0, 1.0) - reflection_scale
-        * (reflection_weight * (lerp(reflection_r * reflection_r, 1.0, albedo.y) * albedo.x)))
+    float3 body_weight = (float3(1.0, 1.0, 1.0)
+        - reflection_scale * (reflection_weight * (lerp(reflection_r * reflection_r, 1.0, albedo.y) * albedo.x)))
         * (clamped_coat_tint * coating_throughput);
     float fuzz_weight = clamp(SR_standard_surface_sheen, 0.0, 1.0);
     float sheen_albedo = clamp(mx_bicubic(float4x4(3.7341, -15.9587, 23.621, -11.0989, -8.2265, 35.1081, -49.7137,
-        23.2945, 4.0691, -17.882, 25.6639, -12.0167, -0.5833, 2.6552, -3.9393, 1.8999), 1.0 / (cos_v + 1.0), 1.0
-        / (SR_standard_surface_sheen_roughness + 0.2)), 0.0, 1.0);
+        23.2945, 4.0691, -17.882, 25.6639, -12.0167, -0.5833, 2.6552, -3.9393, 1.8999), 1.0 / (cos_v + 1.0),
+        1.0 / (SR_standard_surface_sheen_roughness + 0.2)), 0.0, 1.0);
     float fuzz_throughput = 1.0 - fuzz_weight * sheen_albedo;
     float metal_weight = clamp(SR_standard_surface_metalness, 0.0, 1.0);
     float clamped_transmission = clamp(SR_standard_surface_transmission, 0.0, 1.0);
@@ -586,8 +586,8 @@ void main(
     float3 coat_tangent = mx_rotate3d(tangent_direction, radians(SR_standard_surface_coat_rotation * 360.0), N);
     mx_GgxLobe coating_lobe = mx_ggx_lobe(coat_lobe, N, coat_tangent, V);
     float3 metal_ior, metal_extinction;
-    mx_artistic_ior(SR_standard_surface_base * SR_standard_surface_base_color, SR_standard_surface_specular
-        * SR_standard_surface_specular_color, metal_ior, metal_extinction);
+    mx_artistic_ior(SR_standard_surface_base * SR_standard_surface_base_color,
+        SR_standard_surface_specular * SR_standard_surface_specular_color, metal_ior, metal_extinction);
     float3 re = metal_ior * metal_ior - metal_extinction * metal_extinction;
     float3 im = metal_extinction * (metal_ior * 2.0);
     float3 metal_scale = lost * lerp(mx_fresnel_facing(re, im, thin_film_thickness, thin_film_IOR),
@@ -663,8 +663,8 @@ void main(
     float3 part = u_envIrradiance.SampleLevel(u_envIrradiance_sampler,
         mx_map_point(normalize(mul(Nf, (float3x3)u_envMatrix))), 0.0).xyz;
     float2 fit = SR_standard_surface_diffuse_roughness
-        * (cos_v * float2(-0.7632, -0.4993) - float2(0.4297, 0.6076) + SR_standard_surface_diffuse_roughness
-        * float2(1.4385, 2.0315)) + float2(1.0, 1.0);
+        * (cos_v * float2(-0.7632, -0.4993) - float2(0.4297, 0.6076)
+        + SR_standard_surface_diffuse_roughness * float2(1.4385, 2.0315)) + float2(1.0, 1.0);
     float3 diffuse_response = diffuse_product * part * (u_envLightIntensity * clamp(fit.x / fit.y, 0.0, 1.0));
     float3 fuzz_response = fuzz_factor * part * (sheen_albedo * u_envLightIntensity);
     color += diffuse_response + (fuzz_response + u_envLightIntensity * (scatter_factor * part));

@@ -87,55 +87,9 @@ struct PixelOutputs {
     float4 out1 [[color(0)]];
 };
 
-mx_GgxLobe make_mx_GgxLobe(float3 N, float cosine, float3 x, float2 alpha, float masking)
-{
-    mx_GgxLobe made;
-    made.N = N;
-    made.cosine = cosine;
-    made.x = x;
-    made.alpha = alpha;
-    made.masking = masking;
-    return made;
-}
-
-mx_GgxFacet make_mx_GgxFacet(float3 h, float cosine, float mirror, float texels)
-{
-    mx_GgxFacet made;
-    made.h = h;
-    made.cosine = cosine;
-    made.mirror = mirror;
-    made.texels = texels;
-    return made;
-}
-
-mx_GgxLight make_mx_GgxLight(float3 color, float weight, float cosine)
-{
-    mx_GgxLight made;
-    made.color = color;
-    made.weight = weight;
-    made.cosine = cosine;
-    return made;
-}
-
 float3x3 cut_3(float4x4 m)
 {
     return float3x3(m[0].xyz, m[1].xyz, m[2].xyz);
-}
-
-mx_GgxSamples make_mx_GgxSamples(float3x3 to_map, float3 stretch, float area, float3 v, float masking, float reach,
-    float step, float texels, float weight)
-{
-    mx_GgxSamples made;
-    made.to_map = to_map;
-    made.stretch = stretch;
-    made.area = area;
-    made.v = v;
-    made.masking = masking;
-    made.reach = reach;
-    made.step = step;
-    made.texels = texels;
-    made.weight = weight;
-    return made;
 }
 
 // A texel of zeros is a missing map, and means the normal itself.
@@ -160,8 +114,8 @@ float2 mx_ggx_albedo_fit(float a, float c)
         36.4897, -72.9122, 58.0878, -20.917, -31.4763, 79.0768, -73.9706, 26.5429), a / (a + c), a), 0.0, 1.0);
     float u = a / (a + 0.6 * c);
     return float2(min(1.0017 - u * u * mx_bicubic(float4x4(-0.0334, 3.1441, -6.1576, 3.0758, 0.6997, 7.8981, -14.3238,
-        8.7382, 4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, a * c), 1.0), x * x * x * x
-        * x);
+        8.7382, 4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, a * c), 1.0),
+        x * x * x * x * x);
 }
 
 // Schlick's curve from f0 to f90 at a cosine, less `bend` times cos (1 - cos)^6.
@@ -245,8 +199,8 @@ float2 mx_map_point(float3 d)
 {
     float square = mx_map_square(d);
     float stretch = rsqrt(square);
-    return float2(fract((d.z > 0.0 ? -0.5 : 0.5) * (mx_half_turn(d.x * stretch, abs(d.z) * stretch) + 0.5) + 0.25), 0.5
-        - mx_half_turn(d.y, square * stretch));
+    return float2(fract((d.z > 0.0 ? -0.5 : 0.5) * (mx_half_turn(d.x * stretch, abs(d.z) * stretch) + 0.5) + 0.25),
+        0.5 - mx_half_turn(d.y, square * stretch));
 }
 
 // Unpolarised reflectance of an interface whose squared index is `re`, with c for the cosine in front of it:
@@ -275,8 +229,7 @@ mx_GgxLobe mx_ggx_lobe(float2 roughness, float3 N, float3 V)
 {
     float2 alpha = clamp(roughness, 1e-8, 1.0);
     float cosine = max(abs(dot(N, V)), 1e-8);
-    return make_mx_GgxLobe(faceforward(N, -V, N), cosine, float3(0.0), alpha,
-        mx_ggx_masking(cosine, alpha.x * alpha.y));
+    return mx_GgxLobe{faceforward(N, -V, N), cosine, float3(0.0), alpha, mx_ggx_masking(cosine, alpha.x * alpha.y)};
 }
 
 // Height-correlated masking and shadowing G2 over 2 cos_v cos_l (Heitz 2014, equation 99); `masking` is that of the
@@ -301,7 +254,7 @@ mx_GgxFacet mx_ggx_facet(mx_GgxSamples s, int i, float2 turn)
     float3 h = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.v * s.stretch, s.reach) * s.stretch;
     float cosine = dot(s.v, h);
     float mirror = 2.0 * cosine / dot(h, h);
-    return make_mx_GgxFacet(h, cosine, mirror, mirror * mirror * s.texels);
+    return mx_GgxFacet{h, cosine, mirror, mirror * mirror * s.texels};
 }
 
 struct GlobalContext {
@@ -316,9 +269,9 @@ struct GlobalContext {
 // The light that comes through a smooth solid sphere of index `ior`.
 mx_GgxLight mx_transmitted(float ior, float3 N, float3 V)
 {
-    return make_mx_GgxLight(u_envRadiance.tex.sample(u_envRadiance.s,
+    return mx_GgxLight{u_envRadiance.tex.sample(u_envRadiance.s,
         mx_map_point(normalize(cut_3(u_prv.u_envMatrix) * reflect(V, refract(-V, faceforward(N, -V, N), 1.0 / ior)))),
-        level(0.0)).xyz * u_prv.u_envLightIntensity, 1.0, max(abs(dot(N, V)), 1e-8));
+        level(0.0)).xyz * u_prv.u_envLightIntensity, 1.0, max(abs(dot(N, V)), 1e-8)};
 }
 
 // The number of samples, from 1, that a lobe takes; roughness is that along two directions, squared.
@@ -341,11 +294,11 @@ mx_GgxSamples mx_ggx_samples(float2 roughness, int count, float3 N, float3 V)
     float reach = lobe.masking;
     float area = stretch.x * stretch.y;
     float share = 1.0 / float(count);
-    return make_mx_GgxSamples(cut_3(u_prv.u_envMatrix) * float3x3(x, cross(lobe.N, x), lobe.N), stretch, area, v,
-        lobe.masking, reach, share * (v.z + reach), area * (v.z + lobe.masking)
-        * max(2.0 / float(count), 4.4 / float(max(u_prv.u_envRadianceSamples, 1)))
-        * exp2(2.0 * float(u_prv.u_envRadianceMips) - 4.6485), u_prv.u_envLightIntensity
-        * (share * (v.z + lobe.masking)));
+    return mx_GgxSamples{cut_3(u_prv.u_envMatrix) * float3x3(x, cross(lobe.N, x), lobe.N), stretch, area, v,
+        lobe.masking, reach, share * (v.z + reach),
+        area * (v.z + lobe.masking) * max(2.0 / float(count), 4.4 / float(max(u_prv.u_envRadianceSamples, 1)))
+        * exp2(2.0 * float(u_prv.u_envRadianceMips) - 4.6485),
+        u_prv.u_envLightIntensity * (share * (v.z + lobe.masking))};
 }
 
 // Light of the environment from the unit direction d of its picture, filtered over as many texels.
@@ -361,9 +314,9 @@ mx_GgxLight mx_ggx_reflected(mx_GgxSamples s, int i, float2 turn)
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     float3 l = facet.mirror * facet.h - s.v;
     float cos_l = max(l.z, 1e-8);
-    return make_mx_GgxLight(mx_filtered_light(s.to_map * l, facet.texels), s.weight * cos_l
-        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l),
-        sqrt(clamp(0.5 * (facet.mirror * facet.cosine), 1e-8, 1.0)));
+    return mx_GgxLight{mx_filtered_light(s.to_map * l, facet.texels),
+        s.weight * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l),
+        sqrt(clamp(0.5 * (facet.mirror * facet.cosine), 1e-8, 1.0))};
 }
 
 void FragmentMain()
@@ -402,25 +355,24 @@ void FragmentMain()
     float metal_weight = is_equal_useSpecularWorkflow ? 0.0 : u_pub.SR_UsdPreviewSurface_metallic;
     float opaque_transparent = u_pub.SR_UsdPreviewSurface_opacityThreshold > 0.0 ? 1.0
         : u_pub.SR_UsdPreviewSurface_opacity;
-    float clamped_opaque_weight = clamp(1 > u_pub.SR_UsdPreviewSurface_opacityMode ? opaque_transparent : 2
-        > u_pub.SR_UsdPreviewSurface_opacityMode ? 1.0 : 0.0, 0.0, 1.0);
+    float clamped_opaque_weight = clamp(1 > u_pub.SR_UsdPreviewSurface_opacityMode ? opaque_transparent
+        : 2 > u_pub.SR_UsdPreviewSurface_opacityMode ? 1.0 : 0.0, 0.0, 1.0);
     float substrate_metal_weight = clamp(metal_weight, 0.0, 1.0);
     float diffuse_weight = clamp(1.0 - metal_weight, 0.0, 1.0)
         * (clamped_opaque_weight * (1.0 - substrate_metal_weight));
     float3 diffuse_factor = diffuseColor * (body_weight * diffuse_weight * 0.31830987);
-    float coating_ggx_masking = sqrt(coat_roughness * coat_roughness + (1.0 - coat_roughness * coat_roughness)
-        * (cos_v * cos_v));
-    mx_GgxLobe coating_ggx_lobe = make_mx_GgxLobe(facing, cos_v, float3(0.0), float2(coat_roughness),
-        coating_ggx_masking);
+    float coating_ggx_masking = sqrt(coat_roughness * coat_roughness
+        + (1.0 - coat_roughness * coat_roughness) * (cos_v * cos_v));
+    mx_GgxLobe coating_ggx_lobe = mx_GgxLobe{facing, cos_v, float3(0.0), float2(coat_roughness), coating_ggx_masking};
     float3 metal_ior, metal_extinction;
     mx_artistic_ior(diffuseColor, diffuseColor, metal_ior, metal_extinction);
     float3 re = metal_ior * metal_ior - metal_extinction * metal_extinction;
     float3 im = metal_extinction * (metal_ior * 2.0);
     float3 metal_factor = (lost * mix(mx_fresnel_conductor(1.0, re, im), float3(1.0), 0.04761905) + float3(1.0))
         * (substrate_metal_weight * coating_throughput);
-    float ggx_masking = sqrt(specular_roughness * specular_roughness + cos_v * cos_v
-        * (1.0 - specular_roughness * specular_roughness));
-    mx_GgxLobe ggx_lobe = make_mx_GgxLobe(facing, cos_v, float3(0.0), float2(specular_roughness), ggx_masking);
+    float ggx_masking = sqrt(specular_roughness * specular_roughness
+        + cos_v * cos_v * (1.0 - specular_roughness * specular_roughness));
+    mx_GgxLobe ggx_lobe = mx_GgxLobe{facing, cos_v, float3(0.0), float2(specular_roughness), ggx_masking};
     bool reflection_visible = 1.0 - substrate_metal_weight > 0.0;
     float3 reflection_factor = reflection_scale * (coating_throughput * (1.0 - substrate_metal_weight));
     // from the last light, so that drivers do not unroll the loop
@@ -510,8 +462,8 @@ void FragmentMain()
     }
     // opacity
     float mask = u_pub.SR_UsdPreviewSurface_opacity >= u_pub.SR_UsdPreviewSurface_opacityThreshold ? 1.0 : 0.0;
-    float coverage_choice = 2 > u_pub.SR_UsdPreviewSurface_opacityMode ? u_pub.SR_UsdPreviewSurface_opacityThreshold
-        > 0.0 ? mask : u_pub.SR_UsdPreviewSurface_opacity : 0.0;
+    float coverage_choice = 2 > u_pub.SR_UsdPreviewSurface_opacityMode
+        ? u_pub.SR_UsdPreviewSurface_opacityThreshold > 0.0 ? mask : u_pub.SR_UsdPreviewSurface_opacity : 0.0;
     float opacity = clamp(1 > u_pub.SR_UsdPreviewSurface_opacityMode ? mask : coverage_choice, 0.0, 1.0);
     if (opacity < u_prv.u_alphaThreshold)
         discard_fragment();

@@ -95,55 +95,9 @@ struct PixelOutputs {
     float4 out1 [[color(0)]];
 };
 
-mx_GgxLobe make_mx_GgxLobe(float3 N, float cosine, float3 x, float2 alpha, float masking)
-{
-    mx_GgxLobe made;
-    made.N = N;
-    made.cosine = cosine;
-    made.x = x;
-    made.alpha = alpha;
-    made.masking = masking;
-    return made;
-}
-
-mx_GgxFacet make_mx_GgxFacet(float3 h, float cosine, float mirror, float texels)
-{
-    mx_GgxFacet made;
-    made.h = h;
-    made.cosine = cosine;
-    made.mirror = mirror;
-    made.texels = texels;
-    return made;
-}
-
-mx_GgxSamples make_mx_GgxSamples(float3x3 to_map, float3 stretch, float area, float3 v, float masking, float reach,
-    float step, float texels, float weight)
-{
-    mx_GgxSamples made;
-    made.to_map = to_map;
-    made.stretch = stretch;
-    made.area = area;
-    made.v = v;
-    made.masking = masking;
-    made.reach = reach;
-    made.step = step;
-    made.texels = texels;
-    made.weight = weight;
-    return made;
-}
-
 float3x3 cut_3(float4x4 m)
 {
     return float3x3(m[0].xyz, m[1].xyz, m[2].xyz);
-}
-
-mx_GgxLight make_mx_GgxLight(float3 color, float weight, float cosine)
-{
-    mx_GgxLight made;
-    made.color = color;
-    made.weight = weight;
-    made.cosine = cosine;
-    return made;
 }
 
 // A cubic polynomial of x and y with the coefficients m, to which directional albedos are fitted.
@@ -160,8 +114,8 @@ float2 mx_ggx_albedo_fit(float a, float c)
         36.4897, -72.9122, 58.0878, -20.917, -31.4763, 79.0768, -73.9706, 26.5429), a / (a + c), a), 0.0, 1.0);
     float u = a / (a + 0.6 * c);
     return float2(min(1.0017 - u * u * mx_bicubic(float4x4(-0.0334, 3.1441, -6.1576, 3.0758, 0.6997, 7.8981, -14.3238,
-        8.7382, 4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, a * c), 1.0), x * x * x * x
-        * x);
+        8.7382, 4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, a * c), 1.0),
+        x * x * x * x * x);
 }
 
 // Light of one polarisation that interferes in a film, as Gaussian i of the CIE curves sees it: `a` is the amplitude of
@@ -316,8 +270,8 @@ mx_GgxLobe mx_ggx_lobe(float2 roughness, float3 N, float3 X, float3 V)
 {
     float2 alpha = clamp(roughness, 1e-8, 1.0);
     float cosine = max(abs(dot(N, V)), 1e-8);
-    return make_mx_GgxLobe(faceforward(N, -V, N), cosine, normalize(X - dot(X, N) * N), alpha,
-        mx_ggx_masking(cosine, alpha.x * alpha.y));
+    return mx_GgxLobe{faceforward(N, -V, N), cosine, normalize(X - dot(X, N) * N), alpha,
+        mx_ggx_masking(cosine, alpha.x * alpha.y)};
 }
 
 // The square of the length of the facet's normal H after the roughness divided its parts along the surface, times the
@@ -358,8 +312,8 @@ float2 mx_map_point(float3 d)
 {
     float square = mx_map_square(d);
     float stretch = rsqrt(square);
-    return float2(fract((d.z > 0.0 ? -0.5 : 0.5) * (mx_half_turn(d.x * stretch, abs(d.z) * stretch) + 0.5) + 0.25), 0.5
-        - mx_half_turn(d.y, square * stretch));
+    return float2(fract((d.z > 0.0 ? -0.5 : 0.5) * (mx_half_turn(d.x * stretch, abs(d.z) * stretch) + 0.5) + 0.25),
+        0.5 - mx_half_turn(d.y, square * stretch));
 }
 
 // The GGX lobe of a surface as lights see it; roughness is that along X and across, squared.
@@ -368,8 +322,7 @@ mx_GgxLobe mx_ggx_lobe(float2 roughness, float3 N, float3 V)
 {
     float2 alpha = clamp(roughness, 1e-8, 1.0);
     float cosine = max(abs(dot(N, V)), 1e-8);
-    return make_mx_GgxLobe(faceforward(N, -V, N), cosine, float3(0.0), alpha,
-        mx_ggx_masking(cosine, alpha.x * alpha.y));
+    return mx_GgxLobe{faceforward(N, -V, N), cosine, float3(0.0), alpha, mx_ggx_masking(cosine, alpha.x * alpha.y)};
 }
 
 // Height-correlated masking and shadowing G2 over 2 cos_v cos_l (Heitz 2014, equation 99); `masking` is that of the
@@ -394,7 +347,7 @@ mx_GgxFacet mx_ggx_facet(mx_GgxSamples s, int i, float2 turn)
     float3 h = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.v * s.stretch, s.reach) * s.stretch;
     float cosine = dot(s.v, h);
     float mirror = 2.0 * cosine / dot(h, h);
-    return make_mx_GgxFacet(h, cosine, mirror, mirror * mirror * s.texels);
+    return mx_GgxFacet{h, cosine, mirror, mirror * mirror * s.texels};
 }
 
 struct GlobalContext {
@@ -426,11 +379,11 @@ mx_GgxSamples mx_ggx_samples(float2 roughness, int count, float3 N, float3 V)
     float reach = lobe.masking;
     float area = stretch.x * stretch.y;
     float share = 1.0 / float(count);
-    return make_mx_GgxSamples(cut_3(u_prv.u_envMatrix) * float3x3(x, cross(lobe.N, x), lobe.N), stretch, area, v,
-        lobe.masking, reach, share * (v.z + reach), area * (v.z + lobe.masking)
-        * max(2.0 / float(count), 4.4 / float(max(u_prv.u_envRadianceSamples, 1)))
-        * exp2(2.0 * float(u_prv.u_envRadianceMips) - 4.6485), u_prv.u_envLightIntensity
-        * (share * (v.z + lobe.masking)));
+    return mx_GgxSamples{cut_3(u_prv.u_envMatrix) * float3x3(x, cross(lobe.N, x), lobe.N), stretch, area, v,
+        lobe.masking, reach, share * (v.z + reach),
+        area * (v.z + lobe.masking) * max(2.0 / float(count), 4.4 / float(max(u_prv.u_envRadianceSamples, 1)))
+        * exp2(2.0 * float(u_prv.u_envRadianceMips) - 4.6485),
+        u_prv.u_envLightIntensity * (share * (v.z + lobe.masking))};
 }
 
 // Light of the environment from the unit direction d of its picture, filtered over as many texels.
@@ -446,9 +399,9 @@ mx_GgxLight mx_ggx_reflected(mx_GgxSamples s, int i, float2 turn)
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     float3 l = facet.mirror * facet.h - s.v;
     float cos_l = max(l.z, 1e-8);
-    return make_mx_GgxLight(mx_filtered_light(s.to_map * l, facet.texels), s.weight * cos_l
-        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l),
-        sqrt(clamp(0.5 * (facet.mirror * facet.cosine), 1e-8, 1.0)));
+    return mx_GgxLight{mx_filtered_light(s.to_map * l, facet.texels),
+        s.weight * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l),
+        sqrt(clamp(0.5 * (facet.mirror * facet.cosine), 1e-8, 1.0))};
 }
 
 // The GGX lobe of a surface as samples of the environment see it.
@@ -463,11 +416,10 @@ mx_GgxSamples mx_ggx_samples(float2 roughness, int count, float3 N, float3 X, fl
     float reach = length(v * stretch);
     float area = stretch.x * stretch.y;
     float share = 1.0 / float(count);
-    return make_mx_GgxSamples(cut_3(u_prv.u_envMatrix) * frame, stretch, area, v, lobe.masking, reach, share
-        * (v.z + reach), area * (v.z + lobe.masking)
-        * max(2.0 / float(count), 4.4 / float(max(u_prv.u_envRadianceSamples, 1)))
-        * exp2(2.0 * float(u_prv.u_envRadianceMips) - 4.6485), u_prv.u_envLightIntensity
-        * (share * (v.z + lobe.masking)));
+    return mx_GgxSamples{cut_3(u_prv.u_envMatrix) * frame, stretch, area, v, lobe.masking, reach, share * (v.z + reach),
+        area * (v.z + lobe.masking) * max(2.0 / float(count), 4.4 / float(max(u_prv.u_envRadianceSamples, 1)))
+        * exp2(2.0 * float(u_prv.u_envRadianceMips) - 4.6485),
+        u_prv.u_envLightIntensity * (share * (v.z + lobe.masking))};
 }
 
 // The light that comes to the facet of sample i through a solid sphere of index `ior` behind it.
@@ -475,8 +427,8 @@ mx_GgxLight mx_ggx_transmitted(mx_GgxSamples s, float ior, int i, float2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     float3 h = normalize(facet.h);
-    return make_mx_GgxLight(mx_filtered_light(s.to_map * reflect(s.v, refract(-s.v, h, 1.0 / ior)), facet.texels),
-        s.weight * 0.5 / s.v.z, clamp(dot(s.v, h), 1e-8, 1.0));
+    return mx_GgxLight{mx_filtered_light(s.to_map * reflect(s.v, refract(-s.v, h, 1.0 / ior)), facet.texels),
+        s.weight * 0.5 / s.v.z, clamp(dot(s.v, h), 1e-8, 1.0)};
 }
 
 void FragmentMain()
@@ -493,8 +445,8 @@ void FragmentMain()
         * min(u_pub.SR_gltf_pbr_specular_color * (amplitude * amplitude), 1.0), 0.0);
     float3 f90 = float3(max(u_pub.SR_gltf_pbr_specular, 0.0));
     float alpha_bitangent = u_pub.SR_gltf_pbr_roughness * u_pub.SR_gltf_pbr_roughness;
-    float2 specular_roughness = clamp(float2(mix(alpha_bitangent, 1.0, u_pub.SR_gltf_pbr_anisotropy_strength
-        * u_pub.SR_gltf_pbr_anisotropy_strength), alpha_bitangent), 0.00001, 1.0);
+    float2 specular_roughness = clamp(float2(mix(alpha_bitangent, 1.0,
+        u_pub.SR_gltf_pbr_anisotropy_strength * u_pub.SR_gltf_pbr_anisotropy_strength), alpha_bitangent), 0.00001, 1.0);
     float2 alpha = clamp(specular_roughness, 1e-8, 1.0);
     float cos_v = max(abs(dot(N, V)), 1e-8);
     float2 albedo = mx_ggx_albedo_fit(sqrt(alpha.x * alpha.y), cos_v);
@@ -518,8 +470,8 @@ void FragmentMain()
     float fuzz_weight = clamp(sheen_weight, 0.0, 1.0);
     float sheen_rough = u_pub.SR_gltf_pbr_sheen_roughness * u_pub.SR_gltf_pbr_sheen_roughness;
     float sheen_albedo = clamp(mx_bicubic(float4x4(3.7341, -15.9587, 23.621, -11.0989, -8.2265, 35.1081, -49.7137,
-        23.2945, 4.0691, -17.882, 25.6639, -12.0167, -0.5833, 2.6552, -3.9393, 1.8999), 1.0 / (cos_v + 1.0), 1.0
-        / (sheen_rough + 0.2)), 0.0, 1.0);
+        23.2945, 4.0691, -17.882, 25.6639, -12.0167, -0.5833, 2.6552, -3.9393, 1.8999), 1.0 / (cos_v + 1.0),
+        1.0 / (sheen_rough + 0.2)), 0.0, 1.0);
     float substrate_weight = coating_throughput * (1.0 - fuzz_weight * sheen_albedo);
     float body_weight = mix(reflection_throughput, 1.0 - dot(single * reflection_film_scale, float3(0.33333334)),
         clamped_iridescence) * substrate_weight;
@@ -528,7 +480,7 @@ void FragmentMain()
     float diffuse_weight = (1.0 - metal_weight) * (1.0 - clamped_transmission);
     float3 diffuse_factor = u_pub.SR_gltf_pbr_base_color * (body_weight * diffuse_weight * 0.31830987);
     float ggx_masking = sqrt(coat_lobe * coat_lobe + (1.0 - coat_lobe * coat_lobe) * (cos_v * cos_v));
-    mx_GgxLobe coating_ggx_lobe = make_mx_GgxLobe(Nf, cos_v, float3(0.0), float2(coat_lobe), ggx_masking);
+    mx_GgxLobe coating_ggx_lobe = mx_GgxLobe{Nf, cos_v, float3(0.0), float2(coat_lobe), ggx_masking};
     float s = 1.0 / max(sheen_rough, 0.005);
     float3 fuzz_factor = u_pub.SR_gltf_pbr_sheen_color / sheen_weight * (fuzz_weight * coating_throughput);
     bool metal_film_visible = clamped_iridescence * metal_weight > 0.0;
@@ -537,7 +489,7 @@ void FragmentMain()
         float3(1.0), 0.04761905) + float3(1.0);
     float3 metal_film_factor = metal_film_scale * (substrate_weight * (clamped_iridescence * metal_weight));
     float3 specular_tangent = mx_rotate3d(normalize(vd.tangentWorld),
-        (u_pub.SR_gltf_pbr_anisotropy_rotation * -57.29578) * 0.017453292, N);
+        u_pub.SR_gltf_pbr_anisotropy_rotation * -57.29578 * 0.017453292, N);
     mx_GgxLobe lobe = mx_ggx_lobe(specular_roughness, N, specular_tangent, V);
     float metal_bare_weight = metal_weight * (1.0 - clamped_iridescence);
     float3 metal_bare_factor = (lost * mix(fresnel_facing, float3(1.0), 0.04761905) + float3(1.0))
@@ -689,8 +641,8 @@ void FragmentMain()
     }
     // opacity
     float mask = u_pub.SR_gltf_pbr_alpha >= u_pub.SR_gltf_pbr_alpha_cutoff ? 1.0 : 0.0;
-    float opacity = clamp(1 > u_pub.SR_gltf_pbr_alpha_mode ? 1.0 : 2 > u_pub.SR_gltf_pbr_alpha_mode ? mask : 3
-        > u_pub.SR_gltf_pbr_alpha_mode ? u_pub.SR_gltf_pbr_alpha : 0.0, 0.0, 1.0);
+    float opacity = clamp(1 > u_pub.SR_gltf_pbr_alpha_mode ? 1.0 : 2 > u_pub.SR_gltf_pbr_alpha_mode ? mask
+        : 3 > u_pub.SR_gltf_pbr_alpha_mode ? u_pub.SR_gltf_pbr_alpha : 0.0, 0.0, 1.0);
     if (opacity < u_prv.u_alphaThreshold)
         discard_fragment();
     out.out1 = float4(opacity * color, opacity);

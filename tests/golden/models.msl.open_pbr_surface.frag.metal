@@ -108,55 +108,9 @@ struct PixelOutputs {
     float4 out1 [[color(0)]];
 };
 
-mx_GgxLobe make_mx_GgxLobe(float3 N, float cosine, float3 x, float2 alpha, float masking)
-{
-    mx_GgxLobe made;
-    made.N = N;
-    made.cosine = cosine;
-    made.x = x;
-    made.alpha = alpha;
-    made.masking = masking;
-    return made;
-}
-
-mx_GgxFacet make_mx_GgxFacet(float3 h, float cosine, float mirror, float texels)
-{
-    mx_GgxFacet made;
-    made.h = h;
-    made.cosine = cosine;
-    made.mirror = mirror;
-    made.texels = texels;
-    return made;
-}
-
-mx_GgxSamples make_mx_GgxSamples(float3x3 to_map, float3 stretch, float area, float3 v, float masking, float reach,
-    float step, float texels, float weight)
-{
-    mx_GgxSamples made;
-    made.to_map = to_map;
-    made.stretch = stretch;
-    made.area = area;
-    made.v = v;
-    made.masking = masking;
-    made.reach = reach;
-    made.step = step;
-    made.texels = texels;
-    made.weight = weight;
-    return made;
-}
-
 float3x3 cut_3(float4x4 m)
 {
     return float3x3(m[0].xyz, m[1].xyz, m[2].xyz);
-}
-
-mx_GgxLight make_mx_GgxLight(float3 color, float weight, float cosine)
-{
-    mx_GgxLight made;
-    made.color = color;
-    made.weight = weight;
-    made.cosine = cosine;
-    return made;
 }
 
 // The numbers a and b of the linear transform that makes the sheen lobe of roughness r, at the cosine c of the viewer,
@@ -164,8 +118,8 @@ mx_GgxLight make_mx_GgxLight(float3 color, float weight, float cosine)
 //     M^-1 = [a 0 b; 0 a 0; 0 0 1] in the plane of V and N
 float2 mx_sheen_transform(float c, float r)
 {
-    return float2((2.58126 * c + 0.813703 * r) * r / (1.0 + 0.310327 * c * c + 2.60994 * c * r), sqrt(1.0 - c)
-        * (r - 1.0) * r * r * r / (0.0000254053 + 1.71228 * c - 1.71506 * c * r + 1.34174 * r * r));
+    return float2((2.58126 * c + 0.813703 * r) * r / (1.0 + 0.310327 * c * c + 2.60994 * c * r),
+        sqrt(1.0 - c) * (r - 1.0) * r * r * r / (0.0000254053 + 1.71228 * c - 1.71506 * c * r + 1.34174 * r * r));
 }
 
 // The direction w in the tangent space around N, whose x lies along the unit tangent `x`.
@@ -210,8 +164,8 @@ mx_GgxLobe mx_ggx_lobe(float2 roughness, float3 N, float3 X, float3 V)
 {
     float2 alpha = clamp(roughness, 1e-8, 1.0);
     float cosine = max(abs(dot(N, V)), 1e-8);
-    return make_mx_GgxLobe(faceforward(N, -V, N), cosine, normalize(X - dot(X, N) * N), alpha,
-        mx_ggx_masking(cosine, alpha.x * alpha.y));
+    return mx_GgxLobe{faceforward(N, -V, N), cosine, normalize(X - dot(X, N) * N), alpha,
+        mx_ggx_masking(cosine, alpha.x * alpha.y)};
 }
 
 // The square of the length of the facet's normal H after the roughness divided its parts along the surface, times the
@@ -262,8 +216,8 @@ float2 mx_ggx_albedo_fit(float a, float c)
         36.4897, -72.9122, 58.0878, -20.917, -31.4763, 79.0768, -73.9706, 26.5429), a / (a + c), a), 0.0, 1.0);
     float u = a / (a + 0.6 * c);
     return float2(min(1.0017 - u * u * mx_bicubic(float4x4(-0.0334, 3.1441, -6.1576, 3.0758, 0.6997, 7.8981, -14.3238,
-        8.7382, 4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, a * c), 1.0), x * x * x * x
-        * x);
+        8.7382, 4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, a * c), 1.0),
+        x * x * x * x * x);
 }
 
 // Roughness of a lobe that is seen through a rough coat (OpenPBR Surface specification, "Roughening").
@@ -332,8 +286,8 @@ float3 mx_open_pbr_coat_darkening(float3 base_color, float base_metalness, float
 {
     float kept = max(1.0 - 4.0 * coat_ior / ((coat_ior + 1.0) * (coat_ior + 1.0)) / (coat_ior * coat_ior), 0.0);
     return mix(float3(1.0), float3(1.0 - kept)
-        / (float3(1.0) - kept * mix(mix(base_color, subsurface_color, subsurface_weight), base_color
-        * min(specular_weight, 1.0), base_metalness)), coat_darkening);
+        / (float3(1.0) - kept * mix(mix(base_color, subsurface_color, subsurface_weight),
+        base_color * min(specular_weight, 1.0), base_metalness)), coat_darkening);
 }
 
 // Schlick's curve from f0 to f90 at a cosine, less `bend` times cos (1 - cos)^6.
@@ -482,8 +436,8 @@ float2 mx_map_point(float3 d)
 {
     float square = mx_map_square(d);
     float stretch = rsqrt(square);
-    return float2(fract((d.z > 0.0 ? -0.5 : 0.5) * (mx_half_turn(d.x * stretch, abs(d.z) * stretch) + 0.5) + 0.25), 0.5
-        - mx_half_turn(d.y, square * stretch));
+    return float2(fract((d.z > 0.0 ? -0.5 : 0.5) * (mx_half_turn(d.x * stretch, abs(d.z) * stretch) + 0.5) + 0.25),
+        0.5 - mx_half_turn(d.y, square * stretch));
 }
 
 // Height-correlated masking and shadowing G2 over 2 cos_v cos_l (Heitz 2014, equation 99); `masking` is that of the
@@ -508,7 +462,7 @@ mx_GgxFacet mx_ggx_facet(mx_GgxSamples s, int i, float2 turn)
     float3 h = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.v * s.stretch, s.reach) * s.stretch;
     float cosine = dot(s.v, h);
     float mirror = 2.0 * cosine / dot(h, h);
-    return make_mx_GgxFacet(h, cosine, mirror, mirror * mirror * s.texels);
+    return mx_GgxFacet{h, cosine, mirror, mirror * mirror * s.texels};
 }
 
 // Light that arrives at a point of a circle of this curvature by subsurface scattering, where the cosine of the light
@@ -517,8 +471,8 @@ mx_GgxFacet mx_ggx_facet(mx_GgxSamples s, int i, float2 turn)
 float mx_subsurface_light(float radius, float curvature, float cos_l)
 {
     float x = curvature * max(radius, 0.1);
-    float3 bend = (float3(0.1573, 0.0104, 0.1632) + x
-        * (float3(0.662, 0.1732, 0.6079) + x * float3(0.6075, 0.4138, 0.8133)))
+    float3 bend = (float3(0.1573, 0.0104, 0.1632)
+        + x * (float3(0.662, 0.1732, 0.6079) + x * float3(0.6075, 0.4138, 0.8133)))
         / (6.2831855 * (0.1602 + x * (0.6652 + x)));
     return bend.x * cos_l + sqrt(bend.y * bend.y + (bend.z * bend.z - bend.y * bend.y) * (cos_l * cos_l));
 }
@@ -536,8 +490,8 @@ float3 mx_subsurface_light(float3 radius, float curvature, float cos_l)
 float mx_fujii_albedo(float cosine, float r)
 {
     float sine = sqrt(max(1.0 - cosine * cosine, 0.0));
-    float g = sine * (acos(min(cosine, 1.0)) - sine * cosine) + 0.6666667
-        * (sine / cosine * (1.0 - sine * sine * sine) - sine);
+    float g = sine * (acos(min(cosine, 1.0)) - sine * cosine)
+        + 0.6666667 * (sine / cosine * (1.0 - sine * sine * sine) - sine);
     return (1.0 + r * g / 3.1415927) / (1.0 + 0.28779334 * r);
 }
 
@@ -578,11 +532,10 @@ mx_GgxSamples mx_ggx_samples(float2 roughness, int count, float3 N, float3 X, fl
     float reach = length(v * stretch);
     float area = stretch.x * stretch.y;
     float share = 1.0 / float(count);
-    return make_mx_GgxSamples(cut_3(u_prv.u_envMatrix) * frame, stretch, area, v, lobe.masking, reach, share
-        * (v.z + reach), area * (v.z + lobe.masking)
-        * max(2.0 / float(count), 4.4 / float(max(u_prv.u_envRadianceSamples, 1)))
-        * exp2(2.0 * float(u_prv.u_envRadianceMips) - 4.6485), u_prv.u_envLightIntensity
-        * (share * (v.z + lobe.masking)));
+    return mx_GgxSamples{cut_3(u_prv.u_envMatrix) * frame, stretch, area, v, lobe.masking, reach, share * (v.z + reach),
+        area * (v.z + lobe.masking) * max(2.0 / float(count), 4.4 / float(max(u_prv.u_envRadianceSamples, 1)))
+        * exp2(2.0 * float(u_prv.u_envRadianceMips) - 4.6485),
+        u_prv.u_envLightIntensity * (share * (v.z + lobe.masking))};
 }
 
 // Light of the environment from the unit direction d of its picture, filtered over as many texels.
@@ -598,9 +551,9 @@ mx_GgxLight mx_ggx_reflected(mx_GgxSamples s, int i, float2 turn)
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     float3 l = facet.mirror * facet.h - s.v;
     float cos_l = max(l.z, 1e-8);
-    return make_mx_GgxLight(mx_filtered_light(s.to_map * l, facet.texels), s.weight * cos_l
-        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l),
-        sqrt(clamp(0.5 * (facet.mirror * facet.cosine), 1e-8, 1.0)));
+    return mx_GgxLight{mx_filtered_light(s.to_map * l, facet.texels),
+        s.weight * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l),
+        sqrt(clamp(0.5 * (facet.mirror * facet.cosine), 1e-8, 1.0))};
 }
 
 // The light that comes to the facet of sample i through a solid sphere of index `ior` behind it.
@@ -608,8 +561,8 @@ mx_GgxLight mx_ggx_transmitted(mx_GgxSamples s, float ior, int i, float2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     float3 h = normalize(facet.h);
-    return make_mx_GgxLight(mx_filtered_light(s.to_map * reflect(s.v, refract(-s.v, h, 1.0 / ior)), facet.texels),
-        s.weight * 0.5 / s.v.z, clamp(dot(s.v, h), 1e-8, 1.0));
+    return mx_GgxLight{mx_filtered_light(s.to_map * reflect(s.v, refract(-s.v, h, 1.0 / ior)), facet.texels),
+        s.weight * 0.5 / s.v.z, clamp(dot(s.v, h), 1e-8, 1.0)};
 }
 
 void FragmentMain()
@@ -662,8 +615,8 @@ void FragmentMain()
     float thin_film_ior = u_pub.SR_open_pbr_surface_thin_film_ior;
     float3 clamped_darkened = clamp(mx_open_pbr_coat_darkening(u_pub.SR_open_pbr_surface_base_color,
         u_pub.SR_open_pbr_surface_base_metalness, u_pub.SR_open_pbr_surface_specular_weight,
-        u_pub.SR_open_pbr_surface_subsurface_weight, u_pub.SR_open_pbr_surface_subsurface_color, coat_ior, coat_weight
-        * u_pub.SR_open_pbr_surface_coat_darkening), 0.0, 1.0);
+        u_pub.SR_open_pbr_surface_subsurface_weight, u_pub.SR_open_pbr_surface_subsurface_color, coat_ior,
+        coat_weight * u_pub.SR_open_pbr_surface_coat_darkening), 0.0, 1.0);
     float coated_weight = (1.0 - fuzz_product_2)
         * (1.0 - coating_weight * (mix(coating_r * coating_r, 1.0, coating_albedo.y) * coating_albedo.x
         * coating_scale));
@@ -771,8 +724,8 @@ void FragmentMain()
     // environment: metal_film, metal_bare, reflection_film, reflection_bare
     int count = mx_sample_count(alpha);
     mx_GgxSamples samples = mx_ggx_samples(roughness, count, N, X, V);
-    if (reflection_bare_weight > 0.0 || reflection_film_weight > 0.0 || metal_film_weight > 0.0 || metal_bare_weight
-        > 0.0) {
+    if (reflection_bare_weight > 0.0 || reflection_film_weight > 0.0 || metal_film_weight > 0.0
+        || metal_bare_weight > 0.0) {
         if (film_thickness > 0.0) {
             float2 turn = float2(1.0, 0.0);
             for (int i = 0; i < count; ++i) {
@@ -823,8 +776,8 @@ void FragmentMain()
             : u_pub.SR_open_pbr_surface_transmission_color, 0.0);
         float3 absorbed = -(u_pub.SR_open_pbr_surface_transmission_scatter
             + log(u_pub.SR_open_pbr_surface_transmission_color)) / u_pub.SR_open_pbr_surface_transmission_depth;
-        float3 product = exp(-(u_pub.SR_open_pbr_surface_transmission_depth > 0.0 ? absorbed
-            - min(min(min(absorbed.x, absorbed.y), absorbed.z), 0.0) : float3(0.0))) * tint;
+        float3 product = exp(-(u_pub.SR_open_pbr_surface_transmission_depth > 0.0
+            ? absorbed - min(min(min(absorbed.x, absorbed.y), absorbed.z), 0.0) : float3(0.0))) * tint;
         float3 product_2 = (u_prv.u_refractionTwoSided ? tint : float3(1.0)) * product;
         float3 refraction_film_factor = body_weight * (clamped_thin_film_weight * filled_weight) * product_2;
         float3 refraction_bare_factor = product_2 * (body_weight * refraction_bare_weight);
@@ -904,8 +857,8 @@ void FragmentMain()
             } else {
                 float spot_light_edge = min(u_lightData.u_lightData[i].inner_angle,
                     u_lightData.u_lightData[i].outer_angle) - 0.00001;
-                intensity = light_type == 3 ? falloff
-                    * smoothstep(spot_light_edge, u_lightData.u_lightData[i].inner_angle,
+                intensity = light_type == 3
+                    ? falloff * smoothstep(spot_light_edge, u_lightData.u_lightData[i].inner_angle,
                     -dot(u_lightData.u_lightData[i].direction, to_light)) : 0.0;
             }
         }

@@ -108,55 +108,9 @@ struct PixelOutputs {
     float4 out1 [[color(0)]];
 };
 
-mx_GgxLobe make_mx_GgxLobe(float3 N, float cosine, float3 x, float2 alpha, float masking)
-{
-    mx_GgxLobe made;
-    made.N = N;
-    made.cosine = cosine;
-    made.x = x;
-    made.alpha = alpha;
-    made.masking = masking;
-    return made;
-}
-
-mx_GgxFacet make_mx_GgxFacet(float3 h, float cosine, float mirror, float texels)
-{
-    mx_GgxFacet made;
-    made.h = h;
-    made.cosine = cosine;
-    made.mirror = mirror;
-    made.texels = texels;
-    return made;
-}
-
-mx_GgxSamples make_mx_GgxSamples(float3x3 to_map, float3 stretch, float area, float3 v, float masking, float reach,
-    float step, float texels, float weight)
-{
-    mx_GgxSamples made;
-    made.to_map = to_map;
-    made.stretch = stretch;
-    made.area = area;
-    made.v = v;
-    made.masking = masking;
-    made.reach = reach;
-    made.step = step;
-    made.texels = texels;
-    made.weight = weight;
-    return made;
-}
-
 float3x3 cut_3(float4x4 m)
 {
     return float3x3(m[0].xyz, m[1].xyz, m[2].xyz);
-}
-
-mx_GgxLight make_mx_GgxLight(float3 color, float weight, float cosine)
-{
-    mx_GgxLight made;
-    made.color = color;
-    made.weight = weight;
-    made.cosine = cosine;
-    return made;
 }
 
 // Reflectance of a dielectric that faces the viewer.
@@ -249,8 +203,8 @@ float2 mx_ggx_albedo_fit(float a, float c)
         36.4897, -72.9122, 58.0878, -20.917, -31.4763, 79.0768, -73.9706, 26.5429), a / (a + c), a), 0.0, 1.0);
     float u = a / (a + 0.6 * c);
     return float2(min(1.0017 - u * u * mx_bicubic(float4x4(-0.0334, 3.1441, -6.1576, 3.0758, 0.6997, 7.8981, -14.3238,
-        8.7382, 4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, a * c), 1.0), x * x * x * x
-        * x);
+        8.7382, 4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, a * c), 1.0),
+        x * x * x * x * x);
 }
 
 // The vector v turned clockwise around an axis of unit length, by an angle in radians (Rodrigues' formula).
@@ -273,8 +227,8 @@ mx_GgxLobe mx_ggx_lobe(float2 roughness, float3 N, float3 X, float3 V)
 {
     float2 alpha = clamp(roughness, 1e-8, 1.0);
     float cosine = max(abs(dot(N, V)), 1e-8);
-    return make_mx_GgxLobe(faceforward(N, -V, N), cosine, normalize(X - dot(X, N) * N), alpha,
-        mx_ggx_masking(cosine, alpha.x * alpha.y));
+    return mx_GgxLobe{faceforward(N, -V, N), cosine, normalize(X - dot(X, N) * N), alpha,
+        mx_ggx_masking(cosine, alpha.x * alpha.y)};
 }
 
 // The square of the length of the facet's normal H after the roughness divided its parts along the surface, times the
@@ -409,8 +363,8 @@ float3 mx_fresnel(float cosine, float3 n, float film, float film_ior)
 float mx_subsurface_light(float radius, float curvature, float cos_l)
 {
     float x = curvature * max(radius, 0.1);
-    float3 bend = (float3(0.1573, 0.0104, 0.1632) + x
-        * (float3(0.662, 0.1732, 0.6079) + x * float3(0.6075, 0.4138, 0.8133)))
+    float3 bend = (float3(0.1573, 0.0104, 0.1632)
+        + x * (float3(0.662, 0.1732, 0.6079) + x * float3(0.6075, 0.4138, 0.8133)))
         / (6.2831855 * (0.1602 + x * (0.6652 + x)));
     return bend.x * cos_l + sqrt(bend.y * bend.y + (bend.z * bend.z - bend.y * bend.y) * (cos_l * cos_l));
 }
@@ -441,8 +395,8 @@ float2 mx_map_point(float3 d)
 {
     float square = mx_map_square(d);
     float stretch = rsqrt(square);
-    return float2(fract((d.z > 0.0 ? -0.5 : 0.5) * (mx_half_turn(d.x * stretch, abs(d.z) * stretch) + 0.5) + 0.25), 0.5
-        - mx_half_turn(d.y, square * stretch));
+    return float2(fract((d.z > 0.0 ? -0.5 : 0.5) * (mx_half_turn(d.x * stretch, abs(d.z) * stretch) + 0.5) + 0.25),
+        0.5 - mx_half_turn(d.y, square * stretch));
 }
 
 // Height-correlated masking and shadowing G2 over 2 cos_v cos_l (Heitz 2014, equation 99); `masking` is that of the
@@ -467,7 +421,7 @@ mx_GgxFacet mx_ggx_facet(mx_GgxSamples s, int i, float2 turn)
     float3 h = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.v * s.stretch, s.reach) * s.stretch;
     float cosine = dot(s.v, h);
     float mirror = 2.0 * cosine / dot(h, h);
-    return make_mx_GgxFacet(h, cosine, mirror, mirror * mirror * s.texels);
+    return mx_GgxFacet{h, cosine, mirror, mirror * mirror * s.texels};
 }
 
 struct GlobalContext {
@@ -500,11 +454,10 @@ mx_GgxSamples mx_ggx_samples(float2 roughness, int count, float3 N, float3 X, fl
     float reach = length(v * stretch);
     float area = stretch.x * stretch.y;
     float share = 1.0 / float(count);
-    return make_mx_GgxSamples(cut_3(u_prv.u_envMatrix) * frame, stretch, area, v, lobe.masking, reach, share
-        * (v.z + reach), area * (v.z + lobe.masking)
-        * max(2.0 / float(count), 4.4 / float(max(u_prv.u_envRadianceSamples, 1)))
-        * exp2(2.0 * float(u_prv.u_envRadianceMips) - 4.6485), u_prv.u_envLightIntensity
-        * (share * (v.z + lobe.masking)));
+    return mx_GgxSamples{cut_3(u_prv.u_envMatrix) * frame, stretch, area, v, lobe.masking, reach, share * (v.z + reach),
+        area * (v.z + lobe.masking) * max(2.0 / float(count), 4.4 / float(max(u_prv.u_envRadianceSamples, 1)))
+        * exp2(2.0 * float(u_prv.u_envRadianceMips) - 4.6485),
+        u_prv.u_envLightIntensity * (share * (v.z + lobe.masking))};
 }
 
 // Light of the environment from the unit direction d of its picture, filtered over as many texels.
@@ -520,9 +473,9 @@ mx_GgxLight mx_ggx_reflected(mx_GgxSamples s, int i, float2 turn)
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     float3 l = facet.mirror * facet.h - s.v;
     float cos_l = max(l.z, 1e-8);
-    return make_mx_GgxLight(mx_filtered_light(s.to_map * l, facet.texels), s.weight * cos_l
-        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l),
-        sqrt(clamp(0.5 * (facet.mirror * facet.cosine), 1e-8, 1.0)));
+    return mx_GgxLight{mx_filtered_light(s.to_map * l, facet.texels),
+        s.weight * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l),
+        sqrt(clamp(0.5 * (facet.mirror * facet.cosine), 1e-8, 1.0))};
 }
 
 // The light that comes to the facet of sample i through a solid sphere of index `ior` behind it.
@@ -530,8 +483,8 @@ mx_GgxLight mx_ggx_transmitted(mx_GgxSamples s, float ior, int i, float2 turn)
 {
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     float3 h = normalize(facet.h);
-    return make_mx_GgxLight(mx_filtered_light(s.to_map * reflect(s.v, refract(-s.v, h, 1.0 / ior)), facet.texels),
-        s.weight * 0.5 / s.v.z, clamp(dot(s.v, h), 1e-8, 1.0));
+    return mx_GgxLight{mx_filtered_light(s.to_map * reflect(s.v, refract(-s.v, h, 1.0 / ior)), facet.texels),
+        s.weight * 0.5 / s.v.z, clamp(dot(s.v, h), 1e-8, 1.0)};
 }
 
 void FragmentMain()
@@ -579,8 +532,8 @@ void FragmentMain()
         * (clamped_coat_tint * coating_throughput);
     float fuzz_weight = clamp(u_pub.SR_standard_surface_sheen, 0.0, 1.0);
     float sheen_albedo = clamp(mx_bicubic(float4x4(3.7341, -15.9587, 23.621, -11.0989, -8.2265, 35.1081, -49.7137,
-        23.2945, 4.0691, -17.882, 25.6639, -12.0167, -0.5833, 2.6552, -3.9393, 1.8999), 1.0 / (cos_v + 1.0), 1.0
-        / (u_pub.SR_standard_surface_sheen_roughness + 0.2)), 0.0, 1.0);
+        23.2945, 4.0691, -17.882, 25.6639, -12.0167, -0.5833, 2.6552, -3.9393, 1.8999), 1.0 / (cos_v + 1.0),
+        1.0 / (u_pub.SR_standard_surface_sheen_roughness + 0.2)), 0.0, 1.0);
     float fuzz_throughput = 1.0 - fuzz_weight * sheen_albedo;
     float metal_weight = clamp(u_pub.SR_standard_surface_metalness, 0.0, 1.0);
     float clamped_transmission = clamp(u_pub.SR_standard_surface_transmission, 0.0, 1.0);
@@ -599,8 +552,8 @@ void FragmentMain()
     float translucent_weight = thin * (clamped_subsurface * opaque_weight);
     float3 translucent_factor = scatter_color * (body_weight * (fuzz_throughput * translucent_weight));
     float3 tangent_direction = normalize(vd.tangentWorld);
-    float3 coat_tangent = mx_rotate3d(tangent_direction, (u_pub.SR_standard_surface_coat_rotation * 360.0)
-        * 0.017453292, N);
+    float3 coat_tangent = mx_rotate3d(tangent_direction, u_pub.SR_standard_surface_coat_rotation * 360.0 * 0.017453292,
+        N);
     mx_GgxLobe coating_lobe = mx_ggx_lobe(coat_lobe, N, coat_tangent, V);
     float3 metal_ior, metal_extinction;
     mx_artistic_ior(u_pub.SR_standard_surface_base * u_pub.SR_standard_surface_base_color,
@@ -610,8 +563,8 @@ void FragmentMain()
     float3 metal_scale = lost * mix(mx_fresnel_facing(re, im, thin_film_thickness, thin_film_IOR), float3(1.0),
         0.04761905) + float3(1.0);
     float3 metal_factor = metal_scale * (clamped_coat_tint * (metal_weight * coating_throughput));
-    float3 specular_tangent = mx_rotate3d(tangent_direction, (u_pub.SR_standard_surface_specular_rotation * 360.0)
-        * 0.017453292, N);
+    float3 specular_tangent = mx_rotate3d(tangent_direction,
+        u_pub.SR_standard_surface_specular_rotation * 360.0 * 0.017453292, N);
     mx_GgxLobe lobe = mx_ggx_lobe(roughness, N, specular_tangent, V);
     float reflection_weight_2 = reflection_weight * (1.0 - metal_weight);
     float3 reflection_factor = clamped_coat_tint * (coating_throughput * reflection_weight_2)
@@ -683,8 +636,8 @@ void FragmentMain()
     float3 part = u_envIrradiance.tex.sample(u_envIrradiance.s, mx_map_point(normalize(cut_3(u_prv.u_envMatrix) * Nf)),
         level(0.0)).xyz;
     float2 fit = u_pub.SR_standard_surface_diffuse_roughness
-        * (cos_v * float2(-0.7632, -0.4993) - float2(0.4297, 0.6076) + u_pub.SR_standard_surface_diffuse_roughness
-        * float2(1.4385, 2.0315)) + float2(1.0);
+        * (cos_v * float2(-0.7632, -0.4993) - float2(0.4297, 0.6076)
+        + u_pub.SR_standard_surface_diffuse_roughness * float2(1.4385, 2.0315)) + float2(1.0);
     float3 diffuse_response = diffuse_product * part * (u_prv.u_envLightIntensity * clamp(fit.x / fit.y, 0.0, 1.0));
     float3 fuzz_response = fuzz_factor * part * (sheen_albedo * u_prv.u_envLightIntensity);
     color += diffuse_response + (fuzz_response + u_prv.u_envLightIntensity * (scatter_factor * part));

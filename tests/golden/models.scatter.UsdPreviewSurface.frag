@@ -47,8 +47,8 @@ vec2 mx_ggx_albedo_fit(const float c)
         36.4897, -72.9122, 58.0878, -20.917, -31.4763, 79.0768, -73.9706, 26.5429), 0.25 / (0.25 + c), 0.25), 0.0, 1.0);
     float u = 0.25 / (0.25 + 0.6 * c);
     return vec2(min(1.0017 - u * u * mx_bicubic(mat4(-0.0334, 3.1441, -6.1576, 3.0758, 0.6997, 7.8981, -14.3238, 8.7382,
-        4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, 0.25 * c), 1.0), x * x * x * x
-        * x);
+        4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, 0.25 * c), 1.0),
+        x * x * x * x * x);
 }
 
 // Schlick's curve from f0 to f90 at a cosine, less `bend` times cos (1 - cos)^6.
@@ -256,8 +256,8 @@ void scatter()
         bool reflection_is_in_front = shading_normal_dot_lobe_view * dot(shading_normal, L_2) > 0.0;
         vec3 reflection_response_2 = reflection_product_2
             * (reflection_is_in_front ? mx_ggx_smith_lobe(frame, vd.viewWorld, L_2) : 0.0);
-        vec3 response = reflection_response_2 + reflection_throughput
-            * (max(dot(facing, L_2), 1e-8) * 0.31830987 * 0.18);
+        vec3 response = reflection_response_2
+            + reflection_throughput * (max(dot(facing, L_2), 1e-8) * 0.31830987 * 0.18);
         vec3 lit = u_lightData[i].color * intensity * response;
         float brightness = max(dot(lit, vec3(0.33333334)), 0.0);
         brightness_sum += brightness;

@@ -184,8 +184,8 @@ vec2 mx_map_point(const vec3 d)
 {
     float square = mx_map_square(d);
     float stretch = inversesqrt(square);
-    return vec2(fract((d.z > 0.0 ? -0.5 : 0.5) * (mx_half_turn(d.x * stretch, abs(d.z) * stretch) + 0.5) + 0.25), 0.5
-        - mx_half_turn(d.y, square * stretch));
+    return vec2(fract((d.z > 0.0 ? -0.5 : 0.5) * (mx_half_turn(d.x * stretch, abs(d.z) * stretch) + 0.5) + 0.25),
+        0.5 - mx_half_turn(d.y, square * stretch));
 }
 
 // The light that comes through a smooth solid sphere of index `ior`.
@@ -288,8 +288,8 @@ mx_GgxLight mx_ggx_reflected(const mx_GgxSamples s, const int i, const vec2 turn
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     vec3 l = facet.mirror * facet.h - s.v;
     float cos_l = max(l.z, 1e-8);
-    return mx_GgxLight(mx_filtered_light(s.to_map * l, facet.texels), s.weight * cos_l
-        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l),
+    return mx_GgxLight(mx_filtered_light(s.to_map * l, facet.texels),
+        s.weight * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l),
         sqrt(clamp(0.5 * (facet.mirror * facet.cosine), 1e-8, 1.0)));
 }
 
@@ -327,14 +327,14 @@ void main()
         * (1.0 - dot(mix(reflection_fresnel_f0, f90, albedo.y) * albedo.x * reflection_scale, vec3(0.33333334)));
     float metal_weight = is_equal_useSpecularWorkflow ? 0.0 : SR_UsdPreviewSurface_metallic;
     float opaque_transparent = SR_UsdPreviewSurface_opacityThreshold > 0.0 ? 1.0 : SR_UsdPreviewSurface_opacity;
-    float clamped_opaque_weight = clamp(1 > SR_UsdPreviewSurface_opacityMode ? opaque_transparent : 2
-        > SR_UsdPreviewSurface_opacityMode ? 1.0 : 0.0, 0.0, 1.0);
+    float clamped_opaque_weight = clamp(1 > SR_UsdPreviewSurface_opacityMode ? opaque_transparent
+        : 2 > SR_UsdPreviewSurface_opacityMode ? 1.0 : 0.0, 0.0, 1.0);
     float substrate_metal_weight = clamp(metal_weight, 0.0, 1.0);
     float diffuse_weight = clamp(1.0 - metal_weight, 0.0, 1.0)
         * (clamped_opaque_weight * (1.0 - substrate_metal_weight));
     vec3 diffuse_factor = diffuseColor * (body_weight * diffuse_weight * 0.31830987);
-    float coating_ggx_masking = sqrt(coat_roughness * coat_roughness + (1.0 - coat_roughness * coat_roughness)
-        * (cos_v * cos_v));
+    float coating_ggx_masking = sqrt(coat_roughness * coat_roughness
+        + (1.0 - coat_roughness * coat_roughness) * (cos_v * cos_v));
     mx_GgxLobe coating_ggx_lobe = mx_GgxLobe(facing, cos_v, vec3(0.0), vec2(coat_roughness), coating_ggx_masking);
     vec3 metal_ior, metal_extinction;
     mx_artistic_ior(diffuseColor, diffuseColor, metal_ior, metal_extinction);
@@ -342,8 +342,8 @@ void main()
     vec3 im = metal_extinction * (metal_ior * 2.0);
     vec3 metal_factor = (lost * mix(mx_fresnel_conductor(1.0, re, im), vec3(1.0), 0.04761905) + vec3(1.0))
         * (substrate_metal_weight * coating_throughput);
-    float ggx_masking = sqrt(specular_roughness * specular_roughness + cos_v * cos_v
-        * (1.0 - specular_roughness * specular_roughness));
+    float ggx_masking = sqrt(specular_roughness * specular_roughness
+        + cos_v * cos_v * (1.0 - specular_roughness * specular_roughness));
     mx_GgxLobe ggx_lobe = mx_GgxLobe(facing, cos_v, vec3(0.0), vec2(specular_roughness), ggx_masking);
     bool reflection_visible = 1.0 - substrate_metal_weight > 0.0;
     vec3 reflection_factor = reflection_scale * (coating_throughput * (1.0 - substrate_metal_weight));

@@ -108,8 +108,8 @@ fn mx_ggx_albedo_fit(a: f32, c: f32) -> vec2f
         -0.0277, 36.4897, -72.9122, 58.0878, -20.917, -31.4763, 79.0768, -73.9706, 26.5429), a / (a + c), a), 0.0, 1.0);
     let u: f32 = a / (a + 0.6 * c);
     return vec2f(min(1.0017 - u * u * mx_bicubic(mat4x4f(-0.0334, 3.1441, -6.1576, 3.0758, 0.6997, 7.8981, -14.3238,
-        8.7382, 4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, a * c), 1.0), x * x * x * x
-        * x);
+        8.7382, 4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, a * c), 1.0),
+        x * x * x * x * x);
 }
 
 // Schlick's curve from f0 to f90 at a cosine, less `bend` times cos (1 - cos)^6.
@@ -257,17 +257,17 @@ fn mx_ggx_samples(roughness: vec2f, count: i32, N: vec3f, V: vec3f) -> mx_GgxSam
     let area: f32 = stretch.x * stretch.y;
     let share: f32 = 1.0 / f32(count);
     return mx_GgxSamples(wgsl_mat3x3f_of_mat4x4f(u_prv.u_envMatrix) * mat3x3f(x, cross(lobe.N, x), lobe.N), stretch,
-        area, v, lobe.masking, reach, share * (v.z + reach), area * (v.z + lobe.masking)
-        * max(2.0 / f32(count), 4.4 / f32(max(u_prv.u_envRadianceSamples, 1)))
-        * exp2(2.0 * f32(u_prv.u_envRadianceMips) - 4.6485), u_prv.u_envLightIntensity
-        * (share * (v.z + lobe.masking)));
+        area, v, lobe.masking, reach, share * (v.z + reach),
+        area * (v.z + lobe.masking) * max(2.0 / f32(count), 4.4 / f32(max(u_prv.u_envRadianceSamples, 1)))
+        * exp2(2.0 * f32(u_prv.u_envRadianceMips) - 4.6485),
+        u_prv.u_envLightIntensity * (share * (v.z + lobe.masking)));
 }
 
 // Light of the environment from the unit direction d of its picture, filtered over as many texels.
 fn mx_filtered_light(d: vec3f, texels: f32) -> vec3f
 {
-    return textureSampleLevel(u_envRadiance, u_envRadiance_sampler, mx_map_point(d), 0.5
-        * log2(texels * inverseSqrt(mx_map_square(d)))).xyz;
+    return textureSampleLevel(u_envRadiance, u_envRadiance_sampler, mx_map_point(d),
+        0.5 * log2(texels * inverseSqrt(mx_map_square(d)))).xyz;
 }
 
 // Height-correlated masking and shadowing G2 over 2 cos_v cos_l (Heitz 2014, equation 99); `masking` is that of the
@@ -301,8 +301,8 @@ fn mx_ggx_reflected(s: mx_GgxSamples, i: i32, turn: vec2f) -> mx_GgxLight
     let facet: mx_GgxFacet = mx_ggx_facet(s, i, turn);
     let l: vec3f = facet.mirror * facet.h - s.v;
     let cos_l: f32 = max(l.z, 1e-8);
-    return mx_GgxLight(mx_filtered_light(s.to_map * l, facet.texels), s.weight * cos_l
-        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l),
+    return mx_GgxLight(mx_filtered_light(s.to_map * l, facet.texels),
+        s.weight * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l),
         sqrt(clamp(0.5 * (facet.mirror * facet.cosine), 1e-8, 1.0)));
 }
 
@@ -351,8 +351,8 @@ fn main(vd: VertexData) -> @location(0) vec4f
     let diffuse_weight: f32 = clamp(1.0 - metal_weight, 0.0, 1.0)
         * (clamped_opaque_weight * (1.0 - substrate_metal_weight));
     let diffuse_factor: vec3f = diffuseColor * (body_weight * diffuse_weight * 0.31830987);
-    let coating_ggx_masking: f32 = sqrt(coat_roughness * coat_roughness + (1.0 - coat_roughness * coat_roughness)
-        * (cos_v * cos_v));
+    let coating_ggx_masking: f32 = sqrt(coat_roughness * coat_roughness
+        + (1.0 - coat_roughness * coat_roughness) * (cos_v * cos_v));
     let coating_ggx_lobe: mx_GgxLobe = mx_GgxLobe(facing, cos_v, vec3f(0.0), vec2f(coat_roughness),
         coating_ggx_masking);
     var metal_ior: vec3f;
@@ -362,8 +362,8 @@ fn main(vd: VertexData) -> @location(0) vec4f
     let im: vec3f = metal_extinction * (metal_ior * 2.0);
     let metal_factor: vec3f = (lost * mix(mx_fresnel_conductor_2(1.0, re, im), vec3f(1.0), 0.04761905) + vec3f(1.0))
         * (substrate_metal_weight * coating_throughput);
-    let ggx_masking: f32 = sqrt(specular_roughness * specular_roughness + cos_v * cos_v
-        * (1.0 - specular_roughness * specular_roughness));
+    let ggx_masking: f32 = sqrt(specular_roughness * specular_roughness
+        + cos_v * cos_v * (1.0 - specular_roughness * specular_roughness));
     let ggx_lobe: mx_GgxLobe = mx_GgxLobe(facing, cos_v, vec3f(0.0), vec2f(specular_roughness), ggx_masking);
     let reflection_visible: bool = 1.0 - substrate_metal_weight > 0.0;
     let reflection_factor: vec3f = reflection_scale * (coating_throughput * (1.0 - substrate_metal_weight));
@@ -457,8 +457,8 @@ fn main(vd: VertexData) -> @location(0) vec4f
     // opacity
     let mask: f32 = select(0.0, 1.0, u_pub.SR_UsdPreviewSurface_opacity >= u_pub.SR_UsdPreviewSurface_opacityThreshold);
     let coverage_choice: f32 = select(0.0,
-        select(u_pub.SR_UsdPreviewSurface_opacity, mask, u_pub.SR_UsdPreviewSurface_opacityThreshold > 0.0), 2
-        > u_pub.SR_UsdPreviewSurface_opacityMode);
+        select(u_pub.SR_UsdPreviewSurface_opacity, mask, u_pub.SR_UsdPreviewSurface_opacityThreshold > 0.0),
+        2 > u_pub.SR_UsdPreviewSurface_opacityMode);
     let opacity: f32 = clamp(select(coverage_choice, mask, 1 > u_pub.SR_UsdPreviewSurface_opacityMode), 0.0, 1.0);
     if (opacity < u_prv.u_alphaThreshold) {
         discard;

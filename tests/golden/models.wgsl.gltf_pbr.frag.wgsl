@@ -108,8 +108,8 @@ fn mx_ggx_albedo_fit(a: f32, c: f32) -> vec2f
         -0.0277, 36.4897, -72.9122, 58.0878, -20.917, -31.4763, 79.0768, -73.9706, 26.5429), a / (a + c), a), 0.0, 1.0);
     let u: f32 = a / (a + 0.6 * c);
     return vec2f(min(1.0017 - u * u * mx_bicubic(mat4x4f(-0.0334, 3.1441, -6.1576, 3.0758, 0.6997, 7.8981, -14.3238,
-        8.7382, 4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, a * c), 1.0), x * x * x * x
-        * x);
+        8.7382, 4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, a * c), 1.0),
+        x * x * x * x * x);
 }
 
 // Light of one polarisation that interferes in a film, as Gaussian i of the CIE curves sees it: `a` is the amplitude of
@@ -342,17 +342,17 @@ fn mx_ggx_samples(roughness: vec2f, count: i32, N: vec3f, V: vec3f) -> mx_GgxSam
     let area: f32 = stretch.x * stretch.y;
     let share: f32 = 1.0 / f32(count);
     return mx_GgxSamples(wgsl_mat3x3f_of_mat4x4f(u_prv.u_envMatrix) * mat3x3f(x, cross(lobe.N, x), lobe.N), stretch,
-        area, v, lobe.masking, reach, share * (v.z + reach), area * (v.z + lobe.masking)
-        * max(2.0 / f32(count), 4.4 / f32(max(u_prv.u_envRadianceSamples, 1)))
-        * exp2(2.0 * f32(u_prv.u_envRadianceMips) - 4.6485), u_prv.u_envLightIntensity
-        * (share * (v.z + lobe.masking)));
+        area, v, lobe.masking, reach, share * (v.z + reach),
+        area * (v.z + lobe.masking) * max(2.0 / f32(count), 4.4 / f32(max(u_prv.u_envRadianceSamples, 1)))
+        * exp2(2.0 * f32(u_prv.u_envRadianceMips) - 4.6485),
+        u_prv.u_envLightIntensity * (share * (v.z + lobe.masking)));
 }
 
 // Light of the environment from the unit direction d of its picture, filtered over as many texels.
 fn mx_filtered_light(d: vec3f, texels: f32) -> vec3f
 {
-    return textureSampleLevel(u_envRadiance, u_envRadiance_sampler, mx_map_point(d), 0.5
-        * log2(texels * inverseSqrt(mx_map_square(d)))).xyz;
+    return textureSampleLevel(u_envRadiance, u_envRadiance_sampler, mx_map_point(d),
+        0.5 * log2(texels * inverseSqrt(mx_map_square(d)))).xyz;
 }
 
 // Height-correlated masking and shadowing G2 over 2 cos_v cos_l (Heitz 2014, equation 99); `masking` is that of the
@@ -386,8 +386,8 @@ fn mx_ggx_reflected(s: mx_GgxSamples, i: i32, turn: vec2f) -> mx_GgxLight
     let facet: mx_GgxFacet = mx_ggx_facet(s, i, turn);
     let l: vec3f = facet.mirror * facet.h - s.v;
     let cos_l: f32 = max(l.z, 1e-8);
-    return mx_GgxLight(mx_filtered_light(s.to_map * l, facet.texels), s.weight * cos_l
-        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l),
+    return mx_GgxLight(mx_filtered_light(s.to_map * l, facet.texels),
+        s.weight * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l),
         sqrt(clamp(0.5 * (facet.mirror * facet.cosine), 1e-8, 1.0)));
 }
 
@@ -406,8 +406,8 @@ fn mx_ggx_samples_2(roughness: vec2f, count: i32, N: vec3f, X: vec3f, V: vec3f) 
     return mx_GgxSamples(wgsl_mat3x3f_of_mat4x4f(u_prv.u_envMatrix) * frame, stretch, area, v, lobe.masking, reach,
         share * (v.z + reach), area * (v.z + lobe.masking)
         * max(2.0 / f32(count), 4.4 / f32(max(u_prv.u_envRadianceSamples, 1)))
-        * exp2(2.0 * f32(u_prv.u_envRadianceMips) - 4.6485), u_prv.u_envLightIntensity
-        * (share * (v.z + lobe.masking)));
+        * exp2(2.0 * f32(u_prv.u_envRadianceMips) - 4.6485),
+        u_prv.u_envLightIntensity * (share * (v.z + lobe.masking)));
 }
 
 // The light that comes to the facet of sample i through a solid sphere of index `ior` behind it.
@@ -415,8 +415,8 @@ fn mx_ggx_transmitted(s: mx_GgxSamples, ior: f32, i: i32, turn: vec2f) -> mx_Ggx
 {
     let facet: mx_GgxFacet = mx_ggx_facet(s, i, turn);
     let h: vec3f = normalize(facet.h);
-    return mx_GgxLight(mx_filtered_light(s.to_map * reflect(s.v, refract(-s.v, h, 1.0 / ior)), facet.texels), s.weight
-        * 0.5 / s.v.z, clamp(dot(s.v, h), 1e-8, 1.0));
+    return mx_GgxLight(mx_filtered_light(s.to_map * reflect(s.v, refract(-s.v, h, 1.0 / ior)), facet.texels),
+        s.weight * 0.5 / s.v.z, clamp(dot(s.v, h), 1e-8, 1.0));
 }
 
 @fragment
@@ -435,8 +435,9 @@ fn main(vd: VertexData) -> @location(0) vec4f
         * min(u_pub.SR_gltf_pbr_specular_color * (amplitude * amplitude), vec3f(1.0)), vec3f(0.0));
     let f90: vec3f = vec3f(max(u_pub.SR_gltf_pbr_specular, 0.0));
     let alpha_bitangent: f32 = u_pub.SR_gltf_pbr_roughness * u_pub.SR_gltf_pbr_roughness;
-    let specular_roughness: vec2f = clamp(vec2f(mix(alpha_bitangent, 1.0, u_pub.SR_gltf_pbr_anisotropy_strength
-        * u_pub.SR_gltf_pbr_anisotropy_strength), alpha_bitangent), vec2f(0.00001), vec2f(1.0));
+    let specular_roughness: vec2f = clamp(vec2f(mix(alpha_bitangent, 1.0,
+        u_pub.SR_gltf_pbr_anisotropy_strength * u_pub.SR_gltf_pbr_anisotropy_strength), alpha_bitangent),
+        vec2f(0.00001), vec2f(1.0));
     let alpha: vec2f = clamp(specular_roughness, vec2f(1e-8), vec2f(1.0));
     let cos_v: f32 = max(abs(dot(N, V)), 1e-8);
     let albedo: vec2f = mx_ggx_albedo_fit(sqrt(alpha.x * alpha.y), cos_v);
@@ -461,8 +462,8 @@ fn main(vd: VertexData) -> @location(0) vec4f
     let fuzz_weight: f32 = clamp(sheen_weight, 0.0, 1.0);
     let sheen_rough: f32 = u_pub.SR_gltf_pbr_sheen_roughness * u_pub.SR_gltf_pbr_sheen_roughness;
     let sheen_albedo: f32 = clamp(mx_bicubic(mat4x4f(3.7341, -15.9587, 23.621, -11.0989, -8.2265, 35.1081, -49.7137,
-        23.2945, 4.0691, -17.882, 25.6639, -12.0167, -0.5833, 2.6552, -3.9393, 1.8999), 1.0 / (cos_v + 1.0), 1.0
-        / (sheen_rough + 0.2)), 0.0, 1.0);
+        23.2945, 4.0691, -17.882, 25.6639, -12.0167, -0.5833, 2.6552, -3.9393, 1.8999), 1.0 / (cos_v + 1.0),
+        1.0 / (sheen_rough + 0.2)), 0.0, 1.0);
     let substrate_weight: f32 = coating_throughput * (1.0 - fuzz_weight * sheen_albedo);
     let body_weight: f32 = mix(reflection_throughput, 1.0 - dot(single * reflection_film_scale, vec3f(0.33333334)),
         clamped_iridescence) * substrate_weight;

@@ -112,8 +112,8 @@ fn wgsl_mat3x3f_of_mat4x4f(m: mat4x4f) -> mat3x3f
 //     M^-1 = [a 0 b; 0 a 0; 0 0 1] in the plane of V and N
 fn mx_sheen_transform(c: f32, r: f32) -> vec2f
 {
-    return vec2f((2.58126 * c + 0.813703 * r) * r / (1.0 + 0.310327 * c * c + 2.60994 * c * r), sqrt(1.0 - c)
-        * (r - 1.0) * r * r * r / (0.0000254053 + 1.71228 * c - 1.71506 * c * r + 1.34174 * r * r));
+    return vec2f((2.58126 * c + 0.813703 * r) * r / (1.0 + 0.310327 * c * c + 2.60994 * c * r),
+        sqrt(1.0 - c) * (r - 1.0) * r * r * r / (0.0000254053 + 1.71228 * c - 1.71506 * c * r + 1.34174 * r * r));
 }
 
 // The direction w in the tangent space around N, whose x lies along the unit tangent `x`.
@@ -210,8 +210,8 @@ fn mx_ggx_albedo_fit(a: f32, c: f32) -> vec2f
         -0.0277, 36.4897, -72.9122, 58.0878, -20.917, -31.4763, 79.0768, -73.9706, 26.5429), a / (a + c), a), 0.0, 1.0);
     let u: f32 = a / (a + 0.6 * c);
     return vec2f(min(1.0017 - u * u * mx_bicubic(mat4x4f(-0.0334, 3.1441, -6.1576, 3.0758, 0.6997, 7.8981, -14.3238,
-        8.7382, 4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, a * c), 1.0), x * x * x * x
-        * x);
+        8.7382, 4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, a * c), 1.0),
+        x * x * x * x * x);
 }
 
 // Roughness of a lobe that is seen through a rough coat (OpenPBR Surface specification, "Roughening").
@@ -281,8 +281,8 @@ fn mx_open_pbr_coat_darkening(base_color: vec3f, base_metalness: f32, specular_w
 {
     let kept: f32 = max(1.0 - 4.0 * coat_ior / ((coat_ior + 1.0) * (coat_ior + 1.0)) / (coat_ior * coat_ior), 0.0);
     return mix(vec3f(1.0), vec3f(1.0 - kept)
-        / (vec3f(1.0) - kept * mix(mix(base_color, subsurface_color, subsurface_weight), base_color
-        * min(specular_weight, 1.0), base_metalness)), coat_darkening);
+        / (vec3f(1.0) - kept * mix(mix(base_color, subsurface_color, subsurface_weight),
+        base_color * min(specular_weight, 1.0), base_metalness)), coat_darkening);
 }
 
 // Schlick's curve from f0 to f90 at a cosine, less `bend` times cos (1 - cos)^6.
@@ -462,15 +462,15 @@ fn mx_ggx_samples(roughness: vec2f, count: i32, N: vec3f, X: vec3f, V: vec3f) ->
     return mx_GgxSamples(wgsl_mat3x3f_of_mat4x4f(u_prv.u_envMatrix) * frame, stretch, area, v, lobe.masking, reach,
         share * (v.z + reach), area * (v.z + lobe.masking)
         * max(2.0 / f32(count), 4.4 / f32(max(u_prv.u_envRadianceSamples, 1)))
-        * exp2(2.0 * f32(u_prv.u_envRadianceMips) - 4.6485), u_prv.u_envLightIntensity
-        * (share * (v.z + lobe.masking)));
+        * exp2(2.0 * f32(u_prv.u_envRadianceMips) - 4.6485),
+        u_prv.u_envLightIntensity * (share * (v.z + lobe.masking)));
 }
 
 // Light of the environment from the unit direction d of its picture, filtered over as many texels.
 fn mx_filtered_light(d: vec3f, texels: f32) -> vec3f
 {
-    return textureSampleLevel(u_envRadiance, u_envRadiance_sampler, mx_map_point(d), 0.5
-        * log2(texels * inverseSqrt(mx_map_square(d)))).xyz;
+    return textureSampleLevel(u_envRadiance, u_envRadiance_sampler, mx_map_point(d),
+        0.5 * log2(texels * inverseSqrt(mx_map_square(d)))).xyz;
 }
 
 // Height-correlated masking and shadowing G2 over 2 cos_v cos_l (Heitz 2014, equation 99); `masking` is that of the
@@ -504,8 +504,8 @@ fn mx_ggx_reflected(s: mx_GgxSamples, i: i32, turn: vec2f) -> mx_GgxLight
     let facet: mx_GgxFacet = mx_ggx_facet(s, i, turn);
     let l: vec3f = facet.mirror * facet.h - s.v;
     let cos_l: f32 = max(l.z, 1e-8);
-    return mx_GgxLight(mx_filtered_light(s.to_map * l, facet.texels), s.weight * cos_l
-        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l),
+    return mx_GgxLight(mx_filtered_light(s.to_map * l, facet.texels),
+        s.weight * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l),
         sqrt(clamp(0.5 * (facet.mirror * facet.cosine), 1e-8, 1.0)));
 }
 
@@ -514,8 +514,8 @@ fn mx_ggx_transmitted(s: mx_GgxSamples, ior: f32, i: i32, turn: vec2f) -> mx_Ggx
 {
     let facet: mx_GgxFacet = mx_ggx_facet(s, i, turn);
     let h: vec3f = normalize(facet.h);
-    return mx_GgxLight(mx_filtered_light(s.to_map * reflect(s.v, refract(-s.v, h, 1.0 / ior)), facet.texels), s.weight
-        * 0.5 / s.v.z, clamp(dot(s.v, h), 1e-8, 1.0));
+    return mx_GgxLight(mx_filtered_light(s.to_map * reflect(s.v, refract(-s.v, h, 1.0 / ior)), facet.texels),
+        s.weight * 0.5 / s.v.z, clamp(dot(s.v, h), 1e-8, 1.0));
 }
 
 // Light that arrives at a point of a circle of this curvature by subsurface scattering, where the cosine of the light
@@ -524,8 +524,8 @@ fn mx_ggx_transmitted(s: mx_GgxSamples, ior: f32, i: i32, turn: vec2f) -> mx_Ggx
 fn mx_subsurface_light(radius: f32, curvature: f32, cos_l: f32) -> f32
 {
     let x: f32 = curvature * max(radius, 0.1);
-    let bend: vec3f = (vec3f(0.1573, 0.0104, 0.1632) + x
-        * (vec3f(0.662, 0.1732, 0.6079) + x * vec3f(0.6075, 0.4138, 0.8133)))
+    let bend: vec3f = (vec3f(0.1573, 0.0104, 0.1632)
+        + x * (vec3f(0.662, 0.1732, 0.6079) + x * vec3f(0.6075, 0.4138, 0.8133)))
         / (6.2831855 * (0.1602 + x * (0.6652 + x)));
     return bend.x * cos_l + sqrt(bend.y * bend.y + (bend.z * bend.z - bend.y * bend.y) * (cos_l * cos_l));
 }
@@ -544,8 +544,8 @@ fn mx_subsurface_light_2(radius: vec3f, curvature: f32, cos_l: f32) -> vec3f
 fn mx_fujii_albedo(cosine: f32, r: f32) -> f32
 {
     let sine: f32 = sqrt(max(1.0 - cosine * cosine, 0.0));
-    let g: f32 = sine * (acos(min(cosine, 1.0)) - sine * cosine) + 0.6666667
-        * (sine / cosine * (1.0 - sine * sine * sine) - sine);
+    let g: f32 = sine * (acos(min(cosine, 1.0)) - sine * cosine)
+        + 0.6666667 * (sine / cosine * (1.0 - sine * sine * sine) - sine);
     return (1.0 + r * g / 3.1415927) / (1.0 + 0.28779334 * r);
 }
 
@@ -610,8 +610,8 @@ fn main(vd: VertexData) -> @location(0) vec4f
     let thin_film_ior: f32 = u_pub.SR_open_pbr_surface_thin_film_ior;
     let clamped_darkened: vec3f = clamp(mx_open_pbr_coat_darkening(u_pub.SR_open_pbr_surface_base_color,
         u_pub.SR_open_pbr_surface_base_metalness, u_pub.SR_open_pbr_surface_specular_weight,
-        u_pub.SR_open_pbr_surface_subsurface_weight, u_pub.SR_open_pbr_surface_subsurface_color, coat_ior, coat_weight
-        * u_pub.SR_open_pbr_surface_coat_darkening), vec3f(0.0), vec3f(1.0));
+        u_pub.SR_open_pbr_surface_subsurface_weight, u_pub.SR_open_pbr_surface_subsurface_color, coat_ior,
+        coat_weight * u_pub.SR_open_pbr_surface_coat_darkening), vec3f(0.0), vec3f(1.0));
     let coated_weight: f32 = (1.0 - fuzz_product_2)
         * (1.0 - coating_weight * (mix(coating_r * coating_r, 1.0, coating_albedo.y) * coating_albedo.x
         * coating_scale));
@@ -724,8 +724,8 @@ fn main(vd: VertexData) -> @location(0) vec4f
     // environment: metal_film, metal_bare, reflection_film, reflection_bare
     let count: i32 = mx_sample_count(alpha);
     let samples: mx_GgxSamples = mx_ggx_samples(roughness, count, N, X, V);
-    if (reflection_bare_weight > 0.0 || reflection_film_weight > 0.0 || metal_film_weight > 0.0 || metal_bare_weight
-        > 0.0) {
+    if (reflection_bare_weight > 0.0 || reflection_film_weight > 0.0 || metal_film_weight > 0.0
+        || metal_bare_weight > 0.0) {
         if (film_thickness > 0.0) {
             var turn: vec2f = vec2f(1.0, 0.0);
             for (var i: i32 = 0; i < count; i++) {
@@ -775,8 +775,8 @@ fn main(vd: VertexData) -> @location(0) vec4f
     let refraction_film_visible: bool = clamped_thin_film_weight * filled_weight > 0.0;
     let refraction_bare_weight: f32 = filled_weight * (1.0 - clamped_thin_film_weight);
     let single: f32 = mix(r * r, 1.0, albedo.y) * albedo.x;
-    let body_weight: vec3f = mix(vec3f(1.0 - single * reflection_bare_scale), vec3f(1.0) - single
-        * reflection_film_scale, clamped_thin_film_weight) * substrate_weight;
+    let body_weight: vec3f = mix(vec3f(1.0 - single * reflection_bare_scale),
+        vec3f(1.0) - single * reflection_film_scale, clamped_thin_film_weight) * substrate_weight;
     if (refraction_film_visible || refraction_bare_weight > 0.0) {
         let tint: vec3f = max(select(u_pub.SR_open_pbr_surface_transmission_color, vec3f(1.0),
             u_pub.SR_open_pbr_surface_transmission_depth > 0.0), vec3f(0.0));

@@ -198,8 +198,8 @@ fn mx_ggx_albedo_fit(a: f32, c: f32) -> vec2f
         -0.0277, 36.4897, -72.9122, 58.0878, -20.917, -31.4763, 79.0768, -73.9706, 26.5429), a / (a + c), a), 0.0, 1.0);
     let u: f32 = a / (a + 0.6 * c);
     return vec2f(min(1.0017 - u * u * mx_bicubic(mat4x4f(-0.0334, 3.1441, -6.1576, 3.0758, 0.6997, 7.8981, -14.3238,
-        8.7382, 4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, a * c), 1.0), x * x * x * x
-        * x);
+        8.7382, 4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, a * c), 1.0),
+        x * x * x * x * x);
 }
 
 // The vector v turned clockwise around an axis of unit length, by an angle in radians (Rodrigues' formula).
@@ -362,8 +362,8 @@ fn mx_fresnel_2(cosine: f32, n: vec3f, film: f32, film_ior: f32) -> vec3f
 fn mx_subsurface_light(radius: f32, curvature: f32, cos_l: f32) -> f32
 {
     let x: f32 = curvature * max(radius, 0.1);
-    let bend: vec3f = (vec3f(0.1573, 0.0104, 0.1632) + x
-        * (vec3f(0.662, 0.1732, 0.6079) + x * vec3f(0.6075, 0.4138, 0.8133)))
+    let bend: vec3f = (vec3f(0.1573, 0.0104, 0.1632)
+        + x * (vec3f(0.662, 0.1732, 0.6079) + x * vec3f(0.6075, 0.4138, 0.8133)))
         / (6.2831855 * (0.1602 + x * (0.6652 + x)));
     return bend.x * cos_l + sqrt(bend.y * bend.y + (bend.z * bend.z - bend.y * bend.y) * (cos_l * cos_l));
 }
@@ -423,15 +423,15 @@ fn mx_ggx_samples(roughness: vec2f, count: i32, N: vec3f, X: vec3f, V: vec3f) ->
     return mx_GgxSamples(wgsl_mat3x3f_of_mat4x4f(u_prv.u_envMatrix) * frame, stretch, area, v, lobe.masking, reach,
         share * (v.z + reach), area * (v.z + lobe.masking)
         * max(2.0 / f32(count), 4.4 / f32(max(u_prv.u_envRadianceSamples, 1)))
-        * exp2(2.0 * f32(u_prv.u_envRadianceMips) - 4.6485), u_prv.u_envLightIntensity
-        * (share * (v.z + lobe.masking)));
+        * exp2(2.0 * f32(u_prv.u_envRadianceMips) - 4.6485),
+        u_prv.u_envLightIntensity * (share * (v.z + lobe.masking)));
 }
 
 // Light of the environment from the unit direction d of its picture, filtered over as many texels.
 fn mx_filtered_light(d: vec3f, texels: f32) -> vec3f
 {
-    return textureSampleLevel(u_envRadiance, u_envRadiance_sampler, mx_map_point(d), 0.5
-        * log2(texels * inverseSqrt(mx_map_square(d)))).xyz;
+    return textureSampleLevel(u_envRadiance, u_envRadiance_sampler, mx_map_point(d),
+        0.5 * log2(texels * inverseSqrt(mx_map_square(d)))).xyz;
 }
 
 // Height-correlated masking and shadowing G2 over 2 cos_v cos_l (Heitz 2014, equation 99); `masking` is that of the
@@ -465,8 +465,8 @@ fn mx_ggx_reflected(s: mx_GgxSamples, i: i32, turn: vec2f) -> mx_GgxLight
     let facet: mx_GgxFacet = mx_ggx_facet(s, i, turn);
     let l: vec3f = facet.mirror * facet.h - s.v;
     let cos_l: f32 = max(l.z, 1e-8);
-    return mx_GgxLight(mx_filtered_light(s.to_map * l, facet.texels), s.weight * cos_l
-        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l),
+    return mx_GgxLight(mx_filtered_light(s.to_map * l, facet.texels),
+        s.weight * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l),
         sqrt(clamp(0.5 * (facet.mirror * facet.cosine), 1e-8, 1.0)));
 }
 
@@ -475,8 +475,8 @@ fn mx_ggx_transmitted(s: mx_GgxSamples, ior: f32, i: i32, turn: vec2f) -> mx_Ggx
 {
     let facet: mx_GgxFacet = mx_ggx_facet(s, i, turn);
     let h: vec3f = normalize(facet.h);
-    return mx_GgxLight(mx_filtered_light(s.to_map * reflect(s.v, refract(-s.v, h, 1.0 / ior)), facet.texels), s.weight
-        * 0.5 / s.v.z, clamp(dot(s.v, h), 1e-8, 1.0));
+    return mx_GgxLight(mx_filtered_light(s.to_map * reflect(s.v, refract(-s.v, h, 1.0 / ior)), facet.texels),
+        s.weight * 0.5 / s.v.z, clamp(dot(s.v, h), 1e-8, 1.0));
 }
 
 @fragment
@@ -521,13 +521,13 @@ fn main(vd: VertexData) -> @location(0) vec4f
     let coating_scale: f32 = mix(coating_r * coating_r, 1.0, 0.04761905) * (1.0 / coating_albedo.x - 1.0) + 1.0;
     let coating_throughput: f32 = 1.0 - coat_weight
         * (mix(coating_r * coating_r, 1.0, coating_albedo.y) * coating_albedo.x * coating_scale);
-    let body_weight: vec3f = (vec3f(1.0) - reflection_scale
-        * (reflection_weight * (mix(reflection_r * reflection_r, 1.0, albedo.y) * albedo.x)))
+    let body_weight: vec3f = (vec3f(1.0)
+        - reflection_scale * (reflection_weight * (mix(reflection_r * reflection_r, 1.0, albedo.y) * albedo.x)))
         * (clamped_coat_tint * coating_throughput);
     let fuzz_weight: f32 = clamp(u_pub.SR_standard_surface_sheen, 0.0, 1.0);
     let sheen_albedo: f32 = clamp(mx_bicubic(mat4x4f(3.7341, -15.9587, 23.621, -11.0989, -8.2265, 35.1081, -49.7137,
-        23.2945, 4.0691, -17.882, 25.6639, -12.0167, -0.5833, 2.6552, -3.9393, 1.8999), 1.0 / (cos_v + 1.0), 1.0
-        / (u_pub.SR_standard_surface_sheen_roughness + 0.2)), 0.0, 1.0);
+        23.2945, 4.0691, -17.882, 25.6639, -12.0167, -0.5833, 2.6552, -3.9393, 1.8999), 1.0 / (cos_v + 1.0),
+        1.0 / (u_pub.SR_standard_surface_sheen_roughness + 0.2)), 0.0, 1.0);
     let fuzz_throughput: f32 = 1.0 - fuzz_weight * sheen_albedo;
     let metal_weight: f32 = clamp(u_pub.SR_standard_surface_metalness, 0.0, 1.0);
     let clamped_transmission: f32 = clamp(u_pub.SR_standard_surface_transmission, 0.0, 1.0);
@@ -634,8 +634,8 @@ fn main(vd: VertexData) -> @location(0) vec4f
     let part: vec3f = textureSampleLevel(u_envIrradiance, u_envIrradiance_sampler,
         mx_map_point(normalize(wgsl_mat3x3f_of_mat4x4f(u_prv.u_envMatrix) * Nf)), 0.0).xyz;
     let fit: vec2f = u_pub.SR_standard_surface_diffuse_roughness
-        * (cos_v * vec2f(-0.7632, -0.4993) - vec2f(0.4297, 0.6076) + u_pub.SR_standard_surface_diffuse_roughness
-        * vec2f(1.4385, 2.0315)) + vec2f(1.0);
+        * (cos_v * vec2f(-0.7632, -0.4993) - vec2f(0.4297, 0.6076)
+        + u_pub.SR_standard_surface_diffuse_roughness * vec2f(1.4385, 2.0315)) + vec2f(1.0);
     let diffuse_response: vec3f = diffuse_product * part * (u_prv.u_envLightIntensity * clamp(fit.x / fit.y, 0.0, 1.0));
     let fuzz_response: vec3f = fuzz_factor * part * (sheen_albedo * u_prv.u_envLightIntensity);
     color += diffuse_response + (fuzz_response + u_prv.u_envLightIntensity * (scatter_factor * part));

@@ -350,8 +350,8 @@ float3 mx_uncut_color(uint word)
 // A colour from its encoding of IEC 61966-2-1.
 float3 mx_linear(float3 srgb)
 {
-    return choose(pow((srgb + 0.055) / 1.055, float3(2.4, 2.4, 2.4)), srgb / 12.92, srgb
-        < float3(0.04045, 0.04045, 0.04045));
+    return choose(pow((srgb + 0.055) / 1.055, float3(2.4, 2.4, 2.4)), srgb / 12.92,
+        srgb < float3(0.04045, 0.04045, 0.04045));
 }
 
 // A number from -1 to 1 from its bits of a word.
@@ -361,7 +361,7 @@ float mx_uncut_signed(uint word, uint shift, uint bits)
     return float(int(word << (32u - bits - shift)) >> int(32u - bits)) / most;
 }
 
-// Two axes across a normal. Duff et al. 2017, "Building an Orthonormal Basis, Revisited".
+// Two axes across a normal (Duff et al. 2017, "Building an Orthonormal Basis, Revisited").
 void mx_across(float3 n, out float3 x, out float3 y)
 {
     float side = n.z < 0.0 ? -1.0 : 1.0;
@@ -371,7 +371,8 @@ void mx_across(float3 n, out float3 x, out float3 y)
     y = float3(b, side + n.y * n.y * a, -n.y);
 }
 
-// Cigolle et al. 2014, "A Survey of Efficient Representations for Independent Unit Vectors": octahedral.
+// The place of a direction in the octahedral square (Cigolle et al. 2014, "A Survey of Efficient Representations for
+// Independent Unit Vectors").
 float2 mx_octahedral(float3 n)
 {
     float2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
@@ -408,8 +409,8 @@ MxClosure mx_unpack(MxRecord r, float3 normal, float roughness)
     float3 y;
     mx_across(normal, x, y);
     bool has_glints = r.glints[2] != 0u;
-    float turn = has_glints ? float(r.glints[3] & 4095u) / 4096.0 * 6.2831855 : float(r.anisotropy & 65535u) / 65536.0
-        * 3.1415927;
+    float turn = has_glints ? float(r.glints[3] & 4095u) / 4096.0 * 6.2831855
+        : float(r.anisotropy & 65535u) / 65536.0 * 3.1415927;
     c.roughness = has_glints ? mx_uncut(r.glints[3], 12u, 12u) : roughness;
     int2 rest = int2(int(r.glints[3] << 4u) >> 28, int(r.glints[3]) >> 28);
     if (has_glints)
@@ -566,8 +567,8 @@ float2 mx_ggx_albedo_fit(float a, float c)
         36.4897, -72.9122, 58.0878, -20.917, -31.4763, 79.0768, -73.9706, 26.5429), a / (a + c), a), 0.0, 1.0);
     float u = a / (a + 0.6 * c);
     return float2(min(1.0017 - u * u * mx_bicubic(float4x4(-0.0334, 3.1441, -6.1576, 3.0758, 0.6997, 7.8981, -14.3238,
-        8.7382, 4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, a * c), 1.0), x * x * x * x
-        * x);
+        8.7382, 4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, a * c), 1.0),
+        x * x * x * x * x);
 }
 
 // Schlick's curve from f0 to f90 at a cosine, less `bend` times cos (1 - cos)^6.
@@ -616,8 +617,8 @@ float2 mx_map_point(float3 d)
 {
     float square = mx_map_square(d);
     float stretch = rsqrt(square);
-    return float2(frac((d.z > 0.0 ? -0.5 : 0.5) * (mx_half_turn(d.x * stretch, abs(d.z) * stretch) + 0.5) + 0.25), 0.5
-        - mx_half_turn(d.y, square * stretch));
+    return float2(frac((d.z > 0.0 ? -0.5 : 0.5) * (mx_half_turn(d.x * stretch, abs(d.z) * stretch) + 0.5) + 0.25),
+        0.5 - mx_half_turn(d.y, square * stretch));
 }
 
 // The number of samples, from 1, that a lobe takes; roughness is that along two directions, squared.
@@ -658,16 +659,16 @@ mx_GgxSamples mx_ggx_samples(float2 roughness, int count, float3 N, float3 V)
     float area = stretch.x * stretch.y;
     float share = 1.0 / float(count);
     return make_mx_GgxSamples(mul(float3x3(x, cross(lobe.N, x), lobe.N), (float3x3)u_envMatrix), stretch, area, v,
-        lobe.masking, reach, share * (v.z + reach), area * (v.z + lobe.masking)
-        * max(2.0 / float(count), 4.4 / float(max(u_envRadianceSamples, 1)))
+        lobe.masking, reach, share * (v.z + reach),
+        area * (v.z + lobe.masking) * max(2.0 / float(count), 4.4 / float(max(u_envRadianceSamples, 1)))
         * exp2(2.0 * float(u_envRadianceMips) - 4.6485), u_envLightIntensity * (share * (v.z + lobe.masking)));
 }
 
 // Light of the environment from the unit direction d of its picture, filtered over as many texels.
 float3 mx_filtered_light(float3 d, float texels)
 {
-    return u_envRadiance.SampleLevel(u_envRadiance_sampler, mx_map_point(d), 0.5
-        * log2(texels * rsqrt(mx_map_square(d)))).xyz;
+    return u_envRadiance.SampleLevel(u_envRadiance_sampler, mx_map_point(d),
+        0.5 * log2(texels * rsqrt(mx_map_square(d)))).xyz;
 }
 
 // Height-correlated masking and shadowing G2 over 2 cos_v cos_l (Heitz 2014, equation 99); `masking` is that of the
@@ -701,8 +702,8 @@ mx_GgxLight mx_ggx_reflected(mx_GgxSamples s, int i, float2 turn)
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     float3 l = facet.mirror * facet.h - s.v;
     float cos_l = max(l.z, 1e-8);
-    return make_mx_GgxLight(mx_filtered_light(mul(l, s.to_map), facet.texels), s.weight * cos_l
-        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l),
+    return make_mx_GgxLight(mx_filtered_light(mul(l, s.to_map), facet.texels),
+        s.weight * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l),
         sqrt(clamp(0.5 * (facet.mirror * facet.cosine), 1e-8, 1.0)));
 }
 
@@ -725,11 +726,11 @@ void surface()
     float2 albedo = mx_ggx_albedo_fit(reflection_alpha, cos_v);
     float3 reflection_factor = lerp(fresnel_f0, grazing, 0.04761905) * (1.0 / albedo.x - 1.0) + float3(1.0, 1.0, 1.0);
     float3 reflection_throughput = float3(1.0, 1.0, 1.0)
-        - (float3(1.0, 1.0, 1.0) - max(float3(1.0, 1.0, 1.0) - lerp(fresnel_f0, grazing, albedo.y) * albedo.x
-        * reflection_factor, 0.0));
+        - (float3(1.0, 1.0, 1.0) - max(float3(1.0, 1.0, 1.0)
+        - lerp(fresnel_f0, grazing, albedo.y) * albedo.x * reflection_factor, 0.0));
     float3 medium_factor = mx_chan_share(cos_v, chan_gloss) * (vd.geomprop_diffuse_albedo * reflection_throughput);
-    float ggx_masking = sqrt(reflection_alpha * reflection_alpha + (1.0 - reflection_alpha * reflection_alpha)
-        * (cos_v * cos_v));
+    float ggx_masking = sqrt(reflection_alpha * reflection_alpha
+        + (1.0 - reflection_alpha * reflection_alpha) * (cos_v * cos_v));
     mx_GgxLobe reflection_ggx_lobe = make_mx_GgxLobe(facing, cos_v, float3(0.0, 0.0, 0.0), (float2)reflection_alpha,
         ggx_masking);
     // from the last light, so that drivers do not unroll the loop
@@ -774,8 +775,8 @@ void surface()
     float3 environment_irradiance = u_envIrradiance.SampleLevel(u_envIrradiance_sampler,
         mx_map_point(normalize(mul(facing + V * ((cos_v * (cos_v * 0.5624 - 0.7155) + 0.4353) * medium_product),
         (float3x3)u_envMatrix))), 0.0).xyz * u_envLightIntensity;
-    color += reflection_throughput * (is_black ? float3(0.0, 0.0, 0.0) : vd.geomprop_diffuse_albedo
-        * environment_irradiance);
+    color += reflection_throughput * (is_black ? float3(0.0, 0.0, 0.0)
+        : vd.geomprop_diffuse_albedo * environment_irradiance);
     // environment: reflection
     if (true) {
         float2 turn = float2(1.0, 0.0);

@@ -82,8 +82,8 @@ vec4 out1;
 //     M^-1 = [a 0 b; 0 a 0; 0 0 1] in the plane of V and N
 vec2 mx_sheen_transform(const float c, const float r)
 {
-    return vec2((2.58126 * c + 0.813703 * r) * r / (1.0 + 0.310327 * c * c + 2.60994 * c * r), sqrt(1.0 - c) * (r - 1.0)
-        * r * r * r / (0.0000254053 + 1.71228 * c - 1.71506 * c * r + 1.34174 * r * r));
+    return vec2((2.58126 * c + 0.813703 * r) * r / (1.0 + 0.310327 * c * c + 2.60994 * c * r),
+        sqrt(1.0 - c) * (r - 1.0) * r * r * r / (0.0000254053 + 1.71228 * c - 1.71506 * c * r + 1.34174 * r * r));
 }
 
 // The direction w in the tangent space around N, whose x lies along the unit tangent `x`.
@@ -137,10 +137,10 @@ vec3 mx_ggx_round_like(const vec2 alpha, const vec3 v)
     float d = shape * shape;
     float w = shape * (slope.x * slope.x - slope.y * slope.y) / square;
     float z = v.z * inversesqrt(square);
-    float by_shape = 2.2948 + z * (0.4077 - z * 0.9768 - m * 1.2426) + m * (-0.3067 - m * 0.1914) + d
-        * (-1.3213 + z * 0.8393 + m * 0.5168 - w * 0.4015 + d * 0.1179);
-    float by_turn = -1.107 + z * (-2.1285 + z * (0.2635 - z * 1.0931) + m * 3.7599) + m * (1.5833 - m * 1.2029) + d
-        * (0.9877 + z * 0.4531 - m * 0.6085) + w * (-0.6818 - z * 1.0142 + m * 0.6407 + d * 0.6879 - w * 0.1762);
+    float by_shape = 2.2948 + z * (0.4077 - z * 0.9768 - m * 1.2426) + m * (-0.3067 - m * 0.1914)
+        + d * (-1.3213 + z * 0.8393 + m * 0.5168 - w * 0.4015 + d * 0.1179);
+    float by_turn = -1.107 + z * (-2.1285 + z * (0.2635 - z * 1.0931) + m * 3.7599) + m * (1.5833 - m * 1.2029)
+        + d * (0.9877 + z * 0.4531 - m * 0.6085) + w * (-0.6818 - z * 1.0142 + m * 0.6407 + d * 0.6879 - w * 0.1762);
     float a = m * sqrt(max(1.0 + d * by_shape + w * by_turn, 0.05));
     float stretch = sqrt(v.z * v.z + dot(slope, slope) / (a * a));
     return vec3(a, v.z / stretch, stretch);
@@ -218,8 +218,8 @@ vec2 mx_map_point(const vec3 d)
 {
     float square = mx_map_square(d);
     float stretch = inversesqrt(square);
-    return vec2(fract((d.z > 0.0 ? -0.5 : 0.5) * (mx_half_turn(d.x * stretch, abs(d.z) * stretch) + 0.5) + 0.25), 0.5
-        - mx_half_turn(d.y, square * stretch));
+    return vec2(fract((d.z > 0.0 ? -0.5 : 0.5) * (mx_half_turn(d.x * stretch, abs(d.z) * stretch) + 0.5) + 0.25),
+        0.5 - mx_half_turn(d.y, square * stretch));
 }
 
 // The number of samples, from 1, that a lobe takes; roughness is that along two directions, squared.
@@ -260,8 +260,8 @@ mx_GgxSamples mx_ggx_samples(const vec2 roughness, const int count, const vec3 N
     float reach = length(v * stretch);
     float area = stretch.x * stretch.y;
     float share = 1.0 / float(count);
-    return mx_GgxSamples(mat3(u_envMatrix) * frame, stretch, area, v, lobe.masking, reach, share * (v.z + reach), area
-        * (v.z + lobe.masking) * max(2.0 / float(count), 4.4 / float(max(u_envRadianceSamples, 1)))
+    return mx_GgxSamples(mat3(u_envMatrix) * frame, stretch, area, v, lobe.masking, reach, share * (v.z + reach),
+        area * (v.z + lobe.masking) * max(2.0 / float(count), 4.4 / float(max(u_envRadianceSamples, 1)))
         * exp2(2.0 * float(u_envRadianceMips) - 4.6485), u_envLightIntensity * (share * (v.z + lobe.masking)));
 }
 
@@ -295,8 +295,8 @@ mx_GgxLight mx_ggx_reflected_by_direction(const mx_GgxSamples s, const int i, co
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     vec3 l = facet.mirror * facet.h - s.v;
     float cos_l = max(l.z, 1e-8);
-    return mx_GgxLight(mx_filtered_light(s.to_map * l, facet.texels), u_envLightIntensity * s.step * cos_l
-        / (s.v.z * length(vec3(l.xy * s.stretch.xy, l.z)) + cos_l * s.reach),
+    return mx_GgxLight(mx_filtered_light(s.to_map * l, facet.texels),
+        u_envLightIntensity * s.step * cos_l / (s.v.z * length(vec3(l.xy * s.stretch.xy, l.z)) + cos_l * s.reach),
         sqrt(clamp(0.5 * (facet.mirror * facet.cosine), 1e-8, 1.0)));
 }
 
@@ -336,11 +336,11 @@ vec3 mx_medium_layer(const vec3 a, const vec3 t, const float way, out vec3 trans
     vec3 u = t / (vec3(1.0) + t);
     float x = way - 1.0;
     vec3 s = 0.5 * a * way * (vec3(1.0) + u
-        * (vec3(-1.029) + u * (vec3(0.5422) - 0.3924 * a) + a * (vec3(0.7451) + 0.3145 * a) + x
-        * (vec3(1.1669) - 1.3629 * a)));
-    vec3 k = (vec3(1.0) - a) * way * (vec3(1.0) + a * u
-        * (vec3(0.604) + u * (vec3(-0.1979) - 0.4865 * a) + a * (vec3(1.393) - 0.5447 * a) + x
-        * (vec3(0.2436) - 2.0559 * a) + a * a * a * a * (vec3(-0.0215) + 0.5896 * u)));
+        * (vec3(-1.029) + u * (vec3(0.5422) - 0.3924 * a) + a * (vec3(0.7451) + 0.3145 * a)
+        + x * (vec3(1.1669) - 1.3629 * a)));
+    vec3 k = (vec3(1.0) - a) * way * (vec3(1.0)
+        + a * u * (vec3(0.604) + u * (vec3(-0.1979) - 0.4865 * a) + a * (vec3(1.393) - 0.5447 * a)
+        + x * (vec3(0.2436) - 2.0559 * a) + a * a * a * a * (vec3(-0.0215) + 0.5896 * u)));
     vec3 g = sqrt(k * (k + 2.0 * s));
     vec3 e = exp(-g * t);
     vec3 ways = mix((vec3(1.0) - e * e) / max(g, vec3(1e-6)), 2.0 * t * (vec3(1.0) - g * t), step(g * t, vec3(0.001)));
@@ -433,8 +433,8 @@ float mx_chan(const float g, const vec3 N, const vec3 V, const vec3 L)
 {
     float cos_v = max(abs(dot(N, V)), 1e-8);
     float cos_l = max(dot(faceforward(N, -V, N), L), 1e-8);
-    return mx_chan_lobe(g, cos_v, cos_l, sqrt(clamp(0.500001 + 0.5 * dot(V, L), 0.0, 1.0)), 1.0 - 0.75
-        * mx_power5(1.0 - cos_v)) * cos_l * mx_chan_share(cos_v, g);
+    return mx_chan_lobe(g, cos_v, cos_l, sqrt(clamp(0.500001 + 0.5 * dot(V, L), 0.0, 1.0)),
+        1.0 - 0.75 * mx_power5(1.0 - cos_v)) * cos_l * mx_chan_share(cos_v, g);
 }
 
 // Gloss of Chan's diffuse lobe for a roughness, 0 to 1 (Chan 2018, "Material Advances in Call of Duty: WWII").
@@ -615,9 +615,9 @@ void surface()
                 intensity = falloff;
             } else {
                 float spot_light_edge = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
-                intensity = light_type == 3 ? falloff
-                    * smoothstep(spot_light_edge, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
-                    : 0.0;
+                intensity = light_type == 3
+                    ? falloff * smoothstep(spot_light_edge, u_lightData[i].inner_angle,
+                    -dot(u_lightData[i].direction, to_light)) : 0.0;
             }
         }
         // subsurface
@@ -712,7 +712,8 @@ struct MxClosure
 // The storage of closures (docs/deferred.md): how values become bits, for those who write and those who read. MX_STORAGE: 0 rounds with
 // dither, 1 rounds, 2 keeps whole floats. MX_BLUR: 1 where rough interfaces blur what lies below.
 
-// Features that a closure has beside f0, albedo and roughness: one word each, two for weights. Bits 20 to 27 of its first word.
+// Features that a closure has beside f0, albedo and roughness: one word each, two for weights. Bits 20 to 27 of its
+// first word.
 const uint MX_HAS_WEIGHTS = 1u, MX_HAS_MEDIUM = 2u, MX_HAS_LOBES = 4u, MX_HAS_FUZZ = 8u, MX_HAS_ANISOTROPY = 16u;
 const uint MX_IS_SMOOTH = 32u;  // the closure on top, without a diffuse albedo: it has one word less
 const uint MX_NORMAL_SHIFT = 6; // 0: the normal of the top, 1: in a word of its own, 2: the last such word, 3: the one before it
@@ -730,73 +731,78 @@ struct MxRecord
 // The class of a pixel by its first word.
 uint mx_class(uint first)
 {
-    return (first >> 20u & MX_IS_SPECIAL) != 0u ? uint(MX_SPECIAL) : first >> 28u;
+    return ((first >> 20u) & MX_IS_SPECIAL) != 0u ? uint(MX_SPECIAL) : first >> 28u;
 }
 
 // The features of a closure.
 uint mx_features(uint core)
 {
-    return core >> 20u & ((core >> 20u & MX_IS_SPECIAL) != 0u ? 0x3ffu : 0xffu);
+    return (core >> 20u) & (((core >> 20u) & MX_IS_SPECIAL) != 0u ? 0x3ffu : 0xffu);
 }
 
 // ---- numbers of few bits ---------------------------------------------------------------------------------------------
 
-// From 0 to below 1. Jimenez 2014, "Next Generation Post Processing in Call of Duty: Advanced Warfare": interleaved gradient noise.
+// Interleaved gradient noise of a pixel, from 0 to below 1 (Jimenez 2014, "Next Generation Post Processing in Call of
+// Duty: Advanced Warfare").
 float mx_gradient_noise(vec2 pixel)
 {
     return fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715))));
 }
 
-// From 0 to 7 eighths: what is added before a number is cut off. A constant number costs one addition.
+#if MX_STORAGE == 0
+// The noise of the pixel, from 0 to 7 eighths: what is added before a number is cut off.
 uint mx_noise = 4u;
 
 // Chooses the noise of a pixel, before its numbers are cut.
 void mx_start_noise(vec2 pixel)
 {
-#if MX_STORAGE == 0
     mx_noise = uint(8.0 * mx_gradient_noise(pixel));
-#endif
 }
 
-// Channels differ by 5 eighths, near the golden ratio.
+// The noise of a channel. Channels differ by 5 eighths, near the golden ratio.
 uint mx_noise_of(uint channel)
 {
-#if MX_STORAGE == 0
-    return mx_noise + 5u * channel & 7u;
-#else
-    return mx_noise;
-#endif
+    return (mx_noise + 5u * channel) & 7u;
 }
 
-// A number from 0 to 1 in eighths of the steps of its bits.
+// A number from 0 to 1 in eighths of the steps of its bits. Noise has no middle, so its mean is right half an eighth
+// further.
 uint mx_eighths(float value, uint bits)
 {
-#if MX_STORAGE == 0
-    const float nearest = 0.5; // noise has no middle, so this is where its mean is right
-#else
-    const float nearest = 0.0; // half a step comes later
-#endif
-    return uint(clamp(value, 0.0, 1.0) * 8.0 * float((1u << bits) - 1u) + nearest);
+    return uint(clamp(value, 0.0, 1.0) * 8.0 * float((1u << bits) - 1u) + 0.5);
 }
 
 // A number from 0 to 1 in so many bits. Each channel has noise of its own.
 uint mx_cut(float value, uint bits, uint channel)
 {
-    return mx_eighths(value, bits) + mx_noise_of(channel) >> 3u;
+    return (mx_eighths(value, bits) + mx_noise_of(channel)) >> 3u;
 }
+
+// A colour in 7, 7 and 6 bits. Ten bits hold the eighths of a channel, so that one addition dithers all three.
+uint mx_cut_color(vec3 color)
+{
+    uint eighths = mx_eighths(color.x, 7u) | (mx_eighths(color.y, 7u) << 10u) | (mx_eighths(color.z, 6u) << 20u);
+    eighths += mx_noise_of(0u) | (mx_noise_of(1u) << 10u) | (mx_noise_of(2u) << 20u);
+    return ((eighths >> 3u) & 0x7fu) | (((eighths >> 13u) & 0x7fu) << 7u) | (((eighths >> 23u) & 0x3fu) << 14u);
+}
+#else
+// The nearest of the numbers from 0 to 1 that so many bits have, alike in all channels.
+uint mx_cut(float value, uint bits, uint channel)
+{
+    return uint(clamp(value, 0.0, 1.0) * float((1u << bits) - 1u) + 0.5);
+}
+
+// A colour in 7, 7 and 6 bits.
+uint mx_cut_color(vec3 color)
+{
+    return mx_cut(color.x, 7u, 0u) | (mx_cut(color.y, 7u, 1u) << 7u) | (mx_cut(color.z, 6u, 2u) << 14u);
+}
+#endif
 
 // A number from 0 to 1 from its bits of a word.
 float mx_uncut(uint word, uint shift, uint bits)
 {
-    return float(word >> shift & (1u << bits) - 1u) / float((1u << bits) - 1u);
-}
-
-// 7, 7 and 6 bits. Ten bits hold the eighths of a channel, so that one addition dithers all three.
-uint mx_cut_color(vec3 color)
-{
-    uint eighths = mx_eighths(color.x, 7u) | mx_eighths(color.y, 7u) << 10u | mx_eighths(color.z, 6u) << 20u;
-    eighths += mx_noise_of(0u) | mx_noise_of(1u) << 10u | mx_noise_of(2u) << 20u;
-    return eighths >> 3u & 0x7fu | (eighths >> 13u & 0x7fu) << 7u | (eighths >> 23u & 0x3fu) << 14u;
+    return float((word >> shift) & ((1u << bits) - 1u)) / float((1u << bits) - 1u);
 }
 
 // A colour from its 20 bits.
@@ -805,21 +811,21 @@ vec3 mx_uncut_color(uint word)
     return vec3(mx_uncut(word, 0u, 7u), mx_uncut(word, 7u, 7u), mx_uncut(word, 14u, 6u));
 }
 
-// A number from -1 to 1; 0 has no bit.
+// A number from -1 to 1 in so many bits. 0 has none of them.
 uint mx_cut_signed(float value, uint bits)
 {
-    float most = float((1u << bits - 1u) - 1u);
-    return uint(int(round(clamp(value, -1.0, 1.0) * most))) & (1u << bits) - 1u;
+    float most = float((1u << (bits - 1u)) - 1u);
+    return uint(int(round(clamp(value, -1.0, 1.0) * most))) & ((1u << bits) - 1u);
 }
 
 // A number from -1 to 1 from its bits of a word.
 float mx_uncut_signed(uint word, uint shift, uint bits)
 {
-    float most = float((1u << bits - 1u) - 1u);
-    return float(int(word << 32u - bits - shift) >> int(32u - bits)) / most;
+    float most = float((1u << (bits - 1u)) - 1u);
+    return float(int(word << (32u - bits - shift)) >> int(32u - bits)) / most;
 }
 
-// IEC 61966-2-1
+// A colour in the encoding of IEC 61966-2-1.
 vec3 mx_srgb(vec3 linear)
 {
     vec3 c = clamp(linear, 0.0, 1.0);
@@ -832,7 +838,8 @@ vec3 mx_linear(vec3 srgb)
     return mix(pow((srgb + 0.055) / 1.055, vec3(2.4)), srgb / 12.92, lessThan(srgb, vec3(0.04045)));
 }
 
-// Cigolle et al. 2014, "A Survey of Efficient Representations for Independent Unit Vectors": octahedral.
+// The place of a direction in the octahedral square (Cigolle et al. 2014, "A Survey of Efficient Representations for
+// Independent Unit Vectors").
 vec2 mx_octahedral(vec3 n)
 {
     vec2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
@@ -854,7 +861,7 @@ vec3 mx_of_octahedral(vec2 square)
 uint mx_cut_normal(vec3 normal, uint bits)
 {
     uvec2 p = uvec2(round(mx_octahedral(normal) * float((1u << bits) - 1u)));
-    return p.x | p.y << bits;
+    return p.x | (p.y << bits);
 }
 
 // A direction from its bits.
@@ -863,7 +870,7 @@ vec3 mx_uncut_normal(uint word, uint bits)
     return mx_of_octahedral(vec2(mx_uncut(word, 0u, bits), mx_uncut(word, bits, bits)));
 }
 
-// Two axes across a normal. Duff et al. 2017, "Building an Orthonormal Basis, Revisited".
+// Two axes across a normal (Duff et al. 2017, "Building an Orthonormal Basis, Revisited").
 void mx_across(vec3 n, out vec3 x, out vec3 y)
 {
     float side = n.z < 0.0 ? -1.0 : 1.0, a = -1.0 / (side + n.z), b = n.x * n.y * a;
@@ -876,7 +883,7 @@ void mx_across(vec3 n, out vec3 x, out vec3 y)
 // The third word of a pixel: normal and roughness of the closure on top.
 uint mx_top(vec3 normal, float roughness)
 {
-    return mx_cut_normal(normal, 12u) | mx_cut(roughness, 8u, 3u) << 24u;
+    return mx_cut_normal(normal, 12u) | (mx_cut(roughness, 8u, 3u) << 24u);
 }
 
 // The normal of the closure on top.
@@ -897,7 +904,7 @@ uint mx_medium_word(MxClosure c)
     if (max(c.free_path.x, max(c.free_path.y, c.free_path.z)) <= 0.0
         || max(c.diffuse_albedo.x, max(c.diffuse_albedo.y, c.diffuse_albedo.z)) <= 0.0)
         return 0u;
-    return max(mx_cut_color(c.free_path / (1.0 + c.free_path)), 1u) | mx_cut_signed(c.phase_anisotropy, 6u) << 20u
+    return max(mx_cut_color(c.free_path / (1.0 + c.free_path)), 1u) | (mx_cut_signed(c.phase_anisotropy, 6u) << 20u)
          | (c.is_thick > 0.0 ? 1u << 26u : 0u);
 }
 
@@ -907,36 +914,38 @@ uint mx_lobes_word(MxClosure c)
     uint weight = mx_cut(c.second_roughness_weight, 6u, 4u);
     uint roughness = weight == 0u ? 0u : mx_cut(c.second_roughness, 8u, 5u);
     vec3 hue = max(c.f90, 0.0) / max(max(c.f90.x, max(c.f90.y, c.f90.z)), 1e-6);
-    return roughness | weight << 8u | mx_cut(1.0 - hue.x, 6u, 6u) << 14u | mx_cut(1.0 - hue.y, 6u, 7u) << 20u
-         | mx_cut(1.0 - hue.z, 6u, 8u) << 26u;
+    return roughness | (weight << 8u) | (mx_cut(1.0 - hue.x, 6u, 6u) << 14u) | (mx_cut(1.0 - hue.y, 6u, 7u) << 20u)
+         | (mx_cut(1.0 - hue.z, 6u, 8u) << 26u);
 }
 
 // The word of fuzz: amount, colour and roughness. 0 without fuzz.
 uint mx_fuzz_word(MxClosure c)
 {
     uint amount = mx_cut(c.fuzz_amount, 6u, 9u);
-    return amount == 0u ? 0u : amount | mx_cut_color(mx_srgb(c.fuzz_color)) << 6u | mx_cut(c.fuzz_roughness, 6u, 10u) << 26u;
+    return amount == 0u ? 0u : amount | (mx_cut_color(mx_srgb(c.fuzz_color)) << 6u) | (mx_cut(c.fuzz_roughness, 6u, 10u) << 26u);
 }
 
-// The tangent is an angle from the first axis across the normal, below half a turn: both its directions are one.
+// The word of the anisotropy: amount and tangent, as an angle from the first axis across the normal, below half a
+// turn: both its directions are one.
 uint mx_anisotropy_word(MxClosure c, vec3 normal)
 {
     uint amount = mx_cut_signed(c.anisotropy, 16u);
     vec3 x, y;
     mx_across(normal, x, y);
     float turn = atan(dot(c.tangent, y), dot(c.tangent, x)) / 3.14159265;
-    return amount == 0u ? 0u : uint(round(fract(turn) * 65536.0)) & 0xffffu | amount << 16u;
+    return amount == 0u ? 0u : (uint(round(fract(turn) * 65536.0)) & 0xffffu) | (amount << 16u);
 }
 
-// The number of the table, and how much it tints.
+// The word of a tint: the number of its table, and how much it tints.
 uint mx_tint_word(MxClosure c)
 {
     uint weight = mx_cut(c.tint_weight, 8u, 11u);
-    return weight == 0u ? 0u : uint(c.tint_index) & 0xffffu | weight << 16u;
+    return weight == 0u ? 0u : (uint(c.tint_index) & 0xffffu) | (weight << 16u);
 }
 
-// Facets need exact places and slopes, so their words are not dithered: coordinates; logarithms of the extents and of
-// the number; whole turn of the tangent, roughness, what 12 bits of the normal leave, in sixteenths of their steps.
+// The words of glints. Facets need exact places and slopes, so they are not dithered: coordinates; logarithms of the
+// extents and of the number; whole turn of the tangent, roughness, what 12 bits of the normal leave, in sixteenths of
+// their steps.
 uint[4] mx_glint_words(MxClosure c, vec3 normal)
 {
     vec2 extent = clamp((log2(max(c.glint_extent, 1e-12)) + 24.0) / 32.0, 0.0, 1.0); // from 2^-24 to 2^8
@@ -945,13 +954,13 @@ uint[4] mx_glint_words(MxClosure c, vec3 normal)
     float turn = atan(dot(c.tangent, y), dot(c.tangent, x)) / 6.2831853;
     ivec2 rest = ivec2(round(clamp((mx_octahedral(c.normal) - mx_octahedral(normal)) * 65520.0, -8.0, 7.0))) & 15;
     return uint[4](floatBitsToUint(c.glint_uv.x), floatBitsToUint(c.glint_uv.y),
-                   uint(round(extent.x * 1023.0)) | uint(round(extent.y * 1023.0)) << 10u
-                 | max(uint(round(clamp(c.glint_density / 32.0, 0.0, 1.0) * 4095.0)), 1u) << 20u,
-                   uint(round(fract(turn) * 4096.0)) & 0xfffu | uint(round(clamp(c.roughness, 0.0, 1.0) * 4095.0)) << 12u
-                 | uint(rest.x) << 24u | uint(rest.y) << 28u);
+                   uint(round(extent.x * 1023.0)) | (uint(round(extent.y * 1023.0)) << 10u)
+                 | (max(uint(round(clamp(c.glint_density / 32.0, 0.0, 1.0) * 4095.0)), 1u) << 20u),
+                   (uint(round(fract(turn) * 4096.0)) & 0xfffu) | (uint(round(clamp(c.roughness, 0.0, 1.0) * 4095.0)) << 12u)
+                 | (uint(rest.x) << 24u) | (uint(rest.y) << 28u));
 }
 
-// Three bits: 0 for none, else its logarithm, in seven steps up to a half.
+// The three bits of a blur: 0 for none, else its logarithm, in seven steps up to a half.
 uint mx_blur_bits(float blur)
 {
     float steps = clamp(log2(max(blur, 1e-12)) + 8.0, 0.0, 7.0);
@@ -972,7 +981,7 @@ uint mx_class_of(uint has)
     return (has & (MX_HAS_ANISOTROPY | MX_HAS_WEIGHTS)) != 0u ? MX_COMPLEX : has != 0u ? MX_SINGLE : MX_SIMPLE;
 }
 
-// The words that every closure has, without its features.
+// The first word of a closure, without its features: the roots of f0.
 uint mx_core(MxClosure c)
 {
     return mx_cut_color(sqrt(clamp(c.f0, 0.0, 1.0)));
@@ -981,7 +990,7 @@ uint mx_core(MxClosure c)
 // The second word of a closure: diffuse albedo and roughness.
 uint mx_body(MxClosure c)
 {
-    return mx_cut_color(mx_srgb(c.diffuse_albedo)) | mx_cut(c.roughness, 8u, 3u) << 20u;
+    return mx_cut_color(mx_srgb(c.diffuse_albedo)) | (mx_cut(c.roughness, 8u, 3u) << 20u);
 }
 
 // All words of a closure but its normal, which the caller chooses. stored_normal: as it will be read.
@@ -989,8 +998,8 @@ MxRecord mx_pack(MxClosure c, vec3 stored_normal)
 {
     MxRecord r;
     uint steady = mx_cut_color(1.0 - c.steady), color = mx_cut_color(c.color), decay = color == 0u ? 0u : mx_cut_color(c.decay);
-    r.weights[0] = steady | color << 20u;
-    r.weights[1] = color >> 12u | decay << 8u | (decay != 0u && c.spreads > 0.0 ? 1u << 28u : 0u);
+    r.weights[0] = steady | (color << 20u);
+    r.weights[1] = (color >> 12u) | (decay << 8u) | (decay != 0u && c.spreads > 0.0 ? 1u << 28u : 0u);
 #if MX_BLUR == 1
     r.weights[1] |= mx_blur_bits(c.blur) << 29u;
 #endif
@@ -1001,12 +1010,14 @@ MxRecord mx_pack(MxClosure c, vec3 stored_normal)
     r.tint = mx_tint_word(c);
     r.normal = 0u;
     bool has_glints = c.glint_density > 0.0 && max(c.glint_extent.x, c.glint_extent.y) > 0.0;
-    r.glints = has_glints ? mx_glint_words(c, stored_normal) : uint[4](0u, 0u, 0u, 0u);
+    r.glints = uint[4](0u, 0u, 0u, 0u);
+    if (has_glints)
+        r.glints = mx_glint_words(c, stored_normal);
     uint has = ((r.weights[0] | r.weights[1]) != 0u ? MX_HAS_WEIGHTS : 0u) | (r.medium != 0u ? MX_HAS_MEDIUM : 0u)
              | (r.lobes != 0u ? MX_HAS_LOBES : 0u) | (r.fuzz != 0u ? MX_HAS_FUZZ : 0u)
              | (r.anisotropy != 0u ? MX_HAS_ANISOTROPY : 0u) | (r.tint != 0u ? MX_HAS_TINT | MX_IS_SPECIAL : 0u)
              | (has_glints ? MX_HAS_GLINTS | MX_IS_SPECIAL : 0u);
-    r.core = mx_core(c) | has << 20u;
+    r.core = mx_core(c) | (has << 20u);
     r.body = mx_body(c);
     return r;
 }
@@ -1028,7 +1039,7 @@ MxClosure mx_unpack(MxRecord r, vec3 normal, float roughness)
     vec3 part = mx_uncut_color(r.medium);
     c.free_path = part / max(1.0 - part, 1e-6);
     c.phase_anisotropy = mx_uncut_signed(r.medium, 20u, 6u);
-    c.is_thick = float(r.medium >> 26u & 1u);
+    c.is_thick = float((r.medium >> 26u) & 1u);
     c.anisotropy = mx_uncut_signed(r.anisotropy, 16u, 16u);
     vec3 x, y;
     mx_across(normal, x, y);
@@ -1045,9 +1056,9 @@ MxClosure mx_unpack(MxRecord r, vec3 normal, float roughness)
     c.tint_weight = mx_uncut(r.tint, 16u, 8u);
     c.tangent = cos(turn) * x + sin(turn) * y;
     c.steady = 1.0 - mx_uncut_color(r.weights[0]);
-    c.color = mx_uncut_color(r.weights[0] >> 20u | r.weights[1] << 12u);
+    c.color = mx_uncut_color((r.weights[0] >> 20u) | (r.weights[1] << 12u));
     c.decay = mx_uncut_color(r.weights[1] >> 8u);
-    c.spreads = float(r.weights[1] >> 28u & 1u);
+    c.spreads = float((r.weights[1] >> 28u) & 1u);
     c.blur = mx_blur_of(r.weights[1] >> 29u);
     return c;
 }
@@ -1147,7 +1158,7 @@ MxClosure mx_next(inout MxReader reader)
     bool is_top = reader.next == 0u, is_last = ++reader.next == reader.num_closures;
     if (!is_last) {
         r.core = mx_get(reader);
-        r.body = (r.core >> 20u & MX_IS_SMOOTH) != 0u ? 0u : mx_get(reader);
+        r.body = ((r.core >> 20u) & MX_IS_SMOOTH) != 0u ? 0u : mx_get(reader);
     }
     uint has = mx_features(r.core);
     if ((has & MX_HAS_WEIGHTS) != 0u) {
@@ -1167,7 +1178,7 @@ MxClosure mx_next(inout MxReader reader)
     if ((has & MX_HAS_GLINTS) != 0u)
         for (int i = 0; i < 4; ++i)
             r.glints[i] = mx_get(reader);
-    uint number = has >> MX_NORMAL_SHIFT & 3u;
+    uint number = (has >> MX_NORMAL_SHIFT) & 3u;
     if (number == 1u) {
         reader.normals[2] = reader.normals[1];
         reader.normals[1] = mx_uncut_normal(mx_get(reader), 16u);

@@ -72,55 +72,9 @@ struct PixelOutputs {
     float4 out1 [[color(0)]];
 };
 
-mx_GgxLobe make_mx_GgxLobe(float3 N, float cosine, float3 x, float2 alpha, float masking)
-{
-    mx_GgxLobe made;
-    made.N = N;
-    made.cosine = cosine;
-    made.x = x;
-    made.alpha = alpha;
-    made.masking = masking;
-    return made;
-}
-
-mx_GgxFacet make_mx_GgxFacet(float3 h, float cosine, float mirror, float texels)
-{
-    mx_GgxFacet made;
-    made.h = h;
-    made.cosine = cosine;
-    made.mirror = mirror;
-    made.texels = texels;
-    return made;
-}
-
-mx_GgxSamples make_mx_GgxSamples(float3x3 to_map, float3 stretch, float area, float3 v, float masking, float reach,
-    float step, float texels, float weight)
-{
-    mx_GgxSamples made;
-    made.to_map = to_map;
-    made.stretch = stretch;
-    made.area = area;
-    made.v = v;
-    made.masking = masking;
-    made.reach = reach;
-    made.step = step;
-    made.texels = texels;
-    made.weight = weight;
-    return made;
-}
-
 float3x3 cut_3(float4x4 m)
 {
     return float3x3(m[0].xyz, m[1].xyz, m[2].xyz);
-}
-
-mx_GgxLight make_mx_GgxLight(float3 color, float weight, float cosine)
-{
-    mx_GgxLight made;
-    made.color = color;
-    made.weight = weight;
-    made.cosine = cosine;
-    return made;
 }
 
 // IEC 61966-2-1
@@ -151,8 +105,8 @@ float2 mx_ggx_albedo_fit(float a, float c)
         36.4897, -72.9122, 58.0878, -20.917, -31.4763, 79.0768, -73.9706, 26.5429), a / (a + c), a), 0.0, 1.0);
     float u = a / (a + 0.6 * c);
     return float2(min(1.0017 - u * u * mx_bicubic(float4x4(-0.0334, 3.1441, -6.1576, 3.0758, 0.6997, 7.8981, -14.3238,
-        8.7382, 4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, a * c), 1.0), x * x * x * x
-        * x);
+        8.7382, 4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, a * c), 1.0),
+        x * x * x * x * x);
 }
 
 // Schlick's curve from f0 to f90 at a cosine, less `bend` times cos (1 - cos)^6.
@@ -197,8 +151,7 @@ mx_GgxLobe mx_ggx_lobe(float2 roughness, float3 N, float3 V)
 {
     float2 alpha = clamp(roughness, 1e-8, 1.0);
     float cosine = max(abs(dot(N, V)), 1e-8);
-    return make_mx_GgxLobe(faceforward(N, -V, N), cosine, float3(0.0), alpha,
-        mx_ggx_masking(cosine, alpha.x * alpha.y));
+    return mx_GgxLobe{faceforward(N, -V, N), cosine, float3(0.0), alpha, mx_ggx_masking(cosine, alpha.x * alpha.y)};
 }
 
 // The angle, over pi, with this sine and cosine; the cosine is not negative. It errs by 2.9e-5 at most.
@@ -218,8 +171,8 @@ float2 mx_map_point(float3 d)
 {
     float square = mx_map_square(d);
     float stretch = rsqrt(square);
-    return float2(fract((d.z > 0.0 ? -0.5 : 0.5) * (mx_half_turn(d.x * stretch, abs(d.z) * stretch) + 0.5) + 0.25), 0.5
-        - mx_half_turn(d.y, square * stretch));
+    return float2(fract((d.z > 0.0 ? -0.5 : 0.5) * (mx_half_turn(d.x * stretch, abs(d.z) * stretch) + 0.5) + 0.25),
+        0.5 - mx_half_turn(d.y, square * stretch));
 }
 
 // Height-correlated masking and shadowing G2 over 2 cos_v cos_l (Heitz 2014, equation 99); `masking` is that of the
@@ -244,7 +197,7 @@ mx_GgxFacet mx_ggx_facet(mx_GgxSamples s, int i, float2 turn)
     float3 h = mx_ggx_cap(turn, (float(i) + 0.5) * s.step, s.v * s.stretch, s.reach) * s.stretch;
     float cosine = dot(s.v, h);
     float mirror = 2.0 * cosine / dot(h, h);
-    return make_mx_GgxFacet(h, cosine, mirror, mirror * mirror * s.texels);
+    return mx_GgxFacet{h, cosine, mirror, mirror * mirror * s.texels};
 }
 
 struct GlobalContext {
@@ -277,11 +230,11 @@ mx_GgxSamples mx_ggx_samples(float2 roughness, int count, float3 N, float3 V)
     float reach = lobe.masking;
     float area = stretch.x * stretch.y;
     float share = 1.0 / float(count);
-    return make_mx_GgxSamples(cut_3(u_prv.u_envMatrix) * float3x3(x, cross(lobe.N, x), lobe.N), stretch, area, v,
-        lobe.masking, reach, share * (v.z + reach), area * (v.z + lobe.masking)
-        * max(2.0 / float(count), 4.4 / float(max(u_prv.u_envRadianceSamples, 1)))
-        * exp2(2.0 * float(u_prv.u_envRadianceMips) - 4.6485), u_prv.u_envLightIntensity
-        * (share * (v.z + lobe.masking)));
+    return mx_GgxSamples{cut_3(u_prv.u_envMatrix) * float3x3(x, cross(lobe.N, x), lobe.N), stretch, area, v,
+        lobe.masking, reach, share * (v.z + reach),
+        area * (v.z + lobe.masking) * max(2.0 / float(count), 4.4 / float(max(u_prv.u_envRadianceSamples, 1)))
+        * exp2(2.0 * float(u_prv.u_envRadianceMips) - 4.6485),
+        u_prv.u_envLightIntensity * (share * (v.z + lobe.masking))};
 }
 
 // Light of the environment from the unit direction d of its picture, filtered over as many texels.
@@ -297,9 +250,9 @@ mx_GgxLight mx_ggx_reflected(mx_GgxSamples s, int i, float2 turn)
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     float3 l = facet.mirror * facet.h - s.v;
     float cos_l = max(l.z, 1e-8);
-    return make_mx_GgxLight(mx_filtered_light(s.to_map * l, facet.texels), s.weight * cos_l
-        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l),
-        sqrt(clamp(0.5 * (facet.mirror * facet.cosine), 1e-8, 1.0)));
+    return mx_GgxLight{mx_filtered_light(s.to_map * l, facet.texels),
+        s.weight * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l),
+        sqrt(clamp(0.5 * (facet.mirror * facet.cosine), 1e-8, 1.0))};
 }
 
 void FragmentMain()
@@ -323,7 +276,7 @@ void FragmentMain()
         * (1.0 / mx_ggx_albedo_fit(alpha, cosine).x - 1.0) + float3(1.0);
     float3 facing = faceforward(bent, -V, bent);
     float ggx_masking = sqrt(alpha * alpha + (1.0 - alpha * alpha) * (cosine * cosine));
-    mx_GgxLobe metal_bare_ggx_lobe = make_mx_GgxLobe(facing, cosine, float3(0.0), float2(alpha), ggx_masking);
+    mx_GgxLobe metal_bare_ggx_lobe = mx_GgxLobe{facing, cosine, float3(0.0), float2(alpha), ggx_masking};
     // from the last light, so that drivers do not unroll the loop
     for (int i = min(u_prv.u_numActiveLightSources, 3) - 1; i >= 0; --i) {
         float3 L;

@@ -111,8 +111,8 @@ void scatter()
     vec2 tiles_center = vec2(tiles_corner1.x + tiles_corner1.y * 0.5, tiles_corner1.y / 1.1547005) / vec2(3.4641016);
     float tiles_angle = radians(tiles_random.x * 360.0);
     float tiles_size = mix(0.5, 2.0, tiles_random.y);
-    vec2 tiles_sum = tiles_random + (tiles_center + mx_rotate2d(vd.texcoord_0 - tiles_center, -tiles_angle)
-        / tiles_size);
+    vec2 tiles_sum = tiles_random + (tiles_center
+        + mx_rotate2d(vd.texcoord_0 - tiles_center, -tiles_angle) / tiles_size);
     vec2 uv_sum = vd.texcoord_0 + vd.dx_texcoord_0;
     vec2 tiles_difference = uv_sum - vd.texcoord_0;
     vec2 tiles_ratio = mx_rotate2d(tiles_difference, -tiles_angle) / tiles_size;
@@ -124,8 +124,8 @@ void scatter()
     vec2 tiles_center_2 = vec2(tiles_corner2.x + tiles_corner2.y * 0.5, tiles_corner2.y / 1.1547005) / vec2(3.4641016);
     float tiles_angle_2 = radians(tiles_random_2.x * 360.0);
     float tiles_size_2 = mix(0.5, 2.0, tiles_random_2.y);
-    vec2 tiles_sum_2 = tiles_random_2 + (tiles_center_2 + mx_rotate2d(vd.texcoord_0 - tiles_center_2, -tiles_angle_2)
-        / tiles_size_2);
+    vec2 tiles_sum_2 = tiles_random_2 + (tiles_center_2
+        + mx_rotate2d(vd.texcoord_0 - tiles_center_2, -tiles_angle_2) / tiles_size_2);
     vec2 tiles_ratio_3 = mx_rotate2d(tiles_difference, -tiles_angle_2) / tiles_size_2;
     vec2 tiles_ratio_4 = mx_rotate2d(tiles_difference_2, -tiles_angle_2) / tiles_size_2;
     mx_HexTile tiles_hex_tile_2 = mx_HexTile(tiles_sum_2, tiles_ratio_3, tiles_ratio_4, tiles_angle_2);
@@ -133,8 +133,8 @@ void scatter()
     vec2 tiles_center_3 = vec2(tiles_corner3.x + tiles_corner3.y * 0.5, tiles_corner3.y / 1.1547005) / vec2(3.4641016);
     float tiles_angle_3 = radians(tiles_random_3.x * 360.0);
     float tiles_size_3 = mix(0.5, 2.0, tiles_random_3.y);
-    vec2 tiles_sum_3 = tiles_random_3 + (tiles_center_3 + mx_rotate2d(vd.texcoord_0 - tiles_center_3, -tiles_angle_3)
-        / tiles_size_3);
+    vec2 tiles_sum_3 = tiles_random_3 + (tiles_center_3
+        + mx_rotate2d(vd.texcoord_0 - tiles_center_3, -tiles_angle_3) / tiles_size_3);
     vec2 tiles_ratio_5 = mx_rotate2d(tiles_difference, -tiles_angle_3) / tiles_size_3;
     vec2 tiles_ratio_6 = mx_rotate2d(tiles_difference_2, -tiles_angle_3) / tiles_size_3;
     mx_HexTile tiles_hex_tile_3 = mx_HexTile(tiles_sum_3, tiles_ratio_5, tiles_ratio_6, tiles_angle_3);

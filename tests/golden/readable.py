@@ -35,6 +35,9 @@ LEFTOVERS = {
     "a normal as a vector where oslc turns it into one": re.compile(r"\b(?:cross|faceforward|reflect|refract)\([^;]*\bvector\(N\)"),
     "a sum with a negative value": re.compile(r"\+= -[A-Za-z(]"),
     "a product with 0": re.compile(r"(?<![\w.]) \* 0\.0(?![\d.])"),
+    "'&&' beside '||'": re.compile(r"\|\| !?[\w.]+(?: [<>=!]=? [\w.]+)? &&|&& !?[\w.]+(?: [<>=!]=? [\w.]+)? \|\|"),
+    "a number behind a turn": re.compile(r"\bturn_\d"),
+    "a break inside an argument": re.compile(r"^ *[^/ ].{40,}, [\w.\[\]]+$"),
     "a length of nothing": re.compile(r"\b(?:length|normalize)\((?:vec|float)[234]f?\(0\.0\)"),
 }
 # Examples with texts that no golden file has.

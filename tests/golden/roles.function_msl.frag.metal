@@ -18,20 +18,6 @@ struct Surface {
     float alpha;
 };
 
-#ifndef MXG_d14b82caf4372ff8
-#define MXG_d14b82caf4372ff8
-mx_GgxLobe make_mx_GgxLobe(float3 N, float cosine, float3 x, float2 alpha, float masking)
-{
-    mx_GgxLobe made;
-    made.N = N;
-    made.cosine = cosine;
-    made.x = x;
-    made.alpha = alpha;
-    made.masking = masking;
-    return made;
-}
-#endif
-
 // The square of the length of the facet's normal H after the roughness divided its parts along the surface, times the
 // product of the roughness along x and y; cos_h is its part along N.
 // Here is_round = true, is_wide = true.
@@ -81,8 +67,8 @@ float2 mx_ggx_albedo_fit(float c)
         1.0);
     float u = 0.2 / (0.2 + 0.6 * c);
     return float2(min(1.0017 - u * u * mx_bicubic(float4x4(-0.0334, 3.1441, -6.1576, 3.0758, 0.6997, 7.8981, -14.3238,
-        8.7382, 4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, 0.2 * c), 1.0), x * x * x
-        * x * x);
+        8.7382, 4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, 0.2 * c), 1.0),
+        x * x * x * x * x);
 }
 
 struct GlobalContext {
@@ -99,7 +85,7 @@ Surface surface(float3 positionWorld, float3 normalWorld)
     float3 facing = faceforward(N, -V, N);
     float cos_v = max(abs(dot(N, V)), 1e-8);
     float ggx_masking = sqrt(cos_v * cos_v * 0.96 + 0.04);
-    mx_GgxLobe glaze_ggx_lobe = make_mx_GgxLobe(facing, cos_v, float3(0.0), float2(0.2), ggx_masking);
+    mx_GgxLobe glaze_ggx_lobe = mx_GgxLobe{facing, cos_v, float3(0.0), float2(0.2), ggx_masking};
     float2 albedo = mx_ggx_albedo_fit(cos_v);
     float ggx_compensation = (1.0 / albedo.x - 1.0) * 0.08571429 + 1.0;
     float3 clay_factor = (1.0 - mix(0.04, 1.0, albedo.y) * albedo.x * ggx_compensation * 0.8) * 0.31830987

@@ -77,19 +77,8 @@ uint_4 make_uint_4(uint e0, uint e1, uint e2, uint e3)
 }
 #endif
 
-#ifndef MXG_637e69321bce0061
-#define MXG_637e69321bce0061
-uint_4 choose(bool condition, uint_4 yes, uint_4 no)
-{
-    if (condition)
-        return yes;
-    return no;
-}
-#endif
-
-
-#ifndef MXG_ed00e5c36ef6382f
-#define MXG_ed00e5c36ef6382f
+#ifndef MXG_dad589c7153c7bf8
+#define MXG_dad589c7153c7bf8
 static uint mx_noise = 4u;
 static uint mx_packed[3];
 static float2 mx_place;
@@ -109,8 +98,8 @@ uint mx_features(uint core)
     return (core >> 20u) & (((core >> 20u) & 1024u) != 0u ? 1023u : 255u);
 }
 
-// From 0 to below 1. Jimenez 2014, "Next Generation Post Processing in Call of Duty: Advanced Warfare": interleaved
-// gradient noise.
+// Interleaved gradient noise of a pixel, from 0 to below 1 (Jimenez 2014, "Next Generation Post Processing in Call of
+// Duty: Advanced Warfare").
 float mx_gradient_noise(float2 pixel)
 {
     return frac(52.982918 * frac(dot(pixel, float2(0.06711056, 0.00583715))));
@@ -122,17 +111,17 @@ void mx_start_noise(float2 pixel)
     mx_noise = uint(8.0 * mx_gradient_noise(pixel));
 }
 
-// Channels differ by 5 eighths, near the golden ratio.
+// The noise of a channel. Channels differ by 5 eighths, near the golden ratio.
 uint mx_noise_of(uint channel)
 {
     return (mx_noise + 5u * channel) & 7u;
 }
 
-// A number from 0 to 1 in eighths of the steps of its bits.
+// A number from 0 to 1 in eighths of the steps of its bits. Noise has no middle, so its mean is right half an eighth
+// further.
 uint mx_eighths(float value, uint bits)
 {
-    float nearest = 0.5;
-    return uint(clamp(value, 0.0, 1.0) * 8.0 * float((1u << bits) - 1u) + nearest);
+    return uint(clamp(value, 0.0, 1.0) * 8.0 * float((1u << bits) - 1u) + 0.5);
 }
 
 // A number from 0 to 1 in so many bits. Each channel has noise of its own.
@@ -141,18 +130,18 @@ uint mx_cut(float value, uint bits, uint channel)
     return (mx_eighths(value, bits) + mx_noise_of(channel)) >> 3u;
 }
 
-// A number from 0 to 1 from its bits of a word.
-float mx_uncut(uint word, uint shift, uint bits)
-{
-    return float((word >> shift) & ((1u << bits) - 1u)) / float((1u << bits) - 1u);
-}
-
-// 7, 7 and 6 bits. Ten bits hold the eighths of a channel, so that one addition dithers all three.
+// A colour in 7, 7 and 6 bits. Ten bits hold the eighths of a channel, so that one addition dithers all three.
 uint mx_cut_color(float3 color)
 {
     uint eighths = mx_eighths(color.x, 7u) | (mx_eighths(color.y, 7u) << 10u) | (mx_eighths(color.z, 6u) << 20u);
     eighths += mx_noise_of(0u) | (mx_noise_of(1u) << 10u) | (mx_noise_of(2u) << 20u);
     return ((eighths >> 3u) & 127u) | (((eighths >> 13u) & 127u) << 7u) | (((eighths >> 23u) & 63u) << 14u);
+}
+
+// A number from 0 to 1 from its bits of a word.
+float mx_uncut(uint word, uint shift, uint bits)
+{
+    return float((word >> shift) & ((1u << bits) - 1u)) / float((1u << bits) - 1u);
 }
 
 // A colour from its 20 bits.
@@ -161,7 +150,7 @@ float3 mx_uncut_color(uint word)
     return float3(mx_uncut(word, 0u, 7u), mx_uncut(word, 7u, 7u), mx_uncut(word, 14u, 6u));
 }
 
-// A number from -1 to 1; 0 has no bit.
+// A number from -1 to 1 in so many bits. 0 has none of them.
 uint mx_cut_signed(float value, uint bits)
 {
     float most = float((1u << (bits - 1u)) - 1u);
@@ -175,22 +164,23 @@ float mx_uncut_signed(uint word, uint shift, uint bits)
     return float(int(word << (32u - bits - shift)) >> int(32u - bits)) / most;
 }
 
-// IEC 61966-2-1
+// A colour in the encoding of IEC 61966-2-1.
 float3 mx_srgb(float3 linear_)
 {
     float3 c = clamp(linear_, 0.0, 1.0);
-    return choose(1.055 * pow(c, float3(0.41666666, 0.41666666, 0.41666666)) - 0.055, 12.92 * c, c
-        < float3(0.0031308, 0.0031308, 0.0031308));
+    return choose(1.055 * pow(c, float3(0.41666666, 0.41666666, 0.41666666)) - 0.055, 12.92 * c,
+        c < float3(0.0031308, 0.0031308, 0.0031308));
 }
 
 // A colour from its encoding of IEC 61966-2-1.
 float3 mx_linear(float3 srgb)
 {
-    return choose(pow((srgb + 0.055) / 1.055, float3(2.4, 2.4, 2.4)), srgb / 12.92, srgb
-        < float3(0.04045, 0.04045, 0.04045));
+    return choose(pow((srgb + 0.055) / 1.055, float3(2.4, 2.4, 2.4)), srgb / 12.92,
+        srgb < float3(0.04045, 0.04045, 0.04045));
 }
 
-// Cigolle et al. 2014, "A Survey of Efficient Representations for Independent Unit Vectors": octahedral.
+// The place of a direction in the octahedral square (Cigolle et al. 2014, "A Survey of Efficient Representations for
+// Independent Unit Vectors").
 float2 mx_octahedral(float3 n)
 {
     float2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
@@ -221,7 +211,7 @@ float3 mx_uncut_normal(uint word, uint bits)
     return mx_of_octahedral(float2(mx_uncut(word, 0u, bits), mx_uncut(word, bits, bits)));
 }
 
-// Two axes across a normal. Duff et al. 2017, "Building an Orthonormal Basis, Revisited".
+// Two axes across a normal (Duff et al. 2017, "Building an Orthonormal Basis, Revisited").
 void mx_across(float3 n, out float3 x, out float3 y)
 {
     float side = n.z < 0.0 ? -1.0 : 1.0;
@@ -277,7 +267,8 @@ uint mx_fuzz_word(MxClosure c)
         | (mx_cut(c.fuzz_roughness, 6u, 10u) << 26u);
 }
 
-// The tangent is an angle from the first axis across the normal, below half a turn: both its directions are one.
+// The word of the anisotropy: amount and tangent, as an angle from the first axis across the normal, below half a turn:
+// both its directions are one.
 uint mx_anisotropy_word(MxClosure c, float3 normal)
 {
     uint amount = mx_cut_signed(c.anisotropy, 16u);
@@ -288,15 +279,16 @@ uint mx_anisotropy_word(MxClosure c, float3 normal)
     return amount == 0u ? 0u : (uint(round(frac(turn) * 65536.0)) & 65535u) | (amount << 16u);
 }
 
-// The number of the table, and how much it tints.
+// The word of a tint: the number of its table, and how much it tints.
 uint mx_tint_word(MxClosure c)
 {
     uint weight = mx_cut(c.tint_weight, 8u, 11u);
     return weight == 0u ? 0u : (uint(c.tint_index) & 65535u) | (weight << 16u);
 }
 
-// Facets need exact places and slopes, so their words are not dithered: coordinates; logarithms of the extents and of
-// the number; whole turn of the tangent, roughness, what 12 bits of the normal leave, in sixteenths of their steps.
+// The words of glints. Facets need exact places and slopes, so they are not dithered: coordinates; logarithms of the
+// extents and of the number; whole turn of the tangent, roughness, what 12 bits of the normal leave, in sixteenths of
+// their steps.
 uint_4 mx_glint_words(MxClosure c, float3 normal)
 {
     float2 extent = clamp((log2(max(c.glint_extent, 1e-12)) + 24.0) / 32.0, 0.0, 1.0);
@@ -305,14 +297,14 @@ uint_4 mx_glint_words(MxClosure c, float3 normal)
     mx_across(normal, x, y);
     float turn = atan2(dot(c.tangent, y), dot(c.tangent, x)) / 6.2831855;
     int2 rest = int2(round(clamp((mx_octahedral(c.normal) - mx_octahedral(normal)) * 65520.0, -8.0, 7.0))) & 15;
-    return make_uint_4(asuint(c.glint_uv.x), asuint(c.glint_uv.y), uint(round(extent.x * 1023.0))
-        | (uint(round(extent.y * 1023.0)) << 10u)
+    return make_uint_4(asuint(c.glint_uv.x), asuint(c.glint_uv.y),
+        uint(round(extent.x * 1023.0)) | (uint(round(extent.y * 1023.0)) << 10u)
         | (max(uint(round(clamp(c.glint_density / 32.0, 0.0, 1.0) * 4095.0)), 1u) << 20u),
         (uint(round(frac(turn) * 4096.0)) & 4095u) | (uint(round(clamp(c.roughness, 0.0, 1.0) * 4095.0)) << 12u)
         | (uint(rest.x) << 24u) | (uint(rest.y) << 28u));
 }
 
-// Three bits: 0 for none, else its logarithm, in seven steps up to a half.
+// The three bits of a blur: 0 for none, else its logarithm, in seven steps up to a half.
 uint mx_blur_bits(float blur)
 {
     float steps = clamp(log2(max(blur, 1e-12)) + 8.0, 0.0, 7.0);
@@ -333,7 +325,7 @@ uint mx_class_of(uint has)
     return uint((has & 17u) != 0u ? 3 : has != 0u ? 2 : 1);
 }
 
-// The words that every closure has, without its features.
+// The first word of a closure, without its features: the roots of f0.
 uint mx_core(MxClosure c)
 {
     return mx_cut_color(sqrt(clamp(c.f0, 0.0, 1.0)));
@@ -361,7 +353,9 @@ MxRecord mx_pack(MxClosure c, float3 stored_normal)
     r.tint = mx_tint_word(c);
     r.normal = 0u;
     bool has_glints = c.glint_density > 0.0 && max(c.glint_extent.x, c.glint_extent.y) > 0.0;
-    r.glints = choose(has_glints, mx_glint_words(c, stored_normal), make_uint_4(0u, 0u, 0u, 0u));
+    { uint made[4] = {0u, 0u, 0u, 0u}; r.glints = made; }
+    if (has_glints)
+        r.glints = mx_glint_words(c, stored_normal);
     uint has = ((r.weights[0] | r.weights[1]) != 0u ? 1u : 0u) | (r.medium != 0u ? 2u : 0u) | (r.lobes != 0u ? 4u : 0u)
         | (r.fuzz != 0u ? 8u : 0u) | (r.anisotropy != 0u ? 16u : 0u) | (r.tint != 0u ? 1280u : 0u)
         | (has_glints ? 1536u : 0u);
@@ -393,8 +387,8 @@ MxClosure mx_unpack(MxRecord r, float3 normal, float roughness)
     float3 y;
     mx_across(normal, x, y);
     bool has_glints = r.glints[2] != 0u;
-    float turn = has_glints ? float(r.glints[3] & 4095u) / 4096.0 * 6.2831855 : float(r.anisotropy & 65535u) / 65536.0
-        * 3.1415927;
+    float turn = has_glints ? float(r.glints[3] & 4095u) / 4096.0 * 6.2831855
+        : float(r.anisotropy & 65535u) / 65536.0 * 3.1415927;
     c.roughness = has_glints ? mx_uncut(r.glints[3], 12u, 12u) : roughness;
     int2 rest = int2(int(r.glints[3] << 4u) >> 28, int(r.glints[3]) >> 28);
     if (has_glints)

@@ -57,15 +57,6 @@ fn wgsl_with_xy_vec3f(v: vec3f, parts: vec2f) -> vec3f
     return vec3f(parts.x, parts.y, v.z);
 }
 
-fn wgsl_choose_array_u32_4(condition: bool, yes: array<u32, 4>, no: array<u32, 4>) -> array<u32, 4>
-{
-    if (condition) {
-        return yes;
-    }
-    return no;
-}
-
-
 var<private> mx_noise: u32 = 4u;
 var<private> mx_packed: array<u32, 3>;
 var<private> mx_place: vec2f;
@@ -85,8 +76,8 @@ fn mx_features(core: u32) -> u32
     return (core >> 20u) & select(255u, 1023u, ((core >> 20u) & 1024u) != 0u);
 }
 
-// From 0 to below 1. Jimenez 2014, "Next Generation Post Processing in Call of Duty: Advanced Warfare": interleaved
-// gradient noise.
+// Interleaved gradient noise of a pixel, from 0 to below 1 (Jimenez 2014, "Next Generation Post Processing in Call of
+// Duty: Advanced Warfare").
 fn mx_gradient_noise(pixel: vec2f) -> f32
 {
     return fract(52.982918 * fract(dot(pixel, vec2f(0.06711056, 0.00583715))));
@@ -98,17 +89,17 @@ fn mx_start_noise(pixel: vec2f)
     mx_noise = u32(8.0 * mx_gradient_noise(pixel));
 }
 
-// Channels differ by 5 eighths, near the golden ratio.
+// The noise of a channel. Channels differ by 5 eighths, near the golden ratio.
 fn mx_noise_of(channel: u32) -> u32
 {
     return (mx_noise + 5u * channel) & 7u;
 }
 
-// A number from 0 to 1 in eighths of the steps of its bits.
+// A number from 0 to 1 in eighths of the steps of its bits. Noise has no middle, so its mean is right half an eighth
+// further.
 fn mx_eighths(value: f32, bits: u32) -> u32
 {
-    let nearest: f32 = 0.5;
-    return u32(clamp(value, 0.0, 1.0) * 8.0 * f32((1u << bits) - 1u) + nearest);
+    return u32(clamp(value, 0.0, 1.0) * 8.0 * f32((1u << bits) - 1u) + 0.5);
 }
 
 // A number from 0 to 1 in so many bits. Each channel has noise of its own.
@@ -117,18 +108,18 @@ fn mx_cut(value: f32, bits: u32, channel: u32) -> u32
     return (mx_eighths(value, bits) + mx_noise_of(channel)) >> 3u;
 }
 
-// A number from 0 to 1 from its bits of a word.
-fn mx_uncut(word: u32, shift: u32, bits: u32) -> f32
-{
-    return f32((word >> shift) & ((1u << bits) - 1u)) / f32((1u << bits) - 1u);
-}
-
-// 7, 7 and 6 bits. Ten bits hold the eighths of a channel, so that one addition dithers all three.
+// A colour in 7, 7 and 6 bits. Ten bits hold the eighths of a channel, so that one addition dithers all three.
 fn mx_cut_color(color: vec3f) -> u32
 {
     var eighths: u32 = mx_eighths(color.x, 7u) | (mx_eighths(color.y, 7u) << 10u) | (mx_eighths(color.z, 6u) << 20u);
     eighths += mx_noise_of(0u) | (mx_noise_of(1u) << 10u) | (mx_noise_of(2u) << 20u);
     return ((eighths >> 3u) & 127u) | (((eighths >> 13u) & 127u) << 7u) | (((eighths >> 23u) & 63u) << 14u);
+}
+
+// A number from 0 to 1 from its bits of a word.
+fn mx_uncut(word: u32, shift: u32, bits: u32) -> f32
+{
+    return f32((word >> shift) & ((1u << bits) - 1u)) / f32((1u << bits) - 1u);
 }
 
 // A colour from its 20 bits.
@@ -137,7 +128,7 @@ fn mx_uncut_color(word: u32) -> vec3f
     return vec3f(mx_uncut(word, 0u, 7u), mx_uncut(word, 7u, 7u), mx_uncut(word, 14u, 6u));
 }
 
-// A number from -1 to 1; 0 has no bit.
+// A number from -1 to 1 in so many bits. 0 has none of them.
 fn mx_cut_signed(value: f32, bits: u32) -> u32
 {
     let most: f32 = f32((1u << (bits - 1u)) - 1u);
@@ -151,7 +142,7 @@ fn mx_uncut_signed(word: u32, shift: u32, bits: u32) -> f32
     return f32(i32(word << (32u - bits - shift)) >> u32(i32(32u - bits))) / most;
 }
 
-// IEC 61966-2-1
+// A colour in the encoding of IEC 61966-2-1.
 fn mx_srgb(linear: vec3f) -> vec3f
 {
     let c: vec3f = clamp(linear, vec3f(0.0), vec3f(1.0));
@@ -164,7 +155,8 @@ fn mx_linear(srgb: vec3f) -> vec3f
     return select(pow((srgb + 0.055) / 1.055, vec3f(2.4)), srgb / 12.92, srgb < vec3f(0.04045));
 }
 
-// Cigolle et al. 2014, "A Survey of Efficient Representations for Independent Unit Vectors": octahedral.
+// The place of a direction in the octahedral square (Cigolle et al. 2014, "A Survey of Efficient Representations for
+// Independent Unit Vectors").
 fn mx_octahedral(n: vec3f) -> vec2f
 {
     let p: vec2f = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
@@ -195,7 +187,7 @@ fn mx_uncut_normal(word: u32, bits: u32) -> vec3f
     return mx_of_octahedral(vec2f(mx_uncut(word, 0u, bits), mx_uncut(word, bits, bits)));
 }
 
-// Two axes across a normal. Duff et al. 2017, "Building an Orthonormal Basis, Revisited".
+// Two axes across a normal (Duff et al. 2017, "Building an Orthonormal Basis, Revisited").
 fn mx_across(n: vec3f, x: ptr<function, vec3f>, y: ptr<function, vec3f>)
 {
     let side: f32 = select(1.0, -1.0, n.z < 0.0);
@@ -252,7 +244,8 @@ fn mx_fuzz_word(c: MxClosure) -> u32
         amount == 0u);
 }
 
-// The tangent is an angle from the first axis across the normal, below half a turn: both its directions are one.
+// The word of the anisotropy: amount and tangent, as an angle from the first axis across the normal, below half a turn:
+// both its directions are one.
 fn mx_anisotropy_word(c: MxClosure, normal: vec3f) -> u32
 {
     let amount: u32 = mx_cut_signed(c.anisotropy, 16u);
@@ -263,15 +256,16 @@ fn mx_anisotropy_word(c: MxClosure, normal: vec3f) -> u32
     return select((u32(round(fract(turn) * 65536.0)) & 65535u) | (amount << 16u), 0u, amount == 0u);
 }
 
-// The number of the table, and how much it tints.
+// The word of a tint: the number of its table, and how much it tints.
 fn mx_tint_word(c: MxClosure) -> u32
 {
     let weight: u32 = mx_cut(c.tint_weight, 8u, 11u);
     return select((u32(c.tint_index) & 65535u) | (weight << 16u), 0u, weight == 0u);
 }
 
-// Facets need exact places and slopes, so their words are not dithered: coordinates; logarithms of the extents and of
-// the number; whole turn of the tangent, roughness, what 12 bits of the normal leave, in sixteenths of their steps.
+// The words of glints. Facets need exact places and slopes, so they are not dithered: coordinates; logarithms of the
+// extents and of the number; whole turn of the tangent, roughness, what 12 bits of the normal leave, in sixteenths of
+// their steps.
 fn mx_glint_words(c: MxClosure, normal: vec3f) -> array<u32, 4>
 {
     let extent: vec2f = clamp((log2(max(c.glint_extent, vec2f(1e-12))) + 24.0) / 32.0, vec2f(0.0), vec2f(1.0));
@@ -288,7 +282,7 @@ fn mx_glint_words(c: MxClosure, normal: vec3f) -> array<u32, 4>
         | (u32(rest.x) << 24u) | (u32(rest.y) << 28u)));
 }
 
-// Three bits: 0 for none, else its logarithm, in seven steps up to a half.
+// The three bits of a blur: 0 for none, else its logarithm, in seven steps up to a half.
 fn mx_blur_bits(blur: f32) -> u32
 {
     let steps: f32 = clamp(log2(max(blur, 1e-12)) + 8.0, 0.0, 7.0);
@@ -310,7 +304,7 @@ fn mx_class_of(has: u32) -> u32
     return u32(select(select(1, 2, has != 0u), 3, (has & 17u) != 0u));
 }
 
-// The words that every closure has, without its features.
+// The first word of a closure, without its features: the roots of f0.
 fn mx_core(c: MxClosure) -> u32
 {
     return mx_cut_color(sqrt(clamp(c.f0, vec3f(0.0), vec3f(1.0))));
@@ -338,7 +332,10 @@ fn mx_pack(c: MxClosure, stored_normal: vec3f) -> MxRecord
     r.tint = mx_tint_word(c);
     r.normal = 0u;
     let has_glints: bool = c.glint_density > 0.0 && max(c.glint_extent.x, c.glint_extent.y) > 0.0;
-    r.glints = wgsl_choose_array_u32_4(has_glints, mx_glint_words(c, stored_normal), array<u32, 4>(0u, 0u, 0u, 0u));
+    r.glints = array<u32, 4>(0u, 0u, 0u, 0u);
+    if (has_glints) {
+        r.glints = mx_glint_words(c, stored_normal);
+    }
     let has: u32 = select(0u, 1u, (r.weights[0] | r.weights[1]) != 0u) | select(0u, 2u, r.medium != 0u)
         | select(0u, 4u, r.lobes != 0u) | select(0u, 8u, r.fuzz != 0u) | select(0u, 16u, r.anisotropy != 0u)
         | select(0u, 1280u, r.tint != 0u) | select(0u, 1536u, has_glints);
@@ -370,8 +367,8 @@ fn mx_unpack(r: MxRecord, normal: vec3f, roughness: f32) -> MxClosure
     var y: vec3f;
     mx_across(normal, &x, &y);
     let has_glints: bool = r.glints[2] != 0u;
-    let turn: f32 = select(f32(r.anisotropy & 65535u) / 65536.0 * 3.1415927, f32(r.glints[3] & 4095u) / 4096.0
-        * 6.2831855, has_glints);
+    let turn: f32 = select(f32(r.anisotropy & 65535u) / 65536.0 * 3.1415927,
+        f32(r.glints[3] & 4095u) / 4096.0 * 6.2831855, has_glints);
     c.roughness = select(roughness, mx_uncut(r.glints[3], 12u, 12u), has_glints);
     let rest: vec2i = vec2i(i32(r.glints[3] << 4u) >> u32(28), i32(r.glints[3]) >> u32(28));
     if (has_glints) {

@@ -89,8 +89,8 @@ fn mx_ggx_albedo_fit(c: f32) -> vec2f
         1.0);
     let u: f32 = 0.2 / (0.2 + 0.6 * c);
     return vec2f(min(1.0017 - u * u * mx_bicubic(mat4x4f(-0.0334, 3.1441, -6.1576, 3.0758, 0.6997, 7.8981, -14.3238,
-        8.7382, 4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, 0.2 * c), 1.0), x * x * x
-        * x * x);
+        8.7382, 4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, 0.2 * c), 1.0),
+        x * x * x * x * x);
 }
 
 @fragment
@@ -108,8 +108,8 @@ fn main(vd: VertexData) -> @location(0) vec4f
     let r: f32 = (1.0 - index_ahead) / (index_ahead + 1.0);
     let albedo: vec2f = mx_ggx_albedo_fit(max(abs(n_dot_v), 1e-8));
     let ggx_compensation: f32 = mix(r * r, 1.0, 0.04761905) * (1.0 / albedo.x - 1.0) + 1.0;
-    let clay_factor: vec3f = (1.0 - mx_fresnel_permittivity(max(1.0 - pow(albedo.y, 0.2), 1e-8), index_ahead
-        * index_ahead) * albedo.x * ggx_compensation * 0.8) * 0.31830987 * vec3f(0.6, 0.3, 0.2);
+    let clay_factor: vec3f = (1.0 - mx_fresnel_permittivity(max(1.0 - pow(albedo.y, 0.2), 1e-8),
+        index_ahead * index_ahead) * albedo.x * ggx_compensation * 0.8) * 0.31830987 * vec3f(0.6, 0.3, 0.2);
     // from the last light, so that drivers do not unroll the loop
     for (var i: i32 = min(u_prv.u_numActiveLightSources, 3) - 1; i >= 0; i--) {
         var L: vec3f;

@@ -65,19 +65,10 @@ struct MxClosure {
     spreads: f32,
 }
 
-fn wgsl_choose_array_u32_4(condition: bool, yes: array<u32, 4>, no: array<u32, 4>) -> array<u32, 4>
-{
-    if (condition) {
-        return yes;
-    }
-    return no;
-}
-
 fn wgsl_with_xy_vec3f(v: vec3f, parts: vec2f) -> vec3f
 {
     return vec3f(parts.x, parts.y, v.z);
 }
-
 
 
 var<private> mx_noise: u32 = 4u;
@@ -90,8 +81,8 @@ var<private> mx_is_special: bool = false;
 var<private> mx_word0: u32;
 var<private> mx_word1: u32;
 
-// From 0 to below 1. Jimenez 2014, "Next Generation Post Processing in Call of Duty: Advanced Warfare": interleaved
-// gradient noise.
+// Interleaved gradient noise of a pixel, from 0 to below 1 (Jimenez 2014, "Next Generation Post Processing in Call of
+// Duty: Advanced Warfare").
 fn mx_gradient_noise(pixel: vec2f) -> f32
 {
     return fract(52.982918 * fract(dot(pixel, vec2f(0.06711056, 0.00583715))));
@@ -103,7 +94,8 @@ fn mx_start_noise(pixel: vec2f)
     mx_noise = u32(8.0 * mx_gradient_noise(pixel));
 }
 
-// Cigolle et al. 2014, "A Survey of Efficient Representations for Independent Unit Vectors": octahedral.
+// The place of a direction in the octahedral square (Cigolle et al. 2014, "A Survey of Efficient Representations for
+// Independent Unit Vectors").
 fn mx_octahedral(n: vec3f) -> vec2f
 {
     let p: vec2f = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
@@ -118,14 +110,14 @@ fn mx_cut_normal(normal: vec3f, bits: u32) -> u32
     return p.x | (p.y << bits);
 }
 
-// A number from 0 to 1 in eighths of the steps of its bits.
+// A number from 0 to 1 in eighths of the steps of its bits. Noise has no middle, so its mean is right half an eighth
+// further.
 fn mx_eighths(value: f32, bits: u32) -> u32
 {
-    let nearest: f32 = 0.5;
-    return u32(clamp(value, 0.0, 1.0) * 8.0 * f32((1u << bits) - 1u) + nearest);
+    return u32(clamp(value, 0.0, 1.0) * 8.0 * f32((1u << bits) - 1u) + 0.5);
 }
 
-// Channels differ by 5 eighths, near the golden ratio.
+// The noise of a channel. Channels differ by 5 eighths, near the golden ratio.
 fn mx_noise_of(channel: u32) -> u32
 {
     return (mx_noise + 5u * channel) & 7u;
@@ -220,7 +212,7 @@ fn mx_number_normal(normal: vec3f, word: ptr<function, u32>) -> u32
     return 1u;
 }
 
-// 7, 7 and 6 bits. Ten bits hold the eighths of a channel, so that one addition dithers all three.
+// A colour in 7, 7 and 6 bits. Ten bits hold the eighths of a channel, so that one addition dithers all three.
 fn mx_cut_color(color: vec3f) -> u32
 {
     var eighths: u32 = mx_eighths(color.x, 7u) | (mx_eighths(color.y, 7u) << 10u) | (mx_eighths(color.z, 6u) << 20u);
@@ -228,7 +220,7 @@ fn mx_cut_color(color: vec3f) -> u32
     return ((eighths >> 3u) & 127u) | (((eighths >> 13u) & 127u) << 7u) | (((eighths >> 23u) & 63u) << 14u);
 }
 
-// A number from -1 to 1; 0 has no bit.
+// A number from -1 to 1 in so many bits. 0 has none of them.
 fn mx_cut_signed(value: f32, bits: u32) -> u32
 {
     let most: f32 = f32((1u << (bits - 1u)) - 1u);
@@ -256,7 +248,7 @@ fn mx_lobes_word(c: MxClosure) -> u32
         | (mx_cut(1.0 - hue.z, 6u, 8u) << 26u);
 }
 
-// IEC 61966-2-1
+// A colour in the encoding of IEC 61966-2-1.
 fn mx_srgb(linear: vec3f) -> vec3f
 {
     let c: vec3f = clamp(linear, vec3f(0.0), vec3f(1.0));
@@ -271,7 +263,7 @@ fn mx_fuzz_word(c: MxClosure) -> u32
         amount == 0u);
 }
 
-// Two axes across a normal. Duff et al. 2017, "Building an Orthonormal Basis, Revisited".
+// Two axes across a normal (Duff et al. 2017, "Building an Orthonormal Basis, Revisited").
 fn mx_across(n: vec3f, x: ptr<function, vec3f>, y: ptr<function, vec3f>)
 {
     let side: f32 = select(1.0, -1.0, n.z < 0.0);
@@ -281,7 +273,8 @@ fn mx_across(n: vec3f, x: ptr<function, vec3f>, y: ptr<function, vec3f>)
     (*y) = vec3f(b, side + n.y * n.y * a, -n.y);
 }
 
-// The tangent is an angle from the first axis across the normal, below half a turn: both its directions are one.
+// The word of the anisotropy: amount and tangent, as an angle from the first axis across the normal, below half a turn:
+// both its directions are one.
 fn mx_anisotropy_word(c: MxClosure, normal: vec3f) -> u32
 {
     let amount: u32 = mx_cut_signed(c.anisotropy, 16u);
@@ -292,15 +285,16 @@ fn mx_anisotropy_word(c: MxClosure, normal: vec3f) -> u32
     return select((u32(round(fract(turn) * 65536.0)) & 65535u) | (amount << 16u), 0u, amount == 0u);
 }
 
-// The number of the table, and how much it tints.
+// The word of a tint: the number of its table, and how much it tints.
 fn mx_tint_word(c: MxClosure) -> u32
 {
     let weight: u32 = mx_cut(c.tint_weight, 8u, 11u);
     return select((u32(c.tint_index) & 65535u) | (weight << 16u), 0u, weight == 0u);
 }
 
-// Facets need exact places and slopes, so their words are not dithered: coordinates; logarithms of the extents and of
-// the number; whole turn of the tangent, roughness, what 12 bits of the normal leave, in sixteenths of their steps.
+// The words of glints. Facets need exact places and slopes, so they are not dithered: coordinates; logarithms of the
+// extents and of the number; whole turn of the tangent, roughness, what 12 bits of the normal leave, in sixteenths of
+// their steps.
 fn mx_glint_words(c: MxClosure, normal: vec3f) -> array<u32, 4>
 {
     let extent: vec2f = clamp((log2(max(c.glint_extent, vec2f(1e-12))) + 24.0) / 32.0, vec2f(0.0), vec2f(1.0));
@@ -317,7 +311,7 @@ fn mx_glint_words(c: MxClosure, normal: vec3f) -> array<u32, 4>
         | (u32(rest.x) << 24u) | (u32(rest.y) << 28u)));
 }
 
-// The words that every closure has, without its features.
+// The first word of a closure, without its features: the roots of f0.
 fn mx_core(c: MxClosure) -> u32
 {
     return mx_cut_color(sqrt(clamp(c.f0, vec3f(0.0), vec3f(1.0))));
@@ -345,7 +339,10 @@ fn mx_pack(c: MxClosure, stored_normal: vec3f) -> MxRecord
     r.tint = mx_tint_word(c);
     r.normal = 0u;
     let has_glints: bool = c.glint_density > 0.0 && max(c.glint_extent.x, c.glint_extent.y) > 0.0;
-    r.glints = wgsl_choose_array_u32_4(has_glints, mx_glint_words(c, stored_normal), array<u32, 4>(0u, 0u, 0u, 0u));
+    r.glints = array<u32, 4>(0u, 0u, 0u, 0u);
+    if (has_glints) {
+        r.glints = mx_glint_words(c, stored_normal);
+    }
     let has: u32 = select(0u, 1u, (r.weights[0] | r.weights[1]) != 0u) | select(0u, 2u, r.medium != 0u)
         | select(0u, 4u, r.lobes != 0u) | select(0u, 8u, r.fuzz != 0u) | select(0u, 16u, r.anisotropy != 0u)
         | select(0u, 1280u, r.tint != 0u) | select(0u, 1536u, has_glints);
@@ -400,8 +397,8 @@ fn mx_keep(c: MxClosure)
     }
     var normal_word: u32 = 0u;
     let number: u32 = mx_number_normal(c.normal, &normal_word);
-    mx_pending = mx_pack(c, select(mx_uncut_normal(mx_cut_normal(c.normal, 16u), 16u), mx_top_normal(mx_word2), number
-        == 0u));
+    mx_pending = mx_pack(c, select(mx_uncut_normal(mx_cut_normal(c.normal, 16u), 16u), mx_top_normal(mx_word2),
+        number == 0u));
     mx_pending.normal = normal_word;
     mx_pending.core |= number << 26u;
     mx_is_special = mx_is_special || mx_class(mx_pending.core) == 4u;
@@ -535,8 +532,8 @@ fn mx_ggx_albedo_fit(a: f32, c: f32) -> vec2f
         -0.0277, 36.4897, -72.9122, 58.0878, -20.917, -31.4763, 79.0768, -73.9706, 26.5429), a / (a + c), a), 0.0, 1.0);
     let u: f32 = a / (a + 0.6 * c);
     return vec2f(min(1.0017 - u * u * mx_bicubic(mat4x4f(-0.0334, 3.1441, -6.1576, 3.0758, 0.6997, 7.8981, -14.3238,
-        8.7382, 4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, a * c), 1.0), x * x * x * x
-        * x);
+        8.7382, 4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, a * c), 1.0),
+        x * x * x * x * x);
 }
 
 // Light that the layer of a medium reflects and lets through (`transmitted`), with all orders of scattering, on a way:
@@ -546,8 +543,8 @@ fn mx_medium_layer(way: f32, transmitted: ptr<function, vec3f>) -> vec3f
 {
     let x: f32 = way - 1.0;
     let s: vec3f = vec3f(0.49529448, 0.49895358, 0.49975267) * way
-        * (1.0 + 0.16666666 * (vec3f(0.043278337, 0.052829146, 0.054919362) + x
-        * vec3f(-0.18317366, -0.19314766, -0.19532585)));
+        * (1.0 + 0.16666666 * (vec3f(0.043278337, 0.052829146, 0.054919362)
+        + x * vec3f(-0.18317366, -0.19314766, -0.19532585)));
     let k: vec3f = vec3f(0.009411037, 0.0020928383, 0.000494659) * way
         * (1.0 + vec3f(0.16509815, 0.16631785, 0.16658421)
         * (vec3f(1.3360909, 1.3377652, 1.3381231) + x * vec3f(-1.792952, -1.8079973, -1.8112832)
@@ -582,16 +579,16 @@ fn main(vd_in: VertexData) -> PixelOutputs
     // coat
     let coat_reflection_albedo: vec2f = mx_ggx_albedo_fit(0.01, view_cosine);
     let coat_reflection_ggx_compensation: f32 = (1.0 / coat_reflection_albedo.x - 1.0) * 0.08571428 + 1.0;
-    let coat_reflection_throughput: f32 = max(1.0 - mix(0.04, 1.0, coat_reflection_albedo.y) * coat_reflection_albedo.x
-        * coat_reflection_ggx_compensation, 0.0);
+    let coat_reflection_throughput: f32 = max(1.0
+        - mix(0.04, 1.0, coat_reflection_albedo.y) * coat_reflection_albedo.x * coat_reflection_ggx_compensation, 0.0);
     // milk
     let way: f32 = inverseSqrt(c * c + 1.25) * 1.5;
     let coat_medium_throughput: vec3f = exp(way * vec3f(-0.05, -0.033333335, -0.025));
     let drops_throughput: vec3f = mix(vec3f(1.0), coat_reflection_throughput * coat_medium_throughput, 0.5);
     let coat_medium_throughput_2: vec3f = coat_medium_throughput * vec3f(0.9512294, 0.967216, 0.9753099);
     let drops_throughput_2: vec3f = mix(vec3f(1.0), coat_reflection_throughput * coat_medium_throughput_2, 0.5);
-    let drops_throughput_3: vec3f = mix(vec3f(1.0), coat_reflection_throughput
-        * (coat_medium_throughput_2 * vec3f(0.9512294, 0.967216, 0.9753099)), 0.5);
+    let drops_throughput_3: vec3f = mix(vec3f(1.0),
+        coat_reflection_throughput * (coat_medium_throughput_2 * vec3f(0.9512294, 0.967216, 0.9753099)), 0.5);
     let milk_mark_decay: vec3f = clamp((drops_throughput_2 - drops_throughput_3)
         / max(drops_throughput - drops_throughput_2, vec3f(1e-6)), vec3f(0.0), vec3f(0.999));
     let decaying: vec3f = (drops_throughput - drops_throughput_2) / (vec3f(1.0) - milk_mark_decay);
@@ -610,8 +607,8 @@ fn main(vd_in: VertexData) -> PixelOutputs
     let decal_normal: vec3f = select(metal_direction, N, normal_decal.w >= 1.0);
     let milk_reflection_albedo: vec2f = mx_ggx_albedo_fit(0.25071993, view_cosine);
     let milk_reflection_ggx_compensation: f32 = (1.0 / milk_reflection_albedo.x - 1.0) * 0.08571428 + 1.0;
-    let milk_reflection_throughput: f32 = max(1.0 - mix(0.04, 1.0, milk_reflection_albedo.y) * milk_reflection_albedo.x
-        * milk_reflection_ggx_compensation, 0.0);
+    let milk_reflection_throughput: f32 = max(1.0
+        - mix(0.04, 1.0, milk_reflection_albedo.y) * milk_reflection_albedo.x * milk_reflection_ggx_compensation, 0.0);
     var milk_medium_transmitted: vec3f;
     let milk_medium: vec3f = mx_medium_layer(way, &milk_medium_transmitted);
     let metal_reflection_albedo: vec2f = mx_ggx_albedo_fit(0.29886922, view_cosine);
@@ -620,13 +617,15 @@ fn main(vd_in: VertexData) -> PixelOutputs
     let slab_reflection_bsdf_albedo: vec3f = mix(vec3f(0.66622823, 0.46274176, 0.24108408), vec3f(1.0),
         metal_reflection_albedo.y) * metal_reflection_albedo.x * metal_reflection_ggx_compensation;
     let milk_medium_throughput: vec3f = milk_medium_transmitted
-        / (vec3f(1.0) - min((slab_reflection_bsdf_albedo + max(vec3f(1.0) - slab_reflection_bsdf_albedo, vec3f(0.0))
-        * vec3f(0.700394, 0.2554791, 0.0776317)) * vec3f(0.10193972, 0.102937125, 0.103155464), vec3f(0.999)));
+        / (vec3f(1.0) - min((slab_reflection_bsdf_albedo
+        + max(vec3f(1.0) - slab_reflection_bsdf_albedo, vec3f(0.0)) * vec3f(0.700394, 0.2554791, 0.0776317))
+        * vec3f(0.10193972, 0.102937125, 0.103155464), vec3f(0.999)));
     let milky_metal_weight: vec3f = milk_reflection_throughput * milk_medium_throughput * drops_throughput;
     let milk_medium_throughput_2: vec3f = milk_medium_throughput * vec3f(0.9081714, 0.9090508, 0.9092436);
     let milky_metal_weight_2: vec3f = milk_reflection_throughput * milk_medium_throughput_2 * drops_throughput_2;
-    let difference: vec3f = milky_metal_weight_2 - milk_reflection_throughput
-        * (milk_medium_throughput_2 * vec3f(0.9081714, 0.9090508, 0.9092436)) * drops_throughput_3;
+    let difference: vec3f = milky_metal_weight_2
+        - milk_reflection_throughput * (milk_medium_throughput_2 * vec3f(0.9081714, 0.9090508, 0.9092436))
+        * drops_throughput_3;
     let metal_decay: vec3f = clamp(difference / max(milky_metal_weight - milky_metal_weight_2, vec3f(1e-6)), vec3f(0.0),
         vec3f(0.999));
     let decaying_2: vec3f = (milky_metal_weight - milky_metal_weight_2) / (vec3f(1.0) - metal_decay);

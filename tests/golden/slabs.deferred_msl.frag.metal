@@ -60,13 +60,6 @@ struct MxClosure {
     float spreads;
 };
 
-array<uint, 4> choose(bool condition, array<uint, 4> yes, array<uint, 4> no)
-{
-    if (condition)
-        return yes;
-    return no;
-}
-
 
 // A cubic polynomial of x and y with the coefficients m, to which directional albedos are fitted.
 float mx_bicubic(float4x4 m, float x, float y)
@@ -82,8 +75,8 @@ float2 mx_ggx_albedo_fit(float a, float c)
         36.4897, -72.9122, 58.0878, -20.917, -31.4763, 79.0768, -73.9706, 26.5429), a / (a + c), a), 0.0, 1.0);
     float u = a / (a + 0.6 * c);
     return float2(min(1.0017 - u * u * mx_bicubic(float4x4(-0.0334, 3.1441, -6.1576, 3.0758, 0.6997, 7.8981, -14.3238,
-        8.7382, 4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, a * c), 1.0), x * x * x * x
-        * x);
+        8.7382, 4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, a * c), 1.0),
+        x * x * x * x * x);
 }
 
 // Light that the layer of a medium reflects and lets through (`transmitted`), with all orders of scattering, on a way:
@@ -93,8 +86,8 @@ float3 mx_medium_layer(float way, thread float3& transmitted)
 {
     float x = way - 1.0;
     float3 s = float3(0.49529448, 0.49895358, 0.49975267) * way
-        * (1.0 + 0.16666666 * (float3(0.043278337, 0.052829146, 0.054919362) + x
-        * float3(-0.18317366, -0.19314766, -0.19532585)));
+        * (1.0 + 0.16666666 * (float3(0.043278337, 0.052829146, 0.054919362)
+        + x * float3(-0.18317366, -0.19314766, -0.19532585)));
     float3 k = float3(0.009411037, 0.0020928383, 0.000494659) * way
         * (1.0 + float3(0.16509815, 0.16631785, 0.16658421)
         * (float3(1.3360909, 1.3377652, 1.3381231) + x * float3(-1.792952, -1.8079973, -1.8112832)
@@ -123,8 +116,8 @@ bool mx_is_special = false;
 uint mx_word0;
 uint mx_word1;
 
-// From 0 to below 1. Jimenez 2014, "Next Generation Post Processing in Call of Duty: Advanced Warfare": interleaved
-// gradient noise.
+// Interleaved gradient noise of a pixel, from 0 to below 1 (Jimenez 2014, "Next Generation Post Processing in Call of
+// Duty: Advanced Warfare").
 float mx_gradient_noise(float2 pixel)
 {
     return fract(52.982918 * fract(dot(pixel, float2(0.06711056, 0.00583715))));
@@ -136,7 +129,8 @@ void mx_start_noise(float2 pixel)
     mx_noise = uint(8.0 * mx_gradient_noise(pixel));
 }
 
-// Cigolle et al. 2014, "A Survey of Efficient Representations for Independent Unit Vectors": octahedral.
+// The place of a direction in the octahedral square (Cigolle et al. 2014, "A Survey of Efficient Representations for
+// Independent Unit Vectors").
 float2 mx_octahedral(float3 n)
 {
     float2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
@@ -151,14 +145,14 @@ uint mx_cut_normal(float3 normal, uint bits)
     return p.x | (p.y << bits);
 }
 
-// A number from 0 to 1 in eighths of the steps of its bits.
+// A number from 0 to 1 in eighths of the steps of its bits. Noise has no middle, so its mean is right half an eighth
+// further.
 uint mx_eighths(float value, uint bits)
 {
-    float nearest = 0.5;
-    return uint(clamp(value, 0.0, 1.0) * 8.0 * float((1u << bits) - 1u) + nearest);
+    return uint(clamp(value, 0.0, 1.0) * 8.0 * float((1u << bits) - 1u) + 0.5);
 }
 
-// Channels differ by 5 eighths, near the golden ratio.
+// The noise of a channel. Channels differ by 5 eighths, near the golden ratio.
 uint mx_noise_of(uint channel)
 {
     return (mx_noise + 5u * channel) & 7u;
@@ -244,7 +238,7 @@ uint mx_number_normal(float3 normal, thread uint& word)
     return 1u;
 }
 
-// 7, 7 and 6 bits. Ten bits hold the eighths of a channel, so that one addition dithers all three.
+// A colour in 7, 7 and 6 bits. Ten bits hold the eighths of a channel, so that one addition dithers all three.
 uint mx_cut_color(float3 color)
 {
     uint eighths = mx_eighths(color.x, 7u) | (mx_eighths(color.y, 7u) << 10u) | (mx_eighths(color.z, 6u) << 20u);
@@ -252,7 +246,7 @@ uint mx_cut_color(float3 color)
     return ((eighths >> 3u) & 127u) | (((eighths >> 13u) & 127u) << 7u) | (((eighths >> 23u) & 63u) << 14u);
 }
 
-// A number from -1 to 1; 0 has no bit.
+// A number from -1 to 1 in so many bits. 0 has none of them.
 uint mx_cut_signed(float value, uint bits)
 {
     float most = float((1u << (bits - 1u)) - 1u);
@@ -279,7 +273,7 @@ uint mx_lobes_word(MxClosure c)
         | (mx_cut(1.0 - hue.z, 6u, 8u) << 26u);
 }
 
-// IEC 61966-2-1
+// A colour in the encoding of IEC 61966-2-1.
 float3 mx_srgb(float3 linear)
 {
     float3 c = clamp(linear, 0.0, 1.0);
@@ -294,7 +288,7 @@ uint mx_fuzz_word(MxClosure c)
         | (mx_cut(c.fuzz_roughness, 6u, 10u) << 26u);
 }
 
-// Two axes across a normal. Duff et al. 2017, "Building an Orthonormal Basis, Revisited".
+// Two axes across a normal (Duff et al. 2017, "Building an Orthonormal Basis, Revisited").
 void mx_across(float3 n, thread float3& x, thread float3& y)
 {
     float side = n.z < 0.0 ? -1.0 : 1.0;
@@ -304,7 +298,8 @@ void mx_across(float3 n, thread float3& x, thread float3& y)
     y = float3(b, side + n.y * n.y * a, -n.y);
 }
 
-// The tangent is an angle from the first axis across the normal, below half a turn: both its directions are one.
+// The word of the anisotropy: amount and tangent, as an angle from the first axis across the normal, below half a turn:
+// both its directions are one.
 uint mx_anisotropy_word(MxClosure c, float3 normal)
 {
     uint amount = mx_cut_signed(c.anisotropy, 16u);
@@ -315,15 +310,16 @@ uint mx_anisotropy_word(MxClosure c, float3 normal)
     return amount == 0u ? 0u : (uint(rint(fract(turn) * 65536.0)) & 65535u) | (amount << 16u);
 }
 
-// The number of the table, and how much it tints.
+// The word of a tint: the number of its table, and how much it tints.
 uint mx_tint_word(MxClosure c)
 {
     uint weight = mx_cut(c.tint_weight, 8u, 11u);
     return weight == 0u ? 0u : (uint(c.tint_index) & 65535u) | (weight << 16u);
 }
 
-// Facets need exact places and slopes, so their words are not dithered: coordinates; logarithms of the extents and of
-// the number; whole turn of the tangent, roughness, what 12 bits of the normal leave, in sixteenths of their steps.
+// The words of glints. Facets need exact places and slopes, so they are not dithered: coordinates; logarithms of the
+// extents and of the number; whole turn of the tangent, roughness, what 12 bits of the normal leave, in sixteenths of
+// their steps.
 array<uint, 4> mx_glint_words(MxClosure c, float3 normal)
 {
     float2 extent = clamp((log2(max(c.glint_extent, 1e-12)) + 24.0) / 32.0, 0.0, 1.0);
@@ -332,14 +328,14 @@ array<uint, 4> mx_glint_words(MxClosure c, float3 normal)
     mx_across(normal, x, y);
     float turn = atan2(dot(c.tangent, y), dot(c.tangent, x)) / 6.2831855;
     int2 rest = int2(rint(clamp((mx_octahedral(c.normal) - mx_octahedral(normal)) * 65520.0, -8.0, 7.0))) & 15;
-    return array<uint, 4>{as_type<uint>(c.glint_uv.x), as_type<uint>(c.glint_uv.y), uint(rint(extent.x * 1023.0))
-        | (uint(rint(extent.y * 1023.0)) << 10u)
+    return array<uint, 4>{as_type<uint>(c.glint_uv.x), as_type<uint>(c.glint_uv.y),
+        uint(rint(extent.x * 1023.0)) | (uint(rint(extent.y * 1023.0)) << 10u)
         | (max(uint(rint(clamp(c.glint_density / 32.0, 0.0, 1.0) * 4095.0)), 1u) << 20u),
         (uint(rint(fract(turn) * 4096.0)) & 4095u) | (uint(rint(clamp(c.roughness, 0.0, 1.0) * 4095.0)) << 12u)
         | (uint(rest.x) << 24u) | (uint(rest.y) << 28u)};
 }
 
-// The words that every closure has, without its features.
+// The first word of a closure, without its features: the roots of f0.
 uint mx_core(MxClosure c)
 {
     return mx_cut_color(sqrt(clamp(c.f0, 0.0, 1.0)));
@@ -367,7 +363,9 @@ MxRecord mx_pack(MxClosure c, float3 stored_normal)
     r.tint = mx_tint_word(c);
     r.normal = 0u;
     bool has_glints = c.glint_density > 0.0 && max(c.glint_extent.x, c.glint_extent.y) > 0.0;
-    r.glints = choose(has_glints, mx_glint_words(c, stored_normal), array<uint, 4>{0u, 0u, 0u, 0u});
+    r.glints = array<uint, 4>{0u, 0u, 0u, 0u};
+    if (has_glints)
+        r.glints = mx_glint_words(c, stored_normal);
     uint has = ((r.weights[0] | r.weights[1]) != 0u ? 1u : 0u) | (r.medium != 0u ? 2u : 0u) | (r.lobes != 0u ? 4u : 0u)
         | (r.fuzz != 0u ? 8u : 0u) | (r.anisotropy != 0u ? 16u : 0u) | (r.tint != 0u ? 1280u : 0u)
         | (has_glints ? 1536u : 0u);
@@ -517,16 +515,16 @@ void FragmentMain()
     // coat
     float2 coat_reflection_albedo = mx_ggx_albedo_fit(0.01, view_cosine);
     float coat_reflection_ggx_compensation = (1.0 / coat_reflection_albedo.x - 1.0) * 0.08571428 + 1.0;
-    float coat_reflection_throughput = max(1.0 - mix(0.04, 1.0, coat_reflection_albedo.y) * coat_reflection_albedo.x
-        * coat_reflection_ggx_compensation, 0.0);
+    float coat_reflection_throughput = max(1.0
+        - mix(0.04, 1.0, coat_reflection_albedo.y) * coat_reflection_albedo.x * coat_reflection_ggx_compensation, 0.0);
     // milk
     float way = rsqrt(c * c + 1.25) * 1.5;
     float3 coat_medium_throughput = exp(way * float3(-0.05, -0.033333335, -0.025));
     float3 drops_throughput = mix(float3(1.0), coat_reflection_throughput * coat_medium_throughput, 0.5);
     float3 coat_medium_throughput_2 = coat_medium_throughput * float3(0.9512294, 0.967216, 0.9753099);
     float3 drops_throughput_2 = mix(float3(1.0), coat_reflection_throughput * coat_medium_throughput_2, 0.5);
-    float3 drops_throughput_3 = mix(float3(1.0), coat_reflection_throughput
-        * (coat_medium_throughput_2 * float3(0.9512294, 0.967216, 0.9753099)), 0.5);
+    float3 drops_throughput_3 = mix(float3(1.0),
+        coat_reflection_throughput * (coat_medium_throughput_2 * float3(0.9512294, 0.967216, 0.9753099)), 0.5);
     float3 milk_mark_decay = clamp((drops_throughput_2 - drops_throughput_3)
         / max(drops_throughput - drops_throughput_2, 1e-6), 0.0, 0.999);
     float3 decaying = (drops_throughput - drops_throughput_2) / (float3(1.0) - milk_mark_decay);
@@ -535,8 +533,8 @@ void FragmentMain()
         drops_throughput - decaying, decaying, milk_mark_decay, 0.0);
     float2 milk_reflection_albedo = mx_ggx_albedo_fit(0.25071993, view_cosine);
     float milk_reflection_ggx_compensation = (1.0 / milk_reflection_albedo.x - 1.0) * 0.08571428 + 1.0;
-    float milk_reflection_throughput = max(1.0 - mix(0.04, 1.0, milk_reflection_albedo.y) * milk_reflection_albedo.x
-        * milk_reflection_ggx_compensation, 0.0);
+    float milk_reflection_throughput = max(1.0
+        - mix(0.04, 1.0, milk_reflection_albedo.y) * milk_reflection_albedo.x * milk_reflection_ggx_compensation, 0.0);
     float3 milk_medium_transmitted;
     float3 milk_medium = mx_medium_layer(way, milk_medium_transmitted);
     float2 metal_reflection_albedo = mx_ggx_albedo_fit(0.29886922, view_cosine);
@@ -545,19 +543,21 @@ void FragmentMain()
     float3 slab_reflection_bsdf_albedo = mix(float3(0.66622823, 0.46274176, 0.24108408), float3(1.0),
         metal_reflection_albedo.y) * metal_reflection_albedo.x * metal_reflection_ggx_compensation;
     float3 milk_medium_throughput = milk_medium_transmitted
-        / (float3(1.0) - min((slab_reflection_bsdf_albedo + max(float3(1.0) - slab_reflection_bsdf_albedo, 0.0)
-        * float3(0.700394, 0.2554791, 0.0776317)) * float3(0.10193972, 0.102937125, 0.103155464), 0.999));
+        / (float3(1.0) - min((slab_reflection_bsdf_albedo
+        + max(float3(1.0) - slab_reflection_bsdf_albedo, 0.0) * float3(0.700394, 0.2554791, 0.0776317))
+        * float3(0.10193972, 0.102937125, 0.103155464), 0.999));
     float3 milky_metal_weight = milk_reflection_throughput * milk_medium_throughput * drops_throughput;
     float3 milk_medium_throughput_2 = milk_medium_throughput * float3(0.9081714, 0.9090508, 0.9092436);
     float3 milky_metal_weight_2 = milk_reflection_throughput * milk_medium_throughput_2 * drops_throughput_2;
-    float3 difference = milky_metal_weight_2 - milk_reflection_throughput
-        * (milk_medium_throughput_2 * float3(0.9081714, 0.9090508, 0.9092436)) * drops_throughput_3;
+    float3 difference = milky_metal_weight_2
+        - milk_reflection_throughput * (milk_medium_throughput_2 * float3(0.9081714, 0.9090508, 0.9092436))
+        * drops_throughput_3;
     float3 metal_mark_decay = clamp(difference / max(milky_metal_weight - milky_metal_weight_2, 1e-6), 0.0, 0.999);
     float3 decaying_2 = (milky_metal_weight - milky_metal_weight_2) / (float3(1.0) - metal_mark_decay);
     stored = mx_store_closure(stored, float3(0.700394, 0.2554791, 0.0776317),
         float3(0.66622823, 0.46274176, 0.24108408), float3(1.0), 0.54668933, 0.0, N, float3(0.0), 0.5, 0.0, 0.0,
-        float3(1.0), 0.54668933, float3(0.0), 0.0, 0.0, 0.0, float2(0.0), float2(0.0), 0.0, 0.0, 0.0, milky_metal_weight
-        - decaying_2, decaying_2, metal_mark_decay, 0.0);
+        float3(1.0), 0.54668933, float3(0.0), 0.0, 0.0, 0.0, float2(0.0), float2(0.0), 0.0, 0.0, 0.0,
+        milky_metal_weight - decaying_2, decaying_2, metal_mark_decay, 0.0);
     stored = mx_finish_closures(stored);
     out.out1 = float4((decaying + (drops_throughput - decaying)) * float3(0.0, 0.1, 0.0), 1.0);
     out.word0 = mx_stored_word(stored, 0);

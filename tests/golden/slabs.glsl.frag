@@ -107,8 +107,8 @@ vec3 mx_medium_layer(const float way, out vec3 transmitted)
 {
     float x = way - 1.0;
     vec3 s = vec3(0.49529448, 0.49895358, 0.49975267) * way
-        * (vec3(1.0) + 0.16666666 * (vec3(0.043278337, 0.052829146, 0.054919362) + x
-        * vec3(-0.18317366, -0.19314766, -0.19532585)));
+        * (vec3(1.0) + 0.16666666 * (vec3(0.043278337, 0.052829146, 0.054919362)
+        + x * vec3(-0.18317366, -0.19314766, -0.19532585)));
     vec3 k = vec3(0.009411037, 0.0020928383, 0.000494659) * way
         * (vec3(1.0) + vec3(0.16509815, 0.16631785, 0.16658421)
         * (vec3(1.3360909, 1.3377652, 1.3381231) + x * vec3(-1.792952, -1.8079973, -1.8112832)
@@ -133,8 +133,8 @@ float mx_chan_share(const float c)
 {
     vec4 fit = mat4(0.711052, 0.000476, 0.474855, 0.02628, 0.152583, 0.003146, 1.026027, -0.718545, 0.102579, -0.004832,
         -2.223248, 0.347306, -0.053764, 0.001611, 2.069558, -0.492125) * vec4(1.0, c, c * c, c * c * c);
-    return 1.0 / (3.1415927 * (mix(fit.x, 0.96428573 * (1.0 - 0.75 * mx_power5(1.0 - c)), 0.04008919) + 12.095031
-        * fit.y / (fit.w + c)));
+    return 1.0 / (3.1415927 * (mix(fit.x, 0.96428573 * (1.0 - 0.75 * mx_power5(1.0 - c)), 0.04008919)
+        + 12.095031 * fit.y / (fit.w + c)));
 }
 
 // Chan's diffuse lobe of gloss g, times its directional albedo, for a light whose half vector has the cosine cos_d to
@@ -142,8 +142,8 @@ float mx_chan_share(const float c)
 // Here g = 0.24549508.
 float mx_chan_lobe(const float cos_v, const float cos_l, const float cos_d, const float even)
 {
-    return max(mix(cos_d + mx_power5(1.0 - cos_d), even * (1.0 - 0.75 * mx_power5(1.0 - cos_l)), 0.04008919) + 12.095031
-        * cos_d * exp2(-8.9 * sqrt(min((cos_l + cos_v) / (2.0 * cos_d), 1.0))), 0.0);
+    return max(mix(cos_d + mx_power5(1.0 - cos_d), even * (1.0 - 0.75 * mx_power5(1.0 - cos_l)), 0.04008919)
+        + 12.095031 * cos_d * exp2(-8.9 * sqrt(min((cos_l + cos_v) / (2.0 * cos_d), 1.0))), 0.0);
 }
 
 // The angle, over pi, with this sine and cosine; the cosine is not negative. It errs by 2.9e-5 at most.
@@ -163,8 +163,8 @@ vec2 mx_map_point(const vec3 d)
 {
     float square = mx_map_square(d);
     float stretch = inversesqrt(square);
-    return vec2(fract((d.z > 0.0 ? -0.5 : 0.5) * (mx_half_turn(d.x * stretch, abs(d.z) * stretch) + 0.5) + 0.25), 0.5
-        - mx_half_turn(d.y, square * stretch));
+    return vec2(fract((d.z > 0.0 ? -0.5 : 0.5) * (mx_half_turn(d.x * stretch, abs(d.z) * stretch) + 0.5) + 0.25),
+        0.5 - mx_half_turn(d.y, square * stretch));
 }
 
 // The number of samples, from 1, that a lobe takes; roughness is that along two directions, squared.
@@ -246,8 +246,8 @@ mx_GgxLight mx_ggx_reflected(const mx_GgxSamples s, const int i, const vec2 turn
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     vec3 l = facet.mirror * facet.h - s.v;
     float cos_l = max(l.z, 1e-8);
-    return mx_GgxLight(mx_filtered_light(s.to_map * l, facet.texels), s.weight * cos_l
-        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l),
+    return mx_GgxLight(mx_filtered_light(s.to_map * l, facet.texels),
+        s.weight * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l),
         sqrt(clamp(0.5 * (facet.mirror * facet.cosine), 1e-8, 1.0)));
 }
 
@@ -290,16 +290,16 @@ void main()
     // coat
     vec2 coat_reflection_albedo = mx_ggx_albedo_fit(0.01, cos_v);
     float coat_reflection_scale = (1.0 / coat_reflection_albedo.x - 1.0) * 0.08571428 + 1.0;
-    float coat_reflection_throughput = max(1.0 - mix(0.04, 1.0, coat_reflection_albedo.y) * coat_reflection_albedo.x
-        * coat_reflection_scale, 0.0);
+    float coat_reflection_throughput = max(1.0
+        - mix(0.04, 1.0, coat_reflection_albedo.y) * coat_reflection_albedo.x * coat_reflection_scale, 0.0);
     // milk
     float closure_way = inversesqrt(cosine * cosine + 1.25) * 1.5;
     vec3 coat_medium_throughput = exp(closure_way * vec3(-0.05, -0.033333335, -0.025));
     vec3 drops_throughput = mix(vec3(1.0), coat_reflection_throughput * coat_medium_throughput, 0.5);
     vec3 coat_medium_throughput_2 = coat_medium_throughput * vec3(0.9512294, 0.967216, 0.9753099);
     vec3 drops_throughput_2 = mix(vec3(1.0), coat_reflection_throughput * coat_medium_throughput_2, 0.5);
-    vec3 drops_throughput_3 = mix(vec3(1.0), coat_reflection_throughput
-        * (coat_medium_throughput_2 * vec3(0.9512294, 0.967216, 0.9753099)), 0.5);
+    vec3 drops_throughput_3 = mix(vec3(1.0),
+        coat_reflection_throughput * (coat_medium_throughput_2 * vec3(0.9512294, 0.967216, 0.9753099)), 0.5);
     vec3 milk_reflection_decay = clamp((drops_throughput_2 - drops_throughput_3)
         / max(drops_throughput - drops_throughput_2, 1e-6), 0.0, 0.999);
     vec3 decaying = (drops_throughput - drops_throughput_2) / (vec3(1.0) - milk_reflection_decay);
@@ -318,8 +318,8 @@ void main()
     const vec3 metal_constant = vec3(0.66622823, 0.46274176, 0.24108408);
     mx_GgxLobe metal_reflection_ggx_lobe = mx_GgxLobe(facing, cos_v, vec3(0.0), vec2(0.29886922),
         sqrt(scaled_cos_v * 0.9106772 + 0.08932281));
-    float milk_reflection_throughput = max(1.0 - mix(0.04, 1.0, milk_reflection_albedo.y) * milk_reflection_albedo.x
-        * milk_reflection_scale, 0.0);
+    float milk_reflection_throughput = max(1.0
+        - mix(0.04, 1.0, milk_reflection_albedo.y) * milk_reflection_albedo.x * milk_reflection_scale, 0.0);
     vec3 milk_medium_transmitted;
     vec3 milk_medium = mx_medium_layer(closure_way, milk_medium_transmitted);
     vec3 slab_reflection_bsdf_albedo = mix(metal_constant, vec3(1.0), metal_reflection_albedo.y)
@@ -331,10 +331,10 @@ void main()
         * vec3(0.10193972, 0.102937125, 0.103155464), 0.999));
     vec3 milk_bare_throughput = milk_reflection_throughput
         * (milk_medium_throughput * vec3(0.895498, 0.89649165, 0.8967095));
-    vec3 metal_reflection_difference = drops_throughput * milk_bare_throughput - drops_throughput_2
-        * milk_bare_throughput;
-    vec3 metal_reflection_decay = clamp((drops_throughput_2 * milk_bare_throughput - drops_throughput_3
-        * milk_bare_throughput) / max(metal_reflection_difference, 1e-6), 0.0, 0.999);
+    vec3 metal_reflection_difference = drops_throughput * milk_bare_throughput
+        - drops_throughput_2 * milk_bare_throughput;
+    vec3 metal_reflection_decay = clamp((drops_throughput_2 * milk_bare_throughput
+        - drops_throughput_3 * milk_bare_throughput) / max(metal_reflection_difference, 1e-6), 0.0, 0.999);
     vec3 metal_reflection_decaying = metal_reflection_difference / (vec3(1.0) - metal_reflection_decay);
     vec3 metal_reflection_steady = drops_throughput * milk_bare_throughput - metal_reflection_decaying;
     vec3 metal_medium_factor = mx_chan_share(cos_v) * metal_constant_2;
@@ -345,9 +345,9 @@ void main()
     vec3 milk_medium_throughput_2 = milk_medium_throughput * vec3(0.9081714, 0.9090508, 0.9092436);
     vec3 metal_bare_metal_medium_weight_2 = metal_reflection_throughput
         * (milk_reflection_throughput * milk_medium_throughput_2 * drops_throughput_2);
-    vec3 metal_medium_difference = metal_bare_metal_medium_weight_2 - metal_reflection_throughput
-        * (milk_reflection_throughput * (milk_medium_throughput_2 * vec3(0.9081714, 0.9090508, 0.9092436))
-        * drops_throughput_3);
+    vec3 metal_medium_difference = metal_bare_metal_medium_weight_2
+        - metal_reflection_throughput * (milk_reflection_throughput
+        * (milk_medium_throughput_2 * vec3(0.9081714, 0.9090508, 0.9092436)) * drops_throughput_3);
     vec3 metal_medium_decay = clamp(metal_medium_difference
         / max(metal_bare_metal_medium_weight - metal_bare_metal_medium_weight_2, 1e-6), 0.0, 0.999);
     vec3 metal_medium_decaying = (metal_bare_metal_medium_weight - metal_bare_metal_medium_weight_2)
@@ -378,18 +378,18 @@ void main()
         float half_cosine = sqrt(clamp(dot(V, L) * 0.5 + 0.500001, 0.0, 1.0));
         float cosine_2 = dot(N, L);
         vec3 vector_closure_way = vec3(inversesqrt(cosine_2 * cosine_2 + 1.25) * 1.5);
-        vec3 milk_reflection_weight = milk_reflection_steady + decaying
-            * pow(milk_reflection_decay, vector_closure_way);
+        vec3 milk_reflection_weight = milk_reflection_steady
+            + decaying * pow(milk_reflection_decay, vector_closure_way);
         vec3 milk_reflection_product = milk_reflection_weight
             * (milk_reflection_scale * mx_ggx_light(milk_reflection_ggx_lobe, V, L));
-        vec3 metal_reflection_weight = metal_reflection_steady + metal_reflection_decaying
-            * pow(metal_reflection_decay, vector_closure_way);
+        vec3 metal_reflection_weight = metal_reflection_steady
+            + metal_reflection_decaying * pow(metal_reflection_decay, vector_closure_way);
         vec3 metal_reflection_product = mx_ggx_light(metal_reflection_ggx_lobe, V, L) * metal_reflection_weight;
         float cos_l = max(dot(L, facing), 1e-8);
         float metal_medium_product = cos_l * mx_chan_lobe(cos_v, cos_l, half_cosine, chan_even);
         vec3 metal_medium_response = metal_medium_factor
-            * (metal_medium_product * (metal_bare_metal_medium_weight - metal_medium_decaying + metal_medium_decaying
-            * pow(metal_medium_decay, vector_closure_way)));
+            * (metal_medium_product * (metal_bare_metal_medium_weight - metal_medium_decaying
+            + metal_medium_decaying * pow(metal_medium_decay, vector_closure_way)));
         vec3 response = metal_reflection_scale
             * (mx_fresnel_schlick(half_cosine, metal_constant) * metal_reflection_product) + metal_medium_response;
         color += u_lightData[i].color * (intensity
@@ -399,8 +399,8 @@ void main()
     vec3 metal_medium_product = textureLod(u_envIrradiance,
         mx_map_point(normalize(mat3(u_envMatrix)
         * (facing + V * ((cos_v * (cos_v * 0.5624 - 0.7155) + 0.4353) * 0.732292)))), 0.0).xyz * metal_constant_2;
-    color += u_envLightIntensity * ((metal_bare_metal_medium_weight - metal_medium_decaying + metal_medium_decaying
-        * pow(metal_medium_decay, vec3(1.145898))) * metal_medium_product);
+    color += u_envLightIntensity * ((metal_bare_metal_medium_weight - metal_medium_decaying
+        + metal_medium_decaying * pow(metal_medium_decay, vec3(1.145898))) * metal_medium_product);
     // environment: metal_reflection
     vec2 turn = vec2(1.0, 0.0);
     int metal_reflection_count = mx_sample_count(vec2(0.29886922));
@@ -415,24 +415,25 @@ void main()
         turn = vec2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
     }
     // environment: milk_reflection
-    vec2 turn_2 = vec2(1.0, 0.0);
+    vec2 milk_reflection_turn = vec2(1.0, 0.0);
     int milk_reflection_count = mx_sample_count(vec2(0.25071993));
     vec3 milk_reflection_factor = milk_reflection_scale
         * (milk_reflection_steady + decaying * pow(milk_reflection_decay, vec3(closure_way)));
     mx_GgxSamples milk_reflection_ggx_samples = mx_ggx_samples(vec2(0.25071993), milk_reflection_count, N, V);
     for (int i = 0; i < milk_reflection_count; ++i) {
-        mx_GgxLight milk_reflection_light = mx_ggx_reflected(milk_reflection_ggx_samples, i, turn_2);
+        mx_GgxLight milk_reflection_light = mx_ggx_reflected(milk_reflection_ggx_samples, i, milk_reflection_turn);
         color += milk_reflection_factor * (milk_reflection_light.color
             * (milk_reflection_light.weight * mx_fresnel_schlick(milk_reflection_light.cosine, vec3(0.04))));
-        turn_2 = vec2(-turn_2.y, turn_2.x) * 0.6754903 - turn_2 * 0.7373689;
+        milk_reflection_turn = vec2(-milk_reflection_turn.y, milk_reflection_turn.x) * 0.6754903
+            - milk_reflection_turn * 0.7373689;
     }
     // lights: milk_medium, coat_reflection
     vec3 slab_medium_bsdf_albedo = mx_medium_reflected(closure_way);
     vec3 milk_medium_factor = slab_medium_bsdf_albedo / vec3(0.10193972, 0.102937125, 0.103155464);
-    vec3 milk_medium_difference = milk_reflection_throughput * drops_throughput - milk_reflection_throughput
-        * drops_throughput_2;
-    vec3 milk_medium_decay = clamp((milk_reflection_throughput * drops_throughput_2 - milk_reflection_throughput
-        * drops_throughput_3) / max(milk_medium_difference, 1e-6), 0.0, 0.999);
+    vec3 milk_medium_difference = milk_reflection_throughput * drops_throughput
+        - milk_reflection_throughput * drops_throughput_2;
+    vec3 milk_medium_decay = clamp((milk_reflection_throughput * drops_throughput_2
+        - milk_reflection_throughput * drops_throughput_3) / max(milk_medium_difference, 1e-6), 0.0, 0.999);
     vec3 milk_medium_decaying = milk_medium_difference / (vec3(1.0) - milk_medium_decay);
     vec3 milk_medium_steady = milk_reflection_throughput * drops_throughput - milk_medium_decaying;
     mx_GgxLobe coat_reflection_ggx_lobe = mx_GgxLobe(facing, cos_v, vec3(0.0), vec2(0.01),
@@ -454,16 +455,16 @@ void main()
                 intensity = falloff;
             } else {
                 float spot_light_edge = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
-                intensity = light_type == 3 ? falloff
-                    * smoothstep(spot_light_edge, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
-                    : 0.0;
+                intensity = light_type == 3
+                    ? falloff * smoothstep(spot_light_edge, u_lightData[i].inner_angle,
+                    -dot(u_lightData[i].direction, to_light)) : 0.0;
             }
         }
         // milk_medium, coat_reflection
         float cosine_3 = dot(N, L);
         float closure_way_2 = inversesqrt(cosine_3 * cosine_3 + 1.25) * 1.5;
-        vec3 milk_medium_weight = milk_medium_steady + milk_medium_decaying
-            * pow(milk_medium_decay, vec3(closure_way_2));
+        vec3 milk_medium_weight = milk_medium_steady
+            + milk_medium_decaying * pow(milk_medium_decay, vec3(closure_way_2));
         vec3 milk_medium_response = milk_medium_factor
             * (mx_medium_reflected(closure_way_2) * (max(dot(facing, L), 0.0) / 3.1415927 * milk_medium_weight));
         vec3 fresnel = mx_fresnel_schlick(sqrt(clamp(dot(V, L) * 0.5 + 0.500001, 0.0, 1.0)), vec3(0.04));
@@ -477,15 +478,16 @@ void main()
     color += u_envLightIntensity * ((milk_medium_steady + milk_medium_decaying * pow(milk_medium_decay, vec3(1.145898)))
         * milk_medium_product);
     // environment: coat_reflection
-    vec2 turn_3 = vec2(1.0, 0.0);
+    vec2 coat_reflection_turn = vec2(1.0, 0.0);
     int coat_reflection_count = mx_sample_count(vec2(0.01));
     mx_GgxSamples coat_reflection_ggx_samples = mx_ggx_samples(vec2(0.01), coat_reflection_count, N, V);
     for (int i = 0; i < coat_reflection_count; ++i) {
-        mx_GgxLight coat_reflection_light = mx_ggx_reflected(coat_reflection_ggx_samples, i, turn_3);
+        mx_GgxLight coat_reflection_light = mx_ggx_reflected(coat_reflection_ggx_samples, i, coat_reflection_turn);
         color += coat_reflection_light.color
             * (mx_fresnel_schlick(coat_reflection_light.cosine, vec3(0.04))
             * (coat_reflection_scale * 0.5 * coat_reflection_light.weight));
-        turn_3 = vec2(-turn_3.y, turn_3.x) * 0.6754903 - turn_3 * 0.7373689;
+        coat_reflection_turn = vec2(-coat_reflection_turn.y, coat_reflection_turn.x) * 0.6754903
+            - coat_reflection_turn * 0.7373689;
     }
     out1 = vec4(color, 1.0);
 }

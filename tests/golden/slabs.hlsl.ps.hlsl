@@ -126,8 +126,8 @@ float2 mx_ggx_albedo_fit(float a, float c)
         36.4897, -72.9122, 58.0878, -20.917, -31.4763, 79.0768, -73.9706, 26.5429), a / (a + c), a), 0.0, 1.0);
     float u = a / (a + 0.6 * c);
     return float2(min(1.0017 - u * u * mx_bicubic(float4x4(-0.0334, 3.1441, -6.1576, 3.0758, 0.6997, 7.8981, -14.3238,
-        8.7382, 4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, a * c), 1.0), x * x * x * x
-        * x);
+        8.7382, 4.8322, -19.1128, 28.6679, -19.7386, -8.5929, 45.206, -83.1538, 52.7528), u, a * c), 1.0),
+        x * x * x * x * x);
 }
 
 // Schlick's curve from f0 to f90 at a cosine, less `bend` times cos (1 - cos)^6.
@@ -165,8 +165,8 @@ float3 mx_medium_layer(float way, out float3 transmitted)
 {
     float x = way - 1.0;
     float3 s = float3(0.49529448, 0.49895358, 0.49975267) * way
-        * (1.0 + 0.16666666 * (float3(0.043278337, 0.052829146, 0.054919362) + x
-        * float3(-0.18317366, -0.19314766, -0.19532585)));
+        * (1.0 + 0.16666666 * (float3(0.043278337, 0.052829146, 0.054919362)
+        + x * float3(-0.18317366, -0.19314766, -0.19532585)));
     float3 k = float3(0.009411037, 0.0020928383, 0.000494659) * way
         * (1.0 + float3(0.16509815, 0.16631785, 0.16658421)
         * (float3(1.3360909, 1.3377652, 1.3381231) + x * float3(-1.792952, -1.8079973, -1.8112832)
@@ -192,8 +192,8 @@ float mx_chan_share(float c)
     float4 fit = mul(float4(1.0, c, c * c, c * c * c),
         float4x4(0.711052, 0.000476, 0.474855, 0.02628, 0.152583, 0.003146, 1.026027, -0.718545, 0.102579, -0.004832,
         -2.223248, 0.347306, -0.053764, 0.001611, 2.069558, -0.492125));
-    return 1.0 / (3.1415927 * (lerp(fit.x, 0.96428573 * (1.0 - 0.75 * mx_power5(1.0 - c)), 0.04008919) + 12.095031
-        * fit.y / (fit.w + c)));
+    return 1.0 / (3.1415927 * (lerp(fit.x, 0.96428573 * (1.0 - 0.75 * mx_power5(1.0 - c)), 0.04008919)
+        + 12.095031 * fit.y / (fit.w + c)));
 }
 
 // Chan's diffuse lobe of gloss g, times its directional albedo, for a light whose half vector has the cosine cos_d to
@@ -222,8 +222,8 @@ float2 mx_map_point(float3 d)
 {
     float square = mx_map_square(d);
     float stretch = rsqrt(square);
-    return float2(frac((d.z > 0.0 ? -0.5 : 0.5) * (mx_half_turn(d.x * stretch, abs(d.z) * stretch) + 0.5) + 0.25), 0.5
-        - mx_half_turn(d.y, square * stretch));
+    return float2(frac((d.z > 0.0 ? -0.5 : 0.5) * (mx_half_turn(d.x * stretch, abs(d.z) * stretch) + 0.5) + 0.25),
+        0.5 - mx_half_turn(d.y, square * stretch));
 }
 
 // The number of samples, from 1, that a lobe takes; roughness is that along two directions, squared.
@@ -264,16 +264,16 @@ mx_GgxSamples mx_ggx_samples(float2 roughness, int count, float3 N, float3 V)
     float area = stretch.x * stretch.y;
     float share = 1.0 / float(count);
     return make_mx_GgxSamples(mul(float3x3(x, cross(lobe.N, x), lobe.N), (float3x3)u_envMatrix), stretch, area, v,
-        lobe.masking, reach, share * (v.z + reach), area * (v.z + lobe.masking)
-        * max(2.0 / float(count), 4.4 / float(max(u_envRadianceSamples, 1)))
+        lobe.masking, reach, share * (v.z + reach),
+        area * (v.z + lobe.masking) * max(2.0 / float(count), 4.4 / float(max(u_envRadianceSamples, 1)))
         * exp2(2.0 * float(u_envRadianceMips) - 4.6485), u_envLightIntensity * (share * (v.z + lobe.masking)));
 }
 
 // Light of the environment from the unit direction d of its picture, filtered over as many texels.
 float3 mx_filtered_light(float3 d, float texels)
 {
-    return u_envRadiance.SampleLevel(u_envRadiance_sampler, mx_map_point(d), 0.5
-        * log2(texels * rsqrt(mx_map_square(d)))).xyz;
+    return u_envRadiance.SampleLevel(u_envRadiance_sampler, mx_map_point(d),
+        0.5 * log2(texels * rsqrt(mx_map_square(d)))).xyz;
 }
 
 // Height-correlated masking and shadowing G2 over 2 cos_v cos_l (Heitz 2014, equation 99); `masking` is that of the
@@ -307,8 +307,8 @@ mx_GgxLight mx_ggx_reflected(mx_GgxSamples s, int i, float2 turn)
     mx_GgxFacet facet = mx_ggx_facet(s, i, turn);
     float3 l = facet.mirror * facet.h - s.v;
     float cos_l = max(l.z, 1e-8);
-    return make_mx_GgxLight(mx_filtered_light(mul(l, s.to_map), facet.texels), s.weight * cos_l
-        * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l),
+    return make_mx_GgxLight(mx_filtered_light(mul(l, s.to_map), facet.texels),
+        s.weight * cos_l * mx_ggx_visibility(s.v.z, s.masking, s.area, cos_l),
         sqrt(clamp(0.5 * (facet.mirror * facet.cosine), 1e-8, 1.0)));
 }
 
@@ -353,16 +353,16 @@ void main(
     // coat
     float2 coat_reflection_albedo = mx_ggx_albedo_fit(0.01, cos_v);
     float coat_reflection_scale = (1.0 / coat_reflection_albedo.x - 1.0) * 0.08571428 + 1.0;
-    float coat_reflection_throughput = max(1.0 - lerp(0.04, 1.0, coat_reflection_albedo.y) * coat_reflection_albedo.x
-        * coat_reflection_scale, 0.0);
+    float coat_reflection_throughput = max(1.0
+        - lerp(0.04, 1.0, coat_reflection_albedo.y) * coat_reflection_albedo.x * coat_reflection_scale, 0.0);
     // milk
     float closure_way = rsqrt(cosine * cosine + 1.25) * 1.5;
     float3 coat_medium_throughput = exp(closure_way * float3(-0.05, -0.033333335, -0.025));
     float3 drops_throughput = lerp(float3(1.0, 1.0, 1.0), coat_reflection_throughput * coat_medium_throughput, 0.5);
     float3 coat_medium_throughput_2 = coat_medium_throughput * float3(0.9512294, 0.967216, 0.9753099);
     float3 drops_throughput_2 = lerp(float3(1.0, 1.0, 1.0), coat_reflection_throughput * coat_medium_throughput_2, 0.5);
-    float3 drops_throughput_3 = lerp(float3(1.0, 1.0, 1.0), coat_reflection_throughput
-        * (coat_medium_throughput_2 * float3(0.9512294, 0.967216, 0.9753099)), 0.5);
+    float3 drops_throughput_3 = lerp(float3(1.0, 1.0, 1.0),
+        coat_reflection_throughput * (coat_medium_throughput_2 * float3(0.9512294, 0.967216, 0.9753099)), 0.5);
     float3 milk_reflection_decay = clamp((drops_throughput_2 - drops_throughput_3)
         / max(drops_throughput - drops_throughput_2, 1e-6), 0.0, 0.999);
     float3 decaying = (drops_throughput - drops_throughput_2) / (float3(1.0, 1.0, 1.0) - milk_reflection_decay);
@@ -381,8 +381,8 @@ void main(
     const float3 metal_constant = float3(0.66622823, 0.46274176, 0.24108408);
     mx_GgxLobe metal_reflection_ggx_lobe = make_mx_GgxLobe(facing, cos_v, float3(0.0, 0.0, 0.0),
         float2(0.29886922, 0.29886922), sqrt(scaled_cos_v * 0.9106772 + 0.08932281));
-    float milk_reflection_throughput = max(1.0 - lerp(0.04, 1.0, milk_reflection_albedo.y) * milk_reflection_albedo.x
-        * milk_reflection_scale, 0.0);
+    float milk_reflection_throughput = max(1.0
+        - lerp(0.04, 1.0, milk_reflection_albedo.y) * milk_reflection_albedo.x * milk_reflection_scale, 0.0);
     float3 milk_medium_transmitted;
     float3 milk_medium = mx_medium_layer(closure_way, milk_medium_transmitted);
     float3 slab_reflection_bsdf_albedo = lerp(metal_constant, float3(1.0, 1.0, 1.0), metal_reflection_albedo.y)
@@ -394,10 +394,10 @@ void main(
         * float3(0.10193972, 0.102937125, 0.103155464), 0.999));
     float3 milk_bare_throughput = milk_reflection_throughput
         * (milk_medium_throughput * float3(0.895498, 0.89649165, 0.8967095));
-    float3 metal_reflection_difference = drops_throughput * milk_bare_throughput - drops_throughput_2
-        * milk_bare_throughput;
-    float3 metal_reflection_decay = clamp((drops_throughput_2 * milk_bare_throughput - drops_throughput_3
-        * milk_bare_throughput) / max(metal_reflection_difference, 1e-6), 0.0, 0.999);
+    float3 metal_reflection_difference = drops_throughput * milk_bare_throughput
+        - drops_throughput_2 * milk_bare_throughput;
+    float3 metal_reflection_decay = clamp((drops_throughput_2 * milk_bare_throughput
+        - drops_throughput_3 * milk_bare_throughput) / max(metal_reflection_difference, 1e-6), 0.0, 0.999);
     float3 metal_reflection_decaying = metal_reflection_difference / (float3(1.0, 1.0, 1.0) - metal_reflection_decay);
     float3 metal_reflection_steady = drops_throughput * milk_bare_throughput - metal_reflection_decaying;
     float3 metal_medium_factor = mx_chan_share(cos_v) * metal_constant_2;
@@ -408,9 +408,9 @@ void main(
     float3 milk_medium_throughput_2 = milk_medium_throughput * float3(0.9081714, 0.9090508, 0.9092436);
     float3 metal_bare_metal_medium_weight_2 = metal_reflection_throughput
         * (milk_reflection_throughput * milk_medium_throughput_2 * drops_throughput_2);
-    float3 metal_medium_difference = metal_bare_metal_medium_weight_2 - metal_reflection_throughput
-        * (milk_reflection_throughput * (milk_medium_throughput_2 * float3(0.9081714, 0.9090508, 0.9092436))
-        * drops_throughput_3);
+    float3 metal_medium_difference = metal_bare_metal_medium_weight_2
+        - metal_reflection_throughput * (milk_reflection_throughput
+        * (milk_medium_throughput_2 * float3(0.9081714, 0.9090508, 0.9092436)) * drops_throughput_3);
     float3 metal_medium_decay = clamp(metal_medium_difference
         / max(metal_bare_metal_medium_weight - metal_bare_metal_medium_weight_2, 1e-6), 0.0, 0.999);
     float3 metal_medium_decaying = (metal_bare_metal_medium_weight - metal_bare_metal_medium_weight_2)
@@ -441,18 +441,18 @@ void main(
         float half_cosine = sqrt(clamp(dot(V, L) * 0.5 + 0.500001, 0.0, 1.0));
         float cosine_2 = dot(N, L);
         float3 vector_closure_way = (float3)(rsqrt(cosine_2 * cosine_2 + 1.25) * 1.5);
-        float3 milk_reflection_weight = milk_reflection_steady + decaying
-            * pow(milk_reflection_decay, vector_closure_way);
+        float3 milk_reflection_weight = milk_reflection_steady
+            + decaying * pow(milk_reflection_decay, vector_closure_way);
         float3 milk_reflection_product = milk_reflection_weight
             * (milk_reflection_scale * mx_ggx_light(milk_reflection_ggx_lobe, V, L));
-        float3 metal_reflection_weight = metal_reflection_steady + metal_reflection_decaying
-            * pow(metal_reflection_decay, vector_closure_way);
+        float3 metal_reflection_weight = metal_reflection_steady
+            + metal_reflection_decaying * pow(metal_reflection_decay, vector_closure_way);
         float3 metal_reflection_product = mx_ggx_light(metal_reflection_ggx_lobe, V, L) * metal_reflection_weight;
         float cos_l = max(dot(L, facing), 1e-8);
         float metal_medium_product = cos_l * mx_chan_lobe(cos_v, cos_l, half_cosine, chan_even);
         float3 metal_medium_response = metal_medium_factor
-            * (metal_medium_product * (metal_bare_metal_medium_weight - metal_medium_decaying + metal_medium_decaying
-            * pow(metal_medium_decay, vector_closure_way)));
+            * (metal_medium_product * (metal_bare_metal_medium_weight - metal_medium_decaying
+            + metal_medium_decaying * pow(metal_medium_decay, vector_closure_way)));
         float3 response = metal_reflection_scale
             * (mx_fresnel_schlick(half_cosine, metal_constant) * metal_reflection_product) + metal_medium_response;
         color += u_lightData[i].color * (intensity
@@ -462,8 +462,9 @@ void main(
     float3 metal_medium_product = u_envIrradiance.SampleLevel(u_envIrradiance_sampler,
         mx_map_point(normalize(mul(facing + V * ((cos_v * (cos_v * 0.5624 - 0.7155) + 0.4353) * 0.732292),
         (float3x3)u_envMatrix))), 0.0).xyz * metal_constant_2;
-    color += u_envLightIntensity * ((metal_bare_metal_medium_weight - metal_medium_decaying + metal_medium_decaying
-        * pow(metal_medium_decay, float3(1.145898, 1.145898, 1.145898))) * metal_medium_product);
+    color += u_envLightIntensity * ((metal_bare_metal_medium_weight - metal_medium_decaying
+        + metal_medium_decaying * pow(metal_medium_decay, float3(1.145898, 1.145898, 1.145898)))
+        * metal_medium_product);
     // environment: metal_reflection
     float2 turn = float2(1.0, 0.0);
     int metal_reflection_count = mx_sample_count(float2(0.29886922, 0.29886922));
@@ -479,26 +480,27 @@ void main(
         turn = float2(-turn.y, turn.x) * 0.6754903 - turn * 0.7373689;
     }
     // environment: milk_reflection
-    float2 turn_2 = float2(1.0, 0.0);
+    float2 milk_reflection_turn = float2(1.0, 0.0);
     int milk_reflection_count = mx_sample_count(float2(0.25071993, 0.25071993));
     float3 milk_reflection_factor = milk_reflection_scale
         * (milk_reflection_steady + decaying * pow(milk_reflection_decay, (float3)closure_way));
     mx_GgxSamples milk_reflection_ggx_samples = mx_ggx_samples(float2(0.25071993, 0.25071993), milk_reflection_count, N,
         V);
     for (int i = 0; i < milk_reflection_count; ++i) {
-        mx_GgxLight milk_reflection_light = mx_ggx_reflected(milk_reflection_ggx_samples, i, turn_2);
+        mx_GgxLight milk_reflection_light = mx_ggx_reflected(milk_reflection_ggx_samples, i, milk_reflection_turn);
         color += milk_reflection_factor * (milk_reflection_light.color
             * (milk_reflection_light.weight
             * mx_fresnel_schlick(milk_reflection_light.cosine, float3(0.04, 0.04, 0.04))));
-        turn_2 = float2(-turn_2.y, turn_2.x) * 0.6754903 - turn_2 * 0.7373689;
+        milk_reflection_turn = float2(-milk_reflection_turn.y, milk_reflection_turn.x) * 0.6754903
+            - milk_reflection_turn * 0.7373689;
     }
     // lights: milk_medium, coat_reflection
     float3 slab_medium_bsdf_albedo = mx_medium_reflected(closure_way);
     float3 milk_medium_factor = slab_medium_bsdf_albedo / float3(0.10193972, 0.102937125, 0.103155464);
-    float3 milk_medium_difference = milk_reflection_throughput * drops_throughput - milk_reflection_throughput
-        * drops_throughput_2;
-    float3 milk_medium_decay = clamp((milk_reflection_throughput * drops_throughput_2 - milk_reflection_throughput
-        * drops_throughput_3) / max(milk_medium_difference, 1e-6), 0.0, 0.999);
+    float3 milk_medium_difference = milk_reflection_throughput * drops_throughput
+        - milk_reflection_throughput * drops_throughput_2;
+    float3 milk_medium_decay = clamp((milk_reflection_throughput * drops_throughput_2
+        - milk_reflection_throughput * drops_throughput_3) / max(milk_medium_difference, 1e-6), 0.0, 0.999);
     float3 milk_medium_decaying = milk_medium_difference / (float3(1.0, 1.0, 1.0) - milk_medium_decay);
     float3 milk_medium_steady = milk_reflection_throughput * drops_throughput - milk_medium_decaying;
     mx_GgxLobe coat_reflection_ggx_lobe = make_mx_GgxLobe(facing, cos_v, float3(0.0, 0.0, 0.0), float2(0.01, 0.01),
@@ -520,16 +522,16 @@ void main(
                 intensity = falloff;
             } else {
                 float spot_light_edge = min(u_lightData[i].inner_angle, u_lightData[i].outer_angle) - 0.00001;
-                intensity = light_type == 3 ? falloff
-                    * smoothstep(spot_light_edge, u_lightData[i].inner_angle, -dot(u_lightData[i].direction, to_light))
-                    : 0.0;
+                intensity = light_type == 3
+                    ? falloff * smoothstep(spot_light_edge, u_lightData[i].inner_angle,
+                    -dot(u_lightData[i].direction, to_light)) : 0.0;
             }
         }
         // milk_medium, coat_reflection
         float cosine_3 = dot(N, L);
         float closure_way_2 = rsqrt(cosine_3 * cosine_3 + 1.25) * 1.5;
-        float3 milk_medium_weight = milk_medium_steady + milk_medium_decaying
-            * pow(milk_medium_decay, (float3)closure_way_2);
+        float3 milk_medium_weight = milk_medium_steady
+            + milk_medium_decaying * pow(milk_medium_decay, (float3)closure_way_2);
         float3 milk_medium_response = milk_medium_factor
             * (mx_medium_reflected(closure_way_2) * (max(dot(facing, L), 0.0) / 3.1415927 * milk_medium_weight));
         float3 fresnel = mx_fresnel_schlick(sqrt(clamp(dot(V, L) * 0.5 + 0.500001, 0.0, 1.0)),
@@ -542,18 +544,19 @@ void main(
     float3 milk_medium_product = slab_medium_bsdf_albedo
         * u_envIrradiance.SampleLevel(u_envIrradiance_sampler,
         mx_map_point(normalize(mul(facing, (float3x3)u_envMatrix))), 0.0).xyz;
-    color += u_envLightIntensity * ((milk_medium_steady + milk_medium_decaying
-        * pow(milk_medium_decay, float3(1.145898, 1.145898, 1.145898))) * milk_medium_product);
+    color += u_envLightIntensity * ((milk_medium_steady
+        + milk_medium_decaying * pow(milk_medium_decay, float3(1.145898, 1.145898, 1.145898))) * milk_medium_product);
     // environment: coat_reflection
-    float2 turn_3 = float2(1.0, 0.0);
+    float2 coat_reflection_turn = float2(1.0, 0.0);
     int coat_reflection_count = mx_sample_count(float2(0.01, 0.01));
     mx_GgxSamples coat_reflection_ggx_samples = mx_ggx_samples(float2(0.01, 0.01), coat_reflection_count, N, V);
     for (int i = 0; i < coat_reflection_count; ++i) {
-        mx_GgxLight coat_reflection_light = mx_ggx_reflected(coat_reflection_ggx_samples, i, turn_3);
+        mx_GgxLight coat_reflection_light = mx_ggx_reflected(coat_reflection_ggx_samples, i, coat_reflection_turn);
         color += coat_reflection_light.color
             * (mx_fresnel_schlick(coat_reflection_light.cosine, float3(0.04, 0.04, 0.04))
             * (coat_reflection_scale * 0.5 * coat_reflection_light.weight));
-        turn_3 = float2(-turn_3.y, turn_3.x) * 0.6754903 - turn_3 * 0.7373689;
+        coat_reflection_turn = float2(-coat_reflection_turn.y, coat_reflection_turn.x) * 0.6754903
+            - coat_reflection_turn * 0.7373689;
     }
     out1 = float4(color, 1.0);
 }

@@ -23,8 +23,8 @@ struct Surface {
     uint word_15;
 };
 
-#ifndef MXG_75853e25456f9a69
-#define MXG_75853e25456f9a69
+#ifndef MXG_c87da0c222488c6b
+#define MXG_c87da0c222488c6b
 #define MX_STORAGE 1
 #define MX_BLUR 0
 #define MX_PAYLOAD_WORDS 16
@@ -66,7 +66,8 @@ struct MxClosure
 // The storage of closures (docs/deferred.md): how values become bits, for those who write and those who read. MX_STORAGE: 0 rounds with
 // dither, 1 rounds, 2 keeps whole floats. MX_BLUR: 1 where rough interfaces blur what lies below.
 
-// Features that a closure has beside f0, albedo and roughness: one word each, two for weights. Bits 20 to 27 of its first word.
+// Features that a closure has beside f0, albedo and roughness: one word each, two for weights. Bits 20 to 27 of its
+// first word.
 const uint MX_HAS_WEIGHTS = 1u, MX_HAS_MEDIUM = 2u, MX_HAS_LOBES = 4u, MX_HAS_FUZZ = 8u, MX_HAS_ANISOTROPY = 16u;
 const uint MX_IS_SMOOTH = 32u;  // the closure on top, without a diffuse albedo: it has one word less
 const uint MX_NORMAL_SHIFT = 6; // 0: the normal of the top, 1: in a word of its own, 2: the last such word, 3: the one before it
@@ -84,73 +85,78 @@ struct MxRecord
 // The class of a pixel by its first word.
 uint mx_class(uint first)
 {
-    return (first >> 20u & MX_IS_SPECIAL) != 0u ? uint(MX_SPECIAL) : first >> 28u;
+    return ((first >> 20u) & MX_IS_SPECIAL) != 0u ? uint(MX_SPECIAL) : first >> 28u;
 }
 
 // The features of a closure.
 uint mx_features(uint core)
 {
-    return core >> 20u & ((core >> 20u & MX_IS_SPECIAL) != 0u ? 0x3ffu : 0xffu);
+    return (core >> 20u) & (((core >> 20u) & MX_IS_SPECIAL) != 0u ? 0x3ffu : 0xffu);
 }
 
 // ---- numbers of few bits ---------------------------------------------------------------------------------------------
 
-// From 0 to below 1. Jimenez 2014, "Next Generation Post Processing in Call of Duty: Advanced Warfare": interleaved gradient noise.
+// Interleaved gradient noise of a pixel, from 0 to below 1 (Jimenez 2014, "Next Generation Post Processing in Call of
+// Duty: Advanced Warfare").
 float mx_gradient_noise(vec2 pixel)
 {
     return fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715))));
 }
 
-// From 0 to 7 eighths: what is added before a number is cut off. A constant number costs one addition.
+#if MX_STORAGE == 0
+// The noise of the pixel, from 0 to 7 eighths: what is added before a number is cut off.
 uint mx_noise = 4u;
 
 // Chooses the noise of a pixel, before its numbers are cut.
 void mx_start_noise(vec2 pixel)
 {
-#if MX_STORAGE == 0
     mx_noise = uint(8.0 * mx_gradient_noise(pixel));
-#endif
 }
 
-// Channels differ by 5 eighths, near the golden ratio.
+// The noise of a channel. Channels differ by 5 eighths, near the golden ratio.
 uint mx_noise_of(uint channel)
 {
-#if MX_STORAGE == 0
-    return mx_noise + 5u * channel & 7u;
-#else
-    return mx_noise;
-#endif
+    return (mx_noise + 5u * channel) & 7u;
 }
 
-// A number from 0 to 1 in eighths of the steps of its bits.
+// A number from 0 to 1 in eighths of the steps of its bits. Noise has no middle, so its mean is right half an eighth
+// further.
 uint mx_eighths(float value, uint bits)
 {
-#if MX_STORAGE == 0
-    const float nearest = 0.5; // noise has no middle, so this is where its mean is right
-#else
-    const float nearest = 0.0; // half a step comes later
-#endif
-    return uint(clamp(value, 0.0, 1.0) * 8.0 * float((1u << bits) - 1u) + nearest);
+    return uint(clamp(value, 0.0, 1.0) * 8.0 * float((1u << bits) - 1u) + 0.5);
 }
 
 // A number from 0 to 1 in so many bits. Each channel has noise of its own.
 uint mx_cut(float value, uint bits, uint channel)
 {
-    return mx_eighths(value, bits) + mx_noise_of(channel) >> 3u;
+    return (mx_eighths(value, bits) + mx_noise_of(channel)) >> 3u;
 }
+
+// A colour in 7, 7 and 6 bits. Ten bits hold the eighths of a channel, so that one addition dithers all three.
+uint mx_cut_color(vec3 color)
+{
+    uint eighths = mx_eighths(color.x, 7u) | (mx_eighths(color.y, 7u) << 10u) | (mx_eighths(color.z, 6u) << 20u);
+    eighths += mx_noise_of(0u) | (mx_noise_of(1u) << 10u) | (mx_noise_of(2u) << 20u);
+    return ((eighths >> 3u) & 0x7fu) | (((eighths >> 13u) & 0x7fu) << 7u) | (((eighths >> 23u) & 0x3fu) << 14u);
+}
+#else
+// The nearest of the numbers from 0 to 1 that so many bits have, alike in all channels.
+uint mx_cut(float value, uint bits, uint channel)
+{
+    return uint(clamp(value, 0.0, 1.0) * float((1u << bits) - 1u) + 0.5);
+}
+
+// A colour in 7, 7 and 6 bits.
+uint mx_cut_color(vec3 color)
+{
+    return mx_cut(color.x, 7u, 0u) | (mx_cut(color.y, 7u, 1u) << 7u) | (mx_cut(color.z, 6u, 2u) << 14u);
+}
+#endif
 
 // A number from 0 to 1 from its bits of a word.
 float mx_uncut(uint word, uint shift, uint bits)
 {
-    return float(word >> shift & (1u << bits) - 1u) / float((1u << bits) - 1u);
-}
-
-// 7, 7 and 6 bits. Ten bits hold the eighths of a channel, so that one addition dithers all three.
-uint mx_cut_color(vec3 color)
-{
-    uint eighths = mx_eighths(color.x, 7u) | mx_eighths(color.y, 7u) << 10u | mx_eighths(color.z, 6u) << 20u;
-    eighths += mx_noise_of(0u) | mx_noise_of(1u) << 10u | mx_noise_of(2u) << 20u;
-    return eighths >> 3u & 0x7fu | (eighths >> 13u & 0x7fu) << 7u | (eighths >> 23u & 0x3fu) << 14u;
+    return float((word >> shift) & ((1u << bits) - 1u)) / float((1u << bits) - 1u);
 }
 
 // A colour from its 20 bits.
@@ -159,21 +165,21 @@ vec3 mx_uncut_color(uint word)
     return vec3(mx_uncut(word, 0u, 7u), mx_uncut(word, 7u, 7u), mx_uncut(word, 14u, 6u));
 }
 
-// A number from -1 to 1; 0 has no bit.
+// A number from -1 to 1 in so many bits. 0 has none of them.
 uint mx_cut_signed(float value, uint bits)
 {
-    float most = float((1u << bits - 1u) - 1u);
-    return uint(int(round(clamp(value, -1.0, 1.0) * most))) & (1u << bits) - 1u;
+    float most = float((1u << (bits - 1u)) - 1u);
+    return uint(int(round(clamp(value, -1.0, 1.0) * most))) & ((1u << bits) - 1u);
 }
 
 // A number from -1 to 1 from its bits of a word.
 float mx_uncut_signed(uint word, uint shift, uint bits)
 {
-    float most = float((1u << bits - 1u) - 1u);
-    return float(int(word << 32u - bits - shift) >> int(32u - bits)) / most;
+    float most = float((1u << (bits - 1u)) - 1u);
+    return float(int(word << (32u - bits - shift)) >> int(32u - bits)) / most;
 }
 
-// IEC 61966-2-1
+// A colour in the encoding of IEC 61966-2-1.
 vec3 mx_srgb(vec3 linear)
 {
     vec3 c = clamp(linear, 0.0, 1.0);
@@ -186,7 +192,8 @@ vec3 mx_linear(vec3 srgb)
     return mix(pow((srgb + 0.055) / 1.055, vec3(2.4)), srgb / 12.92, lessThan(srgb, vec3(0.04045)));
 }
 
-// Cigolle et al. 2014, "A Survey of Efficient Representations for Independent Unit Vectors": octahedral.
+// The place of a direction in the octahedral square (Cigolle et al. 2014, "A Survey of Efficient Representations for
+// Independent Unit Vectors").
 vec2 mx_octahedral(vec3 n)
 {
     vec2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
@@ -208,7 +215,7 @@ vec3 mx_of_octahedral(vec2 square)
 uint mx_cut_normal(vec3 normal, uint bits)
 {
     uvec2 p = uvec2(round(mx_octahedral(normal) * float((1u << bits) - 1u)));
-    return p.x | p.y << bits;
+    return p.x | (p.y << bits);
 }
 
 // A direction from its bits.
@@ -217,7 +224,7 @@ vec3 mx_uncut_normal(uint word, uint bits)
     return mx_of_octahedral(vec2(mx_uncut(word, 0u, bits), mx_uncut(word, bits, bits)));
 }
 
-// Two axes across a normal. Duff et al. 2017, "Building an Orthonormal Basis, Revisited".
+// Two axes across a normal (Duff et al. 2017, "Building an Orthonormal Basis, Revisited").
 void mx_across(vec3 n, out vec3 x, out vec3 y)
 {
     float side = n.z < 0.0 ? -1.0 : 1.0, a = -1.0 / (side + n.z), b = n.x * n.y * a;
@@ -230,7 +237,7 @@ void mx_across(vec3 n, out vec3 x, out vec3 y)
 // The third word of a pixel: normal and roughness of the closure on top.
 uint mx_top(vec3 normal, float roughness)
 {
-    return mx_cut_normal(normal, 12u) | mx_cut(roughness, 8u, 3u) << 24u;
+    return mx_cut_normal(normal, 12u) | (mx_cut(roughness, 8u, 3u) << 24u);
 }
 
 // The normal of the closure on top.
@@ -251,7 +258,7 @@ uint mx_medium_word(MxClosure c)
     if (max(c.free_path.x, max(c.free_path.y, c.free_path.z)) <= 0.0
         || max(c.diffuse_albedo.x, max(c.diffuse_albedo.y, c.diffuse_albedo.z)) <= 0.0)
         return 0u;
-    return max(mx_cut_color(c.free_path / (1.0 + c.free_path)), 1u) | mx_cut_signed(c.phase_anisotropy, 6u) << 20u
+    return max(mx_cut_color(c.free_path / (1.0 + c.free_path)), 1u) | (mx_cut_signed(c.phase_anisotropy, 6u) << 20u)
          | (c.is_thick > 0.0 ? 1u << 26u : 0u);
 }
 
@@ -261,36 +268,38 @@ uint mx_lobes_word(MxClosure c)
     uint weight = mx_cut(c.second_roughness_weight, 6u, 4u);
     uint roughness = weight == 0u ? 0u : mx_cut(c.second_roughness, 8u, 5u);
     vec3 hue = max(c.f90, 0.0) / max(max(c.f90.x, max(c.f90.y, c.f90.z)), 1e-6);
-    return roughness | weight << 8u | mx_cut(1.0 - hue.x, 6u, 6u) << 14u | mx_cut(1.0 - hue.y, 6u, 7u) << 20u
-         | mx_cut(1.0 - hue.z, 6u, 8u) << 26u;
+    return roughness | (weight << 8u) | (mx_cut(1.0 - hue.x, 6u, 6u) << 14u) | (mx_cut(1.0 - hue.y, 6u, 7u) << 20u)
+         | (mx_cut(1.0 - hue.z, 6u, 8u) << 26u);
 }
 
 // The word of fuzz: amount, colour and roughness. 0 without fuzz.
 uint mx_fuzz_word(MxClosure c)
 {
     uint amount = mx_cut(c.fuzz_amount, 6u, 9u);
-    return amount == 0u ? 0u : amount | mx_cut_color(mx_srgb(c.fuzz_color)) << 6u | mx_cut(c.fuzz_roughness, 6u, 10u) << 26u;
+    return amount == 0u ? 0u : amount | (mx_cut_color(mx_srgb(c.fuzz_color)) << 6u) | (mx_cut(c.fuzz_roughness, 6u, 10u) << 26u);
 }
 
-// The tangent is an angle from the first axis across the normal, below half a turn: both its directions are one.
+// The word of the anisotropy: amount and tangent, as an angle from the first axis across the normal, below half a
+// turn: both its directions are one.
 uint mx_anisotropy_word(MxClosure c, vec3 normal)
 {
     uint amount = mx_cut_signed(c.anisotropy, 16u);
     vec3 x, y;
     mx_across(normal, x, y);
     float turn = atan(dot(c.tangent, y), dot(c.tangent, x)) / 3.14159265;
-    return amount == 0u ? 0u : uint(round(fract(turn) * 65536.0)) & 0xffffu | amount << 16u;
+    return amount == 0u ? 0u : (uint(round(fract(turn) * 65536.0)) & 0xffffu) | (amount << 16u);
 }
 
-// The number of the table, and how much it tints.
+// The word of a tint: the number of its table, and how much it tints.
 uint mx_tint_word(MxClosure c)
 {
     uint weight = mx_cut(c.tint_weight, 8u, 11u);
-    return weight == 0u ? 0u : uint(c.tint_index) & 0xffffu | weight << 16u;
+    return weight == 0u ? 0u : (uint(c.tint_index) & 0xffffu) | (weight << 16u);
 }
 
-// Facets need exact places and slopes, so their words are not dithered: coordinates; logarithms of the extents and of
-// the number; whole turn of the tangent, roughness, what 12 bits of the normal leave, in sixteenths of their steps.
+// The words of glints. Facets need exact places and slopes, so they are not dithered: coordinates; logarithms of the
+// extents and of the number; whole turn of the tangent, roughness, what 12 bits of the normal leave, in sixteenths of
+// their steps.
 uint[4] mx_glint_words(MxClosure c, vec3 normal)
 {
     vec2 extent = clamp((log2(max(c.glint_extent, 1e-12)) + 24.0) / 32.0, 0.0, 1.0); // from 2^-24 to 2^8
@@ -299,13 +308,13 @@ uint[4] mx_glint_words(MxClosure c, vec3 normal)
     float turn = atan(dot(c.tangent, y), dot(c.tangent, x)) / 6.2831853;
     ivec2 rest = ivec2(round(clamp((mx_octahedral(c.normal) - mx_octahedral(normal)) * 65520.0, -8.0, 7.0))) & 15;
     return uint[4](floatBitsToUint(c.glint_uv.x), floatBitsToUint(c.glint_uv.y),
-                   uint(round(extent.x * 1023.0)) | uint(round(extent.y * 1023.0)) << 10u
-                 | max(uint(round(clamp(c.glint_density / 32.0, 0.0, 1.0) * 4095.0)), 1u) << 20u,
-                   uint(round(fract(turn) * 4096.0)) & 0xfffu | uint(round(clamp(c.roughness, 0.0, 1.0) * 4095.0)) << 12u
-                 | uint(rest.x) << 24u | uint(rest.y) << 28u);
+                   uint(round(extent.x * 1023.0)) | (uint(round(extent.y * 1023.0)) << 10u)
+                 | (max(uint(round(clamp(c.glint_density / 32.0, 0.0, 1.0) * 4095.0)), 1u) << 20u),
+                   (uint(round(fract(turn) * 4096.0)) & 0xfffu) | (uint(round(clamp(c.roughness, 0.0, 1.0) * 4095.0)) << 12u)
+                 | (uint(rest.x) << 24u) | (uint(rest.y) << 28u));
 }
 
-// Three bits: 0 for none, else its logarithm, in seven steps up to a half.
+// The three bits of a blur: 0 for none, else its logarithm, in seven steps up to a half.
 uint mx_blur_bits(float blur)
 {
     float steps = clamp(log2(max(blur, 1e-12)) + 8.0, 0.0, 7.0);
@@ -326,7 +335,7 @@ uint mx_class_of(uint has)
     return (has & (MX_HAS_ANISOTROPY | MX_HAS_WEIGHTS)) != 0u ? MX_COMPLEX : has != 0u ? MX_SINGLE : MX_SIMPLE;
 }
 
-// The words that every closure has, without its features.
+// The first word of a closure, without its features: the roots of f0.
 uint mx_core(MxClosure c)
 {
     return mx_cut_color(sqrt(clamp(c.f0, 0.0, 1.0)));
@@ -335,7 +344,7 @@ uint mx_core(MxClosure c)
 // The second word of a closure: diffuse albedo and roughness.
 uint mx_body(MxClosure c)
 {
-    return mx_cut_color(mx_srgb(c.diffuse_albedo)) | mx_cut(c.roughness, 8u, 3u) << 20u;
+    return mx_cut_color(mx_srgb(c.diffuse_albedo)) | (mx_cut(c.roughness, 8u, 3u) << 20u);
 }
 
 // All words of a closure but its normal, which the caller chooses. stored_normal: as it will be read.
@@ -343,8 +352,8 @@ MxRecord mx_pack(MxClosure c, vec3 stored_normal)
 {
     MxRecord r;
     uint steady = mx_cut_color(1.0 - c.steady), color = mx_cut_color(c.color), decay = color == 0u ? 0u : mx_cut_color(c.decay);
-    r.weights[0] = steady | color << 20u;
-    r.weights[1] = color >> 12u | decay << 8u | (decay != 0u && c.spreads > 0.0 ? 1u << 28u : 0u);
+    r.weights[0] = steady | (color << 20u);
+    r.weights[1] = (color >> 12u) | (decay << 8u) | (decay != 0u && c.spreads > 0.0 ? 1u << 28u : 0u);
 #if MX_BLUR == 1
     r.weights[1] |= mx_blur_bits(c.blur) << 29u;
 #endif
@@ -355,12 +364,14 @@ MxRecord mx_pack(MxClosure c, vec3 stored_normal)
     r.tint = mx_tint_word(c);
     r.normal = 0u;
     bool has_glints = c.glint_density > 0.0 && max(c.glint_extent.x, c.glint_extent.y) > 0.0;
-    r.glints = has_glints ? mx_glint_words(c, stored_normal) : uint[4](0u, 0u, 0u, 0u);
+    r.glints = uint[4](0u, 0u, 0u, 0u);
+    if (has_glints)
+        r.glints = mx_glint_words(c, stored_normal);
     uint has = ((r.weights[0] | r.weights[1]) != 0u ? MX_HAS_WEIGHTS : 0u) | (r.medium != 0u ? MX_HAS_MEDIUM : 0u)
              | (r.lobes != 0u ? MX_HAS_LOBES : 0u) | (r.fuzz != 0u ? MX_HAS_FUZZ : 0u)
              | (r.anisotropy != 0u ? MX_HAS_ANISOTROPY : 0u) | (r.tint != 0u ? MX_HAS_TINT | MX_IS_SPECIAL : 0u)
              | (has_glints ? MX_HAS_GLINTS | MX_IS_SPECIAL : 0u);
-    r.core = mx_core(c) | has << 20u;
+    r.core = mx_core(c) | (has << 20u);
     r.body = mx_body(c);
     return r;
 }
@@ -382,7 +393,7 @@ MxClosure mx_unpack(MxRecord r, vec3 normal, float roughness)
     vec3 part = mx_uncut_color(r.medium);
     c.free_path = part / max(1.0 - part, 1e-6);
     c.phase_anisotropy = mx_uncut_signed(r.medium, 20u, 6u);
-    c.is_thick = float(r.medium >> 26u & 1u);
+    c.is_thick = float((r.medium >> 26u) & 1u);
     c.anisotropy = mx_uncut_signed(r.anisotropy, 16u, 16u);
     vec3 x, y;
     mx_across(normal, x, y);
@@ -399,9 +410,9 @@ MxClosure mx_unpack(MxRecord r, vec3 normal, float roughness)
     c.tint_weight = mx_uncut(r.tint, 16u, 8u);
     c.tangent = cos(turn) * x + sin(turn) * y;
     c.steady = 1.0 - mx_uncut_color(r.weights[0]);
-    c.color = mx_uncut_color(r.weights[0] >> 20u | r.weights[1] << 12u);
+    c.color = mx_uncut_color((r.weights[0] >> 20u) | (r.weights[1] << 12u));
     c.decay = mx_uncut_color(r.weights[1] >> 8u);
-    c.spreads = float(r.weights[1] >> 28u & 1u);
+    c.spreads = float((r.weights[1] >> 28u) & 1u);
     c.blur = mx_blur_of(r.weights[1] >> 29u);
     return c;
 }
@@ -417,7 +428,7 @@ void mx_keep(MxClosure c)
     c.tint_weight = 0.0;
     c.glint_density = 0.0;
     MxRecord r = mx_pack(c, mx_uncut_normal(word, 16u));
-    mx_payload_words = uint[MX_PAYLOAD_WORDS](r.core | mx_class_of(r.core >> 20u) << 28u, r.body, r.weights[0], r.weights[1], r.medium,
+    mx_payload_words = uint[MX_PAYLOAD_WORDS](r.core | (mx_class_of(r.core >> 20u) << 28u), r.body, r.weights[0], r.weights[1], r.medium,
                                               r.lobes, r.fuzz, r.anisotropy, word, 0u, 0u, 0u, 0u, 0u, 0u, 0u);
 }
 

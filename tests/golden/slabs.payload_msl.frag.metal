@@ -67,21 +67,10 @@ struct MxRecord {
 };
 #endif
 
-#ifndef MXG_c07913fec3095493
-#define MXG_c07913fec3095493
-array<uint, 4> choose(bool condition, array<uint, 4> yes, array<uint, 4> no)
-{
-    if (condition)
-        return yes;
-    return no;
-}
-#endif
-
 
 struct GlobalContext {
     VertexData vd;
 
-uint mx_noise = 4u;
 array<uint, 16> mx_payload_words;
 
 // The class of a pixel by its first word.
@@ -96,35 +85,23 @@ uint mx_features(uint core)
     return (core >> 20u) & (((core >> 20u) & 1024u) != 0u ? 1023u : 255u);
 }
 
-// From 0 to below 1. Jimenez 2014, "Next Generation Post Processing in Call of Duty: Advanced Warfare": interleaved
-// gradient noise.
+// Interleaved gradient noise of a pixel, from 0 to below 1 (Jimenez 2014, "Next Generation Post Processing in Call of
+// Duty: Advanced Warfare").
 float mx_gradient_noise(float2 pixel)
 {
     return fract(52.982918 * fract(dot(pixel, float2(0.06711056, 0.00583715))));
 }
 
-// Chooses the noise of a pixel, before its numbers are cut.
-void mx_start_noise(float2 pixel)
-{
-}
-
-// Channels differ by 5 eighths, near the golden ratio.
-uint mx_noise_of(uint channel)
-{
-    return mx_noise;
-}
-
-// A number from 0 to 1 in eighths of the steps of its bits.
-uint mx_eighths(float value, uint bits)
-{
-    float nearest = 0.0;
-    return uint(clamp(value, 0.0, 1.0) * 8.0 * float((1u << bits) - 1u) + nearest);
-}
-
-// A number from 0 to 1 in so many bits. Each channel has noise of its own.
+// The nearest of the numbers from 0 to 1 that so many bits have, alike in all channels.
 uint mx_cut(float value, uint bits, uint channel)
 {
-    return (mx_eighths(value, bits) + mx_noise_of(channel)) >> 3u;
+    return uint(clamp(value, 0.0, 1.0) * float((1u << bits) - 1u) + 0.5);
+}
+
+// A colour in 7, 7 and 6 bits.
+uint mx_cut_color(float3 color)
+{
+    return mx_cut(color.x, 7u, 0u) | (mx_cut(color.y, 7u, 1u) << 7u) | (mx_cut(color.z, 6u, 2u) << 14u);
 }
 
 // A number from 0 to 1 from its bits of a word.
@@ -133,21 +110,13 @@ float mx_uncut(uint word, uint shift, uint bits)
     return float((word >> shift) & ((1u << bits) - 1u)) / float((1u << bits) - 1u);
 }
 
-// 7, 7 and 6 bits. Ten bits hold the eighths of a channel, so that one addition dithers all three.
-uint mx_cut_color(float3 color)
-{
-    uint eighths = mx_eighths(color.x, 7u) | (mx_eighths(color.y, 7u) << 10u) | (mx_eighths(color.z, 6u) << 20u);
-    eighths += mx_noise_of(0u) | (mx_noise_of(1u) << 10u) | (mx_noise_of(2u) << 20u);
-    return ((eighths >> 3u) & 127u) | (((eighths >> 13u) & 127u) << 7u) | (((eighths >> 23u) & 63u) << 14u);
-}
-
 // A colour from its 20 bits.
 float3 mx_uncut_color(uint word)
 {
     return float3(mx_uncut(word, 0u, 7u), mx_uncut(word, 7u, 7u), mx_uncut(word, 14u, 6u));
 }
 
-// A number from -1 to 1; 0 has no bit.
+// A number from -1 to 1 in so many bits. 0 has none of them.
 uint mx_cut_signed(float value, uint bits)
 {
     float most = float((1u << (bits - 1u)) - 1u);
@@ -161,7 +130,7 @@ float mx_uncut_signed(uint word, uint shift, uint bits)
     return float(int(word << (32u - bits - shift)) >> int(32u - bits)) / most;
 }
 
-// IEC 61966-2-1
+// A colour in the encoding of IEC 61966-2-1.
 float3 mx_srgb(float3 linear)
 {
     float3 c = clamp(linear, 0.0, 1.0);
@@ -174,7 +143,8 @@ float3 mx_linear(float3 srgb)
     return select(pow((srgb + 0.055) / 1.055, float3(2.4)), srgb / 12.92, srgb < float3(0.04045));
 }
 
-// Cigolle et al. 2014, "A Survey of Efficient Representations for Independent Unit Vectors": octahedral.
+// The place of a direction in the octahedral square (Cigolle et al. 2014, "A Survey of Efficient Representations for
+// Independent Unit Vectors").
 float2 mx_octahedral(float3 n)
 {
     float2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
@@ -205,7 +175,7 @@ float3 mx_uncut_normal(uint word, uint bits)
     return mx_of_octahedral(float2(mx_uncut(word, 0u, bits), mx_uncut(word, bits, bits)));
 }
 
-// Two axes across a normal. Duff et al. 2017, "Building an Orthonormal Basis, Revisited".
+// Two axes across a normal (Duff et al. 2017, "Building an Orthonormal Basis, Revisited").
 void mx_across(float3 n, thread float3& x, thread float3& y)
 {
     float side = n.z < 0.0 ? -1.0 : 1.0;
@@ -261,7 +231,8 @@ uint mx_fuzz_word(MxClosure c)
         | (mx_cut(c.fuzz_roughness, 6u, 10u) << 26u);
 }
 
-// The tangent is an angle from the first axis across the normal, below half a turn: both its directions are one.
+// The word of the anisotropy: amount and tangent, as an angle from the first axis across the normal, below half a turn:
+// both its directions are one.
 uint mx_anisotropy_word(MxClosure c, float3 normal)
 {
     uint amount = mx_cut_signed(c.anisotropy, 16u);
@@ -272,15 +243,16 @@ uint mx_anisotropy_word(MxClosure c, float3 normal)
     return amount == 0u ? 0u : (uint(rint(fract(turn) * 65536.0)) & 65535u) | (amount << 16u);
 }
 
-// The number of the table, and how much it tints.
+// The word of a tint: the number of its table, and how much it tints.
 uint mx_tint_word(MxClosure c)
 {
     uint weight = mx_cut(c.tint_weight, 8u, 11u);
     return weight == 0u ? 0u : (uint(c.tint_index) & 65535u) | (weight << 16u);
 }
 
-// Facets need exact places and slopes, so their words are not dithered: coordinates; logarithms of the extents and of
-// the number; whole turn of the tangent, roughness, what 12 bits of the normal leave, in sixteenths of their steps.
+// The words of glints. Facets need exact places and slopes, so they are not dithered: coordinates; logarithms of the
+// extents and of the number; whole turn of the tangent, roughness, what 12 bits of the normal leave, in sixteenths of
+// their steps.
 array<uint, 4> mx_glint_words(MxClosure c, float3 normal)
 {
     float2 extent = clamp((log2(max(c.glint_extent, 1e-12)) + 24.0) / 32.0, 0.0, 1.0);
@@ -289,14 +261,14 @@ array<uint, 4> mx_glint_words(MxClosure c, float3 normal)
     mx_across(normal, x, y);
     float turn = atan2(dot(c.tangent, y), dot(c.tangent, x)) / 6.2831855;
     int2 rest = int2(rint(clamp((mx_octahedral(c.normal) - mx_octahedral(normal)) * 65520.0, -8.0, 7.0))) & 15;
-    return array<uint, 4>{as_type<uint>(c.glint_uv.x), as_type<uint>(c.glint_uv.y), uint(rint(extent.x * 1023.0))
-        | (uint(rint(extent.y * 1023.0)) << 10u)
+    return array<uint, 4>{as_type<uint>(c.glint_uv.x), as_type<uint>(c.glint_uv.y),
+        uint(rint(extent.x * 1023.0)) | (uint(rint(extent.y * 1023.0)) << 10u)
         | (max(uint(rint(clamp(c.glint_density / 32.0, 0.0, 1.0) * 4095.0)), 1u) << 20u),
         (uint(rint(fract(turn) * 4096.0)) & 4095u) | (uint(rint(clamp(c.roughness, 0.0, 1.0) * 4095.0)) << 12u)
         | (uint(rest.x) << 24u) | (uint(rest.y) << 28u)};
 }
 
-// Three bits: 0 for none, else its logarithm, in seven steps up to a half.
+// The three bits of a blur: 0 for none, else its logarithm, in seven steps up to a half.
 uint mx_blur_bits(float blur)
 {
     float steps = clamp(log2(max(blur, 1e-12)) + 8.0, 0.0, 7.0);
@@ -317,7 +289,7 @@ uint mx_class_of(uint has)
     return uint((has & 17u) != 0u ? 3 : has != 0u ? 2 : 1);
 }
 
-// The words that every closure has, without its features.
+// The first word of a closure, without its features: the roots of f0.
 uint mx_core(MxClosure c)
 {
     return mx_cut_color(sqrt(clamp(c.f0, 0.0, 1.0)));
@@ -345,7 +317,9 @@ MxRecord mx_pack(MxClosure c, float3 stored_normal)
     r.tint = mx_tint_word(c);
     r.normal = 0u;
     bool has_glints = c.glint_density > 0.0 && max(c.glint_extent.x, c.glint_extent.y) > 0.0;
-    r.glints = choose(has_glints, mx_glint_words(c, stored_normal), array<uint, 4>{0u, 0u, 0u, 0u});
+    r.glints = array<uint, 4>{0u, 0u, 0u, 0u};
+    if (has_glints)
+        r.glints = mx_glint_words(c, stored_normal);
     uint has = ((r.weights[0] | r.weights[1]) != 0u ? 1u : 0u) | (r.medium != 0u ? 2u : 0u) | (r.lobes != 0u ? 4u : 0u)
         | (r.fuzz != 0u ? 8u : 0u) | (r.anisotropy != 0u ? 16u : 0u) | (r.tint != 0u ? 1280u : 0u)
         | (has_glints ? 1536u : 0u);
@@ -377,8 +351,8 @@ MxClosure mx_unpack(MxRecord r, float3 normal, float roughness)
     float3 y;
     mx_across(normal, x, y);
     bool has_glints = r.glints[2] != 0u;
-    float turn = has_glints ? float(r.glints[3] & 4095u) / 4096.0 * 6.2831855 : float(r.anisotropy & 65535u) / 65536.0
-        * 3.1415927;
+    float turn = has_glints ? float(r.glints[3] & 4095u) / 4096.0 * 6.2831855
+        : float(r.anisotropy & 65535u) / 65536.0 * 3.1415927;
     c.roughness = has_glints ? mx_uncut(r.glints[3], 12u, 12u) : roughness;
     int2 rest = int2(int(r.glints[3] << 4u) >> 28, int(r.glints[3]) >> 28);
     if (has_glints)

@@ -139,8 +139,8 @@ vec3 mx_medium_layer(const float way, out vec3 transmitted)
 {
     float x = way - 1.0;
     vec3 s = vec3(0.49529448, 0.49895358, 0.49975267) * way
-        * (vec3(1.0) + 0.16666666 * (vec3(0.043278337, 0.052829146, 0.054919362) + x
-        * vec3(-0.18317366, -0.19314766, -0.19532585)));
+        * (vec3(1.0) + 0.16666666 * (vec3(0.043278337, 0.052829146, 0.054919362)
+        + x * vec3(-0.18317366, -0.19314766, -0.19532585)));
     vec3 k = vec3(0.009411037, 0.0020928383, 0.000494659) * way
         * (vec3(1.0) + vec3(0.16509815, 0.16631785, 0.16658421)
         * (vec3(1.3360909, 1.3377652, 1.3381231) + x * vec3(-1.792952, -1.8079973, -1.8112832)
@@ -368,8 +368,8 @@ void scatter()
         * mx_ggx_pdf(vec2(0.29886922), N, X, vd.viewWorld, vd.lightWorld.xyz)) + 1.0;
     vec3 balanced_3 = metal_reflection_ggx_compensation * mx_fresnel_schlick(half_cosine, metal_constant)
         * metal_reflection_ggx_smith_lobe / both_3;
-    vec3 choice = is_level_4 ? vec3(1.0) : level == 5.0 ? balanced_3
-        * exp(-(closure_way_2 * (extinction_above + vec3(0.2)))) : vec3(0.0);
+    vec3 choice = is_level_4 ? vec3(1.0) : level == 5.0
+        ? balanced_3 * exp(-(closure_way_2 * (extinction_above + vec3(0.2)))) : vec3(0.0);
     vec3 choice_2 = is_level_1 ? vec3(1.0) : level == 2.0 ? vec3(0.0) : level == 3.0
         ? exp(-(closure_way_2 * extinction_above)) * balanced_2 : choice;
     out5 = vec4(level == 0.0 ? balanced : choice_2, 0.0);
@@ -417,8 +417,9 @@ void scatter()
             * mx_fresnel_schlick(half_cosine_2, metal_constant);
         vec3 metal_reflection_slab_reflection_bsdf_eval = metal_reflection_product
             * mx_ggx_smith_lobe(vec2(0.29886922), frame, vd.viewWorld, L_3);
-        vec3 choice_3 = is_level_4 ? vec3(1.0) : level == 5.0 ? metal_reflection_slab_reflection_bsdf_eval
-            * exp(-((extinction_above + vec3(0.2)) * closure_way_3)) : vec3(0.0);
+        vec3 choice_3 = is_level_4 ? vec3(1.0) : level == 5.0
+            ? metal_reflection_slab_reflection_bsdf_eval * exp(-((extinction_above + vec3(0.2)) * closure_way_3))
+            : vec3(0.0);
         vec3 choice_4 = is_level_1 ? vec3(1.0) : level == 2.0 ? vec3(0.0) : level == 3.0
             ? exp(-(extinction_above * closure_way_3)) * milk_reflection_slab_reflection_bsdf_eval : choice_3;
         vec3 lit = u_lightData[i].color * intensity

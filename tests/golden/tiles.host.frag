@@ -26,8 +26,8 @@ vec4 mx_triplanar(sampler2D filex, sampler2D filey, sampler2D filez, const vec3 
     vec3 weight = abs(normalize(normal));
     weight /= dot(weight, vec3(1.0));
     weight /= dot(weight, vec3(1.0));
-    return texture(filex, position.yz) * weight.x + texture(filey, position.xz) * weight.y + texture(filez, position.xy)
-        * weight.z;
+    return texture(filex, position.yz) * weight.x + texture(filey, position.xz) * weight.y
+        + texture(filez, position.xy) * weight.z;
 }
 
 // Cubic B-spline filtering by four linear lookups: Christian Sigg and Markus Hadwiger, "Fast Third-Order Texture

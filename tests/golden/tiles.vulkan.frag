@@ -78,8 +78,8 @@ void main()
     bool rust_in_columns_4 = rust_tile_4.x >= 0.0 && rust_tile_4.x <= 1.0;
     bool rust_tile_is_inside_4 = rust_in_columns_4 && rust_tile_4.y >= 0.0 && rust_tile_4.y <= 1.0;
     vec3 rust_vector_6 = vec3(fract(high), rust_tile_4.x + rust_tile_4.y * 2.0);
-    float rust = mix(rust_blend, mix(rust_choice_2, rust_tile_is_inside_4
-        ? textureGrad(rust_file, rust_vector_6, dx, dy) : stone_constant, t.x), t.y).x;
+    float rust = mix(rust_blend, mix(rust_choice_2,
+        rust_tile_is_inside_4 ? textureGrad(rust_file, rust_vector_6, dx, dy) : stone_constant, t.x), t.y).x;
     out1 = vec4(mix(mx_srgb_texture_to_lin_rec709((wall_are_both ? wall_texel : vec4(1.0, 0.0, 1.0, 1.0)).xyz), stone,
         rust), 1.0);
 }

@@ -47,8 +47,8 @@ vec2 mx_map_point(const vec3 d)
 {
     float square = mx_map_square(d);
     float stretch = inversesqrt(square);
-    return vec2(fract((d.z > 0.0 ? -0.5 : 0.5) * (mx_half_turn(d.x * stretch, abs(d.z) * stretch) + 0.5) + 0.25), 0.5
-        - mx_half_turn(d.y, square * stretch));
+    return vec2(fract((d.z > 0.0 ? -0.5 : 0.5) * (mx_half_turn(d.x * stretch, abs(d.z) * stretch) + 0.5) + 0.25),
+        0.5 - mx_half_turn(d.y, square * stretch));
 }
 
 void main()
@@ -94,8 +94,9 @@ void main()
     if (both_weight > 0.0) {
         vec3 environment_irradiance = textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * -V)),
             0.0).xyz * u_envLightIntensity;
-        vec3 smoke_blend = mix(environment_irradiance, u_envLightIntensity
-            * textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * V)), 0.0).xyz, 0.2);
+        vec3 smoke_blend = mix(environment_irradiance,
+            u_envLightIntensity * textureLod(u_envIrradiance, mx_map_point(normalize(mat3(u_envMatrix) * V)), 0.0).xyz,
+            0.2);
         color += path_blend * (both_weight * volume_depth) * smoke_blend * 1.2;
     }
     out1 = vec4(color, dot(volume_lost, vec3(0.33333334)));

@@ -15,6 +15,6 @@ void mx_run(uvec2 group, uvec2 place)
     if (!is_outside)
         imageStore(mx_below, ivec3(pixel, 0), vec4(0.0));
 #endif
-    if (class_ < uint(MX_NUM_CLASSES) && (classes >> class_ & 1u) != 0u)
+    if (class_ < uint(MX_NUM_CLASSES) && ((classes >> class_) & 1u) != 0u)
         mx_add_tile(class_, group.y * mx_tiles_per_row + group.x);
 }

@@ -9,7 +9,7 @@ void mx_keep(MxClosure c)
     c.tint_weight = 0.0;
     c.glint_density = 0.0;
     MxRecord r = mx_pack(c, mx_uncut_normal(word, 16u));
-    mx_payload_words = uint[MX_PAYLOAD_WORDS](r.core | mx_class_of(r.core >> 20u) << 28u, r.body, r.weights[0], r.weights[1], r.medium,
+    mx_payload_words = uint[MX_PAYLOAD_WORDS](r.core | (mx_class_of(r.core >> 20u) << 28u), r.body, r.weights[0], r.weights[1], r.medium,
                                               r.lobes, r.fuzz, r.anisotropy, word, 0u, 0u, 0u, 0u, 0u, 0u, 0u);
 }
 

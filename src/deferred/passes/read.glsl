@@ -69,7 +69,7 @@ MxClosure mx_next(inout MxReader reader)
     bool is_top = reader.next == 0u, is_last = ++reader.next == reader.num_closures;
     if (!is_last) {
         r.core = mx_get(reader);
-        r.body = (r.core >> 20u & MX_IS_SMOOTH) != 0u ? 0u : mx_get(reader);
+        r.body = ((r.core >> 20u) & MX_IS_SMOOTH) != 0u ? 0u : mx_get(reader);
     }
     uint has = mx_features(r.core);
     if ((has & MX_HAS_WEIGHTS) != 0u) {
@@ -89,7 +89,7 @@ MxClosure mx_next(inout MxReader reader)
     if ((has & MX_HAS_GLINTS) != 0u)
         for (int i = 0; i < 4; ++i)
             r.glints[i] = mx_get(reader);
-    uint number = has >> MX_NORMAL_SHIFT & 3u;
+    uint number = (has >> MX_NORMAL_SHIFT) & 3u;
     if (number == 1u) {
         reader.normals[2] = reader.normals[1];
         reader.normals[1] = mx_uncut_normal(mx_get(reader), 16u);

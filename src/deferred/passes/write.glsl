@@ -70,7 +70,7 @@ void mx_put_features(MxRecord r)
     if ((has & MX_HAS_GLINTS) != 0u)
         for (int i = 0; i < 4; ++i)
             mx_put(r.glints[i]);
-    if ((has >> MX_NORMAL_SHIFT & 3u) == 1u)
+    if (((has >> MX_NORMAL_SHIFT) & 3u) == 1u)
         mx_put(r.normal);
 }
 
@@ -108,8 +108,10 @@ uint mx_number_normal(vec3 normal, inout uint word)
 void mx_keep(MxClosure c)
 {
     if (mx_num_closures == 0u) {
+#if MX_STORAGE == 0
 %        mx_start_noise(gl_FragCoord.xy);
 @        mx_start_noise(mx_place);
+#endif
         mx_normals = vec3[3](c.normal, vec3(0.0), vec3(0.0));
         mx_word2 = mx_top(c.normal, c.roughness);
     } else {
@@ -118,7 +120,7 @@ void mx_keep(MxClosure c)
     uint normal_word = 0u, number = mx_number_normal(c.normal, normal_word);
     mx_pending = mx_pack(c, number == 0u ? mx_top_normal(mx_word2) : mx_uncut_normal(mx_cut_normal(c.normal, 16u), 16u));
     mx_pending.normal = normal_word;
-    mx_pending.core |= number << 20u + MX_NORMAL_SHIFT;
+    mx_pending.core |= number << (20u + MX_NORMAL_SHIFT);
     mx_is_special = mx_is_special || mx_class(mx_pending.core) == MX_SPECIAL;
 #if MX_STORAGE == 2
     mx_whole = c;
@@ -139,17 +141,19 @@ int mx_finish_closures(int stored)
 #else
     mx_put_features(mx_pending);
 #endif
-    mx_word0 = mx_pending.core | class_ << 28u;
-    mx_word1 = mx_pending.body | uint(stored - 1) << 28u;
+    mx_word0 = mx_pending.core | (class_ << 28u);
+    mx_word1 = mx_pending.body | (uint(stored - 1) << 28u);
     return stored;
 }
 #else
 // The one closure needs no more words than the targets have.
 void mx_keep(MxClosure c)
 {
+#if MX_STORAGE == 0
 %    mx_start_noise(gl_FragCoord.xy);
 @    mx_start_noise(mx_place);
-    mx_word0 = mx_core(c) | MX_SIMPLE << 28u;
+#endif
+    mx_word0 = mx_core(c) | (MX_SIMPLE << 28u);
     mx_word1 = mx_body(c);
     mx_word2 = mx_top(c.normal, c.roughness);
 }
