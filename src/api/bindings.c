@@ -237,7 +237,7 @@ mxg_status mxg_bindings_fact(const mxg_bindings *bindings, uint32_t primitive, u
                      ? assign->value
                      : str_text(doc->strings,
                                 doc_attr_value(doc, fact, is_visibility ? STR_visible : STR_value)),
-        .target = bind_fact_target(doc, fact),
+        .target = assign->fact_target,
         .from = from ? from - 1 : MXG_NONE,
         .file = place.file,
         .line = place.line,

@@ -163,8 +163,6 @@ void bind_facts(struct bindings *b, const struct library *lib, elem_id look,
 enum bind_fact_kind bind_fact_kind(const struct document *doc, elem_id fact);
 /* Its name; the vistype of a visibility. */
 const char *bind_fact_name(const struct document *doc, elem_id fact);
-/* The renderer that a property is for; the viewers of a visibility; "" for all. */
-const char *bind_fact_target(const struct document *doc, elem_id fact);
 
 /* ---- reasons.c, binding_report.c ---- */
 

@@ -43,22 +43,25 @@ const char *bind_fact_name(const struct document *doc, elem_id fact)
                                          : str_text(doc->strings, doc_element(doc, fact)->name);
 }
 
-const char *bind_fact_target(const struct document *doc, elem_id fact)
+/* The renderer that a property is for; the viewers of a visibility; "" for all. */
+static const char *target_of(struct bind_look *look, elem_id fact)
 {
+    const struct document *doc = look->doc;
     if (doc_element(doc, fact)->kind != KIND_VISIBILITY)
         return value_of(doc, fact, STR_target);
-    str_id geom = doc_attr_value(doc, fact, STR_viewergeom);
-    return geom ? str_text(doc->strings, geom) : value_of(doc, fact, STR_viewercollection);
+    bool has_geometry = doc_attr_value(doc, fact, STR_viewergeom);
+    return has_geometry ? doc_prefixed_geometry(doc, fact, STR_viewergeom, look->arena)
+                        : value_of(doc, fact, STR_viewercollection);
 }
 
 /* Facts of one kind, name and target replace each other. */
-static uint32_t key_of(struct bind_look *look, elem_id fact)
+static uint32_t key_of(struct bind_look *look, elem_id fact, const char *target)
 {
     struct text key;
     struct slot_name none = {0};
     text_init(&key, look->arena);
     text_fmt(&key, "%s:%s:%s", bind_fact_words[bind_fact_kind(look->doc, fact)],
-             bind_fact_name(look->doc, fact), bind_fact_target(look->doc, fact));
+             bind_fact_name(look->doc, fact), target);
     return look_intern_name(look, &none, text_cstr(&key), key.len);
 }
 
@@ -133,10 +136,15 @@ static const char *converted_measure(struct bind_look *look, elem_id fact, doc_t
     return write_numbers(look, numbers, doc_type_components(type));
 }
 
-/* The value of a geometric property as geometry would have it; NULL: as in the document. */
+/*
+ * The value of a fact with geomprefixes, and of a geometric property as geometry would have it;
+ * NULL: as in the document.
+ */
 static const char *converted(struct bind_look *look, elem_id fact)
 {
     doc_type type = doc_type_of(doc_attr_value(look->doc, fact, STR_type));
+    if (doc_is_geometry(look->doc, fact, STR_value))
+        return doc_prefixed_geometry(look->doc, fact, STR_value, look->arena);
     if (bind_fact_kind(look->doc, fact) != FACT_GEOMPROP)
         return NULL;
     return doc_type_is_color(type) ? converted_color(look, fact, type)
@@ -146,7 +154,8 @@ static const char *converted(struct bind_look *look, elem_id fact)
 /* Adds a fact for the matcher or the collection of `assign`. */
 static void add_assign(struct bind_look *look, struct look_assign assign, elem_id fact)
 {
-    assign.name = key_of(look, fact);
+    assign.fact_target = target_of(look, fact);
+    assign.name = key_of(look, fact, assign.fact_target);
     assign.value = converted(look, fact);
     vec_push(look->arena, &look->assigns, assign);
 }

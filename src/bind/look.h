@@ -56,10 +56,11 @@ struct look_assign {
     uint32_t members;    /* 1 + index in `members`: it is for a collection of USD; 0: it is not */
     uint32_t first_variant, num_variants; /* inside of it */
     struct variant_list variants;         /* all that apply, in order; a later one wins */
-    const char *value; /* of a fact in the unit of its <geompropdef>; NULL: as in the document */
-    uint8_t kind;      /* enum assign_kind */
-    uint8_t products;  /* bits of enum bind_product: the inputs that the material has */
-    bool is_shared;    /* exclusive="false" */
+    /* of a fact: its value where that is not as in the document; the renderer or the viewers */
+    const char *value, *fact_target;
+    uint8_t kind;     /* enum assign_kind */
+    uint8_t products; /* bits of enum bind_product: the inputs that the material has */
+    bool is_shared;   /* exclusive="false" */
 };
 
 /* A primitive of an instance that a matcher names. */

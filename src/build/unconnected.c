@@ -18,6 +18,16 @@ static void report_infinite(struct builder *b, const struct ir_value *value, str
         }
 }
 
+/* A string as its element has it, and the name of a geometry with its prefix. */
+static ir_ref words(struct builder *b, const struct port *port, str_id text, elem_id element)
+{
+    const struct document *doc = build_doc(b);
+    if (port->type == DOC_TYPE_geomname && element && doc_attr_value(doc, element, STR_value))
+        text = str_intern_z(b->shader->strings,
+                            doc_prefixed_geometry(doc, element, STR_value, b->arena));
+    return ir_const_string(b->graph, text);
+}
+
 ir_ref build_constant(struct builder *b, const struct port *port, str_id text, elem_id element)
 {
     ir_type_id ir = build_type(b, port->type);
@@ -25,7 +35,7 @@ ir_ref build_constant(struct builder *b, const struct port *port, str_id text, e
     if (ir == IR_TYPE_STRING) {
         library_check_enum(b->lib, port, text, doc_attr_place(build_doc(b), element, STR_value),
                            b->diags);
-        return ir_const_string(b->graph, text);
+        return words(b, port, text, element);
     }
     if (doc_parse_value(port->type, build_text(b, text), str_len(b->shader->strings, text),
                         b->shader->strings, &value)) {
@@ -161,7 +171,7 @@ ir_ref build_default(struct builder *b, const struct port *port)
         return build_default_geomprop(b, port->element, port->type);
     ir_type_id type = build_type(b, port->type);
     if (type == IR_TYPE_STRING)
-        return ir_const_string(b->graph, port->value);
+        return words(b, port, port->value, port->element);
     if (type >= IR_NUM_TYPES)
         return build_struct(b, port, port->value, port->element);
     if (!ir_type_info(type)->components) /* the type has no values */

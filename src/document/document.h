@@ -535,7 +535,10 @@ void doc_fix_paths_of(struct document *doc, elem_id element, struct diag_list *d
 str_id doc_fix_path(struct strpool *strings, str_id path, struct diag_place where,
                     struct diag_list *diags);
 
-/* validate_geometry.c: true if the attribute holds names of geometry, which a geomprefix begins. */
+/* validate_geometry.c: the names of geometry in an attribute, each with the geomprefix in front. */
+const char *doc_prefixed_geometry(const struct document *doc, elem_id element, str_id attr,
+                                  struct arena *arena);
+/* True if the attribute holds names of geometry, which a geomprefix begins. */
 bool doc_is_geometry(const struct document *doc, elem_id element, str_id attr);
 
 /*

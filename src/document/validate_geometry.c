@@ -105,6 +105,25 @@ bool doc_is_geometry(const struct document *doc, elem_id element, str_id attr)
     return type == STR_geomname || type == STR_geomnamearray;
 }
 
+const char *doc_prefixed_geometry(const struct document *doc, elem_id element, str_id attr,
+                                  struct arena *arena)
+{
+    const char *names = str_text(doc->strings, doc_attr_value(doc, element, attr)),
+               *prefix = str_text(doc->strings, doc_inherited_attr(doc, element, STR_geomprefix));
+    if (!*prefix)
+        return names;
+    struct text out;
+    text_init(&out, arena);
+    for (const char *end; *names; names = end + (*end == ',')) {
+        end = name_end(names);
+        struct geometry_name name = trimmed(names, end);
+        if (name.text < name.end)
+            text_fmt(&out, "%s%s%.*s", out.len ? ", " : "", prefix, (int)(name.end - name.text),
+                     name.text);
+    }
+    return text_cstr(&out);
+}
+
 void validate_geometry(struct validation *v, elem_id element)
 {
     const struct element *e = doc_element(v->doc, element);

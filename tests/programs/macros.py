@@ -19,6 +19,7 @@ SLANG = "_Pragma min16float2 SubpassInput".split()
 MSL = ("_Pragma _LP64 NULL INFINITY NAN MAXFLOAT HUGE_VALH FLT_MAX_EXP HALF_MANT_DIG HALF_RADIX M_PI M_SQRT2_H M_LN2_BF BFLT_MAX SCHAR_MIN "
        "FP_ILOGBNAN").split()
 WORDS = {"glsl": GLSL, "vulkan": GLSL, "essl": GLSL, "essl310": GLSL, "hlsl": HLSL, "slang": SLANG, "msl": MSL, "osl": OSL, "wgsl": ["NULL"], "mdl": []}
+# MDL and WGSL have no preprocessor: mdlc refuses '#define', so no word is a macro there.
 
 
 def document(words):

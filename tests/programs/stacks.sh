@@ -310,6 +310,27 @@ check 'a default of tokens counts elsewhere' fact /e tokens Asset none
 check 'a default of another token counts everywhere' fact /a/c tokens Part lid
 check 'a unit of another type is told' eval 'sed "s/unit=.meter. unittype=.distance./unit=\"degree\" unittype=\"distance\"/" look.mtlx >degrees.mtlx; "$mxgen" degrees.mtlx --stage stage.txt --look L -t glsl -o degrees.d 2>&1 | grep -q "degree.*\[unit-of-other-type\]"'
 check 'a default of tokens inside of a <geominfo> is misplaced' eval 'sed "s|<token name=.Asset.|<tokendefault name=\"Asset\"|" look.mtlx >inner.mtlx; "$mxgen" validate inner.mtlx 2>&1 | grep -q "<tokendefault> is not allowed in <geominfo> \[misplaced-element\]"'
+# Every name of geometry has the prefix.
+sed 's|  <propertyset name|  <geominfo name="p1" geomprefix="/a/" geom="c"><geomprop name="light" type="geomname" value="key"/><geomprop name="lights" type="geomnamearray" value="key,{b,d}/rim"/></geominfo>\n&|; s|<propertysetassign|<visibility name="w" geomprefix="/a/" geom="c" viewergeom="key , b/rim" vistype="shadow" visible="false"/>&|' look.mtlx >prefixes.mtlx
+cp look.mtlx before.mtlx
+cp prefixes.mtlx look.mtlx
+check 'geometry with prefixes is generated' exits 0 stacks --look L
+check 'a viewer has the prefix' fact /a/c visibility shadow false '"/a/key, /a/b/rim"'
+check 'a geometry as a value has the prefix' fact /a/c geomprops light /a/key
+check 'so have several' fact /a/c geomprops lights '/a/key, /a/{b,d}/rim'
+mv before.mtlx look.mtlx
+cat >names.mtlx <<'XML'
+<materialx version="1.39" geomprefix="/a/">
+  <nodedef name="ND_n" node="n"><input name="g" type="geomname" value="none"/><output name="out" type="float" value="0"/></nodedef>
+  <implementation name="I" nodedef="ND_n" target="genglsl" sourcecode="({{g}} == &quot;/a/key&quot; ? 0.25 : {{g}} == &quot;/a/none&quot; ? 0.5 : 0.75)"/>
+  <n name="x" type="float"><input name="g" type="geomname" value="key"/></n>
+  <n name="y" type="float"/>
+  <add name="z" type="float"><input name="in1" type="float" nodename="x"/><input name="in2" type="float" nodename="y"/></add>
+  <output name="o" type="float" nodename="z"/>
+</materialx>
+XML
+check 'a node that names geometry is generated' exits 0 "$mxgen" names.mtlx -e o -t glsl --interface reduced -o names.d
+check 'its value and its default have the prefix' grep -q 'vec4(0.75, 0.75, 0.75, 1.0)' names.d/o.frag
 # Colours go to the space of geometry: 0.5 of sRGB is 0.21404114, and ACES gives the matrix from AP1.
 sed 's|  <propertyset name|  <geominfo name="c1" geom="/a/c" colorspace="srgb_texture"><geomprop name="tint" type="color3" value="0.5, 1, 0"/></geominfo>\n  <geominfo name="c2" geom="/a/b"><geomprop name="tint" type="color4" value="0.5, 0.2, 1, 0.25" colorspace="lin_ap1"/></geominfo>\n  <geominfo name="c3" geom="/e"><geomprop name="tint" type="color3" value="0.5, 0.2, 1" colorspace="none"/></geominfo>\n&|' look.mtlx >spaces.mtlx
 mv look.mtlx before.mtlx
