@@ -192,6 +192,30 @@ static void make_vertex(const struct patch *patch, double u, double v, struct ve
     out->texcoord[1] = out->parameter[1] = (float)v;
 }
 
+/* The square of the distance of a point from the middle between two vertices. */
+static double miss(const struct vertex *vertices, uint32_t a, uint32_t b, const double point[3])
+{
+    double sum = 0;
+    for (size_t i = 0; i < 3; ++i) {
+        double d = ((double)vertices[a].position[i] + vertices[b].position[i]) / 2 - point[i];
+        sum += d * d;
+    }
+    return sum;
+}
+
+/*
+ * True if a cell is halved from its upper left to its lower right corner, because that diagonal is
+ * nearer to the surface: the cells of a groove that crosses the grid do not look like teeth.
+ */
+static bool falls(const struct patch *patch, const struct vertex *vertices, uint32_t corner,
+                  uint32_t above, double u, double v)
+{
+    double middle[3];
+    patch->point(u, v, middle);
+    return miss(vertices, corner + 1, above, middle)
+           < 0.999 * miss(vertices, corner, above + 1, middle);
+}
+
 static void make_patch(const struct patch *patch, unsigned detail, struct mesh *mesh,
                        uint32_t *vertex, uint32_t *index)
 {
@@ -202,8 +226,11 @@ static void make_patch(const struct patch *patch, unsigned detail, struct mesh *
     for (uint32_t j = 0; j < up; ++j)
         for (uint32_t i = 0; i < across; ++i, *index += 6) {
             uint32_t corner = first + j * (across + 1) + i, above = corner + across + 1;
-            const uint32_t quad[6] = {corner, corner + 1, above + 1, corner, above + 1, above};
-            memcpy(mesh->indices + *index, quad, sizeof quad);
+            const uint32_t rising[6] = {corner, corner + 1, above + 1, corner, above + 1, above},
+                           falling[6] = {corner, corner + 1, above, corner + 1, above + 1, above};
+            bool is_falling =
+                falls(patch, mesh->vertices, corner, above, (i + 0.5) / across, (j + 0.5) / up);
+            memcpy(mesh->indices + *index, is_falling ? falling : rising, sizeof rising);
         }
 }
 

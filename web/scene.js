@@ -107,7 +107,11 @@ export const SHAPE_NAMES = Object.keys(SHAPES);
 export const minus = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
 const sum = (items, value) => items.reduce((total, item) => total + value(item), 0);
 
-/** Position, normal, tangent and texture coordinates of all vertices, and indices of triangles. `detail` multiplies the cells. */
+/** The square of the distance of a point from the middle between two vertices. */
+const miss = (position, a, b, point) => sum([0, 1, 2], i => ((position[3 * a + i] + position[3 * b + i]) / 2 - point[i]) ** 2);
+
+/** Position, normal, tangent and texture coordinates of all vertices, and indices of triangles. `detail` multiplies the cells. A cell is halved along the
+ * diagonal that is nearer to the surface, as in render/shapes.c. */
 export function makeMesh(name, detail) {
     const patches = SHAPES[name].map(([point, across, up]) => ({ point, across: across * detail, up: up * detail }));
     const count = sum(patches, ({ across, up }) => (across + 1) * (up + 1));
@@ -130,7 +134,10 @@ export function makeMesh(name, detail) {
         for (let j = 0; j < up; j++)
             for (let i = 0; i < across; i++, index += 6) {
                 const corner = first + j * (across + 1) + i, higher = corner + across + 1;
-                indices.set([corner, corner + 1, higher + 1, corner, higher + 1, higher], index);
+                const middle = point((i + 0.5) / across, (j + 0.5) / up);
+                const falls = miss(position, corner + 1, higher, middle) < 0.999 * miss(position, corner, higher + 1, middle);
+                indices.set(falls ? [corner, corner + 1, higher, corner + 1, higher + 1, higher]
+                                  : [corner, corner + 1, higher + 1, corner, higher + 1, higher], index);
             }
     }
     return { count, position, normal, tangent, texcoord, indices };
