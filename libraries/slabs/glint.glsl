@@ -83,6 +83,7 @@ float mx_glints(vec2 slope, float density, vec2 uv, vec4 footprint)
 // lobe by 4 to 6 % (standard deviation), less than the noise of the renderer's own points; by 2 % with 1e6 facets.
 const float MX_GLINT_COUNTLESS = 1e5;
 
+// Whether a pixel with this footprint sees few enough facets to draw each.
 bool mx_glint_has_facets(float density, vec4 footprint)
 {
     float area = abs(footprint.x * footprint.w - footprint.y * footprint.z);

@@ -87,6 +87,7 @@ float mx_schlick_gain(float x, float gain)
     return x < 0.5 ? x / (a + 1.0) : (a - x) / (a - 1.0);
 }
 
+// How much each of three tiles counts, by its distance and its importance. A falloff of 0.5 changes nothing.
 vec3 mx_hextile_weights(vec3 barycentric, vec3 importance, float falloff)
 {
     vec3 w = importance * pow(barycentric, vec3(7.0));

@@ -88,6 +88,7 @@ vec4 mx_latlong_image(sampler2D file, vec3 direction, float rotation)
     return texture(file, vec2(uv.x, mx_address(v, textureSize(file, 0).y, "clamp"))); // poles do not meet
 }
 
+// The textures along three axes, mixed by the direction of the normal.
 vec4 mx_triplanar(sampler2D filex, sampler2D filey, sampler2D filez, vec3 position, vec3 normal, int upaxis,
                   float blend, string filtertype)
 {

@@ -58,8 +58,7 @@ float mx_checker(vec2 p)
     return mod(cell.x + cell.y, 2.0);
 }
 
-// Shapes about the origin
-
+// 1 on a line of this radius between two points, 0 beside it.
 float mx_line(vec2 p, float radius, vec2 point1, vec2 point2)
 {
     vec2 along = point2 - point1;

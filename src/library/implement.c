@@ -69,25 +69,56 @@ bool index_parse_expressions(struct indexer *ix, struct implementation *impl, st
     return true;
 }
 
-static const char *const family_suffixes[NUM_FAMILY_MEMBERS] = {
-    [FAMILY_EVAL] = "_eval",
-    [FAMILY_ENVIRONMENT] = "_environment",
-    [FAMILY_TRANSMISSION] = "_transmission",
-    [FAMILY_THROUGHPUT] = "_throughput",
-    [FAMILY_EMISSION] = "_emission",
-    [FAMILY_FACTOR] = "_factor",
-    [FAMILY_ABSORPTION] = "_absorption",
-    [FAMILY_ALBEDO] = "_albedo",
-    [FAMILY_REFRACTION] = "_refraction",
-    [FAMILY_SAMPLE] = "_sample",
-    [FAMILY_PDF] = "_pdf",
-    [FAMILY_TRANSMITTANCE] = "_transmittance",
-    [FAMILY_WAY] = "_way",
-    [FAMILY_TINT] = "_tint",
-    [FAMILY_FACET] = "_facet",
-    [FAMILY_SCATTERING] = "_scattering",
-    [FAMILY_ANISOTROPY] = "_anisotropy",
+/*
+ * The functions of a closure: the end of the name, and what such a function computes, for the
+ * reader of a shader, where the library has no comment of its own.
+ */
+static const struct {
+    const char *suffix, *doc;
+} family_members[NUM_FAMILY_MEMBERS] = {
+    [FAMILY_EVAL] = {"_eval",
+                     "The light from L that the closure reflects to V, without its weight."},
+    [FAMILY_ENVIRONMENT] = {"_environment",
+                            "The light of the environment that the closure reflects to V. Its "
+                            "samples, by `sample_index`, add up to it."},
+    [FAMILY_TRANSMISSION] =
+        {"_transmission",
+         "The light of the environment behind that the closure lets through to V."},
+    [FAMILY_THROUGHPUT] = {"_throughput",
+                           "The part of the light that reaches what lies below the closure."},
+    [FAMILY_EMISSION] = {"_emission", "The light that the closure emits to V."},
+    [FAMILY_FACTOR] = {"_factor", "The factor by which the closure changes its base."},
+    [FAMILY_ABSORPTION] = {"_absorption", "The coefficient of absorption of the medium."},
+    [FAMILY_ALBEDO] = {"_albedo", "The directional albedo of the closure towards V."},
+    [FAMILY_REFRACTION] =
+        {"_refraction", "The light from L behind the surface that the closure lets through to V."},
+    [FAMILY_SAMPLE] = {"_sample", "A direction L by three random numbers xi; `weight` is the value "
+                                  "of the closure there over the density `pdf`."},
+    [FAMILY_PDF] = {"_pdf", "The density of L among the samples of the closure, in solid angle."},
+    [FAMILY_TRANSMITTANCE] = {"_transmittance",
+                              "The factor of light that goes straight through the medium once."},
+    [FAMILY_WAY] = {"_way",
+                    "The mean way, through media above, of the light that the closure reflects."},
+    [FAMILY_TINT] = {"_tint", "The factor of the closure that stands for the leaf."},
+    [FAMILY_FACET] =
+        {"_facet",
+         "The normal of the closure that stands for the leaf, and its share of the roughness."},
+    [FAMILY_SCATTERING] = {"_scattering", "The coefficient of scattering of the medium."},
+    [FAMILY_ANISOTROPY] = {"_anisotropy", "The anisotropy of the phase function of the medium."},
 };
+
+/* Finds a member of a family by its name, and gives it a comment if it has none. */
+static uint32_t find_member(struct indexer *ix, uint32_t file, str_id name, unsigned member)
+{
+    struct lang_unit *unit = &ix->lib->unit;
+    uint32_t id = lang_find_function(unit, file, name, NULL, 0);
+    if (id == LANG_NONE || id < unit->base_functions)
+        return id;
+    struct lang_function *function = &unit->functions.items[id - unit->base_functions];
+    if (!function->doc)
+        function->doc = str_intern_z(&ix->lib->strings, family_members[member].doc);
+    return id;
+}
 
 static bool find_family(struct indexer *ix, struct implementation *impl, str_id name, uint32_t file)
 {
@@ -95,15 +126,15 @@ static bool find_family(struct indexer *ix, struct implementation *impl, str_id 
     bool any = false;
     for (unsigned i = 0; i < NUM_FAMILY_MEMBERS; i++) {
         char full[256];
-        size_t len = str_len(&ix->lib->strings, name), suffix = strlen(family_suffixes[i]);
+        size_t len = str_len(&ix->lib->strings, name), suffix = strlen(family_members[i].suffix);
         family.functions[i] = LANG_NONE;
         if (len + suffix >= sizeof full)
             continue;
         memcpy(full, index_text(ix, name), len);
-        memcpy(full + len, family_suffixes[i], suffix);
+        memcpy(full + len, family_members[i].suffix, suffix);
         str_id id = str_find(&ix->lib->strings, full, len + suffix);
         if (id)
-            family.functions[i] = lang_find_function(&ix->lib->unit, file, id, NULL, 0);
+            family.functions[i] = find_member(ix, file, id, i);
         any = any || family.functions[i] != LANG_NONE;
     }
     impl->kind = IMPL_FAMILY;

@@ -18,6 +18,7 @@ out vec3 vd_normalWorld;
 out vec3 vd_tangentWorld;
 out vec2 vd_texcoord_0;
 
+// 1 on a line of this radius between two points, 0 beside it.
 // Here radius = 0.1, point1 = vec2(0.25), point2 = vec2(0.75).
 float mx_line(const vec2 p)
 {

@@ -22,6 +22,7 @@ struct VertexData {
     float2 texcoord_0 : TEXCOORD3;
 };
 
+// 1 on a line of this radius between two points, 0 beside it.
 // Here radius = 0.1, point1 = float2(0.25, 0.25), point2 = float2(0.75, 0.75).
 float mx_line(float2 p)
 {

@@ -19,6 +19,7 @@ layout(location = 0) in VertexData {
 } vd;
 layout(location = 0) out vec4 out1;
 
+// 1 on a line of this radius between two points, 0 beside it.
 // Here radius = 0.1, point1 = vec2(0.25), point2 = vec2(0.75).
 float mx_line(const vec2 p)
 {

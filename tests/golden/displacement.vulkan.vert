@@ -21,6 +21,7 @@ layout(location = 0) out VertexData {
     vec2 texcoord_0;
 } vd;
 
+// 1 on a line of this radius between two points, 0 beside it.
 // Here radius = 0.1, point1 = vec2(0.25), point2 = vec2(0.75).
 float mx_line(const vec2 p)
 {

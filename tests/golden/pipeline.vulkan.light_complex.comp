@@ -444,6 +444,7 @@ float mx_chan_gloss(const float roughness)
     return clamp(log2(2.0 / (square * square) - 1.0) / 18.0, 0.0, 1.0);
 }
 
+// The light from L that the closure reflects to V, without its weight.
 // Here thickness = 1.0.
 vec3 mx_slab_medium_bsdf_eval(const vec3 color, const float roughness, const vec3 mean_free_path,
     const float phase_anisotropy, const vec3 N, const vec3 V, const vec3 L)

@@ -76,6 +76,7 @@ vec2 mx_rotate2d(const vec2 v, const float angle)
     return vec2(c * v.x + s * v.y, c * v.y - s * v.x);
 }
 
+// How much each of three tiles counts, by its distance and its importance. A falloff of 0.5 changes nothing.
 // Here falloff = 0.5.
 vec3 mx_hextile_weights(const vec3 barycentric, const vec3 importance)
 {

@@ -20,6 +20,7 @@ vec3 mx_srgb_texture_to_lin_rec709(const vec3 color)
         step(0.04045, color));
 }
 
+// The textures along three axes, mixed by the direction of the normal.
 // Here upaxis = 2, blend = 1.0, filtertype = "linear".
 vec4 mx_triplanar(sampler2D filex, sampler2D filey, sampler2D filez, const vec3 position, const vec3 normal)
 {
