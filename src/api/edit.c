@@ -154,6 +154,7 @@ static void complete(struct end_job *job)
     doc_keep_paths(doc);
     doc_upgrade_edit(doc, diags);
     doc_complete(doc, diags);
+    doc->bases.len = 0; /* the text of this document has their values */
     document_finish(document, &job->files);
 }
 

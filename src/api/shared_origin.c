@@ -2,7 +2,7 @@
 /*
  * An edit of a large document changes few elements. The document that it makes shares the rest with
  * its origin: elements, names, strings, definitions and renderables. This file decides whether the
- * changes leave the definitions as they are, and need no upgrade.
+ * changes leave the definitions as they are, need no upgrade, and inherit no values.
  */
 #include "api/api.h"
 
@@ -52,7 +52,8 @@ static bool leaves_definitions(const struct document *doc, const struct doc_chan
         return true;
     bool is_shared = change->index < doc->shared.elements;
     return element != doc->root && !doc_attr(doc, element, STR_namespace) && !defines(doc, element)
-           && !doc_needs_upgrade(doc, element) && !(is_shared && defines(doc->origin, element));
+           && !doc_needs_upgrade(doc, element) && !doc_inherits_values(doc, element)
+           && !(is_shared && defines(doc->origin, element));
 }
 
 static bool can_share(const mxg_document *document)

@@ -146,8 +146,8 @@ static bool is_same_text(const char *a, const char *b)
 
 static bool is_same_place(const struct diag_place *a, const struct diag_place *b)
 {
-    return a->line == b->line && a->column == b->column && is_same_text(a->file, b->file)
-           && is_same_text(a->path, b->path);
+    return a->line == b->line && a->column == b->column && a->spot == b->spot
+           && is_same_text(a->file, b->file) && is_same_text(a->path, b->path);
 }
 
 static uint32_t hash_of_place(const struct diag_place *place)

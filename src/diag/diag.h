@@ -33,6 +33,8 @@ struct diag_place {
     uint32_t line, column;
     uint32_t length;  /* code points to underline; 0 means 1 */
     const char *path; /* of the element in its document, if it has no line; otherwise NULL */
+    /* different for what a text has in different places, and this place does not; otherwise 0 */
+    uint64_t spot;
 };
 
 struct diag {

@@ -178,11 +178,17 @@ elem_id doc_add_element(struct document *doc, elem_id parent, str_id category, s
     return element;
 }
 
+static const char *kept_path(const struct document *doc, elem_id element);
+
 elem_id doc_add_like(struct document *doc, elem_id parent, str_id category, str_id name,
                      elem_id origin)
 {
-    const struct element *like = doc_element(doc, origin);
-    return doc_add_element(doc, parent, category, name, like->file, like->line, like->column);
+    const struct element like = *doc_element(doc, origin);
+    elem_id added = doc_add_element(doc, parent, category, name, like.file, like.line, like.column);
+    const char *path = like.line ? NULL : kept_path(doc, origin);
+    if (path) /* the new element has the highest number, so the paths stay in order */
+        vec_push(doc->arena, &doc->paths, (struct doc_place_path){added, path});
+    return added;
 }
 
 /*
@@ -484,6 +490,15 @@ static uint32_t known_column(uint16_t column)
     return column < UINT16_MAX ? column : 0;
 }
 
+/* A part of an element that has a place of its own in a text. */
+enum place_part { PART_ELEMENT, PART_VALUE, PART_NAME };
+
+/* Tells what has a place of its own in the text of the document, but none in the place. */
+static uint64_t spot_of(elem_id element, str_id attr, enum place_part part)
+{
+    return (uint64_t)element << 32 | (uint64_t)attr << 2 | part;
+}
+
 struct diag_place doc_place(const struct document *doc, elem_id element)
 {
     const struct element *e = doc_element(doc, element);
@@ -491,13 +506,16 @@ struct diag_place doc_place(const struct document *doc, elem_id element)
                                .path = kept_path(doc, element),
                                .line = e->line,
                                .column = known_column(e->column),
-                               .length = 1 + width_of(doc, e->category)};
+                               .length = 1 + width_of(doc, e->category),
+                               .spot = e->line ? 0 : spot_of(element, 0, PART_ELEMENT)};
 }
 
 struct diag_place doc_name_place(const struct document *doc, elem_id element)
 {
     struct diag_place place = doc_place(doc, element);
     const struct doc_link *link = doc_link(doc, element);
+    if (place.spot && doc_element(doc, element)->name)
+        place.spot = spot_of(element, 0, PART_NAME);
     if (!link || !link->name_column)
         return place;
     place.line += link->name_line;
@@ -514,6 +532,8 @@ struct diag_place doc_attr_place(const struct document *doc, elem_id element, st
         place.line += found->line_delta;
         place.column = known_column(found->column);
         place.length = width_of(doc, found->value);
+    } else if (found) {
+        place.spot = spot_of(element, attr, PART_VALUE);
     }
     return place;
 }
@@ -523,7 +543,9 @@ struct diag_place doc_attr_name_place(const struct document *doc, elem_id elemen
     struct diag_place place = doc_attr_place(doc, element, attr);
     const struct attribute *found = doc_attr(doc, element, attr);
     uint32_t width = width_of(doc, attr), before = width + 2; /* name=" */
-    if (!found || place.column <= before || doc_layer(doc, element)->has_loose_attrs)
+    if (place.spot && found)
+        place.spot = spot_of(element, attr, PART_NAME);
+    if (place.spot || !found || place.column <= before || doc_layer(doc, element)->has_loose_attrs)
         return place;
     place.column -= before;
     place.length = width;

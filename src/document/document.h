@@ -206,6 +206,7 @@ struct document {
     VEC(struct attribute) attrs;
     VEC(str_id) files;           /* names from the user or from includes */
     VEC(struct doc_range) older; /* elements of files of older versions, which are upgraded */
+    VEC(elem_id) bases;          /* nodes from which others inherit in the text */
     VEC(struct doc_link) links;  /* parallel to `elements`; empty in an image layer */
     VEC(struct doc_comment) comments;
     VEC(struct comment_lists) comment_lists;
@@ -415,6 +416,8 @@ void doc_rename(struct document *doc, elem_id element, str_id name);
 void doc_complete(struct document *doc, struct diag_list *diags);
 /* inherited_values.c: copies what nodes inherit from others; the names are indexed */
 void doc_inherit_values(struct document *doc, struct diag_list *diags);
+/* True for a node that doc_inherit_values has not given the values yet. */
+bool doc_inherits_values(const struct document *doc, elem_id element);
 
 /* The number of elements of this layer, removed ones included. */
 static inline uint32_t doc_num_elements(const struct document *doc)

@@ -122,6 +122,8 @@ static bool is_end(const struct validate *v, elem_id node)
 
 static void check_use(struct validate *v)
 {
+    for (uint32_t i = 0; i < v->doc->bases.len; i++)
+        v->used[v->doc->bases.items[i] - v->doc->first_element] = 1;
     for (elem_id e = v->doc->root; e; e = doc_next_in_tree(v->doc, v->doc->root, e)) {
         const struct element *element = doc_element(v->doc, e);
         bool is_used = element->kind != KIND_NODE || !element->name

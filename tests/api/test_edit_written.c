@@ -13,6 +13,8 @@
     "<output name=\"out\" type=\"float\" nodename=\"s\"/></nodegraph>"
 
 static const char text[] = "<materialx version=\"1.39\" xmlns:p=\"u\" xmlns:q=\"u\">" GRAPH
+                           "<constant name=\"k\" type=\"color3\"><input name=\"value\" "
+                           "type=\"color3\" value=\"1, 0, 0\"/></constant><look name=\"L\"/>"
                            "<output name=\"o\" type=\"float\" nodegraph=\"N\" p:z=\"1\"/>"
                            "</materialx>";
 
@@ -122,6 +124,8 @@ static const struct {
     {"", "version", "1.39", "version=\"1.39\""},
     {"N/s/in", "channels", "g", "<extract "},
     {"N/c", "doc", "True", "doc=\"True\""},
+    {"N/c", "inherit", "k",
+     "<input name=\"value\" type=\"color3\" value=\"1, 0, 0\"/>\n    </constant>\n    <sin"},
     {NULL, "parameter float", "1", "<input name=\"value\" type=\"float\" value=\"1\"/>"},
     {NULL, "input boolean", "True", "value=\"true\""},
     {NULL, "input color2", "1, 2", "type=\"vector2\""},
@@ -167,12 +171,88 @@ static void test_written(const struct fixture *f)
     }
 }
 
+/* ---- Faults are those of the text ---- */
+
+/* Steps of an edit: "PATH ATTRIBUTE VALUE", or "+ PARENT CATEGORY NAME TYPE", "-": none. */
+static const struct {
+    const char *steps[8];
+    const char *messages; /* of the end of the edit */
+} faulty[] = {
+    {{"N/c inherit zz"}, "inherit-missing "},
+    {{"N/s inherit k"}, "inherit-category "},
+    {{"k inherit k"}, "inherit-cycle "},
+    {{"+ - constant a color3", "+ a input value color3", "a/value value x", "+ - constant b color3",
+      "b inherit a"},
+     ""},
+    {{"+ L materialassign m float"}, ""},
+    {{"+ L materialassign m -", "L/m type float"}, ""},
+    {{"+ L materialassign - -", "+ L materialassign - -"}, ""},
+    {{"+ L materialassign m surfaceshader", "L/m material k", "L/m collection x"}, ""},
+};
+
+static void step(mxg_edit *edit, const char *words)
+{
+    char word[5][16] = {0};
+    sscanf(words, "%15s %15s %15s %15s %15s", word[0], word[1], word[2], word[3], word[4]);
+    const char *given[5];
+    for (int i = 0; i < 5; i++)
+        given[i] = strcmp(word[i], "-") == 0 ? NULL : word[i];
+    if (strcmp(word[0], "+") == 0)
+        REQUIRE(mxg_edit_add_element(edit, given[1] ? edited_at(edit, given[1]) : 0, word[2],
+                                     given[3], given[4]));
+    else
+        REQUIRE_EQ(mxg_edit_set_attribute(edit, edited_at(edit, word[0]), word[1], word[2]),
+                   MXG_OK);
+}
+
+/* "id " of each diagnostic, all of which have a place. */
+static void list(const mxg_diagnostics *diagnostics, char *out)
+{
+    *out = '\0';
+    for (uint32_t i = 0; i < mxg_diagnostics_num_items(diagnostics); i++) {
+        mxg_diagnostic item = {.size = sizeof item};
+        REQUIRE_EQ(mxg_diagnostics_item(diagnostics, i, &item), MXG_OK);
+        REQUIRE(item.line || item.path[0]);
+        out += sprintf(out, "%s ", item.id);
+    }
+}
+
+static void list_faults(const struct fixture *f, const mxg_document *document, char *out)
+{
+    mxg_result *result = NULL;
+    mxg_validate(f->context, document, &result);
+    list(mxg_result_diagnostics(result), out);
+    mxg_result_destroy(result);
+}
+
+static void test_faulty(const struct fixture *f)
+{
+    for (size_t i = 0; i < sizeof faulty / sizeof *faulty; i++) {
+        mxg_edit *edit = begin(f);
+        mxg_document *after = NULL, *read = NULL;
+        char said[1024], faults[1024], faults_of_text[1024];
+        for (int k = 0; faulty[i].steps[k]; k++)
+            step(edit, faulty[i].steps[k]);
+        commit(edit, &after);
+        list(mxg_document_diagnostics(after), said);
+        REQUIRE_STR(said, faulty[i].messages);
+        const char *xml = mxg_document_xml(after, NULL);
+        mxg_document_parse(f->context, f->library, "text.mtlx", xml, strlen(xml), &read);
+        list_faults(f, after, faults);
+        list_faults(f, read, faults_of_text);
+        REQUIRE_STR(faults, faults_of_text);
+        mxg_document_destroy(read);
+        mxg_document_destroy(after);
+    }
+}
+
 int main(void)
 {
     struct fixture f;
     open_fixture(&f);
     test_refused(&f);
     test_written(&f);
+    test_faulty(&f);
     close_fixture(&f);
     return test_report("api-edit_written");
 }
