@@ -10,8 +10,9 @@ mxg_document *examine_translated(struct examiner *examiner, mxg_document *docume
     mxg_result *result = NULL;
     mxg_status status;
     channel_mark(&examiner->channel, CHECK_TRANSLATE, "", "");
-    mxg_document *translated = translated_parse(examiner->cli, document, examiner->document->file,
-                                                examiner->translate, &result, &status);
+    mxg_document *translated =
+        translated_parse(examiner->cli, document, examiner->document->file, examiner->translate,
+                         mxg_translate, &result, &status);
     examine_diagnostics(examiner, mxg_result_diagnostics(result), NULL, NULL);
     examine_status(examiner, status, NULL, NULL);
     if (status != MXG_OK)

@@ -150,31 +150,21 @@ static void tell_other_input(struct exporting *exporting, const char *input)
     free(place);
 }
 
-/* False after an error: a surface that is a mix of others is several materials. */
-static bool check_surface(struct exporting *exporting, const mxg_document *from, mxg_element node)
+/* Tells a material without a surface, which is not in the file. */
+static void tell_bare(struct exporting *exporting, const mxg_document *from, mxg_element node)
 {
     bool is_material = strcmp(bake_element(from, node).type, "material") == 0;
-    mxg_element port = is_material ? mxg_document_find_element(from, node, "surfaceshader") : 0,
-                surface = is_material ? (port ? bake_follow(from, port).node : 0) : node;
-    if (!is_material && strcmp(bake_element(from, node).type, "surfaceshader") != 0)
-        return true;
-    if (surface && strcmp(bake_element(from, surface).category, exporting->format->model) == 0)
-        return true;
+    mxg_element port = is_material ? mxg_document_find_element(from, node, "surfaceshader") : 0;
+    if (!is_material || (port && bake_follow(from, port).node))
+        return;
     struct report *report = &exporting->baking.cli.report;
     const struct flat of = {
         .report = report, .source = exporting->source, .source_path = exporting->path};
-    char *path = bake_path(from, surface ? surface : node), *place = flat_place(&of, path);
-    if (surface)
-        report_error(report, "export-mixed",
-                     "'%s' (%s) is made of other surfaces, and a material of this format has one; "
-                     "mix the inputs of one surface instead",
-                     path, place);
-    else
-        report_warning(report, "export-loss", "'%s' (%s) is not in the file: it has no surface",
-                       path, place);
+    char *path = bake_path(from, node), *place = flat_place(&of, path);
+    report_warning(report, "export-loss", "'%s' (%s) is not in the file: it has no surface", path,
+                   place);
     free(path);
     free(place);
-    return !surface;
 }
 
 /* Removes what a material has beside its surface, which it returns; 0: it has none. */
@@ -205,21 +195,18 @@ static bool is_wanted(const struct exporting *exporting, const char *path)
                                     : !element || strcmp(element, path) == 0;
 }
 
-/* False after errors. */
-static bool check_surfaces(struct exporting *exporting, const mxg_document *from)
+static void tell_all_bare(struct exporting *exporting, const mxg_document *from)
 {
     const char *element = exporting->options.bake.element;
     uint32_t num = element ? 1 : mxg_document_num_renderables(from);
-    bool good = true;
     for (uint32_t i = 0; i < num; ++i) {
         mxg_renderable renderable = {.size = sizeof renderable, .path = element};
         if (!element)
             mxg_document_renderable(from, i, &renderable);
         mxg_element node = mxg_document_find_element(from, 0, renderable.path);
         if (node && is_wanted(exporting, renderable.path))
-            good = check_surface(exporting, from, node) && good;
+            tell_bare(exporting, from, node);
     }
-    return good;
 }
 
 /*
@@ -236,7 +223,10 @@ static void remove_others(struct exporting *exporting, const mxg_document *from,
         if (strcmp(info.type, "material") == 0 && is_wanted(exporting, info.name)) {
             mxg_element surface = keep_surface(exporting, from, node, edit);
             names_add(&kept, info.name, &is_new);
-            names_add(&kept, bake_element(from, surface).name, &is_new);
+            if (surface)
+                names_add(&kept, bake_element(from, surface).name, &is_new);
+            else
+                mxg_edit_remove_element(edit, node);
         }
     }
     for (mxg_element node = first; node; node = bake_element(from, node).next) {
@@ -339,6 +329,18 @@ static mxg_document *load(struct exporting *exporting)
     return NULL;
 }
 
+/* True if --element names a surface that is not made of others, which may be a part of one. */
+static bool is_part(const struct exporting *exporting, const mxg_document *source)
+{
+    const char *element = exporting->options.bake.element;
+    mxg_element node = element ? mxg_document_find_element(source, 0, element) : 0;
+    bool is = node && strcmp(bake_element(source, node).type, "surfaceshader") == 0;
+    for (mxg_element input = is ? bake_element(source, node).first_child : 0; input && is;
+         input = bake_element(source, input).next)
+        is = strcmp(bake_element(source, input).type, "surfaceshader") != 0;
+    return is;
+}
+
 static void run(struct exporting *exporting)
 {
     struct baking *baking = &exporting->baking;
@@ -356,10 +358,13 @@ static void run(struct exporting *exporting)
         source = load(exporting);
     if (source)
         translated =
-            translated_make(&baking->cli, source, exporting->path, exporting->format->model);
+            translated_make(&baking->cli, source, exporting->path, exporting->format->model,
+                            is_part(exporting, source) ? mxg_translate : mxg_translate_joined);
     exporting->source = source;
-    if (translated && check_surfaces(exporting, translated))
+    if (translated) {
+        tell_all_bare(exporting, translated);
         kept = keep_surfaces(exporting, translated);
+    }
     if (kept)
         bake_and_write(exporting, kept);
     mxg_document_destroy(kept);

@@ -294,6 +294,13 @@ MXG_API mxg_status mxg_rewrite(mxg_context *context, mxg_rewriting rewriting, co
 MXG_API mxg_status mxg_translate(mxg_context *context, const mxg_document *document,
                                  const char *model, mxg_result **out_result);
 
+/*
+ * mxg_translate for formats whose materials have one surface each: a surface that is made of
+ * others, such as their <mix>, becomes one by way of slabs, and what only such surfaces read goes.
+ */
+MXG_API mxg_status mxg_translate_joined(mxg_context *context, const mxg_document *document,
+                                        const char *model, mxg_result **out_result);
+
 #ifdef __cplusplus
 }
 #endif

@@ -30,16 +30,36 @@ vec3 mx_coat_saturated(vec3 color, float amount)
     return amount > 0.0 ? pow(clamp(color, 0.0, 1.0), vec3(1.0 + amount)) : color;
 }
 
-// The luminance of an opacity; a grey stays exactly as it is.
-float mx_opacity(vec3 opacity)
+// The luminance; that of a grey is exact.
+float mx_luminance_of(vec3 color)
 {
-    return dot(opacity - opacity.zzz, vec3(0.2722287, 0.6740818, 0.0)) + opacity.z;
+    return dot(color - color.zzz, vec3(0.2722287, 0.6740818, 0.0)) + color.z;
+}
+
+float mx_brightest(vec3 color)
+{
+    return max(max(color.x, color.y), color.z);
 }
 
 // The part of UsdPreviewSurface that refracts.
 float mx_preview_glass(float opacity, int mode, float threshold)
 {
     return threshold > 0.0 || mode == 1 ? 0.0 : 1.0 - opacity;
+}
+
+/* gltf_pbr tints refracted light with the base colour, UsdPreviewSurface does not. The base colour for both: as bright as the two together,
+   and of a hue between them that is near that of the diffuse light, which is what the eye sees of a tint. It is exact for greys. */
+vec3 mx_preview_base(vec3 diffuse, float glass)
+{
+    vec3 hue = diffuse * (8.0 * (1.0 - glass)) + glass;
+    float sum = mx_luminance_of(diffuse) * (1.0 - glass) + glass;
+    return glass > 0.0 ? hue * min(sum / mx_luminance_of(hue), 1.0 / mx_brightest(hue)) : diffuse;
+}
+
+// The transmission that leaves as much diffuse light below that base colour.
+float mx_preview_transmission(vec3 diffuse, float glass)
+{
+    return glass > 0.0 ? 1.0 - mx_luminance_of(diffuse) * (1.0 - glass) / mx_luminance_of(mx_preview_base(diffuse, glass)) : 0.0;
 }
 
 /* A thin sheet of OpenPBR lets the share (1 + g) / 2 of its subsurface light through, one of standard_surface all of it: the colour of
@@ -49,11 +69,6 @@ vec3 mx_sheet_color(vec3 base, vec3 scattered, float weight, float anisotropy)
     float through = weight * (0.5 + 0.5 * anisotropy);
     float left = max(1.0 - through, 0.0001);
     return base * ((1.0 - weight) / left) + scattered * ((weight - through) / left);
-}
-
-float mx_brightest(vec3 color)
-{
-    return max(max(color.x, color.y), color.z);
 }
 
 // Normal incidence on a dielectric in air (Fresnel).

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/* mxg_translate: surfaces of one model as surfaces of another, with graphs of their inputs. */
+/* mxg_translate and mxg_translate_joined: surfaces of one model as surfaces of another, with graphs
+ * of their inputs. */
 #include "api/translate.h"
 
 /* ---- One surface ---- */
@@ -156,8 +157,8 @@ static void translate(struct generation *g)
         finish(g, t);
 }
 
-mxg_status mxg_translate(mxg_context *context, const mxg_document *document, const char *model,
-                         mxg_result **out_result)
+static mxg_status run(mxg_context *context, const mxg_document *document, const char *model,
+                      bool joins, mxg_result **out_result)
 {
     if (out_result)
         *out_result = NULL;
@@ -170,7 +171,8 @@ mxg_status mxg_translate(mxg_context *context, const mxg_document *document, con
                             .library = (mxg_library *)origin->object.below,
                             .document = document,
                             .model = model,
-                            .wanted = model};
+                            .wanted = model,
+                            .joins = joins};
     mxg_status status = generation_run(context, document, NULL, translate, &t, out_result);
     mxg_result_destroy(t.value);
     mxg_edit_destroy(t.draft_edit);
@@ -180,4 +182,16 @@ mxg_status mxg_translate(mxg_context *context, const mxg_document *document, con
     mxg_edit_destroy(t.edit);
     mxg_document_destroy(t.product);
     return status;
+}
+
+mxg_status mxg_translate(mxg_context *context, const mxg_document *document, const char *model,
+                         mxg_result **out_result)
+{
+    return run(context, document, model, false, out_result);
+}
+
+mxg_status mxg_translate_joined(mxg_context *context, const mxg_document *document,
+                                const char *model, mxg_result **out_result)
+{
+    return run(context, document, model, true, out_result);
 }

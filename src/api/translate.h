@@ -43,6 +43,8 @@ struct translation {
     const char *wanted;                 /* the caller's model, a node category: "gltf_pbr" */
     const char *model;                  /* of the pass: that one, or the first made of slabs */
     uint32_t definition;                /* of the model */
+    bool joins;                         /* a surface that is made of others becomes one */
+    uint8_t *readers;                   /* per element, where it joins: who reads a surface */
     VEC(struct translation_step) steps; /* all that there are */
     struct diag_list *diags;
     struct arena *kept;  /* of the result */
@@ -97,7 +99,10 @@ void translate_forget_surface(struct translation *t);
 /* An edit of the document; and its end, after which the document is t->product. */
 void translate_start_edit(struct translation *t);
 void translate_commit_edit(struct translation *t);
-/* Visits the surfaces of the document that are not made of other ones, or its materials. */
+/*
+ * Visits the surfaces of the document that are not made of other ones, or, where these are joined,
+ * that are not parts of other ones alone; or its materials.
+ */
 void translate_visit_surfaces(struct translation *t,
                               void (*visit)(struct translation *t, elem_id surface));
 void translate_visit_materials(struct translation *t,

@@ -124,7 +124,37 @@ bool translate_is_sound(struct translation *t)
 
 /* ---- All surfaces ---- */
 
-/* True for a node of the type; a surface that is made of other surfaces is none. */
+enum { READ_BY_SURFACE = 1, READ_BY_OTHER = 2 };
+
+static void find_readers(struct translation *t)
+{
+    const struct document *doc = &t->document->layer.doc;
+    t->readers = ARENA_ARRAY(t->kept, uint8_t, doc_num_elements(doc));
+    for (elem_id e = doc->root; e; e = doc_next_in_tree(doc, doc->root, e)) {
+        bool is_input = doc_element(doc, e)->kind == KIND_INPUT
+                        && doc_attr_value(doc, e, STR_type) == STR_surfaceshader;
+        elem_id source = is_input ? translate_find_source(t, e) : 0;
+        if (!source)
+            continue;
+        str_id type = doc_attr_value(doc, doc_element(doc, e)->parent, STR_type);
+        t->readers[source - doc->first_element] |=
+            type == STR_surfaceshader ? READ_BY_SURFACE : READ_BY_OTHER;
+    }
+}
+
+/* True for a surface that has its own place: not made of others, or not in others alone. */
+static bool is_whole(const struct translation *t, elem_id element)
+{
+    const struct document *doc = &t->document->layer.doc;
+    if (t->joins)
+        return t->readers[element - doc->first_element] != READ_BY_SURFACE;
+    for (elem_id e = doc_element(doc, element)->first_child; e; e = doc_element(doc, e)->next)
+        if (doc_attr_value(doc, e, STR_type) == STR_surfaceshader)
+            return false;
+    return true;
+}
+
+/* True for a node of the type. */
 static bool is_node(const struct translation *t, elem_id element, str_id type)
 {
     const struct document *doc = &t->document->layer.doc;
@@ -132,10 +162,7 @@ static bool is_node(const struct translation *t, elem_id element, str_id type)
     if (e->kind != KIND_NODE || doc_attr_value(doc, element, STR_type) != type)
         return false;
     bool is_second = e->name && doc_child(doc, e->parent, e->name) != element; /* of its name */
-    bool is_made = false;
-    for (elem_id child = e->first_child; child && !is_made; child = doc_element(doc, child)->next)
-        is_made = type == STR_surfaceshader && doc_attr_value(doc, child, STR_type) == type;
-    return !is_made && !is_second;
+    return !is_second && (type != STR_surfaceshader || is_whole(t, element));
 }
 
 static void visit_nodes(struct translation *t, elem_id parent, str_id type,
@@ -155,6 +182,8 @@ static void visit_nodes(struct translation *t, elem_id parent, str_id type,
 void translate_visit_surfaces(struct translation *t,
                               void (*visit)(struct translation *t, elem_id surface))
 {
+    if (t->joins)
+        find_readers(t);
     visit_nodes(t, t->document->layer.doc.root, STR_surfaceshader, visit);
 }
 

@@ -345,9 +345,13 @@ static struct surfaces know(struct shader *shader, const struct closure_host *ho
     assert(ir_type_of(s.graph, root) == IR_TYPE_SURFACE);
     s.known = ARENA_ARRAY(shader->arena, struct closure_surface, root + 1);
     uint8_t *needed = ir_mark(s.graph, &root, 1, shader->arena);
-    for (ir_ref ref = 1; ref <= root; ref++)
-        if (needed[ref] && ir_type_of(s.graph, ref) == IR_TYPE_SURFACE)
-            s.known[ref] = parts_of(&s, ref);
+    for (ir_ref ref = 1; ref <= root; ref++) {
+        if (!needed[ref] || ir_type_of(s.graph, ref) != IR_TYPE_SURFACE)
+            continue;
+        ir_push_origin_of(s.graph, ref);
+        s.known[ref] = parts_of(&s, ref);
+        ir_pop_origin(s.graph);
+    }
     return s;
 }
 

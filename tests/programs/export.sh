@@ -343,10 +343,29 @@ cat >mixed.mtlx <<'EOF'
   <surfacematerial name="Moved" type="material"><input name="displacementshader" type="displacementshader" nodename="D"/></surfacematerial>
 </materialx>
 EOF
-check 'a surface of several surfaces is told' bad mixed.mtlx Mix "'X' (mixed.mtlx:9:3) is made of other surfaces" '[export-mixed]'
-check 'also by its own name' bad mixed.mtlx X '[export-mixed]'
-check 'and for all materials' eval 'exits 1 "$mxgen" export mixed.mtlx -o none.gltf && has err "[export-mixed]" "no surface [export-loss]" && test ! -e none.gltf'
-check 'a surface of it is exported' eval 'exits 0 "$mxgen" export mixed.mtlx -e F -o part.glb && ! grep export-mixed err'
+check 'a surface of several surfaces is one' eval 'exits 0 "$mxgen" export mixed.mtlx -e Mix -o mix.glb -Werror=translation-loss && member mix.glb materials/0/name \"Mix\" && lacks mix.glb materials/1'
+check 'also by its own name' eval 'exits 0 "$mxgen" export mixed.mtlx -e X -o mix.glb && member mix.glb materials/0/name \"X\"'
+check 'and among all materials, without its parts' eval 'exits 0 "$mxgen" export mixed.mtlx -o mixed.gltf && has err "no surface [export-loss]" && has mixed.gltf "\"Mix\"" "\"T\"" && lacks mixed.gltf materials/2'
+check 'a part of it is exported by its name' eval 'exits 0 "$mxgen" export mixed.mtlx -e F -o part.glb && ! grep -q warning err && member part.glb materials/0/name \"F\"'
+# Paint where u is above a half, gold elsewhere, both behind a mask; then the same inside of a definition, with the pattern.
+parts='<texcoord name="uv" type="vector2"/><separate2 name="place" type="multioutput"><input name="in" type="vector2" nodename="uv"/></separate2>
+  <ifgreater name="mask" type="float"><input name="value1" type="float" nodename="place" output="outx"/><input name="value2" type="float" value="0.5"/><input name="in1" type="float" value="1"/><input name="in2" type="float" value="0"/></ifgreater>
+  <standard_surface name="paint" type="surfaceshader"><input name="base_color" type="color3" value="0.8, 0.2, 0.1"/></standard_surface>
+  <standard_surface name="gold" type="surfaceshader"><input name="base_color" type="color3" value="0.9, 0.8, 0.3"/><input name="metalness" type="float" value="1"/></standard_surface>
+  <mix name="both" type="surfaceshader"><input name="fg" type="surfaceshader" nodename="paint"/><input name="bg" type="surfaceshader" nodename="gold"/><input name="mix" type="float" nodename="mask"/></mix>'
+material='<surfacematerial name="M" type="material"><input name="surfaceshader" type="surfaceshader" nodename="both"/></surfacematerial></materialx>'
+echo "<?xml version=\"1.0\"?><materialx version=\"1.39\">$parts$material" >blended.mtlx
+echo "<?xml version=\"1.0\"?><materialx version=\"1.39\"><nodedef name=\"ND_two\" node=\"two\"><output name=\"out\" type=\"surfaceshader\"/></nodedef>
+  <nodegraph name=\"NG_two\" nodedef=\"ND_two\">$parts<output name=\"out\" type=\"surfaceshader\" nodename=\"both\"/></nodegraph><two name=\"both\" type=\"surfaceshader\"/>$material" >blended_inside.mtlx
+paint='0.75 0.5 231 124 89' gold='0.25 0.5 243 231 149'
+for name in blended blended_inside; do
+    check "$name: a mix behind a pattern is one surface" eval 'exits 0 "$mxgen" export "$name.mtlx" -s 64 -o "$name.glb" && has err "one slab for the mix '"'both'"'"'
+    check "$name: with the colours of its parts" eval 'texel "$name.glb" materials/M/pbrMetallicRoughness/baseColorTexture $paint && texel "$name.glb" materials/M/pbrMetallicRoughness/baseColorTexture $gold'
+    check "$name: gold is metal, paint is not" eval 'texel "$name.glb" materials/M/pbrMetallicRoughness/metallicRoughnessTexture 0.75 0.5 255 255 0 && texel "$name.glb" materials/M/pbrMetallicRoughness/metallicRoughnessTexture 0.25 0.5 255 255 255'
+done
+"$render" blended.mtlx -m sphere -s 64 -q -o source.exr
+check 'it looks like its source' eval 'exits 0 "$mxgen" import blended.glb -o back.mtlx && "$render" back.mtlx -m sphere -s 64 -q -o back.exr && "$psnr" --at-least 27 source.exr back.exr'
+check 'a UsdPreviewSurface has it, too' eval 'exits 0 "$mxgen" export blended.mtlx -s 64 -o blended.usda && has blended.usda "UsdPreviewSurface" "inputs:metallic.connect"'
 check 'and a material by a definition' eval 'exits 0 "$mxgen" export mixed.mtlx -e T -o defined.glb && member defined.glb materials/0/name \"T\" && ! grep -q warning err'
 check 'surfaces of closures go through slabs' eval 'exits 0 "$mxgen" export closures.mtlx -e closures -o closures.gltf && grep -A4 baseColorFactor closures.gltf | tr -d " \n" | grep -q "0.5,0.25,0.125"'
 check 'a document is not written over itself' eval 'cp all.mtlx all.gltf && exits 1 "$mxgen" export all.gltf -o all.gltf && has err "[output-clash]" && cmp all.mtlx all.gltf'

@@ -24,6 +24,12 @@ LIMITS = [
 
 with tempfile.TemporaryDirectory() as folder:
     out = pathlib.Path(folder) / "out.mtlx"
+    for color, limit in ("0.5, 0.5, 0.5", "1.5"), ("0.8, 0.2, 0.1", "4"): # partly glass: the colour of the diffuse light counts
+        glass = pathlib.Path(folder) / "glass.mtlx"
+        glass.write_text('<?xml version="1.0"?><materialx version="1.39"><UsdPreviewSurface name="S" type="surfaceshader">'
+                         f'<input name="diffuseColor" type="color3" value="{color}"/><input name="opacity" type="float" value="0.5"/></UsdPreviewSurface>'
+                         '</materialx>', encoding="utf-8")
+        LIMITS.append((glass.rename(glass.with_name(f"glass{limit}.mtlx")), "gltf_pbr", limit))
     for path, model, limit in LIMITS:
         if not path.exists():
             skip(f"{path} is absent")

@@ -271,6 +271,29 @@ def test_defaults():
         check(not said, f"{target} has a radius: {said[:300]}")
 
 
+def luminance(color):
+    return sum(a * b for a, b in zip(color, (0.2722287, 0.6740818, 0.0536895)))
+
+
+def test_preview_glass():
+    """gltf_pbr tints refracted light with the colour of diffuse light: the luminance of the diffuse light is exact, and of a grey all is."""
+    for color in (0.5, 0.5, 0.5), (0.1, 0.1, 0.1), (1.0, 1.0, 1.0), (0.8, 0.2, 0.1), (0.02, 0.3, 0.05), (0.0, 0.0, 0.0):
+        for opacity in (1.0, 0.75, 0.5, 0.1, 0.0):
+            values, _, said = translate("UsdPreviewSurface", "gltf_pbr", diffuseColor=color, opacity=opacity)
+            base, refracts = values.get("base_color", [1, 1, 1]), values.get("transmission", [0])[0]
+            what = f"{color} of opacity {opacity}: {base}, {refracts}"
+            near([(1 - refracts) * luminance(base)], [opacity * luminance(color)], f"diffuse light of {what}")
+            check(all(0 <= x <= 1.00001 for x in base) and not said, f"a colour: {what} {said[:200]}")
+            if len(set(color)) == 1:
+                near([refracts * b for b in base], [1 - opacity] * 3, f"refracted light of {what}")
+            if opacity == 1:
+                check(base == list(color) and refracts == 0, f"an opaque one is exact: {what}")
+            if opacity == 0:
+                check(base == [1, 1, 1] and refracts == 1, f"glass is white: {what}")
+    _, connected, said = translate("UsdPreviewSurface", "gltf_pbr", diffuseColor="C", opacity="T")
+    check({"base_color", "transmission"} <= connected and not said, f"textures stay connected: {connected} {said[:300]}")
+
+
 def test_off():
     """An input that changes nothing beside the values of others is no loss; with another value of one of them it is."""
     volume = {"thickness": 0.5, "attenuation_distance": 2.0, "attenuation_color": (0.2, 0.9, 0.3), "dispersion": 0.4}
@@ -300,6 +323,7 @@ def test_off():
 
 
 test_emission()
+test_preview_glass()
 test_off()
 test_defaults()
 test_transmission()
