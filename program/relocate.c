@@ -38,10 +38,33 @@ char *relocate_way(const char *from, const char *to)
     return way;
 }
 
+/* The folder of a file, which may be missing: then it is where it would be. */
+static char *find_folder(const char *file)
+{
+    char *real = relocate_folder(file);
+    size_t len = (size_t)(files_base_name(file) - file);
+    while (len && file[len - 1] == '/')
+        len--;
+    if (real || !len)
+        return real;
+    char *folder = cli_copy(file, len), *around = find_folder(folder), *out = NULL;
+    const char *name = files_base_name(folder);
+    bool is_here = strcmp(name, ".") == 0;
+    if (around && strcmp(name, "..") == 0) {
+        around[strlen(around) - 1] = '\0';
+        out = find_folder(around);
+    } else if (around) {
+        out = cli_format("%s%s%s", around, is_here ? "" : name, is_here ? "" : "/");
+    }
+    free(folder);
+    free(around);
+    return out;
+}
+
 char *relocate_file(const char *folder, const char *path)
 {
-    char *inside = cli_format("%s/", folder), *from = relocate_folder(inside),
-         *there = relocate_folder(path), *out = NULL;
+    char *inside = cli_format("%s/", folder), *from = find_folder(inside),
+         *there = find_folder(path), *out = NULL;
     if (from && there) {
         char *way = relocate_way(from, there);
         out = cli_format("%s%s", way, files_base_name(path));

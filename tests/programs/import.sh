@@ -203,6 +203,8 @@ check 'missing bytes are told' loses short.gltf 'the bytes of the image are miss
 check 'the web is not read' loses web.gltf "'https://example.com/a.png': it is no file beside it"
 check 'other kinds of images are told' loses basis.gltf "'baseColorTexture' has no image in PNG or JPEG"
 check 'a missing file is told' loses other/missing.gltf "there is no file 'other/nowhere.png'"
+sed 's|nowhere.png|no/./way/../where.png|' other/missing.gltf >other/apart.gltf
+check 'in a folder that is missing, too, where it would be' eval 'loses other/apart.gltf "there is no file" && has lost.mtlx "value=\"other/no/where.png\"" && imports other/apart.gltf -o safe/apart.mtlx && has safe/apart.mtlx "value=\"../other/no/where.png\""'
 sed 's|nowhere.png|now\\nhere.png|' other/missing.gltf >other/line.gltf
 check 'a URI does not end the line of a message' loses other/line.gltf "there is no file 'other/now?here.png'"
 sed 's|nowhere.png|..\\\\nowhere.png|' other/missing.gltf >other/back.gltf
