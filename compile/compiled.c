@@ -297,24 +297,9 @@ static bool compile_function(const char *target, const mxg_result *result,
     return compile_hosted(target, NULL, &hosted, out);
 }
 
-/*
- * The name of the function scatter(), which may have a prefix: "my_scatter"; its length, or 0 if
- * the source has none.
- */
-static size_t find_scatter(const char *source, const char **out_name)
-{
-    static const char head[] = "\nvoid ", tail[] = "scatter()\n";
-    for (const char *at = source; (at = strstr(at, head)) != NULL;) {
-        *out_name = at += sizeof head - 1;
-        size_t len = strcspn(at, " ("), end = strlen("scatter");
-        if (len >= end && strncmp(at + len - end, tail, sizeof tail - 1) == 0)
-            return len;
-    }
-    return 0;
-}
-
 /* A function scatter() of a path tracer has a main where a compiler asks for a program. */
-static bool compile_stages(const char *target, const mxg_result *result, struct compiled *out)
+static bool compile_stages(const char *target, const mxg_result *result, const char *function,
+                           struct compiled *out)
 {
     const struct host *host = find_host(target);
     const char *sources[MXG_NUM_STAGES];
@@ -323,10 +308,8 @@ static bool compile_stages(const char *target, const mxg_result *result, struct 
     if (!host || !sources[MXG_STAGE_PIXEL])
         return compile_program(target, sources, out);
     char main[1024] = "";
-    const char *name;
-    size_t len = host->scatter_main ? find_scatter(sources[MXG_STAGE_PIXEL], &name) : 0;
-    if (len)
-        snprintf(main, sizeof main, "%s\n{\n    %.*s();\n}\n", host->scatter_main, (int)len, name);
+    if (host->scatter_main && *function)
+        snprintf(main, sizeof main, "%s\n{\n    %s();\n}\n", host->scatter_main, function);
     *out = (struct compiled){0};
     struct hosted hosted = surround(host, "", sources[MXG_STAGE_PIXEL], main);
     return compile_hosted(target, sources[MXG_STAGE_VERTEX], &hosted, out);
@@ -335,10 +318,11 @@ static bool compile_stages(const char *target, const mxg_result *result, struct 
 bool compile_result(const char *target, const mxg_result *result, struct compiled *out)
 {
     mxg_shader_info info = MXG_INIT(mxg_shader_info);
-    if (mxg_result_info(result, &info) == MXG_OK && info.function[0])
+    bool has_info = mxg_result_info(result, &info) == MXG_OK;
+    if (has_info && info.function_type[0])
         return compile_function(target, result, &info, out);
     if (mxg_result_num_parts(result) == 0)
-        return compile_stages(target, result, out);
+        return compile_stages(target, result, has_info ? info.function : "", out);
     *out = (struct compiled){0};
     for (uint32_t i = 0; i < mxg_result_num_parts(result); ++i) {
         mxg_part part = {sizeof part};

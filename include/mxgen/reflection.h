@@ -172,7 +172,8 @@ typedef struct mxg_shader_info {
     /*
      * With role=function: the names of the function and of the struct that it returns. Its
      * parameters are the variables of MXG_BLOCK_VERTEX_DATA, its members those of
-     * MXG_BLOCK_OUTPUTS, both in order. "": a program
+     * MXG_BLOCK_OUTPUTS, both in order. With role=scatter: the name of the function, which returns
+     * nothing, so the type is "". "": a program
      */
     const char *function, *function_type;
     /*

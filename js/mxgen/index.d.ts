@@ -692,7 +692,7 @@ export interface ShaderInfo {
     lit: boolean;
     displaced: boolean;
     alpha: Alpha;
-    /** with role=function: the names of the function and of the struct that it returns; otherwise "" */
+    /** with role=function: the names of the function and of the struct that it returns; with role=scatter the name of the function alone; otherwise "" */
     function: string;
     functionType: string;
     /** features that the device must have, with commas between: "shader-f16" with precision=mediump, "dual-source-blending" with transparency=dual */

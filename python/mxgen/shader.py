@@ -268,7 +268,8 @@ class ShaderInfo:
     #: the vertex stage moves the surface
     displaced: bool
     alpha: Alpha
-    #: with role=function, the names of the function and of the struct that it returns; else ""
+    #: with role=function, the names of the function and of the struct that it returns; with role=scatter
+    #: the name of the function alone; else ""
     function: str
     function_type: str
     #: features that the device must have, with commas between: in WGSL "shader-f16" with precision=mediump, "dual-source-blending" with

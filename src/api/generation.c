@@ -215,10 +215,10 @@ static void name_variables(struct generation *g)
     naming_pairs(&g->options[OPTION_rename], shader->arena, &shader->interface.naming);
     shader->interface.naming_of_members = shader->interface.naming;
     shader->interface.naming_of_members.prefix = "";
-    if (!g->role->is_in_host_file)
-        return;
-    shader->reflection.function = names_of_frame(shader, g->role->entry);
-    shader->reflection.function_type = names_of_frame(shader, SHADER_FUNCTION_RESULT);
+    if (g->role->stages == STAGES_NONE)
+        shader->reflection.function = names_of_frame(shader, g->role->entry);
+    if (g->role->is_in_host_file)
+        shader->reflection.function_type = names_of_frame(shader, SHADER_FUNCTION_RESULT);
 }
 
 bool generation_start(struct generation *g)

@@ -324,10 +324,10 @@ static void put_surface(struct reflect *r)
     json_put_bool(&r->json, "lit", shader->reflection.lit);
     if (*shader->reflection.device_features)
         json_put_text(&r->json, "deviceFeatures", shader->reflection.device_features);
-    if (shader->role->is_in_host_file) {
+    if (*shader->reflection.function)
         json_put_text(&r->json, "function", shader->reflection.function);
+    if (*shader->reflection.function_type)
         json_put_text(&r->json, "functionType", shader->reflection.function_type);
-    }
 }
 
 static void put_shader(struct reflect *r)

@@ -467,8 +467,38 @@ static void test_semantics(void)
     close_host(&h);
 }
 
+/* A host finds the name of the function that it calls in both forms of the reflection. */
+static void test_functions(void)
+{
+    static const char *const targets[] = {"glsl", "vulkan", "essl", "essl310",
+                                          "hlsl", "slang",  "msl",  "wgsl"};
+    static const char *const roles[][2] = {
+        {"raster", ""}, {"function", "my_surface"}, {"scatter", "my_scatter"}};
+    struct host h;
+    open_host(&h, document_text);
+    mxg_options_set(h.options, "prefix", "my_");
+    for (size_t t = 0; t < sizeof targets / sizeof *targets; t++)
+        for (size_t r = 0; r < sizeof roles / sizeof *roles; r++) {
+            char call[64], member[64];
+            const char *name = roles[r][1];
+            mxg_options_set(h.options, "role", roles[r][0]);
+            mxg_result *result = generate(&h, h.document, targets[t], false);
+            mxg_shader_info info = MXG_INIT(mxg_shader_info);
+            REQUIRE_EQ(mxg_result_info(result, &info), MXG_OK);
+            REQUIRE_STR(info.function, name);
+            snprintf(call, sizeof call, "%s(", name);
+            snprintf(member, sizeof member, "\"function\": \"%s\"", name);
+            REQUIRE(strstr(mxg_result_source(result, MXG_STAGE_PIXEL, NULL), call));
+            REQUIRE((strstr(mxg_result_reflection_json(result, NULL), member) != NULL)
+                    == (*name != 0));
+            mxg_result_destroy(result);
+        }
+    close_host(&h);
+}
+
 int main(void)
 {
+    test_functions();
     test_states();
     test_compiled_inputs();
     test_deciding_uniform();
