@@ -165,7 +165,7 @@ void examine_diagnostics(struct examiner *examiner, const mxg_diagnostics *list,
     examiner->document->num_hidden += mxg_diagnostics_num_errors(list);
     for (uint32_t i = 0; i < mxg_diagnostics_num_items(list); ++i) {
         mxg_diagnostic diagnostic = {sizeof diagnostic};
-        mxg_diagnostics_item(list, i, &diagnostic);
+        report_item(&examiner->cli->report, list, i, &diagnostic);
         examiner->document->num_hidden -= diagnostic.severity == MXG_SEVERITY_ERROR;
         if (!is_shown(examiner, &diagnostic, i))
             continue;

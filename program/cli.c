@@ -243,6 +243,8 @@ bool cli_start(struct cli *cli, const struct command *command, const struct arg 
     bool parsed = args_parse(&cli->parser, argc, argv);
     cli->report.quiet = cli->quiet;
     cli->report.warnings = &cli->warnings;
+    cli->report.profile = cli->profile;
+    cli->report.profile_line = profile_line;
     cli->report.verbose = cli->verbose;
     cli->report.max_errors = cli->max_errors;
     cli->report.max_source_size = cli_max_file_size(cli) << 20;

@@ -87,10 +87,32 @@ static bool complain_of_name(const char *name)
     return false;
 }
 
-bool profile_apply(mxg_options *options, const char *name)
+static bool is_file(const char *name)
 {
     size_t len = strlen(name);
-    if (len > 5 && strcmp(name + len - 5, ".toml") == 0)
+    return len > 5 && strcmp(name + len - 5, ".toml") == 0;
+}
+
+uint32_t profile_line(const char *name, const char *key, const char *value)
+{
+    size_t size;
+    char *text = is_file(name) ? files_read(name, &size) : NULL;
+    struct store store = {0};
+    struct toml toml = {.store = &store, .rest = text ? text : ""};
+    uint32_t line = 0;
+    while (!line && toml_next(&toml)) {
+        bool is_key = toml.kind == TOML_PAIR && strcmp(toml.name.text, key) == 0;
+        const char *set = is_key ? toml_text(&store, toml.value) : NULL;
+        line = set && strstr(set, value) ? toml.number : 0;
+    }
+    store_finish(&store);
+    free(text);
+    return line;
+}
+
+bool profile_apply(mxg_options *options, const char *name)
+{
+    if (is_file(name))
         return read_file(options, name);
     for (size_t i = 0; profile_texts[i]; i += 2)
         if (strcmp(profile_texts[i], name) == 0)

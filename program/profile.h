@@ -18,4 +18,7 @@ extern const char *const profile_texts[];
  */
 bool profile_apply(mxg_options *options, const char *name);
 
+/* The line of a profile's file that sets an option to `value`, or to a list with it; 0: none. */
+uint32_t profile_line(const char *name, const char *key, const char *value);
+
 #endif

@@ -103,15 +103,47 @@ static const char *find_line(struct report *report, uint32_t number, size_t *out
     return line;
 }
 
+bool report_item(const struct report *report, const mxg_diagnostics *list, uint32_t index,
+                 mxg_diagnostic *out)
+{
+    *out = (mxg_diagnostic){sizeof *out};
+    if (mxg_diagnostics_item(list, index, out) != MXG_OK)
+        return false;
+    bool is_option = report->profile && !out->file && strcmp(out->id, "bad-option") == 0;
+    const char *value = is_option ? mxg_diagnostics_argument(list, index, 0) : NULL,
+               *key = is_option ? mxg_diagnostics_argument(list, index, 1) : NULL;
+    uint32_t line = value && key ? report->profile_line(report->profile, key, value) : 0;
+    if (line) {
+        out->file = report->profile;
+        out->line = line;
+    }
+    return true;
+}
+
+/* Appends the place of a message that has none in its list. */
+static void render_profile(struct report *report, const mxg_diagnostic *diagnostic)
+{
+    size_t size = strlen(diagnostic->file) + 16;
+    if (!reserve(report, size))
+        return;
+    char *place = report->text + report->len;
+    report->len += (size_t)snprintf(place, size, "%s:%u: ", diagnostic->file, diagnostic->line);
+    utf8_clean(place);
+    report->len = (size_t)(place - report->text) + strlen(place);
+}
+
 /* Appends the printed form of one message. */
 static void render(struct report *report, const mxg_diagnostics *list, uint32_t index,
                    const mxg_diagnostic *diagnostic)
 {
-    if (diagnostic->file && diagnostic->line)
+    bool is_profile = diagnostic->file && diagnostic->file == report->profile,
+         has_line = diagnostic->file && diagnostic->line && !is_profile;
+    if (is_profile)
+        render_profile(report, diagnostic);
+    if (has_line)
         load_source(report, diagnostic->file);
     size_t size = 0, room = report->capacity - report->len;
-    const char *line =
-        diagnostic->file && diagnostic->line ? find_line(report, diagnostic->line, &size) : NULL;
+    const char *line = has_line ? find_line(report, diagnostic->line, &size) : NULL;
     size_t len = mxg_diagnostics_format(list, index, line, size, report->colour,
                                         room ? report->text + report->len : NULL, room);
     if (!reserve(report, len + 2))
@@ -129,8 +161,7 @@ const char *report_render(struct report *report, const mxg_diagnostics *list, ui
 {
     mxg_diagnostic part = {sizeof part};
     report->len = 0;
-    for (uint32_t i = index; mxg_diagnostics_item(list, i, &part) == MXG_OK && part.parent == index;
-         ++i)
+    for (uint32_t i = index; report_item(report, list, i, &part) && part.parent == index; ++i)
         render(report, list, i, &part);
     return report->text ? report->text : "";
 }
@@ -250,7 +281,7 @@ static void print_list(struct report *report, const mxg_diagnostics *list, bool 
     struct groups groups = groups_make(list, count, key_of_warning);
     for (uint32_t i = 0; i < count; ++i) {
         mxg_diagnostic diagnostic = {sizeof diagnostic};
-        mxg_diagnostics_item(list, i, &diagnostic);
+        report_item(report, list, i, &diagnostic);
         if (diagnostic.parent == i) {
             if (open < count)
                 print_rest(report, &groups, list, open);

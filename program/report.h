@@ -25,6 +25,9 @@ struct report {
     bool quiet;                             /* errors only */
     bool verbose;                           /* also reports upgrades of older documents */
     bool colour;
+    /* The profile of the options, and profile_line; NULL: none. */
+    const char *profile;
+    uint32_t (*profile_line)(const char *name, const char *key, const char *value);
     const struct arg_list *warnings; /* words of -W, for those of the program; NULL: none */
     uint32_t errors;        /* number of errors, including repeated ones and those past the limit */
     size_t max_errors;      /* limit per document; 0: no limit */
@@ -44,6 +47,13 @@ struct report {
 
 void report_init(struct report *report); /* uses colour if stderr is a terminal */
 void report_finish(struct report *report);
+
+/*
+ * Reads a message of a list. A value of an option that the library refuses has the place where the
+ * profile sets it.
+ */
+bool report_item(const struct report *report, const mxg_diagnostics *list, uint32_t index,
+                 mxg_diagnostic *out);
 
 /* The printed form of a message with its notes and source lines; valid until the next call. */
 const char *report_render(struct report *report, const mxg_diagnostics *list, uint32_t index);

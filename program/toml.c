@@ -83,8 +83,16 @@ const char *toml_fault(const char *text, size_t size)
     return strlen(text) < size ? "it has the character NUL, behind which nothing is read" : NULL;
 }
 
+/* A byte order mark at the beginning is no part of the text. */
+static void skip_mark(struct toml *toml)
+{
+    if (!toml->number && strncmp(toml->rest, "\xEF\xBB\xBF", 3) == 0)
+        toml->rest += 3;
+}
+
 bool toml_next(struct toml *toml)
 {
+    skip_mark(toml);
     while (*toml->rest) {
         const char *text = toml->rest;
         size_t len = strcspn(text, "\n");

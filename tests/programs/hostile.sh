@@ -91,6 +91,23 @@ printf 'max-slabs = 1\n"max-slabs" = 2\n' >p.toml
 check 'an option stands once in a profile' profile "p.toml:2: error: 'max-slabs' stands above already"
 printf '"\033[31m\302\23331m" = 1\n' >p.toml
 check 'a message about a profile has no control characters' profile "unknown option '?[31m?31m'"
+printf '\357\273\277max-slabs = 1\n\357\273\277slabs = true\n' >p.toml
+check 'a byte order mark begins a file of TOML, and no other line' profile 'p.toml:2: error: a line is'
+# Values that depend on the library or the target.
+refused() { exits 1 "$mxgen" show/m.mtlx --profile p.toml -o made && has err "p.toml:2: error: '$1' is not a value of option '$2'"; }
+while read -r key value; do
+    printf '# a comment\n%s = ["%s"]\n' "$key" "$value" >p.toml
+    check "a value of $key has its place in the profile" refused "$value" "$key"
+    check "check tells the place of a value of $key" eval 'exits 1 "$mxgen" check show --no-compile --profile p.toml --json r.json && has out "p.toml:2: error: " && has r.json "\"p.toml\""'
+done <<EOF
+features odd
+rename other
+colorspace odd
+lights odd=x
+aovs odd=x
+EOF
+printf '\357\273\277[budget]\nmax-closure = 1\n' >show/mxgen.toml
+check 'a byte order mark begins a file of budgets' budget 'mxgen.toml:2:'
 printf '[budget]\n\0max-closures = x\n' >show/mxgen.toml
 check 'nothing of budgets is left out behind a NUL' budget 'NUL'
 printf '[budget]\n"\033[31m\302\23331m" = 1\n' >show/mxgen.toml
