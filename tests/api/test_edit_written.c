@@ -184,6 +184,7 @@ static const struct {
     {{"+ - constant a color3", "+ a input value color3", "a/value value x", "+ - constant b color3",
       "b inherit a"},
      ""},
+    {{"N/s/in nodename -", "N/c inherit k"}, ""}, /* nothing uses k any more */
     {{"+ L materialassign m float"}, ""},
     {{"+ L materialassign m -", "L/m type float"}, ""},
     {{"+ L materialassign - -", "+ L materialassign - -"}, ""},
@@ -201,7 +202,7 @@ static void step(mxg_edit *edit, const char *words)
         REQUIRE(mxg_edit_add_element(edit, given[1] ? edited_at(edit, given[1]) : 0, word[2],
                                      given[3], given[4]));
     else
-        REQUIRE_EQ(mxg_edit_set_attribute(edit, edited_at(edit, word[0]), word[1], word[2]),
+        REQUIRE_EQ(mxg_edit_set_attribute(edit, edited_at(edit, word[0]), word[1], given[2]),
                    MXG_OK);
 }
 
