@@ -13,8 +13,8 @@ import tempfile
 
 import gpu
 
-# Both are one program: a GPU needs the same for either, but for the order of instructions.
-LIMITS = {"instructions": 1.02, "vgprs": 1.0, "subgroups_per_simd": 1.0, "inverse_throughput": 1.02}
+# Both are one program: a GPU needs the same for either, but for the order of instructions, which may take one step of 8 registers.
+LIMITS = {"instructions": 1.02, "vgprs": 1.08, "subgroups_per_simd": 1.0, "inverse_throughput": 1.02}
 COMPILER = pathlib.Path(__file__).resolve().parents[2] / "compile"
 
 

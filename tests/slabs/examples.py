@@ -56,7 +56,7 @@ def check_report(material, most_bytes):
     # a build without a renderer reads no texture
     now = result.stdout if RENDER else UNREAD.sub("", result.stdout)
     check(result.returncode == 0 and agree(kept, now), f"{path.name} is not the report:\n{result.stdout}{result.stderr}")
-    costs = [(int(a), int(b)) for a, b in re.findall(r"(\d+) closures, (\d+) bytes", result.stdout)]
+    costs = [(int(a), int(b)) for a, b in re.findall(r"(\d+) closures?, (\d+) bytes", result.stdout)]
     steps = [tuple(map(int, step)) for step in re.findall(r"slabs (\d+) to (\d+), bytes (\d+) to (\d+)", result.stdout)]
     check(len(costs) == 1 and costs[0][1] <= most_bytes, f"{material} takes more than {most_bytes} bytes: {costs}")
     check(all(b <= a and d <= c for a, b, c, d in steps) and (not steps or steps[-1][1] == 1), f"{material}: steps {steps}")
