@@ -338,12 +338,15 @@ export class Document extends Owner {
 
     // ---- Other models ----
 
-    /** The document with its surfaces as another shading model, "gltf_pbr" (docs/translate.md). The diagnostics tell what is lost. Throws DocumentError. */
-    translate(model) {
+    /** The document with its surfaces as another shading model, "gltf_pbr" (docs/translate.md). The diagnostics tell what is lost. With `joined` a surface
+     * that is made of others, such as their <mix>, becomes one. Throws DocumentError. */
+    translate(model, request = {}) {
+        expectOptions(request, ["joined"]);
+        const make = request.joined ? "mxg_translate_joined" : "mxg_translate";
         const native = this._native;
         return native.using(() => {
             const called = native.newText(model, "model");
-            const { handle, status } = this.context._make("mxg_translate", "mxg_result_destroy", [this._handle], out => [this._pointer, called, out]);
+            const { handle, status } = this.context._make(make, "mxg_result_destroy", [this._handle], out => [this._pointer, called, out]);
             const result = new Shader(native, handle), diagnostics = result.diagnostics;
             if (status !== STATUS.ok)
                 throw new DocumentError(diagnostics);

@@ -333,8 +333,11 @@ export class Document extends Owner {
      * below a difference are resolved again. Throws DocumentError.
      */
     bind(scene: Scene, look?: string | null, request?: { solo?: string[]; mute?: string[]; previous?: Bindings | null }): Bindings;
-    /** The document with its surfaces as another shading model, "gltf_pbr"; the diagnostics tell what is lost. Throws DocumentError. */
-    translate(model: string): { text: string; diagnostics: Diagnostics };
+    /**
+     * The document with its surfaces as another shading model, "gltf_pbr"; the diagnostics tell what is lost. With `joined` a surface that is
+     * made of others, such as their <mix>, becomes one. Throws DocumentError.
+     */
+    translate(model: string, request?: { joined?: boolean }): { text: string; diagnostics: Diagnostics };
     /** Checks every node, connection and value against the library, without generating. */
     validate(): Diagnostics;
     /** Makes a shader. Throws DocumentError. */

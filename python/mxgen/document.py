@@ -425,10 +425,10 @@ class Document(Native):
 
     # ---- Other models ----
 
-    def translate(self, model: str) -> Rewritten:
+    def translate(self, model: str, *, joined: bool = False) -> Rewritten:
         """The document with its surfaces as another shading model, "gltf_pbr" (docs/translate.md). The diagnostics tell what is lost.
-        Raises DocumentError."""
-        handle, status = self.context._make(lib.mxg_translate, lib.mxg_result_destroy, (self._handle,), self._handle.pointer,
+        `joined`: a surface that is made of others, such as their <mix>, becomes one. Raises DocumentError."""
+        handle, status = self.context._make(lib.mxg_translate_joined if joined else lib.mxg_translate, lib.mxg_result_destroy, (self._handle,), self._handle.pointer,
                                             c_text(model, "model"))
         return rewritten(handle, status)
 

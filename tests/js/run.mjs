@@ -236,6 +236,12 @@ test("text for text", () => {
     const flat = context.parse('<materialx version="1.39"><standard_surface name="S" type="surfaceshader"><input name="metalness" type="float" value="0.25"/></standard_surface></materialx>');
     assert.match(flat.translate("gltf_pbr").text, /<gltf_pbr name="S"[^]*<input name="metallic" type="float" value="0.25"/);
     assert.throws(() => flat.translate("lambert"), DocumentError);
+    const mixed = context.parse('<materialx version="1.39"><standard_surface name="A" type="surfaceshader"/><standard_surface name="B" type="surfaceshader"/>'
+        + '<mix name="C" type="surfaceshader"><input name="fg" type="surfaceshader" nodename="A"/><input name="bg" type="surfaceshader" nodename="B"/>'
+        + '<input name="mix" type="float" value="0.5"/></mix></materialx>');
+    assert.match(mixed.translate("gltf_pbr").text, /<mix name="C"/);
+    assert.match(mixed.translate("gltf_pbr", { joined: true }).text, /<gltf_pbr name="C"/);
+    assert.throws(() => mixed.translate("gltf_pbr", { join: true }), TypeError);
     assert.throws(() => context.rewrite("shorten", "x", ""), ArgumentError);
     assert.throws(() => context.format("<"), DocumentError);
 });

@@ -198,9 +198,8 @@ EOF
 }
 check 'a corner is traced' exits 0 "$render" lit.mtlx --stage stage.usda --camera /a/down -q -s 24 --look One --path-trace --paths 32 -o corner.exr
 for channel in R G B; do check "the light of the corner is the sum of its parts in $channel" sums corner.exr $channel all.$channel glow.$channel; done
-check 'a ball under lights is traced' exits 0 "$render" lit.mtlx -e M -q -s 24 --path-trace --paths 64 -o ball.exr
-check 'the light of the ball is the sum of its parts' sums ball.exr R all.R glow.R
 check 'a sphere under lights is traced' exits 0 "$render" lit.mtlx -e M -m sphere -q -s 24 --path-trace --paths 64 -o lights.exr
+check 'the light of the sphere is the sum of its parts' sums lights.exr R all.R glow.R
 metal=$(channel lights.exr metal.R)
 check 'a sphere of metal is traced' exits 0 "$render" lit.mtlx -e SM -m sphere -q -s 24 --path-trace --paths 64 -o lights.exr
 check 'an AOV has the traced light of the metal' reads lights.exr R mean "$metal" 0.01

@@ -287,6 +287,12 @@ class Text(unittest.TestCase):
         self.assertEqual(context.parse(translated.text)["S/metallic"].value, 0.25)
         with self.assertRaises(mxgen.DocumentError):
             document.translate("lambert")
+        mixed = context.parse('<materialx version="1.39"><standard_surface name="A" type="surfaceshader"/>'
+                              '<standard_surface name="B" type="surfaceshader"/><mix name="C" type="surfaceshader">'
+                              '<input name="fg" type="surfaceshader" nodename="A"/><input name="bg" type="surfaceshader" nodename="B"/>'
+                              '<input name="mix" type="float" value="0.5"/></mix></materialx>')
+        self.assertIn('<mix name="C"', mixed.translate("gltf_pbr").text)
+        self.assertIn('<gltf_pbr name="C"', mixed.translate("gltf_pbr", joined=True).text)
 
     def test_upgrade(self):
         path = common.EXAMPLES / "old_copper.mtlx"
