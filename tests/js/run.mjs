@@ -241,7 +241,7 @@ test("text for text", () => {
         + '<input name="mix" type="float" value="0.5"/></mix></materialx>');
     assert.match(mixed.translate("gltf_pbr").text, /<mix name="C"/);
     assert.match(mixed.translate("gltf_pbr", { joined: true }).text, /<gltf_pbr name="C"/);
-    assert.throws(() => mixed.translate("gltf_pbr", { join: true }), TypeError);
+    assert.throws(() => mixed.translate("gltf_pbr", { join: true }), ArgumentError);
     assert.throws(() => context.rewrite("shorten", "x", ""), ArgumentError);
     assert.throws(() => context.format("<"), DocumentError);
 });
