@@ -74,8 +74,9 @@ char *tokens_replace(const struct bind_tokens *tokens, const char *file)
 
 char *default_tokens_replace(const mxg_document *document, const char *file)
 {
-    struct bind_tokens tokens;
-    default_tokens_find(document, NULL, true, &tokens);
+    struct bind_tokens tokens = {0};
+    if (strchr(file, '<')) /* most names have no token, and a document may have many names */
+        default_tokens_find(document, NULL, true, &tokens);
     char *name = tokens_replace(&tokens, file);
     default_tokens_finish(&tokens);
     return name;
