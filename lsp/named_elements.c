@@ -104,12 +104,18 @@ static const struct reference {
 #undef REFERENCE
 };
 
-static unsigned kind_of(const struct lsp_query *query, uint32_t element)
+static unsigned kind_of_category(const char *category)
 {
     unsigned kind = NUM_KINDS - 1;
-    while (kind != KIND_NODE && !query_is(query, element, kinds[kind]))
+    while (kind != KIND_NODE && strcmp(kinds[kind], category) != 0)
         --kind;
     return kind;
+}
+
+static unsigned kind_of(const struct lsp_query *query, uint32_t element)
+{
+    char category[QUERY_NAME];
+    return kind_of_category(query_category(query, element, category, sizeof category));
 }
 
 /* NULL: the attribute of this element names no elements. */
@@ -142,10 +148,7 @@ bool names_category(const struct lsp_query *query, uint32_t element,
                     const struct model_attribute *attribute, const char *category)
 {
     const struct reference *reference = reference_of(query, element, attribute);
-    unsigned kind = NUM_KINDS - 1;
-    while (kind != KIND_NODE && strcmp(kinds[kind], category) != 0)
-        --kind;
-    return reference && reference->targets >> kind & 1;
+    return reference && reference->targets >> kind_of_category(category) & 1;
 }
 
 /* ---- What a name means ---- */

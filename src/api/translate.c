@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/* mxg_translate and mxg_translate_joined: surfaces of one model as surfaces of another, with graphs
- * of their inputs. */
+/*
+ * mxg_translate and mxg_translate_joined: surfaces of one model as surfaces of another, with graphs
+ * of their inputs.
+ */
 #include "api/translate.h"
 
 /* ---- One surface ---- */

@@ -322,12 +322,9 @@ static void put_surface(struct reflect *r)
     if (shader->reflection.displaced)
         json_put_bool(&r->json, "displaced", true);
     json_put_bool(&r->json, "lit", shader->reflection.lit);
-    if (*shader->reflection.device_features)
-        json_put_text(&r->json, "deviceFeatures", shader->reflection.device_features);
-    if (*shader->reflection.function)
-        json_put_text(&r->json, "function", shader->reflection.function);
-    if (*shader->reflection.function_type)
-        json_put_text(&r->json, "functionType", shader->reflection.function_type);
+    json_put_text(&r->json, "deviceFeatures", shader->reflection.device_features);
+    json_put_text(&r->json, "function", shader->reflection.function);
+    json_put_text(&r->json, "functionType", shader->reflection.function_type);
 }
 
 static void put_shader(struct reflect *r)

@@ -374,8 +374,8 @@ struct shader_reflection {
     uint32_t stored_classes; /* that its pixels may have, as bits (docs/deferred.md) */
     /* names of the function and of the struct that it returns; "": it is no function of a host */
     const char *function, *function_type;
-    const char
-        *device_features; /* of the host's device, which the shader needs, with commas between */
+    /* of the host's device, which the shader needs, with commas between; "": none */
+    const char *device_features;
 };
 
 struct shader {
@@ -547,8 +547,7 @@ uint32_t shader_global_variable(const struct shader *shader, uint32_t global_id)
  * every target as soon as there are several, because their order alone says nothing to a host.
  */
 bool shader_has_locations(const struct shader *shader, enum shader_block block);
-/* layout.c: True for the output that is the second source of a blend, at the location of the first.
- */
+/* layout.c: True for the second source of a blend, an output at the location of the first. */
 bool shader_is_second_source(const struct shader_variable *variable);
 
 /* topology.c: a hash of a finished shader without names and uniform values. */

@@ -147,8 +147,7 @@ struct target {
     const struct target_function *functions;
     uint32_t first_resource; /* the number of the first resource of programs */
     bool tests_late; /* pixel stages that write images run before the depth test: they read depth */
-    /* what half floats and a second source of a blend ask of a device: "shader-f16"; NULL: nothing
-     */
+    /* features of a device that half floats and a second source of a blend need; NULL: none */
     const char *half_feature, *sources_feature;
     const char *any_format; /* of images of any format of floats; NULL: the host chooses */
     const struct target_image *images; /* ends with kind NULL; NULL: from base */
