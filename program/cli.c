@@ -5,7 +5,6 @@
 #include "program/help.h"
 #include "program/memory.h"
 #include "program/name_table.h"
-#include "program/profile.h"
 #include "program/texel_reader.h"
 #include "program/warnings.h"
 
@@ -42,7 +41,7 @@ static size_t add_common_args(struct cli *cli, struct arg *table)
         {"profile", 0, ARG_TEXT, "NAME",
          "options of a platform: desktop, console, mobile, one-slab, or a file.toml; other "
          "options of generation override them",
-         &cli->profile, ARG_COMMON},
+         &cli->profile_name, ARG_COMMON},
         {"max-memory", 0, ARG_SIZE, "BYTES", "limit of memory (default: none)", &cli->max_memory,
          ARG_LIMITS},
         {"max-file-size", 0, ARG_SIZE, "MIB", "limit of the size of an input file (default: 256)",
@@ -182,7 +181,7 @@ static bool load_library(struct cli *cli)
 /* Invalid values are bad usage; the message of the option gives the reason. */
 static bool apply_settings(struct cli *cli)
 {
-    if (cli->profile && !profile_apply(cli->options, cli->profile))
+    if (cli->profile_name && !profile_apply(&cli->profile, cli->options, cli->profile_name))
         return false;
     for (size_t i = 0; i < cli->parser.num_settings; ++i) {
         const struct arg_setting *setting = &cli->parser.settings[i];
@@ -192,6 +191,7 @@ static bool apply_settings(struct cli *cli)
             free(reason);
             return false;
         }
+        profile_override(&cli->profile, setting->key);
     }
     return true;
 }
@@ -243,7 +243,7 @@ bool cli_start(struct cli *cli, const struct command *command, const struct arg 
     bool parsed = args_parse(&cli->parser, argc, argv);
     cli->report.quiet = cli->quiet;
     cli->report.warnings = &cli->warnings;
-    cli->report.profile = cli->profile;
+    cli->report.profile = &cli->profile;
     cli->report.profile_line = profile_line;
     cli->report.verbose = cli->verbose;
     cli->report.max_errors = cli->max_errors;
@@ -284,7 +284,7 @@ static bool is_budget(const char *key)
 
 bool cli_has_budget(const struct cli *cli)
 {
-    bool has = cli->profile != NULL;
+    bool has = cli->profile_name != NULL;
     for (size_t i = 0; i < cli->parser.num_settings; ++i)
         has |= is_budget(cli->parser.settings[i].key);
     return has;
@@ -350,6 +350,7 @@ void cli_finish(struct cli *cli)
     plugins_finish(&cli->plugins);
     free(cli->plugin_files.items);
     report_finish(&cli->report);
+    profile_finish(&cli->profile);
     free(cli->library_paths.items);
     free(cli->warnings.items);
     free(cli->include_roots.items);

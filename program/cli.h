@@ -10,6 +10,7 @@
 
 #include "program/args.h"
 #include "program/plugin.h"
+#include "program/profile.h"
 #include "program/report.h"
 
 #include <mxgen/mxgen.h>
@@ -40,7 +41,8 @@ struct cli {
     struct arg_list include_roots;
     struct arg_list source_paths;
     struct arg_list plugin_files;
-    const char *profile; /* NULL: none */
+    const char *profile_name; /* NULL: none */
+    struct profile profile;
     bool trust, sandbox;
     size_t max_memory, max_file_size, max_elements, max_nodes, max_output_size, max_errors,
         max_depth, max_include_depth, max_includes;

@@ -13,6 +13,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+struct profile_pair {
+    const char *key, *items; /* of a list; NULL: it is none */
+    uint32_t line;           /* 0: another value replaced this one */
+};
+
 /* Frees the message. */
 static bool complain(const char *name, const struct toml *toml, char *what)
 {
@@ -22,11 +27,29 @@ static bool complain(const char *name, const struct toml *toml, char *what)
     return false;
 }
 
+static bool is_list(const char *key)
+{
+    mxg_option option = {sizeof option};
+    for (uint32_t i = 0; mxg_catalogue_option(i, &option) == MXG_OK; ++i)
+        if (strcmp(option.key, key) == 0)
+            return option.type == MXG_OPTION_LIST;
+    return false;
+}
+
+static void keep_pair(struct profile *profile, const struct toml *toml, const char *value)
+{
+    profile->pairs =
+        store_grow(&profile->store, profile->pairs, profile->num_pairs, sizeof *profile->pairs);
+    profile->pairs[profile->num_pairs++] = (struct profile_pair){
+        toml->name.text, is_list(toml->name.text) ? value : NULL, toml->number};
+}
+
 /* Sets the option of a line. False after a message. */
-static bool read_line(mxg_options *options, const char *name, const struct toml *toml,
+static bool read_line(struct profile *profile, mxg_options *options, const struct toml *toml,
                       struct name_table *known)
 {
     bool is_new = true;
+    const char *name = profile->name;
     const char *value = toml->kind == TOML_PAIR ? toml_text(toml->store, toml->value) : NULL;
     if (!value)
         return complain(name, toml,
@@ -34,25 +57,25 @@ static bool read_line(mxg_options *options, const char *name, const struct toml 
     names_add(known, toml->name.text, &is_new);
     if (!is_new)
         return complain(name, toml, cli_format("'%s' stands above already", toml->name.text));
+    keep_pair(profile, toml, value);
     return mxg_options_set(options, toml->name.text, value) == MXG_OK
            || complain(name, toml, cli_option_error(options));
 }
 
-static bool read_lines(mxg_options *options, const char *name, const char *text)
+static bool read_lines(struct profile *profile, mxg_options *options, const char *text)
 {
-    struct store store = {0};
     struct name_table known = {0};
-    struct toml toml = {.store = &store, .rest = text};
+    struct toml toml = {.store = &profile->store, .rest = text};
     bool good = true;
     while (good && toml_next(&toml))
-        good = read_line(options, name, &toml, &known);
+        good = read_line(profile, options, &toml, &known);
     names_finish(&known);
-    store_finish(&store);
     return good;
 }
 
-static bool read_file(mxg_options *options, const char *name)
+static bool read_file(struct profile *profile, mxg_options *options)
 {
+    const char *name = profile->name;
     size_t size;
     char *text = files_read(name, &size);
     if (!text) {
@@ -62,7 +85,7 @@ static bool read_file(mxg_options *options, const char *name)
     const char *fault = toml_fault(text, size);
     if (fault)
         fprintf(stderr, "mxgen: cannot read the profile '%s': %s\n", name, fault);
-    bool good = !fault && read_lines(options, name, text);
+    bool good = !fault && read_lines(profile, options, text);
     free(text);
     return good;
 }
@@ -93,29 +116,48 @@ static bool is_file(const char *name)
     return len > 5 && strcmp(name + len - 5, ".toml") == 0;
 }
 
-uint32_t profile_line(const char *name, const char *key, const char *value)
+bool profile_apply(struct profile *profile, mxg_options *options, const char *name)
 {
-    size_t size;
-    char *text = is_file(name) ? files_read(name, &size) : NULL;
-    struct store store = {0};
-    struct toml toml = {.store = &store, .rest = text ? text : ""};
-    uint32_t line = 0;
-    while (!line && toml_next(&toml)) {
-        bool is_key = toml.kind == TOML_PAIR && strcmp(toml.name.text, key) == 0;
-        const char *set = is_key ? toml_text(&store, toml.value) : NULL;
-        line = set && strstr(set, value) ? toml.number : 0;
-    }
-    store_finish(&store);
-    free(text);
-    return line;
-}
-
-bool profile_apply(mxg_options *options, const char *name)
-{
+    profile->name = name;
     if (is_file(name))
-        return read_file(options, name);
+        return read_file(profile, options);
     for (size_t i = 0; profile_texts[i]; i += 2)
         if (strcmp(profile_texts[i], name) == 0)
-            return read_lines(options, name, profile_texts[i + 1]);
+            return read_lines(profile, options, profile_texts[i + 1]);
     return complain_of_name(name);
+}
+
+void profile_finish(struct profile *profile)
+{
+    store_finish(&profile->store);
+    *profile = (struct profile){0};
+}
+
+void profile_override(struct profile *profile, const char *key)
+{
+    for (size_t i = 0; i < profile->num_pairs; ++i)
+        if (!profile->pairs[i].items && strcmp(profile->pairs[i].key, key) == 0)
+            profile->pairs[i].line = 0;
+}
+
+static bool has_item(const char *items, const char *item)
+{
+    size_t len = strlen(item), part;
+    for (; *items; items += part + (items[part] == ',')) {
+        part = strcspn(items, ",");
+        if (part == len && memcmp(items, item, len) == 0)
+            return true;
+    }
+    return false;
+}
+
+uint32_t profile_line(const struct profile *profile, const char *key, const char *value)
+{
+    uint32_t line = 0;
+    for (size_t i = 0; i < profile->num_pairs && !line; ++i) {
+        const struct profile_pair *pair = &profile->pairs[i];
+        if (strcmp(pair->key, key) == 0 && (!pair->items || has_item(pair->items, value)))
+            line = pair->line;
+    }
+    return line;
 }

@@ -4,6 +4,7 @@
 
 #include "program/files.h"
 #include "program/memory.h"
+#include "program/profile.h"
 #include "program/utf8.h"
 #include "program/warning_groups.h"
 #include "program/warnings.h"
@@ -114,7 +115,7 @@ bool report_item(const struct report *report, const mxg_diagnostics *list, uint3
                *key = is_option ? mxg_diagnostics_argument(list, index, 1) : NULL;
     uint32_t line = value && key ? report->profile_line(report->profile, key, value) : 0;
     if (line) {
-        out->file = report->profile;
+        out->file = report->profile->name;
         out->line = line;
     }
     return true;
@@ -136,7 +137,8 @@ static void render_profile(struct report *report, const mxg_diagnostic *diagnost
 static void render(struct report *report, const mxg_diagnostics *list, uint32_t index,
                    const mxg_diagnostic *diagnostic)
 {
-    bool is_profile = diagnostic->file && diagnostic->file == report->profile,
+    bool is_profile =
+             report->profile && diagnostic->file && diagnostic->file == report->profile->name,
          has_line = diagnostic->file && diagnostic->line && !is_profile;
     if (is_profile)
         render_profile(report, diagnostic);

@@ -12,6 +12,8 @@
 
 #include <stdio.h>
 
+struct profile;
+
 /* Takes messages in place of standard error. */
 struct report_receiver {
     void (*list)(void *user_data, const mxg_diagnostics *list);
@@ -26,8 +28,8 @@ struct report {
     bool verbose;                           /* also reports upgrades of older documents */
     bool colour;
     /* The profile of the options, and profile_line; NULL: none. */
-    const char *profile;
-    uint32_t (*profile_line)(const char *name, const char *key, const char *value);
+    const struct profile *profile;
+    uint32_t (*profile_line)(const struct profile *profile, const char *key, const char *value);
     const struct arg_list *warnings; /* words of -W, for those of the program; NULL: none */
     uint32_t errors;        /* number of errors, including repeated ones and those past the limit */
     size_t max_errors;      /* limit per document; 0: no limit */

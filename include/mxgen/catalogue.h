@@ -44,7 +44,11 @@ typedef struct mxg_option {
     size_t size;     /* in */
     const char *key; /* "interface" */
     mxg_option_type type;
-    const char *values;  /* ENUM: "complete|authored|reduced"; INT, FLOAT: "0..1024" */
+    /*
+     * ENUM, or LIST of such items: "complete|authored|reduced"; INT, FLOAT: "0..1024"; STRING:
+     * "identifier"; LIST, STRING that names something: ""
+     */
+    const char *values;
     const char *initial; /* the default, as text */
     const char *doc;
 } mxg_option;

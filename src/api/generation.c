@@ -242,7 +242,8 @@ bool generation_start(struct generation *g)
     import_module(g);
     name_variables(g);
     set_build_options(g);
-    return generation_slab_features(g);
+    generation_slab_features(g);
+    return true;
 }
 
 /* ---- Build ---- */

@@ -116,8 +116,8 @@ bool generation_budget_slabs(struct generation *g);
 bool generation_slabs_are_few(struct generation *g, const struct slab_report *report);
 /* The budget of the options. */
 struct slab_budget generation_slab_budget(const struct generation *g);
-/* Reads the option `features`; false after a message about a word. */
-bool generation_slab_features(struct generation *g);
+/* Reads the option `features`. */
+void generation_slab_features(struct generation *g);
 /* "1.25", or "unknown" for an error below 0. */
 void generation_write_error(struct text *out, float error);
 /* Replaces the slabs below the root by their lobes; needs the closures' host. */

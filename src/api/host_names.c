@@ -2,24 +2,12 @@
 /* Names in the source that the host chooses. */
 #include "api/generation.h"
 
-enum { MAX_PREFIX = 64 };
-
 static bool report(struct generation *g, enum option_id option, const char *value,
                    const char *expected)
 {
     diag_add(&g->result->object.diagnostics.list, DIAG_ID_bad_option, (struct diag_place){0}, value,
              option_key(option), expected);
     return false;
-}
-
-static bool check_prefix(struct generation *g)
-{
-    const char *prefix = g->options[OPTION_prefix].text;
-    size_t len = strlen(prefix);
-    if (!len || (len <= MAX_PREFIX && identifier_is(prefix, len)))
-        return true;
-    return report(g, OPTION_prefix, prefix,
-                  "an identifier of at most 64 characters, without '__' and 'gl_'");
 }
 
 void naming_pairs(const struct option_value *value, struct arena *arena, struct name_rules *out)
@@ -92,7 +80,6 @@ static bool check_lights(struct generation *g)
 
 bool generation_check_names(struct generation *g)
 {
-    bool prefix = check_prefix(g), renamed = check_renamed(g), module = check_module(g),
-         lights = check_lights(g);
-    return prefix && renamed && module && lights;
+    bool renamed = check_renamed(g), module = check_module(g), lights = check_lights(g);
+    return renamed && module && lights;
 }

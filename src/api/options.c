@@ -105,26 +105,45 @@ static bool parse_float(struct arena *arena, const mxg_option *option, const cha
     return true;
 }
 
+/* The number of a word of "a|b"; -1: it is none. */
+static int32_t find_word(const char *words, const char *text, size_t len)
+{
+    for (int32_t number = 0; *words; number++) {
+        size_t word_len = strcspn(words, "|");
+        if (word_len == len && memcmp(words, text, len) == 0)
+            return number;
+        words += word_len + (words[word_len] == '|');
+    }
+    return -1;
+}
+
 static bool parse_enum(struct arena *arena, const mxg_option *option, const char *text,
                        struct option_value *out)
 {
     assert(option->type == MXG_OPTION_ENUM);
     size_t len = strlen(text);
-    const char *word = option->values;
-    for (int32_t number = 0; *word; number++) {
-        size_t word_len = strcspn(word, "|");
-        if (word_len == len && memcmp(word, text, len) == 0) {
-            out->number = number;
-            out->text = arena_strndup(arena, text, len);
-            return true;
-        }
-        word += word_len + (word[word_len] == '|');
-    }
-    return false;
+    out->number = find_word(option->values, text, len);
+    out->text = arena_strndup(arena, text, len);
+    return out->number >= 0;
 }
 
-static void parse_list(struct arena *arena, const char *text, struct option_value *out)
+/* The length of the first item that is no word of the option; 0: there is none. */
+static size_t bad_item(const mxg_option *option, const char **text)
 {
+    for (size_t len; *option->values && **text; *text += len + ((*text)[len] == ',')) {
+        len = strcspn(*text, ",");
+        if (len && find_word(option->values, *text, len) < 0)
+            return len;
+    }
+    return 0;
+}
+
+static bool parse_list(struct arena *arena, const mxg_option *option, const char *text,
+                       struct option_value *out)
+{
+    const char *rest = text;
+    if (bad_item(option, &rest))
+        return false;
     if (!out->is_set)
         out->list.len = 0; /* the first setting replaces the default */
     while (*text) {
@@ -133,6 +152,17 @@ static void parse_list(struct arena *arena, const char *text, struct option_valu
             vec_push(arena, &out->list, arena_strndup(arena, text, len));
         text += len + (text[len] == ',');
     }
+    return true;
+}
+
+enum { MAX_IDENTIFIER = 64 };
+
+static bool parse_string(struct arena *arena, const mxg_option *option, const char *text,
+                         struct option_value *out)
+{
+    size_t len = strlen(text);
+    out->text = arena_strndup(arena, text, len);
+    return !*option->values || !len || (len <= MAX_IDENTIFIER && identifier_is(text, len));
 }
 
 static bool parse(struct arena *arena, const mxg_option *option, const char *text,
@@ -143,8 +173,8 @@ static bool parse(struct arena *arena, const mxg_option *option, const char *tex
     case MXG_OPTION_INT: return parse_int(option, text, out);
     case MXG_OPTION_FLOAT: return parse_float(arena, option, text, out);
     case MXG_OPTION_ENUM: return parse_enum(arena, option, text, out);
-    case MXG_OPTION_LIST: parse_list(arena, text, out); return true;
-    default: out->text = arena_strndup(arena, text, strlen(text)); return true;
+    case MXG_OPTION_LIST: return parse_list(arena, option, text, out);
+    default: return parse_string(arena, option, text, out);
     }
 }
 
@@ -227,6 +257,8 @@ static const char *expected(struct arena *arena, const mxg_option *option)
     text_init(&text, arena);
     if (option->type == MXG_OPTION_BOOL)
         return "true or false";
+    if (option->type == MXG_OPTION_STRING)
+        return "an identifier of at most 64 characters, without '__' and 'gl_'";
     if (option->type == MXG_OPTION_INT)
         text_str(&text, "an integer of ");
     if (option->type == MXG_OPTION_FLOAT)
@@ -257,8 +289,9 @@ static const char *bad_value(struct arena *arena, const mxg_option *option, cons
 {
     struct text text;
     text_init(&text, arena);
-    text_fmt(&text, "'%s' is not a value of option '%s'; expected %s", value, option->key,
-             expected(arena, option));
+    size_t len = option->type == MXG_OPTION_LIST ? bad_item(option, &value) : strlen(value);
+    text_fmt(&text, "'%.*s' is not a value of option '%s'; expected %s", (int)len, value,
+             option->key, expected(arena, option));
     return text_cstr(&text);
 }
 

@@ -14,35 +14,23 @@ double mxg_color_difference(const float a[3], const float b[3])
     return a && b ? color_difference(a, b) : -1.0;
 }
 
-static const struct diag_place nowhere = {0};
-
 /* ---- The options ---- */
 
-/* The bit of "-fuzz"; 0, after a message, for another word. */
-static uint32_t feature_bit(struct generation *g, const char *word)
+/* The bit of "-fuzz". */
+static uint32_t feature_bit(const char *word)
 {
-    struct text known;
-    for (unsigned i = 0; i < NUM_SLAB_FEATURES; i++)
-        if (word[0] == '-' && strcmp(slab_feature_keys[i], word + 1) == 0)
-            return 1u << i;
-    text_init(&known, &g->scratch);
-    for (unsigned i = 0; i < NUM_SLAB_FEATURES; i++)
-        text_fmt(&known, "%s-%s", i ? ", " : "", slab_feature_keys[i]);
-    diag_add(diags_of(g), DIAG_ID_bad_option, nowhere, word, option_key(OPTION_features),
-             text_cstr(&known));
-    return 0;
+    unsigned i = 0;
+    while (i < NUM_SLAB_FEATURES && strcmp(slab_feature_keys[i], word + 1) != 0)
+        i++;
+    assert(i < NUM_SLAB_FEATURES);
+    return 1u << i;
 }
 
-bool generation_slab_features(struct generation *g)
+void generation_slab_features(struct generation *g)
 {
     const struct option_value *features = &g->options[OPTION_features];
-    for (uint32_t i = 0; i < features->list.len; i++) {
-        uint32_t bit = feature_bit(g, features->list.items[i]);
-        if (!bit)
-            return false;
-        g->slab_features_off |= bit;
-    }
-    return true;
+    for (uint32_t i = 0; i < features->list.len; i++)
+        g->slab_features_off |= feature_bit(features->list.items[i]);
 }
 
 struct slab_budget generation_slab_budget(const struct generation *g)

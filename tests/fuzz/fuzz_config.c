@@ -32,9 +32,11 @@ static void read_profile(const char *path)
 {
     mxg_context *context = NULL;
     mxg_options *options = NULL;
+    struct profile profile = {0};
     if (mxg_context_create(NULL, &context) == MXG_OK
         && mxg_options_create(context, &options) == MXG_OK)
-        profile_apply(options, path);
+        profile_apply(&profile, options, path);
+    profile_finish(&profile);
     mxg_options_destroy(options);
     mxg_context_destroy(context);
 }

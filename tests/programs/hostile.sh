@@ -100,11 +100,27 @@ while read -r key value; do
     check "a value of $key has its place in the profile" refused "$value" "$key"
     check "check tells the place of a value of $key" eval 'exits 1 "$mxgen" check show --no-compile --profile p.toml --json r.json && has out "p.toml:2: error: " && has r.json "\"p.toml\""'
 done <<EOF
-features odd
 rename other
 colorspace odd
 lights odd=x
 aovs odd=x
+EOF
+printf 'colorspace = "odd"\n' >p.toml
+check "a value of the command line is not the profile's" eval 'exits 1 "$mxgen" show/m.mtlx --profile p.toml --colorspace odd -o made && grep -q "^error: .odd. is not" err'
+printf 'rename = ["other"]\n' >p.toml
+check "an item of the command line is not the profile's" eval 'exits 1 "$mxgen" show/m.mtlx --profile p.toml --rename oth -o made && grep -q "^error: .oth. is not" err && grep -q "^p.toml:1: error: .other. is not" err'
+# Values that are wrong for every library and target.
+while read -r key value; do
+    printf '# a comment\n%s = "%s"\n' "$key" "$value" >p.toml
+    check "'$value' is wrong usage as $key of a profile" profile "p.toml:2: error: '${value#-fuzz,}' is not a value of option '$key'; expected "
+    check "'$value' is wrong usage as $key" eval 'exits 2 "$mxgen" show/m.mtlx "--$key=$value" -o made && has err "is not a value of option"'
+done <<EOF
+features odd
+features -fuzz,fuzz
+prefix 7up
+prefix a__b
+prefix gl_
+prefix $(printf 'a%.0s' $(seq 65))
 EOF
 printf '\357\273\277[budget]\nmax-closure = 1\n' >show/mxgen.toml
 check 'a byte order mark begins a file of budgets' budget 'mxgen.toml:2:'
