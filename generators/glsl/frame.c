@@ -9,9 +9,7 @@
 
 static void write_header(struct spell *spell)
 {
-    const char *version =
-        spell->options->version ? spell->options->version : spell->target->versions[0];
-    SPELL(spell, "#version ", version, "\n// ");
+    SPELL(spell, "#version ", spell_version(spell), "\n// ");
     spell_title(spell);
     spell_text(spell, "\n");
     if (spell_can(spell, CAP_PRECISION)
@@ -61,19 +59,13 @@ static void write_place(struct spell *spell, const struct shader_variable *varia
         write_location(spell, variable->block, variable->location);
 }
 
-/* True for a function of other code, which sets the vertex data and reads the outputs. */
-static bool is_called(const struct spell *spell)
-{
-    return spell->shader->role->stages == STAGES_NONE;
-}
-
 static void write_members(struct spell *spell, enum shader_block block)
 {
     SPELL_EACH_OF_BLOCK(i, spell, block)
     {
         const struct shader_variable *variable = spell_interface_variable(spell, i);
         spell_indent(spell, 1);
-        if (variable->flat && !is_called(spell))
+        if (variable->flat && !spell_is_called(spell))
             spell_text(spell, "flat ");
         spell_declare(spell, PHRASE_PLAIN, variable,
                       spell_name_of(spell->shader->strings, variable->name));
@@ -119,13 +111,6 @@ static void write_uniforms(struct spell *spell, enum shader_block block)
     SPELL_EACH_OF_BLOCK(i, spell, block)
     if (spell_uses(spell, spell_interface_variable(spell, i)))
         write_uniform(spell, spell_interface_variable(spell, i));
-}
-
-static void write_all_uniforms(struct spell *spell)
-{
-    for (int block = 0; block < NUM_BLOCKS; block++)
-        if (shader_block_has_uniforms((enum shader_block)block))
-            write_uniforms(spell, (enum shader_block)block);
 }
 
 static void write_light_data(struct spell *spell)
@@ -186,10 +171,10 @@ static void write_vertex_data(struct spell *spell)
     if (!spell_uses_block(spell, BLOCK_VERTEX_DATA))
         return;
     if (!spell_can(spell, CAP_BLOCK_STAGE_IO)) {
-        write_attributes(spell, BLOCK_VERTEX_DATA, is_called(spell) ? "" : qualifier);
+        write_attributes(spell, BLOCK_VERTEX_DATA, spell_is_called(spell) ? "" : qualifier);
         return;
     }
-    if (is_called(spell)) { /* the caller sets it */
+    if (spell_is_called(spell)) { /* the caller sets it */
         SPELL(spell, "struct ", type, " {\n");
         write_members(spell, BLOCK_VERTEX_DATA);
         SPELL(spell, "};\n", type, " ", spell_frame_name(spell, "vd"), ";\n");
@@ -204,7 +189,7 @@ static void write_vertex_data(struct spell *spell)
 static void declare_for_function(struct spell *spell)
 {
     spell_structs(spell);
-    write_all_uniforms(spell);
+    spell_uniform_blocks(spell, write_uniforms);
     write_textures(spell);
 }
 
@@ -212,7 +197,7 @@ static void declare(struct spell *spell)
 {
     write_header(spell);
     spell_structs(spell);
-    write_all_uniforms(spell);
+    spell_uniform_blocks(spell, write_uniforms);
     write_light_data(spell);
     write_textures(spell);
     if (spell->stage_id == STAGE_VERTEX)
@@ -221,13 +206,14 @@ static void declare(struct spell *spell)
     if (spell->stage_id == STAGE_VERTEX && spell->shader->role->stages == STAGES_OF_PASS)
         spell_text(spell, "invariant gl_Position;\n");
     if (spell->stage_id == STAGE_PIXEL)
-        write_attributes(spell, BLOCK_OUTPUTS, is_called(spell) ? "" : "out ");
+        write_attributes(spell, BLOCK_OUTPUTS, spell_is_called(spell) ? "" : "out ");
 }
 
 static void open_main(struct spell *spell)
 {
     const char *entry = spell->shader->role->entry;
-    SPELL(spell, "void ", is_called(spell) ? spell_frame_name(spell, entry) : entry, "()\n{\n");
+    SPELL(spell, "void ", spell_is_called(spell) ? spell_frame_name(spell, entry) : entry,
+          "()\n{\n");
 }
 
 const struct target_frame glsl_frame = {

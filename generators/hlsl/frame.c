@@ -63,13 +63,6 @@ static void write_buffer(struct spell *spell, enum shader_block block)
     spell_text(spell, "};\n");
 }
 
-static void write_buffers(struct spell *spell)
-{
-    for (int block = 0; block < NUM_BLOCKS; block++)
-        if (shader_block_has_uniforms((enum shader_block)block))
-            write_buffer(spell, (enum shader_block)block);
-}
-
 void hlsl_light_struct(struct spell *spell)
 {
     SPELL(spell, "struct ", spell_frame_name(spell, "LightData"), " {\n");
@@ -157,7 +150,7 @@ static void declare_structs(struct spell *spell)
 static void declare_for_function(struct spell *spell)
 {
     declare_structs(spell);
-    write_buffers(spell);
+    spell_uniform_blocks(spell, write_buffer);
     write_textures(spell);
 }
 
@@ -165,13 +158,11 @@ static const struct hlsl_io io = {.heads = {"void main(", "void main("}};
 
 static void declare(struct spell *spell)
 {
-    const char *version =
-        spell->options->version ? spell->options->version : spell->target->versions[0];
     spell_text(spell, "// ");
     spell_title(spell);
-    SPELL(spell, "\n// shader model ", version, "\n\n");
+    SPELL(spell, "\n// shader model ", spell_version(spell), "\n\n");
     declare_structs(spell);
-    write_buffers(spell);
+    spell_uniform_blocks(spell, write_buffer);
     write_lights(spell);
     write_textures(spell);
     write_resources(spell);

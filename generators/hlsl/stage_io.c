@@ -84,28 +84,6 @@ static void write_vertex_data(struct spell *spell, const struct hlsl_io *io)
     spell_text(spell, "};\n");
 }
 
-static bool reads_vertex_data(const struct spell *spell)
-{
-    return spell->stage_id == STAGE_VERTEX || spell_uses_block(spell, BLOCK_VERTEX_DATA)
-           || spell_reads_position(spell);
-}
-
-/* True for a function of other code, which sets the vertex data. */
-static bool is_called(const struct spell *spell)
-{
-    return spell->shader->role->stages == STAGES_NONE;
-}
-
-/*
- * Functions may read vertex data, which is otherwise a parameter of main. Then main copies between
- * its parameter and a variable at file scope.
- */
-static bool shares_vertex_data(const struct spell *spell)
-{
-    bool shares = is_called(spell) || spell_functions_read_vertex_data(spell);
-    return shares && reads_vertex_data(spell);
-}
-
 /* The parameters of a function for path tracers. */
 static void write_results(struct spell *spell)
 {
@@ -120,12 +98,12 @@ static void write_results(struct spell *spell)
 
 void hlsl_declare_io(struct spell *spell, const struct hlsl_io *io)
 {
-    if (reads_vertex_data(spell))
+    if (spell_reads_vertex_data(spell))
         write_vertex_data(spell, io);
-    if (shares_vertex_data(spell))
+    if (spell_shares_vertex_data(spell))
         SPELL(spell, "static ", spell_frame_name(spell, "VertexData"), " ",
               spell_frame_name(spell, "vd"), ";\n");
-    if (is_called(spell))
+    if (spell_is_called(spell))
         write_results(spell);
 }
 
@@ -161,18 +139,18 @@ static void write_parameters(struct spell *spell, const struct hlsl_io *io, enum
 
 void hlsl_open_main(struct spell *spell, const struct hlsl_io *io)
 {
-    if (is_called(spell)) {
+    if (spell_is_called(spell)) {
         SPELL(spell, "void ", spell_frame_name(spell, spell->shader->role->entry), "()\n{\n");
         return;
     }
     const char *vd = spell_frame_name(spell, "vd");
-    bool is_pixel = spell->stage_id == STAGE_PIXEL, shares = shares_vertex_data(spell),
+    bool is_pixel = spell->stage_id == STAGE_PIXEL, shares = spell_shares_vertex_data(spell),
          is_first = true;
     SPELL(spell, spell_tests_early(spell) ? "[earlydepthstencil]\n" : "",
           io->heads[spell->stage_id]);
     if (!is_pixel)
         write_parameters(spell, io, BLOCK_APP_DATA, &is_first);
-    if (reads_vertex_data(spell)) {
+    if (spell_reads_vertex_data(spell)) {
         begin_parameter(spell, &is_first);
         SPELL(spell, is_pixel ? "" : "out ", spell_frame_name(spell, "VertexData"), " ",
               !shares    ? vd
@@ -188,7 +166,7 @@ void hlsl_open_main(struct spell *spell, const struct hlsl_io *io)
 
 void hlsl_close_main(struct spell *spell)
 {
-    if (spell->stage_id == STAGE_VERTEX && shares_vertex_data(spell))
+    if (spell->stage_id == STAGE_VERTEX && spell_shares_vertex_data(spell))
         SPELL(spell, "    vd_out = ", spell_frame_name(spell, "vd"), ";\n");
     spell_text(spell, "}\n");
 }

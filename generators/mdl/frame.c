@@ -166,9 +166,8 @@ static void declare(struct spell *spell)
 {
     static const char *const modules[] = {"anno", "df", "math", "scene", "state", "tex"};
     const struct shader_module *module = &spell->shader->module;
-    const char *version = spell->options->version;
     name_variables(spell);
-    SPELL(spell, "mdl ", version ? version : spell->target->versions[0], ";\n\n// ");
+    SPELL(spell, "mdl ", spell_version(spell), ";\n\n// ");
     if (module->is_shader)
         SPELL(spell, module->name, " · module · ", spell->options->generator);
     else

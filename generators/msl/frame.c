@@ -13,12 +13,6 @@ static bool is_vertex(const struct spell *spell)
     return spell->stage_id == STAGE_VERTEX;
 }
 
-/* True for a function of other code, which fills the context. */
-static bool is_called(const struct spell *spell)
-{
-    return spell->shader->role->stages == STAGES_NONE;
-}
-
 /* A pass that only discards has none. */
 static bool has_outputs(const struct spell *spell)
 {
@@ -28,9 +22,9 @@ static bool has_outputs(const struct spell *spell)
 
 static const char *entry_name(const struct spell *spell)
 {
-    const char *entry = is_called(spell)   ? spell->shader->role->entry
-                        : is_vertex(spell) ? "VertexMain"
-                                           : "FragmentMain";
+    const char *entry = spell_is_called(spell) ? spell->shader->role->entry
+                        : is_vertex(spell)     ? "VertexMain"
+                                               : "FragmentMain";
     return spell_frame_name(spell, entry);
 }
 
@@ -59,13 +53,6 @@ static void write_block(struct spell *spell, enum shader_block block)
         spell_text(spell, ";\n");
     }
     spell_text(spell, "};\n");
-}
-
-static void write_blocks(struct spell *spell)
-{
-    for (int block = 0; block < NUM_BLOCKS; block++)
-        if (shader_block_has_uniforms((enum shader_block)block))
-            write_block(spell, (enum shader_block)block);
 }
 
 /* Lights are 16 bytes or a multiple of it apart (docs/reflection.md). */
@@ -124,14 +111,14 @@ static void write_vertex_data(struct spell *spell)
 {
     open_struct(spell, "VertexData");
     bool agrees = is_vertex(spell) && spell->shader->role->stages == STAGES_OF_PASS;
-    if (!is_called(spell))
+    if (!spell_is_called(spell))
         SPELL(spell, "    float4 pos [[position", agrees ? ", invariant" : "", "]];\n");
     SPELL_EACH_OF_BLOCK(i, spell, BLOCK_VERTEX_DATA)
     {
         const struct shader_variable *variable = spell_interface_variable(spell, i);
         write_member(spell, variable);
         const char *name = str_text(spell->shader->strings, variable->name);
-        if (!is_called(spell))
+        if (!spell_is_called(spell))
             SPELL(spell, " [[user(", name, variable->flat ? "), flat]]" : ")]]");
         spell_text(spell, ";\n");
     }
@@ -151,7 +138,7 @@ static void write_outputs(struct spell *spell)
     {
         const struct shader_variable *variable = spell_interface_variable(spell, i);
         write_member(spell, variable);
-        if (!is_called(spell))
+        if (!spell_is_called(spell))
             write_color(spell, variable);
         spell_text(spell, ";\n");
     }
@@ -163,7 +150,7 @@ static void declare_for_function(struct spell *spell)
     spell_text(spell, "#include <metal_stdlib>\nusing namespace metal;\n\n");
     spell_structs(spell);
     write_textures(spell);
-    write_blocks(spell);
+    spell_uniform_blocks(spell, write_block);
 }
 
 /* The uniforms of passes. */
@@ -185,11 +172,9 @@ static void write_frame(struct spell *spell)
 
 static void declare(struct spell *spell)
 {
-    const char *version =
-        spell->options->version ? spell->options->version : spell->target->versions[0];
     spell_text(spell, "// ");
     spell_title(spell);
-    SPELL(spell, "\n// Metal Shading Language ", version, "\n");
+    SPELL(spell, "\n// Metal Shading Language ", spell_version(spell), "\n");
     declare_for_function(spell);
     write_lights(spell);
     write_frame(spell);
@@ -397,7 +382,7 @@ static void close_context(struct spell *spell)
     spell_text(spell, "};\n");
     if (spell->shader->sources.pass.runs)
         write_kernel(spell);
-    if (is_called(spell))
+    if (spell_is_called(spell))
         return;
     const char *entry = entry_name(spell), *vd = spell_frame_name(spell, "vd");
     const char *inputs = is_vertex(spell) ? spell_instance(spell, BLOCK_APP_DATA) : vd,

@@ -95,11 +95,9 @@ static void declare_for_function(struct spell *spell)
 
 static void declare(struct spell *spell)
 {
-    const char *version =
-        spell->options->version ? spell->options->version : spell->target->versions[0];
     spell_text(spell, "// ");
     spell_title(spell);
-    SPELL(spell, "\n// Slang ", version, "\n\n");
+    SPELL(spell, "\n// Slang ", spell_version(spell), "\n\n");
     declare_for_function(spell);
     write_resources(spell);
     hlsl_declare_io(spell, &io);

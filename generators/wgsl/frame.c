@@ -45,13 +45,6 @@ static void write_buffer(struct spell *spell, enum shader_block block)
     SPELL(spell, "var<uniform> ", spell_instance(spell, block), ": ", type, ";\n");
 }
 
-static void write_buffers(struct spell *spell)
-{
-    for (int block = 0; block < NUM_BLOCKS; block++)
-        if (shader_block_has_uniforms((enum shader_block)block))
-            write_buffer(spell, (enum shader_block)block);
-}
-
 static void write_lights(struct spell *spell)
 {
     if (!spell_has_light_data(spell))
@@ -135,25 +128,6 @@ static void write_vertex_data(struct spell *spell)
     spell_text(spell, "}\n");
 }
 
-/* True for a function of other code, which sets the vertex data and reads the outputs. */
-static bool is_called(const struct spell *spell)
-{
-    return spell->shader->role->stages == STAGES_NONE;
-}
-
-static bool reads_vertex_data(const struct spell *spell)
-{
-    return spell->stage_id == STAGE_VERTEX || spell_uses_block(spell, BLOCK_VERTEX_DATA)
-           || spell_reads_position(spell);
-}
-
-/* True if the vertex data is a variable of the module, because functions read it. */
-static bool shares_vertex_data(const struct spell *spell)
-{
-    bool shares = is_called(spell) || spell_functions_read_vertex_data(spell);
-    return shares && reads_vertex_data(spell);
-}
-
 static uint32_t num_outputs(const struct spell *spell)
 {
     const uint32_t *first = &spell->shader->interface.first_of_block[BLOCK_OUTPUTS];
@@ -163,7 +137,7 @@ static uint32_t num_outputs(const struct spell *spell)
 /* True for a main whose two outputs are the sources of one blend. */
 static bool blends_sources(const struct spell *spell)
 {
-    return spell->shader->has_two_sources && !is_called(spell) && num_outputs(spell) > 0;
+    return spell->shader->has_two_sources && !spell_is_called(spell) && num_outputs(spell) > 0;
 }
 
 /* The struct of several outputs; a single one is the result of main. */
@@ -198,7 +172,7 @@ static void write_results(struct spell *spell, enum lang_phrase phrase, unsigned
 static void declare_for_function(struct spell *spell)
 {
     spell_structs(spell);
-    write_buffers(spell);
+    spell_uniform_blocks(spell, write_buffer);
     write_textures(spell);
 }
 
@@ -209,16 +183,16 @@ static void declare(struct spell *spell)
     SPELL(spell, "\n", spell->half_style ? "enable f16;\n" : "",
           blends_sources(spell) ? "enable dual_source_blending;\n" : "", "\n");
     spell_structs(spell);
-    write_buffers(spell);
+    spell_uniform_blocks(spell, write_buffer);
     write_lights(spell);
     write_textures(spell);
     write_resources(spell);
-    if (reads_vertex_data(spell))
+    if (spell_reads_vertex_data(spell))
         write_vertex_data(spell);
-    if (shares_vertex_data(spell))
+    if (spell_shares_vertex_data(spell))
         SPELL(spell, "var<private> ", spell_frame_name(spell, "vd"), ": ",
               spell_frame_name(spell, "VertexData"), ";\n");
-    if (is_called(spell))
+    if (spell_is_called(spell))
         write_results(spell, PHRASE_VARIABLE, 0);
     else if (num_outputs(spell) > 1)
         write_outputs(spell);
@@ -242,7 +216,7 @@ static void open_vertex(struct spell *spell)
         between = ",";
     }
     SPELL(spell, ") -> ", type, "\n{\n");
-    if (!shares_vertex_data(spell))
+    if (!spell_shares_vertex_data(spell))
         SPELL(spell, "    var ", vd, ": ", type, ";\n");
 }
 
@@ -258,10 +232,10 @@ static void test_depth(struct spell *spell)
 
 static void open_pixel(struct spell *spell)
 {
-    bool shares = shares_vertex_data(spell);
+    bool shares = spell_shares_vertex_data(spell);
     const char *vd = spell_frame_name(spell, "vd");
     spell_text(spell, "@fragment\nfn main(");
-    if (reads_vertex_data(spell))
+    if (spell_reads_vertex_data(spell))
         SPELL(spell, shares ? "vd_in" : vd, ": ", spell_frame_name(spell, "VertexData"));
     spell_text(spell, num_outputs(spell) > 1   ? ") -> PixelOutputs"
                       : num_outputs(spell) > 0 ? ") -> @location(0) "
@@ -279,7 +253,7 @@ static void open_pixel(struct spell *spell)
 
 static void open_main(struct spell *spell)
 {
-    if (is_called(spell))
+    if (spell_is_called(spell))
         SPELL(spell, "fn ", spell_frame_name(spell, spell->shader->role->entry), "()\n{\n");
     else if (spell->stage_id == STAGE_VERTEX)
         open_vertex(spell);
@@ -301,9 +275,9 @@ static void return_outputs(struct spell *spell)
 
 static void close_main(struct spell *spell)
 {
-    if (!is_called(spell) && spell->stage_id == STAGE_VERTEX)
+    if (!spell_is_called(spell) && spell->stage_id == STAGE_VERTEX)
         SPELL(spell, "    return ", spell_frame_name(spell, "vd"), ";\n");
-    else if (!is_called(spell) && num_outputs(spell))
+    else if (!spell_is_called(spell) && num_outputs(spell))
         return_outputs(spell);
     spell_text(spell, "}\n");
 }

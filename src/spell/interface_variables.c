@@ -113,7 +113,32 @@ bool spell_functions_read_vertex_data(const struct spell *spell)
     return spell_reads_position(spell) || (reads && of_block[0] < of_block[1]);
 }
 
+bool spell_is_called(const struct spell *spell)
+{
+    return spell->shader->role->stages == STAGES_NONE;
+}
+
+bool spell_reads_vertex_data(const struct spell *spell)
+{
+    return spell->stage_id == STAGE_VERTEX || spell_uses_block(spell, BLOCK_VERTEX_DATA)
+           || spell_reads_position(spell);
+}
+
+bool spell_shares_vertex_data(const struct spell *spell)
+{
+    bool shares = spell_is_called(spell) || spell_functions_read_vertex_data(spell);
+    return shares && spell_reads_vertex_data(spell);
+}
+
 /* ---- Declarations ---- */
+
+void spell_uniform_blocks(struct spell *spell,
+                          void (*write)(struct spell *spell, enum shader_block block))
+{
+    for (int block = 0; block < NUM_BLOCKS; block++)
+        if (shader_block_has_uniforms((enum shader_block)block))
+            write(spell, (enum shader_block)block);
+}
 
 void spell_declare(struct spell *spell, enum lang_phrase phrase,
                    const struct shader_variable *variable, struct spell_name name)

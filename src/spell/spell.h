@@ -185,6 +185,18 @@ void spell_name_interface(struct spell *spell);
 const char *spell_instance(const struct spell *spell, enum shader_block block);
 /* True if functions of the stage may read vertex data, which must then be at file scope. */
 bool spell_functions_read_vertex_data(const struct spell *spell);
+/* True for a function of other code, which sets the vertex data and reads the outputs. */
+bool spell_is_called(const struct spell *spell);
+/* True if the stage reads vertex data, or sets it. */
+bool spell_reads_vertex_data(const struct spell *spell);
+/*
+ * True if the vertex data is at file scope, in a language whose main has it as a parameter: then
+ * main copies between the two.
+ */
+bool spell_shares_vertex_data(const struct spell *spell);
+/* Calls a function for each block of uniforms. */
+void spell_uniform_blocks(struct spell *spell,
+                          void (*write)(struct spell *spell, enum shader_block block));
 /* Loops over the positions of a block's variables in the interface. */
 #define SPELL_EACH_OF_BLOCK(i, spell, block) \
     for (uint32_t i = (spell)->shader->interface.first_of_block[block]; \
@@ -281,6 +293,13 @@ void spell_wrap(struct spell *spell, size_t begin);
 static inline bool spell_has_light_data(const struct spell *spell)
 {
     return spell->stage->has_lights && spell->shader->lights == LIGHTS_IN_SHADER;
+}
+
+/* The version of the language: that of the options, or the target's first. */
+static inline const char *spell_version(const struct spell *spell)
+{
+    const char *version = spell->options->version;
+    return version ? version : spell->target->versions[0];
 }
 
 void spell_title(struct spell *spell); /* "Gold · surfacematerial · …", without a newline */

@@ -18,6 +18,22 @@ const struct role *role_find(const char *name)
     return NULL;
 }
 
+const struct target *target_find(const char *name)
+{
+    for (const struct target *const *target = targets; *target; target++)
+        if (strcmp((*target)->name, name) == 0 || strcmp((*target)->materialx_name, name) == 0)
+            return *target;
+    return NULL;
+}
+
+bool target_is_a(const struct target *target, const char *materialx_name)
+{
+    for (; target; target = target->base)
+        if (strcmp(target->materialx_name, materialx_name) == 0)
+            return true;
+    return false;
+}
+
 uint64_t target_capabilities(const struct target *target)
 {
     return target->caps

@@ -13,24 +13,18 @@ static const char *const reserved[] = {"array", "block", "const", "flag", "fn", 
 static const char *const type_names[IR_NUM_TYPES] = {
     [IR_TYPE_BOOL] = "flag", [IR_TYPE_INT] = "i32", [IR_TYPE_UINT] = "u32", [IR_TYPE_FLOAT] = "f32",
     [IR_TYPE_VEC2] = "f32x2", [IR_TYPE_VEC3] = "f32x3", [IR_TYPE_VEC4] = "f32x4",
-    [IR_TYPE_MAT2] = "f32x2x2", [IR_TYPE_MAT3] = "f32x3x3", [IR_TYPE_MAT4] = "f32x4x4",
-    [IR_TYPE_SAMPLER] = "texture",
+    [IR_TYPE_MAT2] = "f32x2x2", [IR_TYPE_MAT3] = "f32x3x3", [IR_TYPE_MAT4] = "f32x4x4", [IR_TYPE_SAMPLER] = "texture",
 };
 
 static const char *const phrases[NUM_PHRASES] = {
     [PHRASE_PLAIN] = "$N: $T",
-    [PHRASE_LOCAL] = "var $N: $T",
-    [PHRASE_LOCAL_CONSTANT] = "let $N: $T",
+    [PHRASE_LOCAL] = "var $N: $T", [PHRASE_LOCAL_CONSTANT] = "let $N: $T",
     [PHRASE_VALUE] = "val $N: $T",
-    [PHRASE_CONSTANT] = "const $N: $T := $V;",
-    [PHRASE_VARIABLE] = "shared $N: $T",
-    [PHRASE_MEMBER] = "$N: $T,",
-    [PHRASE_STRUCT_END] = "}",
-    [PHRASE_PARAM_IN] = "in $N: $T",
-    [PHRASE_PARAM_ASSIGNED] = "copy $N: $T",
+    [PHRASE_CONSTANT] = "const $N: $T := $V;", [PHRASE_VARIABLE] = "shared $N: $T",
+    [PHRASE_MEMBER] = "$N: $T,", [PHRASE_STRUCT_END] = "}",
+    [PHRASE_PARAM_IN] = "in $N: $T", [PHRASE_PARAM_ASSIGNED] = "copy $N: $T",
     [PHRASE_PARAM_OUT] = "$N: ptr<$T>", [PHRASE_PARAM_INOUT] = "$N: ptr<$T, both>",
-    [PHRASE_FUNCTION] = "fn $N($P) -> $T",
-    [PHRASE_PROCEDURE] = "fn $N($P)",
+    [PHRASE_FUNCTION] = "fn $N($P) -> $T", [PHRASE_PROCEDURE] = "fn $N($P)",
     [PHRASE_ARRAY] = "array<$T, $L>",
     [PHRASE_REFERENCE] = "&$0", [PHRASE_REFERENCED] = "(*$0)",
     [PHRASE_FOR] = "loop ($0 | $1 | $2)", [PHRASE_WHILE] = "loop while ($0)",
@@ -70,6 +64,8 @@ const struct lang_syntax toy_syntax = {
 /* "@0 block PrivateUniforms {" and its members. */
 static void write_block(struct spell *spell, enum shader_block block)
 {
+    if (!spell_uses_block(spell, block))
+        return;
     text_fmt(spell->out, "@%u block %s {\n",
              (unsigned)spell->shader->interface.buffers[block].binding,
              shader_block_name(spell->shader, block));
@@ -110,10 +106,8 @@ static void declare(struct spell *spell)
     spell_title(spell);
     spell_text(spell, "\nprogram {\n\n");
     spell_structs(spell);
-    for (enum shader_block block = 0; block < NUM_BLOCKS; block++)
-        if (spell_uses_block(spell, block)
-            && (shader_block_has_uniforms(block) || block == BLOCK_LIGHT_DATA))
-            write_block(spell, block);
+    spell_uniform_blocks(spell, write_block);
+    write_block(spell, BLOCK_LIGHT_DATA);
     if (spell->stage->has_lights)
         spell_text(spell, "shared u_lightData: array<LightData>;\n");
     write_each(spell, BLOCK_TEXTURES);
