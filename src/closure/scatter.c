@@ -218,7 +218,6 @@ static void sample(struct closure_scatter *s, const struct scattering *leaf)
                           &density);
     scatter_effect(s, EFFECT_ASSIGN, s->density, density);
     scatter_effect(s, EFFECT_END, 0, 0);
-    scatter_effect(s, EFFECT_ACCUMULATE, s->pick, ir_op1(s->graph, IR_NEG, leaf->share));
 }
 
 /* The leaf among those of all parts, new or not. */
@@ -283,12 +282,18 @@ void scatter_declare_locals(struct closure_scatter *s, ir_ref pick)
 
 static void sample_leaves(struct closure_scatter *s)
 {
-    for (uint32_t i = 0; i < s->leaves.len; i++)
-        if (s->leaves.items[i].share) {
-            ir_push_origin_of(s->graph, s->leaves.items[i].leaf);
-            sample(s, &s->leaves.items[i]);
-            ir_pop_origin(s->graph);
-        }
+    ir_ref above = 0; /* the share of the leaf before */
+    for (uint32_t i = 0; i < s->leaves.len; i++) {
+        const struct scattering *leaf = &s->leaves.items[i];
+        if (!leaf->share)
+            continue;
+        ir_push_origin_of(s->graph, leaf->leaf);
+        if (above)
+            scatter_effect(s, EFFECT_ACCUMULATE, s->pick, ir_op1(s->graph, IR_NEG, above));
+        sample(s, leaf);
+        ir_pop_origin(s->graph);
+        above = leaf->share;
+    }
 }
 
 /*

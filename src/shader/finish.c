@@ -53,16 +53,6 @@ static void mark_outputs(struct shader *shader, enum shader_stage_id id)
             mark_read(shader, effects->items[i].index, id);
 }
 
-/* Keeps the vertex data that a displaced position reads. */
-static void keep_inputs(struct shader *shader, ir_ref position)
-{
-    assert(ir_type_of(shader->graph, position) == IR_TYPE_VEC4);
-    uint8_t *needed = ir_mark(shader->graph, &position, 1, shader->arena);
-    for (ir_ref ref = 1; ref < shader->graph->nodes.len; ref++)
-        if (needed[ref] && ir_get(shader->graph, ref)->op == IR_STREAM)
-            mark_read(shader, ir_get(shader->graph, ref)->attr, STAGE_VERTEX);
-}
-
 /* Drops the vertex data that the pixel stage does not read, and adds the position. */
 static void complete_vertex_stage(struct shader *shader)
 {
@@ -70,11 +60,12 @@ static void complete_vertex_stage(struct shader *shader)
     bool has_position = false;
     uint32_t kept = 0;
     for (uint32_t i = 0; i < effects->len; i++)
-        if (effects->items[i].kind == EFFECT_POSITION)
-            keep_inputs(shader, effects->items[i].value);
+        if (effects->items[i].kind == EFFECT_POSITION) {
+            effects->items[i].value = shader_at_vertices(shader, effects->items[i].value);
+            has_position = true;
+        }
     for (uint32_t i = 0; i < effects->len; i++) {
         const struct effect *effect = &effects->items[i];
-        has_position |= effect->kind == EFFECT_POSITION;
         if (effect->kind != EFFECT_OUTPUT
             || shader->interface.variables.items[effect->index].stages)
             effects->items[kept++] = *effect;

@@ -610,18 +610,17 @@ static uint32_t find_computed(const struct shader *shader, ir_ref value)
     return UINT32_MAX;
 }
 
-/*
- * The value with the vertex data that it reads computed anew, so that the pixel stage, which does
- * not need these, does not get them.
- */
-static ir_ref at_vertices(struct shader *shader, ir_ref value)
+ir_ref shader_at_vertices(struct shader *shader, ir_ref value)
 {
     const struct effect_list *effects = &shader->stages[STAGE_VERTEX].effects;
     for (uint32_t i = effects->len; i-- > 0;) { /* vertex data may read earlier ones */
         const struct effect *effect = &effects->items[i];
-        if (effect->kind == EFFECT_OUTPUT)
-            value = ir_replace(shader->graph, value, shader_read(shader, effect->index),
-                               effect->value, shader->arena);
+        if (effect->kind != EFFECT_OUTPUT)
+            continue;
+        ir_suggest_name(shader->graph, effect->value,
+                        shader->interface.variables.items[effect->index].name, IR_NAME_ROLE);
+        value = ir_replace(shader->graph, value, shader_read(shader, effect->index), effect->value,
+                           shader->arena);
     }
     return value;
 }
@@ -629,7 +628,7 @@ static ir_ref at_vertices(struct shader *shader, ir_ref value)
 ir_ref shader_interpolate(struct shader *shader, str_id name, ir_ref value)
 {
     ir_type_id type = ir_type_of(shader->graph, value);
-    value = at_vertices(shader, value);
+    value = shader_at_vertices(shader, value);
     uint32_t index = find_computed(shader, value);
     assert(ir_type_info(type)->scalar != IR_TYPE_BOOL && !ir_type_is_matrix(type));
     if (index == UINT32_MAX) {

@@ -496,6 +496,11 @@ ir_ref shader_stream(struct shader *shader, str_id name, ir_type_id type);
  * reads a stream.
  */
 ir_ref shader_interpolate(struct shader *shader, str_id name, ir_ref value);
+/*
+ * The value with the vertex data that it reads computed from attributes: the pixel stage, which may
+ * not need these data, does not get them, and positions are alike whatever it reads.
+ */
+ir_ref shader_at_vertices(struct shader *shader, ir_ref value);
 /* The vertex attribute that a stream copies; false: the vertex stage computes the stream. */
 bool shader_attribute(const struct shader *shader, uint32_t stream, uint32_t *out_index);
 /* The expression of the stream in the vertex stage, for displacement. */

@@ -65,7 +65,6 @@ void scatter()
         diffuse_weight = diffuse_weight_2;
         density = pdf;
     }
-    pick += -0.4;
     out1 = vec4(0.1, 0.2, 0.3, 0.5);
     out2 = vec4(L, inside);
     out3 = vec4(weight, density);

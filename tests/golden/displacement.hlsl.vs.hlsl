@@ -35,13 +35,15 @@ void main(
     float2 i_texcoord_0 : TEXCOORD0,
     out VertexData vd)
 {
-    vd.normalWorld = normalize(mul(float4(i_normal, 0.0), u_worldInverseTransposeMatrix).xyz);
+    float3 normalWorld = normalize(mul(float4(i_normal, 0.0), u_worldInverseTransposeMatrix).xyz);
+    vd.normalWorld = normalWorld;
     vd.texcoord_0 = i_texcoord_0;
-    vd.tangentWorld = normalize(mul(float4(i_tangent, 0.0), u_worldMatrix).xyz);
-    vd.positionWorld = mul(float4(i_position, 1.0), u_worldMatrix).xyz;
-    float3 Ng = normalize(vd.normalWorld);
-    float both = height_file.SampleLevel(height_file_sampler, vd.texcoord_0, 0.0).x * mx_line(vd.texcoord_0);
-    float3 displacement = normalize(vd.tangentWorld) * 0.1 + Ng * both;
-    vd.position = mul(float4(lerp(displacement, Ng * (both * 0.5), 0.25) + vd.positionWorld, 1.0),
+    float3 tangentWorld = normalize(mul(float4(i_tangent, 0.0), u_worldMatrix).xyz);
+    vd.tangentWorld = tangentWorld;
+    float3 positionWorld = mul(float4(i_position, 1.0), u_worldMatrix).xyz;
+    vd.positionWorld = positionWorld;
+    float both = height_file.SampleLevel(height_file_sampler, i_texcoord_0, 0.0).x * mx_line(i_texcoord_0);
+    float3 displacement = tangentWorld * 0.1 + normalWorld * both;
+    vd.position = mul(float4(positionWorld + lerp(displacement, normalWorld * (both * 0.5), 0.25), 1.0),
         u_viewProjectionMatrix);
 }

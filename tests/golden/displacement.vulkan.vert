@@ -31,12 +31,15 @@ float mx_line(const vec2 p)
 
 void main()
 {
-    vd.normalWorld = normalize((u_worldInverseTransposeMatrix * vec4(i_normal, 0.0)).xyz);
+    vec3 normalWorld = normalize((u_worldInverseTransposeMatrix * vec4(i_normal, 0.0)).xyz);
+    vd.normalWorld = normalWorld;
     vd.texcoord_0 = i_texcoord_0;
-    vd.tangentWorld = normalize((u_worldMatrix * vec4(i_tangent, 0.0)).xyz);
-    vd.positionWorld = (u_worldMatrix * vec4(i_position, 1.0)).xyz;
-    vec3 Ng = normalize(vd.normalWorld);
-    float both = textureLod(height_file, vd.texcoord_0, 0.0).x * mx_line(vd.texcoord_0);
-    vec3 displacement = normalize(vd.tangentWorld) * 0.1 + Ng * both;
-    gl_Position = u_viewProjectionMatrix * vec4(mix(displacement, Ng * (both * 0.5), 0.25) + vd.positionWorld, 1.0);
+    vec3 tangentWorld = normalize((u_worldMatrix * vec4(i_tangent, 0.0)).xyz);
+    vd.tangentWorld = tangentWorld;
+    vec3 positionWorld = (u_worldMatrix * vec4(i_position, 1.0)).xyz;
+    vd.positionWorld = positionWorld;
+    float both = textureLod(height_file, i_texcoord_0, 0.0).x * mx_line(i_texcoord_0);
+    vec3 displacement = tangentWorld * 0.1 + normalWorld * both;
+    gl_Position = u_viewProjectionMatrix
+        * vec4(positionWorld + mix(displacement, normalWorld * (both * 0.5), 0.25), 1.0);
 }

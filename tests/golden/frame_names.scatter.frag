@@ -91,7 +91,6 @@ void scatter()
             * scaled_diffuse_share);
         density = pdf * scaled_diffuse_share;
     }
-    pick -= diffuse_share;
     out1 = vec4(0.0, 0.0, 0.0, 1.0);
     out2 = vec4(L, inside);
     out3 = vec4(weight, density);

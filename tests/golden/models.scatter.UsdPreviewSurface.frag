@@ -133,15 +133,6 @@ float mx_ggx_smith_lobe(const mat3 frame, const vec3 V, const vec3 L)
         * mx_ggx_smith_visibility(max(V * frame, vec3(-1.0, -1.0, 1e-8)), max(L * frame, vec3(-1.0, -1.0, 1e-8)));
 }
 
-// Normal of the facet that refracts l, below the horizon, towards v; eta is the index below over that above (Walter et
-// al. 2007, equation 16).
-// Here eta = 1.5.
-vec3 mx_refracting_normal(const vec3 v, const vec3 l)
-{
-    vec3 h = normalize(v + 1.5 * l);
-    return h.z < 0.0 ? -h : h;
-}
-
 // Density of the directions L that mx_ggx_scatter takes.
 // Here roughness = vec2(0.25), eta = 1.5, mode = 1, model = "schlick", n = vec3(0.04), k = vec3(0.0), f90 = vec3(1.0),
 // exponent = 5.0, film = 0.0, film_ior = 1.5.
@@ -150,12 +141,12 @@ float mx_ggx_pdf(const vec3 N, const vec3 X, const vec3 V, const vec3 L)
     mat3 frame = mx_frame(faceforward(N, -V, N), X);
     vec3 v = max(V * frame, vec3(-1.0, -1.0, 1e-8));
     vec3 l = L * frame;
-    bool is_reflected = l.z > 0.0;
-    vec3 h = is_reflected ? normalize(v + l) : mx_refracting_normal(v, l);
-    if (dot(v, h) <= 0.0 || (!is_reflected && dot(l, h) >= 0.0))
+    if (l.z <= 0.0)
         return 0.0;
-    return 2.0 / (v.z + length(vec3(v.xy * 0.25, v.z))) * mx_ggx_distribution(h / vec3(0.25, 0.25, 1.0))
-        * (is_reflected ? 0.25 : 0.0);
+    vec3 h = normalize(v + l);
+    if (dot(v, h) <= 0.0)
+        return 0.0;
+    return 2.0 / (v.z + length(vec3(v.xy * 0.25, v.z))) * mx_ggx_distribution(h / vec3(0.25, 0.25, 1.0)) * 0.25;
 }
 
 void scatter()
@@ -202,7 +193,6 @@ void scatter()
             * (shares / diffuse_share));
         density = pdf * (diffuse_share / shares);
     }
-    pick -= diffuse_share;
     out1 = vec4(0.0, 0.0, 0.0, 1.0);
     out2 = vec4(L, inside);
     out3 = vec4(weight, density);

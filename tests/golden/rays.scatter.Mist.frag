@@ -73,7 +73,6 @@ void scatter()
         weight = mist_weight * scaled_mist_share;
         density = mist_pdf * scaled_mist_share;
     }
-    pick -= mist_share;
     out1 = vec4(0.0, 0.0, 0.0, 1.0);
     out2 = vec4(L, inside);
     out3 = vec4(weight, density);

@@ -160,28 +160,20 @@ float mx_ggx_smith_lobe(float3x3 frame, float3 V, float3 L)
         max(mul(frame, L), float3(-1.0, -1.0, 1e-8)));
 }
 
-// Normal of the facet that refracts l, below the horizon, towards v; eta is the index below over that above (Walter et
-// al. 2007, equation 16).
-float3 mx_refracting_normal(float3 v, float3 l, float eta)
-{
-    float3 h = normalize(v + eta * l);
-    return h.z < 0.0 ? -h : h;
-}
-
 // Density of the directions L that mx_ggx_scatter takes.
 // Here roughness = float2(0.2, 0.2), mode = 1, model = "dielectric", k = float3(0.0, 0.0, 0.0), f90 = float3(1.0, 1.0,
 // 1.0), exponent = 0.0, film = 0.0, film_ior = 1.5.
-float mx_ggx_pdf(float3 N, float3 X, float3 V, float3 L, float eta)
+float mx_ggx_pdf(float3 N, float3 X, float3 V, float3 L)
 {
     float3x3 frame = mx_frame(faceforward(N, -V, N), X);
     float3 v = max(mul(frame, V), float3(-1.0, -1.0, 1e-8));
     float3 l = mul(frame, L);
-    bool is_reflected = l.z > 0.0;
-    float3 h = is_reflected ? normalize(v + l) : mx_refracting_normal(v, l, eta);
-    if (dot(v, h) <= 0.0 || (!is_reflected && dot(l, h) >= 0.0))
+    if (l.z <= 0.0)
         return 0.0;
-    return 2.0 / (v.z + length(float3(v.xy * 0.2, v.z))) * mx_ggx_distribution(h / float3(0.2, 0.2, 1.0))
-        * (is_reflected ? 0.25 : 0.0);
+    float3 h = normalize(v + l);
+    if (dot(v, h) <= 0.0)
+        return 0.0;
+    return 2.0 / (v.z + length(float3(v.xy * 0.2, v.z))) * mx_ggx_distribution(h / float3(0.2, 0.2, 1.0)) * 0.25;
 }
 
 void scatter()
@@ -231,7 +223,6 @@ void scatter()
         weight = clay_weight * (glaze_throughput * (shares / clay_share));
         density = pdf * (clay_share / shares);
     }
-    pick -= clay_share;
     out1 = float4(0.0, 0.0, 0.0, 1.0);
     out2 = float4(L, inside);
     out3 = float4(weight, density);
@@ -240,7 +231,7 @@ void scatter()
         * mx_fresnel_permittivity(sqrt(clamp(dot(vd.viewWorld, vd.lightWorld.xyz) * 0.5 + 0.500001, 0.0, 1.0)),
         scaled_eta);
     float3x3 frame = mx_frame(facing, X);
-    float glaze_both = vd.lightWorld.w * (glaze_share / shares * mx_ggx_pdf(N, X, vd.viewWorld, vd.lightWorld.xyz, eta))
+    float glaze_both = vd.lightWorld.w * (glaze_share / shares * mx_ggx_pdf(N, X, vd.viewWorld, vd.lightWorld.xyz))
         + 1.0;
     float3 balanced = (float3)(glaze_product * mx_ggx_smith_lobe(frame, vd.viewWorld, vd.lightWorld.xyz) * 0.8
         / glaze_both);

@@ -156,29 +156,22 @@ fn mx_ggx_smith_lobe(frame: mat3x3f, V: vec3f, L: vec3f) -> f32
         * mx_ggx_smith_visibility(max(V * frame, vec3f(-1.0, -1.0, 1e-8)), max(L * frame, vec3f(-1.0, -1.0, 1e-8)));
 }
 
-// Normal of the facet that refracts l, below the horizon, towards v; eta is the index below over that above (Walter et
-// al. 2007, equation 16).
-fn mx_refracting_normal(v: vec3f, l: vec3f, eta: f32) -> vec3f
-{
-    let h: vec3f = normalize(v + eta * l);
-    return select(h, -h, h.z < 0.0);
-}
-
 // Density of the directions L that mx_ggx_scatter takes.
 // Here roughness = vec2f(0.2), mode = 1, model = "dielectric", k = vec3f(0.0), f90 = vec3f(1.0), exponent = 0.0,
 // film = 0.0, film_ior = 1.5.
-fn mx_ggx_pdf(N: vec3f, X: vec3f, V: vec3f, L: vec3f, eta: f32) -> f32
+fn mx_ggx_pdf(N: vec3f, X: vec3f, V: vec3f, L: vec3f) -> f32
 {
     let frame: mat3x3f = mx_frame(faceForward(N, -V, N), X);
     let v: vec3f = max(V * frame, vec3f(-1.0, -1.0, 1e-8));
     let l: vec3f = L * frame;
-    let is_reflected: bool = l.z > 0.0;
-    let h: vec3f = select(mx_refracting_normal(v, l, eta), normalize(v + l), is_reflected);
-    if (dot(v, h) <= 0.0 || (!is_reflected && dot(l, h) >= 0.0)) {
+    if (l.z <= 0.0) {
         return 0.0;
     }
-    return 2.0 / (v.z + length(vec3f(v.xy * 0.2, v.z))) * mx_ggx_distribution(h / vec3f(0.2, 0.2, 1.0))
-        * select(0.0, 0.25, is_reflected);
+    let h: vec3f = normalize(v + l);
+    if (dot(v, h) <= 0.0) {
+        return 0.0;
+    }
+    return 2.0 / (v.z + length(vec3f(v.xy * 0.2, v.z))) * mx_ggx_distribution(h / vec3f(0.2, 0.2, 1.0)) * 0.25;
 }
 
 fn scatter()
@@ -229,7 +222,6 @@ fn scatter()
         weight = clay_weight * (glaze_throughput * (shares / clay_share));
         density = pdf * (clay_share / shares);
     }
-    pick -= clay_share;
     out1 = vec4f(0.0, 0.0, 0.0, 1.0);
     out2 = vec4f(L, inside);
     out3 = vec4f(weight, density);
@@ -238,8 +230,8 @@ fn scatter()
         * mx_fresnel_permittivity(sqrt(clamp(dot(vd.viewWorld, vd.lightWorld.xyz) * 0.5 + 0.500001, 0.0, 1.0)),
         scaled_eta);
     let frame: mat3x3f = mx_frame(facing, X);
-    let glaze_both: f32 = vd.lightWorld.w
-        * (glaze_share / shares * mx_ggx_pdf(N, X, vd.viewWorld, vd.lightWorld.xyz, eta)) + 1.0;
+    let glaze_both: f32 = vd.lightWorld.w * (glaze_share / shares * mx_ggx_pdf(N, X, vd.viewWorld, vd.lightWorld.xyz))
+        + 1.0;
     let balanced: vec3f = vec3f(glaze_product * mx_ggx_smith_lobe(frame, vd.viewWorld, vd.lightWorld.xyz) * 0.8
         / glaze_both);
     let glaze_response: vec3f = select(vec3f(0.0), balanced, n_dot_lobe_view * dot(N, vd.lightWorld.xyz) > 0.0);

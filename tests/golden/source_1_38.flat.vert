@@ -7,11 +7,6 @@ uniform mat4 u_viewProjectionMatrix = mat4(1.0);
 in vec3 i_position;
 in vec3 i_normal;
 in vec3 i_tangent;
-out VertexData {
-    vec3 positionWorld;
-    vec3 normalWorld;
-    vec3 tangentWorld;
-} vd;
 
 struct surfaceshader { vec3 color; vec3 transparency; };
 struct displacementshader { vec3 offset; float scale; };
@@ -29,14 +24,12 @@ void lift(float height, out displacementshader result)
 
 void main()
 {
-    vd.normalWorld = normalize((u_worldInverseTransposeMatrix * vec4(i_normal, 0.0)).xyz);
-    vd.tangentWorld = normalize((u_worldMatrix * vec4(i_tangent, 0.0)).xyz);
-    vd.positionWorld = (u_worldMatrix * vec4(i_position, 1.0)).xyz;
-    vec3 X = normalize(vd.tangentWorld);
+    vec3 normalWorld = normalize((u_worldInverseTransposeMatrix * vec4(i_normal, 0.0)).xyz);
     displacementshader lift1;
     lift(0.5, lift1);
     vec3 offset = lift1.offset * lift1.scale;
-    vec3 Ng = normalize(vd.normalWorld);
-    gl_Position = u_viewProjectionMatrix
-        * vec4(X * offset.x + cross(Ng, X) * offset.y + Ng * offset.z + vd.positionWorld, 1.0);
+    vec3 tangentWorld = normalize((u_worldMatrix * vec4(i_tangent, 0.0)).xyz);
+    vec3 displacement = normalWorld * offset.z
+        + (tangentWorld * offset.x + offset.y * cross(normalWorld, tangentWorld));
+    gl_Position = u_viewProjectionMatrix * vec4((u_worldMatrix * vec4(i_position, 1.0)).xyz + displacement, 1.0);
 }

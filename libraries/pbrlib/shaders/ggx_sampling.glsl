@@ -64,7 +64,9 @@ float mx_ggx_pdf(vec2 roughness, string distribution, vec3 N, vec3 X, vec3 V, ve
     mat3 frame = mx_frame(mx_facing(N, V), X);
     vec3 v = mx_ggx_local(frame, V);
     vec3 l = L * frame;
-    bool is_reflected = l.z > 0.0;
+    if (mode == MX_REFLECTS && l.z <= 0.0)
+        return 0.0;
+    bool is_reflected = mode == MX_REFLECTS || l.z > 0.0;
     vec3 h = is_reflected ? normalize(v + l) : mx_refracting_normal(v, l, eta);
     float cos_h = dot(v, h);
     if (cos_h <= 0.0 || (!is_reflected && dot(l, h) >= 0.0))
