@@ -168,8 +168,9 @@ MXG_API mxg_status mxg_edit_set_attribute(mxg_edit *edit, mxg_element element,
                                           const char *attribute, const char *value);
 /*
  * Renames an element, and changes every attribute that names it: of connections, definitions,
- * types, units, looks, frames of editors. Nodes keep the names of their inputs if an input of their
- * definition gets another one, and names inside of values stay ("[token]" of a file).
+ * types, units, looks, frames of editors. An input or token of a nodedef has its new name also in
+ * nodes, variants, implementations and nodedefs that have it from there. Names inside of values
+ * stay ("[token]" of a file, "{{input}}" of source code).
  */
 MXG_API mxg_status mxg_edit_rename_element(mxg_edit *edit, mxg_element element, const char *name);
 /*

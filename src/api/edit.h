@@ -52,6 +52,8 @@ void edit_fail(struct edit_change *change, const char *format, ...);
 /* A text that goes into the document; NULL counts as empty. */
 bool edit_check_text(struct edit_change *change, const char *what, const char *text);
 bool edit_check_name(struct edit_change *change, const char *what, const char *name);
+/* The name of an element or attribute, which is one of XML, too. */
+bool edit_check_xml_name(struct edit_change *change, const char *what, const char *name);
 /* A name that no element below the parent has. */
 bool edit_check_new_name(struct edit_change *change, elem_id parent, const char *name);
 /* The document may have so many elements more. */

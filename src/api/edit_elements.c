@@ -106,8 +106,7 @@ bool edit_check_name(struct edit_change *change, const char *what, const char *n
     return !change->failed;
 }
 
-/* Checks the name of an element or attribute, which is one of XML, too. */
-static bool check_xml_name(struct edit_change *change, const char *what, const char *name)
+bool edit_check_xml_name(struct edit_change *change, const char *what, const char *name)
 {
     static const char *const reserved[] = {"xml", "xmlns", "xi"};
     if (!edit_check_name(change, what, name))
@@ -171,7 +170,7 @@ static void add(void *arg)
 {
     struct edit_change *c = arg;
     bool is_named = c->name && *c->name;
-    if (edit_check_element(c, &c->element, true) && check_xml_name(c, "category", c->category)
+    if (edit_check_element(c, &c->element, true) && edit_check_xml_name(c, "category", c->category)
         && (!is_named || edit_check_new_name(c, c->element, c->name))
         && edit_check_text(c, "type", c->type) && edit_check_room(c, 1))
         c->result = edit_add(c, c->element, c->category, c->name, c->type);
@@ -183,74 +182,6 @@ mxg_element mxg_edit_add_element(mxg_edit *edit, mxg_element parent, const char 
     struct edit_change change = {
         .edit = edit, .element = parent, .category = category, .name = name, .type = type};
     return edit && edit_run(&change, add) == MXG_OK ? change.result : 0;
-}
-
-static void rename_element(void *arg)
-{
-    struct edit_change *c = arg;
-    if (!edit_check_element(c, &c->element, false))
-        return;
-    const struct document *doc = edit_tree(c->edit);
-    const struct element *e = doc_element(doc, c->element);
-    if (c->text && strcmp(str_text(doc->strings, e->name), c->text) == 0)
-        return;
-    if (edit_check_new_name(c, e->parent, c->text))
-        doc_rename(edit_tree(c->edit), c->element, edit_word(c, c->text));
-}
-
-mxg_status mxg_edit_rename_element(mxg_edit *edit, mxg_element element, const char *name)
-{
-    struct edit_change change = {.edit = edit, .element = element, .text = name};
-    return edit ? edit_run(&change, rename_element) : MXG_ERROR_ARGUMENT;
-}
-
-/* Attributes with two prefixes may be one to XML: prefixes of one namespace are equal there. */
-static void check_prefix(struct edit_change *c)
-{
-    const struct document *doc = edit_tree(c->edit);
-    const char *colon = strchr(c->name, ':');
-    for (uint32_t i = 0; colon && i < doc_element(doc, c->element)->num_attrs; i++) {
-        const char *other = str_text(doc->strings, doc_attrs(doc, c->element)[i].name),
-                   *end = strchr(other, ':');
-        if (end && strcmp(end, colon) == 0 && strcmp(other, c->name) != 0)
-            edit_fail(c, "the element has '%s', which may be one with '%s' to XML", other, c->name);
-    }
-}
-
-static void check_attribute(struct edit_change *c)
-{
-    const struct document *doc = edit_tree(c->edit);
-    bool is_version = c->element == doc->root && strcmp(c->name, "version") == 0;
-    if (is_version && !(c->text && doc_is_current_version(c->text)))
-        edit_fail(c, "the version of a document is 1.39: an edit does not upgrade it");
-    else if (c->text && check_xml_name(c, "attribute", c->name))
-        check_prefix(c);
-}
-
-static void set(void *arg)
-{
-    struct edit_change *c = arg;
-    if (!edit_check_element(c, &c->element, true) || !edit_check_name(c, "attribute", c->name)
-        || !edit_check_text(c, "value", c->text))
-        return;
-    check_attribute(c);
-    if (c->failed)
-        return;
-    if (c->text)
-        doc_set_attr(edit_tree(c->edit), c->element, edit_word(c, c->name), edit_word(c, c->text));
-    else
-        doc_remove_attr(edit_tree(c->edit), c->element, edit_word(c, c->name));
-    doc_index_change(edit_tree(c->edit), c->element);
-}
-
-mxg_status mxg_edit_set_attribute(mxg_edit *edit, mxg_element element, const char *attribute,
-                                  const char *value)
-{
-    if (attribute && strcmp(attribute, "name") == 0)
-        return mxg_edit_rename_element(edit, element, value);
-    struct edit_change change = {
-        .edit = edit, .element = element, .name = attribute, .text = value};
-    return edit ? edit_run(&change, set) : MXG_ERROR_ARGUMENT;
 }
 
 /* ---- The tree ---- */

@@ -178,22 +178,42 @@ static elem_id implementing_graph(const struct document *doc, elem_id user)
     return kind == KIND_NODEGRAPH ? user : 0;
 }
 
-/* A nodegraph reads the inputs of the definition that it implements, unless it has its own. */
-static void visit_interface(struct document *doc, elem_id input, const struct visitor *visitor)
+/* Visits the ports that read an input of a definition through a nodegraph. */
+static void visit_graph(struct document *doc, elem_id input, elem_id graph,
+                        const struct visitor *visitor)
 {
-    uint32_t num, num_ports;
+    uint32_t num;
     const struct element e = *doc_element(doc, input);
-    const elem_id *users = find_users(doc, 0, doc_element(doc, e.parent)->name, &num);
+    const elem_id *ports = find_users(doc, graph, e.name, &num);
+    for (uint32_t i = 0; i < num; i++)
+        if (doc_has_element(doc, ports[i]) && doc_port_scope(doc, ports[i]) == graph
+            && doc_has_name(doc, ports[i], STR_interfacename, e.name))
+            visitor->visit(visitor->arg, ports[i], STR_interfacename);
+}
+
+enum { MAX_HEIRS = 256 }; /* of definitions, one below the other; they may be a circle */
+
+/*
+ * A nodegraph reads the inputs of the definition that it implements, and those that this one
+ * inherits, unless it has its own.
+ */
+static void visit_interface(struct document *doc, elem_id input, elem_id nodedef, unsigned depth,
+                            const struct visitor *visitor)
+{
+    uint32_t num;
+    const struct element e = *doc_element(doc, input);
+    const elem_id *users = find_users(doc, 0, doc_element(doc, nodedef)->name, &num);
     for (uint32_t i = 0; i < num; i++) {
-        bool is_heir = doc_can_name(doc, users[i], STR_nodedef, e.parent);
-        elem_id graph = is_heir ? implementing_graph(doc, users[i]) : 0;
-        if (!graph || doc_child_of_kind(doc, graph, (enum element_kind)e.kind, e.name))
+        bool implements = doc_can_name(doc, users[i], STR_nodedef, nodedef),
+             inherits = doc_can_name(doc, users[i], STR_inherit, nodedef);
+        elem_id graph = implements ? implementing_graph(doc, users[i]) : 0,
+                reader = inherits && depth < MAX_HEIRS ? users[i] : graph;
+        if (!reader || doc_child_of_kind(doc, reader, (enum element_kind)e.kind, e.name))
             continue;
-        const elem_id *ports = find_users(doc, graph, e.name, &num_ports);
-        for (uint32_t k = 0; k < num_ports; k++)
-            if (doc_has_element(doc, ports[k]) && doc_port_scope(doc, ports[k]) == graph
-                && doc_has_name(doc, ports[k], STR_interfacename, e.name))
-                visitor->visit(visitor->arg, ports[k], STR_interfacename);
+        if (graph)
+            visit_graph(doc, input, graph, visitor);
+        else
+            visit_interface(doc, input, reader, depth + 1, visitor);
     }
 }
 
@@ -208,7 +228,7 @@ void doc_visit_users(struct document *doc, elem_id element,
     if (e.kind == KIND_OUTPUT && e.name && e.parent != doc->root)
         visit_readers(doc, element, &visitor);
     if (e.name && e.parent && doc_element(doc, e.parent)->kind == KIND_NODEDEF)
-        visit_interface(doc, element, &visitor);
+        visit_interface(doc, element, e.parent, 0, &visitor);
 }
 
 /* ---- Renaming ---- */

@@ -89,6 +89,47 @@ static void test_others(struct fixture *f)
     mxg_document_destroy(d);
 }
 
+/* Whoever has a port of a definition has it by the new name. */
+static void test_ports(struct fixture *f)
+{
+    static char expected[8192];
+    mxg_document *d = parse(f, document_text("ports.mtlx")), *next = NULL;
+    mxg_edit *edit = begin(f, d);
+    snprintf(expected, sizeof expected, "%s", xml_below(d));
+    REQUIRE_EQ(mxg_edit_rename_element(edit, edited_at(edit, "ND_p/old"), "now"), MXG_OK);
+    REQUIRE_EQ(commit(edit, &next), MXG_OK);
+    for (char *at = expected; (at = strstr(at, "\"old\"")) != NULL; ++at) {
+        const char *other = strstr(at, "doc=\"other\"");
+        if (!other || other > strchr(at, '>'))
+            memcpy(at, "\"now\"", 5);
+    }
+    REQUIRE_STR(xml_below(next), expected);
+    mxg_document_destroy(next);
+    mxg_document_destroy(d);
+}
+
+/* A port that some of them have already is no new name. */
+static void test_taken_port(struct fixture *f)
+{
+    mxg_document *d =
+        parse(f, "<materialx version='1.39'><nodedef name='ND_p' node='p'>"
+                 "<token name='old' type='string'/><output name='out' type='float'/></nodedef>"
+                 "<p name='P' type='float'><token name='old' type='string' value='a'/></p>"
+                 "<p name='Q' type='float'><token name='old' type='string' value='b'/>"
+                 "<input name='now' type='float' value='1'/></p></materialx>");
+    mxg_edit *edit = begin(f, d);
+    const mxg_element token = edited_at(edit, "ND_p/old");
+    REQUIRE_EQ(mxg_edit_rename_element(edit, token, "now"), MXG_ERROR_ARGUMENT);
+    REQUIRE(failed_for(edit, "'Q' has the port, too, and an element 'now' already"));
+    REQUIRE(edited_at(edit, "ND_p/old") && edited_at(edit, "P/old"));
+    REQUIRE_EQ(mxg_edit_rename_element(edit, token, "then"), MXG_OK);
+    REQUIRE(edited_at(edit, "P/then") && edited_at(edit, "Q/then"));
+    REQUIRE_EQ(mxg_edit_rename_element(edit, token, "again"), MXG_OK);
+    REQUIRE(edited_at(edit, "P/again") && edited_at(edit, "Q/again"));
+    mxg_edit_destroy(edit);
+    mxg_document_destroy(d);
+}
+
 /* A frame contains what stands in the place of its nodes. */
 static void test_frames(struct fixture *f)
 {
@@ -117,6 +158,8 @@ int main(void)
     open_fixture(&f);
     test_all(&f);
     test_others(&f);
+    test_ports(&f);
+    test_taken_port(&f);
     test_frames(&f);
     close_fixture(&f);
     return test_report("api-edit_names");
