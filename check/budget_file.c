@@ -10,6 +10,7 @@
 #include "check/measure_budget.h"
 #include "program/args.h"
 #include "program/cli.h"
+#include "program/cli_targets.h"
 #include "program/toml.h"
 #include "program/utf8.h"
 
@@ -21,6 +22,7 @@
 enum { MAX_TARGETS = 64 }; /* that a suggestion considers */
 
 struct reader {
+    const struct cli *cli;
     struct toml toml;
     const char *path;
     const char *target;  /* of the table; "": all; NULL: no table yet */
@@ -105,12 +107,13 @@ static void fail_name(struct reader *reader, const char *what, const char *at, s
 
 /* ---- Tables ---- */
 
-static const char *find_target(const char *name, const char **names, size_t *num_names)
+static const char *find_target(const struct cli *cli, const char *name, const char **names,
+                               size_t *num_names)
 {
     const char *found = NULL;
-    mxg_target target = {sizeof target};
+    mxg_target target;
     *num_names = 0;
-    for (uint32_t i = 0; mxg_catalogue_target(i, &target) == MXG_OK; ++i) {
+    for (uint32_t i = 0; cli_target(cli, i, &target); ++i) {
         if (*num_names < MAX_TARGETS)
             names[(*num_names)++] = target.name;
         if (strcmp(target.name, name) == 0)
@@ -123,7 +126,8 @@ static void begin_table(struct reader *reader, struct toml_part part)
 {
     const char *names[MAX_TARGETS];
     size_t num_names;
-    const char *target = reader->toml.sub.at ? find_target(part.text, names, &num_names) : "";
+    const char *target =
+        reader->toml.sub.at ? find_target(reader->cli, part.text, names, &num_names) : "";
     if (!target) {
         fail_name(reader, "target", part.at, part.len, part.text, names, num_names,
                   "'mxgen --help' lists the targets");
@@ -218,11 +222,14 @@ void budget_refuse_toml(struct store *store, const char *path, const char *reaso
     free(what);
 }
 
-void budget_read_toml(struct store *store, const char *path, const char *text,
-                      struct budget_rules *out, struct check_message *fault)
+void budget_read_toml(const struct cli *cli, struct store *store, const char *path,
+                      const char *text, struct budget_rules *out, struct check_message *fault)
 {
-    struct reader reader = {
-        .toml = {.store = store, .rest = text}, .path = path, .rules = out, .fault = fault};
+    struct reader reader = {.cli = cli,
+                            .toml = {.store = store, .rest = text},
+                            .path = path,
+                            .rules = out,
+                            .fault = fault};
     const struct toml_part *name = &reader.toml.name;
     while (!fault->id && toml_next(&reader.toml)) {
         if (reader.toml.kind == TOML_TABLE)

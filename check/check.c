@@ -9,6 +9,7 @@
 #include "check/check.h"
 #include "check/gate.h"
 #include "check/document_paths.h"
+#include "program/cli_targets.h"
 #include "program/scene_file.h"
 #include "program/json_values.h"
 #include "check/pool.h"
@@ -272,7 +273,7 @@ static bool find_targets(struct check *check)
         for (const char *at = check->target_args.items[i]; *at;) {
             size_t len = strcspn(at, ",");
             mxg_target target;
-            if (!cli_find_target(at, len, &target))
+            if (!cli_find_target(&check->cli, at, len, &target))
                 return false;
             if (check->targets.len == MAX_TARGETS) {
                 fprintf(stderr, "mxgen: more than %d targets\n", MAX_TARGETS);
@@ -432,7 +433,6 @@ static int run(struct check *check)
     if (!find_renderer(check) || !prepare(check))
         return EXIT_FAULT;
     make_worker_args(check);
-    check->budget.context = check->cli.context;
     inputs_init(&check->inputs, &check->cli.parser.inputs, &check->files_from);
     check->cache = (struct cache){
         .folder = check->cache_folder,
@@ -538,7 +538,7 @@ int command_check(const struct command *command, int argc, char **argv)
     json_use_memory();
     if (argc > 1 && strcmp(argv[1], "merge") == 0)
         return check_merge(command, argc - 1, argv + 1);
-    struct check check = {.time_limit = 120, .memory_limit = 4096};
+    struct check check = {.time_limit = 120, .memory_limit = 4096, .budget.cli = &check.cli};
     struct arg args[18 + NUM_GATE_ARGS + NUM_SINK_KINDS + NUM_MEASURES] = {
         {"target", 't', ARG_LIST, "T,...", "targets (default: glsl)", &check.target_args},
         {"jobs", 'j', ARG_SIZE, "N",

@@ -6,6 +6,7 @@
 #include "compile/compile.h"
 #include "check/examine.h"
 #include "compile/spirv.h"
+#include "program/cli_targets.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -278,7 +279,7 @@ static void compile(struct examiner *examiner, const mxg_result *result,
     }
     struct compiled compiled = {0};
     shader->compiled = true;
-    if (!compile_result(shader->target, result, &compiled))
+    if (!compile_result(cli_base_target(examiner->cli, shader->target), result, &compiled))
         check_fail(&shader->failed, CHECK_COMPILE);
     shader->compile_ms = examine_clock() - begin;
     for (size_t i = 0; i < compiled.num_messages; ++i)
@@ -306,7 +307,7 @@ void examine_shader(struct examiner *examiner, const mxg_result *result,
 {
     if (!examiner->is_brief)
         add_facts(examiner, result, shader);
-    if (examiner->compile && compile_knows_target(shader->target))
+    if (examiner->compile && compile_knows_target(cli_base_target(examiner->cli, shader->target)))
         compile(examiner, result, shader, element);
     rank_parts(shader);
     for (uint32_t i = 0; i < mxg_result_num_files(result); ++i)

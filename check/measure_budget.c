@@ -3,6 +3,7 @@
 #include "check/measure_budget.h"
 
 #include "program/cli.h"
+#include "program/cli_targets.h"
 #include "program/files.h"
 #include "program/name_table.h"
 #include "program/toml.h"
@@ -35,7 +36,7 @@ bool budget_add(struct budget *budget, enum measure measure, const char *text)
             return false;
         }
         mxg_target known = {.name = ""};
-        if (equals && !cli_find_target(at, (size_t)(equals - at), &known))
+        if (equals && !cli_find_target(budget->cli, at, (size_t)(equals - at), &known))
             return false;
         const char *target = store_text(&budget->store, known.name, strlen(known.name));
         budget_add_rule(&budget->store, &budget->command_line,
@@ -112,7 +113,7 @@ static void load_file(struct budget *budget, struct budget_file *file)
 {
     const char *path = find_file(budget, file->folder);
     size_t size = 0;
-    const char *refused = path ? mxg_context_file_fault(budget->context, path, path) : NULL;
+    const char *refused = path ? mxg_context_file_fault(budget->cli->context, path, path) : NULL;
     char *text = path && !refused ? files_read(path, &size) : NULL;
     if (path)
         file->path = store_text(&file->store, path, strlen(path));
@@ -123,7 +124,7 @@ static void load_file(struct budget *budget, struct budget_file *file)
     if (reason)
         budget_refuse_toml(&file->store, file->path, reason, &file->fault);
     else if (text)
-        budget_read_toml(&file->store, file->path, text, &file->rules, &file->fault);
+        budget_read_toml(budget->cli, &file->store, file->path, text, &file->rules, &file->fault);
     free(text);
 }
 

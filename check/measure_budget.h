@@ -9,6 +9,8 @@
 
 #include "check/record.h"
 
+struct cli;
+
 struct budget_rule {
     enum measure measure;
     const char *target; /* "": all targets */
@@ -24,8 +26,9 @@ enum { NUM_BUDGET_FOLDERS = 256 };
 
 struct budget {
     struct store store;
-    const mxg_context *context; /* whose sandbox and limits hold for mxgen.toml */
-    uint64_t num_unjudged;      /* shaders with a budget of instructions that were not compiled */
+    const struct cli
+        *cli; /* whose targets rules name; its sandbox and limits hold for mxgen.toml */
+    uint64_t num_unjudged; /* shaders with a budget of instructions that were not compiled */
     struct budget_folder {
         char *name; /* NULL: free entry */
         char *file; /* the nearest file in or above the folder; NULL: none */
@@ -62,8 +65,8 @@ void budget_refuse_toml(struct store *store, const char *path, const char *reaso
                         struct check_message *fault);
 /* budget_file.c: reads rules from the text of a file; *fault receives the first error, in the
  * store. */
-void budget_read_toml(struct store *store, const char *path, const char *text,
-                      struct budget_rules *out, struct check_message *fault);
+void budget_read_toml(const struct cli *cli, struct store *store, const char *path,
+                      const char *text, struct budget_rules *out, struct check_message *fault);
 
 void budget_add_rule(struct store *store, struct budget_rules *rules, struct budget_rule rule);
 

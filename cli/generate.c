@@ -4,6 +4,7 @@
  * output.
  */
 #include "cli/commands.h"
+#include "program/cli_targets.h"
 #include "program/file_name.h"
 #include "program/files.h"
 #include "program/folder.h"
@@ -484,11 +485,9 @@ static bool prepare_output(struct generate *gen)
     }
     if (gen->to_stdout || files_is_folder(gen->output))
         return true;
-    for (uint32_t i = 0; i < mxg_catalogue_num_targets() && !gen->is_file; ++i) {
-        mxg_target target = {sizeof target};
-        mxg_catalogue_target(i, &target);
+    mxg_target target;
+    for (uint32_t i = 0; !gen->is_file && cli_target(&gen->cli, i, &target); ++i)
         gen->is_file = find_stage(&target, gen->output) < MXG_NUM_STAGES;
-    }
     if (!gen->is_file)
         return true;
     gen->stage = (mxg_stage)find_stage(&gen->target_info, gen->output);
@@ -528,7 +527,7 @@ int command_generate(const struct command *command, int argc, char **argv)
     int code;
     if (cli_start(&gen.cli, command, args, sizeof args / sizeof *args,
                   CLI_GENERATES | CLI_NEEDS_INPUT, argc, argv, &code))
-        code = cli_find_target(gen.target, strlen(gen.target), &gen.target_info)
+        code = cli_find_target(&gen.cli, gen.target, strlen(gen.target), &gen.target_info)
                        && cli_options_apply(&gen.cli, &gen.target_info.name, 1)
                        && prepare_output(&gen) && check_stage(&gen)
                    ? generate_all(&gen)

@@ -3,6 +3,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "cli/commands.h"
 #include "program/cli.h"
+#include "program/cli_targets.h"
 #include "program/scene_file.h"
 
 #include <string.h>
@@ -132,7 +133,7 @@ int command_inspect(const struct command *command, int argc, char **argv)
     if (cli_start(&cli, command, args, sizeof args / sizeof *args, CLI_NEEDS_INPUT | CLI_GENERATES,
                   argc, argv, &code)) {
         mxg_target target;
-        bool good = cli_find_target(inspect.target, strlen(inspect.target), &target)
+        bool good = cli_find_target(&cli, inspect.target, strlen(inspect.target), &target)
                     && cli_options_apply(&cli, &target.name, 1) && choose_format(&inspect);
         for (size_t i = 0; good && i < cli.parser.inputs.len; ++i) {
             mxg_document *document = cli_load(&cli, cli.parser.inputs.items[i]);

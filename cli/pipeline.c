@@ -5,6 +5,7 @@
  */
 #include "cli/commands.h"
 #include "program/cli.h"
+#include "program/cli_targets.h"
 #include "program/files.h"
 
 #include <stdlib.h>
@@ -109,7 +110,7 @@ int command_pipeline(const struct command *command, int argc, char **argv)
     int code;
     if (cli_start(&cli, command, args, sizeof args / sizeof *args, CLI_NEEDS_INPUT | CLI_GENERATES,
                   argc, argv, &code)) {
-        bool is_usage = cli_find_target(name, strlen(name), &target)
+        bool is_usage = cli_find_target(&cli, name, strlen(name), &target)
                         && cli_options_apply(&cli, &target.name, 1) && has_files(&cli, &target);
         if (cli.parser.inputs.len != 1) {
             fprintf(stderr, "mxgen: 'mxgen pipeline' takes one folder\n");

@@ -5,6 +5,7 @@
  * are shown at the line of the document that they come from.
  */
 #include "program/cli.h"
+#include "program/cli_targets.h"
 #include "program/files.h"
 #include "program/scene_file.h"
 #include "compile/compile.h"
@@ -106,8 +107,9 @@ static void print_result(struct check *check, const char *target, const char *in
 static void check_waiting(struct check *check, const char *target, const char *interface)
 {
     struct compiled compiled[COMPILE_MAX_RESULTS] = {0};
-    if (!check->no_compile && compile_knows_target(target))
-        compile_results(target, (const mxg_result *const *)check->waiting, check->num_waiting,
+    const char *base = cli_base_target(&check->cli, target);
+    if (!check->no_compile && compile_knows_target(base))
+        compile_results(base, (const mxg_result *const *)check->waiting, check->num_waiting,
                         compiled);
     for (size_t i = 0; i < check->num_waiting; ++i) {
         print_result(check, target, interface, check->waiting[i], &compiled[i]);
@@ -243,7 +245,7 @@ static void note_missing_compilers(const struct check *check)
     char target[32];
     for (const char *targets = check->targets;
          !check->no_compile && next_word(&targets, target, sizeof target);)
-        if (!compile_knows_target(target))
+        if (!compile_knows_target(cli_base_target(&check->cli, target)))
             fprintf(stderr,
                     "note: shaders for '%s' are not compiled: no compiler for it is installed\n",
                     target);

@@ -3,6 +3,7 @@
 #include "export/export.h"
 
 #include "export/write.h"
+#include "program/cli_targets.h"
 #include "program/export_options.h"
 #include "program/files.h"
 #include "program/json_values.h"

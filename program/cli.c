@@ -36,7 +36,8 @@ static size_t add_common_args(struct cli *cli, struct arg *table)
          "another folder to search for source files of implementations and included documents",
          &cli->source_paths, ARG_COMMON},
         {"plugin", 0, ARG_LIST, "FILE",
-         "loads a shared object with nodes in C; it runs with your rights, so not with --sandbox",
+         "loads a shared object with nodes in C and targets; it runs with your rights, so not with "
+         "--sandbox",
          &cli->plugin_files, ARG_COMMON},
         {"profile", 0, ARG_TEXT, "NAME",
          "options of a platform: desktop, console, mobile, one-slab, or a file.toml; other "
@@ -123,6 +124,8 @@ char *cli_describe_context(const struct cli *cli, mxg_context_desc *out)
     desc.num_source_paths = cli->source_paths.len;
     desc.node_codes = cli->plugins.codes;
     desc.num_node_codes = cli->plugins.num_codes;
+    desc.dialects = cli->plugins.dialects;
+    desc.num_dialects = cli->plugins.num_dialects;
     desc.texels = &texels;
     char *warnings = warnings_join(&cli->warnings);
     desc.warnings = warnings;
@@ -135,13 +138,14 @@ static bool create_context(struct cli *cli)
     mxg_context_desc desc;
     char *warnings = cli_describe_context(cli, &desc);
     mxg_status status = mxg_context_create(&desc, &cli->context);
-    free(warnings);
-    if (status == MXG_ERROR_ARGUMENT && cli->plugins.num_codes) {
-        fputs("mxgen: a plug-in has a node without a name, with neither or both of 'build' and "
-              "'instead', or for an unknown target\n",
-              stderr);
+    if (status == MXG_ERROR_ARGUMENT && cli->plugin_files.len) {
+        char reason[512];
+        mxg_context_desc_error(&desc, reason, sizeof reason);
+        fprintf(stderr, "mxgen: a plug-in is refused: %s\n", reason);
+        free(warnings);
         return false;
     }
+    free(warnings);
     return report_status(&cli->report, status);
 }
 
@@ -356,67 +360,6 @@ void cli_finish(struct cli *cli)
     free(cli->include_roots.items);
     free(cli->source_paths.items);
     args_finish(&cli->parser);
-}
-
-bool cli_find_target(const char *name, size_t len, mxg_target *out)
-{
-    for (uint32_t i = 0; i < mxg_catalogue_num_targets(); ++i) {
-        out->size = sizeof *out;
-        mxg_catalogue_target(i, out);
-        if ((strlen(out->name) == len && memcmp(out->name, name, len) == 0)
-            || (strlen(out->materialx_name) == len && memcmp(out->materialx_name, name, len) == 0))
-            return true;
-    }
-    fprintf(stderr, "mxgen: unknown target '%.*s'; expected one of", (int)len, name);
-    for (uint32_t i = 0; i < mxg_catalogue_num_targets(); ++i) {
-        mxg_catalogue_target(i, out);
-        fprintf(stderr, "%s %s", i ? "," : ":", out->name);
-    }
-    fputs(" [unknown-target]\n", stderr);
-    return false;
-}
-
-static bool applies_to_one(uint32_t option, const char *const *targets, size_t num_targets)
-{
-    bool applies = false;
-    for (size_t i = 0; i < num_targets; ++i)
-        applies |= mxg_catalogue_has_option(option, targets[i]);
-    return applies;
-}
-
-static void print_inapplicable(uint32_t option, const char *key, const char *const *targets,
-                               size_t num_targets)
-{
-    fprintf(stderr, "mxgen: option '--%s' does not apply to", key);
-    for (size_t i = 0; i < num_targets; ++i)
-        fprintf(stderr, "%s '%s'", i ? "," : "", targets[i]);
-    const char *before = "; it applies to";
-    for (uint32_t i = 0; i < mxg_catalogue_num_targets(); ++i) {
-        mxg_target target = {sizeof target};
-        mxg_catalogue_target(i, &target);
-        if (!mxg_catalogue_has_option(option, target.name))
-            continue;
-        fprintf(stderr, "%s '%s'", before, target.name);
-        before = ",";
-    }
-    fputc('\n', stderr);
-}
-
-bool cli_options_apply(const struct cli *cli, const char *const *targets, size_t num_targets)
-{
-    for (uint32_t option = 0; option < mxg_catalogue_num_options(); ++option) {
-        mxg_option known = {sizeof known};
-        mxg_catalogue_option(option, &known);
-        if (applies_to_one(option, targets, num_targets))
-            continue;
-        for (size_t i = 0; i < cli->parser.num_settings; ++i) {
-            if (strcmp(cli->parser.settings[i].key, known.key) != 0)
-                continue;
-            print_inapplicable(option, known.key, targets, num_targets);
-            return false;
-        }
-    }
-    return true;
 }
 
 enum { DEFAULT_MIB = 256 }; /* of the library */

@@ -98,15 +98,6 @@ mxg_document *cli_load(struct cli *cli, const char *path);
 size_t cli_max_file_size(const struct cli *cli);
 size_t cli_max_output_size(const struct cli *cli);
 
-/* The target by its name, or by MaterialX's; prints that there is none, and which there are. */
-bool cli_find_target(const char *name, size_t len, mxg_target *out);
-
-/*
- * False after a message about an option of generation that applies to none of the targets, which
- * exist.
- */
-bool cli_options_apply(const struct cli *cli, const char *const *targets, size_t num_targets);
-
 /* The element after `at` in document order, `top` or below it; 0: `at` is the last. */
 mxg_element cli_next_element(const mxg_document *document, mxg_element top, mxg_element at);
 

@@ -42,6 +42,11 @@ static void take(struct plugins *plugins, const char *file, const mxg_plugin *pl
                                                        * sizeof *plugins->codes);
     for (size_t i = 0; i < plugin->num_nodes; ++i)
         plugins->codes[plugins->num_codes++] = plugin->nodes[i];
+    plugins->dialects =
+        memory_resize(plugins->dialects, (plugins->num_dialects + plugin->num_dialects + 1)
+                                             * sizeof *plugins->dialects);
+    for (size_t i = 0; i < plugin->num_dialects; ++i)
+        plugins->dialects[plugins->num_dialects++] = plugin->dialects[i];
     for (size_t i = 0; i < plugin->num_libraries; ++i)
         args_append(&plugins->libraries, beside(file, plugin->libraries[i]));
 }
@@ -86,6 +91,7 @@ void plugins_finish(struct plugins *plugins)
 {
     args_free(&plugins->libraries);
     free(plugins->codes);
+    free(plugins->dialects);
     for (size_t i = 0; i < plugins->num_handles; ++i)
         dlclose(plugins->handles[i]);
     free(plugins->handles);

@@ -3,6 +3,7 @@
 #include "render/bake.h"
 
 #include "compile/compile.h"
+#include "program/cli_targets.h"
 #include "program/file_name.h"
 #include "program/files.h"
 

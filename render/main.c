@@ -2,6 +2,7 @@
 /* mxgen-render: renders pictures of materials without a display. `mxgen render` starts it. */
 #define _POSIX_C_SOURCE 200809L
 #include "export/export.h"
+#include "program/cli_targets.h"
 #include "program/files.h"
 #include "program/parent.h"
 #include "program/scene_file.h"

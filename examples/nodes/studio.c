@@ -145,12 +145,30 @@ static const mxg_node_code cheap = {.size = sizeof cheap,
                                     .version = 1,
                                     .instead = "ND_noise3d_float"};
 
+/* A target: GLSL 3.30 with uniforms in blocks, in files with the endings of the studio. */
+static const char *const studiogl_options[] = {"uniform-blocks", "true"};
+static const mxg_dialect studiogl = {.size = sizeof studiogl,
+                                     .name = "studiogl",
+                                     .base = "glsl",
+                                     .version = "330",
+                                     .options = studiogl_options,
+                                     .num_options = 1,
+                                     .stage_suffix = {"vs.glsl", "fs.glsl"}};
+
 MXG_API const mxg_plugin *mxgen_plugin(void);
 const mxg_plugin *mxgen_plugin(void)
 {
     static const mxg_node_code *const nodes[] = {&curve, &placed_texcoord, &fuzz, &weathered,
                                                  &cheap};
     static const char *const libraries[] = {"studio.mtlx"};
-    static const mxg_plugin plugin = {MXG_PLUGIN_VERSION, "studio", nodes, 5, libraries, 1};
+    static const mxg_dialect *const dialects[] = {&studiogl};
+    static const mxg_plugin plugin = {.version = MXG_PLUGIN_VERSION,
+                                      .name = "studio",
+                                      .nodes = nodes,
+                                      .num_nodes = 5,
+                                      .libraries = libraries,
+                                      .num_libraries = 1,
+                                      .dialects = dialects,
+                                      .num_dialects = 1};
     return &plugin;
 }

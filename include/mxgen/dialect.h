@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /*
- * Targets of a host: mxg_context_desc.dialects.
+ * Targets of a host: mxg_context_desc.dialects, and mxg_plugin.dialects for the command line.
  */
 #include <mxgen/mxgen.h>
 

@@ -176,10 +176,10 @@ MXG_API void mxg_build_report_error(mxg_build *build, const char *input, const c
  * The version of this interface. A plug-in of another version is refused, because structs and
  * meanings may differ.
  */
-#define MXG_PLUGIN_VERSION 1
+#define MXG_PLUGIN_VERSION 2
 
 /*
- * A shared object with nodes, for `mxgen --plugin FILE`. It has one entry point:
+ * A shared object with nodes and targets, for `mxgen --plugin FILE`. It has one entry point:
  *
  *     MXG_API const mxg_plugin *mxgen_plugin(void);
  *
@@ -193,6 +193,8 @@ typedef struct mxg_plugin {
     /* files with definitions, relative to the folder of the plug-in; they extend the library */
     const char *const *libraries;
     size_t num_libraries;
+    const struct mxg_dialect *const *dialects; /* targets (dialect.h) */
+    size_t num_dialects;
 } mxg_plugin;
 
 #ifdef __cplusplus

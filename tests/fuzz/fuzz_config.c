@@ -10,6 +10,7 @@
 #include "check/measure_budget.h"
 #include "check/record_json.h"
 #include "check/report_reader.h"
+#include "program/cli.h"
 #include "program/profile.h"
 #include "program/store.h"
 
@@ -18,10 +19,11 @@
 
 static void read_budgets(const char *text)
 {
+    const struct cli cli = {0};
     struct store store = {0};
     struct budget_rules rules = {0};
     struct check_message fault = {0};
-    budget_read_toml(&store, "mxgen.toml", text, &rules, &fault);
+    budget_read_toml(&cli, &store, "mxgen.toml", text, &rules, &fault);
     FUZZ_REQUIRE(!fault.id || fault.line);
     for (size_t i = 0; i < rules.len; i++)
         FUZZ_REQUIRE(rules.items[i].measure < NUM_MEASURES && rules.items[i].target);

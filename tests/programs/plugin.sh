@@ -43,6 +43,29 @@ check 'library doc documents the nodes of the plug-in' grep -q 'A curve through 
 check 'a depfile is written' exits 0 "$mxgen" "$document" --plugin "$plugin" -o dep.d --depfile felt.d
 check 'the depfile names the plug-in and its definitions' eval 'grep -qF "$plugin" felt.d && grep -q studio.mtlx felt.d'
 
+# The target of the plug-in is GLSL 3.30 with blocks and its own endings.
+own=(--plugin "$plugin" --target studiogl)
+check 'the target of the plug-in is written' exits 0 "$mxgen" "$document" "${own[@]}" -o own.d
+check 'its files have its endings' test -s own.d/Felt.vs.glsl -a -s own.d/Felt.fs.glsl
+check 'it has its version' eval '[ "$(head -1 own.d/Felt.fs.glsl)" = "#version 330" ]'
+check 'it has its options' grep -q 'uniform PublicUniforms' own.d/Felt.fs.glsl
+check 'an ending of it names one file' eval '"$mxgen" "$document" "${own[@]}" -o one.fs.glsl && cmp one.fs.glsl own.d/Felt.fs.glsl'
+check 'options of its language have a meaning' exits 0 "$mxgen" "$document" "${own[@]}" --target-version 450 -o own450.d
+check 'the command line has the last word' eval '[ "$(head -1 own450.d/Felt.fs.glsl)" = "#version 450" ]'
+check 'options of other languages have none' exits 2 "$mxgen" "$document" "${own[@]}" --osl-network -o none.d
+check 'inspect knows the target' exits 0 "$mxgen" inspect "$document" "${own[@]}" --closures
+check 'an unknown target is wrong usage' exits 2 "$mxgen" "$document" --plugin "$plugin" --target studio -o none.d
+check 'the error lists the target of the plug-in' grep -q ', studiogl \[unknown-target\]' err
+check 'a folder is checked for the target' exits 0 "$mxgen" check "$document" "${own[@]}" --max-closures studiogl=99 --json own.json
+check 'the report names the target' grep -q '"target": *"studiogl"' own.json
+check 'a budget of the target fails' exits 1 "$mxgen" check "$document" "${own[@]}" --max-closures studiogl=1
+mkdir -p own && cp "$document" own/felt.mtlx && printf '[budget.studiogl]\nmax-closures = 1\n' >own/mxgen.toml
+check 'a file of budgets knows the target' eval '! "$mxgen" check own "${own[@]}" >out 2>err && grep -q over-budget out err'
+if [ -n "$compile" ]; then
+    check 'its shaders compile as those of its language' exits 0 "$compile" "$document" --plugin "$plugin" --targets studiogl
+    check 'its compiler is there' eval '! grep -q "no compiler" err && grep -q studiogl out'
+fi
+
 cat >noise.mtlx <<'XML'
 <materialx version="1.39">
   <unifiednoise3d name="n" type="float"/>
@@ -65,11 +88,13 @@ check 'a plug-in that is missing is wrong usage' exits 2 "$mxgen" "$document" --
 check 'the error names the missing plug-in' grep -q "cannot load the plug-in 'none.so'" err
 check 'a file that is no plug-in is wrong usage' exits 2 "$mxgen" "$document" --plugin "$document" --stdout
 check 'a plug-in of another version is wrong usage' exits 2 "$mxgen" "$document" --plugin "${wrong[0]}" --stdout
-check 'the error names both versions' grep -q 'it is for version 2 of the interface; this mxgen has 1' err
+check 'the error names both versions' grep -q 'it is for version 3 of the interface; this mxgen has 2' err
 check 'a plug-in that gives nothing is wrong usage' exits 2 "$mxgen" "$document" --plugin "${wrong[1]}" --stdout
 check 'the error says that it returns NULL' grep -q 'returns NULL' err
 check 'a plug-in without an entry point is wrong usage' exits 2 "$mxgen" "$document" --plugin "${wrong[2]}" --stdout
 check 'the error names the entry point' grep -q 'it has no function mxgen_plugin' err
 check 'a node for an unknown target fails' exits 1 "$mxgen" "$document" --plugin "${wrong[3]}" --stdout
-check 'the error names the unknown target' grep -q 'for an unknown target' err
+check 'the error names the unknown target' grep -q "a plug-in is refused: the code for 'ND_x' is for the unknown target 'genmoon'" err
+check 'a target of an unknown language fails' exits 1 "$mxgen" "$document" --plugin "${wrong[4]}" --stdout
+check 'the error names its base' grep -q "a plug-in is refused: dialect 'moon' has the unknown base 'genmoon'" err
 finish plugin
