@@ -3,6 +3,7 @@
 #include "check/document_paths.h"
 
 #include "program/cli.h"
+#include "program/files.h"
 #include "program/memory.h"
 
 #include <dirent.h>
@@ -77,12 +78,6 @@ static bool is_new(struct check_inputs *inputs, const char *path)
 
 /* ---- Expansion of paths ---- */
 
-static bool is_document_name(const char *name)
-{
-    size_t len = strlen(name);
-    return len > 5 && strcmp(name + len - 5, ".mtlx") == 0;
-}
-
 /* True for folders, pipes and devices; a link that leads nowhere is a missing document. */
 static bool is_special(const char *path)
 {
@@ -126,7 +121,7 @@ static void push_folder(struct check_inputs *inputs, const char *path)
             continue;
         char *name =
             cli_format("%s%s%s", path, len && path[len - 1] == '/' ? "" : "/", entry->d_name);
-        bool is_document = is_document_name(name) && !is_special(name);
+        bool is_document = files_ends_with(name, ".mtlx") && !is_special(name);
         if (is_document || is_folder(name))
             args_append(&names, name);
         else

@@ -152,9 +152,9 @@ static struct check_note *take_notes(const mxg_diagnostics *list, uint32_t index
     *out_num = 0;
     for (uint32_t i = index + 1;
          mxg_diagnostics_item(list, i, &note) == MXG_OK && note.parent == index; ++i) {
-        notes = memory_resize(notes, (*out_num + 1) * sizeof *notes);
-        notes[(*out_num)++] = (struct check_note){note.message, note.file ? note.file : "",
-                                                  note.line, note.column, note.length};
+        MEMORY_PUSH(notes, *out_num,
+                    (struct check_note){note.message, note.file ? note.file : "", note.line,
+                                        note.column, note.length});
     }
     return notes;
 }

@@ -57,7 +57,7 @@ static struct program *find_program(const struct stacks *s, uint64_t topology)
 static struct program *add_program(struct stacks *s, uint64_t topology, uint32_t stack,
                                    const mxg_result *result)
 {
-    s->programs = memory_resize(s->programs, (s->num_programs + 1) * sizeof *s->programs);
+    s->programs = memory_grow(s->programs, s->num_programs, sizeof *s->programs);
     struct program *program = &s->programs[s->num_programs++];
     *program = (struct program){
         .topology = topology, .stack = stack, .next = s->buckets[topology % NUM_BUCKETS]};
@@ -305,17 +305,10 @@ static bool is_small(const struct stacks *s, FILE *out)
 static bool put_primitives(const struct stacks *s, FILE *out)
 {
     uint32_t num = mxg_scene_num_primitives(s->stage.scene);
-    char *path = NULL;
-    size_t capacity = 0;
     bool good = true;
     fputs("  \"primitives\": [", out);
     for (uint32_t i = 0; i < num && (good = is_small(s, out)); ++i) {
-        size_t size = mxg_scene_primitive_path(s->stage.scene, i, NULL, 0) + 1;
-        if (size > capacity) {
-            capacity = 2 * size;
-            path = memory_resize(path, capacity);
-        }
-        mxg_scene_primitive_path(s->stage.scene, i, path, capacity);
+        char *path = scene_file_path(s->stage.scene, i);
         json_t *text = json_text(path);
         uint32_t stack = mxg_bindings_stack(s->stage.bindings, i);
         char *name = stack == MXG_NONE ? NULL : stack_name(s, stack);
@@ -327,9 +320,9 @@ static bool put_primitives(const struct stacks *s, FILE *out)
         fputs("}", out);
         json_decref(text);
         free(name);
+        free(path);
     }
     fputs("\n  ]\n}\n", out);
-    free(path);
     return good;
 }
 

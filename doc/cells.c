@@ -92,14 +92,6 @@ static const char *range(struct manual *manual, const char *min, const char *max
                   : "";
 }
 
-static size_t count_items(const char *list)
-{
-    size_t count = *list != '\0';
-    for (; *list; ++list)
-        count += *list == ',';
-    return count;
-}
-
 /* The part of a list up to its next comma, without spaces around it; *list moves past the comma. */
 static const char *next_item(struct manual *manual, const char **list)
 {
@@ -115,7 +107,7 @@ static const char *next_item(struct manual *manual, const char **list)
 static const char *choices(struct manual *manual, const mxg_port *port)
 {
     const char *names = port->enum_names, *values = port->enum_values, *text = "";
-    bool paired = *values && count_items(names) == count_items(values);
+    bool paired = *values && cli_count_items(names) == cli_count_items(values);
     while (*names) {
         const char *name = next_item(manual, &names);
         const char *value = paired ? next_item(manual, &values) : "";

@@ -85,18 +85,11 @@ static char *arguments_of(const char *example, char side)
 }
 
 struct example_file {
-    char *name, *text;
-    size_t len;
+    char *name;
+    struct memory_bytes text;
     bool is_whole; /* the file has its own <materialx> element */
     bool is_there; /* the file exists on this side */
 };
-
-static void append(struct example_file *file, const char *text, size_t len)
-{
-    file->text = memory_resize(file->text, file->len + len + 1);
-    memcpy(file->text + file->len, text, len);
-    file->len += len;
-}
 
 static void write_text(struct cli *cli, const char *folder, const char *name, const char *text,
                        size_t len)
@@ -112,11 +105,11 @@ static void finish_file(struct cli *cli, const char *folder, struct example_file
 {
     static const char end[] = "</materialx>\n";
     if (file->is_there && !file->is_whole)
-        append(file, end, sizeof end - 1);
+        memory_append(&file->text, end, sizeof end - 1);
     if (file->is_there)
-        write_text(cli, folder, file->name, file->text, file->len);
+        write_text(cli, folder, file->name, file->text.data, file->text.size);
     free(file->name);
-    free(file->text);
+    free(file->text.data);
     *file = (struct example_file){0};
 }
 
@@ -126,7 +119,7 @@ static void begin_file(struct example_file *file, const struct line *name)
     *file = (struct example_file){.name = name ? cli_format("%.*s", (int)name->len, name->text)
                                                : cli_format("example.mtlx"),
                                   .is_whole = name != NULL};
-    append(file, begin, name ? 0 : sizeof begin - 1);
+    memory_append(&file->text, begin, name ? 0 : sizeof begin - 1);
 }
 
 /* Writes one side of an example as files in a folder, with its arguments in "arguments". */
@@ -151,8 +144,8 @@ static void write_side(struct cli *cli, const char *example, char side, const ch
             if (!file.name)
                 begin_file(&file, NULL);
             for (size_t i = 0; i < line.len; ++i)
-                append(&file, line.text[i] == '\'' ? "\"" : &line.text[i], 1);
-            append(&file, "\n", 1);
+                memory_append(&file.text, line.text[i] == '\'' ? "\"" : &line.text[i], 1);
+            memory_append(&file.text, "\n", 1);
             file.is_there = true;
         }
     }

@@ -2,6 +2,7 @@
 #include "export/dressed_site.h"
 
 #include "program/memory.h"
+#include "program/scene_file.h"
 #include "render/look_parts.h"
 #include "render/site_picture.h"
 
@@ -66,7 +67,7 @@ static struct layers read_layers(const mxg_bindings *bindings, uint32_t primitiv
 static void tell_lost(struct dressed_site *stage, uint32_t primitive, const struct layers *layers)
 {
     const mxg_layer *lost = &layers->lost;
-    char *path = site_path(stage->site.scene, primitive),
+    char *path = scene_file_path(stage->site.scene, primitive),
          *key = cli_format("%s:%u:%s:%s:%u", lost->file, (unsigned)lost->line, lost->slot,
                            lost->material, (unsigned)layers->num_lost);
     bool is_new;
@@ -90,8 +91,7 @@ static void tell_lost(struct dressed_site *stage, uint32_t primitive, const stru
 
 static void add_look(struct dressed_site *stage, const char *name)
 {
-    stage->looks = memory_resize(stage->looks, (stage->num_looks + 1) * sizeof *stage->looks);
-    stage->looks[stage->num_looks++] = name;
+    MEMORY_PUSH(stage->looks, stage->num_looks, name);
 }
 
 /* Layers are told where they are lost: tell_lost. */

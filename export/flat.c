@@ -292,10 +292,8 @@ static bool read_inputs(const struct flat *flat, struct flat_material *material)
         bool is_set = false;
         if (strcmp(info.category, "input") == 0)
             good = read_input(flat, material, child, &input, &is_set);
-        material->inputs =
-            memory_resize(material->inputs, (material->num_inputs + 1) * sizeof *material->inputs);
         if (is_set)
-            material->inputs[material->num_inputs++] = input;
+            MEMORY_PUSH(material->inputs, material->num_inputs, input);
         child = info.next;
     }
     return good;
@@ -313,12 +311,11 @@ static bool has_surface(const struct flat *flat, mxg_element surface)
 
 static bool add(struct flat *flat, const char *name, mxg_element surface)
 {
-    flat->materials =
-        memory_resize(flat->materials, (flat->num_materials + 1) * sizeof *flat->materials);
-    flat->materials[flat->num_materials] = (struct flat_material){.name = name, .surface = surface};
     bool is_new;
     names_add(&flat->by_name, name, &is_new)->value = flat->num_materials;
-    return read_inputs(flat, &flat->materials[flat->num_materials++]);
+    MEMORY_PUSH(flat->materials, flat->num_materials,
+                (struct flat_material){.name = name, .surface = surface});
+    return read_inputs(flat, &flat->materials[flat->num_materials - 1]);
 }
 
 static bool is_model(const struct flat *flat, mxg_element node, const char *model)

@@ -52,32 +52,21 @@ size_t gltf_add(json_t *array, json_t *value)
 
 enum { ALIGNMENT = 4 };
 
-static void append(struct gltf *gltf, const void *data, size_t size)
+static void pad(struct memory_bytes *out, char with)
 {
-    while (gltf->num_bytes + size > gltf->capacity) {
-        gltf->capacity = 2 * gltf->capacity + size;
-        gltf->bytes = memory_resize(gltf->bytes, gltf->capacity);
-    }
-    if (size)
-        memcpy(gltf->bytes + gltf->num_bytes, data, size);
-    gltf->num_bytes += size;
-}
-
-static void pad(struct gltf *gltf, char with)
-{
-    while (gltf->num_bytes % ALIGNMENT)
-        append(gltf, &with, 1);
+    while (out->size % ALIGNMENT)
+        memory_append(out, &with, 1);
 }
 
 size_t gltf_add_view(struct gltf *gltf, const void *data, size_t size, int target)
 {
     json_t *view = json_object();
-    pad(gltf, 0);
+    pad(&gltf->buffer, 0);
     json_set(view, "buffer", json_integer(0));
-    json_set(view, "byteOffset", json_integer((json_int_t)gltf->num_bytes));
+    json_set(view, "byteOffset", json_integer((json_int_t)gltf->buffer.size));
     json_set(view, "byteLength", json_integer((json_int_t)size));
     json_set_count(view, "target", (uint64_t)target);
-    append(gltf, data, size);
+    memory_append(&gltf->buffer, data, size);
     return gltf_append(gltf_array(gltf->root, "bufferViews"), view);
 }
 
@@ -157,10 +146,10 @@ static bool write_text(struct gltf *gltf)
 {
     char *stem = write_stem(gltf->writing), *name = cli_format("%s.bin", stem), *uri = escape(name);
     json_set(gltf->root, "buffers",
-             json_pack("[{s:s, s:I}]", "uri", uri, "byteLength", (json_int_t)gltf->num_bytes));
+             json_pack("[{s:s, s:I}]", "uri", uri, "byteLength", (json_int_t)gltf->buffer.size));
     char *text = text_of(gltf, JSON_INDENT(2)), *lines = cli_format("%s\n", text);
     bool good =
-        write_beside(gltf->writing, name, gltf->bytes, gltf->num_bytes)
+        write_beside(gltf->writing, name, gltf->buffer.data, gltf->buffer.size)
         && write_beside(gltf->writing, files_base_name(gltf->writing->path), lines, strlen(lines));
     free(text);
     free(lines);
@@ -170,48 +159,48 @@ static bool write_text(struct gltf *gltf)
     return good;
 }
 
-static void append_word(struct gltf *gltf, size_t word)
+static void append_word(struct memory_bytes *out, size_t word)
 {
     const uint8_t bytes[] = {(uint8_t)word, (uint8_t)(word >> 8), (uint8_t)(word >> 16),
                              (uint8_t)(word >> 24)};
-    append(gltf, bytes, sizeof bytes);
+    memory_append(out, bytes, sizeof bytes);
 }
 
 /* The length and the type of a chunk, which begins where the buffer ends. */
-static void append_chunk(struct gltf *gltf, const char type[4], const void *data, size_t size,
-                         char padding)
+static void append_chunk(struct memory_bytes *out, const char type[4], const void *data,
+                         size_t size, char padding)
 {
-    append_word(gltf, (size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT);
-    append(gltf, type, 4);
-    append(gltf, data, size);
-    pad(gltf, padding);
+    append_word(out, (size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT);
+    memory_append(out, type, 4);
+    memory_append(out, data, size);
+    pad(out, padding);
 }
 
 /* Section 4.4: a header, the JSON, the buffer; lengths are 32 bits. */
 static bool write_binary(struct gltf *gltf)
 {
     json_set(gltf->root, "buffers",
-             json_pack("[{s:I}]", "byteLength", (json_int_t)gltf->num_bytes));
+             json_pack("[{s:I}]", "byteLength", (json_int_t)gltf->buffer.size));
     enum { HEADER = 12, CHUNK = 8 };
     char *text = text_of(gltf, JSON_COMPACT);
-    struct gltf whole = {0};
+    struct memory_bytes whole = {0};
     size_t size = HEADER + 2 * CHUNK + (strlen(text) + 3) / ALIGNMENT * ALIGNMENT
-                  + (gltf->num_bytes + 3) / ALIGNMENT * ALIGNMENT;
+                  + (gltf->buffer.size + 3) / ALIGNMENT * ALIGNMENT;
     bool good = size <= UINT32_MAX;
     if (good) {
-        append(&whole, "glTF", 4);
+        memory_append(&whole, "glTF", 4);
         append_word(&whole, 2);
         append_word(&whole, size);
         append_chunk(&whole, "JSON", text, strlen(text), ' ');
-        append_chunk(&whole, "BIN\0", gltf->bytes, gltf->num_bytes, 0);
-        good = write_beside(gltf->writing, files_base_name(gltf->writing->path), whole.bytes,
-                            whole.num_bytes);
+        append_chunk(&whole, "BIN\0", gltf->buffer.data, gltf->buffer.size, 0);
+        good = write_beside(gltf->writing, files_base_name(gltf->writing->path), whole.data,
+                            whole.size);
     } else {
         report_error(&gltf->writing->cli->report, "output-failed",
                      "cannot write '%s': a .glb has at most 4 GiB; write a .gltf",
                      gltf->writing->path);
     }
-    free(whole.bytes);
+    free(whole.data);
     free(text);
     return good;
 }
@@ -226,7 +215,7 @@ static bool write(struct writing *writing, const struct flat *flat, bool is_bina
         free(gltf.files[i].file.data);
     }
     free(gltf.files);
-    free(gltf.bytes);
+    free(gltf.buffer.data);
     json_decref(gltf.root);
     return good;
 }

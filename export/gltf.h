@@ -13,6 +13,7 @@
 #include "export/write.h"
 #include "program/gltf_inputs.h"
 #include "program/json_values.h"
+#include "program/memory.h"
 
 struct gltf_texture_file {
     char *key; /* texture_key */
@@ -24,8 +25,7 @@ struct gltf {
     const struct flat *flat;
     struct writing *writing;
     json_t *root;
-    uint8_t *bytes; /* of the buffer */
-    size_t num_bytes, capacity;
+    struct memory_bytes buffer;
     struct gltf_texture_file *files;
     size_t num_files;
 };

@@ -291,9 +291,8 @@ static size_t add_file(struct state *state, enum gltf_image image)
         return SIZE_MAX;
     }
     file.name = cli_format("%s_%s", state->material->name, gltf_images[image].name);
-    gltf->files = memory_resize(gltf->files, (gltf->num_files + 1) * sizeof *gltf->files);
-    gltf->files[gltf->num_files] = file;
-    return gltf->num_files++;
+    MEMORY_PUSH(gltf->files, gltf->num_files, file);
+    return gltf->num_files - 1;
 }
 
 /* The index of a texture with the image. false after reporting an error. */

@@ -119,9 +119,9 @@ const struct usd_file *usd_add_file(struct usd *usd, const char *key, const char
         whole = cli_format("%s%s%u_%s", stem, *stem ? "_" : "", number, name);
     }
     free(stem);
-    usd->files = memory_resize(usd->files, (usd->num_files + 1) * sizeof *usd->files);
-    usd->files[usd->num_files] = (struct usd_file){cli_format("%s", key), whole, data, size};
-    return &usd->files[usd->num_files++];
+    MEMORY_PUSH(usd->files, usd->num_files,
+                (struct usd_file){cli_format("%s", key), whole, data, size});
+    return &usd->files[usd->num_files - 1];
 }
 
 static bool write_files(const struct usd *usd, const char *text, size_t size)

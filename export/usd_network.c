@@ -75,8 +75,8 @@ static bool add(struct network *network, mxg_element element, struct name_table 
         return false;
     }
     char *path = bake_path(network->document, element);
-    network->nodes = memory_resize(network->nodes, (network->num + 1) * sizeof *network->nodes);
-    network->nodes[network->num++] = (struct node){element, nodedef, usd_name(names, path)};
+    MEMORY_PUSH(network->nodes, network->num,
+                (struct node){element, nodedef, usd_name(names, path)});
     free(path);
     return true;
 }

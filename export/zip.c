@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "export/zip.h"
 
-#include "program/memory.h"
-
 #include <stdlib.h>
 #include <string.h>
 
@@ -16,23 +14,12 @@ enum {
     MAX_FILES = 65535
 };
 
-static void put(struct zip_bytes *bytes, const void *data, size_t size)
-{
-    if (bytes->size + size > bytes->capacity) {
-        bytes->capacity = 2 * bytes->capacity + size;
-        bytes->data = memory_resize(bytes->data, bytes->capacity);
-    }
-    if (size)
-        memcpy(bytes->data + bytes->size, data, size);
-    bytes->size += size;
-}
-
 /* A number of `size` bytes, the lowest first. */
-static void put_number(struct zip_bytes *bytes, uint64_t number, size_t size)
+static void put_number(struct memory_bytes *bytes, uint64_t number, size_t size)
 {
     for (size_t i = 0; i < size; ++i, number >>= 8) {
         uint8_t byte = (uint8_t)number;
-        put(bytes, &byte, 1);
+        memory_append(bytes, &byte, 1);
     }
 }
 
@@ -51,7 +38,7 @@ static uint32_t find_crc(const uint8_t *data, size_t size)
 }
 
 /* Writes the part that both headers have, from the version to the length of the name. */
-static void put_common(struct zip_bytes *bytes, const char *name, uint32_t crc, size_t size)
+static void put_common(struct memory_bytes *bytes, const char *name, uint32_t crc, size_t size)
 {
     put_number(bytes, VERSION, 2);
     put_number(bytes, 0, 4); /* flags, method: stored */
@@ -69,22 +56,22 @@ bool zip_add(struct zip *zip, const char *name, const void *data, size_t size)
     if (begin + padding + size > UINT32_MAX || zip->num == MAX_FILES)
         return false;
     uint32_t crc = find_crc(data, size);
-    put(&zip->files, "PK\3\4", 4);
+    memory_append(&zip->files, "PK\3\4", 4);
     put_common(&zip->files, name, crc, size);
     put_number(&zip->files, EXTRA + padding, 2);
-    put(&zip->files, name, strlen(name));
+    memory_append(&zip->files, name, strlen(name));
     put_number(&zip->files, PADDING, 2);
     put_number(&zip->files, padding, 2);
     for (size_t i = 0; i < padding; ++i)
         put_number(&zip->files, 0, 1);
-    put(&zip->files, data, size);
+    memory_append(&zip->files, data, size);
 
-    put(&zip->directory, "PK\1\2", 4);
+    memory_append(&zip->directory, "PK\1\2", 4);
     put_number(&zip->directory, VERSION, 2);
     put_common(&zip->directory, name, crc, size);
     put_number(&zip->directory, 0, 12); /* extra field, comment, disk, attributes */
     put_number(&zip->directory, at, 4);
-    put(&zip->directory, name, strlen(name));
+    memory_append(&zip->directory, name, strlen(name));
     ++zip->num;
     return true;
 }
@@ -94,8 +81,8 @@ bool zip_end(struct zip *zip)
     const size_t at = zip->files.size, size = zip->directory.size;
     if (at + size > UINT32_MAX)
         return false;
-    put(&zip->files, zip->directory.data, size);
-    put(&zip->files, "PK\5\6", 4);
+    memory_append(&zip->files, zip->directory.data, size);
+    memory_append(&zip->files, "PK\5\6", 4);
     put_number(&zip->files, 0, 4); /* disks */
     put_number(&zip->files, zip->num, 2);
     put_number(&zip->files, zip->num, 2);

@@ -6,18 +6,14 @@
 #ifndef MXG_EXPORT_ZIP_H
 #define MXG_EXPORT_ZIP_H
 
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
+#include "program/memory.h"
 
-struct zip_bytes {
-    uint8_t *data;
-    size_t size, capacity;
-};
+#include <stdbool.h>
+#include <stdint.h>
 
 /* Zero-initialise it. */
 struct zip {
-    struct zip_bytes files, directory;
+    struct memory_bytes files, directory;
     uint32_t num;
 };
 

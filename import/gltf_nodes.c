@@ -18,24 +18,17 @@ struct visit {
 
 struct visits {
     struct visit *items;
-    size_t len, capacity;
+    size_t len;
 };
 
 /* ---- Paths ---- */
-
-/* Room for one more item of `size` bytes behind `num`; the capacity doubles at powers of two. */
-static void *grow(void *items, size_t num, size_t size)
-{
-    return num & (num - 1) ? items : memory_resize(items, (num ? num * 2 : 1) * size);
-}
 
 /* A path of its own below another one. NULL after a fault. */
 static const char *add_path(struct gltf_nodes *nodes, const char *parent, const char *name)
 {
     if (!gltf_source_spend(nodes->source, PATH_WORK * (strlen(parent) + strlen(name) + 1)))
         return NULL;
-    nodes->paths = grow(nodes->paths, nodes->num_paths, sizeof *nodes->paths);
-    return nodes->paths[nodes->num_paths++] = node_path_add(&nodes->known, parent, name);
+    return MEMORY_PUSH(nodes->paths, nodes->num_paths, node_path_add(&nodes->known, parent, name));
 }
 
 /* A name, or "nodes[3]". */
@@ -68,11 +61,7 @@ static void push(struct visits *visits, const json_t *list, struct visit below)
         const json_t *node = json_array_get(list, i);
         bool is_index = json_is_integer(node) && json_integer_value(node) >= 0;
         below.node = is_index ? (size_t)json_integer_value(node) : SIZE_MAX;
-        if (visits->len == visits->capacity) {
-            visits->capacity = 2 * visits->capacity + 16;
-            visits->items = memory_resize(visits->items, visits->capacity * sizeof *visits->items);
-        }
-        visits->items[visits->len++] = below;
+        MEMORY_PUSH(visits->items, visits->len, below);
     }
 }
 

@@ -39,21 +39,13 @@ static bool spend(struct walk *walk, size_t size)
     return !walk->is_full;
 }
 
-/* Room for one more item of `size` bytes behind `num`; the capacity doubles at powers of two. */
-static void *grow(void *items, size_t num, size_t size)
-{
-    return num & (num - 1) ? items : memory_resize(items, (num ? num * 2 : 1) * size);
-}
-
 /* ---- Primitives ---- */
 
 static void assign(struct walk *walk, size_t look, size_t material, const char *path)
 {
-    if (material >= walk->num_materials || !spend(walk, strlen(path) + sizeof *walk->items))
-        return;
-    walk->items = grow(walk->items, walk->num_items, sizeof *walk->items);
-    walk->items[walk->num_items] = (struct assigned){look, material, walk->num_items, path};
-    ++walk->num_items;
+    struct assigned assigned = {look, material, walk->num_items, path};
+    if (material < walk->num_materials && spend(walk, strlen(path) + sizeof assigned))
+        MEMORY_PUSH(walk->items, walk->num_items, assigned);
 }
 
 /* The first mapping of a variant counts; a look without one has the primitive's own material. */

@@ -5,6 +5,7 @@
 #include "lsp/completion.h"
 #include "lsp/named_elements.h"
 #include "program/cli.h"
+#include "program/files.h"
 #include "program/name_table.h"
 
 #include <stdlib.h>
@@ -44,14 +45,6 @@ static void add_list(struct completion *completion, const char *list)
     }
 }
 
-static size_t count_items(const char *list)
-{
-    size_t count = *list != '\0';
-    for (; *list; ++list)
-        count += *list == ',';
-    return count;
-}
-
 /* The end of the first `count` items of a list with commas. */
 static const char *end_of_items(const char *list, size_t count)
 {
@@ -65,8 +58,8 @@ static const char *end_of_items(const char *list, size_t count)
 static void add_enumeration(struct completion *completion, const mxg_port *port)
 {
     const char *words = port->enum_names, *values = port->enum_values;
-    size_t num_words = count_items(words);
-    size_t size = num_words ? count_items(values) / num_words : 0; /* numbers of a value */
+    size_t num_words = cli_count_items(words);
+    size_t size = num_words ? cli_count_items(values) / num_words : 0; /* numbers of a value */
     if (!size || strcmp(port->type, "string") == 0) {
         add_list(completion, words);
         return;
@@ -83,18 +76,12 @@ static void add_enumeration(struct completion *completion, const mxg_port *port)
     }
 }
 
-static bool ends_with(const char *text, const char *end)
-{
-    size_t len = strlen(text), end_len = strlen(end);
-    return len >= end_len && strcmp(text + len - end_len, end) == 0;
-}
-
 static bool is_texture(const char *name)
 {
     static const char *const endings[] = {"/",    ".png",  ".jpg", ".jpeg", ".exr", ".hdr",
                                           ".tif", ".tiff", ".tx",  ".tga",  ".bmp", ".ies"};
     for (size_t i = 0; i < sizeof endings / sizeof *endings; ++i)
-        if (ends_with(name, endings[i]))
+        if (files_ends_with(name, endings[i]))
             return true;
     return false;
 }
@@ -114,8 +101,10 @@ static void add_files(struct completion *completion, const char *prefix, const c
     char *names = disk_list(&query->session->disk, folder, &size);
     completion->replaced.start = name;
     for (const char *at = names; at < names + size; at += strlen(at) + 1)
-        if (*at != '.' && (ending ? ends_with(at, ending) || ends_with(at, "/") : is_texture(at)))
-            add_value(completion, at, ends_with(at, "/") ? COMPLETE_FOLDER : COMPLETE_FILE, NULL);
+        if (*at != '.'
+            && (ending ? files_ends_with(at, ending) || files_ends_with(at, "/") : is_texture(at)))
+            add_value(completion, at, files_ends_with(at, "/") ? COMPLETE_FOLDER : COMPLETE_FILE,
+                      NULL);
     free(names);
     free(folder);
 }

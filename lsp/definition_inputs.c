@@ -3,11 +3,6 @@
 
 #include "lsp/catalogue.h"
 
-static uint32_t parent_of(const struct lsp_query *query, uint32_t element)
-{
-    return element == MODEL_NONE ? element : query->model->elements[element].parent;
-}
-
 static uint32_t first_at_root(const struct lsp_query *query)
 {
     uint32_t root = query_root(query);
@@ -47,7 +42,7 @@ static uint32_t definition_by(const struct lsp_query *query, uint32_t element, u
 
 uint32_t inputs_of_graph(const struct lsp_query *query, uint32_t element, struct span name)
 {
-    uint32_t graph = query_around(query, parent_of(query, element), "nodegraph"),
+    uint32_t graph = query_around(query, query_parent(query, element), "nodegraph"),
              found = query_child_of(query, graph, "input", name);
     if (found != MODEL_NONE || graph == MODEL_NONE)
         return found;
@@ -72,8 +67,9 @@ static bool is_shared_graph(const struct lsp_query *query, uint32_t graph, uint3
 
 bool inputs_share_graph(const struct lsp_query *query, uint32_t target)
 {
-    bool is_shared = false, is_of_nodedef = query_is(query, target, "input")
-                                            && query_is(query, parent_of(query, target), "nodedef");
+    bool is_shared = false,
+         is_of_nodedef = query_is(query, target, "input")
+                         && query_is(query, query_parent(query, target), "nodedef");
     for (uint32_t e = first_at_root(query); is_of_nodedef && e != MODEL_NONE && !is_shared;
          e = model_next(query->model, e))
         is_shared = query_is(query, e, "nodegraph") && is_shared_graph(query, e, target);
@@ -121,7 +117,7 @@ static uint32_t input_of_set(const struct lsp_query *query, uint32_t set, struct
 
 uint32_t inputs_of_owner(const struct lsp_query *query, uint32_t element, struct span name)
 {
-    uint32_t owner = parent_of(query, element);
+    uint32_t owner = query_parent(query, element);
     if (!query_is(query, element, "input"))
         return MODEL_NONE;
     if (query_is(query, owner, "nodedef"))
@@ -129,7 +125,7 @@ uint32_t inputs_of_owner(const struct lsp_query *query, uint32_t element, struct
     if (query_is(query, owner, "implementation"))
         return input_of(query, named_by(query, owner, "nodedef"), name);
     if (query_is(query, owner, "variant"))
-        return input_of_set(query, parent_of(query, owner), name);
+        return input_of_set(query, query_parent(query, owner), name);
     return query_is_node(query, owner) ? input_of_node(query, owner, name) : MODEL_NONE;
 }
 
@@ -141,5 +137,5 @@ uint32_t inputs_of_source(const struct lsp_query *query, uint32_t element, struc
 
 uint32_t inputs_passed_through(const struct lsp_query *query, uint32_t element, struct span name)
 {
-    return input_of(query, parent_of(query, element), name);
+    return input_of(query, query_parent(query, element), name);
 }

@@ -48,12 +48,8 @@ static void list_includes(struct lsp_session *session, struct family_file *file)
 static void add(struct lsp_session *session, struct family *family, struct lsp_document *document,
                 bool is_own)
 {
-    if (family->num_files == family->capacity) {
-        family->capacity = 2 * family->capacity + 16;
-        family->files = memory_resize(family->files, family->capacity * sizeof *family->files);
-    }
-    family->files[family->num_files++] =
-        (struct family_file){.document = document, .is_own = is_own};
+    MEMORY_PUSH(family->files, family->num_files,
+                (struct family_file){.document = document, .is_own = is_own});
     list_includes(session, &family->files[family->num_files - 1]);
 }
 

@@ -17,7 +17,7 @@ struct family_file {
 
 struct family {
     struct family_file *files;
-    size_t num_files, capacity;
+    size_t num_files;
 };
 
 /*

@@ -6,16 +6,11 @@
 #include <stdio.h>
 #include <string.h>
 
-static uint32_t parent_of(const struct lsp_query *query, uint32_t element)
-{
-    return element == MODEL_NONE ? element : query->model->elements[element].parent;
-}
-
 /* An <output> names nodes beside it; an <input> names those beside the element that has it. */
 uint32_t names_scope(const struct lsp_query *query, uint32_t element)
 {
-    uint32_t owner = parent_of(query, element);
-    return query_is(query, element, "output") ? owner : parent_of(query, owner);
+    uint32_t owner = query_parent(query, element);
+    return query_is(query, element, "output") ? owner : query_parent(query, owner);
 }
 
 const char *names_own_type(const struct lsp_query *query, uint32_t element, char *buffer,
@@ -43,7 +38,7 @@ const char *names_file_prefix(const struct lsp_query *query, uint32_t element, c
                               size_t capacity)
 {
     while (element != MODEL_NONE && !query_attribute(query, element, "fileprefix"))
-        element = parent_of(query, element);
+        element = query_parent(query, element);
     return query_text(query, element, "fileprefix", buffer, capacity);
 }
 
@@ -186,7 +181,7 @@ static uint32_t output_of_source(const struct lsp_query *query, uint32_t element
 
 static uint32_t beside(const struct lsp_query *query, uint32_t element, struct span name)
 {
-    uint32_t parent = parent_of(query, element);
+    uint32_t parent = query_parent(query, element);
     return parent == MODEL_NONE ? parent : query_child(query, parent, name);
 }
 

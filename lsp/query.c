@@ -17,6 +17,11 @@ bool query_is_same(const struct text *text, struct span a, struct span b)
            && memcmp(text->bytes + a.start, text->bytes + b.start, a.end - a.start) == 0;
 }
 
+uint32_t query_parent(const struct lsp_query *query, uint32_t element)
+{
+    return element == MODEL_NONE ? element : query->model->elements[element].parent;
+}
+
 bool query_is(const struct lsp_query *query, uint32_t element, const char *category)
 {
     return element != MODEL_NONE

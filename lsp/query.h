@@ -9,6 +9,8 @@
 bool query_equals(const struct text *text, struct span span, const char *word);
 bool query_is_same(const struct text *text, struct span a, struct span b);
 
+/* MODEL_NONE of MODEL_NONE. */
+uint32_t query_parent(const struct lsp_query *query, uint32_t element);
 /* True if the element has this category. */
 bool query_is(const struct lsp_query *query, uint32_t element, const char *category);
 /* The attribute; NULL: the element, which may be MODEL_NONE, has none of this name. */

@@ -165,8 +165,7 @@ static void add_folder(struct lsp_session *session, const char *uri)
     char *path = wire_path(uri);
     if (!path)
         return;
-    session->folders = memory_resize(session->folders, (session->num_folders + 1) * sizeof(char *));
-    session->folders[session->num_folders++] = path;
+    MEMORY_PUSH(session->folders, session->num_folders, path);
 }
 
 static void read_folders(struct lsp_session *session, const json_t *params)

@@ -9,17 +9,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void *grow(void *items, size_t len, size_t item_size)
-{
-    if (len & (len - 1)) /* the capacity doubles at powers of two */
-        return items;
-    return memory_resize(items, (len ? len * 2 : 1) * item_size);
-}
-
 void args_append(struct arg_list *list, const char *item)
 {
-    list->items = grow(list->items, list->len, sizeof *list->items);
-    list->items[list->len++] = item;
+    MEMORY_PUSH(list->items, list->len, item);
 }
 
 void args_free(struct arg_list *list)
@@ -57,8 +49,7 @@ void args_forward(const struct arg *arg, struct arg_list *out)
 static void add_setting(struct arg_parser *parser, const char *key, const char *value)
 {
     args_append(&parser->given, key);
-    parser->settings = grow(parser->settings, parser->num_settings, sizeof *parser->settings);
-    parser->settings[parser->num_settings++] = (struct arg_setting){key, value};
+    MEMORY_PUSH(parser->settings, parser->num_settings, (struct arg_setting){key, value});
 }
 
 void args_finish(struct arg_parser *parser)

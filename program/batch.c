@@ -27,9 +27,8 @@ const char *batch_begin(struct batch *batch, const char *path, const struct file
     if (reason)
         return reason;
     file.path = cli_format("%s", path);
-    batch->items = memory_resize(batch->items, (batch->num + 1) * sizeof *batch->items);
-    batch->items[batch->num] = file;
-    *out = &batch->items[batch->num++].stream;
+    MEMORY_PUSH(batch->items, batch->num, file);
+    *out = &batch->items[batch->num - 1].stream;
     return NULL;
 }
 

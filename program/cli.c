@@ -409,6 +409,14 @@ mxg_document *cli_load(struct cli *cli, const char *path)
     return NULL;
 }
 
+size_t cli_count_items(const char *list)
+{
+    size_t count = *list != '\0';
+    for (; *list; ++list)
+        count += *list == ',';
+    return count;
+}
+
 char *cli_copy(const char *text, size_t len)
 {
     char *copy = memory_alloc(len + 1);

@@ -126,6 +126,8 @@ __attribute__((format(printf, 1, 2)))
 char *
 cli_format(const char *format, ...);
 
+/* How many items a list with commas has. */
+size_t cli_count_items(const char *list);
 /*
  * A copy of `len` bytes with a NUL after them, which the caller frees; ends the program if memory
  * is exhausted.

@@ -68,6 +68,12 @@ bool files_is_within(const char *path, size_t size);
 
 bool files_is_folder(const char *path);
 
+static inline bool files_ends_with(const char *path, const char *end)
+{
+    size_t len = strlen(path), end_len = strlen(end);
+    return len >= end_len && strcmp(path + len - end_len, end) == 0;
+}
+
 /* The part of a path after its last '/'. */
 static inline const char *files_base_name(const char *path)
 {

@@ -17,12 +17,6 @@ static bool is_folder(const char *path)
     return lstat(path, &info) == 0 && S_ISDIR(info.st_mode);
 }
 
-static bool ends_with(const char *text, const char *end)
-{
-    size_t len = strlen(text), end_len = strlen(end);
-    return len >= end_len && strcmp(text + len - end_len, end) == 0;
-}
-
 /* Appends the files in a folder to `out`, and its folders to `folders`. */
 static const char *find_in(const char *folder, const char *ending, struct arg_list *folders,
                            struct arg_list *out)
@@ -30,14 +24,14 @@ static const char *find_in(const char *folder, const char *ending, struct arg_li
     DIR *dir = opendir(folder);
     if (!dir)
         return strerror(errno);
-    const char *slash = ends_with(folder, "/") ? "" : "/";
+    const char *slash = files_ends_with(folder, "/") ? "" : "/";
     for (const struct dirent *entry; (entry = readdir(dir)) != NULL;) {
         if (entry->d_name[0] == '.')
             continue;
         char *path = cli_format("%s%s%s", folder, slash, entry->d_name);
         if (is_folder(path))
             args_append(folders, path);
-        else if (ends_with(entry->d_name, ending) && files_is_regular(path))
+        else if (files_ends_with(entry->d_name, ending) && files_is_regular(path))
             args_append(out, path);
         else
             free(path);

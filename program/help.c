@@ -110,13 +110,12 @@ void help_add(struct help_book *book, const struct command *command,
               const struct arg_parser *parser)
 {
     size_t size = parser->num_args * sizeof *parser->args;
-    book->chapters = memory_resize(book->chapters, (book->len + 1) * sizeof *book->chapters);
-    struct help_chapter *chapter = &book->chapters[book->len++];
-    *chapter = (struct help_chapter){.command = *command,
-                                     .args = memory_alloc(size),
-                                     .num_args = parser->num_args,
-                                     .generation = parser->generation};
-    memcpy(chapter->args, parser->args, size);
+    struct help_chapter chapter = {.command = *command,
+                                   .args = memory_alloc(size),
+                                   .num_args = parser->num_args,
+                                   .generation = parser->generation};
+    memcpy(chapter.args, parser->args, size);
+    MEMORY_PUSH(book->chapters, book->len, chapter);
 }
 
 void help_finish(struct help_book *book)

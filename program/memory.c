@@ -3,6 +3,7 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 static void (*tell_exhaustion)(void);
 
@@ -34,6 +35,23 @@ void *memory_alloc(size_t size)
 void *memory_resize(void *memory, size_t size)
 {
     return require(realloc(memory, size ? size : 1));
+}
+
+void *memory_grow(void *items, size_t len, size_t item_size)
+{
+    return len & (len - 1) ? items : memory_resize(items, (len ? len * 2 : 1) * item_size);
+}
+
+void memory_append(struct memory_bytes *bytes, const void *data, size_t size)
+{
+    if (bytes->size + size >= bytes->capacity) {
+        bytes->capacity = 2 * (bytes->size + size) + 1;
+        bytes->data = memory_resize(bytes->data, bytes->capacity);
+    }
+    if (size)
+        memcpy(bytes->data + bytes->size, data, size);
+    bytes->size += size;
+    bytes->data[bytes->size] = '\0';
 }
 
 char *memory_format(const char *format, va_list args)

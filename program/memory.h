@@ -17,6 +17,22 @@ void *memory_alloc(size_t size);
 /* Like realloc. */
 void *memory_resize(void *memory, size_t size);
 
+/*
+ * Room for one more item behind `len` in an array that is empty at first and that nothing else
+ * resizes: the capacity doubles at powers of two.
+ */
+void *memory_grow(void *items, size_t len, size_t item_size);
+/* Appends an item to such an array. */
+#define MEMORY_PUSH(items, len, ...) \
+    ((items) = memory_grow((items), (len), sizeof *(items)), (items)[(len)++] = (__VA_ARGS__))
+
+/* Bytes that grow, and a NUL behind them. Zero-initialise it, and free `data`. */
+struct memory_bytes {
+    char *data;
+    size_t size, capacity;
+};
+void memory_append(struct memory_bytes *bytes, const void *data, size_t size);
+
 /* Formats into new memory. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 1, 0)))

@@ -54,11 +54,9 @@ static struct name_entry *add(struct outputs *outputs, const char *path, const c
     free(key);
     if (!*out_is_new)
         return entry;
-    size_t len = outputs->num_uses++;
-    if (!(len & (len - 1))) /* the capacity doubles at powers of two */
-        outputs->uses = memory_resize(outputs->uses, (len ? len * 2 : 1) * sizeof *outputs->uses);
-    outputs->uses[len].owner = owner ? cli_format("%s", owner) : NULL;
-    entry->value = len;
+    entry->value = outputs->num_uses;
+    MEMORY_PUSH(outputs->uses, outputs->num_uses,
+                (struct output_use){owner ? cli_format("%s", owner) : NULL});
     return entry;
 }
 

@@ -38,15 +38,10 @@ static char *beside(const char *file, const char *name)
 
 static void take(struct plugins *plugins, const char *file, const mxg_plugin *plugin)
 {
-    plugins->codes = memory_resize(plugins->codes, (plugins->num_codes + plugin->num_nodes + 1)
-                                                       * sizeof *plugins->codes);
     for (size_t i = 0; i < plugin->num_nodes; ++i)
-        plugins->codes[plugins->num_codes++] = plugin->nodes[i];
-    plugins->dialects =
-        memory_resize(plugins->dialects, (plugins->num_dialects + plugin->num_dialects + 1)
-                                             * sizeof *plugins->dialects);
+        MEMORY_PUSH(plugins->codes, plugins->num_codes, plugin->nodes[i]);
     for (size_t i = 0; i < plugin->num_dialects; ++i)
-        plugins->dialects[plugins->num_dialects++] = plugin->dialects[i];
+        MEMORY_PUSH(plugins->dialects, plugins->num_dialects, plugin->dialects[i]);
     for (size_t i = 0; i < plugin->num_libraries; ++i)
         args_append(&plugins->libraries, beside(file, plugin->libraries[i]));
 }
@@ -59,9 +54,7 @@ static bool load(struct plugins *plugins, const char *file)
     free(path);
     if (!handle)
         return refuse(file, dlerror());
-    plugins->handles =
-        memory_resize(plugins->handles, (plugins->num_handles + 1) * sizeof *plugins->handles);
-    plugins->handles[plugins->num_handles++] = handle;
+    MEMORY_PUSH(plugins->handles, plugins->num_handles, handle);
     entry_fn *entry = find_entry(handle);
     const mxg_plugin *plugin = entry ? entry() : NULL;
     if (!plugin)

@@ -181,8 +181,7 @@ mxg_document *scene_file_document(struct cli *cli, const mxg_document *own, cons
 
 /* ---- Primitives ---- */
 
-/* The path of a primitive, which the caller frees. */
-static char *path_of(const mxg_scene *scene, uint32_t primitive)
+char *scene_file_path(const mxg_scene *scene, uint32_t primitive)
 {
     size_t size = mxg_scene_primitive_path(scene, primitive, NULL, 0) + 1;
     char *path = memory_alloc(size);
@@ -196,7 +195,7 @@ void scene_file_report_unknown(struct report *report, const mxg_scene *scene, co
     uint32_t num = mxg_scene_num_primitives(scene);
     struct arg_list paths = {0};
     for (uint32_t i = 0; i < num && i < MAX_GUESSES; ++i)
-        args_append(&paths, path_of(scene, i));
+        args_append(&paths, scene_file_path(scene, i));
     const char *near = args_closest(path, paths.items, paths.len);
     report_error(report, "unknown-primitive", "the stage has no primitive '%s'%s%s%s", path,
                  near ? " (did you mean '" : "", near ? near : "", near ? "'?)" : "");

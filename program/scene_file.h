@@ -42,6 +42,8 @@ bool scene_file_bind(struct cli *cli, const struct scene_place *place, const mxg
                      struct bound_scene *out);
 void scene_file_unbind(struct bound_scene *stage);
 
+/* The path of a primitive, which the caller frees. */
+char *scene_file_path(const mxg_scene *scene, uint32_t primitive);
 /* Tells that a stage has no such primitive, with the nearest path. */
 void scene_file_report_unknown(struct report *report, const mxg_scene *scene, const char *path);
 

@@ -45,14 +45,14 @@ void aovs_add(struct aovs *aovs, const mxg_result *result)
     }
 }
 
-bool aovs_is_whole(const struct picture_aov *aov)
+bool aovs_is_whole(const char *type)
 {
-    return strcmp(aov->type, "integer") == 0 || strcmp(aov->type, "boolean") == 0;
+    return strcmp(type, "integer") == 0 || strcmp(type, "boolean") == 0;
 }
 
 bool aovs_has_alpha(const struct picture_aov *aov)
 {
-    return !aovs_is_whole(aov) && strcmp(aov->type, "color4") != 0
+    return !aovs_is_whole(aov->type) && strcmp(aov->type, "color4") != 0
            && strcmp(aov->type, "vector4") != 0;
 }
 

@@ -20,7 +20,7 @@ struct aovs {
 /* Adds the AOVs of a shader that the list lacks. */
 void aovs_add(struct aovs *aovs, const mxg_result *result);
 /* True for integers and booleans, which have no mean. */
-bool aovs_is_whole(const struct picture_aov *aov);
+bool aovs_is_whole(const char *type);
 /* True for BSDFs, whose light needs a whole path. */
 bool aovs_is_scattered(const struct picture_aov *aov);
 /* True for up to three numbers, behind which the alpha stands. */

@@ -145,7 +145,7 @@ static void take_texel(const struct picture_aov *aov, size_t at, float coverage,
     bool is_bad = false;
     for (uint32_t c = 0; c < channels; ++c) {
         float value = aov->pixels[4 * at + c];
-        out[c] = coverage > 0 ? aovs_is_whole(aov) ? value : value / coverage : NAN;
+        out[c] = coverage > 0 ? aovs_is_whole(aov->type) ? value : value / coverage : NAN;
         is_bad |= coverage > 0 && !isfinite(out[c]);
     }
     *num_bad += is_bad;

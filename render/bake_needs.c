@@ -157,11 +157,6 @@ static bool fail_for(struct baking *baking, const struct bake_drawing *drawing, 
     return false;
 }
 
-static bool is_whole(const struct bake_drawing *drawing)
-{
-    return strcmp(drawing->type, "integer") == 0 || strcmp(drawing->type, "boolean") == 0;
-}
-
 /* The components of a type that an image or a value of an AOV can have; 0: of none. */
 uint32_t bake_channels(const char *type)
 {
@@ -215,7 +210,7 @@ bool bake_find_needs(struct baking *baking, struct bake_drawing *drawing)
     if (drawing->needs & missing)
         return fail_for(baking, drawing, missing, "bake-mesh",
                         "reads the geometry of a surface: say which with --mesh");
-    if (!bake_channels(drawing->type) || (is_whole(drawing) && drawing->needs)) {
+    if (!bake_channels(drawing->type) || (aovs_is_whole(drawing->type) && drawing->needs)) {
         char *place = bake_place(baking, drawing->port);
         report_error(&baking->cli.report, "bake-type",
                      "'%s' (%s) varies, and no image has values of the type '%s'", drawing->path,

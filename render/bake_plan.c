@@ -288,8 +288,7 @@ static size_t add_drawing(struct bake_plan *plan, const struct bake_node *node,
     for (size_t i = 0; i < plan->num_drawings; ++i)
         if (is_same_drawing(&plan->drawings[i], end, is_direction))
             return i;
-    plan->drawings =
-        memory_resize(plan->drawings, (plan->num_drawings + 1) * sizeof *plan->drawings);
+    plan->drawings = memory_grow(plan->drawings, plan->num_drawings, sizeof *plan->drawings);
     char *name = cli_format("%s_%s", node->name, node->is_output ? "image" : input->name);
     char *path = bake_path(plan->document, end->node);
     plan->drawings[plan->num_drawings] =
@@ -346,21 +345,19 @@ static void begin_node(struct bake_plan *plan, struct visits *visits, mxg_elemen
     mxg_element_info info = bake_element(plan->document, element);
     bool is_output = is_category(plan->document, element, "output");
     char *path = is_output ? bake_path(plan->document, element) : NULL;
-    visits->items = memory_resize(visits->items, (visits->num + 1) * sizeof *visits->items);
-    visits->items[visits->num++] =
-        (struct visit){{.element = element,
-                        .category = info.category,
-                        .type = info.type,
-                        .name = free_name(plan, path ? path : info.name, false),
-                        .is_output = is_output},
-                       is_output ? element : info.first_child};
+    struct visit visit = {{.element = element,
+                           .category = info.category,
+                           .type = info.type,
+                           .name = free_name(plan, path ? path : info.name, false),
+                           .is_output = is_output},
+                          is_output ? element : info.first_child};
+    MEMORY_PUSH(visits->items, visits->num, visit);
     free(path);
 }
 
 static void end_node(struct bake_plan *plan, struct visits *visits)
 {
-    plan->nodes = memory_resize(plan->nodes, (plan->num_nodes + 1) * sizeof *plan->nodes);
-    plan->nodes[plan->num_nodes++] = visits->items[--visits->num].node;
+    MEMORY_PUSH(plan->nodes, plan->num_nodes, visits->items[--visits->num].node);
 }
 
 /*
@@ -395,8 +392,7 @@ static bool add_input(struct bake_plan *plan, struct visits *visits, mxg_element
         input.index =
             add_drawing(plan, node, &input, &end, is_direction(document, node->element, info.name));
     }
-    node->inputs = memory_resize(node->inputs, (node->num_inputs + 1) * sizeof *node->inputs);
-    node->inputs[node->num_inputs++] = input;
+    MEMORY_PUSH(node->inputs, node->num_inputs, input);
     return true;
 }
 

@@ -14,7 +14,7 @@ void bake_tiles_add(struct bake_tiles *tiles, struct bake_tile tile)
         ++at;
     if (at < tiles->num && items[at].u == tile.u && items[at].v == tile.v)
         return;
-    tiles->items = memory_resize(tiles->items, (tiles->num + 1) * sizeof *tiles->items);
+    tiles->items = memory_grow(tiles->items, tiles->num, sizeof *tiles->items);
     memmove(tiles->items + at + 1, tiles->items + at, (tiles->num - at) * sizeof *tiles->items);
     tiles->items[at] = tile;
     ++tiles->num;

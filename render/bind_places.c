@@ -13,13 +13,6 @@ enum { ROW_STRIDE = 16 }; /* of a matrix in a constant buffer */
 
 static const char lights[] = "u_lightData.";
 
-static bool fail(struct bind *bind, const char *problem, const char *name)
-{
-    bind->id = "render-failed";
-    snprintf(bind->reason, sizeof bind->reason, problem, name);
-    return false;
-}
-
 /* The next place of the variable from *at on, which goes behind it; NULL: there is none. */
 static const struct compiled_place *next_place(const struct bind *bind,
                                                const mxg_variable *variable, size_t *at)
@@ -61,7 +54,7 @@ bool bind_place_variables(struct bind *bind)
             continue;
         const struct compiled_place *place = next_place(bind, variable, &at);
         if (!place)
-            return fail(bind, "the compiler tells no place of '%s'", variable->name);
+            return bind_fail(bind, "the compiler tells no place of '%s'", variable->name);
         put(bind, place, variable);
         while (variable->block != MXG_BLOCK_TEXTURES
                && (place = next_place(bind, variable, &at)) != NULL) {
@@ -81,7 +74,7 @@ bool bind_place_texture(struct bind *bind, const mxg_variable *variable)
     next_place(bind, variable, &at); /* the variable's own */
     while ((place = next_place(bind, variable, &at)) != NULL) {
         if (draw->num_textures == DRAW_MAX_TEXTURES)
-            return fail(bind, "there is no room for the sampler of '%s'", variable->name);
+            return bind_fail(bind, "there is no room for the sampler of '%s'", variable->name);
         texture.set = place->set;
         texture.binding = place->index;
         draw->textures[draw->num_textures++] = texture;

@@ -15,11 +15,7 @@
 #define STD140_ROUND 16u
 #define INTEGER_ATTRIBUTE 3 /* what every integer attribute is */
 
-#if defined(__GNUC__)
-__attribute__((format(printf, 3, 4)))
-#endif
-static bool
-fail_as(struct bind *bind, const char *id, const char *format, ...)
+bool bind_fail_as(struct bind *bind, const char *id, const char *format, ...)
 {
     va_list args;
     bind->id = id;
@@ -28,8 +24,6 @@ fail_as(struct bind *bind, const char *id, const char *format, ...)
     va_end(args);
     return false;
 }
-
-#define fail(bind, ...) fail_as(bind, "render-failed", __VA_ARGS__)
 
 static uint32_t num_variables(const struct bind *bind)
 {
@@ -112,11 +106,11 @@ static bool reserve(struct bind *bind, const mxg_variable *variable)
 {
     struct draw *draw = &bind->draw;
     if (variable->set >= DRAW_MAX_SETS)
-        return fail(bind, "'%s' is in descriptor set %u", variable->name, variable->set);
+        return bind_fail(bind, "'%s' is in descriptor set %u", variable->name, variable->set);
     struct draw_block *block = find_block(draw, variable->set, variable->binding);
     if (!block) {
         if (draw->num_blocks == DRAW_MAX_BLOCKS)
-            return fail(bind, "the shader has more than %u uniform blocks", DRAW_MAX_BLOCKS);
+            return bind_fail(bind, "the shader has more than %u uniform blocks", DRAW_MAX_BLOCKS);
         block = &draw->blocks[draw->num_blocks++];
         *block = (struct draw_block){variable->set, variable->binding, 0};
     }
@@ -225,11 +219,11 @@ static bool store_public(struct bind *bind, uint32_t object, const mxg_variable 
         text = NULL;
     }
     if (!shape)
-        return fail(bind, "'%s' has a type that cannot be bound: %s", variable->name,
-                    variable->type);
+        return bind_fail(bind, "'%s' has a type that cannot be bound: %s", variable->name,
+                         variable->type);
     if (text && !parse_value(text, shape, values))
-        return fail_as(bind, "bad-value", "'%s' is not a value of '%s', which is a %s", text,
-                       variable->path, variable->type);
+        return bind_fail_as(bind, "bad-value", "'%s' is not a value of '%s', which is a %s", text,
+                            variable->path, variable->type);
     store(address(bind, object, variable), variable, values);
     return true;
 }
@@ -289,8 +283,8 @@ static bool store_lights(struct bind *bind, uint32_t object, const mxg_variable 
             memcpy(values, variable->values, sizeof values);
         const struct bind_value *said = light_value(bind, i, variable->name);
         if (said && (!shape || !parse_value(said->text, shape, values)))
-            return fail_as(bind, "bad-value", "'%s' is not a value of '%s', which is a %s",
-                           said->text, said->path, variable->type);
+            return bind_fail_as(bind, "bad-value", "'%s' is not a value of '%s', which is a %s",
+                                said->text, said->path, variable->type);
         store(address(bind, object, variable) + (size_t)i * bind->light_stride, variable, values);
     }
     return true;
@@ -321,7 +315,7 @@ static bool make_blocks(struct bind *bind)
         for (uint32_t i = 0; i < bind->draw.num_blocks; ++i) {
             bind->draw.objects[o].blocks[i] = calloc(1, bind->draw.blocks[i].size);
             if (!bind->draw.objects[o].blocks[i])
-                return fail(bind, "out of memory");
+                return bind_fail(bind, "out of memory");
         }
     return true;
 }
@@ -426,7 +420,7 @@ static struct draw_texture document_texture(struct bind *bind, uint32_t index,
 static bool bind_texture(struct bind *bind, uint32_t index, const mxg_variable *variable)
 {
     if (bind->draw.num_textures == DRAW_MAX_TEXTURES || variable->set >= DRAW_MAX_SETS)
-        return fail(bind, "the shader has more than %u textures", DRAW_MAX_TEXTURES);
+        return bind_fail(bind, "the shader has more than %u textures", DRAW_MAX_TEXTURES);
     const struct scene *scene = bind->scene;
     const bool is_tints = strcmp(variable->name, "u_tints") == 0;
     const struct image *environment = scene_image(scene, variable->name);
@@ -451,7 +445,7 @@ static bool bind_textures(struct bind *bind)
             return false;
     }
     return bind->checker || !bind->num_faults
-           || fail_as(bind, "missing-texture", "%s", bind->faults[0].reason);
+           || bind_fail_as(bind, "missing-texture", "%s", bind->faults[0].reason);
 }
 
 /* ---- Attributes ---- */
@@ -476,7 +470,7 @@ static bool fill_attribute(struct bind *bind, uint32_t object, const mxg_variabl
     uint32_t count = is_twin ? 1 : from->mesh.num_vertices;
     float one[1][4], (*data)[4] = is_twin ? one : calloc(count, sizeof *data);
     if (!data)
-        return fail(bind, "out of memory");
+        return bind_fail(bind, "out of memory");
     if (!is_twin)
         bind->draw.objects[object].attributes[bind->draw.num_attributes - 1] = data;
     bool has_primvar = bind_note_type(bind, object, name, shape->rows);
@@ -503,8 +497,8 @@ static bool bind_attribute(struct bind *bind, const mxg_variable *variable)
 {
     const struct shape *shape = find_shape(variable->type);
     if (!shape || shape->columns != 1 || bind->draw.num_attributes == DRAW_MAX_ATTRIBUTES)
-        return fail(bind, "the attribute '%s' (%s) cannot be bound", variable->name,
-                    variable->type);
+        return bind_fail(bind, "the attribute '%s' (%s) cannot be bound", variable->name,
+                         variable->type);
     bind->draw.attributes[bind->draw.num_attributes++] =
         (struct draw_attribute){variable->location, attribute_format(shape)};
     bool good = true;
@@ -528,7 +522,7 @@ static bool bind_unwrapped(struct bind *bind)
 {
     struct draw *draw = &bind->draw;
     if (draw->num_attributes == DRAW_MAX_ATTRIBUTES)
-        return fail(bind, "the shader has more than %u attributes", DRAW_MAX_ATTRIBUTES);
+        return bind_fail(bind, "the shader has more than %u attributes", DRAW_MAX_ATTRIBUTES);
     uint32_t at = draw->num_attributes++;
     draw->attributes[at] =
         (struct draw_attribute){bind_unwrapped_location(bind), VK_FORMAT_R32G32_SFLOAT};
@@ -541,7 +535,7 @@ static bool bind_unwrapped(struct bind *bind)
         for (uint32_t i = 0; data && i < mesh->num_vertices; ++i)
             memcpy(data[i], mesh->vertices[i].texcoord, sizeof mesh->vertices[i].texcoord);
         if (!data)
-            return fail(bind, "out of memory");
+            return bind_fail(bind, "out of memory");
     }
     return true;
 }
@@ -584,7 +578,7 @@ static bool check_values(struct bind *bind)
     for (size_t i = 0; i < bind->num_values; ++i) {
         const char *path = bind->values[i].path;
         if (!is_input(bind, path) && !is_light_value(bind, path))
-            return fail_as(bind, "no-uniform", "the shader has no uniform for '%s'", path);
+            return bind_fail_as(bind, "no-uniform", "the shader has no uniform for '%s'", path);
     }
     return true;
 }
@@ -595,7 +589,7 @@ static bool keep_variables(struct bind *bind)
     uint32_t num = num_variables(bind);
     bind->variables = calloc(num + bind->num_places + 1, sizeof *bind->variables);
     if (!bind->variables)
-        return fail(bind, "out of memory");
+        return bind_fail(bind, "out of memory");
     bind->num_variables = num;
     for (uint32_t i = 0; i < num; ++i)
         bind->variables[i] = read_variable(bind, i);
@@ -611,7 +605,7 @@ static bool make_objects(struct bind *bind)
     bind->draw.objects = calloc(bind->num_objects, sizeof *bind->draw.objects);
     bind->orders = calloc(bind->num_objects, sizeof(uint32_t *));
     if (!bind->draw.objects || !bind->orders)
-        return fail(bind, "out of memory");
+        return bind_fail(bind, "out of memory");
     bind->draw.num_objects = bind->num_objects;
     uint32_t *twins = twins_find(bind->objects, bind->num_objects);
     for (uint32_t o = 0; o < bind->num_objects; ++o) {
@@ -666,7 +660,7 @@ static bool bind_order(struct bind *bind, uint32_t index)
     drawn->distance = square;
     free(bind->orders[index]);
     drawn->indices = bind->orders[index] = mesh_sorted(&object->mesh, eye);
-    return drawn->indices || fail(bind, "out of memory");
+    return drawn->indices || bind_fail(bind, "out of memory");
 }
 
 bool bind_scene(struct bind *bind)

@@ -102,6 +102,13 @@ struct bind {
  * Fills bind->draw except its code and size. false: see bind->reason. Call bind_finish in any case.
  */
 bool bind_shader(struct bind *bind);
+/* Sets the id and the reason of an error. Returns false. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 3, 4)))
+#endif
+bool
+bind_fail_as(struct bind *bind, const char *id, const char *format, ...);
+#define bind_fail(bind, ...) bind_fail_as(bind, "render-failed", __VA_ARGS__)
 /* True if a variable of the shader has this semantic (docs/reflection.md). */
 bool bind_has_semantic(const mxg_result *result, const char *semantic);
 /* Returns what the user says of an input; NULL: nothing. */

@@ -35,8 +35,7 @@ void default_tokens_find(const mxg_document *document, const mxg_context *contex
         if (strcmp(info.category, "tokendefault") != 0 || !value
             || (for_all_geometry && differs(document, info.name)))
             continue;
-        out->items = memory_resize(out->items, (out->num + 1) * sizeof *out->items);
-        out->items[out->num++] = (struct bind_token){info.name, value};
+        MEMORY_PUSH(out->items, out->num, (struct bind_token){info.name, value});
     }
 }
 

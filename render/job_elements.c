@@ -3,6 +3,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "render/job.h"
 #include "render/look_parts.h"
+#include "program/memory.h"
 #include "render/contact_sheet.h"
 
 #include <stdio.h>
@@ -48,12 +49,9 @@ static void draw_one(struct job *job, const struct subject *subject)
 static void add_item(struct items *list, const mxg_document *document, const char *path,
                      const char *element)
 {
-    struct item *more = realloc(list->items, (list->len + 1) * sizeof *more);
-    if (!more)
-        return;
-    list->items = more;
-    more[list->len++] = (struct item){{.document = document, .path = path, .element = element},
-                                      cli_format("%s", element)};
+    struct item item = {{.document = document, .path = path, .element = element},
+                        cli_format("%s", element)};
+    MEMORY_PUSH(list->items, list->len, item);
 }
 
 static void tell_part(void *user_data, const char *look, const mxg_element_info *part)

@@ -3,6 +3,7 @@
 #include "render/trace.h"
 
 #include "compile/spirv.h"
+#include "program/memory.h"
 #include "render/each.h"
 
 #include <inttypes.h>
@@ -12,38 +13,14 @@
 
 bool kernel_fail(struct kernel *kernel, const char *id, const char *text)
 {
-    if (!kernel->bind->reason[0]) {
-        kernel->bind->id = id;
-        snprintf(kernel->bind->reason, sizeof kernel->bind->reason, "%s", text);
-    }
-    return false;
+    return !kernel->bind->reason[0] && bind_fail_as(kernel->bind, id, "%s", text);
 }
 
 /* ---- Text ---- */
 
-struct source {
-    char *text;
-    size_t len, capacity;
-};
-
-static void append(struct source *source, const char *text)
+static void append(struct memory_bytes *source, const char *text)
 {
-    size_t len = strlen(text);
-    if (source->len + len + 1 > source->capacity) {
-        size_t capacity = (source->len + len + 1) * 2;
-        char *more = realloc(source->text, capacity);
-        if (!more) {
-            free(source->text);
-            *source = (struct source){.capacity = SIZE_MAX}; /* the source is complete */
-            return;
-        }
-        source->text = more;
-        source->capacity = capacity;
-    }
-    if (source->text) {
-        memcpy(source->text + source->len, text, len + 1);
-        source->len += len;
-    }
+    memory_append(source, text, strlen(text));
 }
 
 /* ---- Attributes ---- */
@@ -141,7 +118,7 @@ static bool reads_occlusion(const mxg_variable *variable, double *out_angle, dou
     return sscanf(variable->semantic, "occlusion:%lf,%lf", out_angle, out_distance) == 2;
 }
 
-static void append_fill(struct source *source, const mxg_result *result)
+static void append_fill(struct memory_bytes *source, const mxg_result *result)
 {
     uint32_t attributes = 0;
     append(source,
@@ -184,7 +161,7 @@ static void append_fill(struct source *source, const mxg_result *result)
  * all AOVs of the pixel what it gives of the light that comes by the path, from the environment and
  * from a bound light: light_aovs() adds that when the light comes. It returns the most of each.
  */
-static void append_value(struct source *source, const struct picture_aov *aov, size_t number,
+static void append_value(struct memory_bytes *source, const struct picture_aov *aov, size_t number,
                          const mxg_variable *variable)
 {
     char line[256];
@@ -192,14 +169,14 @@ static void append_value(struct source *source, const struct picture_aov *aov, s
                                                : strcmp(type, "vec3") == 0 ? ", 0.0"
                                                : strcmp(type, "vec2") == 0 ? ", 0.0, 0.0"
                                                                            : ", 0.0, 0.0, 0.0";
-    bool is_whole = aovs_is_whole(aov);
+    bool is_whole = aovs_is_whole(aov->type);
     snprintf(line, sizeof line, "%s    aov_film[at + %zu] %s vec4(%s%s);\n",
              is_whole ? "    if (is_first)\n    " : "", number, is_whole ? "=" : "+= share *",
              variable->name, rest);
     append(source, line);
 }
 
-static void append_keep_aovs(struct source *source, const mxg_result *result,
+static void append_keep_aovs(struct memory_bytes *source, const mxg_result *result,
                              const struct aovs *aovs)
 {
     mxg_variable variable;
@@ -211,7 +188,7 @@ static void append_keep_aovs(struct source *source, const mxg_result *result,
     append(source, "}\n\n");
 }
 
-static void append_keep_light(struct source *source, const mxg_result *result,
+static void append_keep_light(struct memory_bytes *source, const mxg_result *result,
                               const struct aovs *aovs)
 {
     static const struct {
@@ -238,7 +215,7 @@ static void append_keep_light(struct source *source, const mxg_result *result,
     append(source, "    return most;\n}\n\n");
 }
 
-static void append_light_aovs(struct source *source, const struct aovs *aovs)
+static void append_light_aovs(struct memory_bytes *source, const struct aovs *aovs)
 {
     char line[128];
     size_t at = aovs_num(aovs);
@@ -255,7 +232,8 @@ static void append_light_aovs(struct source *source, const struct aovs *aovs)
     append(source, "}\n\n");
 }
 
-static void append_aovs(struct source *source, const mxg_result *result, const struct aovs *aovs)
+static void append_aovs(struct memory_bytes *source, const mxg_result *result,
+                        const struct aovs *aovs)
 {
     char line[64];
     snprintf(line, sizeof line, "#define AOV_STRIDE %zuu\n", aovs_stride(aovs));
@@ -281,7 +259,7 @@ static bool has_output(const mxg_result *result, const char *name)
 static bool compile(struct kernel *kernel, const struct trace_options *options, const char *macro,
                     struct compiled *out)
 {
-    struct source source = {0};
+    struct memory_bytes source = {0};
     char line[160];
     const mxg_result *result = kernel->bind->result;
     append(&source, mxg_result_source(result, MXG_STAGE_PIXEL, NULL));
@@ -309,8 +287,8 @@ static bool compile(struct kernel *kernel, const struct trace_options *options, 
     append(&source, line);
     for (const char *const *piece = trace_source; *piece; ++piece)
         append(&source, *piece);
-    bool good = source.text && each_compile(source.text, out);
-    free(source.text);
+    bool good = each_compile(source.data, out);
+    free(source.data);
     if (good)
         return true;
     return kernel_fail(kernel, "bad-shader",

@@ -250,9 +250,9 @@ static struct draw_canvas *open_canvas(struct painter *painter, uint32_t width, 
     bool good = canvas != NULL;
     for (size_t i = 0; good && i < painter->num_aovs; ++i) {
         const struct picture_aov *aov = &painter->aovs.items[painter->first_aov + i];
-        good = draw_add_output(canvas, aovs_is_whole(aov)    ? DRAW_WHOLE
-                                       : aovs_has_alpha(aov) ? DRAW_BLENDED
-                                                             : DRAW_FLOATS);
+        good = draw_add_output(canvas, aovs_is_whole(aov->type) ? DRAW_WHOLE
+                                       : aovs_has_alpha(aov)    ? DRAW_BLENDED
+                                                                : DRAW_FLOATS);
     }
     if (good)
         return canvas;
@@ -344,7 +344,7 @@ static bool take_aovs(struct painting *painting)
         struct picture_aov *aov = &painter->aovs.items[painter->first_aov + i];
         struct image values;
         draw_read_output(painting->canvas, (uint32_t)i + 1, painting->samples);
-        if (!resolve(painter, painting->samples, !aovs_is_whole(aov), &values))
+        if (!resolve(painter, painting->samples, !aovs_is_whole(aov->type), &values))
             return false;
         aov->pixels = values.pixels;
     }

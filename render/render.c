@@ -33,22 +33,18 @@ static bool compile(struct bind *bind, struct compiled *compiled)
         return true;
     for (size_t i = 0; i < compiled->num_messages; ++i) {
         const struct compile_message *message = &compiled->messages[i];
-        if (message->severity != MXG_SEVERITY_ERROR)
-            continue;
-        bind->id = "bad-shader";
-        snprintf(bind->reason, sizeof bind->reason,
-                 "the shader does not compile: %s, line %u of the %s stage", message->text,
-                 message->line, message->stage == MXG_STAGE_VERTEX ? "vertex" : "pixel");
-        break;
+        if (message->severity == MXG_SEVERITY_ERROR)
+            return bind_fail_as(bind, "bad-shader",
+                                "the shader does not compile: %s, line %u of the %s stage",
+                                message->text, message->line,
+                                message->stage == MXG_STAGE_VERTEX ? "vertex" : "pixel");
     }
     return false;
 }
 
 static bool copy_reason(struct render *render)
 {
-    render->bind->id = render->gpu->id;
-    snprintf(render->bind->reason, sizeof render->bind->reason, "%s", render->gpu->reason);
-    return false;
+    return bind_fail_as(render->bind, render->gpu->id, "%s", render->gpu->reason);
 }
 
 bool render_open(struct render *render, struct draw_canvas *canvas, struct gpu *gpu,

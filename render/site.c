@@ -19,14 +19,6 @@
 
 /* ---- Objects ---- */
 
-char *site_path(const mxg_scene *scene, uint32_t primitive)
-{
-    size_t size = mxg_scene_primitive_path(scene, primitive, NULL, 0) + 1;
-    char *path = memory_alloc(size);
-    mxg_scene_primitive_path(scene, primitive, path, size);
-    return path;
-}
-
 bool site_has_room(struct site *site, uint32_t primitive, uint64_t num_triangles)
 {
     enum { MAX_OBJECTS = 1 << 20, MAX_TRIANGLES = 1 << 26 };
@@ -42,15 +34,11 @@ bool site_has_room(struct site *site, uint32_t primitive, uint64_t num_triangles
 
 struct scene_object *site_add(struct site *site, uint32_t primitive, struct matrix world)
 {
-    if (site->num_objects == site->capacity) {
-        site->capacity = site->capacity ? 2 * site->capacity : 16;
-        site->objects = memory_resize(site->objects, site->capacity * sizeof *site->objects);
-    }
-    struct site_object *added = &site->objects[site->num_objects++];
-    *added =
-        (struct site_object){.object = {.world = world, .path = site_path(site->scene, primitive)},
-                             .primitive = primitive};
-    return &added->object;
+    struct site_object added = {
+        .object = {.world = world, .path = scene_file_path(site->scene, primitive)},
+        .primitive = primitive};
+    MEMORY_PUSH(site->objects, site->num_objects, added);
+    return &site->objects[site->num_objects - 1].object;
 }
 
 bool site_share(struct site *site, uint32_t object, uint32_t primitive, struct matrix world)
@@ -80,7 +68,7 @@ void site_repeat(struct site *site, uint32_t first, uint32_t num, struct matrix 
 static char *subject_of(const struct site *site, uint32_t primitive, const char *property)
 {
     mxg_property at = {sizeof at};
-    char *path = site_path(site->scene, primitive), *subject;
+    char *path = scene_file_path(site->scene, primitive), *subject;
     uint32_t index =
         property ? mxg_scene_find_property(site->scene, primitive, property) : MXG_NONE;
     if (mxg_scene_property(site->scene, primitive, index, &at) == MXG_OK)
@@ -120,8 +108,7 @@ void site_warn(struct site *site, const char *id, uint32_t primitive, const char
 void site_add_light(struct site *site, struct scene_light light)
 {
     site->is_lit = true;
-    site->lights = memory_resize(site->lights, (site->num_lights + 1) * sizeof *site->lights);
-    site->lights[site->num_lights++] = light;
+    MEMORY_PUSH(site->lights, site->num_lights, light);
 }
 
 void site_add_lamp(struct site *site, struct scene_light light)
@@ -137,8 +124,7 @@ void site_add_lamp(struct site *site, struct scene_light light)
 
 void site_add_camera(struct site *site, struct site_camera camera)
 {
-    site->cameras = memory_resize(site->cameras, (site->num_cameras + 1) * sizeof *site->cameras);
-    site->cameras[site->num_cameras++] = camera;
+    MEMORY_PUSH(site->cameras, site->num_cameras, camera);
 }
 
 /* ---- Files ---- */
@@ -197,7 +183,7 @@ void site_list(const struct site *site)
 {
     uint32_t num = mxg_scene_num_primitives(site->scene);
     for (uint32_t i = 0; i < num; ++i) {
-        char *path = site_path(site->scene, i);
+        char *path = scene_file_path(site->scene, i);
         puts(path);
         free(path);
     }

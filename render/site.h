@@ -41,9 +41,9 @@ struct site {
     uint64_t file_size; /* bytes of the file and of those that it refers to */
     mxg_scene *scene;
     struct site_object *objects;
-    uint32_t num_objects, capacity;
+    uint32_t num_objects;
     struct site_instance *instances; /* in the order of the walk */
-    uint32_t num_instances, instance_capacity;
+    uint32_t num_instances;
     uint32_t num_primitives; /* of the scene, without those of instances that a look names */
     struct site_camera *cameras;
     uint32_t num_cameras;
@@ -99,8 +99,6 @@ bool site_share(struct site *site, uint32_t object, uint32_t primitive, struct m
  * Adds objects again in another place, as an instance does: `num` of them from `first` on.
  */
 void site_repeat(struct site *site, uint32_t first, uint32_t num, struct matrix world);
-/* The path of a primitive, which the caller frees. */
-char *site_path(const mxg_scene *scene, uint32_t primitive);
 /* The primitive whose layers an object has: that of its instance, if a look names it. */
 uint32_t site_bound_primitive(const struct site *site, const struct site_object *object);
 /* Reports a fault of a primitive, at the property's place if it is not NULL. */

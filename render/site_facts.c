@@ -122,8 +122,7 @@ void site_add_geomprops(struct site_facts *facts, uint32_t primitive, struct sce
     bool is_new;
     struct name_entry *entry = names_add_hash(&facts->known, hash, &is_new);
     if (is_new) {
-        facts->lists = memory_resize(facts->lists, (facts->num_lists + 1) * sizeof *facts->lists);
-        facts->lists[facts->num_lists++] = make_list(facts, primitive, object, num_added);
+        MEMORY_PUSH(facts->lists, facts->num_lists, make_list(facts, primitive, object, num_added));
         entry->value = facts->num_lists;
     }
     const struct scene_object *list = &facts->lists[entry->value - 1].all;
@@ -180,8 +179,7 @@ static struct bind_tokens make_tokens(struct site_facts *facts, uint32_t primiti
     struct bind_tokens tokens = {.context = facts->context};
     mxg_fact fact;
     for (uint32_t i = 0; next_token(facts, primitive, &i, &fact);) {
-        tokens.items = memory_resize(tokens.items, (tokens.num + 1) * sizeof *tokens.items);
-        tokens.items[tokens.num++] = (struct bind_token){fact.name, fact.value};
+        MEMORY_PUSH(tokens.items, tokens.num, (struct bind_token){fact.name, fact.value});
     }
     return tokens;
 }
@@ -197,9 +195,7 @@ uint32_t site_tokens(struct site_facts *facts, uint32_t primitive)
     bool is_new;
     struct name_entry *entry = names_add_hash(&facts->known, hash, &is_new);
     if (is_new) {
-        facts->tokens =
-            memory_resize(facts->tokens, (facts->num_tokens + 1) * sizeof *facts->tokens);
-        facts->tokens[facts->num_tokens++] = make_tokens(facts, primitive);
+        MEMORY_PUSH(facts->tokens, facts->num_tokens, make_tokens(facts, primitive));
         entry->value = facts->num_tokens;
     }
     return (uint32_t)entry->value;

@@ -29,7 +29,7 @@ struct importer {
     struct gltf_pose pose;
     struct gltf_numbering numbering;
     struct part *parts;
-    size_t num_parts, capacity;
+    size_t num_parts;
     struct name_table made; /* by mesh, primitive and skin: 1 + its object; 0: it has none */
     uint32_t num_undrawn, first_undrawn; /* primitives that are points or lines */
 };
@@ -121,11 +121,8 @@ static bool add_part(struct importer *in, const struct gltf_node *node, size_t m
         path == node->path ? mxg_scene_find_primitive(in->site->scene, path) : add_path(in, path);
     if (primitive == MXG_NONE)
         return false;
-    if (in->num_parts == in->capacity) {
-        in->capacity = 2 * in->capacity + 16;
-        in->parts = memory_resize(in->parts, in->capacity * sizeof *in->parts);
-    }
-    in->parts[in->num_parts++] = (struct part){node->json, node->index, mesh, index, primitive};
+    MEMORY_PUSH(in->parts, in->num_parts,
+                (struct part){node->json, node->index, mesh, index, primitive});
     return true;
 }
 

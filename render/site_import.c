@@ -256,9 +256,10 @@ static char *visit_node(struct importer *in, const struct visit *at, struct matr
 
 static void walk(struct importer *in)
 {
-    size_t num = 1, capacity = 64;
-    struct visit *visits = memory_alloc(capacity * sizeof *visits);
-    visits[0] = (struct visit){in->scene->mRootNode, cli_format("%s", ""), matrix_identity()};
+    size_t num = 0;
+    struct visit *visits = NULL;
+    MEMORY_PUSH(visits, num,
+                (struct visit){in->scene->mRootNode, cli_format("%s", ""), matrix_identity()});
     while (num) {
         struct visit at = visits[--num];
         if (!in->good) {
@@ -267,12 +268,9 @@ static void walk(struct importer *in)
         }
         struct matrix world = matrix_multiply(at.world, matrix_of(&at.node->mTransformation));
         char *path = visit_node(in, &at, world);
-        if (num + at.node->mNumChildren > capacity) {
-            capacity = 2 * (num + at.node->mNumChildren);
-            visits = memory_resize(visits, capacity * sizeof *visits);
-        }
         for (unsigned i = at.node->mNumChildren; i-- > 0;)
-            visits[num++] = (struct visit){at.node->mChildren[i], cli_format("%s", path), world};
+            MEMORY_PUSH(visits, num,
+                        (struct visit){at.node->mChildren[i], cli_format("%s", path), world});
         free(path);
         free(at.parent);
     }

@@ -3,6 +3,7 @@
 #include "render/site.h"
 
 #include "program/memory.h"
+#include "program/scene_file.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -72,7 +73,7 @@ enum { NUM_UNDRAWN = sizeof undrawn / sizeof *undrawn };
 struct walk {
     struct site *site;
     struct visit *visits;
-    size_t num_visits, capacity, num_instances;
+    size_t num_visits, num_instances;
     struct made *made; /* by primitive */
     struct {
         uint32_t first, num;
@@ -87,15 +88,6 @@ struct made {
 
 enum { MAX_DEPTH = 16, MAX_INSTANCES = 1 << 20 };
 
-static void push(struct walk *walk, struct visit visit)
-{
-    if (walk->num_visits == walk->capacity) {
-        walk->capacity = walk->capacity ? 2 * walk->capacity : 64;
-        walk->visits = memory_resize(walk->visits, walk->capacity * sizeof *walk->visits);
-    }
-    walk->visits[walk->num_visits++] = visit;
-}
-
 /* Children are visited in their order: the last one is pushed first. */
 static void push_children(struct walk *walk, uint32_t first, struct visit below)
 {
@@ -103,7 +95,7 @@ static void push_children(struct walk *walk, uint32_t first, struct visit below)
     mxg_primitive at = {sizeof at};
     for (below.primitive = first; below.primitive != UINT32_MAX;
          below.primitive = at.next_sibling) {
-        push(walk, below);
+        MEMORY_PUSH(walk->visits, walk->num_visits, below);
         mxg_scene_primitive(walk->site->scene, below.primitive, &at);
     }
     for (size_t i = begin, k = walk->num_visits; i + 1 < k; ++i) {
@@ -146,7 +138,7 @@ static void add_camera(struct site *site, uint32_t primitive, struct matrix worl
         .height = usd_number(site, primitive, "verticalAperture", 15.2908) / 2 / focal,
         .centre = {usd_number(site, primitive, "horizontalApertureOffset", 0) / focal,
                    usd_number(site, primitive, "verticalApertureOffset", 0) / focal},
-        .path = site_path(site->scene, primitive)};
+        .path = scene_file_path(site->scene, primitive)};
     site_add_camera(site, camera);
 }
 
@@ -248,13 +240,8 @@ static struct matrix instance_matrix(const struct instances *instances, size_t i
 
 static uint32_t add_instance(struct site *site, struct visit at, size_t number, double id)
 {
-    if (site->num_instances == site->instance_capacity) {
-        site->instance_capacity = site->instance_capacity ? 2 * site->instance_capacity : 64;
-        site->instances =
-            memory_resize(site->instances, site->instance_capacity * sizeof *site->instances);
-    }
-    site->instances[site->num_instances++] =
-        (struct site_instance){at.primitive, at.instance, number, id};
+    MEMORY_PUSH(site->instances, site->num_instances,
+                (struct site_instance){at.primitive, at.instance, number, id});
     return site->num_instances;
 }
 
@@ -278,9 +265,10 @@ static void add_instances(struct walk *walk, struct visit at, struct matrix worl
             break;
         }
         if (!is_masked(&in, i))
-            push(walk, (struct visit){prototype, matrix_multiply(world, instance_matrix(&in, i)),
-                                      at.depth + 1, add_instance(site, at, i, id_of(&in, i)),
-                                      at.is_beside});
+            MEMORY_PUSH(walk->visits, walk->num_visits,
+                        (struct visit){prototype, matrix_multiply(world, instance_matrix(&in, i)),
+                                       at.depth + 1, add_instance(site, at, i, id_of(&in, i)),
+                                       at.is_beside});
     }
     free_instances(&in);
 }
@@ -391,7 +379,8 @@ void site_read_usd(struct site *site)
     for (uint32_t i = num; i-- > 0;) { /* roots in their order: the first is visited first */
         mxg_scene_primitive(site->scene, i, &at);
         if (at.parent == UINT32_MAX)
-            push(&walk, (struct visit){.primitive = i, .parent = matrix_identity()});
+            MEMORY_PUSH(walk.visits, walk.num_visits,
+                        (struct visit){.primitive = i, .parent = matrix_identity()});
     }
     while (walk.num_visits && !site->has_fault)
         visit(&walk, walk.visits[--walk.num_visits]);
@@ -407,7 +396,7 @@ uint32_t site_bound_primitive(const struct site *site, const struct site_object 
         return object->primitive;
     for (uint32_t i = object->instance; i && found == MXG_NONE; i = site->instances[i - 1].above) {
         const struct site_instance *instance = &site->instances[i - 1];
-        char *instancer = site_path(site->scene, instance->instancer);
+        char *instancer = scene_file_path(site->scene, instance->instancer);
         for (char *c = instancer; *c; ++c)
             *c = *c == '/' ? ':' : *c;
         char *path = cli_format("%s/%s[%.0f]", object->object.path, instancer + 1, instance->id);

@@ -4,6 +4,7 @@
  * default colour if there is no file.
  */
 #include "program/cli.h"
+#include "program/memory.h"
 #include "render/bind_shader.h"
 #include "render/default_tokens.h"
 
@@ -37,21 +38,13 @@ static bool make_checker(struct image *out)
     return out->pixels != NULL;
 }
 
-static bool fail(struct bind *bind, const char *reason)
-{
-    bind->id = "render-failed";
-    snprintf(bind->reason, sizeof bind->reason, "%s", reason);
-    return false;
-}
-
 /* A texture of the shader: its variable, and the file that the user names in its place. */
 struct texture {
     const mxg_variable *variable;
     const char *users; /* NULL: the document's file */
 };
 
-/* false: out of memory. */
-static bool add_fault(struct bind *bind, const struct texture *texture, const char *path,
+static void add_fault(struct bind *bind, const struct texture *texture, const char *path,
                       const char *why)
 {
     struct bind_fault fault = {texture->users ? NULL : texture->variable->file, ""};
@@ -61,15 +54,7 @@ static bool add_fault(struct bind *bind, const struct texture *texture, const ch
     else
         snprintf(fault.reason, sizeof fault.reason, "cannot read the texture '%.250s': %.200s",
                  path, why);
-    bool is_full = (bind->num_faults & (bind->num_faults + 1)) == 0; /* 0, 1, 3, 7, … */
-    struct bind_fault *faults = bind->faults;
-    if (is_full)
-        faults = realloc(faults, (2 * bind->num_faults + 1) * sizeof *faults);
-    if (!faults)
-        return fail(bind, "out of memory");
-    bind->faults = faults;
-    bind->faults[bind->num_faults++] = fault;
-    return true;
+    MEMORY_PUSH(bind->faults, bind->num_faults, fault);
 }
 
 /* The texture is usable; the caller prints the reason as a warning. */
@@ -101,8 +86,8 @@ static bool read_path(struct bind *bind, const struct texture *texture, const ch
         return true;
     }
     *out_checker = true;
-    return add_fault(bind, texture, path, reason)
-           && (make_checker(out) || fail(bind, "out of memory"));
+    add_fault(bind, texture, path, reason);
+    return make_checker(out) || bind_fail(bind, "out of memory");
 }
 
 static bool read_file(struct bind *bind, const struct texture *texture, const char *file,
@@ -123,7 +108,7 @@ static bool read_tile(struct bind *bind, uint32_t index, const struct texture *t
     char file[4096];
     if (mxg_result_texture_file(bind->result, index, tile, bind->scene->frame, file, sizeof file))
         return read_file(bind, texture, file, out, out_checker);
-    return make_default(texture->variable, out) || fail(bind, "out of memory");
+    return make_default(texture->variable, out) || bind_fail(bind, "out of memory");
 }
 
 bool bind_read_texture(struct bind *bind, uint32_t index, const mxg_variable *variable,
@@ -132,7 +117,7 @@ bool bind_read_texture(struct bind *bind, uint32_t index, const mxg_variable *va
     const struct texture texture = {variable, file};
     if (file)
         return *file ? read_file(bind, &texture, file, out, out_checker)
-                     : make_default(variable, out) || fail(bind, "out of memory");
+                     : make_default(variable, out) || bind_fail(bind, "out of memory");
     if (!variable->num_tiles)
         return read_tile(bind, index, &texture, 0, out, out_checker);
     struct image *tiles = calloc(variable->num_tiles, sizeof *tiles);
@@ -140,7 +125,7 @@ bool bind_read_texture(struct bind *bind, uint32_t index, const mxg_variable *va
     for (uint32_t i = 0; good && i < variable->num_tiles; ++i)
         good = read_tile(bind, index, &texture, i, &tiles[i], out_checker);
     if (good && !image_stack(tiles, variable->num_tiles, out))
-        good = fail(bind, "out of memory");
+        good = bind_fail(bind, "out of memory");
     for (uint32_t i = 0; tiles && i < variable->num_tiles; ++i)
         image_finish(&tiles[i]);
     free(tiles);

@@ -21,13 +21,6 @@ static uint32_t find(const struct tints *tints, const char *file)
     return i;
 }
 
-static bool fail(struct bind *bind, const char *reason)
-{
-    bind->id = "render-failed";
-    snprintf(bind->reason, sizeof bind->reason, "%s", reason);
-    return false;
-}
-
 static bool add(struct tints *tints, struct bind *bind, uint32_t index,
                 const mxg_variable *variable)
 {
@@ -36,7 +29,7 @@ static bool add(struct tints *tints, struct bind *bind, uint32_t index,
     if (find(tints, file) < tints->count)
         return true;
     if (tints->count == TINTS_MAX)
-        return fail(bind, "the materials of a picture have more than 64 tables of tints");
+        return bind_fail(bind, "the materials of a picture have more than 64 tables of tints");
     if (!bind_read_texture(bind, index, variable, users, &tints->parts[tints->count], &is_checker))
         return false;
     tints->names[tints->count++] = file;
@@ -67,7 +60,7 @@ bool tints_open(struct tints *tints, struct bind *const *binds, size_t count)
     if (good
         && !image_tables(tints->count ? tints->parts : &none, tints->count ? tints->count : 1,
                          &tints->image))
-        good = count ? fail(binds[0], "out of memory") : false;
+        good = count ? bind_fail(binds[0], "out of memory") : false;
     return good;
 }
 

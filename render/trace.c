@@ -570,7 +570,7 @@ static void take_aovs(const struct tracer *tracer, uint32_t samples)
     size_t stride = aovs_stride(tracer->options->aovs);
     for (size_t i = 0; i < aovs_num(tracer->options->aovs); ++i) {
         struct picture_aov *aov = &tracer->options->aovs->items[i];
-        float scale = aovs_is_whole(aov) ? 1 : 1 / (float)samples;
+        float scale = aovs_is_whole(aov->type) ? 1 : 1 / (float)samples;
         for (size_t p = 0; p < 4 * pixels; ++p)
             aov->pixels[p] = film[4 * (p / 4 * stride + i) + p % 4] * scale;
     }

@@ -10,6 +10,7 @@
  */
 #include "render/site.h"
 
+#include "program/files.h"
 #include "program/memory.h"
 
 #include <math.h>
@@ -290,11 +291,9 @@ static void add_dome_1(struct lamp *lamp)
 static bool is_other_light(const struct lamp *lamp, const char *type)
 {
     static const char *const ends[] = {"Light", "LightFilter"};
-    for (size_t i = 0; i < sizeof ends / sizeof *ends; ++i) {
-        size_t len = strlen(type), end = strlen(ends[i]);
-        if (len >= end && strcmp(type + len - end, ends[i]) == 0)
+    for (size_t i = 0; i < sizeof ends / sizeof *ends; ++i)
+        if (files_ends_with(type, ends[i]))
             return true;
-    }
     return has_property(lamp, "inputs:intensity") || has_property(lamp, "light:shaderId");
 }
 
