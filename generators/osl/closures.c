@@ -135,7 +135,7 @@ static ir_ref closure_below(struct osl_tree *t, ir_ref root)
         ir_push_origin_of(t->graph, ref);
         t->of[ref] = rewrite(t, ref);
         ir_pop_origin(t->graph);
-        assert(!t->of[ref] || ir_type_is_closure(ir_type_of(t->graph, t->of[ref])));
+        assert(!t->of[ref] || ir_is_closure(t->graph, t->of[ref]));
     }
     return t->of[root];
 }

@@ -162,6 +162,8 @@ struct mxg_document {
 struct refusal {
     char text[512]; /* "": unknown */
 };
+/* context.c: true if none of the texts is NULL. */
+bool context_has_texts(const char *const *texts, size_t num_texts);
 /* context.c: writes the reason. Returns MXG_ERROR_ARGUMENT. */
 mxg_status refuse(struct refusal *why, const char *format, ...)
     __attribute__((format(printf, 2, 3)));

@@ -150,13 +150,13 @@ static mxg_layer describe(const struct bindings *b, prim_id prim, const struct b
     return (mxg_layer){
         .kind = kinds[item->kind],
         .slot = b->look.names.items[a->name].text,
-        .material = str_text(doc->strings, doc_element(doc, a->target)->name),
+        .material = doc_name(doc, a->target),
         .is_nodegraph = a->kind == ASSIGN_GRAPH,
         .product = item->kind == ITEM_PRODUCT ? bind_product_names[item->product] : "",
         .from = from ? from - 1 : MXG_NONE,
-        .look = a->look ? str_text(doc->strings, doc_element(doc, a->look)->name) : "",
+        .look = a->look ? doc_name(doc, a->look) : "",
         .assign = a->binding ? b->scene->bindings.items[a->binding - 1].property
-                             : str_text(doc->strings, doc_element(doc, a->element)->name),
+                             : doc_name(doc, a->element),
         .file = place.file ? place.file : "",
         .line = place.line,
     };

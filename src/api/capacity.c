@@ -70,7 +70,7 @@ bool generation_keeps_attributes(struct generation *g)
              (unsigned)target->max_attributes, target->name);
     const struct document *doc = &g->document->layer.doc;
     diag_add(diags_of(g), DIAG_ID_not_renderable, doc_place(doc, g->element),
-             str_text(doc->strings, doc_element(doc, g->element)->name), text_cstr(&why));
+             doc_name(doc, g->element), text_cstr(&why));
     return false;
 }
 

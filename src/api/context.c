@@ -58,10 +58,10 @@ mxg_status refuse(struct refusal *why, const char *format, ...)
     return MXG_ERROR_ARGUMENT;
 }
 
-static bool are_names(const char *const *names, size_t num_names)
+bool context_has_texts(const char *const *texts, size_t num_texts)
 {
-    for (size_t i = 0; i < num_names; i++)
-        if (!names || !names[i])
+    for (size_t i = 0; i < num_texts; i++)
+        if (!texts || !texts[i])
             return false;
     return true;
 }
@@ -74,9 +74,9 @@ static mxg_status read_desc(const mxg_context_desc *desc, mxg_context_desc *out,
         return refuse(why, "the size is not set; begin with MXG_CONTEXT_DESC_INIT");
     if (out->resolver && (!out->resolver->open || !out->resolver->release))
         return refuse(why, "the resolver needs both open and release");
-    if (!are_names(out->include_roots, out->num_include_roots))
+    if (!context_has_texts(out->include_roots, out->num_include_roots))
         return refuse(why, "include_roots does not have num_include_roots items");
-    if (!are_names(out->source_paths, out->num_source_paths))
+    if (!context_has_texts(out->source_paths, out->num_source_paths))
         return refuse(why, "source_paths does not have num_source_paths items");
     const char *fault = diag_policy_parse(policy, out->warnings ? out->warnings : "");
     return fault ? refuse(why,

@@ -209,17 +209,14 @@ static void move_ports(struct defining *d)
     for (uint32_t i = 0; i < d->ports.len; i++) {
         elem_id port = d->ports.items[i];
         if (doc_is_connected(doc, port))
-            move_connections(d, port,
-                             edit_add(d->c, d->node, "input",
-                                      str_text(doc->strings, doc_element(doc, port)->name),
-                                      type_of(d, port)));
+            move_connections(
+                d, port, edit_add(d->c, d->node, "input", doc_name(doc, port), type_of(d, port)));
         doc_move_element(doc, port, d->nodedef);
         doc_index_change(doc, port);
     }
     for (uint32_t i = 0; i < d->outputs.len; i++) {
         elem_id output = d->outputs.items[i];
-        edit_add(d->c, d->nodedef, "output", str_text(doc->strings, doc_element(doc, output)->name),
-                 type_of(d, output));
+        edit_add(d->c, d->nodedef, "output", doc_name(doc, output), type_of(d, output));
     }
 }
 

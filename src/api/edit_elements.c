@@ -236,7 +236,7 @@ static void move(void *arg)
     if (!edit_check_element(c, &c->element, false) || !edit_check_element(c, &c->other, true)
         || (c->before && !edit_check_element(c, &c->before, false)))
         return;
-    const char *name = str_text(doc->strings, doc_element(doc, c->element)->name);
+    const char *name = doc_name(doc, c->element);
     if (doc_is_within(doc, c->other, c->element) || c->before == c->element)
         edit_fail(c, "'%s' cannot move below or before itself", edit_label(c->edit, c->element));
     else if (c->before && doc_element(doc, c->before)->parent != c->other)
@@ -293,8 +293,7 @@ static void copy(void *arg)
         edit_fail(c, "the document to copy from has no such element");
         return;
     }
-    const char *name =
-        c->name && *c->name ? c->name : str_text(from->strings, doc_element(from, c->other)->name);
+    const char *name = c->name && *c->name ? c->name : doc_name(from, c->other);
     if (*name && !edit_check_new_name(c, c->element, name))
         return;
     struct edit_scope scope;

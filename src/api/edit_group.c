@@ -179,7 +179,7 @@ static elem_id input_for(struct grouping *g, elem_id reader)
     for (uint32_t at = hash, found; (found = table_next(&g->inputs, hash, &at));)
         if (have_same_source(doc, g->ports.items[found - 1], reader))
             return g->ports.items[found - 1];
-    elem_id input = add_port(g, "input", str_text(doc->strings, doc_element(doc, reader)->name),
+    elem_id input = add_port(g, "input", doc_name(doc, reader),
                              str_text(doc->strings, doc_attr_value(doc, reader, STR_type)));
     table_add(&g->inputs, arena_of(g), hash, g->ports.len);
     for (size_t i = 0; i < DOC_NUM_CONNECTIONS; i++) {

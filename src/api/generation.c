@@ -266,7 +266,7 @@ void generation_report_not_renderable(struct generation *g, const char *why)
         why = text_cstr(&unknown);
     }
     diag_add(diags_of(g), DIAG_ID_not_renderable, doc_place(doc, g->element),
-             str_text(doc->strings, doc_element(doc, g->element)->name), why);
+             doc_name(doc, g->element), why);
 }
 
 static const char gives_nothing[] = "it is not a surface, volume, light or colour";
@@ -500,7 +500,7 @@ static const char *origin_path(void *user_data, uint32_t origin)
     struct text path;
     text_init(&path, &result->object.arena);
     if (outer)
-        text_fmt(&path, "%s/%s", outer, str_text(doc->strings, doc_element(doc, o->element)->name));
+        text_fmt(&path, "%s/%s", outer, doc_name(doc, o->element));
     else
         doc_path(doc, o->element, '/', &path);
     return result->origin_paths[origin] = text_cstr(&path);

@@ -175,20 +175,12 @@ static mxg_status load_layer(mxg_context *context, mxg_library *base, const char
     return object_status(object);
 }
 
-static bool are_valid(const char *const *paths, size_t num_paths)
-{
-    for (size_t i = 0; i < num_paths; i++)
-        if (!paths || !paths[i])
-            return false;
-    return true;
-}
-
 mxg_status mxg_library_load(mxg_context *context, mxg_library *base, const char *const *paths,
                             size_t num_paths, mxg_library **out_library)
 {
     if (out_library)
         *out_library = NULL;
-    if (!context || !out_library || !are_valid(paths, num_paths)
+    if (!context || !out_library || !context_has_texts(paths, num_paths)
         || (base && object_status(&base->object) != MXG_OK))
         return MXG_ERROR_ARGUMENT;
     if (base || num_paths == 0 || !is_image(paths[0]))

@@ -14,18 +14,12 @@ bool folder_exists(const char *path)
     return file_facts(path).kind == FILE_FOLDER;
 }
 
-static bool ends_with(const char *text, const char *end)
-{
-    size_t len = strlen(text), end_len = strlen(end);
-    return len >= end_len && strcmp(text + len - end_len, end) == 0;
-}
-
 static const char *join(struct arena *arena, const char *folder, const char *name)
 {
     struct text path;
     text_init(&path, arena);
     text_str(&path, folder);
-    if (!ends_with(folder, "/"))
+    if (!text_ends_with(folder, "/"))
         text_char(&path, '/');
     text_str(&path, name);
     return text_cstr(&path);
@@ -102,7 +96,7 @@ const char *folder_list(struct arena *arena, const char *path, const char *suffi
             qsort(found.items, found.len, sizeof *found.items, compare);
         for (uint32_t j = 0; j < found.len; j++)
             if (add_entry(arena, &folders, found.items[j]) == FILE_REGULAR
-                && ends_with(found.items[j], suffix))
+                && text_ends_with(found.items[j], suffix))
                 vec_push(arena, out, found.items[j]);
     }
     if (out->len > first)

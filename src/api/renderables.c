@@ -36,8 +36,7 @@ const char *renderable_path(const struct mxg_document *document, uint32_t index)
     const struct renderable_run *run = &list->runs.items[run_at(list, index)];
     const char *path = run->element ? run->path : list->paths[run->first + (index - run->start)];
     const struct document *doc = &document->layer.doc;
-    return path ? path
-                : str_text(doc->strings, doc_element(doc, renderable_at(document, index))->name);
+    return path ? path : doc_name(doc, renderable_at(document, index));
 }
 
 static uint32_t len_of(const struct renderables *list, uint32_t run)

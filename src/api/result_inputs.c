@@ -24,7 +24,7 @@ static void write_path(const struct document *doc, const struct shader_compiled_
 {
     doc_path(doc, input->element, '/', out);
     if (!doc_is_port(doc, input->element) && input->definition)
-        text_fmt(out, "/%s", str_text(doc->strings, doc_element(doc, input->definition)->name));
+        text_fmt(out, "/%s", doc_name(doc, input->definition));
     text_char(out, '\0');
 }
 

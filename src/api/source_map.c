@@ -89,7 +89,7 @@ struct names {
 static void add_name(struct names *names, const struct document *doc, elem_id element)
 {
     assert(names->len <= MAX_NAMES);
-    const char *name = str_text(doc->strings, doc_element(doc, element)->name);
+    const char *name = doc_name(doc, element);
     if (names->len < MAX_NAMES && *name)
         names->items[names->len++] = name;
 }

@@ -144,6 +144,8 @@ bool translate_is_default(const mxg_port *port, const struct strpool *strings, c
 bool translate_is_authored(const struct translation *t, const struct source_input *source);
 /* The text of its value, or of the default. */
 const char *translate_value_of(const struct translation *t, const struct source_input *source);
+/* A constant as the text of an attribute. */
+const char *translate_text_of(const struct translation *t, const struct operand *constant);
 const char *translate_text_of_zero(const struct translation *t, enum value_type type);
 /* The start of names that no element of the root has. */
 const char *translate_free_name(const struct translation *t);

@@ -117,9 +117,7 @@ static void add_number(struct translation *t, uint32_t leaf, struct text *paths)
         t, number != 0
                && mxg_edit_set_value(t->draft_edit, number, "value", type, general_text(t, port))
                       == MXG_OK
-               && mxg_edit_connect_input(t->draft_edit, node,
-                                         str_text(doc->strings, doc_element(doc, port)->name),
-                                         number, NULL)
+               && mxg_edit_connect_input(t->draft_edit, node, doc_name(doc, port), number, NULL)
                       == MXG_OK);
     /* colours of the document may have another space */
     mxg_edit_set_attribute(t->draft_edit, mxg_edit_find_element(t->draft_edit, number, "value"),

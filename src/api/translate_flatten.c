@@ -207,8 +207,7 @@ static void fold(struct translation *t, elem_id first_inside)
              e = doc_element(doc, e)->next) {
             struct operand value;
             if (find_constant(t, e, first_inside, &value))
-                translate_set_constant(t, t->surface,
-                                       str_text(doc->strings, doc_element(doc, e)->name), &value);
+                translate_set_constant(t, t->surface, doc_name(doc, e), &value);
         }
         translate_forget_surface(t);
     }

@@ -25,18 +25,10 @@ static bool general_value(void *user_data, const struct ir_graph *graph, ir_ref 
     return ir_type_scalar(out->type) == IR_TYPE_FLOAT;
 }
 
-static const char *text_of(const struct translation *t, const struct operand *value)
-{
-    struct text text;
-    text_init(&text, t->arena);
-    value_write(value, &text);
-    return text_cstr(&text);
-}
-
 static bool has_default(const struct translation *t, const struct translated_input *input)
 {
     return translate_is_default(&input->port, t->document->layer.doc.strings,
-                                text_of(t, &input->value));
+                                translate_text_of(t, &input->value));
 }
 
 /*
@@ -82,7 +74,7 @@ void translate_set_input(struct translation *t, struct translated_input *input, 
         translate_report(t, DIAG_ID_translation_op, input->port.name, lacks);
     else if (!fits)
         translate_report(t, DIAG_ID_translation_varies, input->port.name,
-                         *input->port.value ? input->port.value : text_of(t, &zero));
+                         *input->port.value ? input->port.value : translate_text_of(t, &zero));
     input->is_set = fits;
 }
 

@@ -34,7 +34,7 @@ static bool find_needed(struct writing *w)
 static const char *name_of(const struct translation *t, elem_id element)
 {
     const struct document *doc = &t->document->layer.doc;
-    return str_text(doc->strings, doc_element(doc, element)->name);
+    return doc_name(doc, element);
 }
 
 /* "prefix_suffix", with a number if the scope has that name already. */
@@ -51,7 +51,7 @@ static const char *free_name(const struct writing *w, mxg_element scope, const c
     return text_cstr(&name);
 }
 
-static const char *text_of(const struct translation *t, const struct operand *constant)
+const char *translate_text_of(const struct translation *t, const struct operand *constant)
 {
     struct text text;
     text_init(&text, t->arena);
@@ -63,9 +63,9 @@ void translate_set_constant(const struct translation *t, mxg_element node, const
                             const struct operand *value)
 {
     const struct document *doc = &t->document->layer.doc;
-    translate_expect(
-        t, mxg_edit_set_value(t->edit, node, input, value_type_name(value->type), text_of(t, value))
-               == MXG_OK);
+    translate_expect(t, mxg_edit_set_value(t->edit, node, input, value_type_name(value->type),
+                                           translate_text_of(t, value))
+                            == MXG_OK);
     str_id space = doc_inherited_attr(doc, t->surface, STR_colorspace);
     bool is_color = value->type == VALUE_COLOR3 || value->type == VALUE_COLOR4;
     if (is_color && space && strcmp(str_text(doc->strings, space), library_color_hub) != 0)
@@ -211,7 +211,7 @@ static bool is_default(const struct writing *w, const struct translated_input *i
 {
     return input->value.kind == OPERAND_CONSTANT
            && translate_is_default(&input->port, w->t->document->layer.doc.strings,
-                                   text_of(w->t, &input->value));
+                                   translate_text_of(w->t, &input->value));
 }
 
 static void set_surface_input(const struct writing *w, const struct translated_input *input)

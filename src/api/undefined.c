@@ -36,8 +36,7 @@ bool generation_is_defined(struct generation *g, const struct ir_graph *graph, c
     diag_add(diags, DIAG_ID_undefined_value, doc_place(doc, outer),
              str_text(doc->strings, element->category), str_text(doc->strings, element->name));
     if (inner != outer && inner)
-        diag_add(diags, DIAG_ID_connected_here, doc_place(doc, inner),
-                 str_text(doc->strings, doc_element(doc, inner)->name));
+        diag_add(diags, DIAG_ID_connected_here, doc_place(doc, inner), doc_name(doc, inner));
     return false;
 }
 

@@ -2,6 +2,7 @@
 #include "base/num.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /*
@@ -209,4 +210,16 @@ size_t num_parse_int(const char *text, size_t len, int64_t *out_value)
     }
     *out_value = negative ? -value : value;
     return at > start ? at : 0;
+}
+
+int num_compare(const void *a, const void *b)
+{
+    uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
+    return (x > y) - (x < y);
+}
+
+void num_sort(uint32_t *numbers, size_t count)
+{
+    if (count > 1)
+        qsort(numbers, count, sizeof *numbers, num_compare);
 }

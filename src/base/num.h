@@ -25,6 +25,11 @@ size_t num_parse_float(const char *text, size_t len, float *out_value);
 /* Parses a decimal or 0x integer with an optional sign; 0 if there is none or it does not fit. */
 size_t num_parse_int(const char *text, size_t len, int64_t *out_value);
 
+/* The order of two uint32_t, for bsearch. */
+int num_compare(const void *a, const void *b);
+/* Sorts numbers, the lowest first. */
+void num_sort(uint32_t *numbers, size_t count);
+
 /* True for a whole number from -2^24 to 2^24; between these floats have every integer. */
 static inline bool num_is_exact_integer(float value)
 {

@@ -27,6 +27,12 @@ void text_reserve(struct text *text, size_t more)
     assert(text->cap - text->len >= more);
 }
 
+bool text_ends_with(const char *text, const char *end)
+{
+    size_t len = strlen(text), end_len = strlen(end);
+    return len >= end_len && strcmp(text + len - end_len, end) == 0;
+}
+
 bool text_next_item(const char **rest, struct text_word *out)
 {
     const char *item = *rest + strspn(*rest, " ");

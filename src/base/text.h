@@ -36,6 +36,7 @@ struct text_word {
     size_t len;
 };
 
+bool text_ends_with(const char *text, const char *end);
 /*
  * Takes the next word of a list with commas, without the blanks around it; false: the list ends.
  * `rest` is what follows.

@@ -12,7 +12,7 @@ static const struct look_assign *assign_of(const struct bind_writer *w,
 static const char *name_of(const struct bind_writer *w, elem_id element)
 {
     const struct document *doc = w->b->look.doc;
-    return element ? str_text(doc->strings, doc_element(doc, element)->name) : "";
+    return element ? doc_name(doc, element) : "";
 }
 
 static const char *slot_of(const struct bind_writer *w, const struct bind_item *item)

@@ -40,7 +40,7 @@ const char *bind_fact_name(const struct document *doc, elem_id fact)
     enum element_kind kind = (enum element_kind)doc_element(doc, fact)->kind;
     return kind == KIND_VISIBILITY       ? value_of(doc, fact, STR_vistype)
            : kind == KIND_PROPERTYASSIGN ? value_of(doc, fact, STR_property)
-                                         : str_text(doc->strings, doc_element(doc, fact)->name);
+                                         : doc_name(doc, fact);
 }
 
 /* The renderer that a property is for; the viewers of a visibility; "" for all. */

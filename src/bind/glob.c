@@ -2,6 +2,7 @@
 #include "bind/glob.h"
 
 #include "base/hash.h"
+#include "base/num.h"
 
 #include <assert.h>
 #include <stdlib.h>
@@ -238,12 +239,6 @@ const char *glob_add(struct glob_set *set, const char *text, size_t len, uint32_
 
 /* ---- Deterministic states ---- */
 
-static int compare_numbers(const void *a, const void *b)
-{
-    uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
-    return x < y ? -1 : x > y;
-}
-
 static void visit(struct glob_set *set, uint32_t node)
 {
     if (set->marks.items[node] == set->epoch)
@@ -267,8 +262,7 @@ static void close_set(struct glob_set *set)
         for (uint32_t e = set->nodes.items[set->work.items[i]]; e; e = set->edges.items[e].next)
             if (set->edges.items[e].kind == EDGE_FREE)
                 visit(set, set->edges.items[e].to);
-    if (set->work.len > 1)
-        qsort(set->work.items, set->work.len, sizeof *set->work.items, compare_numbers);
+    num_sort(set->work.items, set->work.len);
 }
 
 static uint32_t make_state(struct glob_set *set, uint32_t hash)
@@ -284,9 +278,8 @@ static uint32_t make_state(struct glob_set *set, uint32_t hash)
             vec_push(arena, &set->matches, glob - 1);
     }
     state.num_matches = set->matches.len - state.first_match;
-    if (state.num_matches > 1)
-        qsort(&set->matches.items[state.first_match], state.num_matches, sizeof(uint32_t),
-              compare_numbers);
+    if (state.num_matches)
+        num_sort(&set->matches.items[state.first_match], state.num_matches);
     vec_push(arena, &set->states, state);
     table_add(&set->state_table, arena, hash, set->states.len - 1);
     return set->states.len - 1;

@@ -128,11 +128,11 @@ static uint64_t hash_item(const struct bindings *b, const struct bind_item *item
     uint8_t kinds[3] = {item->kind, item->product, a->kind};
     hash = hash_stable(hash, kinds, sizeof kinds);
     hash = hash_text(hash, look->names.items[a->name].text);
-    hash = hash_text(hash, str_text(doc->strings, doc_element(doc, a->target)->name));
+    hash = hash_text(hash, doc_name(doc, a->target));
     for (uint32_t i = 0; i < a->variants.len; i++) {
         const struct look_variant *v = &a->variants.items[i];
-        hash = hash_text(hash, str_text(doc->strings, doc_element(doc, v->set)->name));
-        hash = hash_text(hash, str_text(doc->strings, doc_element(doc, v->variant)->name));
+        hash = hash_text(hash, doc_name(doc, v->set));
+        hash = hash_text(hash, doc_name(doc, v->variant));
     }
     return hash;
 }

@@ -94,8 +94,7 @@ static str_id output_of(struct maker *m, const struct made_node *node, str_id po
     const struct port *outputs = maker_outputs(m, node->nodedef, &num);
     struct text text;
     text_init(&text, m->scratch);
-    text_fmt(&text, "%s_%s", str_text(m->doc->strings, doc_element(m->doc, node->element)->name),
-             str_text(m->doc->strings, port));
+    text_fmt(&text, "%s_%s", doc_name(m->doc, node->element), str_text(m->doc->strings, port));
     str_id name = str_intern(m->doc->strings, text.data, text.len);
     const struct usda_prim *at = &m->layer->prims.items[node->prim];
     elem_id output = maker_add(m, m->graph, "output", name, at->line, at->column);

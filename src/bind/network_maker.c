@@ -223,8 +223,7 @@ static struct source add_node(struct maker *m, const struct made_node *of, const
     const struct port *outputs = maker_outputs(m, found, &num);
     struct text name;
     text_init(&name, m->scratch);
-    text_fmt(&name, "%s_%s", str_text(m->doc->strings, doc_element(m->doc, of->element)->name),
-             suffix);
+    text_fmt(&name, "%s_%s", doc_name(m->doc, of->element), suffix);
     const char *category = str_text(m->doc->strings, library_nodedef(m->lib, found)->node);
     elem_id element =
         maker_add_free(m, maker_graph(m), category, &name, &m->layer->prims.items[of->prim]);

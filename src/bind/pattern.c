@@ -2,6 +2,7 @@
 #include "bind/pattern.h"
 
 #include "base/hash.h"
+#include "base/num.h"
 
 #include <assert.h>
 #include <stdlib.h>
@@ -273,12 +274,6 @@ void pattern_walk_up(struct pattern_walk *walk)
     walk->active.len = vec_pop(&walk->levels);
 }
 
-static int compare_numbers(const void *a, const void *b)
-{
-    uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
-    return x < y ? -1 : x > y;
-}
-
 const uint32_t *pattern_walk_matches(struct pattern_walk *walk, bool is_leaf, uint32_t *out_num)
 {
     const struct pattern_set *set = walk->set;
@@ -290,8 +285,7 @@ const uint32_t *pattern_walk_matches(struct pattern_walk *walk, bool is_leaf, ui
                 vec_push(walk->arena, &walk->matched, set->ends.items[end].matcher);
     }
     uint32_t num = 0;
-    if (walk->matched.len > 1)
-        qsort(walk->matched.items, walk->matched.len, sizeof(uint32_t), compare_numbers);
+    num_sort(walk->matched.items, walk->matched.len);
     for (uint32_t i = 0; i < walk->matched.len; i++)
         if (!i || walk->matched.items[i] != walk->matched.items[i - 1])
             walk->matched.items[num++] = walk->matched.items[i];

@@ -31,7 +31,7 @@ static void put_target(const struct explanation *e, const struct look_assign *a)
         text_str(e->out, "nothing");
     else
         text_fmt(e->out, "%s %s", a->kind == ASSIGN_GRAPH ? "nodegraph" : "material",
-                 str_text(doc->strings, doc_element(doc, a->target)->name));
+                 doc_name(doc, a->target));
 }
 
 static void put_head(const struct explanation *e, uint32_t assign, uint32_t level)
@@ -168,7 +168,7 @@ static void put_excluded(const struct explanation *e)
         elem_id element = look->collections.items[collection - 1].element;
         put_head(e, i, 0);
         text_fmt(e->out, "does not stand here: the collection %s excludes the primitive\n",
-                 str_text(look->doc->strings, doc_element(look->doc, element)->name));
+                 doc_name(look->doc, element));
     }
 }
 

@@ -2,6 +2,8 @@
 /* Which assignments stand where, and which of a name is the strongest. */
 #include "bind/bind.h"
 
+#include "base/num.h"
+
 #include <assert.h>
 #include <stdlib.h>
 
@@ -42,12 +44,6 @@ static void reach(struct stands *work, uint32_t collection)
     work->is_reached[collection] = true;
 }
 
-static int compare_numbers(const void *a, const void *b)
-{
-    uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
-    return x < y ? -1 : x > y;
-}
-
 /* Lists the collections that may hold the state, sorted: nested ones stand before their users. */
 static void reach_collections(const struct bindings *b, const struct bind_state *state,
                               struct stands *work)
@@ -70,8 +66,7 @@ static void reach_collections(const struct bindings *b, const struct bind_state 
         for (uint32_t k = users->first[nested]; k < users->first[nested + 1]; k++)
             reach(work, users->items[k]);
     }
-    if (work->reached.len > 1)
-        qsort(work->reached.items, work->reached.len, sizeof *work->reached.items, compare_numbers);
+    num_sort(work->reached.items, work->reached.len);
 }
 
 /* The level of a collection, from its own geometry and from the level of those that it includes. */

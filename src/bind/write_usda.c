@@ -167,7 +167,7 @@ static bool find_changes(struct usda_writer *u, prim_id prim)
 static struct text_word target_name(const struct usda_writer *u, uint32_t target)
 {
     const struct document *doc = u->w->b->look.doc;
-    const char *name = str_text(doc->strings, doc_element(doc, target)->name);
+    const char *name = doc_name(doc, target);
     return (struct text_word){name, strlen(name)};
 }
 

@@ -63,7 +63,7 @@ static ir_ref scaled(struct ir_graph *g, ir_ref value, ir_ref factor)
     ir_ref args[2] = {value, factor};
     if (!value || is_whole(g, value) || ir_const_is(g, factor, 1.0f))
         return value;
-    if (ir_type_is_closure(ir_type_of(g, value)))
+    if (ir_is_closure(g, value))
         return ir_build(g, IR_CLOSURE_SCALE, ir_type_of(g, value), 0, args, 2);
     return ir_op2(g, IR_MUL, value, factor);
 }
@@ -94,7 +94,7 @@ static struct closure_aov sum(struct ir_graph *g, struct closure_aov a, struct c
                second = b.value ? b.value : nothing_like(g, out.value);
         out.value = ir_op3(g, IR_SELECT, ir_op2(g, IR_GE, a.weight, b.weight), first, second);
     } else if (a.value && b.value) {
-        out.value = ir_type_is_closure(ir_type_of(g, a.value))
+        out.value = ir_is_closure(g, a.value)
                         ? ir_build(g, IR_CLOSURE_ADD, ir_type_of(g, a.value), 0, args, 2)
                         : ir_op2(g, IR_ADD, a.value, b.value);
     }

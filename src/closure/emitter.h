@@ -67,7 +67,6 @@ void emitter_find_scattering(struct emitter *e, const struct closure_surface *s,
  */
 void emitter_light_aov(struct emitter *e, ir_ref closure);
 bool emitter_is_output(const struct emitter *e, uint32_t aov);
-bool emitter_is_closure(const struct emitter *e, ir_ref value);
 /* Writes the outputs: the colour, the alpha and the AOVs. */
 void emitter_finish_surface(struct emitter *e, const struct closure_surface *s);
 

@@ -46,12 +46,6 @@ struct flattener {
     VEC(struct closure_node) nodes; /* by ref, so operands come first */
 };
 
-static bool is_operator(const struct ir_node *node)
-{
-    return node->op == IR_LAYER || node->op == IR_CLOSURE_MIX || node->op == IR_CLOSURE_ADD
-           || node->op == IR_CLOSURE_SCALE;
-}
-
 ir_ref closure_mixed(struct ir_graph *g, ir_ref bg, ir_ref fg, ir_ref mix)
 {
     assert(!bg || !fg || ir_type_of(g, bg) == ir_type_of(g, fg));
@@ -87,8 +81,9 @@ static struct closure_node *node_of(const struct flattener *f, ir_ref ref)
 static void find_operands(const struct flattener *f, ir_ref ref, ir_ref out[2])
 {
     const struct ir_node *node = ir_get(f->graph, ref);
-    bool is_pair = is_operator(node) && node->op != IR_CLOSURE_SCALE;
-    out[0] = is_operator(node) ? ir_arg(f->graph, ref, 0) : modified_base(f, ref);
+    bool is_pair = ir_is_operator((enum ir_op)node->op) && node->op != IR_CLOSURE_SCALE;
+    out[0] =
+        ir_is_operator((enum ir_op)node->op) ? ir_arg(f->graph, ref, 0) : modified_base(f, ref);
     out[1] = is_pair ? ir_arg(f->graph, ref, 1) : 0;
 }
 
@@ -137,7 +132,7 @@ static ir_ref decay_of(const struct flattener *f, ir_ref ref)
 
 static ir_ref operator_throughput(struct flattener *f, ir_ref ref)
 {
-    assert(is_operator(ir_get(f->graph, ref)));
+    assert(ir_is_operator((enum ir_op)ir_get(f->graph, ref)->op));
     bool has_base = ir_get(f->graph, ref)->op != IR_CLOSURE_SCALE;
     ir_ref b = has_base ? ir_arg(f->graph, ref, 1) : 0;
     ir_ref of_a = through_of(f, ir_arg(f->graph, ref, 0)), of_b = through_of(f, b);
@@ -179,7 +174,7 @@ static void find_throughput(struct flattener *f, struct closure_node *node)
         node->decay = node_of(f, base)->decay;
     } else if (ir_get(f->graph, node->ref)->op == IR_LEAF) {
         node->throughput = closure_leaf_throughput(f->shader, f->host, node->ref, &node->decay);
-    } else if (is_operator(ir_get(f->graph, node->ref))) {
+    } else if (ir_is_operator((enum ir_op)ir_get(f->graph, node->ref)->op)) {
         node->throughput = operator_throughput(f, node->ref);
         node->decay = operator_decay(f, node->ref);
     }
@@ -436,7 +431,7 @@ static void flatten_along(struct shader *shader, const struct closure_host *host
             continue;
         /* a weight gets the name of the operator that makes it */
         ir_push_origin_of(f.graph, node.ref);
-        if (is_operator(ir_get(f.graph, node.ref)))
+        if (ir_is_operator((enum ir_op)ir_get(f.graph, node.ref)->op))
             spread(&f, node.ref, node.weight);
         else if (ir_get(f.graph, node.ref)->op == IR_LEAF)
             take_leaf(&f, node.ref, node.weight, out);

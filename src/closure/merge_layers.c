@@ -49,11 +49,6 @@ static bool are_equal(const ir_ref *refs, uint32_t num)
     return true;
 }
 
-static bool is_closure(const struct merging *m, ir_ref ref)
-{
-    return ir_type_is_closure(ir_type_of(m->graph, ref));
-}
-
 static bool can_vary(ir_type_id type)
 {
     return type == IR_TYPE_FLOAT || type == IR_TYPE_INT || type == IR_TYPE_BOOL
@@ -81,7 +76,7 @@ static bool add_item(struct merging *m, const ir_ref *refs)
         const struct ir_node *node = ir_get(g, refs[i]), *first = ir_get(g, refs[0]);
         bool is_alike =
             node->op == first->op && node->attr == first->attr && node->num_args == first->num_args;
-        if (is_closure(m, refs[i]) ? !is_alike : !can_vary(node->type))
+        if (ir_is_closure(m->graph, refs[i]) ? !is_alike : !can_vary(node->type))
             return false;
     }
     uint32_t hash = hash_bytes(refs, m->num * sizeof *refs);
@@ -101,7 +96,7 @@ static bool add_operands(struct merging *m)
     ir_ref *args = ARENA_ARRAY(m->shader->arena, ir_ref, m->num);
     for (uint32_t item = 1; item < m->items.len; item++) {
         ir_ref first = *refs_of(m, item);
-        if (!is_closure(m, first))
+        if (!ir_is_closure(m->graph, first))
             continue;
         for (uint32_t k = 0; k < ir_get(m->graph, first)->num_args; k++) {
             for (uint32_t i = 0; i < m->num; i++)
@@ -225,7 +220,7 @@ static void build_closures(struct merging *m, const struct closure_host *host)
 {
     VEC(struct place) places = {0};
     for (uint32_t item = 1; item < m->items.len; item++)
-        if (is_closure(m, *refs_of(m, item)))
+        if (ir_is_closure(m->graph, *refs_of(m, item)))
             vec_push(m->shader->arena, &places, (struct place){*refs_of(m, item), item});
     if (places.len)
         qsort(places.items, places.len, sizeof *places.items, compare_places);

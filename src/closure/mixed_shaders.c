@@ -256,7 +256,7 @@ static struct closure_surface with_aov(const struct surfaces *s, ir_ref ref)
 {
     struct closure_surface out = s->known[ir_arg(s->graph, ref, 0)];
     ir_ref value = ir_arg(s->graph, ref, 1);
-    bool is_closure = ir_type_is_closure(ir_type_of(s->graph, value));
+    bool is_closure = ir_is_closure(s->graph, value);
     bool has_alpha = out.premultiplied && !(out.is_matter && is_closure);
     out.aovs = closure_aovs_with(s->graph, out.aovs, ir_get(s->graph, ref)->attr, value,
                                  has_alpha ? out.alpha : 0);

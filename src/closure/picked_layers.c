@@ -26,7 +26,7 @@ static void keep_aovs(struct emitter *e, struct closure_aovs aovs, const uint32_
 {
     for (uint32_t i = 0; i < aovs.num; i++) {
         ir_ref value = emitter_is_output(e, i) ? aovs.items[i].value : 0;
-        if (emitter_is_closure(e, value)) {
+        if (ir_is_closure(e->graph, value)) {
             e->lit = (struct closure_lit){.color = locals[i]};
             emitter_light_aov(e, value);
             if (e->lit.base)

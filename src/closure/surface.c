@@ -125,11 +125,6 @@ bool emitter_is_output(const struct emitter *e, uint32_t aov)
     return e->shader->interface.aovs.items[aov].is_output;
 }
 
-bool emitter_is_closure(const struct emitter *e, ir_ref value)
-{
-    return value && ir_type_is_closure(ir_type_of(e->graph, value));
-}
-
 static bool has_aov_outputs(const struct emitter *e)
 {
     for (uint32_t i = 0; i < e->shader->interface.aovs.len; i++)
@@ -142,7 +137,7 @@ static bool has_aov_outputs(const struct emitter *e)
 static void light_aovs(struct emitter *e, struct closure_aovs aovs)
 {
     for (uint32_t i = 0; i < aovs.num; i++) {
-        if (!emitter_is_closure(e, aovs.items[i].value) || !emitter_is_output(e, i))
+        if (!ir_is_closure(e->graph, aovs.items[i].value) || !emitter_is_output(e, i))
             continue;
         struct closure_lit surface = e->lit;
         e->lit = (struct closure_lit){.color = UINT32_MAX};
@@ -209,7 +204,7 @@ void emitter_find_scattering(struct emitter *e, const struct closure_surface *s,
         bool walks = pile && *value && ir_type_of(e->graph, *value) == IR_TYPE_BSDF;
         if (walks) /* its light is that of levels */
             *value = 0;
-        else if (emitter_is_closure(e, *value))
+        else if (ir_is_closure(e->graph, *value))
             *value = find_scattering_of_aov(e, *value, &out->aov_lists[i]);
     }
 }

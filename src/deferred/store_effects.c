@@ -132,7 +132,7 @@ static void visit_operands(const struct shader *shader, ir_ref root, uint32_t *o
         bool is_layer = node->op == IR_LAYER;
         for (uint32_t i = 0; i < node->num_args; i++) {
             ir_ref arg = ir_arg(g, ref, is_layer ? node->num_args - 1 - i : i);
-            if (arg && ir_type_is_closure(ir_type_of(g, arg)))
+            if (ir_is_closure(g, arg))
                 vec_push(shader->arena, &open, arg);
         }
     }

@@ -6,11 +6,6 @@
 
 enum { MAX_TOLD = 16 }; /* nodes of a cycle that the message names */
 
-static const char *name_of(const struct document *doc, elem_id element)
-{
-    return str_text(doc->strings, doc_element(doc, element)->name);
-}
-
 static struct diag_place link_place(const struct document *doc, elem_id port)
 {
     for (size_t i = 0; i < DOC_NUM_CONNECTIONS; i++)
@@ -49,13 +44,13 @@ void doc_report_cycle(const struct document *doc, struct doc_cycle_link *links, 
     struct text path;
     text_init(&path, diags->arena);
     for (uint32_t i = 0; i < told; i++)
-        text_fmt(&path, "%s -> ", name_of(doc, links[(first + n - i) % n].node));
-    text_str(&path, told < n ? "…" : name_of(doc, links[first].node));
+        text_fmt(&path, "%s -> ", doc_name(doc, links[(first + n - i) % n].node));
+    text_str(&path, told < n ? "…" : doc_name(doc, links[first].node));
     diag_add(diags, DIAG_ID_cycle, doc_name_place(doc, links[first].node), text_cstr(&path));
     for (uint32_t i = 0; i < told; i++) {
         const struct doc_cycle_link *source = &links[(first + n - i) % n],
                                     *reader = &links[(first + 2 * n - i - 1) % n];
-        diag_add(diags, DIAG_ID_reads, link_place(doc, reader->port), name_of(doc, reader->node),
-                 name_of(doc, source->node));
+        diag_add(diags, DIAG_ID_reads, link_place(doc, reader->port), doc_name(doc, reader->node),
+                 doc_name(doc, source->node));
     }
 }

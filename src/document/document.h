@@ -449,6 +449,10 @@ static inline const struct element *doc_element(const struct document *doc, elem
     }
     return &doc->elements.items[index];
 }
+static inline const char *doc_name(const struct document *doc, elem_id element)
+{
+    return str_text(doc->strings, doc_element(doc, element)->name);
+}
 /* True for inputs and outputs, which can read others. */
 static inline bool doc_is_port(const struct document *doc, elem_id element)
 {

@@ -128,7 +128,7 @@ void doc_leave_out_duplicate(struct document *doc, elem_id first, elem_id second
     if (are_rivals(doc, first, second, equal))
         return;
     diag_add(diags, equal ? DIAG_ID_repeated_element : DIAG_ID_duplicate_name,
-             doc_name_place(doc, second), str_text(doc->strings, doc_element(doc, second)->name));
+             doc_name_place(doc, second), doc_name(doc, second));
     diag_add(diags, DIAG_ID_previous_definition, doc_name_place(doc, first));
     leave_out(doc, second);
     if (equal || doc_second_of_name(doc, first))

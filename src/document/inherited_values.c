@@ -39,11 +39,6 @@ static void copy_value(struct document *doc, elem_id node, elem_id source)
     }
 }
 
-static const char *name_of(const struct document *doc, elem_id element)
-{
-    return str_text(doc->strings, doc_element(doc, element)->name);
-}
-
 /* A token "[name]" of a file that a nodegraph replaces by its own; 0: there is none. */
 static str_id replaced_token(const struct document *doc, elem_id node, elem_id source)
 {
@@ -88,10 +83,10 @@ static bool has_nearer(const struct document *doc, elem_id node, elem_id base, e
 static void report_lost(const struct document *doc, elem_id node, elem_id source, str_id lost,
                         struct diag_list *diags)
 {
-    const char *value = name_of(doc, source), *heir = name_of(doc, node);
+    const char *value = doc_name(doc, source), *heir = doc_name(doc, node);
     diag_add(diags, DIAG_ID_inherit_scope, doc_attr_place(doc, node, STR_inherit), heir, value,
-             name_of(doc, doc_element(doc, source)->parent), str_text(doc->strings, lost),
-             name_of(doc, doc_element(doc, node)->parent), heir, value);
+             doc_name(doc, doc_element(doc, source)->parent), str_text(doc->strings, lost),
+             doc_name(doc, doc_element(doc, node)->parent), heir, value);
     diag_add(diags, DIAG_ID_defined_here, doc_name_place(doc, source), value);
 }
 
@@ -124,13 +119,13 @@ static void inherit(struct document *doc, elem_id node, struct diag_list *diags)
     for (unsigned depth = 0; (base = base_of(doc, at)) != 0; depth++, at = base) {
         if (base == node || depth == MAX_ANCESTORS) {
             diag_add(diags, DIAG_ID_inherit_cycle, doc_attr_place(doc, node, STR_inherit),
-                     name_of(doc, node));
+                     doc_name(doc, node));
             return;
         }
         if (doc_element(doc, base)->category != doc_element(doc, node)->category) {
             if (at == node) /* else `at` has the report */
                 diag_add(diags, DIAG_ID_inherit_category, doc_attr_place(doc, node, STR_inherit),
-                         name_of(doc, node), category_of(doc, node), name_of(doc, base),
+                         doc_name(doc, node), category_of(doc, node), doc_name(doc, base),
                          category_of(doc, base));
             return;
         }
@@ -139,7 +134,7 @@ static void inherit(struct document *doc, elem_id node, struct diag_list *diags)
     }
     if (at == node)
         diag_add(diags, DIAG_ID_inherit_missing, doc_attr_place(doc, node, STR_inherit),
-                 name_of(doc, node),
+                 doc_name(doc, node),
                  str_text(doc->strings, doc_attr_value(doc, node, STR_inherit)));
 }
 

@@ -166,8 +166,7 @@ static void rename_inputs(struct upgrade *u, elem_id node, const char *pairs)
     for (size_t i = 0; i < count; i++) {
         if (!inputs[i])
             continue;
-        upgrade_note(u, inputs[i], "input '%s' is now '%s'",
-                     str_text(u->doc->strings, doc_element(u->doc, inputs[i])->name),
+        upgrade_note(u, inputs[i], "input '%s' is now '%s'", doc_name(u->doc, inputs[i]),
                      str_text(u->doc->strings, names[i]));
         doc_set_name(u->doc, inputs[i], names[i]);
     }
@@ -367,8 +366,7 @@ static void rename_clashing_nodes(struct upgrade *u)
         if (!name)
             continue;
         upgrade_note(u, e, "node '%s', called like an input of its graph, is now '%s'",
-                     str_text(doc->strings, doc_element(doc, e)->name),
-                     str_text(doc->strings, name));
+                     doc_name(doc, e), str_text(doc->strings, name));
         upgrade_set_name(u, e, name);
     }
 }

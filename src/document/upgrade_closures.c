@@ -189,7 +189,7 @@ void upgrade_complex_ior(struct upgrade *u)
             continue;
         read_complex(u, e, complex);
         upgrade_note(u, e, "'%s' has the value of <complex_ior>, which is no node any more",
-                     str_text(doc->strings, doc_element(doc, e)->name));
+                     doc_name(doc, e));
         has_some = true;
     }
     if (has_some) {

@@ -81,13 +81,13 @@ static void apply_film(struct films *f, elem_id film, elem_id base)
             continue;
         if (f->num_readers[own_index(f, node)] > 1)
             upgrade_tell_loss(u, node, "other nodes read '%s', too, and get its film",
-                              str_text(u->doc->strings, doc_element(u->doc, node)->name));
+                              doc_name(u->doc, node));
         give_film(u, film, node);
         is_applied = true;
     }
     if (!is_applied)
         upgrade_tell_loss(u, film, "no BSDF below '%s' takes a film, so it is left out",
-                          str_text(u->doc->strings, doc_element(u->doc, film)->name));
+                          doc_name(u->doc, film));
 }
 
 /* True if the film may have a copy of the base, which others read. */
@@ -106,7 +106,7 @@ static elem_id copy_base(struct films *f, elem_id layer, elem_id base)
     struct document *doc = u->doc;
     struct text name;
     text_init(&name, doc->arena);
-    text_fmt(&name, "%s_film", str_text(doc->strings, doc_element(doc, layer)->name));
+    text_fmt(&name, "%s_film", doc_name(doc, layer));
     elem_id copy =
         upgrade_add_node(u, layer, text_cstr(&name),
                          str_text(doc->strings, doc_element(doc, base)->category), STR_BSDF);
@@ -117,7 +117,7 @@ static elem_id copy_base(struct films *f, elem_id layer, elem_id base)
     }
     for (elem_id e = doc_element(doc, base)->first_child; e; e = doc_element(doc, e)->next)
         if (doc_element(doc, e)->kind == KIND_INPUT)
-            upgrade_copy_input(u, e, copy, str_text(doc->strings, doc_element(doc, e)->name), NULL);
+            upgrade_copy_input(u, e, copy, doc_name(doc, e), NULL);
     return copy;
 }
 

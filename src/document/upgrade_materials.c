@@ -343,8 +343,7 @@ static str_id convert_shader_ref(struct upgrade *u, elem_id shader_ref, elem_id 
         upgrade_note(u, shader_ref, "<shaderref> names no shader, and is left out");
         return 0;
     }
-    str_id name =
-        upgrade_free_name(u, u->root, str_text(doc->strings, doc_element(doc, shader_ref)->name));
+    str_id name = upgrade_free_name(u, u->root, doc_name(doc, shader_ref));
     doc_move_before(doc, shader_ref, material);
     assert(doc_element(doc, shader_ref)->next == material);
     upgrade_set_name(u, shader_ref, name);

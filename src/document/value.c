@@ -204,8 +204,7 @@ void doc_report_loose(const struct document *doc, elem_id element, doc_type type
     text_str(&first, "first");
     if (used > 1)
         text_fmt(&first, " %u", used);
-    diag_add(diags, DIAG_ID_excess_numbers, place, numbers.text, count,
-             str_text(doc->strings, doc_element(doc, element)->name),
+    diag_add(diags, DIAG_ID_excess_numbers, place, numbers.text, count, doc_name(doc, element),
              str_text(doc->strings, doc_type_name(type)), text_cstr(&first),
              used > 1 ? "are" : "is",
              *suggestion ? suggestion : decimal_hint(type, numbers.text, count, diags->arena));

@@ -22,11 +22,6 @@ struct film {
     ir_ref *filmed;    /* per node: the node under the film */
 };
 
-static bool is_closure(const struct builder *b, ir_ref ref)
-{
-    return ir_type_is_closure(ir_type_of(b->graph, ref));
-}
-
 /* The operand of a leaf with this input; 0: the leaf has no such input. */
 static unsigned operand_of(struct builder *b, ir_ref leaf, const char *input)
 {
@@ -48,7 +43,7 @@ static bool takes_film(struct builder *b, ir_ref ref)
 static void find_slots(struct film *f, ir_ref base)
 {
     for (ir_ref ref = 1; ref <= base; ref++) {
-        if (!f->needed[ref] || !is_closure(f->b, ref))
+        if (!f->needed[ref] || !ir_is_closure(f->b->graph, ref))
             continue;
         f->has_slot[ref] = takes_film(f->b, ref);
         for (uint32_t i = 0; i < ir_get(f->b->graph, ref)->num_args; i++)

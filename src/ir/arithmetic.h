@@ -51,6 +51,14 @@ static inline ir_ref ir_black(struct ir_graph *graph)
     return ir_const_splat(graph, IR_TYPE_VEC3, 0.0f);
 }
 
+/* (1, 0, 0), (0, 1, 0) or (0, 0, 1) */
+static inline ir_ref ir_axis(struct ir_graph *graph, unsigned index)
+{
+    struct ir_value value = {.type = IR_TYPE_VEC3};
+    value.w[index].f = 1.0f;
+    return ir_const(graph, &value);
+}
+
 /* A sum in which 0 stands for nothing. */
 static inline ir_ref ir_sum(struct ir_graph *graph, ir_ref a, ir_ref b)
 {

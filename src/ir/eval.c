@@ -7,6 +7,8 @@
  */
 #include "ir/ir.h"
 
+#include "base/num.h"
+
 #include <assert.h>
 #include <stdlib.h>
 
@@ -214,12 +216,6 @@ static void visit(struct ir_evaluator *e, ir_ref ref)
     vec_push(e->scratch, &e->visits, ref);
 }
 
-static int in_order(const void *a, const void *b)
-{
-    ir_ref one = *(const ir_ref *)a, other = *(const ir_ref *)b;
-    return (one > other) - (one < other);
-}
-
 /* The nodes that `root` needs, in array order, but for those with a known fate. */
 static void find_visits(struct ir_evaluator *e, ir_ref root)
 {
@@ -236,8 +232,7 @@ static void find_visits(struct ir_evaluator *e, ir_ref root)
         for (uint32_t k = 0; k < ir_get(e->graph, ref)->num_args; k++)
             visit(e, args[k]);
     }
-    if (e->visits.len)
-        qsort(e->visits.items, e->visits.len, sizeof *e->visits.items, in_order);
+    num_sort(e->visits.items, e->visits.len);
 }
 
 static void run(struct ir_evaluator *e)

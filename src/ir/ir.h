@@ -335,6 +335,17 @@ static inline ir_type_id ir_type_of(const struct ir_graph *graph, ir_ref ref)
     return graph->nodes.items[ref].type;
 }
 
+/* True for a closure, not for 0. */
+static inline bool ir_is_closure(const struct ir_graph *graph, ir_ref ref)
+{
+    return ref && ir_type_is_closure(ir_type_of(graph, ref));
+}
+/* True for an op that makes a closure of others. */
+static inline bool ir_is_operator(enum ir_op op)
+{
+    return op == IR_LAYER || op == IR_CLOSURE_MIX || op == IR_CLOSURE_ADD || op == IR_CLOSURE_SCALE;
+}
+
 /*
  * build.c: the only way to make nodes. Folds, orders commutative operands, applies rules.def,
  * hash-conses.

@@ -12,15 +12,9 @@ const struct extra_input library_extra_inputs[LIBRARY_NUM_EXTRA_INPUTS] = {
     {"uv_offset", IR_TYPE_VEC2, 0.0f},
 };
 
-static bool ends_with(const char *text, const char *end)
-{
-    size_t n = strlen(text), m = strlen(end);
-    return n >= m && strcmp(text + n - m, end) == 0;
-}
-
 bool index_is_inline(const struct indexer *ix, str_id file)
 {
-    return ends_with(index_text(ix, file), ".inline");
+    return text_ends_with(index_text(ix, file), ".inline");
 }
 
 str_id index_read_source(struct indexer *ix, elem_id element, str_id file, struct diag_list *diags)

@@ -8,7 +8,7 @@ ir_ref build_over(struct builder *b, ir_ref ref, const ir_ref *left)
     bool is_same = true, has_operand = false;
     for (uint32_t i = 0; i < node.num_args; i++) {
         ir_ref arg = ir_arg(b->graph, ref, i);
-        bool is_tree = arg && ir_type_is_closure(ir_type_of(b->graph, arg));
+        bool is_tree = ir_is_closure(b->graph, arg);
         args[i] = arg ? left[arg] : 0;
         is_same &= args[i] == arg;
         has_operand |= is_tree && args[i];
@@ -30,7 +30,7 @@ ir_ref build_with_parts(struct builder *b, ir_ref root, ir_ref (*part)(void *use
     ir_ref *left = ARENA_ARRAY(b->arena, ir_ref, root + 1);
     for (ir_ref ref = 1; ref <= root; ref++) {
         left[ref] = ref;
-        if (!needed[ref] || !ir_type_is_closure(ir_type_of(b->graph, ref)))
+        if (!needed[ref] || !ir_is_closure(b->graph, ref))
             continue;
         uint8_t op = ir_get(b->graph, ref)->op;
         ir_push_origin_of(b->graph, ref);

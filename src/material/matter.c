@@ -18,13 +18,6 @@ struct taking {
     struct matter *out;
 };
 
-static ir_ref axis(struct ir_graph *g, unsigned index)
-{
-    struct ir_value value = {.type = IR_TYPE_VEC3};
-    value.w[index].f = 1.0f;
-    return ir_const(g, &value);
-}
-
 /* "dielectric_bsdf" */
 static const char *name_of(struct taking *t, ir_ref leaf)
 {
@@ -37,8 +30,8 @@ static const char *name_of(struct taking *t, ir_ref leaf)
 
 static ir_ref in_frame(struct taking *t, ir_ref leaf)
 {
-    leaf = build_with_operand(t->builder, leaf, "normal", axis(t->graph, 2));
-    return build_with_operand(t->builder, leaf, "tangent", axis(t->graph, 0));
+    leaf = build_with_operand(t->builder, leaf, "normal", ir_axis(t->graph, 2));
+    return build_with_operand(t->builder, leaf, "tangent", ir_axis(t->graph, 0));
 }
 
 /* Notes the medium of a volume, which no other part of the light is. */
@@ -260,7 +253,7 @@ bool build_matter(struct builder *b, const struct closure_host *closures, struct
                   ir_ref root, struct matter *out)
 {
     struct ir_graph *g = b->graph;
-    struct closure_point point = {.normal = axis(g, 2), .view = axis(g, 2)};
+    struct closure_point point = {.normal = ir_axis(g, 2), .view = ir_axis(g, 2)};
     struct taking t = {.builder = b, .graph = g, .closures = *closures, .out = out};
     ir_ref surface = closure_without_aovs(g, closure_sides_of(g, root).front);
     if (!surface || ir_type_of(g, surface) != IR_TYPE_SURFACE)

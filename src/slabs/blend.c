@@ -363,23 +363,16 @@ struct top {
     ir_ref diffuse; /* vec3: what its medium sends back */
 };
 
-static ir_ref axis(struct ir_graph *g, unsigned which)
-{
-    struct ir_value value = {.type = IR_TYPE_VEC3};
-    value.w[which].f = 1.0f;
-    return ir_const(g, &value);
-}
-
 static struct top look_along_normal(const struct slab_blend *blend, const struct part *a,
                                     const struct part *b, ir_ref thickness)
 {
     struct shader *shader = blend->shader;
     struct ir_graph *g = shader->graph;
     /* in the frame of the surface, so that constant slabs stay constant */
-    ir_ref in[NUM_SLAB_OPERANDS], normal = axis(g, 2);
+    ir_ref in[NUM_SLAB_OPERANDS], normal = ir_axis(g, 2);
     memcpy(in, a->in, sizeof in);
     in[SLAB_normal] = normal;
-    in[SLAB_tangent] = axis(g, 0);
+    in[SLAB_tangent] = ir_axis(g, 0);
     struct closure_point point = {.normal = normal, .view = normal};
     struct closure_host host = *blend->host->closures;
     host.point = &point;

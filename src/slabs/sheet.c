@@ -191,7 +191,7 @@ static void fill_other(struct filler *f, const struct line *line)
     const struct ir_node *node = ir_get(f->graph, line->ref);
     for (uint32_t i = node->num_args; i-- > 0;) {
         ir_ref arg = ir_arg(f->graph, line->ref, i);
-        if (arg && ir_type_is_closure(ir_type_of(f->graph, arg)))
+        if (ir_is_closure(f->graph, arg))
             push(f, line, arg, line->thickness, line->above, "in");
     }
 }
@@ -321,6 +321,6 @@ void slabs_fill_sheet(struct shader *shader, const struct slabs_host *host,
         if (needed[ref] && is_surface && slabs_has(shader, ir_arg(g, ref, 0)))
             fill_tree(&f, ref, ir_arg(g, ref, 0));
     }
-    if (ir_type_is_closure(ir_type_of(g, root)))
+    if (ir_is_closure(g, root))
         fill_tree(&f, root, root);
 }

@@ -2,6 +2,7 @@
 #include "slabs/slab_nodes.h"
 
 #include "base/hash.h"
+#include "base/num.h"
 #include "base/table.h"
 
 #include <stdlib.h>
@@ -22,12 +23,6 @@ static void add(struct finder *f, ir_ref ref)
     table_add(&f->known, f->arena, hash, f->nodes->items.len - 1);
 }
 
-static int in_order(const void *a, const void *b)
-{
-    ir_ref one = *(const ir_ref *)a, other = *(const ir_ref *)b;
-    return (one > other) - (one < other);
-}
-
 void slabs_find_nodes(const struct ir_graph *g, ir_ref root, struct arena *arena,
                       struct slab_nodes *out)
 {
@@ -45,7 +40,7 @@ void slabs_find_nodes(const struct ir_graph *g, ir_ref root, struct arena *arena
                 add(&f, arg);
         }
     }
-    qsort(out->items.items, out->items.len, sizeof *out->items.items, in_order);
+    num_sort(out->items.items, out->items.len);
 }
 
 uint32_t slab_node_at(const struct slab_nodes *nodes, ir_ref ref)

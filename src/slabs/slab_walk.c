@@ -77,11 +77,6 @@ struct walk {
     ir_ref *depths, *scattering;
 };
 
-static bool is_closure(const struct walk *w, ir_ref ref)
-{
-    return ref && ir_type_is_closure(ir_type_of(w->graph, ref));
-}
-
 static bool has_slabs(const struct walk *w, ir_ref ref)
 {
     return w->has_slabs[slab_node_at(&w->nodes, ref)];
@@ -195,17 +190,11 @@ static ir_ref operator_albedo(struct walk *w, ir_ref ref)
     return ir_op2(g, IR_ADD, a, b);
 }
 
-static bool is_operator(const struct ir_node *node)
-{
-    return node->op == IR_LAYER || node->op == IR_CLOSURE_MIX || node->op == IR_CLOSURE_ADD
-           || node->op == IR_CLOSURE_SCALE;
-}
-
 /* The operand of an operator whose albedo is unknown; 0: there is none. */
 static ir_ref unknown_operand(const struct walk *w, ir_ref ref)
 {
     const struct ir_node *node = ir_get(w->graph, ref);
-    uint32_t num = is_operator(node) ? node->op == IR_CLOSURE_SCALE ? 1 : 2 : 0;
+    uint32_t num = ir_is_operator((enum ir_op)node->op) ? node->op == IR_CLOSURE_SCALE ? 1 : 2 : 0;
     for (uint32_t i = 0; i < num; i++)
         if (!known_albedo(w, ir_arg(w->graph, ref, i)))
             return ir_arg(w->graph, ref, i);
@@ -224,8 +213,9 @@ static ir_ref albedo_of(struct walk *w, ir_ref lobes)
             continue;
         }
         open.len--;
-        ir_ref albedo =
-            is_operator(ir_get(w->graph, ref)) ? operator_albedo(w, ref) : leaf_albedo(w, ref);
+        ir_ref albedo = ir_is_operator((enum ir_op)ir_get(w->graph, ref)->op)
+                            ? operator_albedo(w, ref)
+                            : leaf_albedo(w, ref);
         note_albedo(w, ref, albedo);
     }
     return known_albedo(w, lobes);
@@ -387,7 +377,7 @@ static bool visit_operands(struct walk *w, ir_ref ref, struct where where, ir_re
     ir_ref *args = ARENA_ARRAY(w->shader->arena, ir_ref, node.num_args);
     for (uint32_t i = 0; i < node.num_args; i++) {
         args[i] = ir_arg(g, ref, i);
-        if (is_closure(w, args[i]) && !visited(w, args[i], where, &args[i]))
+        if (ir_is_closure(w->graph, args[i]) && !visited(w, args[i], where, &args[i]))
             return false;
     }
     if (node.op == IR_CLOSURE_MIX)
@@ -509,7 +499,7 @@ static ir_ref rewrite_root(struct walk *w, ir_ref ref, bool is_on_matter, const 
     ir_ref *args = ARENA_ARRAY(w->shader->arena, ir_ref, node.num_args);
     for (uint32_t i = 0; i < node.num_args; i++) {
         args[i] = ir_arg(g, ref, i);
-        if (is_closure(w, args[i]) && has_slabs(w, args[i]))
+        if (ir_is_closure(w->graph, args[i]) && has_slabs(w, args[i]))
             args[i] = walk_closure(w, args[i], place_of(w, ref));
         else if (known_for(w, replaced, args[i]))
             args[i] = known_for(w, replaced, args[i]);
@@ -583,7 +573,7 @@ static ir_ref *find_variances(struct walk *w, enum slab_feature feature,
             ir_ref in[NUM_SLAB_OPERANDS];
             memcpy(in, ir_args(w->graph, ref), sizeof in);
             variances[at] = of_slab(w->shader, in);
-        } else if (node.type == IR_TYPE_BSDF && (is_layer || is_operator(&node))) {
+        } else if (node.type == IR_TYPE_BSDF && (is_layer || ir_is_operator((enum ir_op)node.op))) {
             variances[at] = variance_of_operator(w, ref, variances);
         }
     }
@@ -610,7 +600,7 @@ static void find_scattering(struct walk *w)
             ir_ref above = depth_at(w, top, slabs_layer_thickness(g, ref));
             w->depths[at] = ir_sum(g, above, known_for(w, w->depths, base));
             w->scattering[at] = known_for(w, w->scattering, base);
-        } else if (is_operator(&node)) {
+        } else if (ir_is_operator((enum ir_op)node.op)) {
             w->depths[at] = variance_of_operator(w, ref, w->depths);
             w->scattering[at] = variance_of_operator(w, ref, w->scattering);
         }
@@ -662,7 +652,7 @@ ir_ref slabs_walk(struct shader *shader, const struct slabs_host *host, ir_ref r
     w.slopes = find_variances(&w, SLAB_REFRACTION, slab_slope);
     if (!host->walks)
         find_scattering(&w);
-    if (ir_type_is_closure(ir_type_of(g, root)))
+    if (ir_is_closure(g, root))
         return walk_closure(&w, root, body(&w));
     ir_ref *replaced = ARENA_ARRAY(shader->arena, ir_ref, w.nodes.items.len);
     const uint8_t *is_layer = find_layers(&w);

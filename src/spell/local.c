@@ -7,6 +7,8 @@
  */
 #include "spell/spell.h"
 
+#include "base/num.h"
+
 #include <assert.h>
 #include <ctype.h>
 #include <stdlib.h>
@@ -239,12 +241,6 @@ static struct spell_name name_by_operation(const struct spell *spell, ir_ref ref
 
 /* ---- Names that several locals want ---- */
 
-static int compare_ids(const void *a, const void *b)
-{
-    str_id x = *(const str_id *)a, y = *(const str_id *)b;
-    return (x > y) - (x < y);
-}
-
 /* 0: it declares nothing, or what has no name. */
 static str_id declared_name(const struct shader *shader, const struct effect *effect)
 {
@@ -261,14 +257,13 @@ void spell_plan_locals(struct spell *spell, const struct effect_list *statements
         if (name)
             vec_push(spell->scratch, &spell->wanted_names, name);
     }
-    if (spell->wanted_names.len)
-        qsort(spell->wanted_names.items, spell->wanted_names.len, sizeof(str_id), compare_ids);
+    num_sort(spell->wanted_names.items, spell->wanted_names.len);
 }
 
 static bool is_wanted_twice(const struct spell *spell, str_id name)
 {
     const str_id *first = spell->wanted_names.items, *end = first + spell->wanted_names.len;
-    const str_id *found = bsearch(&name, first, spell->wanted_names.len, sizeof name, compare_ids);
+    const str_id *found = bsearch(&name, first, spell->wanted_names.len, sizeof name, num_compare);
     return found && ((found > first && found[-1] == name) || (found + 1 < end && found[1] == name));
 }
 

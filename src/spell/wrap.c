@@ -22,12 +22,34 @@ struct wrapper {
 /* The role of a character in the search for a break. */
 enum meaning { PLAIN, OPERATOR, OPENS, CLOSES, QUOTE, SLASH, SPACE };
 
-static const uint8_t meanings[256] = {
-    ['('] = OPENS,    ['['] = OPENS,    ['{'] = OPENS,    [')'] = CLOSES,   [']'] = CLOSES,
-    ['}'] = CLOSES,   ['"'] = QUOTE,    ['/'] = SLASH,    [' '] = SPACE,    ['+'] = OPERATOR,
-    ['-'] = OPERATOR, ['*'] = OPERATOR, ['%'] = OPERATOR, ['<'] = OPERATOR, ['>'] = OPERATOR,
-    ['='] = OPERATOR, ['!'] = OPERATOR, ['&'] = OPERATOR, ['|'] = OPERATOR, ['^'] = OPERATOR,
-    ['?'] = OPERATOR, [':'] = OPERATOR,
+/* How tightly operators bind, as the first character tells; a comma binds most loosely. */
+enum binding { COMMA, CHOICE, LOR, LAND, BITS, COMPARISON, SHIFT, SUM, PRODUCT, ASSIGNMENT };
+
+static const struct sign {
+    uint8_t meaning, binding, doubled; /* doubled: the binding of "||" */
+} signs[256] = {
+    ['('] = {OPENS},
+    ['['] = {OPENS},
+    ['{'] = {OPENS},
+    [')'] = {CLOSES},
+    [']'] = {CLOSES},
+    ['}'] = {CLOSES},
+    ['"'] = {QUOTE},
+    [' '] = {SPACE},
+    ['?'] = {OPERATOR, CHOICE, CHOICE},
+    [':'] = {OPERATOR, CHOICE, CHOICE},
+    ['|'] = {OPERATOR, BITS, LOR},
+    ['&'] = {OPERATOR, BITS, LAND},
+    ['^'] = {OPERATOR, BITS, BITS},
+    ['<'] = {OPERATOR, COMPARISON, SHIFT},
+    ['>'] = {OPERATOR, COMPARISON, SHIFT},
+    ['='] = {OPERATOR, COMPARISON, COMPARISON},
+    ['!'] = {OPERATOR, COMPARISON, COMPARISON},
+    ['+'] = {OPERATOR, SUM, SUM},
+    ['-'] = {OPERATOR, SUM, SUM},
+    ['*'] = {OPERATOR, PRODUCT, PRODUCT},
+    ['%'] = {OPERATOR, PRODUCT, PRODUCT},
+    ['/'] = {SLASH, PRODUCT, PRODUCT},
 };
 
 /* True for the space of "array<uint, 4>". */
@@ -49,32 +71,20 @@ static bool may_break(const char *at, const char *end)
         return false;
     if (at[-1] == ',')
         return !is_before_length(at);
-    if (meanings[(unsigned char)at[1]] != OPERATOR && at[1] != '/')
+    if (signs[(unsigned char)at[1]].meaning != OPERATOR && at[1] != '/')
         return false;
     bool ends = at[2] == ' ' || (at + 3 < end && at[3] == ' ' && ispunct((unsigned char)at[2]));
     return ends && !(at[1] == '=' && at[2] == ' ');
 }
 
-/* How tightly the comma before this space binds, or the operator behind it; 0: most loosely. */
-static int binding(const char *at)
+/* How tightly the comma before this space binds, or the operator behind it. */
+static enum binding binding_at(const char *at)
 {
-    if (at[-1] == ',')
-        return 0;
-    bool is_double = at[1] == at[2];
-    switch (at[1]) {
-    case '?':
-    case ':': return 1;
-    case '|':
-    case '&': return !is_double ? 4 : at[1] == '|' ? 2 : 3;
-    case '^': return 4;
-    case '<':
-    case '>': return is_double ? 6 : 5;
-    case '=':
-    case '!': return 5;
-    case '+':
-    case '-': return at[2] == '=' ? 9 : 7;
-    default: return at[2] == '=' ? 9 : 8;
-    }
+    const struct sign *sign = &signs[(unsigned char)at[1]];
+    return at[-1] == ','                          ? COMMA
+           : at[2] == '=' && sign->binding >= SUM ? ASSIGNMENT /* "+=" */
+           : at[1] == at[2]                       ? sign->doubled
+                                                  : sign->binding;
 }
 
 /* The closing quote of the string that starts at `at`. */
@@ -97,9 +107,10 @@ static const char *find_break(const char *from, const char *end, size_t column)
                *first = column < MIN_COLUMNS ? from + (MIN_COLUMNS - column) : from;
     size_t room = column < MAX_COLUMNS ? MAX_COLUMNS - column + 1 : 0;
     const char *stop = (size_t)(end - from) < room ? end : from + room;
-    int depth = 0, best_depth = 0, best_binding = 0;
+    int depth = 0, best_depth = 0;
+    enum binding best_binding = COMMA;
     for (const char *at = from; at < stop; at++) {
-        enum meaning meaning = meanings[(unsigned char)*at];
+        enum meaning meaning = signs[(unsigned char)*at].meaning;
         if (meaning <= OPERATOR)
             continue;
         if (meaning != SPACE) {
@@ -112,7 +123,7 @@ static const char *find_break(const char *from, const char *end, size_t column)
             assigned = at;
         } else if (at > from && (at < first || !best || depth <= best_depth)
                    && may_break(at, end)) {
-            int level = at < first ? 0 : binding(at);
+            enum binding level = at < first ? COMMA : binding_at(at);
             if (at < first) {
                 early = at;
             } else if (!best || depth < best_depth || level <= best_binding) {

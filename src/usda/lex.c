@@ -47,16 +47,6 @@ static void skip_space(struct usda_lexer *l)
     }
 }
 
-static bool is_letter(char c)
-{
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || (c & 0x80);
-}
-
-static bool is_digit(char c)
-{
-    return c >= '0' && c <= '9';
-}
-
 static enum usda_token_kind lex_newlines(struct usda_lexer *l)
 {
     while (l->at < l->end && (*l->at == '\n' || *l->at == ';')) {
@@ -71,7 +61,7 @@ static enum usda_token_kind lex_newlines(struct usda_lexer *l)
 static enum usda_token_kind lex_name(struct usda_lexer *l)
 {
     while (l->at < l->end
-           && (is_letter(*l->at) || is_digit(*l->at) || *l->at == ':' || *l->at == '.'))
+           && (usda_is_letter(*l->at) || usda_is_digit(*l->at) || *l->at == ':' || *l->at == '.'))
         l->at++;
     return USDA_NAME;
 }
@@ -86,7 +76,7 @@ static enum usda_token_kind lex_number(struct usda_lexer *l)
         return USDA_NUMBER;
     }
     while (l->at < l->end
-           && (is_digit(*l->at) || *l->at == '.' || *l->at == 'e' || *l->at == 'E'
+           && (usda_is_digit(*l->at) || *l->at == '.' || *l->at == 'e' || *l->at == 'E'
                || ((*l->at == '-' || *l->at == '+') && (l->at[-1] == 'e' || l->at[-1] == 'E')
                    && l->at > digits)))
         l->at++;
@@ -148,10 +138,10 @@ static enum usda_token_kind lex(struct usda_lexer *l)
         return USDA_END;
     if (*l->at == '\n' || *l->at == ';')
         return lex_newlines(l);
-    if (is_letter(*l->at))
+    if (usda_is_letter(*l->at))
         return lex_name(l);
-    if (is_digit(*l->at) || *l->at == '-' || *l->at == '+'
-        || (*l->at == '.' && l->at + 1 < l->end && is_digit(l->at[1])))
+    if (usda_is_digit(*l->at) || *l->at == '-' || *l->at == '+'
+        || (*l->at == '.' && l->at + 1 < l->end && usda_is_digit(l->at[1])))
         return lex_number(l);
     if (*l->at == '"' || *l->at == '\'')
         return lex_quoted(l);

@@ -113,6 +113,16 @@ const struct usda_property *usda_find_attribute(const struct usda_layer *layer,
 /* The value of a property: its own, or its time sample with the least time; len 0: none. */
 struct text_word usda_value(const struct usda_property *property);
 
+/* A letter of an identifier: '_' is one, and so is every byte of a letter beyond ASCII. */
+static inline bool usda_is_letter(char c)
+{
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || (c & 0x80);
+}
+static inline bool usda_is_digit(char c)
+{
+    return c >= '0' && c <= '9';
+}
+
 static inline bool usda_is(struct text_word word, const char *text)
 {
     return word.len == strlen(text) && (!word.len || memcmp(word.bytes, text, word.len) == 0);

@@ -2,22 +2,13 @@
 #include "usda/write_text.h"
 
 #include "base/hash.h"
-
-static bool is_letter(char c)
-{
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || (c & 0x80);
-}
-
-static bool is_digit(char c)
-{
-    return c >= '0' && c <= '9';
-}
+#include "usda/usda.h"
 
 bool usda_is_identifier(struct text_word name)
 {
-    bool good = name.len && is_letter(name.bytes[0]);
+    bool good = name.len && usda_is_letter(name.bytes[0]);
     for (size_t i = 1; i < name.len && good; i++)
-        good = is_letter(name.bytes[i]) || is_digit(name.bytes[i]);
+        good = usda_is_letter(name.bytes[i]) || usda_is_digit(name.bytes[i]);
     return good;
 }
 
@@ -34,11 +25,11 @@ void usda_put_name(struct usda_text *text, struct text_word name)
         return;
     }
     text->num_changed++;
-    if (!name.len || is_digit(name.bytes[0]))
+    if (!name.len || usda_is_digit(name.bytes[0]))
         text_char(text->out, '_');
     for (size_t i = 0; i < name.len; i++) {
         char c = name.bytes[i];
-        text_char(text->out, is_letter(c) || is_digit(c) ? c : '_');
+        text_char(text->out, usda_is_letter(c) || usda_is_digit(c) ? c : '_');
     }
     text_fmt(text->out, "_%x", (unsigned)hash_bytes(name.bytes, name.len));
 }
