@@ -10,15 +10,25 @@
 #include <stdlib.h>
 #include <string.h>
 
+static bool is_readable(json_t *document)
+{
+    struct store store = {0};
+    bool good = record_from_json(&store, document) != NULL;
+    store_finish(&store);
+    return good;
+}
+
 static bool add_entry(struct baseline *baseline, uint64_t offset)
 {
     bool is_new;
     const char *name = json_text_of(baseline->reader.document, "name");
-    if (!*name)
+    if (!is_readable(baseline->reader.document))
+        baseline->reader.fault = REPORT_DOCUMENT_DAMAGED;
+    else if (!*name)
         baseline->reader.fault = "a document in it is outside the root of its run";
     else
         names_add(&baseline->offsets, name, &is_new)->value = offset;
-    return *name != '\0';
+    return !baseline->reader.fault;
 }
 
 bool baseline_open(struct baseline *baseline, const char *path)

@@ -44,7 +44,7 @@ static void advance(struct merge *merge, struct part *part)
     if (reader_next(&part->reader, NULL)) {
         part->document = record_from_json(&part->store, part->reader.document);
         if (!part->document)
-            part->reader.fault = "a document in it cannot be read";
+            part->reader.fault = REPORT_DOCUMENT_DAMAGED;
     }
     if (part->reader.fault)
         fail(merge, part->path, part->reader.fault);
@@ -89,13 +89,13 @@ static void tell_other(struct merge *merge, const struct part *part, const char 
                  why);
 }
 
-/* Once all documents are read: all shards have seen the same list of documents. */
+/* Once all documents are read: shards that could be read have seen the same list of documents. */
 static void compare_lists(struct merge *merge)
 {
     for (size_t i = 1; i < merge->num_parts; ++i) {
         const json_t *first = json_object_get(merge->parts[0].reader.tail, "summary"),
                      *other = json_object_get(merge->parts[i].reader.tail, "summary");
-        if (strcmp(json_text_of(first, "list"), json_text_of(other, "list")) != 0)
+        if (first && other && strcmp(json_text_of(first, "list"), json_text_of(other, "list")) != 0)
             tell_other(merge, &merge->parts[i], ": their lists of documents differ");
     }
 }

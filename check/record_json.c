@@ -278,7 +278,12 @@ char *record_to_text(const struct check_document *document, size_t *out_size)
 
 /* ---- Reading ---- */
 
-static void read_object(struct store *store, json_t *object, const struct record_type *type,
+struct reading {
+    struct store *store;
+    bool is_damaged; /* a member has another type, or a word that it cannot have */
+};
+
+static void read_object(struct reading *r, json_t *object, const struct record_type *type,
                         char *out);
 
 /* A copy: records come from other machines. */
@@ -289,64 +294,77 @@ static const char *keep_text(struct store *store, const char *from)
     return text;
 }
 
-static const char *read_text(struct store *store, const json_t *value)
+/* A member may be missing, which is 0 or "". */
+static void expect(struct reading *r, const json_t *value, bool fits)
+{
+    r->is_damaged |= value && !fits;
+}
+
+static const char *read_text(struct reading *r, const json_t *value)
 {
     const char *text = json_string_value(value);
-    return text ? keep_text(store, text) : "";
+    expect(r, value, text);
+    return text ? keep_text(r->store, text) : "";
 }
 
-/* `otherwise`: for what is no count. */
-static uint64_t read_count(const json_t *value, uint64_t otherwise)
+static uint64_t read_count(struct reading *r, const json_t *value)
 {
-    return json_is_integer(value) && json_integer_value(value) >= 0
-               ? (uint64_t)json_integer_value(value)
-               : otherwise;
+    bool is_count = json_is_integer(value) && json_integer_value(value) >= 0;
+    expect(r, value, is_count);
+    return is_count ? (uint64_t)json_integer_value(value) : 0;
 }
 
-static uint32_t read_small(const json_t *value, uint32_t otherwise)
+static uint32_t read_small(struct reading *r, const json_t *value)
 {
-    uint64_t count = read_count(value, otherwise);
+    uint64_t count = read_count(r, value);
+    expect(r, value, count <= UINT32_MAX);
     return count > UINT32_MAX ? UINT32_MAX : (uint32_t)count;
 }
 
-static unsigned read_name(const json_t *value, const char *const *names, unsigned num_names)
+static unsigned read_name(struct reading *r, const json_t *value, const char *const *names,
+                          unsigned num_names)
 {
     const char *name = json_string_value(value);
     for (unsigned i = 0; name && i < num_names; ++i)
         if (strcmp(names[i], name) == 0)
             return i;
+    expect(r, value, false);
     return 0;
 }
 
-static enum check_failure read_outcome(const json_t *object)
+/* A failure has a reason, and nothing else has one. */
+static enum check_failure read_outcome(struct reading *r, const json_t *object)
 {
+    static const char *const states[] = {"passed", "failed"};
+    const json_t *status = json_object_get(object, "status");
+    bool failed = read_name(r, status, states, 2) == 1;
     unsigned failure =
-        read_name(json_object_get(object, "failure"), check_failure_names, NUM_CHECK_FAILURES);
-    if (strcmp(json_text_of(object, "status"), "failed") != 0)
-        return CHECK_PASSED;
-    return failure == CHECK_PASSED ? CHECK_LOAD : (enum check_failure)failure; /* an unknown name */
+        read_name(r, json_object_get(object, "failure"), check_failure_names, NUM_CHECK_FAILURES);
+    r->is_damaged |= !status || failed != (failure != CHECK_PASSED);
+    return (enum check_failure)failure;
 }
 
-static void read_list(struct store *store, json_t *array, const struct field *field, char *out)
+static void read_list(struct reading *r, json_t *array, const struct field *field, char *out)
 {
     const struct record_type *type = field->items;
     size_t num = json_array_size(array);
-    char *items = store_array(store, num, type->size);
+    char *items = store_array(r->store, num, type->size);
+    expect(r, array, json_is_array(array));
     for (size_t i = 0; i < num; ++i) {
         json_t *value = json_array_get(array, i);
         void *at = items + i * type->size;
         if (type->fields->key)
-            read_object(store, value, type, at);
+            read_object(r, value, type, at);
         else if (type->fields->kind == TEXT)
-            *(const char **)at = read_text(store, value);
-        else /* any other value is no valid index either */
-            *(uint32_t *)at = read_small(value, UINT32_MAX);
+            *(const char **)at = read_text(r, value);
+        else
+            *(uint32_t *)at = read_small(r, value);
     }
     *(char **)(void *)(out + field->at) = items;
     *(size_t *)(void *)(out + field->num_at) = num;
 }
 
-static void read_parts(struct store *store, json_t *parts, struct check_shader *shader)
+static void read_parts(struct reading *r, json_t *parts, struct check_shader *shader)
 {
     for (int measure = 0; measure < NUM_MEASURES; ++measure) {
         const char *name;
@@ -354,74 +372,80 @@ static void read_parts(struct store *store, json_t *parts, struct check_shader *
         json_object_foreach(json_object_get(parts, measure_infos[measure].key), name, value)
         {
             shader->parts =
-                store_grow(store, shader->parts, shader->num_parts, sizeof *shader->parts);
+                store_grow(r->store, shader->parts, shader->num_parts, sizeof *shader->parts);
             shader->parts[shader->num_parts++] = (struct check_part){
-                (enum measure)measure, keep_text(store, name), read_count(value, 0)};
+                (enum measure)measure, keep_text(r->store, name), read_count(r, value)};
         }
     }
 }
 
-static void read_settings(struct store *store, json_t *object, const struct field *field, char *out)
+static void read_settings(struct reading *r, json_t *object, const struct field *field, char *out)
 {
     const char *path;
     json_t *value;
-    struct check_setting *settings = store_array(store, json_object_size(object), sizeof *settings);
+    struct check_setting *settings =
+        store_array(r->store, json_object_size(object), sizeof *settings);
     size_t num = 0;
+    expect(r, object, json_is_object(object));
     json_object_foreach(object, path, value)
     {
-        if (json_is_string(value))
-            settings[num++] =
-                (struct check_setting){keep_text(store, path), read_text(store, value)};
+        settings[num++] = (struct check_setting){keep_text(r->store, path), read_text(r, value)};
     }
     *(struct check_setting **)(void *)(out + field->at) = settings;
     *(size_t *)(void *)(out + field->num_at) = num;
 }
 
-static void read_member(struct store *store, json_t *object, const struct field *field, char *out)
+static void read_member(struct reading *r, json_t *object, const struct field *field, char *out)
 {
     json_t *value = field->key ? json_object_get(object, field->key) : NULL;
     void *at = out + field->at;
     switch (field->kind) {
-    case TEXT: *(const char **)at = read_text(store, value); break;
-    case SMALL: *(uint32_t *)at = read_small(value, 0); break;
-    case COUNT: *(uint64_t *)at = read_count(value, 0); break;
-    case TIME: *(double *)at = json_number_value(value); break;
-    case FLAG: *(bool *)at = json_is_true(value); break;
-    case NAME: *(unsigned *)at = read_name(value, field->names, field->num_names); break;
-    case OUTCOME: *(enum check_failure *)at = read_outcome(object); break;
-    case LIST: read_list(store, value, field, out); break;
-    case PARTS: read_parts(store, value, (void *)out); break;
-    case SETTINGS: read_settings(store, value, field, out); break;
+    case TEXT: *(const char **)at = read_text(r, value); break;
+    case SMALL: *(uint32_t *)at = read_small(r, value); break;
+    case COUNT: *(uint64_t *)at = read_count(r, value); break;
+    case TIME:
+        expect(r, value, json_is_number(value));
+        *(double *)at = json_number_value(value);
+        break;
+    case FLAG:
+        expect(r, value, json_is_boolean(value));
+        *(bool *)at = json_is_true(value);
+        break;
+    case NAME: *(unsigned *)at = read_name(r, value, field->names, field->num_names); break;
+    case OUTCOME: *(enum check_failure *)at = read_outcome(r, object); break;
+    case LIST: read_list(r, value, field, out); break;
+    case PARTS: read_parts(r, value, (void *)out); break;
+    case SETTINGS: read_settings(r, value, field, out); break;
     }
 }
 
-/* A member that is missing or has another type is 0 or "". */
-static void read_object(struct store *store, json_t *object, const struct record_type *type,
+static void read_object(struct reading *r, json_t *object, const struct record_type *type,
                         char *out)
 {
+    expect(r, object, json_is_object(object));
     for (size_t i = 0; i < type->num_fields; ++i)
-        read_member(store, object, &type->fields[i], out);
+        read_member(r, object, &type->fields[i], out);
 }
 
-/* Removes message indices that are out of range. */
-static void drop_bad_indices(struct check_shader *shader, size_t num_messages)
+static bool has_messages(const struct check_shader *shader, size_t num_messages)
 {
-    size_t kept = 0;
     for (size_t i = 0; i < shader->num_messages; ++i)
-        if (shader->messages[i] < num_messages)
-            shader->messages[kept++] = shader->messages[i];
-    shader->num_messages = kept;
+        if (shader->messages[i] >= num_messages)
+            return false;
+    return true;
 }
 
 struct check_document *record_from_json(struct store *store, json_t *object)
 {
+    struct reading r = {.store = store};
     struct check_document *document = store_alloc(store, sizeof *document);
     document->index = json_count_of(object, "index");
-    read_object(store, object, &document_type, (char *)document);
+    read_object(&r, object, &document_type, (char *)document);
     for (size_t i = 0; i < document->num_elements; ++i)
         for (size_t k = 0; k < document->elements[i].num_shaders; ++k)
-            drop_bad_indices(&document->elements[i].shaders[k], document->num_messages);
-    return *document->file ? document : NULL;
+            r.is_damaged |=
+                !has_messages(&document->elements[i].shaders[k], document->num_messages);
+    return *document->file && !r.is_damaged ? document : NULL;
 }
 
 struct check_document *record_from_text(struct store *store, const char *text, size_t size)

@@ -15,7 +15,10 @@
  * from run to run.
  */
 json_t *record_to_json(const struct check_document *document, bool with_times);
-/* NULL if the JSON is no record. The record does not refer to the JSON. */
+/*
+ * NULL if the JSON is no record, or a damaged one: members of another type, or words that they
+ * cannot have. The record does not refer to the JSON.
+ */
 struct check_document *record_from_json(struct store *store, json_t *object);
 
 /* Writes a record as text, which the caller frees. */

@@ -71,13 +71,29 @@ void reader_close(struct report_reader *reader)
     json_decref(reader->tail);
 }
 
+static void count_document(struct report_reader *reader)
+{
+    ++reader->documents;
+    reader->failed += strcmp(json_text_of(reader->document, "status"), "failed") == 0;
+    reader->elements += json_array_size(json_object_get(reader->document, "elements"));
+}
+
 /* Reads what stands behind the documents: ',"summary":{…}}'. */
 static void read_tail(struct report_reader *reader)
 {
-    if (reader->fault || reader->tail || next_char(reader->in) != ',')
+    if (reader->fault || reader->tail)
         return;
-    ungetc('{', reader->in);
-    reader->tail = json_loadf(reader->in, 0, NULL);
+    if (next_char(reader->in) == ',') {
+        ungetc('{', reader->in);
+        reader->tail = json_loadf(reader->in, 0, NULL);
+    }
+    const json_t *summary = json_object_get(reader->tail, "summary");
+    if (!summary)
+        reader->fault = damaged;
+    else if (json_count_of(summary, "documents") != reader->documents
+             || json_count_of(summary, "failed") != reader->failed
+             || json_count_of(summary, "elements") != reader->elements)
+        reader->fault = "its summary counts other documents than those in it";
 }
 
 bool reader_next(struct report_reader *reader, uint64_t *out_offset)
@@ -96,7 +112,9 @@ bool reader_next(struct report_reader *reader, uint64_t *out_offset)
     if (out_offset)
         *out_offset = at < 0 ? 0 : (uint64_t)at;
     reader->document = c == '{' ? json_loadf(reader->in, JSON_DISABLE_EOF_CHECK, NULL) : NULL;
-    if (!reader->document)
+    if (reader->document)
+        count_document(reader);
+    else
         reader->fault = damaged;
     return reader->document != NULL;
 }

@@ -26,7 +26,7 @@ struct help_book;
 
 struct command {
     const char *name;
-    const char *usage; /* "FILE... [--target T] [options]" */
+    const char *usage; /* "FILE... [--target T] [options]"; "-compile FILE..." of a program */
     const char *brief;
     int (*run)(const struct command *command, int argc, char **argv);
     struct help_book *book; /* the command only adds its options; NULL: none */

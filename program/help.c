@@ -89,7 +89,8 @@ bool help_print(const struct command *command, const struct arg_parser *parser, 
         fprintf(stderr, "mxgen: '--help %s': write --help or --help all\n", word);
         return false;
     }
-    printf("Usage: mxgen %s\n%s\n", command->usage, command->brief);
+    printf("Usage: mxgen%s%s\n%s\n", *command->usage == '-' ? "" : " ", command->usage,
+           command->brief);
     print_group(parser, ARG_OWN, "Options");
     if (all)
         print_group(parser, ARG_MORE, "More options");

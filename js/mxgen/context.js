@@ -6,7 +6,7 @@ import { Document } from "./document.js";
 import { Edit } from "./edit.js";
 import { ArgumentError, DocumentError, MxgenError, OutOfMemoryError } from "./errors.js";
 import { Library } from "./library.js";
-import { expect, expectCount, expectOptions, Handle, kindOf, numberOf, Owner, STATUS } from "./native.js";
+import { expect, expectCount, expectOptions, Handle, kindOf, numberOf, Owner, readOptions, STATUS } from "./native.js";
 import { Scene } from "./scene.js";
 import { Shader, withOptions } from "./shader.js";
 
@@ -196,14 +196,13 @@ export class Context extends Owner {
      * Makes a library of files or an image (.mxlib), on top of `base` (null: the built-in library). `standalone`: on top of nothing; an
      * image needs it. Throws DocumentError.
      */
-    loadLibrary(paths, { base = null, standalone = false } = {}) {
+    loadLibrary(paths, request = {}) {
+        const { base, standalone } = readOptions(request, { base: null, standalone: false });
         if (base && standalone)
             throw new ArgumentError("a standalone library has no base");
-        if (!Array.isArray(paths))
-            throw new TypeError(`paths must be an array, not ${kindOf(paths)}`);
         const native = this._native, below = standalone ? null : this.#libraryFor(base);
         const { handle, status } = native.using(() => {
-            const names = native.newTexts(paths, "a path");
+            const names = native.newTexts(paths, "paths");
             return this._make("mxg_library_load", "mxg_library_unref", below ? [below._handle] : [],
                               out => [below ? below._pointer : 0, names, paths.length, out]);
         });
@@ -229,7 +228,8 @@ export class Context extends Owner {
     }
 
     /** Reads a file by the resolver. Throws DocumentError; its `document` has the parts without errors. */
-    load(path, { library = null } = {}) {
+    load(path, request = {}) {
+        const { library } = readOptions(request, { library: null });
         const native = this._native;
         return native.using(() => {
             const name = native.newText(path, "path");
@@ -238,7 +238,8 @@ export class Context extends Owner {
     }
 
     /** Reads a document from its text. `name` appears in messages and is the base of includes. Throws DocumentError. */
-    parse(text, { name = "<text>", library = null } = {}) {
+    parse(text, request = {}) {
+        const { name, library } = readOptions(request, { name: "<text>", library: null });
         const native = this._native;
         return native.using(() => {
             const bytes = bytesOf(text, "text"), data = native.newBytes(bytes), called = native.newText(name, "name");
@@ -250,7 +251,8 @@ export class Context extends Owner {
      * Reads a file whose includes a server or a database has: `open(from, ref)` is like the resolver, and returns a promise. Files that
      * `open` does not have come from the resolver.
      */
-    async loadAsync(path, open, { library = null } = {}) {
+    async loadAsync(path, open, request = {}) {
+        const { library } = readOptions(request, { library: null });
         const files = new Map(), host = this.#host, { resolver } = host;
         for (;;) {
             const missing = new Map();
@@ -279,7 +281,8 @@ export class Context extends Owner {
     }
 
     /** Begins a new document, or a changed copy of one. `library` is for a new one; a copy keeps its own. */
-    edit(document = null, { name = "<edit>", library = null } = {}) {
+    edit(document = null, request = {}) {
+        const { name, library } = readOptions(request, { name: "<edit>", library: null });
         if (document !== null && expect(document, Document, "document") && library !== null && library !== document.library)
             throw new ArgumentError("a changed document keeps its library");
         const native = this._native, used = document ? document.library : this.#libraryFor(library);
@@ -297,7 +300,8 @@ export class Context extends Owner {
      * The passes of the deferred pipeline that belong to no material (docs/deferred.md): [{ name, shader }] in their order, as far as the
      * options ask for them. The source of a pass is that of `shader.pixel`, a compute stage. Throws DocumentError.
      */
-    passes(target, { options = null } = {}) {
+    passes(target, request = {}) {
+        const { options } = readOptions(request, { options: null });
         const native = this._native, { lib } = native;
         return native.using(() => withOptions(this, options, made => {
             const desc = native.newStruct("mxg_generate_desc", { target: native.newText(target, "target"), options: made });
@@ -316,7 +320,8 @@ export class Context extends Owner {
      * The module with functions of the library that shaders of a target import with the option `mdl-module` (docs/mdl.md); its source is
      * `shader.pixel`. Throws DocumentError.
      */
-    module(target, { library = null, options = null } = {}) {
+    module(target, request = {}) {
+        const { library, options } = readOptions(request, { library: null, options: null });
         const native = this._native, used = this.#libraryFor(library);
         return native.using(() => withOptions(this, options, made => {
             const desc = native.newStruct("mxg_generate_desc", { target: native.newText(target, "target"), options: made });
@@ -341,7 +346,8 @@ export class Context extends Owner {
      * Reads a list with one path in each line, or a USD text layer (.usda) with its bindings. `purpose` chooses among these: "full", "preview",
      * or null for those of all purposes. Throws DocumentError.
      */
-    loadScene(path, { purpose = null } = {}) {
+    loadScene(path, request = {}) {
+        const { purpose } = readOptions(request, { purpose: null });
         const native = this._native;
         return native.using(() => {
             const name = native.newText(path, "path"), chosen = native.newOptionalText(purpose, "purpose");
@@ -350,7 +356,8 @@ export class Context extends Owner {
     }
 
     /** Reads a USD text layer from its text. `name` appears in messages, and textures are found from there. Throws DocumentError. */
-    parseScene(text, { name = "<text>", purpose = null } = {}) {
+    parseScene(text, request = {}) {
+        const { name, purpose } = readOptions(request, { name: "<text>", purpose: null });
         const native = this._native;
         return native.using(() => {
             const bytes = bytesOf(text, "text"), data = native.newBytes(bytes);
@@ -368,7 +375,8 @@ export class Context extends Owner {
     }
 
     /** The materials in a USD scene as a document. `Document.withMaterials` adds them to one. Throws DocumentError. */
-    sceneMaterials(scene, { library = null } = {}) {
+    sceneMaterials(scene, request = {}) {
+        const { library } = readOptions(request, { library: null });
         expect(scene, Scene, "scene");
         return this._document(library, "mxg_document_import", out => [0, scene._pointer, out]);
     }
@@ -390,12 +398,14 @@ export class Context extends Owner {
     }
 
     /** The text of a document in one layout; comments stay. */
-    format(text, { name = "<text>" } = {}) {
+    format(text, request = {}) {
+        const { name } = readOptions(request, { name: "<text>" });
         return this.rewrite("format", name, text).text;
     }
 
     /** A document of an older version as version 1.39. */
-    upgrade(text, { name = "<text>" } = {}) {
+    upgrade(text, request = {}) {
+        const { name } = readOptions(request, { name: "<text>" });
         return this.rewrite("upgrade", name, text);
     }
 }
@@ -408,8 +418,8 @@ export function newContextDesc(native, options) {
     }
     return native.newStruct("mxg_context_desc", {
         ...values, trust: expect(trust, "boolean", "trust"), warnings: native.newOptionalText(warnings, "warnings"),
-        sourcePaths: native.newTexts(sourcePaths, "a source path"), numSourcePaths: sourcePaths.length,
-        includeRoots: native.newTexts(includeRoots, "an include root"), numIncludeRoots: includeRoots.length });
+        sourcePaths: native.newTexts(sourcePaths, "sourcePaths"), numSourcePaths: sourcePaths.length,
+        includeRoots: native.newTexts(includeRoots, "includeRoots"), numIncludeRoots: includeRoots.length });
 }
 
 /** Why a mxg_context_desc is refused; "": it is not. */

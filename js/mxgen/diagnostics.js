@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Diagnostics: the errors, warnings and notes of a document, library or call.
 
+import { ArgumentError } from "./errors.js";
+import { expectCount, readOptions } from "./native.js";
+
 /** The diagnostics of a document, library or call, in order of discovery. Notes follow the diagnostic that they explain. */
 export class Diagnostics {
     #owner;
@@ -28,11 +31,14 @@ export class Diagnostics {
     }
 
     /** Diagnostic `index` as compilers write it. With `source`, the text of the file, the output shows the line with a caret. */
-    formatOne(index, { source = null, colour = false } = {}) {
+    formatOne(index, request = {}) {
+        const { source, colour } = readOptions(request, { source: null, colour: false });
+        if (expectCount(index, "index") >= this.length)
+            throw new ArgumentError(`there is no diagnostic ${index} of ${this.length}`);
         const native = this.#owner._native;
         this.#owner._handle; // throws after `destroy`
         return native.using(() => {
-            const line = source?.split("\n")[this.items[index]?.line - 1]?.replace(/\r$/, "");
+            const line = source?.split("\n")[this.items[index].line - 1]?.replace(/\r$/, "");
             const bytes = line === undefined ? null : new TextEncoder().encode(line), text = bytes ? native.newBytes(bytes) : 0;
             return native.sizedText((out, capacity) => native.lib.mxg_diagnostics_format(this.#list, index, text, bytes?.length ?? 0, colour, out,
                                                                                         capacity));

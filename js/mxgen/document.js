@@ -4,7 +4,7 @@
 import { Diagnostics } from "./diagnostics.js";
 import { ArgumentError, DocumentError, OutOfMemoryError } from "./errors.js";
 import { readNodeDef } from "./library.js";
-import { expect, expectOptions, INSPECT, NONE, numberOf, Owner, STATUS } from "./native.js";
+import { expect, expectOptions, INSPECT, NONE, numberOf, Owner, readOptions, STATUS } from "./native.js";
 import { Bindings, Scene } from "./scene.js";
 import { Shader, withOptions } from "./shader.js";
 
@@ -319,13 +319,14 @@ export class Document extends Owner {
      * bindings of the scene if the document has none. `solo` has the slots that alone count, `mute` those that do not. Throws DocumentError.
      * `previous` are bindings of the scene before it or the document changed: only primitives at or below a difference are resolved again.
      */
-    bind(scene, look = null, { solo = [], mute = [], previous = null } = {}) {
+    bind(scene, look = null, request = {}) {
+        const { solo, mute, previous } = readOptions(request, { solo: [], mute: [], previous: null });
         expect(scene, Scene, "scene");
         const native = this._native;
         return native.using(() => {
             const desc = native.newStruct("mxg_bindings_desc", {
-                look: native.newOptionalText(look, "look"), solo: native.newTexts(solo, "a name of solo"), numSolo: solo.length,
-                mute: native.newTexts(mute, "a name of mute"), numMute: mute.length,
+                look: native.newOptionalText(look, "look"), solo: native.newTexts(solo, "solo"), numSolo: solo.length,
+                mute: native.newTexts(mute, "mute"), numMute: mute.length,
                 previous: previous === null ? 0 : expect(previous, Bindings, "previous")._pointer });
             const { handle, status } = this.context._make("mxg_bindings_create", "mxg_bindings_destroy", [this._handle, scene._handle],
                                                           out => [this._pointer, scene._pointer, desc, out]);
@@ -341,8 +342,7 @@ export class Document extends Owner {
     /** The document with its surfaces as another shading model, "gltf_pbr" (docs/translate.md). The diagnostics tell what is lost. With `joined` a surface
      * that is made of others, such as their <mix>, becomes one. Throws DocumentError. */
     translate(model, request = {}) {
-        expectOptions(request, ["joined"]);
-        const make = request.joined ? "mxg_translate_joined" : "mxg_translate";
+        const { joined } = readOptions(request, { joined: false }), make = joined ? "mxg_translate_joined" : "mxg_translate";
         const native = this._native;
         return native.using(() => {
             const called = native.newText(model, "model");
@@ -393,7 +393,8 @@ export class Document extends Owner {
     }
 
     /** A text for people: "elements", "graph", "dot", "ir", "closures", "statistics" or "slabs". Throws DocumentError. */
-    inspect(view, { target = "glsl", ...request } = {}) {
+    inspect(view, options = {}) {
+        const { target = "glsl", ...request } = expect(options, "object", "options");
         const number = numberOf("mxg_view", view, "view");
         return this.#made(() => this.#request(target, request, desc => this.context._make(
             "mxg_inspect", "mxg_result_destroy", [this._handle], out => [this._pointer, number, desc, out])))._text();

@@ -3,7 +3,7 @@
 
 import { Document, Element } from "./document.js";
 import { ArgumentError, DocumentError, EditError } from "./errors.js";
-import { expect, Handle, kindOf, Owner, STATUS } from "./native.js";
+import { expect, expectEach, Handle, kindOf, Owner, STATUS } from "./native.js";
 
 /** A value as MaterialX text. */
 function textOf(value) {
@@ -192,7 +192,7 @@ export class Edit extends Owner {
      * others read its outputs.
      */
     group(nodes, name) {
-        const numbers = Array.from(nodes, node => this._own(node));
+        const numbers = Array.from(expectEach(nodes, "nodes"), node => this._own(node));
         return this._made((lib, native, pointer) => lib.mxg_edit_group_nodes(pointer, native.newNumbers(numbers), numbers.length,
                                                                          native.newText(name, "name")));
     }

@@ -5,7 +5,7 @@ import { Context } from "./context.js";
 import { ArgumentError } from "./errors.js";
 import { LanguageServer } from "./language_server.js";
 import { ENUMS } from "./layout.js";
-import { Native } from "./native.js";
+import { expect, Native } from "./native.js";
 import { slotText } from "./scene.js";
 
 export * from "./errors.js";
@@ -34,7 +34,7 @@ export class Mxgen {
 
     /** A language server (docs/lsp.md): `send` takes its messages. index.d.ts describes the options. */
     createLanguageServer(options) {
-        return new LanguageServer(this.#native, options.library ?? this.createContext().library, options);
+        return new LanguageServer(this.#native, expect(options, "object", "options").library ?? this.createContext().library, options);
     }
 
     /** The version of the library. */
@@ -65,10 +65,10 @@ export class Mxgen {
 
     /** Whether an option has a meaning for a target, which ignores the others. */
     optionApplies(key, target) {
-        const index = this.options.findIndex(option => option.key === key);
+        const index = this.options.findIndex(option => option.key === expect(key, "string", "key"));
         if (index < 0)
             throw new ArgumentError(`there is no option '${key}'`);
-        if (!this.targets.some(({ name }) => name === target))
+        if (!this.targets.some(({ name }) => name === expect(target, "string", "target")))
             throw new ArgumentError(`there is no target '${target}'`);
         return this.#native.using(() => this.#native.lib.mxg_catalogue_has_option(index, this.#native.newText(target, "target")) !== 0);
     }

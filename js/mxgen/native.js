@@ -20,6 +20,8 @@ const WASI = {
     proc_exit: () => { throw new InternalError("mxgen ended"); },
 };
 
+const PLAIN = new Set(["number", "boolean", "undefined"]); // which WebAssembly takes without running code of the caller
+
 /** The exception of mem_fail (src/base/mem.h). */
 class Unwinding {
     constructor(trap) {
@@ -41,7 +43,7 @@ export function expectCount(value, what) {
 
 /** Throws a TypeError unless the argument has the type. `what` names the argument. */
 export function expect(value, type, what) {
-    if (typeof type === "function" ? !(value instanceof type) : typeof value !== type)
+    if (typeof type === "function" ? !(value instanceof type) : typeof value !== type || value === null)
         throw new TypeError(`${what} must be ${typeof type === "function" ? type.name : type}, not ${kindOf(value)}`);
     return value;
 }
@@ -51,6 +53,19 @@ export function expectOptions(options, known) {
     for (const name of Object.keys(expect(options, "object", "options")))
         if (!known.includes(name))
             throw new ArgumentError(`there is no option '${name}'; known are ${known.join(", ")}`);
+}
+
+/** The options over their defaults. Throws if one is none of these. */
+export function readOptions(options, defaults) {
+    expectOptions(options, Object.keys(defaults));
+    return Object.fromEntries(Object.entries(defaults).map(([name, initial]) => [name, options[name] === undefined ? initial : options[name]]));
+}
+
+/** Throws a TypeError unless the argument is iterable. */
+export function expectEach(values, what) {
+    if (typeof values?.[Symbol.iterator] !== "function")
+        throw new TypeError(`${what} must be iterable, not ${kindOf(values)}`);
+    return values;
 }
 
 /** The number of a value of an enumeration. */
@@ -98,12 +113,17 @@ export class Native {
 
     // ---- Calls ----
 
-    /** A function of the library. An exception of WebAssembly itself, for example a stack overflow, ends the instance. */
+    /**
+     * A function of the library, which takes numbers. An exception of WebAssembly itself, for example a stack overflow, ends the instance.
+     */
     #function(name) {
         const called = this.#exports[name];
         return (...values) => {
             if (this.#fault)
                 throw new InternalError(`mxgen ended after an error: ${this.#fault}`);
+            for (const value of values)
+                if (!PLAIN.has(typeof value))
+                    throw new TypeError(`a number is expected, not ${kindOf(value)}`);
             try {
                 return called(...values);
             } catch (error) {
@@ -220,9 +240,11 @@ export class Native {
         return address;
     }
 
-    /** An array of texts. */
+    /** An array of texts. `what` names the argument. */
     newTexts(values, what) {
-        const addresses = Array.from(values, value => this.newText(value, what)), array = this.space(addresses.length * 4);
+        if (!Array.isArray(values))
+            throw new TypeError(`${what} must be an array, not ${kindOf(values)}`);
+        const addresses = values.map(value => this.newText(value, `a text of ${what}`)), array = this.space(addresses.length * 4);
         addresses.forEach((address, index) => this.view.setUint32(array + index * 4, address, true));
         return array;
     }

@@ -3,7 +3,7 @@
 
 import { Diagnostics } from "./diagnostics.js";
 import { ArgumentError, DocumentError } from "./errors.js";
-import { expect, NONE, numberOf, Owner, STATUS } from "./native.js";
+import { expect, expectEach, NONE, numberOf, Owner, STATUS } from "./native.js";
 
 
 /** The text of mxg_slot_encode or mxg_slot_decode. */
@@ -139,7 +139,7 @@ class Adding {
     constructor(native, scene, items) {
         this.#native = native;
         this.#scene = scene;
-        this.#items = items[Symbol.iterator]();
+        this.#items = expectEach(items, "primitives")[Symbol.iterator]();
         this.numbers = [];
         this.raised = null; // { error }
     }
@@ -210,7 +210,7 @@ export class Scene extends Owner {
     add(...paths) {
         const native = this._native;
         native.using(() => {
-            const status = native.lib.mxg_scene_add_paths(this._pointer, native.newTexts(paths, "a path"), paths.length);
+            const status = native.lib.mxg_scene_add_paths(this._pointer, native.newTexts(paths, "paths"), paths.length);
             this.#check(status);
         });
     }

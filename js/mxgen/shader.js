@@ -4,7 +4,7 @@
 import { Diagnostics } from "./diagnostics.js";
 import { Document } from "./document.js";
 import { ArgumentError, OutOfMemoryError } from "./errors.js";
-import { expect, expectCount, kindOf, nameOf, NONE, numberOf, Owner, STATUS } from "./native.js";
+import { expect, expectCount, expectEach, kindOf, nameOf, NONE, numberOf, Owner, readOptions, STATUS } from "./native.js";
 
 const STAGES = ["vertex", "pixel"];
 
@@ -133,7 +133,8 @@ export class Shader extends Owner {
     }
 
     /** The file of a texture, or of one of its tiles, at a frame; null: the frame has no file. */
-    textureFile(variable, { tile = 0, frame = 0 } = {}) {
+    textureFile(variable, request = {}) {
+        const { tile, frame } = readOptions(request, { tile: 0, frame: 0 });
         const { lib } = this._native, index = this.#index(variable);
         expectCount(tile, "tile");
         if (!Number.isInteger(frame) || frame !== (frame | 0))
@@ -210,7 +211,7 @@ export class Shader extends Owner {
         expect(data, Uint8Array, "data");
         expectCount(element, "element");
         const native = this._native, index = this.#index(variable);
-        const components = Array.from(typeof values === "number" ? [values] : values, value => expect(value, "number", "a value"));
+        const components = Array.from(typeof values === "number" ? [values] : expectEach(values, "values"), value => expect(value, "number", "a value"));
         native.using(() => {
             const copy = native.newBytes(data), status = native.lib.mxg_result_pack_value(this._pointer, index, element,
                 native.newFloats(components), components.length, copy, data.length);

@@ -198,6 +198,12 @@ check 'a merge compares with a baseline' exits 1 merge --html m.html --sarif m.s
 check 'a merge leaves the baseline as it is' cmp base.json kept.json
 for kind in sarif xml json; do check "a merge gives the report of one run: $kind" cmp m.$kind all.$kind; done
 check 'a merge gives the page of one run' eval 'diff <(sed "s/<time>[^<]*//" m.html) <(sed "s/<time>[^<]*//" all.html)'
+# damaged SED: a merge of the shards, of which one is changed
+damaged() { sed "$1" shard1.json >damage1.json && cmp -s damage1.json shard1.json && echo 'nothing was changed' && return 1; exits 1 "$mxgen" check merge damage1.json shard2.json shard3.json && grep -q "$2.*report-unreadable" err && ! grep -q shard-other err; }
+check 'a word that no status is fails the merge' damaged 's/"status":"[a-z]*"/"status":"faild"/' 'a document in it cannot be read'
+check 'a lost document fails the merge' damaged '0,/^{"index"/{/^{"index"/d}' 'its summary counts other documents'
+check 'a lost summary fails the merge' damaged 's/,"summary":.*/}/' 'only a part of one'
+check 'a damaged baseline fails the run' eval 'sed "s/\"status\":\"[a-z]*\"/\"status\":\"?\"/" base.json >bad.json; exits 1 "$mxgen" check show "${quick[@]}" --baseline bad.json; grep -q report-unreadable err'
 check 'a merge against a missing baseline fails' eval 'exits 1 "$mxgen" check merge shard?.json --baseline bsae.json && grep -q baseline-missing err && [ ! -e bsae.json ]'
 check 'a merge fails with --fail-on' eval 'material Near >show/deep/near.mtlx; shards; exits 0 merge && exits 1 merge --fail-on gone'
 check 'a merge can write a baseline' eval 'exits 0 "$mxgen" check merge shard?.json --baseline merged.json --update-baseline'

@@ -414,6 +414,24 @@ test("callbacks that throw", () => {
     assert.equal(nested.load("x").renderables.length, 1); // another context can be used
 });
 
+test("wrong arguments are told, and the instance goes on", () => {
+    const context = mxgen.createContext(), document = context.parse(GOLD), diagnostics = document.validate(), edit = document.edit();
+    const hostile = { valueOf() { throw new Error("of the caller"); } };
+    for (const index of [10n, "x", NaN, -1, undefined, hostile, diagnostics.length])
+        assert.throws(() => diagnostics.formatOne(index), ArgumentError);
+    assert.throws(() => edit.group(undefined), /^TypeError: nodes must be iterable, not undefined$/);
+    assert.throws(() => context.scene().addEach(0.5), /^TypeError: primitives must be iterable, not number$/);
+    assert.throws(() => context.scene().addEach([null]), /^TypeError: a primitive must be object, not null$/);
+    assert.throws(() => context.loadLibrary(new Set(["a.mtlx"])), /^TypeError: paths must be an array, not Set$/);
+    assert.throws(() => document.bind(context.scene(), null, { solo: new Set(["000"]) }), /^TypeError: solo must be an array, not Set$/);
+    for (const call of [() => mxgen.createLanguageServer(null), () => document.translate("gltf_pbr", null), () => document.inspect("graph", null)])
+        assert.throws(call, /^TypeError: options must be object, not null$/);
+    for (const call of [() => context.load("a.mtlx", { libary: null }), () => context.parseScene("", { porpose: "full" }), () => context.passes("glsl", { option: {} })])
+        assert.throws(call, /there is no option '(libary|porpose|option)'; known are /);
+    assert.throws(() => mxgen.optionApplies(Symbol("role"), "glsl"), /^TypeError: key must be string, not symbol$/);
+    assert(document.generate("glsl").pixel.length > 0);
+});
+
 // ---- Scenes ----
 
 test("scenes", () => {
