@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /* Validates a whole document against its library, and the files that it names. */
 #include "api/generation.h"
-#include "base/hash.h"
 #include "bind/look.h"
 
 /*
@@ -139,31 +138,14 @@ struct told {
     struct arena *arena;
 };
 
-static bool is_same_text(const char *a, const char *b)
-{
-    return strcmp(a ? a : "", b ? b : "") == 0;
-}
-
-static bool is_same_place(const struct diag_place *a, const struct diag_place *b)
-{
-    return a->line == b->line && a->column == b->column && a->spot == b->spot
-           && is_same_text(a->file, b->file) && is_same_text(a->path, b->path);
-}
-
-static uint32_t hash_of_place(const struct diag_place *place)
-{
-    const char *path = place->line || !place->path ? "" : place->path; /* of edited elements */
-    return hash_pair(hash_pair(place->line, place->column), hash_bytes(path, strlen(path)));
-}
-
 /* True if nothing of the kind is told of the place so far. */
 static bool tell(struct told *told, const struct diag *diag)
 {
-    uint32_t hash = hash_of_place(&diag->place);
+    uint32_t hash = diag_hash_place(&diag->place);
     for (uint32_t at = hash, found; (found = table_next(&told->table, hash, &at));) {
         const struct diag *known = &told->items.items[found - 1];
         if ((found <= told->num_elements || known->id == diag->id)
-            && is_same_place(&known->place, &diag->place))
+            && diag_is_same_place(&known->place, &diag->place))
             return false;
     }
     vec_push(told->arena, &told->items, *diag);

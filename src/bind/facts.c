@@ -104,7 +104,8 @@ static const char *converted_color(struct bind_look *look, elem_id fact, doc_typ
         return NULL;
     if (library_convert_color(look->lib, space, numbers, look->arena))
         return write_numbers(look, numbers, doc_type_components(type));
-    library_report_space(look->lib, space, doc_attr_place(doc, fact, STR_colorspace), look->diags);
+    elem_id owner = doc_attr_owner(doc, fact, STR_colorspace);
+    library_report_space(look->lib, space, doc_attr_place(doc, owner, STR_colorspace), look->diags);
     return NULL;
 }
 

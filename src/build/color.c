@@ -235,10 +235,12 @@ struct build_meaning build_meaning_of_file(struct builder *b, const struct frame
 ir_ref build_convert(struct builder *b, ir_ref value, doc_type type,
                      const struct build_meaning *meaning)
 {
+    const struct document *doc = &b->lib->doc;
     if (value && doc_type_is_color(type) && meaning->space)
         return build_color_transform(
             b, value, type, meaning->space,
-            doc_attr_place(&b->lib->doc, meaning->of_space, STR_colorspace));
+            doc_attr_place(doc, doc_attr_owner(doc, meaning->of_space, STR_colorspace),
+                           STR_colorspace));
     return value && doc_type_is_measure(type) && meaning->of_unit ? convert_unit(b, value, meaning)
                                                                   : value;
 }

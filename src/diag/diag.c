@@ -2,6 +2,8 @@
 /* The catalogue and the list of diagnostics. */
 #include "diag/diag.h"
 
+#include "base/hash.h"
+
 #include <assert.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -133,9 +135,43 @@ void diag_move(struct diag_list *list, struct diag_place place)
     list->items.items[list->last].place = keep_place(list, place);
 }
 
+static bool is_same_text(const char *a, const char *b)
+{
+    return strcmp(a ? a : "", b ? b : "") == 0;
+}
+
+bool diag_is_same_place(const struct diag_place *a, const struct diag_place *b)
+{
+    return a->line == b->line && a->column == b->column && a->spot == b->spot
+           && is_same_text(a->file, b->file) && is_same_text(a->path, b->path);
+}
+
+uint32_t diag_hash_place(const struct diag_place *place)
+{
+    const char *path = place->line || !place->path ? "" : place->path; /* of edited elements */
+    return hash_pair(hash_pair(place->line, place->column), hash_bytes(path, strlen(path)));
+}
+
+/* True if the list has the last diagnostic twice. */
+static bool is_repeated(struct diag_list *list)
+{
+    const struct diag *last = &list->items.items[list->last], *known;
+    uint32_t text = hash_bytes(last->message, strlen(last->message)),
+             hash = hash_pair(diag_hash_place(&last->place), text), found;
+    for (uint32_t at = hash; (found = table_next(&list->told, hash, &at));) {
+        known = &list->items.items[found - 1];
+        if (known->id == last->id && strcmp(known->message, last->message) == 0
+            && diag_is_same_place(&known->place, &last->place))
+            return true;
+    }
+    table_add(&list->told, list->arena, hash, list->last + 1);
+    return false;
+}
+
 /* Adds a diagnostic whose texts the list has. Sets its severity, parent and place. */
 static void append(struct diag_list *list, struct diag diag)
 {
+    uint32_t last = list->last;
     diag.severity = severity_in(list, diag.id);
     assert(diag.severity != DIAG_IGNORED);
     bool is_note = diag.severity == DIAG_NOTE && list->items.len > 0;
@@ -147,8 +183,14 @@ static void append(struct diag_list *list, struct diag diag)
     if (diag.id == DIAG_ID_include_missing && !list->cause)
         list->cause = list->items.len;
     assert(list->last < list->items.len);
-    if (!is_note && list->trace)
+    if (!is_note && list->trace) /* it may move the diagnostic */
         list->trace(list->trace_data, list);
+    if (is_note || !is_repeated(list))
+        return;
+    list->num_repeated += diag.severity == DIAG_ERROR;
+    list->items.len = list->last;
+    list->last = last;
+    list->muted_notes = true;
 }
 
 /* ---- Consequences ---- */
@@ -197,6 +239,8 @@ static void insert_note(struct diag_list *list)
     list->items.items[at] = note;
     for (uint32_t i = at + 1; i < list->items.len; i++)
         list->items.items[i].parent++; /* they follow the cause, so their parents do, too */
+    for (uint32_t i = 0; list->told.slots && i <= list->told.mask; i++)
+        list->told.slots[i].number += list->told.slots[i].number > at;
     list->last += list->last > cause;
 }
 
@@ -233,8 +277,8 @@ static bool is_kept(struct diag_list *list, enum diag_severity severity)
     if (severity == DIAG_NOTE)
         return !list->muted_notes;
     list->num_errors += severity == DIAG_ERROR;
-    bool is_too_many =
-        severity == DIAG_ERROR && list->max_errors && list->num_errors > list->max_errors;
+    bool is_too_many = severity == DIAG_ERROR && list->max_errors
+                       && list->num_errors - list->num_repeated > list->max_errors;
     list->muted_notes = is_too_many || severity == DIAG_IGNORED;
     return !list->muted_notes;
 }
@@ -255,7 +299,8 @@ void diag_add(struct diag_list *list, enum diag_id id, struct diag_place place, 
         va_end(again);
         va_end(args);
         append(list, diag);
-    } else if (severity == DIAG_ERROR && list->num_errors == list->max_errors + 1) {
+    } else if (severity == DIAG_ERROR
+               && list->num_errors - list->num_repeated == list->max_errors + 1) {
         list->muted_notes = false;
         diag_add(list, DIAG_ID_too_many_errors, (struct diag_place){0}, list->max_errors);
         list->muted_notes = true;

@@ -7,6 +7,7 @@
 #define MXG_DIAG_DIAG_H
 
 #include "base/mem.h"
+#include "base/table.h"
 #include "base/text.h"
 
 enum diag_severity {
@@ -63,9 +64,11 @@ struct diag_list {
     void (*trace)(void *user_data, struct diag_list *list);
     void *trace_data;
     VEC(struct diag) items;
+    struct table told; /* by place and text: indices of `items` + 1, without notes */
     uint32_t num_errors;
-    uint32_t num_guesses; /* number of suggestions so far: diag_guess_begin */
-    uint32_t max_errors;  /* the list counts further errors but does not keep them; 0 = unlimited */
+    uint32_t num_repeated; /* errors among them that are in the list already, for the limit */
+    uint32_t num_guesses;  /* number of suggestions so far: diag_guess_begin */
+    uint32_t max_errors; /* the list counts further errors but does not keep them; 0 = unlimited */
     /*
      * A missing include makes the names of its elements unknown. The list counts such errors
      * in a note, instead of keeping them.
@@ -86,9 +89,13 @@ void diag_list_init_unheard(struct diag_list *list, struct arena *arena);
 
 /*
  * Adds a diagnostic; the arguments match the format of the id. A note belongs to the diagnostic
- * before it and is dropped with it. Copies the name of the file.
+ * before it and is dropped with it. The list counts one that it has already, of the same place and
+ * text, and drops it. Copies the name of the file.
  */
 void diag_add(struct diag_list *list, enum diag_id id, struct diag_place place, ...);
+
+bool diag_is_same_place(const struct diag_place *a, const struct diag_place *b);
+uint32_t diag_hash_place(const struct diag_place *place);
 
 /* Moves the last diagnostic that is no note to another place. Copies the name of the file. */
 void diag_move(struct diag_list *list, struct diag_place place);

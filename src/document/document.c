@@ -185,6 +185,9 @@ elem_id doc_add_like(struct document *doc, elem_id parent, str_id category, str_
 {
     const struct element like = *doc_element(doc, origin);
     elem_id added = doc_add_element(doc, parent, category, name, like.file, like.line, like.column);
+    const struct doc_link *link = like.name == name ? doc_link(doc, origin) : NULL;
+    if (link)
+        doc_set_name_place(doc, added, link->name_line, link->name_column);
     const char *path = like.line ? NULL : kept_path(doc, origin);
     if (path) /* the new element has the highest number, so the paths stay in order */
         vec_push(doc->arena, &doc->paths, (struct doc_place_path){added, path});
@@ -428,14 +431,17 @@ bool doc_attr_is_true(const struct document *doc, elem_id element, str_id name)
     return doc_attr_value(doc, element, name) == STR_true;
 }
 
+elem_id doc_attr_owner(const struct document *doc, elem_id element, str_id name)
+{
+    while (element && !doc_attr(doc, element, name))
+        element = doc_element(doc, element)->parent;
+    return element;
+}
+
 str_id doc_inherited_attr(const struct document *doc, elem_id element, str_id name)
 {
-    for (; element; element = doc_element(doc, element)->parent) {
-        const struct attribute *attr = doc_attr(doc, element, name);
-        if (attr)
-            return attr->value;
-    }
-    return STR_EMPTY;
+    elem_id owner = doc_attr_owner(doc, element, name);
+    return owner ? doc_attr_value(doc, owner, name) : STR_EMPTY;
 }
 
 const char *doc_file_name(const struct document *doc, uint16_t file)
@@ -529,7 +535,7 @@ struct diag_place doc_attr_place(const struct document *doc, elem_id element, st
     struct diag_place place = doc_place(doc, element);
     const struct attribute *found = doc_attr(doc, element, attr);
     if (found && found->column && place.line) {
-        place.line += found->line_delta;
+        place.line = (uint32_t)((int64_t)place.line + found->line_delta);
         place.column = known_column(found->column);
         place.length = width_of(doc, found->value);
     } else if (found) {

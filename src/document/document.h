@@ -36,6 +36,8 @@ str_id doc_type_name(doc_type type); /* for standard types */
 ir_type_id doc_type_ir(doc_type type);
 /* number of numeric components: 3 for color3; 0 if the type is not numeric */
 unsigned doc_type_components(doc_type type);
+/* Numbers and texts without a colour space; types of documents may contain colours. */
+bool doc_type_is_colorless(doc_type type);
 
 /*
  * Parses a value in MaterialX syntax ("0.5", "1, 0, 0", "true"). The type must have an IR type with
@@ -91,8 +93,8 @@ struct element {
 
 struct attribute {
     str_id name, value;
-    uint16_t line_delta; /* from the element's line; saturates */
-    uint16_t column;     /* of the value's first character */
+    int16_t line_delta; /* from the element's line; saturates */
+    uint16_t column;    /* of the value's first character */
 };
 
 /* The path of an element without a line. */
@@ -474,8 +476,10 @@ str_id doc_attr_value(const struct document *doc, elem_id element, str_id name);
 bool doc_attr_is_true(const struct document *doc, elem_id element, str_id name);
 /*
  * Finds the value of an inherited attribute (colorspace, fileprefix, geomprefix): the value on the
- * closest element, from the element upwards. An empty value counts.
+ * closest element, from the element upwards, which doc_attr_owner returns (0: none has it). An
+ * empty value counts.
  */
+elem_id doc_attr_owner(const struct document *doc, elem_id element, str_id name);
 str_id doc_inherited_attr(const struct document *doc, elem_id element, str_id name);
 
 elem_id doc_child(const struct document *doc, elem_id parent, str_id name);

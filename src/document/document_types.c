@@ -47,6 +47,26 @@ ir_type_id doc_type_ir(doc_type type)
     return type < DOC_NUM_TYPES ? types[type].ir : (ir_type_id)IR_TYPE_VOID;
 }
 
+bool doc_type_is_colorless(doc_type type)
+{
+    switch (type) {
+    case DOC_TYPE_boolean:
+    case DOC_TYPE_integer:
+    case DOC_TYPE_float:
+    case DOC_TYPE_vector2:
+    case DOC_TYPE_vector3:
+    case DOC_TYPE_vector4:
+    case DOC_TYPE_matrix33:
+    case DOC_TYPE_matrix44:
+    case DOC_TYPE_string:
+    case DOC_TYPE_floatarray:
+    case DOC_TYPE_vector2array:
+    case DOC_TYPE_vector3array:
+    case DOC_TYPE_vector4array: return true;
+    default: return false;
+    }
+}
+
 unsigned doc_type_components(doc_type type)
 {
     return type < DOC_NUM_TYPES ? types[type].components : 0;

@@ -21,6 +21,28 @@ static elem_id base_of(const struct document *doc, elem_id node)
     return beside || !name ? beside : doc_child_of_kind(doc, doc->root, KIND_NODE, name);
 }
 
+/* Gives an element, which lacks it, an attribute of another one, with its place. */
+static void copy_attr(struct document *doc, elem_id element, elem_id owner, str_id name)
+{
+    struct attribute attr = *doc_attr(doc, owner, name);
+    const struct element *to = doc_element(doc, element), *from = doc_element(doc, owner);
+    int64_t delta = (int64_t)from->line + attr.line_delta - to->line;
+    bool is_near = from->file == to->file && delta >= INT16_MIN && delta <= INT16_MAX;
+    attr.line_delta = (int16_t)(is_near ? delta : 0);
+    attr.column = is_near ? attr.column : 0;
+    doc_add_attr(doc, element, attr);
+}
+
+/* True if an attribute of what is around a value counts for the value. */
+static bool counts_for(const struct document *doc, elem_id input, str_id attr)
+{
+    doc_type type = doc_type_of(doc_attr_value(doc, input, STR_type));
+    bool is_file = type == DOC_TYPE_filename;
+    return attr == STR_fileprefix
+               ? is_file
+               : is_file || !(doc_type_is_colorless(type) || doc_is_connected(doc, input));
+}
+
 static void copy_value(struct document *doc, elem_id node, elem_id source)
 {
     static const str_id inherited[] = {STR_colorspace, STR_fileprefix};
@@ -32,10 +54,16 @@ static void copy_value(struct document *doc, elem_id node, elem_id source)
         doc_add_attr(doc, copy, attr);
     }
     for (size_t i = 0; i < sizeof inherited / sizeof *inherited; i++) {
-        str_id value = doc_inherited_attr(doc, source, inherited[i]);
-        if (value != doc_inherited_attr(doc, copy, inherited[i]))
+        elem_id owner = doc_attr_owner(doc, source, inherited[i]);
+        str_id value = owner ? doc_attr_value(doc, owner, inherited[i]) : STR_EMPTY;
+        if (value == doc_inherited_attr(doc, copy, inherited[i])
+            || !counts_for(doc, source, inherited[i]))
+            continue;
+        if (value)
+            copy_attr(doc, copy, owner, inherited[i]);
+        else
             doc_set_attr(doc, copy, inherited[i],
-                         !value && inherited[i] == STR_colorspace ? STR_none : value);
+                         inherited[i] == STR_colorspace ? STR_none : STR_EMPTY);
     }
 }
 

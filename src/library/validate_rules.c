@@ -374,20 +374,11 @@ static bool can_have_unit(doc_type type)
            || (type >= DOC_TYPE_vector2array && type <= DOC_TYPE_vector4array);
 }
 
-/* "Color Spaces": numbers and texts without one; types of documents may contain colours. */
-static bool is_colorless(doc_type type)
-{
-    return can_have_unit(type)
-               ? type != DOC_TYPE_filename
-               : type == DOC_TYPE_integer || type == DOC_TYPE_boolean || type == DOC_TYPE_string
-                     || type == DOC_TYPE_matrix33 || type == DOC_TYPE_matrix44;
-}
-
 void validate_type_of_meaning(struct validate *v, elem_id element)
 {
     str_id name = doc_attr_value(v->doc, element, STR_type);
     doc_type type = library_type(v->lib, name);
-    if (is_colorless(type) && doc_element(v->doc, element)->kind == KIND_INPUT
+    if (doc_type_is_colorless(type) && doc_element(v->doc, element)->kind == KIND_INPUT
         && has(v, element, STR_colorspace))
         diag_add(v->diags, DIAG_ID_colorspace_misplaced,
                  doc_attr_place(v->doc, element, STR_colorspace),

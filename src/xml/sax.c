@@ -125,7 +125,7 @@ static void add_attr(struct xml_reader *reader, elem_id element, str_id name, st
         reader->doc, element,
         (struct attribute){.name = name,
                            .value = value,
-                           .line_delta = (uint16_t)(lines < UINT16_MAX ? lines : UINT16_MAX),
+                           .line_delta = (int16_t)(lines < INT16_MAX ? lines : INT16_MAX),
                            .column = (uint16_t)(column < UINT16_MAX ? column : UINT16_MAX)});
 }
 

@@ -121,6 +121,46 @@ static void test_arguments(void)
     REQUIRE_STR(note->arguments[1], "s");
 }
 
+/* Puts messages of line 9 to the last line of the scope. */
+static void move_away(void *user_data, struct diag_list *list)
+{
+    const uint32_t *line = user_data;
+    if (list->items.items[list->last].place.line == 9)
+        diag_move(list, at(*line, 1, 0));
+}
+
+/*
+ * A list has what is the same at one place once, with its notes, and the limit counts it once. Two
+ * messages that moved to two places are two.
+ */
+static void test_repeated(void)
+{
+    struct diag_list list;
+    uint32_t line = 20;
+    diag_list_init(&list, &arena);
+    list.max_errors = 2;
+    list.trace = move_away;
+    list.trace_data = &line;
+    for (unsigned i = 0; i < 3; i++) {
+        diag_add(&list, DIAG_ID_cycle, at(1, 1, 0), "a, b, a");
+        diag_add(&list, DIAG_ID_connected_here, at(2, 1, 0), "a");
+        diag_add(&list, DIAG_ID_version_missing, at(1, 1, 0));
+    }
+    REQUIRE_EQ(list.items.len, 3);
+    REQUIRE_EQ(list.num_errors, 3);
+    diag_add(&list, DIAG_ID_cycle, at(1, 1, 0), "a, c, a");
+    diag_add(&list, DIAG_ID_version_missing, at(9, 1, 0));
+    diag_add(&list, DIAG_ID_version_missing, at(9, 1, 0));
+    line = 21;
+    diag_add(&list, DIAG_ID_version_missing, at(9, 1, 0));
+    REQUIRE_EQ(list.items.len, 6);
+    const struct diag *items = list.items.items;
+    REQUIRE_STR(items[3].message, "the graph has a cycle: a, c, a");
+    REQUIRE_EQ(items[4].place.line, 20);
+    REQUIRE_EQ(items[5].place.line, 21);
+    REQUIRE_EQ(items[5].parent, 5);
+}
+
 /*
  * Errors beyond the limit are counted; they go with their notes, and one note says so. Warnings
  * still come.
@@ -284,6 +324,7 @@ int main(void)
     test_catalogue();
     test_list();
     test_arguments();
+    test_repeated();
     test_limit();
     test_text();
     test_columns();
