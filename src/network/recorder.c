@@ -63,9 +63,9 @@ static bool is_settled(const struct builder *b, const struct implementation *imp
                        const struct port *port)
 {
     ir_type_id type = library_type_ir(b->lib, port->type);
-    bool is_read_by_code =
-        impl->kind == IMPL_DYNAMIC
-        && (port->name == STR_index || port->name == STR_default || type == IR_TYPE_SAMPLER);
+    bool is_read_by_code = impl->kind == IMPL_DYNAMIC
+                           && (port->name == STR_index || port->name == STR_default
+                               || port->name == STR_fallback || type == IR_TYPE_SAMPLER);
     bool is_uniform =
         impl->kind == IMPL_CODE && port->flags & PORT_UNIFORM && build_is_number(type);
     return type == IR_TYPE_STRING || is_read_by_code || is_uniform;
