@@ -199,6 +199,8 @@ tables = [v for block in json.load(open("passes/light_special.json"))["blocks"] 
 assert len(tables) == 1 and tables[0]["semantic"] == "tints", tables'
 check "one pass alone reads the tints" eval '! grep -q u_tints passes/light_complex.comp'
 check "a cut-out has a depth pass" bash -c 'test -s materials/Lantern.depth.frag && grep -q discard materials/Lantern.depth.frag'
+check "the depth pass has a vertex stage and bindings of its own" test -s materials/Lantern.depth.vert -a -s materials/Lantern.depth.json
+check "its vertex stage places vertices as that of the material" eval 'diff <(grep gl_Position materials/Lantern.vert) <(grep gl_Position materials/Lantern.depth.vert)'
 check "an opaque material has no depth pass" test ! -e materials/Plain.depth.frag
 check "positions are invariant" grep -q 'invariant gl_Position' materials/Plain.vert
 
