@@ -111,17 +111,18 @@ const char *generation_why_not_stored(struct generation *g)
     return text_cstr(&why);
 }
 
-void generation_tell_forward(struct generation *g)
+void generation_tell_storage(struct generation *g)
 {
     const struct shader *shader = &g->result->shader;
     const struct document *doc = &g->document->layer.doc;
-    if (g->role->returns != RETURNS_SLABS && !g->misfit)
-        return;
-    if (shader->reflection.stored_words && shader->reflection.closures.len > DEFERRED_MAX_CLOSURES)
+    uint32_t num_slabs = shader->reflection.stored_words && role_packs_pixel(g->role)
+                             ? shader->reflection.closures.len
+                             : 0;
+    if (num_slabs > DEFERRED_MAX_CLOSURES)
         diag_add(&g->result->object.diagnostics.list, DIAG_ID_closures_not_stored,
                  doc_place(doc, g->element), str_text(shader->strings, shader->reflection.name),
-                 (unsigned)shader->reflection.closures.len, (unsigned)DEFERRED_MAX_CLOSURES);
-    if (shader->reflection.stored_words)
+                 (unsigned)num_slabs, (unsigned)DEFERRED_MAX_CLOSURES);
+    if (shader->reflection.stored_words || (g->role->returns != RETURNS_SLABS && !g->misfit))
         return;
     diag_add(&g->result->object.diagnostics.list, DIAG_ID_drawn_forward, doc_place(doc, g->element),
              str_text(shader->strings, shader->reflection.name), generation_why_not_stored(g));

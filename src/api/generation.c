@@ -453,7 +453,7 @@ bool generation_light(struct generation *g)
     if (!is_emitted)
         generation_report_not_renderable(g, why_not_emitted(g));
     if (is_emitted) {
-        generation_tell_forward(g);
+        generation_tell_storage(g);
         generation_tell_lost(g);
         generation_tell_flat_calls(g);
         generation_tell_media(g);

@@ -142,7 +142,7 @@ void generation_defer(struct generation *g);
 /* Why a pixel cannot store the material. */
 const char *generation_why_not_stored(struct generation *g);
 /* Warns about a material whose shader lights itself; reports one with too many closures. */
-void generation_tell_forward(struct generation *g);
+void generation_tell_storage(struct generation *g);
 /* Before budgets: leaves out what a slab cannot stand for, where the document hides it. */
 void generation_hide_misfits(struct generation *g);
 /*

@@ -25,7 +25,7 @@ void naming_pairs(const struct option_value *value, struct arena *arena, struct 
 }
 
 /* Returns what is wrong with a pair, as the text of what is expected; NULL: nothing. */
-static const char *fault_of(const struct generation *g, const struct name_rules *rules, uint32_t i)
+static const char *fault_of(struct generation *g, const struct name_rules *rules, uint32_t i)
 {
     const struct name_pair *pair = &rules->renamed[i];
     if (!pair->from_len || !identifier_is(pair->to, strlen(pair->to)))
@@ -34,6 +34,9 @@ static const char *fault_of(const struct generation *g, const struct name_rules 
         return "a name that is no word of the language";
     if (strcmp(pair->to, g->role->entry) == 0)
         return "a name that is not that of the shader's own function";
+    const char *from = arena_strndup(&g->scratch, pair->from, pair->from_len);
+    if (names_frame_has(rules, g->role, pair->to, from, &g->scratch))
+        return "a name that the shader does not have already";
     for (uint32_t k = 0; k < i; k++)
         if (strcmp(rules->renamed[k].to, pair->to) == 0
             || strcmp(rules->renamed[k].from, pair->from) == 0)
@@ -43,7 +46,7 @@ static const char *fault_of(const struct generation *g, const struct name_rules 
 
 static bool check_renamed(struct generation *g)
 {
-    struct name_rules rules;
+    struct name_rules rules = {.prefix = g->options[OPTION_prefix].text};
     bool good = true;
     naming_pairs(&g->options[OPTION_rename], &g->scratch, &rules);
     for (uint32_t i = 0; i < rules.num_renamed; i++) {

@@ -34,12 +34,39 @@ static const char *with_prefix(const char *prefix, const char *text, size_t len,
     return longer;
 }
 
+static const char *of_frame(const struct name_rules *rules, const char *name, struct arena *arena)
+{
+    const char *renamed = names_renamed(rules, name, strlen(name));
+    if (renamed || !*rules->prefix)
+        return renamed ? renamed : name;
+    return with_prefix(rules->prefix, name, strlen(name), arena);
+}
+
 const char *names_of_frame(const struct shader *shader, const char *name)
 {
-    const char *renamed = names_renamed(&shader->interface.naming, name, strlen(name));
-    if (renamed || !*shader->interface.naming.prefix)
-        return renamed ? renamed : name;
-    return with_prefix(shader->interface.naming.prefix, name, strlen(name), shader->arena);
+    return of_frame(&shader->interface.naming, name, shader->arena);
+}
+
+static const char *const frame_names[] = {"scatter",         "vd",
+                                          "u_lightData",     "LightData",
+                                          "LightData_block", "PublicUniforms",
+                                          "PrivateUniforms", "VertexData",
+                                          SHADER_FUNCTION,   SHADER_FUNCTION_RESULT};
+
+/* The last two are of functions. */
+static size_t num_frame_names(const struct role *role)
+{
+    return sizeof frame_names / sizeof *frame_names - (role->is_in_host_file ? 0 : 2);
+}
+
+bool names_frame_has(const struct name_rules *rules, const struct role *role, const char *name,
+                     const char *but, struct arena *arena)
+{
+    for (size_t i = 0; i < num_frame_names(role); i++)
+        if (strcmp(frame_names[i], but) != 0
+            && strcmp(of_frame(rules, frame_names[i], arena), name) == 0)
+            return true;
+    return false;
 }
 
 void names_open_scope(struct name_set *names)
@@ -117,18 +144,12 @@ static void keep(struct name_set *names, const char *name)
 
 void names_take_frame(struct name_set *names, const struct shader *shader)
 {
-    static const char *const frame[] = {"scatter",         "vd",
-                                        "u_lightData",     "LightData",
-                                        "LightData_block", "PublicUniforms",
-                                        "PrivateUniforms", "VertexData",
-                                        SHADER_FUNCTION,   SHADER_FUNCTION_RESULT};
     static const char *const fixed[] = {"main", "result", "mxg_light", "mxg_light_count"};
-    bool is_in_host_file = shader->role->is_in_host_file;
-    size_t of_functions = is_in_host_file ? 0 : 2, of_host = is_in_host_file ? 0 : 3;
+    size_t of_host = shader->role->is_in_host_file ? 0 : 3;
     for (uint32_t i = 0; i < shader->interface.naming.num_renamed; i++)
         keep(names, shader->interface.naming.renamed[i].to);
-    for (size_t i = 0; i < sizeof frame / sizeof *frame - of_functions; i++) {
-        const char *name = names_of_frame(shader, frame[i]);
+    for (size_t i = 0; i < num_frame_names(shader->role); i++) {
+        const char *name = names_of_frame(shader, frame_names[i]);
         names_take(names, name, strlen(name));
     }
     for (size_t i = 0; i < sizeof fixed / sizeof *fixed - of_host; i++)

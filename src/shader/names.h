@@ -51,6 +51,7 @@ struct name_set {
 
 void names_init(struct name_set *names, struct arena *arena, const struct lang_syntax *syntax);
 struct shader;
+struct role;
 /*
  * Takes the names in the frame of every shader ("main", "vd", …), and those that its host keeps or
  * gives.
@@ -58,6 +59,9 @@ struct shader;
 void names_take_frame(struct name_set *names, const struct shader *shader);
 /* A name of the frame as it is in the source: "PublicUniforms", "wood_PublicUniforms". */
 const char *names_of_frame(const struct shader *shader, const char *name);
+/* True if the frame of a role has the name for anything but `but`, once names are changed. */
+bool names_frame_has(const struct name_rules *rules, const struct role *role, const char *name,
+                     const char *but, struct arena *arena);
 /* Opens the scope of a new function, which frees the names of the previous one. */
 void names_open_scope(struct name_set *names);
 /*

@@ -156,7 +156,8 @@ for options in '--role function --max-lights 8' '--role function --shadow-map' \
     check "options without effect are an error: $options" eval 'exits 1 "$mxgen" glass.mtlx --target glsl --stdout $options && grep -q "option-without-effect" err'
 done
 for options in '--rename u_viewPosition' '--rename =eye' '--rename a=b,c=b' '--rename a=b,a=c' \
-    '--rename out1=uniform' '--rename out1=a-b' '--rename out1=main'; do
+    '--rename out1=uniform' '--rename out1=a-b' '--rename out1=main' '--rename vd=VertexData' '--prefix p_ --rename vd=p_VertexData' \
+    '--role function --rename VertexData=Surface' '--role function --rename Surface=VertexData'; do
     # shellcheck disable=SC2086
     check "bad names are an error: $options" eval 'exits 1 "$mxgen" glass.mtlx --target glsl --stdout $options && grep -q "bad-option" err'
 done

@@ -345,6 +345,8 @@ check "a closure that is no slab is an error" reports closure-not-stored "$mxgen
 sed 's/"sN"/"s16"/' many.mtlx >seventeen.mtlx
 sed 's/"sN"/"s15"/' many.mtlx >sixteen.mtlx
 check "17 slabs are an error" reports closures-not-stored "$mxgen" seventeen.mtlx -e SR --target vulkan --role deferred -o many
+check "17 slabs are an error of words by a function" reports closures-not-stored "$mxgen" seventeen.mtlx -e SR --target vulkan --role pack -o many
+check "16 slabs are words of a function" "$mxgen" sixteen.mtlx -e SR --target vulkan --role pack -o many
 check "16 slabs are stored" "$mxgen" sixteen.mtlx -e SR --target vulkan --role deferred -o many
 warns() { "$mxgen" "$examples/slabs.mtlx" -e MilkySheet --target vulkan --role deferred -o milky 2>&1 | grep -q drawn-forward; }
 check "a message says that a transparent surface is drawn forward" warns
