@@ -330,16 +330,64 @@ static mxg_document *load(struct exporting *exporting)
     return NULL;
 }
 
-/* True if --element names a surface that is not made of others, which may be a part of one. */
-static bool is_part(const struct exporting *exporting, const mxg_document *source)
+static bool is_surface(const mxg_document *source, mxg_element element)
 {
-    const char *element = exporting->options.bake.element;
-    mxg_element node = element ? mxg_document_find_element(source, 0, element) : 0;
-    bool is = node && strcmp(bake_element(source, node).type, "surfaceshader") == 0;
-    for (mxg_element input = is ? bake_element(source, node).first_child : 0; input && is;
+    return strcmp(bake_element(source, element).type, "surfaceshader") == 0;
+}
+
+static bool is_made_of_others(const mxg_document *source, mxg_element surface)
+{
+    bool is = false;
+    for (mxg_element input = bake_element(source, surface).first_child; input && !is;
          input = bake_element(source, input).next)
-        is = strcmp(bake_element(source, input).type, "surfaceshader") != 0;
+        is = is_surface(source, input);
     return is;
+}
+
+/* The document with a material for a surface, which is then no part of others alone. */
+static mxg_document *dress(struct cli *cli, const mxg_document *source, const char *surface)
+{
+    mxg_document *dressed = NULL;
+    mxg_edit *edit = NULL;
+    char *name = cli_format("%s_material", surface);
+    while (mxg_document_find_element(source, 0, name)) {
+        char *longer = cli_format("%s_", name);
+        free(name);
+        name = longer;
+    }
+    mxg_status status = mxg_edit_create(cli->context, cli->library, source, NULL, &edit);
+    if (status == MXG_OK) {
+        mxg_element node = mxg_edit_find_element(edit, 0, surface),
+                    material = mxg_edit_add_element(edit, 0, "surfacematerial", name, "material");
+        mxg_edit_connect_input(edit, material, "surfaceshader", node, NULL);
+        status = mxg_edit_commit(edit, &dressed);
+    }
+    mxg_edit_destroy(edit);
+    free(name);
+    report_status(&cli->report, status);
+    return dressed;
+}
+
+/*
+ * The document as surfaces of the format's model: several ones that make one are joined, except to
+ * have one that --element names. NULL after reporting an error.
+ */
+static mxg_document *translate(struct exporting *exporting, const mxg_document *source)
+{
+    struct cli *cli = &exporting->baking.cli;
+    const char *name = exporting->options.bake.element, *model = exporting->format->model;
+    mxg_element element =
+        name && !strchr(name, '/') ? mxg_document_find_element(source, 0, name) : 0;
+    bool has_surface = element && is_surface(source, element),
+         is_made = has_surface && is_made_of_others(source, element);
+    if (!is_made)
+        return translated_make(cli, source, exporting->path, model,
+                               has_surface ? mxg_translate : mxg_translate_joined);
+    mxg_document *translated = NULL, *dressed = dress(cli, source, name);
+    if (dressed)
+        translated = translated_make(cli, dressed, exporting->path, model, mxg_translate_joined);
+    mxg_document_destroy(dressed);
+    return translated;
 }
 
 static void run(struct exporting *exporting)
@@ -358,9 +406,7 @@ static void run(struct exporting *exporting)
     if (is_free)
         source = load(exporting);
     if (source)
-        translated =
-            translated_make(&baking->cli, source, exporting->path, exporting->format->model,
-                            is_part(exporting, source) ? mxg_translate : mxg_translate_joined);
+        translated = translate(exporting, source);
     exporting->source = source;
     if (translated) {
         tell_all_bare(exporting, translated);

@@ -345,6 +345,8 @@ cat >mixed.mtlx <<'EOF'
 EOF
 check 'a surface of several surfaces is one' eval 'exits 0 "$mxgen" export mixed.mtlx -e Mix -o mix.glb -Werror=translation-loss && member mix.glb materials/0/name \"Mix\" && lacks mix.glb materials/1'
 check 'also by its own name' eval 'exits 0 "$mxgen" export mixed.mtlx -e X -o mix.glb && member mix.glb materials/0/name \"X\"'
+sed -e 's|nodename="X"/></surf|nodename="Y"/></surf|' -e 's|</materialx>|<mix name="Y" type="surfaceshader"><input name="fg" type="surfaceshader" nodename="X"/><input name="bg" type="surfaceshader" nodename="F"/></mix><constant name="X_material" type="float"/>&|' mixed.mtlx >nested.mtlx
+check 'also where it is a part of another one' eval 'exits 0 "$mxgen" export mixed.mtlx -e X -o alone.usda && ! grep -q "nodename=.X.*surfacematerial" nested.mtlx && exits 0 "$mxgen" export nested.mtlx -e X -o part.usda && grep -q diffuseColor part.usda && [ "$(grep "float inputs:\|3f inputs:" part.usda)" = "$(grep "float inputs:\|3f inputs:" alone.usda)" ]'
 check 'and among all materials, without its parts' eval 'exits 0 "$mxgen" export mixed.mtlx -o mixed.gltf && has err "no surface [export-loss]" && has mixed.gltf "\"Mix\"" "\"T\"" && lacks mixed.gltf materials/2'
 check 'a part of it is exported by its name' eval 'exits 0 "$mxgen" export mixed.mtlx -e F -o part.glb && ! grep -q warning err && member part.glb materials/0/name \"F\"'
 # Paint where u is above a half, gold elsewhere, both behind a mask; then the same inside of a definition, with the pattern.
