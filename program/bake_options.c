@@ -17,9 +17,9 @@ size_t bake_args(struct bake_options *options, struct arg args[MAX_BAKE_ARGS])
          "from 0 to 1, and nothing else)",
          &options->mesh},
         {"size", 's', ARG_SIZE, "N",
-         "side of an image in texels (default: of the largest texture that the graph reads, or "
-         "1024)",
-         &options->size, .low = 2, .high = 16384},
+         "side of an image in texels (default: that the <output> asks for, of the largest texture "
+         "that the graph reads, or 1024)",
+         &options->size, .low = BAKE_MIN_SIZE, .high = BAKE_MAX_SIZE},
         {"samples", 0, ARG_SIZE, "N", "samples of a texel along each axis (default: 1)",
          &options->samples, .low = 1, .high = 16},
         {"format", 'f', ARG_TEXT, "png|exr|jpg",

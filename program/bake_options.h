@@ -16,7 +16,7 @@ struct bake_options {
         .missing_texture = "error", .samples = 1, .padding = 16, .frame = 33 \
     }
 
-enum { MAX_BAKE_ARGS = 12 };
+enum { MAX_BAKE_ARGS = 12, BAKE_MIN_SIZE = 2, BAKE_MAX_SIZE = 16384 };
 
 /* Fills the table of options, which refers to the values; returns the number of options. */
 size_t bake_args(struct bake_options *options, struct arg args[MAX_BAKE_ARGS]);

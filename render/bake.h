@@ -69,6 +69,8 @@ const struct bake_tiles *bake_tiles_of(const struct baking *baking,
                                        const struct bake_drawing *drawing);
 /* Fills needs, largest and tiles; false after reporting an error. */
 bool bake_find_needs(struct baking *baking, struct bake_drawing *drawing);
+/* The side that an <output> asks for by width and height, if its image can have it; 0: none. */
+uint32_t bake_asked_size(const struct baking *baking, const struct bake_drawing *drawing);
 /* Draws all that the plan draws, and writes their images. false after reporting an error. */
 bool bake_draw(struct baking *baking);
 

@@ -279,8 +279,10 @@ static bool draw_chunk(struct chunk *chunk, const mxg_document *document)
 
 static uint32_t size_of(const struct baking *baking, const struct bake_drawing *drawing)
 {
+    uint32_t asked = bake_asked_size(baking, drawing);
     return !drawing->needs        ? 1
            : baking->options.size ? (uint32_t)baking->options.size
+           : asked                ? asked
            : drawing->largest     ? drawing->largest
                                   : SIZE;
 }

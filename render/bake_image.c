@@ -38,6 +38,51 @@ static void measure(struct bake_drawing *drawing, const struct spool *spools, ui
 
 /* ---- Formats ---- */
 
+/* ---- What outputs ask for ---- */
+
+/* The <output> that a drawing is the image of; 0: none. */
+static mxg_element output_of(const struct baking *baking, const struct bake_drawing *drawing)
+{
+    mxg_connection connection = {.size = sizeof connection};
+    const mxg_document *document = baking->document;
+    if (strcmp(bake_element(document, drawing->port).category, "output") == 0)
+        return drawing->port;
+    if (mxg_document_connection(document, drawing->port, &connection) != MXG_OK
+        || strcmp(bake_element(document, connection.source).category, "nodegraph") != 0)
+        return 0;
+    return bake_find_output(document, connection.source, connection.output);
+}
+
+/* A whole number of the output of a drawing; 0: it has none. */
+static uint32_t asked(const struct baking *baking, const struct bake_drawing *drawing,
+                      const char *name)
+{
+    mxg_element output = output_of(baking, drawing);
+    const char *text = output ? bake_attribute(baking->document, output, name) : NULL;
+    bool is_number = text && strlen(text) < 6 && !text[strspn(text, "0123456789")];
+    return is_number ? (uint32_t)strtoul(text, NULL, 10) : 0;
+}
+
+uint32_t bake_asked_size(const struct baking *baking, const struct bake_drawing *drawing)
+{
+    uint32_t width = asked(baking, drawing, "width"), height = asked(baking, drawing, "height"),
+             side = width ? width : height;
+    bool is_square = !width || !height || width == height;
+    return is_square && side >= BAKE_MIN_SIZE && side <= BAKE_MAX_SIZE ? side : 0;
+}
+
+/* The depth of the options, or what the output asks for, if the format has it; 0: neither. */
+static uint32_t depth_of(const struct baking *baking, const struct bake_drawing *drawing,
+                         const char *ending)
+{
+    uint32_t bits = asked(baking, drawing, "bitdepth");
+    bool is_float = strcmp(ending, "exr") == 0, is_jpeg = strcmp(ending, "jpg") == 0,
+         has = bits == 16 ? !is_jpeg : bits == (is_float ? 32u : 8u);
+    return baking->options.depth ? (uint32_t)baking->options.depth : has ? bits : 0;
+}
+
+/* ---- Formats ---- */
+
 static void tell_clamped(struct baking *baking, const struct bake_drawing *drawing,
                          const char *format, double low, double high)
 {
@@ -75,7 +120,7 @@ static struct image_format format_of(struct baking *baking, const struct bake_dr
                                      const char *ending, uint32_t size)
 {
     bool is_float = strcmp(ending, "exr") == 0;
-    uint32_t said = (uint32_t)baking->options.depth;
+    uint32_t said = depth_of(baking, drawing, ending);
     bool is_half = said >= 16 ? said < 32 : is_color(drawing) && fits_half(drawing);
     uint32_t float_depth = is_half ? 16 : 32, whole_depth = said ? said : 8;
     if (is_float && is_half && !fits_half(drawing))
@@ -189,19 +234,6 @@ static void tell_overlap(struct baking *baking, struct bake_tile tile, uint32_t 
 
 /* ---- Outputs ---- */
 
-/* The <output> that a drawing is the image of; 0: none. */
-static mxg_element output_of(const struct baking *baking, const struct bake_drawing *drawing)
-{
-    mxg_connection connection = {.size = sizeof connection};
-    const mxg_document *document = baking->document;
-    if (strcmp(bake_element(document, drawing->port).category, "output") == 0)
-        return drawing->port;
-    if (mxg_document_connection(document, drawing->port, &connection) != MXG_OK
-        || strcmp(bake_element(document, connection.source).category, "nodegraph") != 0)
-        return 0;
-    return bake_find_output(document, connection.source, connection.output);
-}
-
 static void tell_asked(struct baking *baking, mxg_element output, const char *name, const char *has)
 {
     const char *asked = bake_attribute(baking->document, output, name);
@@ -209,8 +241,8 @@ static void tell_asked(struct baking *baking, mxg_element output, const char *na
         return;
     char *path = bake_path(baking->document, output), *place = bake_place(baking, output);
     report_warning(&baking->cli.report, "bake-output",
-                   "'%s' (%s) asks for %s '%s', and its image has '%s': the options size, "
-                   "depth and format say what images have",
+                   "'%s' (%s) asks for %s '%s', and its image has '%s': images are square, and "
+                   "the options size, depth and format come first",
                    path, place, name, asked, has);
     free(path);
     free(place);

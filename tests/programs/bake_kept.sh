@@ -5,7 +5,10 @@
 mxgen=$(realpath "$1") render=$(realpath "$2")
 here=$(cd "$(dirname "$0")" && pwd)
 . "$here/common.sh"
-has_device "$render" || { skip 'no Vulkan device'; finish bake-kept; }
+has_device "$render" || { skip 'no Vulkan device'; sed 's/height="4"/height="8"/' asks.mtlx >square.mtlx
+check 'a square image has the size and the bits that its output asks for' eval 'exits 0 "$mxgen" bake square.mtlx -e g/o -o square -f png && ! grep -e width -e height -e bitdepth err && [ "$(od -An -tu1 -j16 -N9 square/*.png | tr -s " ")" = " 0 0 0 8 0 0 0 8 16" ]'
+check 'bits that the format lacks are told' eval 'exits 0 "$mxgen" bake square.mtlx -e g/o -o jpeg -f jpg && has err "asks for bitdepth '"'16'"', and its image has '"'8'"'" && ! grep width err'
+finish bake-kept; }
 export MESA_SHADER_CACHE_DISABLE=true
 
 gray() { printf 'P2 %s %s 255 %s\n' "$2" "$2" "$3" >"$1"; }
@@ -103,7 +106,7 @@ cat >asks.mtlx <<'EOF'
 </materialx>
 EOF
 asks() { has err "'g/o' (asks.mtlx:4:5) asks for height '4', and its image has '8'" "asks for bitdepth '16', and its image has '8'" "asks for colorspace 'acescg', and its image has 'srgb_texture'" "[bake-output]" && ! grep -e width -e g/p err; }
-check 'an output that asks for another image is told' eval 'exits 0 "$mxgen" bake asks.mtlx -e g/o -o asks --size 8 -f png && asks'
-check 'also where a surface reads it' eval 'exits 0 "$mxgen" bake asks.mtlx -e S -o asks_s --size 8 -f png && asks'
+check 'an output that asks for another image is told' eval 'exits 0 "$mxgen" bake asks.mtlx -e g/o -o asks --size 8 --depth 8 -f png && asks'
+check 'also where a surface reads it' eval 'exits 0 "$mxgen" bake asks.mtlx -e S -o asks_s --size 8 --depth 8 -f png && asks'
 check 'and one that has what it asks for is not' eval 'exits 0 "$mxgen" bake asks.mtlx -e g/p -o asks_p --size 8 -f png && ! grep warning err'
 finish bake-kept
