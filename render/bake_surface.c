@@ -12,7 +12,7 @@ enum { MAX_V = 100 /* of tiles */, GRID = 1024 };
 
 /* ---- The surface ---- */
 
-static bool make_square(struct scene *scene)
+static void make_square(struct scene *scene)
 {
     static const uint32_t corners[] = {0, 1, 3, 0, 3, 2};
     *scene = (struct scene){.studio = matrix_identity(),
@@ -24,12 +24,10 @@ static bool make_square(struct scene *scene)
     scene->object.world = matrix_identity();
     scene->object.path = "the unit square";
     scene->object.names_texcoords = true;
-    if (!mesh_allocate(&scene->object.mesh, 4, 6))
-        return false;
+    mesh_allocate(&scene->object.mesh, 4, 6);
     memcpy(scene->object.mesh.indices, corners, sizeof corners);
     for (uint32_t i = 0; i < 4; ++i)
         scene->object.mesh.vertices[i] = (struct vertex){.normal = {0, 0, 1}, .tangent = {1, 0, 0}};
-    return true;
 }
 
 static bool has_texcoords(const struct scene_object *object)
@@ -40,14 +38,13 @@ static bool has_texcoords(const struct scene_object *object)
     return false;
 }
 
-static bool open_shape(struct bake_surface *surface, struct cli *cli, const char *name)
+static void open_shape(struct bake_surface *surface, const char *name)
 {
     surface->objects = memory_alloc(sizeof *surface->objects);
     surface->num_objects = 1;
     surface->objects[0] =
         (struct scene_object){.world = matrix_identity(), .path = name, .names_texcoords = true};
-    return shape_make(name, 1, &surface->objects[0].mesh)
-           || report_status(&cli->report, MXG_ERROR_MEMORY);
+    shape_make(name, 1, &surface->objects[0].mesh);
 }
 
 static bool open_file(struct bake_surface *surface, struct cli *cli, const char *path)
@@ -160,13 +157,14 @@ void bake_surface_cover(struct bake_surface *surface, const struct bake_tiles *t
 bool bake_surface_open(struct bake_surface *surface, struct cli *cli, const char *mesh)
 {
     *surface = (struct bake_surface){0};
-    if (!make_square(&surface->square))
-        return report_status(&cli->report, MXG_ERROR_MEMORY);
-    if (mesh)
-        return (args_is_one_of(mesh, shape_names()) ? open_shape(surface, cli, mesh)
-                                                    : open_file(surface, cli, mesh))
-               && find_tiles(surface, &cli->report);
-    return true;
+    make_square(&surface->square);
+    if (!mesh)
+        return true;
+    if (args_is_one_of(mesh, shape_names()))
+        open_shape(surface, mesh);
+    else if (!open_file(surface, cli, mesh))
+        return false;
+    return find_tiles(surface, &cli->report);
 }
 
 void bake_surface_close(struct bake_surface *surface)

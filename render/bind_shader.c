@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/bind_shader.h"
 
+#include "program/memory.h"
 #include "render/prefilter.h"
 #include "render/stored.h"
 #include "render/twins.h"
@@ -312,11 +313,8 @@ static bool make_blocks(struct bind *bind)
             return false;
     }
     for (uint32_t o = 0; o < bind->num_objects; ++o)
-        for (uint32_t i = 0; i < bind->draw.num_blocks; ++i) {
-            bind->draw.objects[o].blocks[i] = calloc(1, bind->draw.blocks[i].size);
-            if (!bind->draw.objects[o].blocks[i])
-                return bind_fail(bind, "out of memory");
-        }
+        for (uint32_t i = 0; i < bind->draw.num_blocks; ++i)
+            bind->draw.objects[o].blocks[i] = memory_alloc(bind->draw.blocks[i].size);
     return true;
 }
 
@@ -460,7 +458,7 @@ static VkFormat attribute_format(const struct shape *shape)
 }
 
 /* Fills the attribute that was added last for one object. */
-static bool fill_attribute(struct bind *bind, uint32_t object, const mxg_variable *variable,
+static void fill_attribute(struct bind *bind, uint32_t object, const mxg_variable *variable,
                            const struct shape *shape)
 {
     const struct scene_object *from = &bind->objects[object];
@@ -468,9 +466,7 @@ static bool fill_attribute(struct bind *bind, uint32_t object, const mxg_variabl
     const char *name = scene_name(variable->name, variable->semantic, buffer);
     bool is_twin = bind->draw.objects[object].twin != 0; /* only tells what it lacks */
     uint32_t count = is_twin ? 1 : from->mesh.num_vertices;
-    float one[1][4], (*data)[4] = is_twin ? one : calloc(count, sizeof *data);
-    if (!data)
-        return bind_fail(bind, "out of memory");
+    float one[1][4], (*data)[4] = is_twin ? one : memory_alloc(count * sizeof *data);
     if (!is_twin)
         bind->draw.objects[object].attributes[bind->draw.num_attributes - 1] = data;
     bool has_primvar = bind_note_type(bind, object, name, shape->rows);
@@ -490,7 +486,6 @@ static bool fill_attribute(struct bind *bind, uint32_t object, const mxg_variabl
                 memcpy(&data[i][k], &integer, sizeof integer);
         }
     }
-    return true;
 }
 
 static bool bind_attribute(struct bind *bind, const mxg_variable *variable)
@@ -501,10 +496,9 @@ static bool bind_attribute(struct bind *bind, const mxg_variable *variable)
                          variable->type);
     bind->draw.attributes[bind->draw.num_attributes++] =
         (struct draw_attribute){variable->location, attribute_format(shape)};
-    bool good = true;
-    for (uint32_t o = 0; good && o < bind->num_objects; ++o)
-        good = fill_attribute(bind, o, variable, shape);
-    return good;
+    for (uint32_t o = 0; o < bind->num_objects; ++o)
+        fill_attribute(bind, o, variable, shape);
+    return true;
 }
 
 uint32_t bind_unwrapped_location(const struct bind *bind)
@@ -530,12 +524,10 @@ static bool bind_unwrapped(struct bind *bind)
         const struct mesh *mesh = &bind->objects[o].mesh;
         if (draw->objects[o].twin)
             continue;
-        float(*data)[4] = calloc(mesh->num_vertices, sizeof *data);
+        float(*data)[4] = memory_alloc(mesh->num_vertices * sizeof *data);
         draw->objects[o].attributes[at] = data;
-        for (uint32_t i = 0; data && i < mesh->num_vertices; ++i)
+        for (uint32_t i = 0; i < mesh->num_vertices; ++i)
             memcpy(data[i], mesh->vertices[i].texcoord, sizeof mesh->vertices[i].texcoord);
-        if (!data)
-            return bind_fail(bind, "out of memory");
     }
     return true;
 }
@@ -587,25 +579,21 @@ static bool check_values(struct bind *bind)
 static bool keep_variables(struct bind *bind)
 {
     uint32_t num = num_variables(bind);
-    bind->variables = calloc(num + bind->num_places + 1, sizeof *bind->variables);
-    if (!bind->variables)
-        return bind_fail(bind, "out of memory");
+    bind->variables = memory_alloc((num + bind->num_places) * sizeof *bind->variables);
     bind->num_variables = num;
     for (uint32_t i = 0; i < num; ++i)
         bind->variables[i] = read_variable(bind, i);
     return !bind->num_places || bind_place_variables(bind);
 }
 
-static bool make_objects(struct bind *bind)
+static void make_objects(struct bind *bind)
 {
     if (!bind->num_objects) {
         bind->objects = &bind->scene->object;
         bind->num_objects = 1;
     }
-    bind->draw.objects = calloc(bind->num_objects, sizeof *bind->draw.objects);
-    bind->orders = calloc(bind->num_objects, sizeof(uint32_t *));
-    if (!bind->draw.objects || !bind->orders)
-        return bind_fail(bind, "out of memory");
+    bind->draw.objects = memory_alloc(bind->num_objects * sizeof *bind->draw.objects);
+    bind->orders = memory_alloc(bind->num_objects * sizeof(uint32_t *));
     bind->draw.num_objects = bind->num_objects;
     uint32_t *twins = twins_find(bind->objects, bind->num_objects);
     for (uint32_t o = 0; o < bind->num_objects; ++o) {
@@ -614,7 +602,6 @@ static bool make_objects(struct bind *bind)
         bind->draw.objects[o].num_indices = bind->objects[o].mesh.num_indices;
     }
     free(twins);
-    return true;
 }
 
 bool bind_has_semantic(const mxg_result *result, const char *semantic)
@@ -637,19 +624,20 @@ bool bind_shader(struct bind *bind)
     mxg_result_storage(bind->result, &storage);
     bind->draw.stores_layers = storage.words > STORED_TARGETS;
     bind->max_lights = info.num_lights;
-    return keep_variables(bind) && make_objects(bind) && check_values(bind) && make_blocks(bind)
-           && bind_textures(bind) && bind_attributes(bind) && bind_scene(bind);
+    make_objects(bind);
+    return keep_variables(bind) && check_values(bind) && make_blocks(bind) && bind_textures(bind)
+           && bind_attributes(bind) && bind_scene(bind);
 }
 
 /* Triangles that can be seen through come from far to near. */
-static bool bind_order(struct bind *bind, uint32_t index)
+static void bind_order(struct bind *bind, uint32_t index)
 {
     const struct scene *scene = bind->scene;
     const struct scene_object *object = &bind->objects[index];
     struct draw_object *drawn = &bind->draw.objects[index];
     drawn->indices = object->mesh.indices;
     if (!bind->draw.blend)
-        return true;
+        return;
     struct matrix to_mesh = matrix_inverse(object->world);
     double eye[3], centre[3], square = 0;
     mesh_centre(&object->mesh, centre);
@@ -660,14 +648,15 @@ static bool bind_order(struct bind *bind, uint32_t index)
     drawn->distance = square;
     free(bind->orders[index]);
     drawn->indices = bind->orders[index] = mesh_sorted(&object->mesh, eye);
-    return drawn->indices || bind_fail(bind, "out of memory");
 }
 
 bool bind_scene(struct bind *bind)
 {
     bool good = true;
-    for (uint32_t o = 0; good && o < bind->num_objects; ++o)
-        good = fill_blocks(bind, o) && bind_order(bind, o);
+    for (uint32_t o = 0; good && o < bind->num_objects; ++o) {
+        good = fill_blocks(bind, o);
+        bind_order(bind, o);
+    }
     return good;
 }
 

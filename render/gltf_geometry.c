@@ -398,8 +398,7 @@ static bool read_object(struct reading *in, struct gltf_numbering *numbering, un
     if (!read_vertices(in, out_made) || !read_primvars(in, out_made)
         || (in->shape->skin && !apply_skin(in)) || !finish_vertices(in))
         return false;
-    if (!object_complete(in->object, *out_made, *out_made & MESH_NORMALS))
-        memory_fail();
+    object_complete(in->object, *out_made, *out_made & MESH_NORMALS);
     return true;
 }
 

@@ -17,8 +17,6 @@ float (*import_add_primvar(struct scene_object *object, enum import_family famil
                      : cli_format("%s", families[family].name);
     struct primvar *added =
         object_add_primvar(object, name, families[family].type, families[family].components);
-    if (!added)
-        memory_fail();
     free(name);
     return added->values;
 }

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/mesh.h"
 
+#include "program/memory.h"
 #include "render/matrix.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-bool mesh_allocate(struct mesh *mesh, uint32_t num_vertices, uint32_t num_indices)
+void mesh_allocate(struct mesh *mesh, uint32_t num_vertices, uint32_t num_indices)
 {
-    *mesh = (struct mesh){calloc(num_vertices, sizeof *mesh->vertices),
-                          malloc(num_indices * sizeof *mesh->indices), num_vertices, num_indices};
-    return mesh->vertices && mesh->indices;
+    *mesh =
+        (struct mesh){memory_alloc(num_vertices * sizeof *mesh->vertices),
+                      memory_alloc(num_indices * sizeof *mesh->indices), num_vertices, num_indices};
 }
 
 void mesh_finish(struct mesh *mesh)
@@ -73,11 +74,9 @@ static void add_to_corners(const struct mesh *mesh, uint32_t first, const double
             sums[mesh->indices[first + k]][i] += v[i];
 }
 
-static bool make_normals(struct mesh *mesh)
+static void make_normals(struct mesh *mesh)
 {
-    double(*sums)[3] = calloc(mesh->num_vertices, sizeof *sums);
-    if (!sums)
-        return false;
+    double(*sums)[3] = memory_alloc(mesh->num_vertices * sizeof *sums);
     for (uint32_t i = 0; i + 2 < mesh->num_indices; i += 3) {
         double normal[3];
         face_normal(mesh, i, normal);
@@ -86,14 +85,11 @@ static bool make_normals(struct mesh *mesh)
     for (uint32_t i = 0; i < mesh->num_vertices; ++i)
         store_unit(sums[i], (const float[3]){0, 1, 0}, mesh->vertices[i].normal);
     free(sums);
-    return true;
 }
 
-bool mesh_split(struct mesh *mesh)
+void mesh_split(struct mesh *mesh)
 {
-    struct vertex *vertices = malloc(mesh->num_indices * sizeof *vertices + 1);
-    if (!vertices)
-        return false;
+    struct vertex *vertices = memory_alloc(mesh->num_indices * sizeof *vertices);
     for (uint32_t i = 0; i < mesh->num_indices; ++i) {
         vertices[i] = *corner(mesh, i);
         mesh->indices[i] = i;
@@ -101,7 +97,6 @@ bool mesh_split(struct mesh *mesh)
     free(mesh->vertices);
     mesh->vertices = vertices;
     mesh->num_vertices = mesh->num_indices;
-    return true;
 }
 
 /* Adjacent triangles may be projected along different axes, so each has its own corners. */
@@ -186,11 +181,11 @@ static int compare_twins(const void *a, const void *b)
     return 0;
 }
 
-/* All vertices, equal ones beside each other; malloc. NULL: out of memory. */
+/* All vertices, equal ones beside each other. The caller frees them. */
 static struct twin *sort_twins(const struct mesh *mesh, bool is_smooth)
 {
-    struct twin *twins = calloc(mesh->num_vertices + 1, sizeof *twins);
-    for (uint32_t i = 0; twins && i < mesh->num_vertices; ++i) {
+    struct twin *twins = memory_alloc(mesh->num_vertices * sizeof *twins);
+    for (uint32_t i = 0; i < mesh->num_vertices; ++i) {
         const struct vertex *v = &mesh->vertices[i];
         memcpy(twins[i].at, v->position, sizeof v->position);
         if (is_smooth) {
@@ -199,8 +194,7 @@ static struct twin *sort_twins(const struct mesh *mesh, bool is_smooth)
         }
         twins[i].vertex = i;
     }
-    if (twins)
-        qsort(twins, mesh->num_vertices, sizeof *twins, compare_twins);
+    qsort(twins, mesh->num_vertices, sizeof *twins, compare_twins);
     return twins;
 }
 
@@ -214,10 +208,10 @@ static uint32_t end_of_twins(const struct mesh *mesh, const struct twin *twins, 
 }
 
 /* Vertices that differ in nothing get the sum of their tangents: triangles need not share them. */
-static bool share_tangents(const struct mesh *mesh, double (*sums)[3])
+static void share_tangents(const struct mesh *mesh, double (*sums)[3])
 {
     struct twin *twins = sort_twins(mesh, true);
-    for (uint32_t first = 0, end; twins && first < mesh->num_vertices; first = end) {
+    for (uint32_t first = 0, end; first < mesh->num_vertices; first = end) {
         double sum[3] = {0};
         end = end_of_twins(mesh, twins, first);
         for (uint32_t k = first; k < end; ++k)
@@ -227,7 +221,6 @@ static bool share_tangents(const struct mesh *mesh, double (*sums)[3])
             memcpy(sums[twins[k].vertex], sum, sizeof sum);
     }
     free(twins);
-    return twins != NULL;
 }
 
 /* Gives all of these vertices the mean normal, unless that is none, and the tangent of the first.
@@ -251,57 +244,49 @@ static void weld(const struct mesh *mesh, const struct twin *twins, uint32_t num
     }
 }
 
-bool mesh_weld(struct mesh *mesh)
+void mesh_weld(struct mesh *mesh)
 {
     struct twin *twins = sort_twins(mesh, false);
-    for (uint32_t first = 0, end; twins && first < mesh->num_vertices; first = end) {
+    for (uint32_t first = 0, end; first < mesh->num_vertices; first = end) {
         end = end_of_twins(mesh, twins, first);
         weld(mesh, twins + first, end - first);
     }
     free(twins);
-    return twins != NULL;
 }
 
-static bool make_tangents(struct mesh *mesh)
+static void make_tangents(struct mesh *mesh)
 {
-    double(*sums)[3] = calloc(mesh->num_vertices, sizeof *sums);
-    if (!sums)
-        return false;
+    double(*sums)[3] = memory_alloc(mesh->num_vertices * sizeof *sums);
     for (uint32_t i = 0; i + 2 < mesh->num_indices; i += 3) {
         double tangent[3];
         face_tangent(mesh, i, tangent);
         add_to_corners(mesh, i, tangent, sums);
     }
-    if (!share_tangents(mesh, sums)) {
-        free(sums);
-        return false;
-    }
+    share_tangents(mesh, sums);
     for (uint32_t i = 0; i < mesh->num_vertices; ++i)
         flatten_tangent(&mesh->vertices[i], sums[i]);
     free(sums);
-    return true;
 }
 
-bool mesh_complete(struct mesh *mesh, unsigned missing)
+void mesh_complete(struct mesh *mesh, unsigned missing)
 {
-    if ((missing & MESH_NORMALS) && !make_normals(mesh))
-        return false;
-    if ((missing & MESH_TEXCOORDS) && !mesh_split(mesh))
-        return false;
-    if (missing & MESH_TEXCOORDS)
+    if (missing & MESH_NORMALS)
+        make_normals(mesh);
+    if (missing & MESH_TEXCOORDS) {
+        mesh_split(mesh);
         make_texcoords(mesh);
-    if ((missing & MESH_TANGENTS) && !make_tangents(mesh))
-        return false;
+    }
+    if (missing & MESH_TANGENTS)
+        make_tangents(mesh);
     for (uint32_t i = 0; i < mesh->num_vertices; ++i)
         memcpy(mesh->vertices[i].parameter, mesh->vertices[i].texcoord,
                sizeof mesh->vertices[i].parameter);
-    return true;
 }
 
-bool mesh_project(struct mesh *mesh)
+void mesh_project(struct mesh *mesh)
 {
     make_texcoords(mesh);
-    return mesh_complete(mesh, MESH_TANGENTS);
+    mesh_complete(mesh, MESH_TANGENTS);
 }
 
 /* ---- Changes of the whole ---- */
@@ -352,13 +337,10 @@ static struct vertex middle(const struct vertex *a, const struct vertex *b)
     return out;
 }
 
-bool mesh_quarter(struct mesh *mesh)
+void mesh_quarter(struct mesh *mesh)
 {
     struct mesh fine;
-    if (!mesh_allocate(&fine, mesh->num_indices * 2, mesh->num_indices * 4)) {
-        mesh_finish(&fine);
-        return false;
-    }
+    mesh_allocate(&fine, mesh->num_indices * 2, mesh->num_indices * 4);
     for (uint32_t first = 0; first + 2 < mesh->num_indices; first += 3) {
         static const uint32_t pattern[12] = {0, 3, 5, 3, 1, 4, 5, 4, 2, 3, 4, 5};
         struct vertex *v = &fine.vertices[first * 2];
@@ -371,13 +353,12 @@ bool mesh_quarter(struct mesh *mesh)
     }
     mesh_finish(mesh);
     *mesh = fine;
-    return true;
 }
 
 float (*mesh_quarter_values(const struct mesh *mesh, float (*values)[4]))[4]
 {
-    float(*out)[4] = malloc((size_t)mesh->num_indices * 2 * sizeof *out);
-    for (uint32_t first = 0; out && first + 2 < mesh->num_indices; first += 3)
+    float(*out)[4] = memory_alloc((size_t)mesh->num_indices * 2 * sizeof *out);
+    for (uint32_t first = 0; first + 2 < mesh->num_indices; first += 3)
         for (uint32_t k = 0; k < 3; ++k)
             for (size_t c = 0; c < 4; ++c) {
                 float from = values[mesh->indices[first + k]][c],
@@ -388,12 +369,10 @@ float (*mesh_quarter_values(const struct mesh *mesh, float (*values)[4]))[4]
     return out;
 }
 
-bool mesh_subdivide(struct mesh *mesh, uint32_t wanted)
+void mesh_subdivide(struct mesh *mesh, uint32_t wanted)
 {
     while (mesh->num_indices / 3 < wanted)
-        if (!mesh_quarter(mesh))
-            return false;
-    return true;
+        mesh_quarter(mesh);
 }
 
 /* ---- Order ---- */
@@ -414,9 +393,9 @@ static int compare_distance(const void *a, const void *b)
 uint32_t *mesh_sorted(const struct mesh *mesh, const double eye[3])
 {
     uint32_t count = mesh->num_indices / 3;
-    struct distant *order = malloc(count * sizeof *order);
-    uint32_t *out = malloc(mesh->num_indices * sizeof *out);
-    for (uint32_t t = 0; order && t < count; ++t) {
+    struct distant *order = memory_alloc(count * sizeof *order);
+    uint32_t *out = memory_alloc(mesh->num_indices * sizeof *out);
+    for (uint32_t t = 0; t < count; ++t) {
         double square = 0;
         for (size_t i = 0; i < 3; ++i) {
             double sum = 0;
@@ -426,14 +405,9 @@ uint32_t *mesh_sorted(const struct mesh *mesh, const double eye[3])
         }
         order[t] = (struct distant){square, t * 3};
     }
-    if (order && out) {
-        qsort(order, count, sizeof *order, compare_distance);
-        for (uint32_t t = 0; t < count; ++t)
-            memcpy(out + t * 3, mesh->indices + order[t].first, 3 * sizeof *out);
-    } else {
-        free(out);
-        out = NULL;
-    }
+    qsort(order, count, sizeof *order, compare_distance);
+    for (uint32_t t = 0; t < count; ++t)
+        memcpy(out + t * 3, mesh->indices + order[t].first, 3 * sizeof *out);
     free(order);
     return out;
 }

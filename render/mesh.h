@@ -29,25 +29,23 @@ struct mesh_parts {
     unsigned some, all;
 };
 
-bool mesh_allocate(struct mesh *mesh, uint32_t num_vertices, uint32_t num_indices);
+void mesh_allocate(struct mesh *mesh, uint32_t num_vertices, uint32_t num_indices);
 void mesh_finish(struct mesh *mesh);
 
 /*
  * Adds the parts of `missing`: averages normals over the triangles at a vertex, projects texture
  * coordinates along the axis that a triangle faces, derives tangents from texture coordinates,
  * which vertices of equal position, normal and texture coordinates share. Projected texture
- * coordinates need a vertex for each corner: vertex i is then the former indices[i]. false: out of
- * memory.
+ * coordinates need a vertex for each corner: vertex i is then the former indices[i].
  */
-bool mesh_complete(struct mesh *mesh, unsigned missing);
+void mesh_complete(struct mesh *mesh, unsigned missing);
 /*
  * Makes texture coordinates and tangents again, after a mesh moved that has a vertex for each
- * corner. false: as above.
+ * corner.
  */
-bool mesh_project(struct mesh *mesh);
-/* Gives each corner a vertex of its own: vertex i is then the former indices[i]. false: as above.
- */
-bool mesh_split(struct mesh *mesh);
+void mesh_project(struct mesh *mesh);
+/* Gives each corner a vertex of its own: vertex i is then the former indices[i]. */
+void mesh_split(struct mesh *mesh);
 
 /* The total area of the triangles. */
 double mesh_area(const struct mesh *mesh);
@@ -58,31 +56,27 @@ void mesh_centre(const struct mesh *mesh, double out[3]);
 /* Moves and scales the mesh into the unit sphere about the origin. */
 void mesh_fit(struct mesh *mesh);
 
-/* Splits each triangle into four. false: out of memory. */
-bool mesh_quarter(struct mesh *mesh);
-/*
- * Splits values of the vertices as mesh_quarter splits this mesh; malloc. NULL: out of
- * memory.
- */
+/* Splits each triangle into four. */
+void mesh_quarter(struct mesh *mesh);
+/* Splits values of the vertices as mesh_quarter splits this mesh. The caller frees them. */
 float (*mesh_quarter_values(const struct mesh *mesh, float (*values)[4]))[4];
-/* Splits each triangle into four until there are `wanted` triangles. false: out of memory. */
-bool mesh_subdivide(struct mesh *mesh, uint32_t wanted);
+/* Splits each triangle into four until there are `wanted` triangles. */
+void mesh_subdivide(struct mesh *mesh, uint32_t wanted);
 
 /*
  * Gives vertices of one position one normal and tangent, so that displacement tears no edge: the
- * mean of their normals, unless they cancel out as those of a sheet's two sides. false: out of
- * memory.
+ * mean of their normals, unless they cancel out as those of a sheet's two sides.
  */
-bool mesh_weld(struct mesh *mesh);
+void mesh_weld(struct mesh *mesh);
 
 /*
- * The triangles sorted from far to near, seen from `eye` in the space of the mesh; malloc. NULL:
- * out of memory.
+ * The triangles sorted from far to near, seen from `eye` in the space of the mesh. The caller
+ * frees them.
  */
 uint32_t *mesh_sorted(const struct mesh *mesh, const double eye[3]);
 
 /* shapes.c: the shape of that name; `detail` multiplies its number of cells in each direction. */
 const char *const *shape_names(void); /* NULL after the last */
-bool shape_make(const char *name, unsigned detail, struct mesh *out);
+void shape_make(const char *name, unsigned detail, struct mesh *out);
 
 #endif

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "program/memory.h"
 #include "render/default_tokens.h"
 #include "render/picture_tell.h"
 
@@ -32,32 +33,29 @@ static bool generate(struct painter *painter, const struct subject *subject, mxg
 /* ---- Drawing ---- */
 
 /* Objects of a stage with triangles small enough for displacement. */
-static bool refine_objects(struct part *part, const struct subject *subject)
+static void refine_objects(struct part *part, const struct subject *subject)
 {
     enum { FINE_TRIANGLES = 1 << 14 };
-    part->fine = calloc(subject->num_objects, sizeof *part->fine);
-    bool good = part->fine != NULL;
-    for (uint32_t i = 0; good && i < subject->num_objects; ++i, ++part->num_fine)
-        good = object_refine(&subject->objects[i], FINE_TRIANGLES, &part->fine[i]);
-    return good;
+    part->fine = memory_alloc(subject->num_objects * sizeof *part->fine);
+    for (uint32_t i = 0; i < subject->num_objects; ++i, ++part->num_fine)
+        object_refine(&subject->objects[i], FINE_TRIANGLES, &part->fine[i]);
 }
 
 /* A displaced surface needs a mesh with small triangles. */
-static bool choose_mesh(struct painting *painting, struct part *part, const struct subject *subject)
+static void choose_mesh(struct painting *painting, struct part *part, const struct subject *subject)
 {
     struct painter *painter = painting->painter;
     mxg_shader_info info = {sizeof info};
     mxg_result_info(part->result, &info);
     if (!info.displaced || !painter->is_studio)
-        return true;
-    if (subject->num_objects)
-        return refine_objects(part, subject)
-               || report_status(&painter->cli->report, MXG_ERROR_MEMORY);
-    if (!painter->fine.vertices
-        && !studio_refine(&painter->studio, &painter->scene.object.mesh, &painter->fine))
-        return report_status(&painter->cli->report, MXG_ERROR_MEMORY);
+        return;
+    if (subject->num_objects) {
+        refine_objects(part, subject);
+        return;
+    }
+    if (!painter->fine.vertices)
+        studio_refine(&painter->studio, &painter->scene.object.mesh, &painter->fine);
     painting->scene.object.mesh = painter->fine;
-    return true;
 }
 
 /* ---- Textures that cannot be read ---- */
@@ -171,12 +169,10 @@ static bool make_part(struct painting *painting, const struct subject *subject, 
 {
     struct part *part = &painting->parts[painting->num_parts++];
     part->subject = subject;
-    part->bind = calloc(1, sizeof *part->bind);
-    if (!part->bind)
-        return report_status(&painting->painter->cli->report, MXG_ERROR_MEMORY);
-    if (!generate(painting->painter, subject, &part->result)
-        || !choose_mesh(painting, part, subject))
+    part->bind = memory_alloc(sizeof *part->bind);
+    if (!generate(painting->painter, subject, &part->result))
         return false;
+    choose_mesh(painting, part, subject);
     init_bind(painting, part, subject);
     part->bind->draw.role = role;
     return true;
@@ -206,8 +202,8 @@ static bool make_cuts(struct painting *painting)
 /* Generates the shaders of the subjects, and chooses their meshes. */
 static bool make_parts(struct painting *painting, const struct subject *subjects, size_t count)
 {
-    painting->parts = calloc(2 * count, sizeof *painting->parts);
-    bool good = painting->parts || report_status(&painting->painter->cli->report, MXG_ERROR_MEMORY);
+    painting->parts = memory_alloc(2 * count * sizeof *painting->parts);
+    bool good = true;
     for (size_t i = 0; good && i < count; ++i)
         good = make_part(painting, &subjects[i], DRAW_LIT) && make_cuts(painting);
     return good;
@@ -222,8 +218,8 @@ static bool open_passes(struct painting *painting)
                                  .scene = &painting->scene,
                                  .canvas = painting->canvas,
                                  .shown = painter->shown};
-    struct bind **binds = calloc(painting->num_parts, sizeof *binds);
-    for (size_t i = 0; binds && i < painting->num_parts; ++i) {
+    struct bind **binds = memory_alloc(painting->num_parts * sizeof *binds);
+    for (size_t i = 0; i < painting->num_parts; ++i) {
         mxg_storage storage = {sizeof storage};
         mxg_result_storage(painting->parts[i].result, &storage);
         setup.words = storage.words > setup.words ? storage.words : setup.words;
@@ -232,15 +228,11 @@ static bool open_passes(struct painting *painting)
     }
     setup.binds = binds;
     setup.num_binds = painting->num_parts;
-    bool good =
-        binds && (!setup.words || !painting->canvas || passes_open(&setup, &painting->passes));
+    bool good = !setup.words || !painting->canvas || passes_open(&setup, &painting->passes);
     free(binds);
-    if (good)
-        return true;
-    if (!binds)
-        return report_status(&painter->cli->report, MXG_ERROR_MEMORY);
-    report_error(&painter->cli->report, painting->passes.id, "%s", painting->passes.reason);
-    return false;
+    if (!good)
+        report_error(&painter->cli->report, painting->passes.id, "%s", painting->passes.reason);
+    return good;
 }
 
 /* A canvas with the outputs of the AOVs that are drawn now. NULL: see gpu->reason. */
@@ -268,9 +260,7 @@ bool painting_open(struct painter *painter, const struct subject *subjects, size
              height = painter->height * painter->oversampling;
     if (!make_parts(painting, subjects, count))
         return false;
-    painting->samples = malloc((size_t)width * height * 4 * sizeof(float));
-    if (!painting->samples)
-        return report_status(&painter->cli->report, MXG_ERROR_MEMORY);
+    painting->samples = memory_alloc((size_t)width * height * 4 * sizeof(float));
     painting->canvas = open_canvas(painter, width, height);
     if (!open_passes(painting))
         return false;
@@ -312,18 +302,18 @@ static void tell_bad_pixels(struct painter *painter, const struct painting *pain
 }
 
 /* Averages the samples of each pixel, or takes the first one. */
-static bool resolve(const struct painter *painter, const float *samples, bool averages,
+static void resolve(const struct painter *painter, const float *samples, bool averages,
                     struct image *out)
 {
     unsigned n = painter->oversampling;
     size_t row = (size_t)painter->width * n;
-    *out = (struct image){.width = painter->width,
-                          .height = painter->height,
-                          .is_float = true,
-                          .pixels =
-                              calloc((size_t)painter->width * painter->height * 4, sizeof(float))};
+    *out = (struct image){
+        .width = painter->width,
+        .height = painter->height,
+        .is_float = true,
+        .pixels = memory_alloc((size_t)painter->width * painter->height * 4 * sizeof(float))};
     float *pixel = out->pixels;
-    for (uint32_t y = 0; pixel && y < painter->height; ++y) {
+    for (uint32_t y = 0; y < painter->height; ++y) {
         for (uint32_t x = 0; x < painter->width; ++x, pixel += 4) {
             size_t count = averages ? (size_t)n * n : 1;
             for (size_t i = 0; i < count; ++i) {
@@ -333,32 +323,29 @@ static bool resolve(const struct painter *painter, const float *samples, bool av
             }
         }
     }
-    return out->pixels != NULL;
 }
 
-/* Keeps the AOVs that were drawn. false: out of memory. */
-static bool take_aovs(struct painting *painting)
+/* Keeps the AOVs that were drawn. */
+static void take_aovs(struct painting *painting)
 {
     struct painter *painter = painting->painter;
     for (size_t i = 0; i < painter->num_aovs; ++i) {
         struct picture_aov *aov = &painter->aovs.items[painter->first_aov + i];
         struct image values;
         draw_read_output(painting->canvas, (uint32_t)i + 1, painting->samples);
-        if (!resolve(painter, painting->samples, !aovs_is_whole(aov->type), &values))
-            return false;
+        resolve(painter, painting->samples, !aovs_is_whole(aov->type), &values);
         aov->pixels = values.pixels;
     }
-    return true;
 }
 
 /* A frame in front of a colour, in the samples. */
 static bool draw_samples(struct painting *painting, const float behind[4])
 {
-    struct render *renders = calloc(painting->num_parts + 1, sizeof *renders);
-    for (size_t i = 0; renders && i < painting->num_parts; ++i)
+    struct render *renders = memory_alloc(painting->num_parts * sizeof *renders);
+    for (size_t i = 0; i < painting->num_parts; ++i)
         renders[i] = painting->parts[i].render;
     draw_clear_to(painting->canvas, behind);
-    bool drawn = renders && (!painting->passes.stored || passes_aim(&painting->passes))
+    bool drawn = (!painting->passes.stored || passes_aim(&painting->passes))
                  && render_frame(renders, painting->num_parts, painting->canvas, painting->samples);
     free(renders);
     if (!drawn) {
@@ -384,9 +371,8 @@ static bool find_through(struct painting *painting, struct image *picture)
     struct image bright;
     if (!draw_samples(painting, white))
         return false;
-    picture->through = malloc(count * 3 * sizeof(float));
-    if (!picture->through || !resolve(painting->painter, painting->samples, true, &bright))
-        return report_status(&painting->painter->cli->report, MXG_ERROR_MEMORY);
+    picture->through = memory_alloc(count * 3 * sizeof(float));
+    resolve(painting->painter, painting->samples, true, &bright);
     const float *with = bright.pixels, *without = picture->pixels;
     for (size_t i = 0; i < 3 * count; ++i)
         picture->through[i] = with[i / 3 * 4 + i % 3] - without[i / 3 * 4 + i % 3];
@@ -401,8 +387,8 @@ bool painting_draw(struct painting *painting, struct image *out)
     *out = (struct image){0};
     if (!draw_samples(painting, nothing))
         return false;
-    if (!resolve(painter, painting->samples, true, out) || !take_aovs(painting))
-        return report_status(&painter->cli->report, MXG_ERROR_MEMORY);
+    resolve(painter, painting->samples, true, out);
+    take_aovs(painting);
     if (has_two_sources(painting) && !find_through(painting, out))
         return false;
     tell_bad_pixels(painter, painting, out);
@@ -438,12 +424,10 @@ static bool picture_trace(struct painter *painter, const struct subject *subject
     *out = (struct image){.width = painter->width,
                           .height = painter->height,
                           .is_float = true,
-                          .pixels = malloc(pixels * 4 * sizeof(float)),
-                          .through = malloc(pixels * 3 * sizeof(float))};
-    struct bind **binds = calloc(count + 1, sizeof(struct bind *));
-    bool good = (binds && out->pixels && out->through)
-                || report_status(&painter->cli->report, MXG_ERROR_MEMORY);
-    good = good && make_parts(&painting, subjects, count);
+                          .pixels = memory_alloc(pixels * 4 * sizeof(float)),
+                          .through = memory_alloc(pixels * 3 * sizeof(float))};
+    struct bind **binds = memory_alloc(count * sizeof(struct bind *));
+    bool good = make_parts(&painting, subjects, count);
     for (size_t i = 0; good && i < count; ++i)
         binds[i] = painting.parts[i].bind;
     size_t failed = 0;
@@ -478,15 +462,11 @@ static bool find_aovs(struct painter *painter, const struct subject *subjects, s
     return good;
 }
 
-static bool allocate_aovs(struct painter *painter)
+static void allocate_aovs(struct painter *painter)
 {
-    bool good = true;
-    for (size_t i = 0; i < painter->aovs.len; ++i) {
-        struct picture_aov *aov = &painter->aovs.items[i];
-        aov->pixels = calloc((size_t)painter->width * painter->height * 4, sizeof(float));
-        good &= aov->pixels != NULL;
-    }
-    return good || report_status(&painter->cli->report, MXG_ERROR_MEMORY);
+    size_t size = (size_t)painter->width * painter->height * 4 * sizeof(float);
+    for (size_t i = 0; i < painter->aovs.len; ++i)
+        painter->aovs.items[i].pixels = memory_alloc(size);
 }
 
 static bool draw_once(struct painter *painter, const struct subject *subjects, size_t count,
@@ -529,7 +509,8 @@ bool picture_draw(struct painter *painter, const struct subject *subjects, size_
         if (painter->wants_aovs)
             aovs_list(&painter->aovs, 0, painter->aovs.len, painter->cli->options);
         painter->trace.aovs = &painter->aovs;
-        return allocate_aovs(painter) && picture_trace(painter, subjects, count, out);
+        allocate_aovs(painter);
+        return picture_trace(painter, subjects, count, out);
     }
     return painter->wants_aovs ? draw_with_aovs(painter, subjects, count, out)
                                : draw_once(painter, subjects, count, out);

@@ -367,8 +367,8 @@ bool scene_init_sphere(struct scene *scene, double aspect)
     scene->projection = matrix_perspective(40.0, aspect, 0.1, 20.0);
     scene->object.world = matrix_multiply(matrix_translation(0.05, -0.03, 0.1),
                                           matrix_rotation((const double[3]){0.3, 1, 0.2}, 25.0));
-    return environment_make(&scene->radiance, &scene->irradiance)
-           && shape_make("sphere", 1, &scene->object.mesh);
+    shape_make("sphere", 1, &scene->object.mesh);
+    return environment_make(&scene->radiance, &scene->irradiance);
 }
 
 /* A quad by (s, t), with linear parts. The tangent is (n.z, 0, -n.x). */
@@ -394,11 +394,10 @@ static void make_vertex(const struct quad *quad, float s, float t, struct vertex
  * Each cell has four triangles that meet in its centre, so the value there is the value of the
  * vertex.
  */
-static bool make_quad(const struct quad *quad, struct mesh *mesh)
+static void make_quad(const struct quad *quad, struct mesh *mesh)
 {
     enum { CELLS = 4, CORNERS = (CELLS + 1) * (CELLS + 1) };
-    if (!mesh_allocate(mesh, CORNERS + CELLS * CELLS, CELLS * CELLS * 12))
-        return false;
+    mesh_allocate(mesh, CORNERS + CELLS * CELLS, CELLS * CELLS * 12);
     for (uint32_t i = 0; i < CORNERS; ++i)
         make_vertex(quad, (float)(i % (CELLS + 1)) / CELLS, (float)(i / (CELLS + 1)) / CELLS,
                     &mesh->vertices[i]);
@@ -411,7 +410,6 @@ static bool make_quad(const struct quad *quad, struct mesh *mesh)
                                   above + 1, above,      centre, above,      corner,    centre};
         memcpy(mesh->indices + i * 12, fan, sizeof fan);
     }
-    return true;
 }
 
 /*
@@ -444,9 +442,9 @@ static struct matrix quad_projection(const struct scene *scene, const double pos
 static bool show_quad(struct scene *scene, const struct quad *quad)
 {
     scene->projection = quad_projection(scene, quad->position);
+    make_quad(quad, &scene->object.mesh);
     return environment_make(&scene->radiance, &scene->irradiance)
-           && environment_make_test_texture(&scene->texture)
-           && make_quad(quad, &scene->object.mesh);
+           && environment_make_test_texture(&scene->texture);
 }
 
 bool scene_init_grid(struct scene *scene)

@@ -96,20 +96,16 @@ void object_finish(struct scene_object *object);
 const struct primvar *object_primvar(const struct scene_object *object, const char *name);
 /* Frees the last primvars of an object, and the list if there are any. */
 void object_finish_primvars(struct scene_object *object, uint32_t num);
-/*
- * Adds a primvar of zeros for each vertex of the object's mesh. `type` is a constant. NULL: out of
- * memory.
- */
+/* Adds a primvar of zeros for each vertex of the object's mesh. `type` is a constant. */
 struct primvar *object_add_primvar(struct scene_object *object, const char *name, const char *type,
                                    unsigned components);
 /*
  * Adds the parts that its mesh lacks (mesh_complete), with its primvars. A flat object gets a
- * vertex for each corner first. false: out of memory.
+ * vertex for each corner first.
  */
-bool object_complete(struct scene_object *object, unsigned missing, bool is_flat);
-/* A copy of an object for displacement: with at least so many triangles, welded. false: out of
- * memory; object_finish(out). */
-bool object_refine(const struct scene_object *object, uint32_t wanted, struct scene_object *out);
+void object_complete(struct scene_object *object, unsigned missing, bool is_flat);
+/* A copy of an object for displacement: with at least so many triangles, welded. */
+void object_refine(const struct scene_object *object, uint32_t wanted, struct scene_object *out);
 
 /* Moves the camera, and points it at the target. */
 void scene_set_camera(struct scene *scene, const double eye[3], const double target[3]);

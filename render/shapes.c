@@ -234,7 +234,7 @@ static void make_patch(const struct patch *patch, unsigned detail, struct mesh *
         }
 }
 
-bool shape_make(const char *name, unsigned detail, struct mesh *out)
+void shape_make(const char *name, unsigned detail, struct mesh *out)
 {
     const struct shape *shape = shapes;
     while (strcmp(shape->name, name) != 0)
@@ -245,10 +245,8 @@ bool shape_make(const char *name, unsigned detail, struct mesh *out)
         vertices += (p->across * detail + 1) * (p->up * detail + 1);
         indices += p->across * detail * p->up * detail * 6;
     }
-    if (!mesh_allocate(out, vertices, indices))
-        return false;
+    mesh_allocate(out, vertices, indices);
     vertices = indices = 0;
     for (const struct patch *p = shape->patches; p < shape->patches + MAX_PATCHES && p->point; ++p)
         make_patch(p, detail, out, &vertices, &indices);
-    return true;
 }

@@ -109,8 +109,7 @@ static void add_object(struct importer *in, unsigned number, const char *path, s
         in->good = false;
         return;
     }
-    if (!mesh_allocate(&copy, mesh->mNumVertices, 3 * mesh->mNumFaces))
-        memory_fail();
+    mesh_allocate(&copy, mesh->mNumVertices, 3 * mesh->mNumFaces);
     copy_mesh(mesh, &copy);
     if (!copy.num_indices) {
         mesh_finish(&copy);
@@ -122,8 +121,7 @@ static void add_object(struct importer *in, unsigned number, const char *path, s
     unsigned made = (in->lack_normals[number] ? MESH_NORMALS : 0u)
                     | (mesh->mTextureCoords[0] ? 0u : MESH_TEXCOORDS)
                     | (mesh->mTangents && mesh->mTextureCoords[0] ? 0u : MESH_TANGENTS);
-    if (!object_complete(object, mesh->mNormals ? made & ~(unsigned)MESH_NORMALS : made, false))
-        memory_fail();
+    object_complete(object, mesh->mNormals ? made & ~(unsigned)MESH_NORMALS : made, false);
     in->site->objects[in->site->num_objects - 1].made = made;
 }
 

@@ -76,8 +76,6 @@ static void add_primvar(struct scene_object *out, const struct primvar *like)
     static const char *const types[] = {NULL, "float", "float2", "float3", "float4"};
     struct primvar *added =
         object_add_primvar(out, like->name, types[like->components], like->components);
-    if (!added)
-        memory_fail();
     added->is_integer = like->is_integer;
 }
 
@@ -121,8 +119,7 @@ static bool allocate(const struct site *site, struct mesh *out)
     }
     if (size > limit_of_file(site->file_size) || vertices > UINT32_MAX || indices > UINT32_MAX)
         return fail(site, "bad-mesh", "it needs too much memory for its size");
-    if (!mesh_allocate(out, (uint32_t)vertices, (uint32_t)indices))
-        memory_fail();
+    mesh_allocate(out, (uint32_t)vertices, (uint32_t)indices);
     return true;
 }
 
@@ -147,8 +144,8 @@ static void join_meshes(const struct site *site, struct mesh *out)
         const struct mesh *from = &site->objects[o].object.mesh;
         struct mesh part = {out->vertices + vertex, out->indices + index, from->num_vertices,
                             from->num_indices};
-        if ((site->objects[o].made & MESH_TEXCOORDS) && !mesh_project(&part))
-            memory_fail();
+        if (site->objects[o].made & MESH_TEXCOORDS)
+            mesh_project(&part);
         for (uint32_t i = 0; i < part.num_indices; ++i)
             part.indices[i] += vertex;
         vertex += part.num_vertices;

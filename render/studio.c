@@ -51,9 +51,10 @@ static bool open_mesh(const struct studio *studio, struct scene_object *out,
     *out_made = (struct mesh_parts){0};
     *out = (struct scene_object){0};
     *fault = (struct studio_fault){0};
-    if (args_is_one_of(studio->mesh, shape_names()))
-        return shape_make(studio->mesh, 1, &out->mesh)
-               || fail(fault, "render-failed", "cannot make", studio->mesh, "out of memory");
+    if (args_is_one_of(studio->mesh, shape_names())) {
+        shape_make(studio->mesh, 1, &out->mesh);
+        return true;
+    }
     if (!strpbrk(studio->mesh, "./") && !files_is_regular(studio->mesh))
         return fail(fault, "bad-mesh", "there is no shape", studio->mesh,
                     "write ball, sphere, plane, cube, cloth, or the name of a file");
@@ -150,13 +151,15 @@ void studio_aim(const struct studio *studio, double aspect, double turn, struct 
     scene->projection = matrix_perspective(vertical, aspect, distance / 100, distance + 10);
 }
 
-bool studio_refine(const struct studio *studio, const struct mesh *mesh, struct mesh *out)
+void studio_refine(const struct studio *studio, const struct mesh *mesh, struct mesh *out)
 {
-    if (args_is_one_of(studio->mesh, shape_names()))
-        return shape_make(studio->mesh, FINE_DETAIL, out) && mesh_weld(out);
-    if (!mesh_allocate(out, mesh->num_vertices, mesh->num_indices))
-        return false;
-    memcpy(out->vertices, mesh->vertices, mesh->num_vertices * sizeof *mesh->vertices);
-    memcpy(out->indices, mesh->indices, mesh->num_indices * sizeof *mesh->indices);
-    return mesh_subdivide(out, FINE_TRIANGLES) && mesh_weld(out);
+    if (args_is_one_of(studio->mesh, shape_names())) {
+        shape_make(studio->mesh, FINE_DETAIL, out);
+    } else {
+        mesh_allocate(out, mesh->num_vertices, mesh->num_indices);
+        memcpy(out->vertices, mesh->vertices, mesh->num_vertices * sizeof *mesh->vertices);
+        memcpy(out->indices, mesh->indices, mesh->num_indices * sizeof *mesh->indices);
+        mesh_subdivide(out, FINE_TRIANGLES);
+    }
+    mesh_weld(out);
 }

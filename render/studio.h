@@ -54,6 +54,6 @@ void studio_aim(const struct studio *studio, double aspect, double turn, struct 
 bool studio_read_map(const struct studio *studio, struct image *out, struct studio_fault *fault);
 
 /* Splits the triangles of a mesh until they are small enough for displacement. */
-bool studio_refine(const struct studio *studio, const struct mesh *mesh, struct mesh *out);
+void studio_refine(const struct studio *studio, const struct mesh *mesh, struct mesh *out);
 
 #endif

@@ -13,29 +13,25 @@
 #include <string.h>
 
 /* Makes an image of the node's default colour, otherwise black. */
-static bool make_default(const mxg_variable *variable, struct image *out)
+static void make_default(const mxg_variable *variable, struct image *out)
 {
-    float *texel = calloc(4, sizeof *texel);
+    float *texel = memory_alloc(4 * sizeof *texel);
     *out = (struct image){.width = 1, .height = 1, .is_float = true, .pixels = texel};
-    if (!texel)
-        return false;
     texel[3] = 1.0f;
     for (uint32_t i = 0; i < variable->num_values && i < 4; ++i)
         texel[i] = variable->values[i];
-    return true;
 }
 
 /* Magenta and black, so that it does not look like a material. */
-static bool make_checker(struct image *out)
+static void make_checker(struct image *out)
 {
     enum { SIZE = 8 };
-    uint8_t *texel = calloc(SIZE * SIZE, 4);
+    uint8_t *texel = memory_alloc(SIZE * SIZE * 4);
     *out = (struct image){.width = SIZE, .height = SIZE, .pixels = texel};
-    for (int i = 0; texel && i < SIZE * SIZE; ++i, texel += 4) {
+    for (int i = 0; i < SIZE * SIZE; ++i, texel += 4) {
         texel[0] = texel[2] = (i % SIZE + i / SIZE) % 2 ? 0 : 255;
         texel[3] = 255;
     }
-    return out->pixels != NULL;
 }
 
 /* A texture of the shader: its variable, and the file that the user names in its place. */
@@ -71,10 +67,9 @@ static bool read_path(struct bind *bind, const struct texture *texture, const ch
 {
     char reason[256];
     if (bind->files && outputs_has(bind->files, path)) {
-        bind->id = "output-clash";
-        snprintf(bind->reason, sizeof bind->reason,
-                 "the picture would overwrite the texture '%.250s'; choose another name", path);
-        return false;
+        return bind_fail_as(bind, "output-clash",
+                            "the picture would overwrite the texture '%.250s'; choose another name",
+                            path);
     }
     const char *fault =
         bind->tokens ? mxg_context_file_fault(bind->tokens->context, bind->document, path) : NULL;
@@ -87,7 +82,8 @@ static bool read_path(struct bind *bind, const struct texture *texture, const ch
     }
     *out_checker = true;
     add_fault(bind, texture, path, reason);
-    return make_checker(out) || bind_fail(bind, "out of memory");
+    make_checker(out);
+    return true;
 }
 
 static bool read_file(struct bind *bind, const struct texture *texture, const char *file,
@@ -108,25 +104,29 @@ static bool read_tile(struct bind *bind, uint32_t index, const struct texture *t
     char file[4096];
     if (mxg_result_texture_file(bind->result, index, tile, bind->scene->frame, file, sizeof file))
         return read_file(bind, texture, file, out, out_checker);
-    return make_default(texture->variable, out) || bind_fail(bind, "out of memory");
+    make_default(texture->variable, out);
+    return true;
 }
 
 bool bind_read_texture(struct bind *bind, uint32_t index, const mxg_variable *variable,
                        const char *file, struct image *out, bool *out_checker)
 {
     const struct texture texture = {variable, file};
-    if (file)
-        return *file ? read_file(bind, &texture, file, out, out_checker)
-                     : make_default(variable, out) || bind_fail(bind, "out of memory");
+    if (file && *file)
+        return read_file(bind, &texture, file, out, out_checker);
+    if (file) {
+        make_default(variable, out);
+        return true;
+    }
     if (!variable->num_tiles)
         return read_tile(bind, index, &texture, 0, out, out_checker);
-    struct image *tiles = calloc(variable->num_tiles, sizeof *tiles);
-    bool good = tiles != NULL;
+    struct image *tiles = memory_alloc(variable->num_tiles * sizeof *tiles);
+    bool good = true;
     for (uint32_t i = 0; good && i < variable->num_tiles; ++i)
         good = read_tile(bind, index, &texture, i, &tiles[i], out_checker);
     if (good && !image_stack(tiles, variable->num_tiles, out))
         good = bind_fail(bind, "out of memory");
-    for (uint32_t i = 0; tiles && i < variable->num_tiles; ++i)
+    for (uint32_t i = 0; i < variable->num_tiles; ++i)
         image_finish(&tiles[i]);
     free(tiles);
     return good;

@@ -253,8 +253,7 @@ static void add_object(struct usd_mesh *mesh, int32_t subset, uint32_t primitive
     if (list.count && site_has_room(mesh->site, primitive, list.count / 3)) {
         struct scene_object *object = site_add(mesh->site, primitive, world);
         const struct usd_corners corners = {list.count, list.faces, list.points, list.numbers};
-        if (!mesh_allocate(&object->mesh, list.count, list.count))
-            memory_fail();
+        mesh_allocate(&object->mesh, list.count, list.count);
         for (uint32_t i = 0; i < list.count; ++i) {
             fill_vertex(mesh, &list, i, &object->mesh.vertices[i]);
             object->mesh.indices[i] = i;
@@ -264,8 +263,7 @@ static void add_object(struct usd_mesh *mesh, int32_t subset, uint32_t primitive
         for (uint32_t i = 0; texcoords && i < list.count; ++i)
             memcpy(object->mesh.vertices[i].texcoord, texcoords->values[i], 2 * sizeof(float));
         unsigned made = MESH_TANGENTS | (texcoords ? 0u : MESH_TEXCOORDS);
-        if (!mesh_complete(&object->mesh, made))
-            memory_fail();
+        mesh_complete(&object->mesh, made);
         mesh->site->objects[mesh->site->num_objects - 1].made = made;
     }
     free(list.faces);

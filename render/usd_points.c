@@ -91,16 +91,14 @@ void usd_add_points(struct site *site, uint32_t primitive, struct matrix world)
     struct mesh mesh;
     if (read_points(site, primitive, &points)) {
         uint32_t num = (uint32_t)points.num;
-        if (!mesh_allocate(&mesh, num * NUM_VERTICES, num * NUM_INDICES))
-            memory_fail();
+        mesh_allocate(&mesh, num * NUM_VERTICES, num * NUM_INDICES);
         for (uint32_t i = 0; i < num; ++i) {
             add_vertices(&points, i, &mesh.vertices[i * NUM_VERTICES]);
             add_indices(i * NUM_VERTICES, &mesh.indices[i * NUM_INDICES]);
         }
         struct scene_object *object = site_add(site, primitive, world);
         object->mesh = mesh;
-        if (!mesh_complete(&object->mesh, MESH_TANGENTS))
-            memory_fail();
+        mesh_complete(&object->mesh, MESH_TANGENTS);
         add_primvars(site, primitive, num * NUM_VERTICES, object);
     }
     free(points.centres);

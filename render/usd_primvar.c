@@ -90,9 +90,7 @@ static bool fill(const struct authored *from, const struct usd_corners *corners,
 
 static void append(struct scene_object *object, struct primvar made)
 {
-    object->primvars =
-        memory_resize(object->primvars, (object->num_primvars + 1) * sizeof *object->primvars);
-    object->primvars[object->num_primvars++] = made;
+    MEMORY_PUSH(object->primvars, object->num_primvars, made);
 }
 
 /* A primvar without values. */

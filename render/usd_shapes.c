@@ -27,8 +27,7 @@ struct shape {
 
 static void begin(struct shape *shape, uint32_t num_vertices, uint32_t num_indices)
 {
-    if (!mesh_allocate(&shape->mesh, num_vertices, num_indices))
-        memory_fail();
+    mesh_allocate(&shape->mesh, num_vertices, num_indices);
 }
 
 /* Gives back the memory that the shape does not need. */
