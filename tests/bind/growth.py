@@ -4,17 +4,14 @@
 collections, references, siblings, unknown_targets, properties, slots, order, networks, prims of equal names.
 
 Arguments: mxgen, the smaller number of things."""
-import os
 import pathlib
-import re
 import resource
-import shutil
 import subprocess
 import sys
 import tempfile
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent))
-from checks import check, finish, skip
+from checks import check, count_instructions, counts_instructions, finish
 
 MXGEN, COUNT, MOST = pathlib.Path(sys.argv[1]).resolve(), int(sys.argv[2]), 2.2
 LOOK = """<?xml version="1.0"?><materialx version="1.39"><surface name="s" type="surfaceshader"/>
@@ -144,18 +141,14 @@ def work(folder, text, look=LOOK):
     """Instructions, in millions."""
     (folder / "stage.usda").write_text("#usda 1.0\n" + text, encoding="utf-8")
     (folder / "look.mtlx").write_text(look, encoding="utf-8")
-    counter = ["valgrind", "--tool=cachegrind", "--cache-sim=no", "--cachegrind-out-file=/dev/null"]
     outputs = ["--json", "/dev/null", "--usda", "/dev/null", "--purpose", "full"]
-    command = [MXGEN, "bind", folder / "look.mtlx", "--look", "L", "--stage", folder / "stage.usda", "--quiet", *outputs]
-    result = subprocess.run(counter + command, capture_output=True, check=False)
-    found = re.findall(rb"I +refs: +([\d,]+)", result.stderr)
-    check(found, f"no instructions are counted: {result.stderr[-500:]}")
-    return float(found[-1].replace(b",", b"")) / 1e6 if found else 1
+    count, done = count_instructions(MXGEN, "bind", folder / "look.mtlx", "--look", "L", "--stage", folder / "stage.usda", "--quiet", *outputs)
+    check(count, f"no instructions are counted: {done.stderr[-500:]}")
+    return count / 1e6 or 1
 
 
 def main():
-    if not shutil.which("valgrind") or os.environ.get("SANITIZER"):
-        skip("valgrind is not installed, or a sanitizer is in the program: no instructions are counted")
+    if not counts_instructions():
         return
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)

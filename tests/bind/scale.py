@@ -4,16 +4,12 @@
 scenes of depth 12 under 200 assignments with patterns and collections. Counted are instructions, which do not depend on the machine.
 
 Arguments: mxgen, the number of primitives."""
-import os
 import pathlib
-import re
-import shutil
-import subprocess
 import sys
 import tempfile
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent))
-from checks import check, finish, skip
+from checks import check, count_instructions, counts_instructions, finish
 
 MXGEN, COUNT = pathlib.Path(sys.argv[1]).resolve(), int(sys.argv[2])
 FACTOR, MOST, MOST_OF_READING = 8, 8.8, 3.0
@@ -42,17 +38,13 @@ def write_look(path, count):
 
 def work(folder, stage, look):
     """Instructions, in millions."""
-    counter = ["valgrind", "--tool=cachegrind", "--cache-sim=no", "--cachegrind-out-file=/dev/null"]
-    command = [MXGEN, "bind", folder / look, "--stage", folder / stage, "--geom", "/g1_0", "--quiet"]
-    result = subprocess.run(counter + command, capture_output=True, check=False)
-    found = re.findall(rb"I +refs: +([\d,]+)", result.stderr)
-    check(result.returncode == 0 and found, f"{stage}, {look}: ends with {result.returncode}: {result.stderr[-500:]}")
-    return float(found[-1].replace(b",", b"")) / 1e6 if found else 1
+    count, done = count_instructions(MXGEN, "bind", folder / look, "--stage", folder / stage, "--geom", "/g1_0", "--quiet")
+    check(done.returncode == 0 and count, f"{stage}, {look}: ends with {done.returncode}: {done.stderr[-500:]}")
+    return count / 1e6 or 1
 
 
 def main():
-    if not shutil.which("valgrind") or os.environ.get("SANITIZER"):
-        skip("valgrind is not installed, or a sanitizer is in the program: no instructions are counted")
+    if not counts_instructions():
         return
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)

@@ -9,14 +9,13 @@ import json
 import pathlib
 import re
 import shutil
-import subprocess
 import sys
 import tempfile
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent))
 sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent / "programs"))
 import exr
-from checks import check, finish, skip
+from checks import check, finish, run, skip
 
 MXGEN, RENDER, ROOT = (pathlib.Path(arg).resolve() for arg in sys.argv[1:4])
 SLOTS, PAGE = ROOT / "examples/slots", ROOT / "docs/slots.md"
@@ -36,10 +35,6 @@ STEPS = {"base": ("default", {"case/shell": 0.9, "knobs/tuning/cap": 0.8, "aeria
          "finished": ("sign", {"case/front_panel": 0.3})}
 # How far a colour of 0 to 255 may be off, and how far from a primitive, in pixels, its samples and its ribs reach.
 THRESHOLD, REACH = 2, 2
-
-
-def run(*command):
-    return subprocess.run([str(part) for part in command], capture_output=True, text=True, check=False)
 
 
 def bind(document, look, stage=SLOTS / "receiver.usda"):

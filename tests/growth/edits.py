@@ -4,9 +4,6 @@
 edits of all kinds. Arguments: bench-edit."""
 
 import os
-import re
-import shutil
-import subprocess
 import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
@@ -19,17 +16,14 @@ MOST = 1.5  # times the instructions of an edit; work for the whole document wou
 
 def work(program, materials, edits, kind):
     """Instructions."""
-    counter = ["valgrind", "--tool=cachegrind", "--cache-sim=no", "--cachegrind-out-file=/dev/null"]
-    run = subprocess.run(counter + [program, str(materials), str(edits), kind], capture_output=True, check=False)
-    found = re.findall(rb"I +refs: +([\d,]+)", run.stderr)
-    checks.check(run.returncode == 0 and found, f"{kind}: ends with {run.returncode}")
-    return int(found[-1].replace(b",", b""))
+    count, done = checks.count_instructions(program, materials, edits, kind)
+    checks.check(done.returncode == 0 and count, f"{kind}: ends with {done.returncode}")
+    return count
 
 
 def main():
     program = sys.argv[1]
-    if not shutil.which("valgrind") or os.environ.get("SANITIZER"):
-        checks.skip("valgrind is not installed, or a sanitizer is in the program: no instructions are counted")
+    if not checks.counts_instructions():
         checks.finish("edits")
     small, large = (work(program, materials, 0, "") for materials in (SMALL, LARGE))
     for kind in KINDS:

@@ -6,8 +6,6 @@ instructions, which do not depend on the machine, so a table can be tight. Argum
 import concurrent.futures
 import json
 import os
-import re
-import shutil
 import subprocess
 import sys
 import tempfile
@@ -432,13 +430,11 @@ def work(mxgen, folder, shape, count):
     name = os.path.join(folder, f"{shape[0].replace(' ', '_')}_{count}.{'gltf' if is_gltf else 'mtlx'}".replace("'", ""))
     with open(name, "w", encoding="utf-8") as file:
         file.write(text)
-    counter = ["valgrind", "--tool=cachegrind", "--cache-sim=no", "--cachegrind-out-file=/dev/null"]
     arguments = [mxgen, name] + command if command[0].startswith("-") else [mxgen] + command + [name]
     arguments += ["-o", name + ".mtlx"] if is_gltf or command[0] == "library" else []
-    run = subprocess.run(counter + arguments + ["--max-errors", "0"], capture_output=True, check=False)
-    found = re.findall(rb"I +refs: +([\d,]+)", run.stderr)
-    checks.check(run.returncode in (0, 1) and found, f"{shape[0]}: ends with {run.returncode}")
-    return float(found[-1].replace(b",", b"")) / 1e6
+    count, done = checks.count_instructions(*arguments, "--max-errors", "0")
+    checks.check(done.returncode in (0, 1) and count, f"{shape[0]}: ends with {done.returncode}")
+    return count / 1e6
 
 
 def check_readers(mxgen, folder):
@@ -462,8 +458,7 @@ def check_readers(mxgen, folder):
 
 def main():
     mxgen, wanted = sys.argv[1], sys.argv[2:]
-    if not shutil.which("valgrind") or os.environ.get("SANITIZER"):
-        checks.skip("valgrind is not installed, or a sanitizer is in the program: no instructions are counted")
+    if not checks.counts_instructions():
         checks.finish("wide")
     shapes = [shape for shape in SHAPES if not wanted or shape[0] in wanted]
     counts = (1, FEW, FACTOR * FEW)

@@ -14,7 +14,9 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent))
 import radiance
+from checks import check_fault, finish, skip
 
 MXGEN, EXAMPLES, *NAMES = sys.argv[1:]
 HERE = pathlib.Path(__file__).resolve().parent
@@ -22,23 +24,6 @@ SKY, SIZE, TOLERANCE, SAME = 0.5, 32, 0.03, 0.005
 DISTANCE, FIELD = 4.0, math.radians(30)
 NETWORKS = {"varnished", "fitted_layer", "slabs_lacquered", "slab_tinted", "slab_glints", "StandardSurface/standard_surface_gold.mtlx", "OpenPbr/open_pbr_default.mtlx"}
 LAMPS = {"fitted_phong", "fitted_velvet", "slab_tinted", "slab_tinted_rough", "slab_tinted_glints"}
-counts = {"passed": 0, "failed": 0, "skipped": 0}
-
-
-def check(what, fault):
-    counts["failed" if fault else "passed"] += 1
-    if fault:
-        print(f"failed: {what}: {fault}")
-
-
-def skip(reason):
-    counts["skipped"] += 1
-    print(f"skip: {reason}")
-
-
-def finish():
-    print("osl-furnace: {passed} passed, {failed} failed, {skipped} skipped".format(**counts))
-    sys.exit(1 if counts["failed"] else 77 if not counts["passed"] else 0)
 
 
 def ball_mean(path):
@@ -125,17 +110,17 @@ def in_folder(render, document, options, is_lamp=False):
 
 def agree(what, mean, reference, expected, by="traced", tolerance=TOLERANCE):
     if isinstance(mean, str) or isinstance(reference, str):
-        return check(what, mean if isinstance(mean, str) else reference)
+        return check_fault(what, mean if isinstance(mean, str) else reference)
     ratio = max((a / b for a, b in zip(mean, reference)), key=lambda one: abs(math.log(one)))
     print(f"{what}: by OSL {' '.join(f'{c:.3f}' for c in mean)}, {by} {' '.join(f'{c:.3f}' for c in reference)}: {ratio:.3f}", flush=True)
-    return check(what, None if abs(ratio / expected - 1) < tolerance else f"the ratio is {ratio:.3f}, not {expected}")
+    return check_fault(what, None if abs(ratio / expected - 1) < tolerance else f"the ratio is {ratio:.3f}, not {expected}")
 
 
 def compare(what, document, options, expected):
     reference = in_folder(traced, document, options)
     if isinstance(reference, str) and "no-device" in reference:
         skip("there is no Vulkan device")
-        finish()
+        finish("osl-furnace")
     agree(what, in_folder(by_osl, document, options), reference, expected)
     if what in NETWORKS:
         agree(f"{what}, as a network", in_folder(by_osl, document, [*options, "--osl-network"]), reference, expected)
@@ -145,7 +130,7 @@ def compare(what, document, options, expected):
 
 if not shutil.which("oslc") or not shutil.which("testrender"):
     skip("oslc or testrender is not installed")
-    finish()
+    finish("osl-furnace")
 def materials_of(document):
     with tempfile.TemporaryDirectory() as folder:
         run(MXGEN, document, "--target", "osl", "-q", "-o", folder)
@@ -156,7 +141,7 @@ def compare_network(name, document, *options):
     if not NAMES or name in NAMES:
         whole, network = (in_folder(by_osl, document, [*options, *more]) for more in ([], ["--osl-network"]))
         agree(f"{name}, as a network", network, whole, 1, "as one shader", SAME)
-        check(f"{name}: no more light than there is", f"{max(whole)}" if not isinstance(whole, str) and max(whole) > 1.01 else None)
+        check_fault(f"{name}: no more light than there is", f"{max(whole)}" if not isinstance(whole, str) and max(whole) > 1.01 else None)
 
 
 OURS = HERE.parent.parent / "examples"
@@ -182,4 +167,4 @@ for line in (HERE / "furnace.tsv").read_text(encoding="utf-8").splitlines()[1:]:
         compare(f"{name}, alike", document, element + alike.split(), 1)
     elif alike:
         compare(f"{name}, alike", HERE / "furnace.mtlx", ["--element", alike], 1)
-finish()
+finish("osl-furnace")

@@ -10,7 +10,9 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent))
 import scene
+from checks import check_fault, finish, skip
 
 FLAGS = [a for a in sys.argv[1:] if a.startswith("--")]
 ARGS = [a for a in sys.argv[1:] if not a.startswith("--")]
@@ -19,13 +21,6 @@ EVERY = 5  # document, unless all are asked for
 TYPES = {"float": "float", "integer": "int", "boolean": "int", "vector2": "vector2", "vector3": "vector", "vector4": "vector4",
          "color3": "color", "color4": "vector4"}
 STRUCTS = {"vector2": "struct vector2 { float x; float y; };\n", "vector4": "struct vector4 { float x; float y; float z; float w; };\n"}
-counts = {"passed": 0, "failed": 0, "skipped": 0}
-
-
-def check(what, fault):
-    counts["failed" if fault else "passed"] += 1
-    if fault:
-        print(f"failed: {what}: {fault}")
 
 
 def generate(document, folder, *arguments):
@@ -84,7 +79,7 @@ def run_values():
             if (path.stem, row["case"]) in known or (path.stem, "*") in known:
                 continue
             with tempfile.TemporaryDirectory() as work:
-                check(f"{path.stem} {row['case']}", run_row(path, row, pathlib.Path(work)))
+                check_fault(f"{path.stem} {row['case']}", run_row(path, row, pathlib.Path(work)))
 
 
 # ---- Materials ----
@@ -110,9 +105,9 @@ def run_material(document, cache):
         if generate(document, folder):
             return # faults of the document: other tests look after these
         for path in sorted(folder.glob("*.osl")):
-            check(f"{document.name} {path.name}", compile_once(path, cache))
+            check_fault(f"{document.name} {path.name}", compile_once(path, cache))
         for group in sorted(folder.glob("*.oslgroup")):
-            check(f"{document.name} {group.name}", testshade(group, "-g", "1", "1")[1])
+            check_fault(f"{document.name} {group.name}", testshade(group, "-g", "1", "1")[1])
 
 
 def find_materials():
@@ -120,8 +115,7 @@ def find_materials():
     slabs = sorted((pathlib.Path(__file__).resolve().parent.parent.parent / "examples").glob("slab*.mtlx"))
     if MATERIALS and root.is_dir():
         return slabs + sorted((root if "--all" in FLAGS else root / "Materials" / "Examples").rglob("*.mtlx"))
-    print(f"skip: there is no folder {MATERIALS}")
-    counts["skipped"] += 1
+    skip(f"there is no folder {MATERIALS}")
     return slabs
 
 
@@ -132,9 +126,8 @@ def run_materials():
 
 
 if not shutil.which("oslc") or not shutil.which("testshade"):
-    print("skip: oslc or testshade is not installed\nosl-networks: 0 passed, 0 failed, 1 skipped")
-    sys.exit(77)
+    skip("oslc or testshade is not installed")
+    finish("osl-networks")
 run_values()
 run_materials()
-print(f"osl-networks: {counts['passed']} passed, {counts['failed']} failed, {counts['skipped']} skipped")
-sys.exit(1 if counts["failed"] else 0 if counts["passed"] else 77)
+finish("osl-networks")

@@ -9,16 +9,12 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent))
+from checks import check_fault, finish
+
 MXGEN, EXAMPLES = sys.argv[1], pathlib.Path(sys.argv[2])
 CLOSURE = re.compile(r"\b(\w+_(?:bsdf|bssrdf|edf|vdf))\(")
 PARAMETER = re.compile(r"^    (output )?(?:closure )?\w+ (\w+)(?:\[\d\])? = ", re.MULTILINE)
-counts = {"passed": 0, "failed": 0}
-
-
-def check(what, fault):
-    counts["failed" if fault else "passed"] += 1
-    if fault:
-        print(f"failed: {what}: {fault}")
 
 
 def generate(document, folder, *arguments):
@@ -67,9 +63,9 @@ def run_document(document, arguments, is_whole):
         generate(document, net, "--osl-network", *arguments)
         generate(document, one, *arguments)
         groups = [path for path in sorted(net.glob("*.oslgroup")) if is_whole or list(net.glob(f"{path.name.split('.')[0]}_*.osl"))]
-        check(f"{document.name} has groups", None if groups else "none")
+        check_fault(f"{document.name} has groups", None if groups else "none")
         for path in groups:
-            check(f"{document.name} {path.name}", group_fault(path))
+            check_fault(f"{document.name} {path.name}", group_fault(path))
             if ".displacement." in path.name:
                 continue
             element = path.stem
@@ -78,14 +74,13 @@ def run_document(document, arguments, is_whole):
             whole = next(p for p in net.glob(f"{element}_*.osl") if "\nsurface " in p.read_text(encoding="utf-8"))
             if alone.exists():
                 different = closures(whole) != closures(alone)
-                check(f"{document.name} {element}: closures", f"{closures(whole)} instead of {closures(alone)}" if different else None)
+                check_fault(f"{document.name} {element}: closures", f"{closures(whole)} instead of {closures(alone)}" if different else None)
         odd = [path.name for path in net.glob("ND_*.osl") if CLOSURE.search(shader(path)[2]) and is_whole]
-        check(f"{document.name}: no closure of another shader", ", ".join(odd))
+        check_fault(f"{document.name}: no closure of another shader", ", ".join(odd))
 
 
 for path in sorted(EXAMPLES.glob("slab*.mtlx")):
     run_document(path, [], True)
 slots = EXAMPLES / "slots"
 run_document(slots / "looks.mtlx", ["--stage", slots / "receiver.usda", "--look", "finished"], False)
-print(f"osl-structure: {counts['passed']} passed, {counts['failed']} failed")
-sys.exit(1 if counts["failed"] else 0)
+finish("osl-structure")

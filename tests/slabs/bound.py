@@ -7,14 +7,13 @@ Arguments: mxgen; --print lists each material."""
 import pathlib
 import random
 import re
-import subprocess
 import sys
 import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.append(str(HERE.parent))
 import balls
-from checks import check, finish
+from checks import check, finish, run
 
 MXGEN = pathlib.Path(sys.argv[1]).resolve()
 NUM_MATERIALS, NUM_FEWER, SIZE = 30, 12, 48
@@ -92,10 +91,6 @@ class Material:
             return self.add("slab_layer", "BSDF", top=("BSDF", top), base=("BSDF", self.tree(num - left, is_bottom)))
         parts = self.tree(left, is_bottom), self.tree(num - left, is_bottom)
         return self.add("slab_mix", "BSDF", fg=("BSDF", parts[0]), bg=("BSDF", parts[1]), mix=self.mask())
-
-
-def run(*command):
-    return subprocess.run([str(word) for word in command], capture_output=True, text=True, timeout=300)
 
 
 def estimate(document, name, budget):

@@ -7,14 +7,13 @@ Arguments: mxgen, mxgen-compile, mxgen-render ('' to draw nothing)."""
 import json
 import math
 import pathlib
-import subprocess
 import sys
 import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.append(str(HERE.parent))
 import balls
-from checks import check, finish, skip
+from checks import check, finish, run, skip
 
 MXGEN, COMPILE, RENDER = (pathlib.Path(arg).resolve() if arg else None for arg in sys.argv[1:4])
 PATHS = 0.1, 0.01, 0.005  # mean free paths; the sheet is 0.01 thick
@@ -38,10 +37,6 @@ def sheet(paths):
     <input name="surface_thickness" type="float" value="0.01"/></slab_surface>
   <surfacematerial name="Glass" type="material"><input name="surfaceshader" type="surfaceshader" nodename="SR"/></surfacematerial>
 </materialx>"""
-
-
-def run(*command):
-    return subprocess.run([str(word) for word in command], capture_output=True, text=True, timeout=300)
 
 
 def middle(folder, paths, *options):

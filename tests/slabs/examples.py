@@ -7,14 +7,13 @@ Arguments: mxgen, mxgen-render ('' to draw nothing), the root of the project; --
 import json
 import pathlib
 import re
-import subprocess
 import sys
 import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.append(str(HERE.parent))
 import balls
-from checks import check, finish, skip
+from checks import check, finish, run, skip
 
 MXGEN, RENDER, ROOT = (pathlib.Path(arg).resolve() if arg else None for arg in sys.argv[1:4])
 UPDATE = "--update" in sys.argv
@@ -29,10 +28,6 @@ NUMBER = re.compile(r"\d+\.\d+(?:e-?\d+)?")
 SIZE, SWEEP = 48, 64
 # How far a drawn error may be from the page, as another device rounds otherwise.
 NEAR = 0.06
-
-
-def run(*command):
-    return subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False)
 
 
 def document_of(material):

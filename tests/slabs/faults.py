@@ -6,7 +6,6 @@ pipeline and by paths.
 Arguments: mxgen, mxgen-render ('' to draw nothing)."""
 import pathlib
 import re
-import subprocess
 import sys
 import tempfile
 
@@ -14,7 +13,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 sys.path += [str(HERE.parent), str(HERE.parent / "programs")]
 import balls
 import exr
-from checks import check, finish, skip
+from checks import check, finish, run, skip
 
 MXGEN, RENDER = (pathlib.Path(arg).resolve() if arg else None for arg in sys.argv[1:3])
 FILES = HERE / "faults"
@@ -28,10 +27,6 @@ LIGHT = (("black_texel_hole", "A", 1, 1, 0.001),
          ("white_rough1_loses_2pct", "R", 1, 1, 0.006))
 # docs/slabs.md: the most that a side is off, of the estimate.
 FACTOR, REST = 2.5, 0.5
-
-
-def run(program, *words):
-    return subprocess.run([str(program), *map(str, words)], capture_output=True, text=True, timeout=300)
 
 
 def generated(name, *options):

@@ -7,7 +7,6 @@ Arguments: mxgen, mxgen-render ('' to draw nothing), the root of the sources, th
 incomplete for materials with parts that no graph has."""
 import pathlib
 import re
-import subprocess
 import sys
 import tempfile
 import xml.etree.ElementTree as ET
@@ -15,7 +14,7 @@ import xml.etree.ElementTree as ET
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.append(str(HERE.parent))
 import balls
-from checks import check, finish, skip
+from checks import check, finish, run, skip
 
 MXGEN, RENDER = (pathlib.Path(arg).resolve() if arg else None for arg in sys.argv[1:3])
 ROOT, COLUMN = pathlib.Path(sys.argv[3]), sys.argv[4]
@@ -27,10 +26,6 @@ LOSSES = {"slab": "emission, glint_density, glint_uv, specular_lut, specular_lut
 DOCUMENTS = [ROOT / f"examples/{name}.mtlx" for name in ("slabs", "slab_blends", "slab_helpers", "slab_glints")]
 # Tolerance of an error that the page lists: another device rounds otherwise.
 NEAR, SHARE = 0.02, 0.01
-
-
-def run(*command):
-    return subprocess.run([str(word) for word in command], capture_output=True, text=True, timeout=300)
 
 
 def interfaces():

@@ -7,14 +7,13 @@ Arguments: mxgen, mxgen-render ('': only the numbers), the root of the project."
 import math
 import pathlib
 import re
-import subprocess
 import sys
 import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path += [str(HERE.parent), str(HERE.parent / "osl")]
 import radiance
-from checks import check, finish, skip
+from checks import check, finish, run, skip
 
 MXGEN, RENDER, ROOT = (pathlib.Path(arg).resolve() if arg else None for arg in sys.argv[1:4])
 DOCUMENT = ROOT / "examples/slab_profiles.mtlx"
@@ -22,10 +21,6 @@ MARBLE, SKIN, MILK = ((2.19, 2.62, 3.00), (0.0021, 0.0041, 0.0071)), ((0.74, 0.8
 # Each material with what Jensen et al. measured, per millimetre, and the scale of its free path.
 MATERIALS = {"PolishedMarble": (MARBLE, 1), "WornMarble": (MARBLE, 1), "Skin": (SKIN, 1), "SmallSkin": (SKIN, 0.1), "Milk": (MILK, 1)}
 SIZE, EDGE = 24, 3
-
-
-def run(*command):
-    return subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False)
 
 
 def sent_back(scattering, absorption):

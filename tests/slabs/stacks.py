@@ -7,14 +7,13 @@ Arguments: mxgen, mxgen-render ('' to draw nothing)."""
 import json
 import pathlib
 import re
-import subprocess
 import sys
 import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.append(str(HERE.parent))
 import balls
-from checks import check, finish, skip
+from checks import check, finish, run, skip
 
 MXGEN, RENDER = (pathlib.Path(arg).resolve() if arg else None for arg in sys.argv[1:3])
 NUM_LAYERS = 8
@@ -87,10 +86,6 @@ def document(kind):
     look = f'<look name="L">{assigns}</look>'
     place = '<position name="place" type="vector3"><input name="space" type="string" value="object"/></position>'
     return f'<?xml version="1.0"?><materialx version="1.39">{place}{"".join(parts)}{look}</materialx>'
-
-
-def run(*command):
-    return subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False)
 
 
 def generate(path, stage, out, *options):

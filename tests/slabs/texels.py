@@ -6,12 +6,11 @@ Arguments: mxgen, mxgen-render ('': no texture can be read)."""
 import json
 import os
 import pathlib
-import subprocess
 import sys
 import tempfile
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent))
-from checks import check, finish, skip
+from checks import check, finish, run, skip
 
 MXGEN, RENDER = sys.argv[1:3]
 DOCUMENT = """<?xml version="1.0"?>
@@ -36,10 +35,6 @@ DOCUMENT = """<?xml version="1.0"?>
   <surfacematerial name="M" type="material"><input name="surfaceshader" type="surfaceshader" nodename="surface"/></surfacematerial>
 </materialx>
 """
-
-
-def run(*command):
-    return subprocess.run([str(word) for word in command], capture_output=True, text=True, timeout=300)
 
 
 def write_mask(path, share):
