@@ -2,7 +2,7 @@
 /*
  * Breaks long lines where the expression nests least, and there where it binds most loosely: after
  * a comma, or before an operator. A long comment continues in the next line. Strings, preprocessor
- * directives and verbatim source stay unbroken.
+ * directives and verbatim source stay unbroken. Of blank lines in a row one stays.
  */
 #include "spell/spell.h"
 
@@ -211,12 +211,18 @@ void spell_wrap(struct spell *spell, size_t begin)
     text_init(&w.out, spell->out->arena);
     text_reserve(&w.out, spell->out->len + spell->out->len / 16);
     const char *kept = base + spell->verbatim_begin, *kept_end = base + spell->verbatim_end;
+    bool was_blank = false;
     for (const char *line = base + begin; line < end;) {
         const char *newline = memchr(line, '\n', (size_t)(end - line));
         const char *stop = newline ? newline : end;
-        bool is_kept = line >= kept && line < kept_end;
-        if (!is_kept && stop - line > MAX_COLUMNS)
+        bool is_kept = line >= kept && line < kept_end, is_blank = stop == line && newline;
+        if (!is_kept && is_blank && was_blank) {
+            copy(&w, line);
+            w.copied = newline + 1;
+        } else if (!is_kept && stop - line > MAX_COLUMNS) {
             wrap_line(&w, line, stop);
+        }
+        was_blank = is_blank;
         line = newline ? newline + 1 : end;
     }
     copy(&w, end);

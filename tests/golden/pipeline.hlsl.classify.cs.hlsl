@@ -78,7 +78,6 @@ void mx_run(uint2 group, uint2 place)
         mx_add_tile(class_, group.y * mx_tiles_per_row + group.x);
 }
 
-
 [numthreads(8, 8, 1)]
 void main(uint3 group : SV_GroupID, uint3 place : SV_GroupThreadID)
 {

@@ -57,7 +57,6 @@ struct MxRecord {
 };
 #endif
 
-
 struct GlobalContext {
     VertexData vd;
 

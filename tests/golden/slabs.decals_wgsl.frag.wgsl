@@ -70,7 +70,6 @@ fn wgsl_with_xy_vec3f(v: vec3f, parts: vec2f) -> vec3f
     return vec3f(parts.x, parts.y, v.z);
 }
 
-
 var<private> mx_noise: u32 = 4u;
 var<private> mx_num_words: u32 = 0u;
 var<private> mx_num_closures: u32 = 0u;

@@ -60,7 +60,6 @@ struct MxClosure {
     float spreads;
 };
 
-
 // A cubic polynomial of x and y with the coefficients m, to which directional albedos are fitted.
 float mx_bicubic(float4x4 m, float x, float y)
 {

@@ -67,7 +67,6 @@ struct MxRecord {
 };
 #endif
 
-
 struct GlobalContext {
     VertexData vd;
 
