@@ -233,10 +233,8 @@ mxg_status mxg_bindings_fact(const mxg_bindings *bindings, uint32_t primitive, u
         .name = bind_fact_name(doc, fact),
         .type =
             is_visibility ? "boolean" : str_text(doc->strings, doc_attr_value(doc, fact, STR_type)),
-        .value = assign->value
-                     ? assign->value
-                     : str_text(doc->strings,
-                                doc_attr_value(doc, fact, is_visibility ? STR_visible : STR_value)),
+        .value = assign->value ? assign->value
+                               : str_text(doc->strings, doc_attr_value(doc, fact, STR_value)),
         .target = assign->fact_target,
         .from = from ? from - 1 : MXG_NONE,
         .file = place.file,

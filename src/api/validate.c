@@ -153,16 +153,21 @@ static bool tell(struct told *told, const struct diag *diag)
     return true;
 }
 
-/* Slots, patterns and collections, without a scene. */
+/*
+ * Slots, patterns and collections, without a scene, and the facts beside a look; 0: facts alone.
+ */
 static void check_look(struct generation *g, elem_id element, struct told *told)
 {
     struct diag_list *diags = &g->result->object.diagnostics.list, found;
-    struct bind_look look = {0};
+    struct bind_look look;
     struct scene scene;
     scene_init(&scene, UINT32_MAX, &g->scratch);
     diag_list_init(&found, diags->arena);
-    look_read(&look, &g->document->layer, element, &scene, &g->scratch, &found);
-    look_finish(&look);
+    if (element) {
+        look_read(&look, &g->document->layer, element, &scene, &g->scratch, &found);
+        look_finish(&look);
+    }
+    look_check_facts(&g->document->layer, element, &scene, &g->scratch, &found);
     for (uint32_t i = 0; i < found.items.len; i++) {
         const struct diag *d = &found.items.items[i];
         if (tell(told, d))
@@ -193,7 +198,10 @@ static void check_looks(struct generation *g)
     for (uint32_t i = 0; i < diags->items.len; i++)
         tell(&told, &diags->items.items[i]);
     told.num_elements = told.items.len;
+    check_look(g, 0, &told);
     for (elem_id e = begin; e; e = doc_element(doc, e)->next) {
+        if (doc_element(doc, e)->kind == KIND_LOOKGROUP)
+            look_check_group(doc, e, &g->result->object.diagnostics.list);
         elem_id parent = doc_element(doc, e)->kind == KIND_LOOK ? parent_of(doc, e) : 0;
         if (parent)
             states[parent - zero] = INHERITED;

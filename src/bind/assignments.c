@@ -158,6 +158,17 @@ static void move_beside(struct bind_look *look, const struct look_assign *assign
     slot_parse(*text, strlen(*text), name);
 }
 
+bool look_has_both(struct bind_look *look, elem_id element, str_id one, str_id other)
+{
+    const struct document *doc = look->doc;
+    bool has_both = doc_attr(doc, element, one) && doc_attr(doc, element, other);
+    if (has_both)
+        diag_add(look->diags, DIAG_ID_assign_both, doc_place(doc, element),
+                 category_of(look, element), str_text(doc->strings, one),
+                 str_text(doc->strings, other));
+    return has_both;
+}
+
 /* The material or nodegraph; false after an error. */
 static bool read_target(struct bind_look *look, struct look_assign *assign, struct slot_name *name,
                         const char **text)
@@ -168,11 +179,8 @@ static bool read_target(struct bind_look *look, struct look_assign *assign, stru
          has_material = doc_attr(doc, element, STR_material),
          has_graph = doc_attr(doc, element, STR_nodegraph);
     assign->kind = ASSIGN_REMOVAL;
-    if (has_material && has_graph) {
-        diag_add(look->diags, DIAG_ID_assign_both, doc_place(doc, element), "material",
-                 "nodegraph");
+    if (look_has_both(look, element, STR_material, STR_nodegraph))
         return false;
-    }
     if (has_graph && !is_override) {
         diag_add(look->diags, DIAG_ID_override_needed, doc_attr_place(doc, element, STR_nodegraph),
                  *text, *text);
@@ -191,19 +199,23 @@ static bool read_target(struct bind_look *look, struct look_assign *assign, stru
 
 /* ---- Places ---- */
 
-/* Where it stands: a list of geometry, or a collection; false after an error. */
-static bool read_place(struct bind_look *look, struct look_assign *assign)
+bool look_check_place(struct bind_look *look, elem_id element)
+{
+    const struct document *doc = look->doc;
+    if (look_has_both(look, element, STR_geom, STR_collection))
+        return false;
+    if (!doc_attr_value(doc, element, STR_geom) && !doc_attr_value(doc, element, STR_collection))
+        diag_add(look->diags, DIAG_ID_assign_nowhere, doc_place(doc, element),
+                 category_of(look, element));
+    return true;
+}
+
+bool look_read_place(struct bind_look *look, struct look_assign *assign)
 {
     const struct document *doc = look->doc;
     elem_id element = assign->element;
     str_id geom = doc_attr_value(doc, element, STR_geom),
            collection = doc_attr_value(doc, element, STR_collection);
-    if (geom && collection) {
-        diag_add(look->diags, DIAG_ID_assign_both, doc_place(doc, element), "geom", "collection");
-        return false;
-    }
-    if (!geom && !collection)
-        diag_add(look->diags, DIAG_ID_assign_nowhere, doc_place(doc, element));
     if (geom)
         look_read_geometry(
             look, element, STR_geom,
@@ -244,7 +256,7 @@ void look_read_assign(struct bind_look *look, elem_id element, uint32_t ordinal)
             look_read_variant(look, e);
     assign.num_variants = look->variants.len - assign.first_variant;
     /* last, because the matcher names the assignment */
-    if (!read_place(look, &assign))
+    if (!look_check_place(look, element) || !look_read_place(look, &assign))
         return;
     assign.name = look_intern_name(look, &name, text, strlen(text));
     vec_push(look->arena, &look->assigns, assign);

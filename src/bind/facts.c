@@ -43,15 +43,23 @@ const char *bind_fact_name(const struct document *doc, elem_id fact)
                                          : doc_name(doc, fact);
 }
 
-/* The renderer that a property is for; the viewers of a visibility; "" for all. */
+/*
+ * The renderer that a property is for; the viewers of a visibility, as paths or as a collection;
+ * "" for all.
+ */
 static const char *target_of(struct bind_look *look, elem_id fact)
 {
     const struct document *doc = look->doc;
     if (doc_element(doc, fact)->kind != KIND_VISIBILITY)
         return value_of(doc, fact, STR_target);
-    bool has_geometry = doc_attr_value(doc, fact, STR_viewergeom);
-    return has_geometry ? doc_prefixed_geometry(doc, fact, STR_viewergeom, look->arena)
-                        : value_of(doc, fact, STR_viewercollection);
+    if (doc_attr_value(doc, fact, STR_viewergeom))
+        return doc_prefixed_geometry(doc, fact, STR_viewergeom, look->arena);
+    const char *collection = value_of(doc, fact, STR_viewercollection);
+    struct text target;
+    text_init(&target, look->arena);
+    if (*collection)
+        text_fmt(&target, "collection:%s", collection);
+    return text_cstr(&target);
 }
 
 /* Facts of one kind, name and target replace each other. */
@@ -118,12 +126,16 @@ static const char *converted_measure(struct bind_look *look, elem_id fact, doc_t
     const struct document *doc = look->doc;
     const struct geomprop *def = library_geomprop(look->lib, doc_element(doc, fact)->name);
     str_id unit = doc_attr_value(doc, fact, STR_unit),
-           kind = doc_attr_value(doc, fact, STR_unittype),
            usual = def ? doc_attr_value(doc, def->element, STR_unit) : 0;
     float from, to, numbers[16];
-    if (!unit || !usual || unit == usual || !doc_type_is_measure(type))
+    if (!unit || unit == usual || !doc_type_is_measure(type))
         return NULL;
-    kind = kind ? kind : library_unit_type_of(look->lib, unit);
+    if (!usual) {
+        diag_add(look->diags, DIAG_ID_unit_lost, doc_attr_place(doc, fact, STR_unit),
+                 text_of_id(doc, doc_element(doc, fact)->name), text_of_id(doc, unit));
+        return NULL;
+    }
+    str_id kind = library_unit_type_of(look->lib, usual);
     if (!library_unit_scale(look->lib, kind, unit, &from)
         || !library_unit_scale(look->lib, kind, usual, &to)) {
         library_report_unit(look->lib, kind, unit, doc_attr_place(doc, fact, STR_unit),
@@ -138,12 +150,14 @@ static const char *converted_measure(struct bind_look *look, elem_id fact, doc_t
 }
 
 /*
- * The value of a fact with geomprefixes, and of a geometric property as geometry would have it;
- * NULL: as in the document.
+ * The value of a fact with geomprefixes, of a geometric property as geometry would have it, and of
+ * a visibility with its default; NULL: as in the document.
  */
 static const char *converted(struct bind_look *look, elem_id fact)
 {
     doc_type type = doc_type_of(doc_attr_value(look->doc, fact, STR_type));
+    if (bind_fact_kind(look->doc, fact) == FACT_VISIBILITY)
+        return doc_attr_value(look->doc, fact, STR_visible) == STR_false ? "false" : "true";
     if (doc_is_geometry(look->doc, fact, STR_value))
         return doc_prefixed_geometry(look->doc, fact, STR_value, look->arena);
     if (bind_fact_kind(look->doc, fact) != FACT_GEOMPROP)
@@ -172,29 +186,28 @@ static void add_default(struct bind_look *look, elem_id fact)
 /* Adds a fact that stands where `placed` says. */
 static void add_fact(struct bind_look *look, elem_id placed, elem_id fact)
 {
-    const struct document *doc = look->doc;
-    str_id geom = doc_attr_value(doc, placed, STR_geom),
-           collection = doc_attr_value(doc, placed, STR_collection);
     struct look_assign assign = {.element = placed,
-                                 .look = doc_element(doc, placed)->parent,
+                                 .look = doc_element(look->doc, placed)->parent,
                                  .target = fact,
                                  .kind = ASSIGN_LAYER};
-    if (geom)
-        look_read_geometry(
-            look, placed, STR_geom,
-            (struct look_matcher){.owner = look->assigns.len, .kind = MATCHER_ASSIGN});
-    else if (collection)
-        assign.collection = look_read_collection(look, collection, placed, STR_collection);
-    if (!geom && !assign.collection)
-        return;
-    add_assign(look, assign, fact);
+    if (look_read_place(look, &assign))
+        add_assign(look, assign, fact);
 }
 
 static void add_children(struct bind_look *look, elem_id placed, elem_id parent)
 {
     const struct document *doc = look->doc;
-    for (elem_id e = doc_element(doc, parent)->first_child; e; e = doc_element(doc, e)->next)
+    for (elem_id e = look_check_place(look, placed) ? doc_element(doc, parent)->first_child : 0; e;
+         e = doc_element(doc, e)->next)
         add_fact(look, placed, e);
+}
+
+static void add_visibility(struct bind_look *look, elem_id element)
+{
+    doc_check_attribute(look->doc, element, STR_visible, look->diags);
+    bool is_clear = !look_has_both(look, element, STR_viewergeom, STR_viewercollection);
+    if (look_check_place(look, element) && is_clear)
+        add_fact(look, element, element);
 }
 
 static void add_of_look(struct bind_look *look, elem_id element)
@@ -202,7 +215,9 @@ static void add_of_look(struct bind_look *look, elem_id element)
     const struct document *doc = look->doc;
     for (elem_id e = doc_element(doc, element)->first_child; e; e = doc_element(doc, e)->next) {
         enum element_kind kind = (enum element_kind)doc_element(doc, e)->kind;
-        if (kind == KIND_VISIBILITY || kind == KIND_PROPERTYASSIGN)
+        if (kind == KIND_VISIBILITY)
+            add_visibility(look, e);
+        if (kind == KIND_PROPERTYASSIGN && look_check_place(look, e))
             add_fact(look, e, e);
         if (kind != KIND_PROPERTYSETASSIGN)
             continue;
@@ -214,17 +229,34 @@ static void add_of_look(struct bind_look *look, elem_id element)
     }
 }
 
-static void read_facts(struct bind_look *look, const struct library *lib, elem_id element,
-                       const struct scene *scene, struct arena *arena, struct diag_list *diags)
+/* The facts that stand beside all looks. */
+static void add_global(struct bind_look *look)
 {
-    const struct document *doc = &lib->doc;
-    look_begin(look, lib, element, scene, arena, diags);
+    const struct document *doc = look->doc;
     for (elem_id e = doc_element(doc, doc->root)->first_child; e; e = doc_element(doc, e)->next)
         if (doc_element(doc, e)->kind == KIND_TOKENDEFAULT)
             add_default(look, e);
     for (elem_id e = doc_element(doc, doc->root)->first_child; e; e = doc_element(doc, e)->next)
         if (doc_element(doc, e)->kind == KIND_GEOMINFO)
             add_children(look, e, e);
+}
+
+void look_check_facts(const struct library *lib, elem_id element, const struct scene *scene,
+                      struct arena *arena, struct diag_list *diags)
+{
+    struct bind_look look;
+    look_begin(&look, lib, element, scene, arena, diags);
+    if (!element)
+        add_global(&look);
+    look_each_ancestor(&look, add_of_look);
+    look_finish(&look);
+}
+
+static void read_facts(struct bind_look *look, const struct library *lib, elem_id element,
+                       const struct scene *scene, struct arena *arena, struct diag_list *diags)
+{
+    look_begin(look, lib, element, scene, arena, diags);
+    add_global(look);
     look_each_ancestor(look, add_of_look);
     look_close_collections(look);
 }

@@ -145,6 +145,12 @@ static elem_id default_of_group(const struct document *doc, elem_id group, struc
     return found;
 }
 
+void look_check_group(const struct document *doc, elem_id group, struct diag_list *diags)
+{
+    if (doc_attr_value(doc, group, STR_default))
+        default_of_group(doc, group, diags);
+}
+
 elem_id look_choose(const struct document *doc, const char *name, struct diag_list *diags)
 {
     if (!name)
@@ -156,7 +162,7 @@ elem_id look_choose(const struct document *doc, const char *name, struct diag_li
     for (unsigned depth = 0; found && doc_element(doc, found)->kind == KIND_LOOKGROUP; depth++) {
         if (depth == MAX_GROUPS) {
             diag_add(diags, DIAG_ID_look_cycle, doc_place(doc, found),
-                     text_of(doc, doc_element(doc, found)->name));
+                     text_of(doc, doc_element(doc, found)->name), "as default");
             return 0;
         }
         found = default_of_group(doc, found, diags);

@@ -142,6 +142,9 @@ struct bind_look {
  */
 elem_id look_choose(const struct document *doc, const char *name, struct diag_list *diags);
 
+/* Reports that the default of a <lookgroup>, if it has one, is none of its looks. */
+void look_check_group(const struct document *doc, elem_id group, struct diag_list *diags);
+
 /* The number of looks of a document. */
 uint32_t look_count(const struct document *doc);
 
@@ -152,6 +155,10 @@ uint32_t look_count(const struct document *doc);
 void look_read(struct bind_look *look, const struct library *lib, elem_id element,
                const struct scene *scene, struct arena *arena, struct diag_list *diags);
 void look_finish(struct bind_look *look);
+
+/* facts.c: reports the faults of what a look says beside materials; for 0, of what no look says. */
+void look_check_facts(const struct library *lib, elem_id element, const struct scene *scene,
+                      struct arena *arena, struct diag_list *diags);
 
 /*
  * Builds a look in parts, for what stands at paths beside materials: begins with an empty look;
@@ -191,6 +198,14 @@ static inline bool look_contains(const struct bind_look *look, uint32_t outer, u
 /* assignments.c: the number of a name; adds it. Keeps `text`. */
 uint32_t look_intern_name(struct bind_look *look, const struct slot_name *name, const char *text,
                           size_t len);
+/* Reports an element that has both of two attributes. */
+bool look_has_both(struct bind_look *look, elem_id element, str_id one, str_id other);
+/*
+ * Reports an element that stands nowhere, or at a list of geometry and at a collection: then false.
+ */
+bool look_check_place(struct bind_look *look, elem_id element);
+/* Where the next assignment stands: a list of geometry, or a collection; false after an error. */
+bool look_read_place(struct bind_look *look, struct look_assign *assign);
 /* Reads one <materialassign>, and one <variantassign>. */
 void look_read_assign(struct bind_look *look, elem_id element, uint32_t ordinal);
 void look_read_variant(struct bind_look *look, elem_id element);

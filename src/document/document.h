@@ -646,6 +646,9 @@ void doc_report_outdated(const struct document *doc, elem_id element, struct dia
  */
 void doc_report_loose(const struct document *doc, elem_id element, doc_type type,
                       const char *suggestion, struct diag_list *diags);
+/* Reports an attribute whose value has not the type of attributes.def, such as visible="maybe". */
+void doc_check_attribute(const struct document *doc, elem_id element, str_id name,
+                         struct diag_list *diags);
 /* Reports a text that is no value of the type. */
 void doc_report_value(doc_type type, const char *type_name, const char *text,
                       struct diag_place place, struct diag_list *diags);

@@ -2,6 +2,8 @@
 /* Checks for attributes that MaterialX does not have, or not on this kind of element. */
 #include "document/validate_elements.h"
 
+#include <assert.h>
+
 #define IN(KIND) ((uint64_t)1 << KIND_##KIND)
 #define ANYWHERE UINT64_MAX
 #define PORTS (IN(INPUT) | IN(OUTPUT))
@@ -12,7 +14,13 @@
     (IN(MATERIALASSIGN) | IN(VISIBILITY) | IN(PROPERTYASSIGN) | IN(PROPERTYSETASSIGN))
 
 static const uint64_t kinds_of_word[STR_NUM_WORDS] = {
-#define ATTRIBUTE(name, kinds) [STR_##name] = kinds,
+#define ATTRIBUTE(name, kinds, type) [STR_##name] = kinds,
+#include "document/attributes.def"
+#undef ATTRIBUTE
+};
+
+static const uint8_t types[STR_NUM_WORDS] = {
+#define ATTRIBUTE(name, kinds, type) [STR_##name] = DOC_TYPE_##type,
 #include "document/attributes.def"
 #undef ATTRIBUTE
 };
@@ -52,12 +60,28 @@ static const char *suggest(struct validation *v, enum element_kind kind, str_id 
     return diag_suggest(v->diags, text_of(v, name), names, count);
 }
 
-/* Reports an attribute that has no meaning here. */
+void doc_check_attribute(const struct document *doc, elem_id element, str_id name,
+                         struct diag_list *diags)
+{
+    const struct attribute *attr = doc_attr(doc, element, name);
+    assert(name < STR_NUM_WORDS);
+    if (attr && types[name] != DOC_TYPE_string
+        && !doc_value_is_valid(types[name], str_text(doc->strings, attr->value),
+                               str_len(doc->strings, attr->value)))
+        diag_add(diags, DIAG_ID_attribute_value, doc_attr_place(doc, element, name),
+                 str_text(doc->strings, attr->value), str_text(doc->strings, name),
+                 str_text(doc->strings, doc_element(doc, element)->category),
+                 str_text(doc->strings, doc_type_name(types[name])));
+}
+
+/* Reports an attribute that has no meaning here, or says nothing. */
 static void check_attribute(struct validation *v, elem_id element, str_id name)
 {
     const struct element *e = doc_element(v->doc, element);
     const char *text = text_of(v, name);
     uint64_t kinds = name < STR_NUM_WORDS ? kinds_of_word[name] : 0;
+    if (kinds >> e->kind & 1)
+        doc_check_attribute(v->doc, element, name, v->diags);
     /* a prefix marks the attribute of another program */
     if (kinds >> e->kind & 1 || strchr(text, ':') || is_declared(v, name))
         return;

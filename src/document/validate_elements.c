@@ -28,21 +28,21 @@ static const struct {
                     {STR_type}},
     [KIND_OUTPUT] = {IN(MATERIALX) | IN_INTERFACE | IN(IMPLEMENTATION), true, {0}},
     [KIND_TOKEN] = {IN(MATERIALX) | IN_INTERFACE | IN(VARIANT) | IN(GEOMINFO), true, {STR_type}},
-    [KIND_TOKENDEFAULT] = {IN(MATERIALX), true, {STR_type}},
+    [KIND_TOKENDEFAULT] = {IN(MATERIALX), true, {STR_type, STR_value}},
     [KIND_IMPLEMENTATION] = {IN(MATERIALX), true, {0}},
     [KIND_TYPEDEF] = {IN(MATERIALX), true, {0}},
-    [KIND_MEMBER] = {IN(TYPEDEF), true, {STR_type}},
+    [KIND_MEMBER] = {IN(TYPEDEF), true, {STR_type, STR_value}},
     [KIND_GEOMPROPDEF] = {IN(MATERIALX), true, {STR_type}},
     [KIND_GEOMINFO] = {IN(MATERIALX), true, {0}},
-    [KIND_GEOMPROP] = {IN(GEOMINFO), true, {STR_type}},
+    [KIND_GEOMPROP] = {IN(GEOMINFO), true, {STR_type, STR_value}},
     [KIND_GEOMATTR] = {IN(GEOMINFO), true, {STR_type}},
     [KIND_COLLECTION] = {IN(MATERIALX), true, {0}},
     [KIND_LOOK] = {IN(MATERIALX), true, {0}},
     [KIND_LOOKGROUP] = {IN(MATERIALX), true, {STR_looks}},
     [KIND_MATERIALASSIGN] = {IN(LOOK), false, {0}},
-    [KIND_PROPERTY] = {IN(PROPERTYSET), true, {STR_type}},
+    [KIND_PROPERTY] = {IN(PROPERTYSET), true, {STR_type, STR_value}},
     [KIND_PROPERTYSET] = {IN(MATERIALX), true, {0}},
-    [KIND_PROPERTYASSIGN] = {IN(LOOK), false, {STR_property, STR_type}},
+    [KIND_PROPERTYASSIGN] = {IN(LOOK), false, {STR_property, STR_type, STR_value}},
     [KIND_PROPERTYSETASSIGN] = {IN(LOOK), false, {STR_propertyset}},
     [KIND_VISIBILITY] = {IN(LOOK), false, {0}},
     [KIND_VARIANT] = {IN(VARIANTSET), true, {0}},
@@ -54,6 +54,15 @@ static const struct {
     [KIND_TARGETDEF] = {IN(MATERIALX), true, {0}},
     [KIND_ATTRIBUTEDEF] = {IN(MATERIALX), true, {STR_attrname, STR_type}},
     [KIND_BACKDROP] = {IN(MATERIALX) | IN(NODEGRAPH), true, {0}},
+};
+
+/* One of these is required, and the first one is what most need. */
+static const struct {
+    enum element_kind kind;
+    str_id either[2];
+} alternatives[] = {
+    {KIND_IMPLEMENTATION, {STR_nodedef, STR_nodegraph}},
+    {KIND_COLLECTION, {STR_includegeom, STR_includecollection}},
 };
 
 static const char *text_of(const struct validation *v, str_id id)
@@ -95,14 +104,18 @@ static const struct outdated *outdated(const struct document *doc, elem_id eleme
     return NULL;
 }
 
+static bool has_outdated(const struct document *doc, elem_id element)
+{
+    for (elem_id e = doc_element(doc, element)->first_child; e; e = doc_element(doc, e)->next)
+        if (outdated(doc, e))
+            return true;
+    return false;
+}
+
 /* A library may define a node <material>, which has a type and no <shaderref>. */
 static bool may_be_node(const struct document *doc, elem_id element)
 {
-    bool has_outdated = false;
-    for (elem_id e = doc_element(doc, element)->first_child; e && !has_outdated;
-         e = doc_element(doc, e)->next)
-        has_outdated = outdated(doc, e) != NULL;
-    return doc_attr(doc, element, STR_type) && !has_outdated;
+    return doc_attr(doc, element, STR_type) && !has_outdated(doc, element);
 }
 
 bool doc_is_outdated(const struct document *doc, elem_id element)
@@ -163,10 +176,13 @@ static void check_required(struct validation *v, elem_id element)
         if (!doc_attr(v->doc, element, rules[e->kind].required[i]))
             diag_add(v->diags, DIAG_ID_missing_attribute, doc_place(v->doc, element),
                      text_of(v, e->category), text_of(v, rules[e->kind].required[i]));
-    if (e->kind == KIND_IMPLEMENTATION && !doc_attr(v->doc, element, STR_nodedef)
-        && !doc_attr(v->doc, element, STR_nodegraph))
-        diag_add(v->diags, DIAG_ID_missing_attribute, doc_place(v->doc, element),
-                 text_of(v, e->category), "nodedef");
+    for (size_t i = 0; i < sizeof alternatives / sizeof *alternatives; i++) {
+        const str_id *either = alternatives[i].either;
+        if (e->kind == alternatives[i].kind && !doc_attr(v->doc, element, either[0])
+            && !doc_attr(v->doc, element, either[1]) && !has_outdated(v->doc, element))
+            diag_add(v->diags, DIAG_ID_missing_attribute, doc_place(v->doc, element),
+                     text_of(v, e->category), text_of(v, either[0]));
+    }
     /* The outputs of an implementation have the types of the definition's outputs. */
     if (e->kind == KIND_OUTPUT && !doc_attr(v->doc, element, STR_type)
         && doc_element(v->doc, e->parent)->kind != KIND_IMPLEMENTATION)

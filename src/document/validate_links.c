@@ -17,7 +17,8 @@ static const char *target_of(const struct validation *v, const struct doc_naming
 #include "document/kinds.def"
 #undef KIND
     };
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+    bool may_be_node = naming->targets >> KIND_NODE & 1 && naming->attr != STR_material;
+    for (size_t i = 0; i < sizeof words / sizeof *words && !may_be_node; i++)
         if (words[i] && naming->targets >> i & 1)
             return text_of(v, naming->attr == STR_material ? STR_material : words[i]);
     return "node";
@@ -59,13 +60,13 @@ static void check_inheritance(struct validation *v, elem_id element, elem_id *ma
 {
     const struct document *doc = v->doc;
     const struct element *start = doc_element(doc, element);
-    bool by_name =
-        start->kind == KIND_NODEDEF || start->kind == KIND_LOOK || start->kind == KIND_TARGETDEF;
+    bool by_name = start->kind == KIND_NODEDEF || start->kind == KIND_LOOK
+                   || start->kind == KIND_TARGETDEF || start->kind == KIND_TYPEDEF;
     elem_id e = element;
     while (by_name && e >= doc->first_element && !marks[e - doc->first_element]) {
         marks[e - doc->first_element] = element;
         str_id base = doc_attr_value(doc, e, STR_inherit);
-        if (!base)
+        if (!base || (start->kind == KIND_TYPEDEF && doc_type_of(base)))
             return;
         elem_id next = doc_top_level(doc, (enum element_kind)start->kind, base);
         if (!next) {
@@ -148,6 +149,74 @@ static void check_cycles_from(struct walk *w, elem_id start)
     }
 }
 
+/* ---- Elements that contain others of their kind by a list of names ---- */
+
+static const struct nesting {
+    enum element_kind kind;
+    str_id attr;
+} nestings[] = {{KIND_COLLECTION, STR_includecollection}, {KIND_LOOKGROUP, STR_looks}};
+
+struct container {
+    elem_id element;
+    const char *rest; /* of its list */
+};
+
+struct containers {
+    struct container *items;
+    uint32_t len, cap;
+};
+
+static void report_nesting(struct validation *v, const struct nesting *nesting,
+                           const struct containers *path, elem_id again)
+{
+    struct text names;
+    text_init(&names, v->arena);
+    uint32_t i = path->len;
+    while (path->items[--i].element != again)
+        continue;
+    for (; i < path->len; i++)
+        text_fmt(&names, "%s -> ", text_of(v, doc_element(v->doc, path->items[i].element)->name));
+    const char *name = text_of(v, doc_element(v->doc, again)->name);
+    text_str(&names, name);
+    struct diag_place place = doc_attr_place(v->doc, vec_last(path).element, nesting->attr);
+    if (nesting->kind == KIND_COLLECTION)
+        diag_add(v->diags, DIAG_ID_collection_cycle, place, name, text_cstr(&names));
+    else
+        diag_add(v->diags, DIAG_ID_look_cycle, place, name, "among its looks");
+}
+
+static void open_container(struct walk *w, const struct nesting *nesting, struct containers *path,
+                           elem_id element)
+{
+    uint8_t *state = &w->states[element - w->v->doc->first_element];
+    if (*state == ON_PATH)
+        report_nesting(w->v, nesting, path, element);
+    if (*state != NEW)
+        return;
+    *state = ON_PATH;
+    const char *list = text_of(w->v, doc_attr_value(w->v->doc, element, nesting->attr));
+    vec_push(w->v->arena, path, (struct container){element, list});
+}
+
+static void check_nesting(struct walk *w, const struct nesting *nesting, elem_id start)
+{
+    const struct document *doc = w->v->doc;
+    struct containers path = {0};
+    open_container(w, nesting, &path, start);
+    while (path.len) {
+        size_t len;
+        const char *name = doc_next_name(&vec_last(&path).rest, &len);
+        if (!len) {
+            w->states[vec_pop(&path).element - doc->first_element] = DONE;
+            continue;
+        }
+        str_id id = str_find(doc->strings, name, len);
+        elem_id inner = id ? doc_top_level(doc, nesting->kind, id) : 0;
+        if (inner >= doc->first_element)
+            open_container(w, nesting, &path, inner);
+    }
+}
+
 void validate_links(struct validation *v)
 {
     const struct document *doc = v->doc;
@@ -159,5 +228,8 @@ void validate_links(struct validation *v)
         check_inheritance(v, e, marks);
         if (kind == KIND_NODE)
             check_cycles_from(&walk, e);
+        for (size_t i = 0; i < sizeof nestings / sizeof *nestings; i++)
+            if (kind == nestings[i].kind)
+                check_nesting(&walk, &nestings[i], e);
     }
 }

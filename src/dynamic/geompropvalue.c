@@ -65,8 +65,13 @@ static const struct geomprop *find_computed(const mxg_build *build, const char *
     const struct library *lib = build->b->lib;
     str_id id = str_find(&lib->strings, name, strlen(name));
     const struct geomprop *prop = id ? library_geomprop(lib, id) : NULL;
-    bool is_computed = prop && prop->nodedef != LIBRARY_NONE;
-    return is_computed && prop->type == build->ports[build->def->num_inputs].type ? prop : NULL;
+    if (!prop || prop->nodedef == LIBRARY_NONE)
+        return NULL;
+    if (prop->type == build->ports[build->def->num_inputs].type)
+        return prop;
+    warn(build, name,
+         "its definition has another type; data of the geometry with this name are read");
+    return NULL;
 }
 
 bool dynamic_geomprop(void *user_data, mxg_build *build, mxg_ref *results)

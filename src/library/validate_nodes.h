@@ -34,6 +34,11 @@ void validate_attributes_of(struct validate *v, elem_id element);
 void validate_uniform(struct validate *v, elem_id node, const struct port *port,
                       const struct binding *binding);
 void validate_declaration(struct validate *v, elem_id element);
+/* Reports a fault of a declaration: "<typedef> 'half' has …". */
+void validate_report(struct validate *v, elem_id element, const char *what);
+/* Strings, filenames and arrays, which do not vary over a surface. */
+bool validate_is_uniform_type(doc_type type);
+bool validate_is_among(const char *word, const char *const *words, size_t count);
 /* The spaces of a change of space exist; its definition, as in MaterialX, has no list of them. */
 void validate_space(struct validate *v, elem_id node, const struct port *port, elem_id input);
 /* Reports two implementations of one definition for the same target. */
@@ -45,5 +50,13 @@ void validate_unit(struct validate *v, elem_id node, const struct port *port, el
 void validate_type_of_meaning(struct validate *v, elem_id element);
 /* An input that reads a node says no colour space and no unit, except of a file. */
 void validate_connected_meaning(struct validate *v, const struct port *port, elem_id input);
+
+/*
+ * validate_properties.c: a <geompropdef>; the type of what gives or reads the property of a name;
+ * a node that reads a property.
+ */
+void validate_geompropdef(struct validate *v, elem_id element);
+void validate_type_of_property(struct validate *v, elem_id element, str_id name);
+void validate_reader(struct validate *v, elem_id node);
 
 #endif

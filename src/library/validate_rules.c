@@ -18,7 +18,7 @@ static bool is_array(doc_type type)
 }
 
 /* "Inputs": strings, filenames and arrays do not vary over a surface. */
-static bool is_uniform_type(doc_type type)
+bool validate_is_uniform_type(doc_type type)
 {
     return type == DOC_TYPE_string || type == DOC_TYPE_filename || is_array(type);
 }
@@ -70,13 +70,13 @@ static elem_id varying_interface(const struct validate *v, const struct binding 
     if (input < 0)
         return 0;
     const struct port *port = &library_ports(v->lib, nodedef, NULL)[input];
-    return port->flags & PORT_UNIFORM || is_uniform_type(port->type) ? 0 : port->element;
+    return port->flags & PORT_UNIFORM || validate_is_uniform_type(port->type) ? 0 : port->element;
 }
 
 void validate_uniform(struct validate *v, elem_id node, const struct port *port,
                       const struct binding *binding)
 {
-    if (!(port->flags & PORT_UNIFORM || is_uniform_type(port->type)))
+    if (!(port->flags & PORT_UNIFORM || validate_is_uniform_type(port->type)))
         return;
     elem_id varies = 0;
     if (binding->kind == BIND_INTERFACE)
@@ -98,7 +98,7 @@ void validate_uniform(struct validate *v, elem_id node, const struct port *port,
 
 /* ---- Spaces ---- */
 
-static bool is_among(const char *word, const char *const *words, size_t count)
+bool validate_is_among(const char *word, const char *const *words, size_t count)
 {
     for (size_t i = 0; i < count; i++)
         if (strcmp(words[i], word) == 0)
@@ -113,15 +113,15 @@ void validate_space(struct validate *v, elem_id node, const struct port *port, e
                              *const spaces[] = {"model", "object", "world"};
     const char *category = text_of(v, doc_element(v->doc, node)->category),
                *space = text_of(v, doc_attr_value(v->doc, input, STR_value));
-    if (is_among(text_of(v, port->name), inputs, 2) && is_among(category, nodes, 3) && *space
-        && !is_among(space, spaces, 3))
+    if (validate_is_among(text_of(v, port->name), inputs, 2)
+        && validate_is_among(category, nodes, 3) && *space && !validate_is_among(space, spaces, 3))
         diag_add(v->diags, DIAG_ID_unknown_space, doc_attr_place(v->doc, input, STR_value), space,
                  category, diag_suggest(v->diags, space, spaces, 3));
 }
 
 /* ---- Declarations ---- */
 
-static void report(struct validate *v, elem_id element, const char *what)
+void validate_report(struct validate *v, elem_id element, const char *what)
 {
     const struct element *e = doc_element(v->doc, element);
     diag_add(v->diags, DIAG_ID_bad_definition, doc_place(v->doc, element), text_of(v, e->category),
@@ -145,14 +145,15 @@ static void check_declared_input(struct validate *v, elem_id input)
     doc_type type = library_type(v->lib, doc_attr_value(v->doc, input, STR_type));
     bool is_uniform = doc_attr_is_true(v->doc, input, STR_uniform),
          takes_geometry = has(v, input, STR_defaultgeomprop);
-    if (is_uniform_type(type) && !is_uniform)
-        report(v, input, "has a type that cannot vary over a surface; write uniform=\"true\"");
+    if (validate_is_uniform_type(type) && !is_uniform)
+        validate_report(v, input,
+                        "has a type that cannot vary over a surface; write uniform=\"true\"");
     if (takes_geometry && is_uniform)
-        report(v, input, "is uniform, but its defaultgeomprop varies");
+        validate_report(v, input, "is uniform, but its defaultgeomprop varies");
     else if (takes_geometry && type != DOC_TYPE_vector2 && type != DOC_TYPE_vector3)
-        report(v, input, "has a defaultgeomprop, which needs the type vector2 or vector3");
+        validate_report(v, input, "has a defaultgeomprop, which needs the type vector2 or vector3");
     else if (takes_geometry && has(v, input, STR_value))
-        report(v, input, "has a value and a defaultgeomprop; keep one of them");
+        validate_report(v, input, "has a value and a defaultgeomprop; keep one of them");
     else if (takes_geometry)
         library_default_geomprop(v->lib, input, type, v->diags);
 }
@@ -163,12 +164,14 @@ static void check_declared_output(struct validate *v, elem_id nodedef, elem_id o
     str_id name = doc_attr_value(v->doc, output, STR_defaultinput);
     elem_id input = name ? doc_child_of_kind(v->doc, nodedef, KIND_INPUT, name) : 0;
     if (is_connected(v, output))
-        report(v, output, "belongs to a nodedef and cannot be connected");
+        validate_report(v, output, "belongs to a nodedef and cannot be connected");
+    if (is_array(library_type(v->lib, doc_attr_value(v->doc, output, STR_type))))
+        validate_report(v, output, "has the type of an array, which no node has as an output");
     if (input
         && doc_attr_value(v->doc, input, STR_type) != doc_attr_value(v->doc, output, STR_type))
-        report(v, output, "has a defaultinput of another type");
+        validate_report(v, output, "has a defaultinput of another type");
     else if (name && !input && !has(v, nodedef, STR_inherit))
-        report(v, output, "has a defaultinput that names no input");
+        validate_report(v, output, "has a defaultinput that names no input");
 }
 
 static void check_nodedef(struct validate *v, elem_id nodedef)
@@ -189,18 +192,20 @@ static void check_functional_graph(struct validate *v, elem_id graph, uint32_t i
     const struct port *outputs = library_ports(v->lib, id, NULL) + def->num_inputs;
     for (elem_id e = doc_element(v->doc, graph)->first_child; e; e = doc_element(v->doc, e)->next)
         if (doc_element(v->doc, e)->kind == KIND_INPUT) {
-            report(v, e,
-                   "is ignored, because the nodegraph takes its inputs from the nodedef that it "
-                   "implements");
+            validate_report(
+                v, e,
+                "is ignored, because the nodegraph takes its inputs from the nodedef that it "
+                "implements");
             break;
         }
     for (unsigned i = 0; i < def->num_outputs; i++) {
         elem_id output = library_inner_output(v->lib, id, i, v->doc, graph);
         if (!output)
-            report(v, graph, "lacks an output of the nodedef that it implements");
+            validate_report(v, graph, "lacks an output of the nodedef that it implements");
         else if (library_type(v->lib, doc_attr_value(v->doc, output, STR_type)) != outputs[i].type)
-            report(v, output,
-                   "differs in type from the output of the nodedef that its nodegraph implements");
+            validate_report(
+                v, output,
+                "differs in type from the output of the nodedef that its nodegraph implements");
     }
 }
 
@@ -212,23 +217,7 @@ static void check_graph(struct validate *v, elem_id graph)
     for (elem_id e = doc_element(v->doc, graph)->first_child; e; e = doc_element(v->doc, e)->next)
         if (doc_element(v->doc, e)->kind == KIND_OUTPUT && !is_connected(v, e)
             && !has(v, e, STR_value))
-            report(v, e, "is not connected");
-}
-
-/* "Custom Geometric Properties" */
-static void check_geompropdef(struct validate *v, elem_id element)
-{
-    doc_type type = library_type(v->lib, doc_attr_value(v->doc, element, STR_type));
-    bool is_uniform = doc_attr_is_true(v->doc, element, STR_uniform),
-         is_standard = has(v, element, STR_geomprop);
-    bool is_placed = has(v, element, STR_space) || has(v, element, STR_index);
-    if (is_uniform_type(type) && !is_uniform)
-        report(v, element, "has a type that cannot vary over a surface; write uniform=\"true\"");
-    if (is_uniform && (is_standard || is_placed))
-        report(v, element, "is uniform and cannot have a geomprop, space or index");
-    else if (is_placed && !is_standard)
-        report(v, element,
-               "has a space or index, which need a standard property; name it with geomprop");
+            validate_report(v, e, "is not connected");
 }
 
 static void check_unit_scale(struct validate *v, elem_id unit)
@@ -239,7 +228,19 @@ static void check_unit_scale(struct validate *v, elem_id unit)
                      && doc_parse_value(DOC_TYPE_float, text_of(v, text),
                                         str_len(&v->lib->strings, text), NULL, &scale);
     if (text && (!is_number || !(scale.w[0].f > 0.0f)))
-        report(v, unit, "needs a scale above 0");
+        validate_report(v, unit, "needs a scale above 0");
+}
+
+/* "Custom Data Types" */
+static void check_typedef(struct validate *v, elem_id element)
+{
+    static const char *const semantics[] = {"default", "color", "shader", "material"};
+    const char *semantic = text_of(v, doc_attr_value(v->doc, element, STR_semantic));
+    if (doc_type_of(doc_element(v->doc, element)->name))
+        validate_report(v, element, "has the name of a standard type");
+    if (*semantic && !validate_is_among(semantic, semantics, sizeof semantics / sizeof *semantics))
+        validate_report(v, element,
+                        "has an unknown semantic; expected default, color, shader or material");
 }
 
 void validate_declaration(struct validate *v, elem_id element)
@@ -248,19 +249,18 @@ void validate_declaration(struct validate *v, elem_id element)
     switch (e->kind) {
     case KIND_NODEDEF: check_nodedef(v, element); break;
     case KIND_NODEGRAPH: check_graph(v, element); break;
-    case KIND_GEOMPROPDEF: check_geompropdef(v, element); break;
+    case KIND_GEOMPROPDEF: validate_geompropdef(v, element); break;
+    case KIND_GEOMPROP: validate_type_of_property(v, element, e->name); break;
+    case KIND_NODE: validate_reader(v, element); break;
     case KIND_IMPLEMENTATION:
         if (has(v, element, STR_file) && has(v, element, STR_sourcecode))
-            report(v, element, "has a file and sourcecode; keep one of them");
+            validate_report(v, element, "has a file and sourcecode; keep one of them");
         break;
-    case KIND_TYPEDEF:
-        if (doc_type_of(e->name))
-            report(v, element, "has the name of a standard type");
-        break;
+    case KIND_TYPEDEF: check_typedef(v, element); break;
     case KIND_UNIT: check_unit_scale(v, element); break;
     case KIND_INPUT:
         if (doc_element(v->doc, e->parent)->kind == KIND_VARIANT && is_connected(v, element))
-            report(v, element, "belongs to a variant and needs a value, not a connection");
+            validate_report(v, element, "belongs to a variant and needs a value, not a connection");
         break;
     default: break;
     }
