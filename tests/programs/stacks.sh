@@ -311,10 +311,11 @@ check 'a default of another token counts everywhere' fact /a/c tokens Part lid
 check 'a unit of another type is told' eval 'sed "s/unit=.meter. unittype=.distance./unit=\"degree\" unittype=\"distance\"/" look.mtlx >degrees.mtlx; "$mxgen" degrees.mtlx --stage stage.txt --look L -t glsl -o degrees.d 2>&1 | grep -q "degree.*\[unit-of-other-type\]"'
 check 'a default of tokens inside of a <geominfo> is misplaced' eval 'sed "s|<token name=.Asset.|<tokendefault name=\"Asset\"|" look.mtlx >inner.mtlx; "$mxgen" validate inner.mtlx 2>&1 | grep -q "<tokendefault> is not allowed in <geominfo> \[misplaced-element\]"'
 # Every name of geometry has the prefix.
-sed 's|  <propertyset name|  <geominfo name="p1" geomprefix="/a/" geom="c"><geomprop name="light" type="geomname" value="key"/><geomprop name="lights" type="geomnamearray" value="key,{b,d}/rim"/></geominfo>\n&|; s|<propertysetassign|<visibility name="w" geomprefix="/a/" geom="c" viewergeom="key , b/rim" vistype="shadow" visible="false"/>&|' look.mtlx >prefixes.mtlx
+sed 's|  <propertyset name|  <geominfo name="p1" geomprefix="/a/" geom="c"><geomprop name="light" type="geomname" value="key"/><geomprop name="lights" type="geomnamearray" value="key,{b,d}/rim"/></geominfo>\n&|; s|<propertysetassign|<visibility name="w" geomprefix="/a/" geom="c" viewergeom="key , b/rim" vistype="shadow" visible="false"/><visibility name="x" geom="/a/c" viewercollection="lamps" vistype="secondary"/>&|; s|<look |<collection name="lamps" includegeom="/a/b"/>\n&|' look.mtlx >prefixes.mtlx
 cp look.mtlx before.mtlx
 cp prefixes.mtlx look.mtlx
 check 'geometry with prefixes is generated' exits 0 stacks --look L
+check 'viewers are a collection, and visible is the default' fact /a/c visibility secondary true '"collection:lamps"'
 check 'a viewer has the prefix' fact /a/c visibility shadow false '"/a/key, /a/b/rim"'
 check 'a geometry as a value has the prefix' fact /a/c geomprops light /a/key
 check 'so have several' fact /a/c geomprops lights '/a/key, /a/{b,d}/rim'
