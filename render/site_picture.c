@@ -2,6 +2,7 @@
 #include "render/site_picture.h"
 
 #include "program/memory.h"
+#include "program/scene_file.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -58,17 +59,62 @@ static void group(const struct site *site, const mxg_document *document, const c
     }
 }
 
+/*
+ * A visibility for all kinds of rays counts before that for the camera, unless this one stands at a
+ * deeper primitive, which has a higher number.
+ */
 bool site_is_visible(const mxg_bindings *bindings, uint32_t primitive)
 {
-    bool is_visible = true;
+    mxg_fact all = {.value = ""}, camera = {.value = ""};
     for (uint32_t i = 0; i < mxg_bindings_num_facts(bindings, primitive); ++i) {
         mxg_fact fact = {sizeof fact};
         mxg_bindings_fact(bindings, primitive, i, &fact);
-        bool is_of_camera = !*fact.name || strcmp(fact.name, "camera") == 0;
-        if (fact.kind == MXG_FACT_VISIBILITY && is_of_camera && !*fact.target)
-            is_visible &= strcmp(fact.value, "false") != 0;
+        bool is_for_all = fact.kind == MXG_FACT_VISIBILITY && !*fact.target;
+        if (is_for_all && !*fact.name)
+            all = fact;
+        else if (is_for_all && strcmp(fact.name, "camera") == 0)
+            camera = fact;
     }
-    return is_visible;
+    bool is_hidden = strcmp(camera.value, "false") == 0,
+         is_deeper = !*all.value || all.from + 1 < camera.from + 1; /* MXG_NONE + 1 is 0 */
+    return strcmp(all.value, "false") != 0 && !(is_hidden && is_deeper);
+}
+
+/* True if pictures do not follow a fact: they see and light all, from both sides. */
+static bool is_unread(const mxg_fact *fact)
+{
+    bool is_true = strcmp(fact->value, "true") == 0;
+    if (fact->kind == MXG_FACT_VISIBILITY)
+        return !is_true && (*fact->target || (*fact->name && strcmp(fact->name, "camera") != 0));
+    return fact->kind == MXG_FACT_PROPERTY && !*fact->target
+           && strcmp(fact->name, is_true ? "matte" : "twosided") == 0;
+}
+
+/* Tells each kind of them once, of the first primitive that has it. */
+static void tell_unread(struct report *report, const struct site *site,
+                        const mxg_bindings *bindings, uint32_t primitive, struct name_table *told)
+{
+    for (uint32_t i = 0; i < mxg_bindings_num_facts(bindings, primitive); ++i) {
+        mxg_fact fact = {sizeof fact};
+        mxg_bindings_fact(bindings, primitive, i, &fact);
+        if (!is_unread(&fact))
+            continue;
+        bool is_new, is_property = fact.kind == MXG_FACT_PROPERTY;
+        const char *kind = is_property    ? "property"
+                           : *fact.target ? "viewer of a visibility"
+                                          : "visibility",
+                   *word = *fact.target ? fact.target : fact.name;
+        char *key = cli_format("%s %s", kind, word);
+        names_add(told, key, &is_new);
+        free(key);
+        if (!is_new)
+            continue;
+        char *path = scene_file_path(site->scene, primitive);
+        report_warning(report, "look-unread",
+                       "'%s' (%s:%u): the %s '%s' of the look has no effect on the picture", path,
+                       fact.file, fact.line, kind, word);
+        free(path);
+    }
 }
 
 bool site_subjects_make(struct painter *painter, const struct site *site,
@@ -89,12 +135,15 @@ bool site_subjects_make(struct painter *painter, const struct site *site,
     out->items = memory_alloc(site->num_objects * sizeof *out->items);
     out->objects = memory_alloc(site->num_objects * sizeof *out->objects);
     uint32_t num = 0;
+    struct name_table told = {0};
     for (uint32_t i = 0; i < site->num_objects; ++i) {
         uint32_t primitive = site_bound_primitive(site, &site->objects[i]);
+        tell_unread(report, site, out->bindings, primitive, &told);
         if (site_is_visible(out->bindings, primitive))
             dressed[num++] = (struct dressed){mxg_bindings_stack(out->bindings, primitive),
                                               site_tokens(&out->facts, primitive), i};
     }
+    names_finish(&told);
     qsort(dressed, num, sizeof *dressed, compare_dressed);
     group(site, document, path, dressed, num, out);
     if (!num)

@@ -210,6 +210,18 @@ check 'a stage with visibility is drawn' exits 0 "$render" hidden.mtlx --stage s
 check 'an invisible primitive is not drawn' reads hidden.exr A 0.5 0.9 0 0
 check 'a stage with visibility is traced' exits 0 "$render" hidden.mtlx --stage stage.usda --camera /a/down -q -s 16 --look L --path-trace --paths 4 -o hidden.exr
 check 'an invisible primitive is not traced' reads hidden.exr A 0.5 0.9 0 0
+see() { sed "s|<look name=\"L\">|&$1|" look.mtlx >seen.mtlx; exits 0 "$render" seen.mtlx --stage stage.usda --camera /a/down -s 16 --look L -o hidden.exr; }
+unseen='<visibility geom="/a/floor" vistype="camera" visible="false"/>'
+check 'a look without visibility' see ''
+cp hidden.exr plain.exr
+check 'a visibility for all beside one for the camera' see "$unseen<visibility geom=\"/a/floor\"/>"
+check 'that for all counts' cmp plain.exr hidden.exr
+check 'a visibility for all above one for the camera' see "$unseen<visibility geom=\"/\"/>"
+check 'that for the camera counts' reads hidden.exr A 0.5 0.9 0 0
+check 'a look with what no picture follows' see '<visibility geom="/a" vistype="shadow" visible="false"/><visibility geom="/a" vistype="camera" viewergeom="/cam" visible="false"/><propertyassign property="matte" type="boolean" value="true" geom="/a"/>'
+for word in "visibility 'shadow'" "viewer of a visibility '/cam'" "property 'matte'"; do
+    check "the $word is told once" eval '[ "$(grep -c "the $word of the look has no effect.*\[look-unread\]" err)" = 1 ]'
+done
 check 'a stage without a visible primitive is an error' eval 'sed -i "s|geom=\"/a/floor\" vistype=\"camera\"|geom=\"/\"|" hidden.mtlx; exits 1 "$render" hidden.mtlx --stage stage.usda -s 16 --look L -o no.exr && grep -q "empty-mesh" err'
 
 # More AOVs than attachments: drawn again and again.
