@@ -9,7 +9,7 @@ here=$(cd "$(dirname "$0")" && pwd)
 . "$here/common.sh"
 
 # Files that an example cannot contain; tests/diag/elsewhere.txt names their tests.
-without_example='bake-look budget-unjudged look-part occlusion-left-out needed-by fault-of-source closures-not-stored too-many-slabs code-error code-fault removed-reference bad-geometry not-drawn light-left-out light-unread missing-primvar primvar-type unknown-camera usda-loss usda-shader inherit-depth network-limit blur-left-out film-left-out bad-pixels check-crashed check-failed check-memory check-timeout file-too-large graph-depth output-limit too-many-ports too-many-variants xml-attributes render-failed shader-invalid
+without_example='bake-look budget-unjudged look-part occlusion-left-out needed-by fault-of-source closures-not-stored too-many-slabs code-error code-fault removed-reference bad-geometry not-drawn light-left-out light-unread look-unread missing-primvar primvar-type unknown-camera usda-loss usda-shader inherit-depth network-limit blur-left-out film-left-out bad-pixels check-crashed check-failed check-memory check-timeout file-too-large graph-depth output-limit too-many-ports too-many-variants xml-attributes render-failed shader-invalid
 failed no-renderer no-device device-lost device-memory size-limit bad-mesh empty-mesh bad-environment bad-shader no-look no-uniform no-picture translation-error nothing-to-bake bake-view bake-mesh bake-type bake-clamped bake-output bake-degenerate bake-overlap export-loss export-clamped export-space export-tiles import-file import-loss no-texcoords usda-size usd-flatten'
 
 # The messages about an example: ids of all messages, with the notes' too.
