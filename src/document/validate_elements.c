@@ -28,21 +28,21 @@ static const struct {
                     {STR_type}},
     [KIND_OUTPUT] = {IN(MATERIALX) | IN_INTERFACE | IN(IMPLEMENTATION), true, {0}},
     [KIND_TOKEN] = {IN(MATERIALX) | IN_INTERFACE | IN(VARIANT) | IN(GEOMINFO), true, {STR_type}},
-    [KIND_TOKENDEFAULT] = {IN(MATERIALX), true, {STR_type, STR_value}},
+    [KIND_TOKENDEFAULT] = {IN(MATERIALX), true, {STR_type}},
     [KIND_IMPLEMENTATION] = {IN(MATERIALX), true, {0}},
     [KIND_TYPEDEF] = {IN(MATERIALX), true, {0}},
-    [KIND_MEMBER] = {IN(TYPEDEF), true, {STR_type, STR_value}},
+    [KIND_MEMBER] = {IN(TYPEDEF), true, {STR_type}},
     [KIND_GEOMPROPDEF] = {IN(MATERIALX), true, {STR_type}},
     [KIND_GEOMINFO] = {IN(MATERIALX), true, {0}},
-    [KIND_GEOMPROP] = {IN(GEOMINFO), true, {STR_type, STR_value}},
+    [KIND_GEOMPROP] = {IN(GEOMINFO), true, {STR_type}},
     [KIND_GEOMATTR] = {IN(GEOMINFO), true, {STR_type}},
     [KIND_COLLECTION] = {IN(MATERIALX), true, {0}},
     [KIND_LOOK] = {IN(MATERIALX), true, {0}},
     [KIND_LOOKGROUP] = {IN(MATERIALX), true, {STR_looks}},
     [KIND_MATERIALASSIGN] = {IN(LOOK), false, {0}},
-    [KIND_PROPERTY] = {IN(PROPERTYSET), true, {STR_type, STR_value}},
+    [KIND_PROPERTY] = {IN(PROPERTYSET), true, {STR_type}},
     [KIND_PROPERTYSET] = {IN(MATERIALX), true, {0}},
-    [KIND_PROPERTYASSIGN] = {IN(LOOK), false, {STR_property, STR_type, STR_value}},
+    [KIND_PROPERTYASSIGN] = {IN(LOOK), false, {STR_property, STR_type}},
     [KIND_PROPERTYSETASSIGN] = {IN(LOOK), false, {STR_propertyset}},
     [KIND_VISIBILITY] = {IN(LOOK), false, {0}},
     [KIND_VARIANT] = {IN(VARIANTSET), true, {0}},
@@ -56,13 +56,14 @@ static const struct {
     [KIND_BACKDROP] = {IN(MATERIALX) | IN(NODEGRAPH), true, {0}},
 };
 
-/* One of these is required, and the first one is what most need. */
+/* Without one of these attributes an element is empty, or 0. The first is that which most have. */
 static const struct {
     enum element_kind kind;
     str_id either[2];
-} alternatives[] = {
-    {KIND_IMPLEMENTATION, {STR_nodedef, STR_nodegraph}},
-    {KIND_COLLECTION, {STR_includegeom, STR_includecollection}},
+} purposes[] = {
+    {KIND_TOKENDEFAULT, {STR_value}},   {KIND_MEMBER, {STR_value}},
+    {KIND_GEOMPROP, {STR_value}},       {KIND_PROPERTY, {STR_value}},
+    {KIND_PROPERTYASSIGN, {STR_value}}, {KIND_COLLECTION, {STR_includegeom, STR_includecollection}},
 };
 
 static const char *text_of(const struct validation *v, str_id id)
@@ -176,11 +177,15 @@ static void check_required(struct validation *v, elem_id element)
         if (!doc_attr(v->doc, element, rules[e->kind].required[i]))
             diag_add(v->diags, DIAG_ID_missing_attribute, doc_place(v->doc, element),
                      text_of(v, e->category), text_of(v, rules[e->kind].required[i]));
-    for (size_t i = 0; i < sizeof alternatives / sizeof *alternatives; i++) {
-        const str_id *either = alternatives[i].either;
-        if (e->kind == alternatives[i].kind && !doc_attr(v->doc, element, either[0])
+    if (e->kind == KIND_IMPLEMENTATION && !doc_attr(v->doc, element, STR_nodedef)
+        && !doc_attr(v->doc, element, STR_nodegraph))
+        diag_add(v->diags, DIAG_ID_missing_attribute, doc_place(v->doc, element),
+                 text_of(v, e->category), "nodedef");
+    for (size_t i = 0; i < sizeof purposes / sizeof *purposes; i++) {
+        const str_id *either = purposes[i].either;
+        if (e->kind == purposes[i].kind && !doc_attr(v->doc, element, either[0])
             && !doc_attr(v->doc, element, either[1]) && !has_outdated(v->doc, element))
-            diag_add(v->diags, DIAG_ID_missing_attribute, doc_place(v->doc, element),
+            diag_add(v->diags, DIAG_ID_incomplete, doc_place(v->doc, element),
                      text_of(v, e->category), text_of(v, either[0]));
     }
     /* The outputs of an implementation have the types of the definition's outputs. */

@@ -36,8 +36,9 @@ static void check_standard(struct validate *v, elem_id element)
                *space = text_of(v, doc_attr_value(v->doc, element, STR_space)),
                *index = text_of(v, doc_attr_value(v->doc, element, STR_index));
     if (!validate_is_among(name, standard, num)) {
-        diag_add(v->diags, DIAG_ID_unknown_geomprop, doc_attr_place(v->doc, element, STR_geomprop),
-                 name, diag_suggest(v->diags, name, standard, num));
+        validate_report(v, element,
+                        "has a geomprop that is no standard property; expected position, normal, "
+                        "tangent, bitangent, texcoord, geomcolor or viewdirection");
         return;
     }
     const struct geomprop *prop = library_geomprop(v->lib, doc_element(v->doc, element)->name);

@@ -46,7 +46,7 @@ check 'a large error is accepted' exits 0 "$mxgen" "$examples/slab_glints.mtlx" 
 check '--max-error keeps glints' eval '! says "no glints"'
 
 # Features
-check 'an unknown feature fails' exits 1 "$mxgen" "$slabs" --features -glimmer -o made
+check 'an unknown feature is wrong usage' exits 2 "$mxgen" "$slabs" --features -glimmer -o made
 check 'the error lists the features' says "-glints, -lut, -fuzz"
 sed 's/<slab name="dust" type="BSDF">/&<input name="glint_density" type="float" value="3"\/>/; s/value="0, 0, 0"/value="0.04, 0.04, 0.04"/' "$slabs" >glints.mtlx
 check 'a shader with glints compiles' compiles glints.mtlx
