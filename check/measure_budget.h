@@ -26,8 +26,7 @@ enum { NUM_BUDGET_FOLDERS = 256 };
 
 struct budget {
     struct store store;
-    const struct cli
-        *cli; /* whose targets rules name; its sandbox and limits hold for mxgen.toml */
+    const struct cli *cli; /* whose targets, sandbox and limits hold for mxgen.toml */
     uint64_t num_unjudged; /* shaders with a budget of instructions that were not compiled */
     struct budget_folder {
         char *name; /* NULL: free entry */

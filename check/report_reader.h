@@ -26,8 +26,8 @@ void reader_close(struct report_reader *reader);
 
 /*
  * Reads the next document. False at the end, or with reader->fault, which also tells of a summary
- * that counts other documents. `out_offset` receives the
- * document's offset for reader_read_at; may be NULL.
+ * that counts other documents. `out_offset` receives the document's offset for reader_read_at; may
+ * be NULL.
  */
 bool reader_next(struct report_reader *reader, uint64_t *out_offset);
 bool reader_read_at(struct report_reader *reader, uint64_t offset);

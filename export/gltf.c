@@ -50,7 +50,7 @@ size_t gltf_add(json_t *array, json_t *value)
 
 /* ---- The buffer ---- */
 
-enum { ALIGNMENT = 4 };
+enum { ALIGNMENT = 4, WORD = 4 };
 
 static void pad(struct memory_bytes *out, char with)
 {
@@ -159,18 +159,11 @@ static bool write_text(struct gltf *gltf)
     return good;
 }
 
-static void append_word(struct memory_bytes *out, size_t word)
-{
-    const uint8_t bytes[] = {(uint8_t)word, (uint8_t)(word >> 8), (uint8_t)(word >> 16),
-                             (uint8_t)(word >> 24)};
-    memory_append(out, bytes, sizeof bytes);
-}
-
 /* The length and the type of a chunk, which begins where the buffer ends. */
 static void append_chunk(struct memory_bytes *out, const char type[4], const void *data,
                          size_t size, char padding)
 {
-    append_word(out, (size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT);
+    memory_append_number(out, (size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT, WORD);
     memory_append(out, type, 4);
     memory_append(out, data, size);
     pad(out, padding);
@@ -189,8 +182,8 @@ static bool write_binary(struct gltf *gltf)
     bool good = size <= UINT32_MAX;
     if (good) {
         memory_append(&whole, "glTF", 4);
-        append_word(&whole, 2);
-        append_word(&whole, size);
+        memory_append_number(&whole, 2, WORD);
+        memory_append_number(&whole, size, WORD);
         append_chunk(&whole, "JSON", text, strlen(text), ' ');
         append_chunk(&whole, "BIN\0", gltf->buffer.data, gltf->buffer.size, 0);
         good = write_beside(gltf->writing, files_base_name(gltf->writing->path), whole.data,

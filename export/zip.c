@@ -14,15 +14,6 @@ enum {
     MAX_FILES = 65535
 };
 
-/* A number of `size` bytes, the lowest first. */
-static void put_number(struct memory_bytes *bytes, uint64_t number, size_t size)
-{
-    for (size_t i = 0; i < size; ++i, number >>= 8) {
-        uint8_t byte = (uint8_t)number;
-        memory_append(bytes, &byte, 1);
-    }
-}
-
 /* The CRC-32 of ISO 3309, which ZIP has. */
 static uint32_t find_crc(const uint8_t *data, size_t size)
 {
@@ -40,13 +31,13 @@ static uint32_t find_crc(const uint8_t *data, size_t size)
 /* Writes the part that both headers have, from the version to the length of the name. */
 static void put_common(struct memory_bytes *bytes, const char *name, uint32_t crc, size_t size)
 {
-    put_number(bytes, VERSION, 2);
-    put_number(bytes, 0, 4); /* flags, method: stored */
-    put_number(bytes, (uint64_t)FIRST_DAY << 16, 4);
-    put_number(bytes, crc, 4);
-    put_number(bytes, size, 4);
-    put_number(bytes, size, 4);
-    put_number(bytes, strlen(name), 2);
+    memory_append_number(bytes, VERSION, 2);
+    memory_append_number(bytes, 0, 4); /* flags, method: stored */
+    memory_append_number(bytes, (uint64_t)FIRST_DAY << 16, 4);
+    memory_append_number(bytes, crc, 4);
+    memory_append_number(bytes, size, 4);
+    memory_append_number(bytes, size, 4);
+    memory_append_number(bytes, strlen(name), 2);
 }
 
 bool zip_add(struct zip *zip, const char *name, const void *data, size_t size)
@@ -58,19 +49,19 @@ bool zip_add(struct zip *zip, const char *name, const void *data, size_t size)
     uint32_t crc = find_crc(data, size);
     memory_append(&zip->files, "PK\3\4", 4);
     put_common(&zip->files, name, crc, size);
-    put_number(&zip->files, EXTRA + padding, 2);
+    memory_append_number(&zip->files, EXTRA + padding, 2);
     memory_append(&zip->files, name, strlen(name));
-    put_number(&zip->files, PADDING, 2);
-    put_number(&zip->files, padding, 2);
+    memory_append_number(&zip->files, PADDING, 2);
+    memory_append_number(&zip->files, padding, 2);
     for (size_t i = 0; i < padding; ++i)
-        put_number(&zip->files, 0, 1);
+        memory_append_number(&zip->files, 0, 1);
     memory_append(&zip->files, data, size);
 
     memory_append(&zip->directory, "PK\1\2", 4);
-    put_number(&zip->directory, VERSION, 2);
+    memory_append_number(&zip->directory, VERSION, 2);
     put_common(&zip->directory, name, crc, size);
-    put_number(&zip->directory, 0, 12); /* extra field, comment, disk, attributes */
-    put_number(&zip->directory, at, 4);
+    memory_append_number(&zip->directory, 0, 12); /* extra field, comment, disk, attributes */
+    memory_append_number(&zip->directory, at, 4);
     memory_append(&zip->directory, name, strlen(name));
     ++zip->num;
     return true;
@@ -83,12 +74,12 @@ bool zip_end(struct zip *zip)
         return false;
     memory_append(&zip->files, zip->directory.data, size);
     memory_append(&zip->files, "PK\5\6", 4);
-    put_number(&zip->files, 0, 4); /* disks */
-    put_number(&zip->files, zip->num, 2);
-    put_number(&zip->files, zip->num, 2);
-    put_number(&zip->files, size, 4);
-    put_number(&zip->files, at, 4);
-    put_number(&zip->files, 0, 2); /* comment */
+    memory_append_number(&zip->files, 0, 4); /* disks */
+    memory_append_number(&zip->files, zip->num, 2);
+    memory_append_number(&zip->files, zip->num, 2);
+    memory_append_number(&zip->files, size, 4);
+    memory_append_number(&zip->files, at, 4);
+    memory_append_number(&zip->files, 0, 2); /* comment */
     return true;
 }
 

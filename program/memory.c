@@ -42,6 +42,14 @@ void *memory_grow(void *items, size_t len, size_t item_size)
     return len & (len - 1) ? items : memory_resize(items, (len ? len * 2 : 1) * item_size);
 }
 
+void memory_append_number(struct memory_bytes *bytes, uint64_t number, size_t size)
+{
+    for (size_t i = 0; i < size; ++i, number >>= 8) {
+        uint8_t byte = (uint8_t)number;
+        memory_append(bytes, &byte, 1);
+    }
+}
+
 void memory_append(struct memory_bytes *bytes, const void *data, size_t size)
 {
     if (bytes->size + size >= bytes->capacity) {

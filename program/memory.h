@@ -5,6 +5,7 @@
 
 #include <stdarg.h>
 #include <stddef.h>
+#include <stdint.h>
 
 /* `tell` is called before the program ends because memory is exhausted. */
 void memory_on_exhaustion(void (*tell)(void));
@@ -32,6 +33,8 @@ struct memory_bytes {
     size_t size, capacity;
 };
 void memory_append(struct memory_bytes *bytes, const void *data, size_t size);
+/* A number of `size` bytes, the lowest first. */
+void memory_append_number(struct memory_bytes *bytes, uint64_t number, size_t size);
 
 /* Formats into new memory. */
 #if defined(__GNUC__)

@@ -265,8 +265,10 @@ typedef struct mxg_fact {
     /* as in the document; a geometric property in the unit of its <geompropdef>, or in lin_rec709
      */
     const char *name, *type, *value;
-    /* the renderer that a property is for; the geometry that sees a visibility, paths or
-     * "collection:NAME"; "": all */
+    /*
+     * the renderer that a property is for; the geometry that sees a visibility, paths or
+     * "collection:NAME"; "": all
+     */
     const char *target;
     uint32_t from; /* the primitive where it stands; MXG_NONE: "/" */
     const char *file;

@@ -48,6 +48,12 @@ void table_replace(struct table *table, uint32_t at, uint32_t number)
     slot->number = number;
 }
 
+void table_make_room(struct table *table, uint32_t number)
+{
+    for (uint32_t i = 0; table->slots && i <= table->mask; i++)
+        table->slots[i].number += table->slots[i].number >= number;
+}
+
 void table_reserve(struct table *table, struct arena *arena, uint32_t num)
 {
     uint32_t num_slots = FIRST_SLOTS;

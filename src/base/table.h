@@ -45,6 +45,9 @@ void table_add(struct table *table, struct arena *arena, uint32_t hash, uint32_t
 /* Another number for the key that table_next has just found. */
 void table_replace(struct table *table, uint32_t at, uint32_t number);
 
+/* Makes a number free: those from it on become one greater. */
+void table_make_room(struct table *table, uint32_t number);
+
 /* Room for this many numbers with half of the slots free. */
 void table_reserve(struct table *table, struct arena *arena, uint32_t num);
 

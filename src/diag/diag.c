@@ -239,8 +239,7 @@ static void insert_note(struct diag_list *list)
     list->items.items[at] = note;
     for (uint32_t i = at + 1; i < list->items.len; i++)
         list->items.items[i].parent++; /* they follow the cause, so their parents do, too */
-    for (uint32_t i = 0; list->told.slots && i <= list->told.mask; i++)
-        list->told.slots[i].number += list->told.slots[i].number > at;
+    table_make_room(&list->told, at + 1);
     list->last += list->last > cause;
 }
 

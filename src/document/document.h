@@ -20,7 +20,7 @@
 typedef uint16_t doc_type;
 enum {
     DOC_TYPE_NONE,
-#define DOC_TYPE(ID, ir, components) DOC_TYPE_##ID,
+#define DOC_TYPE(ID, ir, components, traits) DOC_TYPE_##ID,
 #include "document/types.def"
 #undef DOC_TYPE
     DOC_TYPE_material,
@@ -38,6 +38,8 @@ ir_type_id doc_type_ir(doc_type type);
 unsigned doc_type_components(doc_type type);
 /* Numbers and texts without a colour space; types of documents may contain colours. */
 bool doc_type_is_colorless(doc_type type);
+/* Floats, vectors, arrays of these, and filenames. */
+bool doc_type_can_have_unit(doc_type type);
 
 /*
  * Parses a value in MaterialX syntax ("0.5", "1, 0, 0", "true"). The type must have an IR type with

@@ -7,21 +7,22 @@
  */
 enum { WORD_OF_FIRST_TYPE = STR_boolean, NUM_TABLE_TYPES = DOC_TYPE_material - DOC_TYPE_boolean };
 
-#define DOC_TYPE(ID, ir, components) \
+#define DOC_TYPE(ID, ir, components, traits) \
     _Static_assert((int)STR_##ID - (int)WORD_OF_FIRST_TYPE \
                        == (int)DOC_TYPE_##ID - (int)DOC_TYPE_boolean, \
                    "types.def and words.def differ at " #ID);
 #include "document/types.def"
 #undef DOC_TYPE
 
+enum { COLORLESS = 1, UNIT = 2 };
 static const struct {
     ir_type_id ir;
-    uint8_t components;
+    uint8_t components, traits;
 } types[DOC_NUM_TYPES] = {
-#define DOC_TYPE(ID, ir, components) [DOC_TYPE_##ID] = {IR_TYPE_##ir, components},
+#define DOC_TYPE(ID, ir, components, traits) [DOC_TYPE_##ID] = {IR_TYPE_##ir, components, traits},
 #include "document/types.def"
 #undef DOC_TYPE
-    [DOC_TYPE_material] = {IR_TYPE_MATERIAL, 0},
+    [DOC_TYPE_material] = {IR_TYPE_MATERIAL, 0, 0},
 };
 
 doc_type doc_type_of(str_id name)
@@ -49,22 +50,17 @@ ir_type_id doc_type_ir(doc_type type)
 
 bool doc_type_is_colorless(doc_type type)
 {
-    switch (type) {
-    case DOC_TYPE_boolean:
-    case DOC_TYPE_integer:
-    case DOC_TYPE_float:
-    case DOC_TYPE_vector2:
-    case DOC_TYPE_vector3:
-    case DOC_TYPE_vector4:
-    case DOC_TYPE_matrix33:
-    case DOC_TYPE_matrix44:
-    case DOC_TYPE_string:
-    case DOC_TYPE_floatarray:
-    case DOC_TYPE_vector2array:
-    case DOC_TYPE_vector3array:
-    case DOC_TYPE_vector4array: return true;
-    default: return false;
-    }
+    return type < DOC_NUM_TYPES && types[type].traits & COLORLESS;
+}
+
+bool doc_type_can_have_unit(doc_type type)
+{
+    return type < DOC_NUM_TYPES && types[type].traits & UNIT;
+}
+
+bool doc_type_is_measure(doc_type type)
+{
+    return doc_type_can_have_unit(type) && types[type].components;
 }
 
 unsigned doc_type_components(doc_type type)

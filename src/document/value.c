@@ -244,12 +244,6 @@ bool doc_type_is_color(doc_type type)
     return type == DOC_TYPE_color3 || type == DOC_TYPE_color4;
 }
 
-bool doc_type_is_measure(doc_type type)
-{
-    return type == DOC_TYPE_float || type == DOC_TYPE_vector2 || type == DOC_TYPE_vector3
-           || type == DOC_TYPE_vector4;
-}
-
 /* Why a number is no integer; NULL: the word is no number. */
 static const char *fault_of_integer(const char *word, size_t len)
 {

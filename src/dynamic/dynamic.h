@@ -16,8 +16,7 @@ bool dynamic_aovpass(void *user_data, mxg_build *build, mxg_ref *results);
 
 /* geompropvalue.c: <geompropvalue> and <geompropvalueuniform>, an mxg_build_fn. */
 bool dynamic_geomprop(void *user_data, mxg_build *build, mxg_ref *results);
-/* geompropvalue.c: <UsdPrimvarReader>, whose names are those of primvars, whatever MaterialX
- * defines. */
+/* geompropvalue.c: <UsdPrimvarReader>, whose names are those of primvars alone. */
 bool dynamic_primvar(void *user_data, mxg_build *build, mxg_ref *results);
 
 /* ambient_occlusion.c: <ambientocclusion>, an mxg_build_fn. */

@@ -33,8 +33,8 @@ static const struct shader_variable *find_texture(const mxg_build *build, ir_ref
 }
 
 /*
- * Reads the property of a name. Booleans cannot be interpolated, and strings
- * cannot be streams: hosts set them per object (as in MaterialX 1.39).
+ * Reads the property of a name. Booleans cannot be interpolated, and strings cannot be streams:
+ * hosts set them per object (as in MaterialX 1.39).
  */
 static bool read_property(mxg_build *build, const char *name, str_id fallback, mxg_ref *results)
 {
@@ -58,7 +58,8 @@ static bool read_property(mxg_build *build, const char *name, str_id fallback, m
     return true;
 }
 
-/* The <geompropdef> of a name that has a node, such as "Pworld"; NULL: the name is the geometry's.
+/*
+ * The <geompropdef> of a name that has a node, such as "Pworld"; NULL: the name is the geometry's.
  */
 static const struct geomprop *find_computed(const mxg_build *build, const char *name)
 {

@@ -366,14 +366,6 @@ void validate_default_versions(struct validate *v)
     }
 }
 
-/* "Units": floats, vectors and filenames. */
-static bool can_have_unit(doc_type type)
-{
-    return type == DOC_TYPE_float || type == DOC_TYPE_vector2 || type == DOC_TYPE_vector3
-           || type == DOC_TYPE_vector4 || type == DOC_TYPE_filename || type == DOC_TYPE_floatarray
-           || (type >= DOC_TYPE_vector2array && type <= DOC_TYPE_vector4array);
-}
-
 void validate_type_of_meaning(struct validate *v, elem_id element)
 {
     str_id name = doc_attr_value(v->doc, element, STR_type);
@@ -383,7 +375,7 @@ void validate_type_of_meaning(struct validate *v, elem_id element)
         diag_add(v->diags, DIAG_ID_colorspace_misplaced,
                  doc_attr_place(v->doc, element, STR_colorspace),
                  text_of(v, doc_element(v->doc, element)->name), text_of(v, name));
-    if (type && !can_have_unit(type)
+    if (type && !doc_type_can_have_unit(type)
         && (has(v, element, STR_unit) || has(v, element, STR_unittype)))
         diag_add(v->diags, DIAG_ID_unit_misplaced, doc_place(v->doc, element),
                  text_of(v, doc_element(v->doc, element)->name), text_of(v, name));
@@ -409,7 +401,7 @@ void validate_unit(struct validate *v, elem_id node, const struct port *port, el
            type = doc_attr_value(v->doc, port->element, STR_unittype);
     float scale;
     bool is_known = unit && library_unit_type_of(v->lib, unit);
-    if (!is_known || !can_have_unit(port->type) || (!type && has(v, input, STR_unittype)))
+    if (!is_known || !doc_type_can_have_unit(port->type) || (!type && has(v, input, STR_unittype)))
         return; /* reported, or valid without a definition */
     if (!type)
         diag_add(v->diags, DIAG_ID_unit_without_type, doc_attr_place(v->doc, input, STR_unit),

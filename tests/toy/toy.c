@@ -13,13 +13,13 @@ static const char *const reserved[] = {"array", "block", "const", "flag", "fn", 
 static const char *const type_names[IR_NUM_TYPES] = {
     [IR_TYPE_BOOL] = "flag", [IR_TYPE_INT] = "i32", [IR_TYPE_UINT] = "u32", [IR_TYPE_FLOAT] = "f32",
     [IR_TYPE_VEC2] = "f32x2", [IR_TYPE_VEC3] = "f32x3", [IR_TYPE_VEC4] = "f32x4",
-    [IR_TYPE_MAT2] = "f32x2x2", [IR_TYPE_MAT3] = "f32x3x3", [IR_TYPE_MAT4] = "f32x4x4", [IR_TYPE_SAMPLER] = "texture",
+    [IR_TYPE_MAT2] = "f32x2x2", [IR_TYPE_MAT3] = "f32x3x3", [IR_TYPE_MAT4] = "f32x4x4",
+    [IR_TYPE_SAMPLER] = "texture",
 };
 
 static const char *const phrases[NUM_PHRASES] = {
-    [PHRASE_PLAIN] = "$N: $T",
+    [PHRASE_PLAIN] = "$N: $T", [PHRASE_VALUE] = "val $N: $T",
     [PHRASE_LOCAL] = "var $N: $T", [PHRASE_LOCAL_CONSTANT] = "let $N: $T",
-    [PHRASE_VALUE] = "val $N: $T",
     [PHRASE_CONSTANT] = "const $N: $T := $V;", [PHRASE_VARIABLE] = "shared $N: $T",
     [PHRASE_MEMBER] = "$N: $T,", [PHRASE_STRUCT_END] = "}",
     [PHRASE_PARAM_IN] = "in $N: $T", [PHRASE_PARAM_ASSIGNED] = "copy $N: $T",
